@@ -1,0 +1,75 @@
+#pragma once
+// Faults in a user's input. Load-time code collects every fault and throws one InputError; each fault is one
+// sentence that names the entity, what was found and what was expected, with file, line and column if known.
+#include <exception>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace floatframe {
+
+/// A place in a file; line and column count from 1, 0 means unknown.
+struct SourceMark {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// Where an entity and its keys were written. Empty for models made in C++.
+struct Origin {
+  SourceMark mark;
+  std::map<std::string, SourceMark> keys;
+  const SourceMark& of(const std::string& key) const {
+    const auto it = keys.find(key);
+    return it == keys.end() ? mark : it->second;
+  }
+};
+
+struct InputFault {
+  SourceMark mark;
+  std::string message;
+  /// "file:line:column: message", or the message alone without a mark.
+  std::string text() const {
+    if (mark.file.empty()) return message;
+    if (mark.line == 0) return mark.file + ": " + message;
+    return mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " + message;
+  }
+};
+
+class InputError : public std::exception {
+ public:
+  explicit InputError(std::vector<InputFault> faults) : faults_(std::move(faults)) { compose(); }
+  InputError(SourceMark mark, std::string message)
+      : InputError(std::vector<InputFault>{{std::move(mark), std::move(message)}}) {}
+  explicit InputError(std::string message) : InputError(SourceMark{}, std::move(message)) {}
+  const std::vector<InputFault>& faults() const noexcept { return faults_; }
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  void compose() {
+    for (const InputFault& f : faults_) {
+      if (!text_.empty()) text_ += '\n';
+      text_ += f.text();
+    }
+  }
+  std::vector<InputFault> faults_;
+  std::string text_;
+};
+
+/// Collects faults; `throw_if_any` ends a loading stage.
+class Faults {
+ public:
+  void add(const SourceMark& mark, std::string message) { faults_.push_back({mark, std::move(message)}); }
+  bool empty() const noexcept { return faults_.empty(); }
+  std::size_t size() const noexcept { return faults_.size(); }
+  std::vector<InputFault> take() { return std::move(faults_); }
+  void throw_if_any() {
+    if (!faults_.empty()) throw InputError(std::move(faults_));
+  }
+
+ private:
+  std::vector<InputFault> faults_;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,39 @@
+#pragma once
+// The entry points above the formulations: count, find the equilibrium of, and run a model.
+#include <functional>
+#include <memory>
+
+#include "floatframe/model/description.hpp"
+#include "floatframe/model/model.hpp"
+#include "floatframe/simulation/results.hpp"
+
+namespace floatframe {
+
+/// A run that cannot start or go on: cannot be assembled, singular mass matrix, loop that cannot close. Exit code 1.
+class RunError : public std::exception {
+ public:
+  explicit RunError(std::string message) : message_(std::move(message)) {}
+  const char* what() const noexcept override { return message_.c_str(); }
+
+ private:
+  std::string message_;
+};
+
+/// Coordinates and constraints of both formulations, found from the assembled model (rank by SVD).
+ModelCounts count(const Model& model);
+
+/// Static equilibrium from the design configuration. Throws RunError naming the culprit.
+StaticsResult statics(const Model& model);
+
+struct RunOptions {
+  /// Called about every 1 % of the run with the fraction done (0..1); outside the timed part.
+  std::function<void(double)> progress;
+  bool record = true;
+};
+
+/// Runs the model with the options given (those of the model file, changed as the user wishes). A step that cannot
+/// converge ends the run: the result holds all up to there and summary.status = "failed". Throws RunError when it
+/// cannot start.
+RunResult run(const Model& model, const SimulationDescription& options, const RunOptions& run_options = {});
+
+}  // namespace floatframe
