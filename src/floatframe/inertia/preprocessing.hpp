@@ -1,0 +1,82 @@
+#pragma once
+// Inertia terms by preprocessing, paper equations (25)-(63): the mass matrix M and the
+// velocity-dependent inertia force Qv of one body from its 16 constant integrals. Cost does not
+// depend on the number of finite-element nodes.
+//
+//   deformed body    m_bar = m_u + S y                                                   (29)
+//                    P_bar_ij = P_u_ij + S^j_(i) y + (S_d^i)_(j) y                       (33)
+//                    (S_d^i)_(j) = S^i_(j) + y^T S^ij                                    (38)
+//   absolute         qdot = (r0dot, udot, vdot, wdot, ydot), A = [u v w] need not be orthonormal:
+//                    M_ff = sum_ij (A^T A)_ij S^ij,  Qv_f = -2 sum_ij (A^T Adot)_ij S^ij ydot
+//   relative         qdot = (sdot, omega, ydot), sdot the velocity of the body-fixed point that
+//   passes through the
+//                    origin from which r0 is measured; M and Qv of (46)-(63) in the cheaper local
+//                    forms F_bar, F_d_bar.
+//
+// Convention of the relative terms: sddot is the acceleration of the *material* point at the
+// origin,
+//   sddot = r0ddot - omegadot x r0 - omega x (omega x r0).
+// World axes for r0, A, omega, sdot; body axes for the integrals. SI units. All functions of step
+// time: no heap, noexcept. Cost for k = nm: about 24 k^2 + 120 k flops.
+#include "floatframe/body/inertia_invariants.hpp"
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+/// The integrals laid out for speed. Row 3i+j of the nine-row arrays belongs to the pair (i, j).
+struct PreprocessingData {
+  double m = 0.0;
+  Vec3 m_u = Vec3::Zero();
+  Mat3 P_u = Mat3::Zero();
+  Mat3X S;  ///< 3 x nm
+  MatX Si;  ///< 9 x nm: row 3i+j is row j of S^i
+  MatX
+      Sij;  ///< 9nm x nm: row 9a+3i+j, column b: S^ij(b, a), so that Sij y stacks the rows y^T S^ij
+  MatX Sij_skew;  ///< 3nm x nm: rows 3a..3a+2: S^12-S^21, S^13-S^31, S^23-S^32, row a of each
+  MatX Sij_sum;   ///< 6 x nm^2: S^11, S^22, S^33, S^12+S^21, S^13+S^31, S^23+S^32, entry (a, b) in
+                  ///< column a+nm b
+  MatX M_ff;      ///< nm x nm: S^11 + S^22 + S^33
+
+  PreprocessingData() = default;
+  explicit PreprocessingData(const InertiaInvariants& invariants);
+  int modes() const noexcept { return static_cast<int>(S.cols()); }
+};
+
+/// Integrals over the deformed body, body axes.
+struct DeformedInvariants {
+  Vec3 m_bar = Vec3::Zero();  ///< static moment [kg m]
+  Mat3 P_bar = Mat3::Zero();  ///< planar inertia tensor [kg m2]
+  MatX S_d;                   ///< 9 x nm: row 3i+j is row j of S_d^i
+};
+
+struct PreprocessingWorkspace {
+  DeformedInvariants deformed;
+  VecX product;  ///< 9nm
+  VecX S_dot;    ///< 9nm: rows ydot^T S^ij
+  PreprocessingWorkspace() = default;
+  explicit PreprocessingWorkspace(int modes)
+      : product(VecX::Zero(9 * modes)), S_dot(VecX::Zero(9 * modes)) {
+    deformed.S_d = MatX::Zero(9, modes);
+  }
+};
+
+/// (29), (33), (38).
+void deform(const PreprocessingData& data, const double* y, DeformedInvariants& deformed) noexcept;
+
+/// M is (6+nm)^2, both halves written; Qv is 6+nm.
+void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const Mat3& A,
+                            const Vec3& omega, const double* y, const double* ydot,
+                            PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept;
+
+/// M is (12+nm)^2, both halves written; Qv is 12+nm. Exact for any A and Adot.
+void absolute_preprocessing(const PreprocessingData& data, const Mat3& A, const Mat3& Adot,
+                            const double* y, const double* ydot, PreprocessingWorkspace& work,
+                            MatX& M, VecX& Qv) noexcept;
+
+/// Turns the relative Qv of the material convention into that for sddot = d(sdot)/dt:
+///   Qv -= int B^T (omega x sdot) dm.
+void subtract_literal_correction(const PreprocessingData& data, const DeformedInvariants& deformed,
+                                 const Vec3& r0, const Mat3& A, const Vec3& omega, const Vec3& sdot,
+                                 VecX& Qv) noexcept;
+
+}  // namespace floatframe

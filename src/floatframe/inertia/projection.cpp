@@ -1,0 +1,245 @@
+#include "floatframe/inertia/projection.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr int padded(int columns) { return (columns + 3) / 4 * 4; }
+
+// The two coordinate sets: the rigid columns of B at a node with local position p (body axes) and
+// the part of the acceleration that is left when the second derivatives are zero. `rows` has three
+// rows of length `stride`.
+
+struct RelativeCoordinates {
+  static constexpr int rigid = 6;
+  const Vec3& r0;
+  const Mat3& A;
+  const Vec3& omega;
+  Vec3 w;  ///< omega in body axes
+
+  RelativeCoordinates(const Vec3& r0_in, const Mat3& A_in, const Vec3& omega_in) noexcept
+      : r0(r0_in), A(A_in), omega(omega_in), w(A_in.transpose() * omega_in) {}
+
+  void translation(const Vec3& p, double* rows, int stride) const noexcept {
+    const Vec3 r = r0 + A * p;
+    double* x = rows;
+    double* y = rows + stride;
+    double* z = rows + 2 * stride;
+    x[0] = 1.0, x[1] = 0.0, x[2] = 0.0, x[3] = 0.0, x[4] = r.z(), x[5] = -r.y();  // (11)
+    y[0] = 0.0, y[1] = 1.0, y[2] = 0.0, y[3] = -r.z(), y[4] = 0.0, y[5] = r.x();
+    z[0] = 0.0, z[1] = 0.0, z[2] = 1.0, z[3] = r.y(), z[4] = -r.x(), z[5] = 0.0;
+  }
+  Vec3 bias(const Vec3& p, const Vec3& pdot) const noexcept {
+    const Vec3 r = r0 + A * p;
+    const Vec3 relative = A * pdot;
+    return omega.cross(omega.cross(r) + 2.0 * relative);  // (56)
+  }
+  void rotation(double* rows, int stride) const noexcept {  // A^T omega
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        rows[i * stride + j] = 0.0;
+        rows[i * stride + 3 + j] = A(j, i);
+      }
+    }
+  }
+};
+
+struct AbsoluteCoordinates {
+  static constexpr int rigid = 12;
+  const Mat3& A;
+  const Mat3& Adot;
+  Vec3 w;  ///< angular velocity in body axes, from the skew part of A^T Adot
+
+  AbsoluteCoordinates(const Mat3& A_in, const Mat3& Adot_in) noexcept : A(A_in), Adot(Adot_in) {
+    const Mat3 H = A.transpose() * Adot;
+    w = 0.5 * Vec3(H(2, 1) - H(1, 2), H(0, 2) - H(2, 0), H(1, 0) - H(0, 1));
+  }
+
+  void translation(const Vec3& p, double* rows, int stride) const noexcept {
+    for (int i = 0; i < 3; ++i) {
+      double* row = rows + i * stride;
+      for (int j = 0; j < 12; ++j) row[j] = 0.0;
+      row[i] = 1.0, row[3 + i] = p.x(), row[6 + i] = p.y(), row[9 + i] = p.z();  // (7)
+    }
+  }
+  Vec3 bias(const Vec3&, const Vec3& pdot) const noexcept { return 2.0 * (Adot * pdot); }  // (42)
+  void rotation(double* rows, int stride) const noexcept {
+    // w1 = (w.vdot - v.wdot)/2, w2 = (u.wdot - w.udot)/2, w3 = (v.udot - u.vdot)/2
+    double* x = rows;
+    double* y = rows + stride;
+    double* z = rows + 2 * stride;
+    for (int j = 0; j < 3; ++j) {
+      x[j] = y[j] = z[j] = 0.0;
+      x[3 + j] = 0.0, x[6 + j] = 0.5 * A(j, 2), x[9 + j] = -0.5 * A(j, 1);
+      y[3 + j] = -0.5 * A(j, 2), y[6 + j] = 0.0, y[9 + j] = 0.5 * A(j, 0);
+      z[3 + j] = 0.5 * A(j, 1), z[6 + j] = -0.5 * A(j, 0), z[9 + j] = 0.0;
+    }
+  }
+};
+
+/// upper += B^T MB for six rows at a time; columns to the left of the diagonal (rounded down to
+/// four) are skipped.
+void accumulate(const double* B, const double* MB, int rows, int nq, int stride,
+                double* upper) noexcept {
+  int r = 0;
+  for (; r + 2 < rows; r += 3) {
+    const double* b0 = B + static_cast<std::ptrdiff_t>(r) * stride;
+    const double* b1 = b0 + stride;
+    const double* b2 = b1 + stride;
+    const double* m0 = MB + static_cast<std::ptrdiff_t>(r) * stride;
+    const double* m1 = m0 + stride;
+    const double* m2 = m1 + stride;
+    for (int i = 0; i < nq; ++i) {
+      const double c0 = b0[i], c1 = b1[i], c2 = b2[i];
+      double* out = upper + static_cast<std::ptrdiff_t>(i) * stride;
+      for (int j = i / 4 * 4; j < stride; j += 4) {
+        for (int l = j; l < j + 4; ++l) out[l] += c0 * m0[l] + c1 * m1[l] + c2 * m2[l];
+      }
+    }
+  }
+}
+
+/// out[0..columns) += factor * in
+inline void axpy(double factor, const double* in, int columns, double* out) noexcept {
+  for (int j = 0; j < columns; ++j) out[j] += factor * in[j];
+}
+
+template <class Coordinates>
+void project(const ProjectionData& data, const Coordinates& coordinates, const double* y,
+             const double* ydot, ProjectionWorkspace& work, MatX& M, VecX& Qv) noexcept {
+  constexpr int rigid = Coordinates::rigid;
+  const int n = data.nodes();
+  const int nm = work.modes;
+  const int nq = rigid + nm;
+  const int stride = padded(nq + 1);
+  const bool six = data.six_dof();
+  const int rows = six ? 6 : 3;
+  const Mat3& A = coordinates.A;
+  const Mat3 At = A.transpose();
+
+  for (int k = 0; k < n; ++k) {
+    const double* X = work.X.data() + static_cast<std::ptrdiff_t>(k) * rows * nm;
+    double* B = work.B.data() + static_cast<std::ptrdiff_t>(k) * rows * stride;
+    Vec3 p = data.p.col(k);
+    Vec3 pdot = Vec3::Zero();
+    for (int a = 0; a < nm; ++a) {
+      const Vec3 x(X[3 * a], X[3 * a + 1], X[3 * a + 2]);
+      p += y[a] * x;  // (5)
+      pdot += ydot[a] * x;
+    }
+    coordinates.translation(p, B, stride);
+    Vec3 bias = coordinates.bias(p, pdot);
+    if (six) {
+      for (int j = 0; j < rigid; ++j) {
+        const Vec3 column = At * Vec3(B[j], B[stride + j], B[2 * stride + j]);
+        for (int i = 0; i < 3; ++i) B[i * stride + j] = column(i);
+      }
+      for (int a = 0; a < nm; ++a) {
+        // A^T A X, which is X for an orthonormal A.
+        const Vec3 column = At * (A * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]));
+        for (int i = 0; i < 3; ++i) B[i * stride + rigid + a] = column(i);
+      }
+      bias = At * bias;
+      double* R = B + 3 * stride;
+      const double* X_theta = X + 3 * nm;
+      coordinates.rotation(R, stride);
+      Vec3 rate = Vec3::Zero();
+      for (int a = 0; a < nm; ++a) {
+        for (int i = 0; i < 3; ++i) {
+          R[i * stride + rigid + a] = X_theta[3 * a + i];
+          rate(i) += ydot[a] * X_theta[3 * a + i];
+        }
+      }
+      const Vec3 rotation_bias = coordinates.w.cross(rate);
+      for (int i = 0; i < 3; ++i) {
+        R[i * stride + nq] = rotation_bias(i);
+        for (int j = nq + 1; j < stride; ++j) R[i * stride + j] = 0.0;
+      }
+    } else {
+      for (int a = 0; a < nm; ++a) {
+        const Vec3 column = A * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]);
+        for (int i = 0; i < 3; ++i) B[i * stride + rigid + a] = column(i);
+      }
+    }
+    for (int i = 0; i < 3; ++i) {
+      B[i * stride + nq] = bias(i);
+      for (int j = nq + 1; j < stride; ++j) B[i * stride + j] = 0.0;
+    }
+  }
+
+  const auto& mass = six ? data.M_6 : data.M_s;
+  const auto* outer = mass.outerIndexPtr();
+  const auto* inner = mass.innerIndexPtr();
+  const double* value = mass.valuePtr();
+  double* MB = work.MB.data();
+  double* upper = work.upper.data();
+  std::fill_n(upper, static_cast<std::ptrdiff_t>(nq) * stride, 0.0);
+  for (int k = 0; k < n; ++k) {
+    std::fill_n(MB, rows * stride, 0.0);
+    if (six) {
+      for (int i = 0; i < 6; ++i) {
+        for (int e = outer[6 * k + i]; e < outer[6 * k + i + 1]; ++e) {
+          axpy(value[e], work.B.data() + static_cast<std::ptrdiff_t>(inner[e]) * stride, stride,
+               MB + i * stride);
+        }
+      }
+    } else {
+      for (int e = outer[k]; e < outer[k + 1]; ++e) {
+        axpy(value[e], work.B.data() + static_cast<std::ptrdiff_t>(inner[e]) * 3 * stride,
+             3 * stride, MB);
+      }
+    }
+    accumulate(work.B.data() + static_cast<std::ptrdiff_t>(k) * rows * stride, MB, rows, nq, stride,
+               upper);
+  }
+  for (int i = 0; i < nq; ++i) {
+    const double* row = upper + static_cast<std::ptrdiff_t>(i) * stride;
+    for (int j = i; j < nq; ++j) M(i, j) = M(j, i) = row[j];  // (13)
+    Qv(i) = -row[nq];                                         // (15)
+  }
+}
+
+}  // namespace
+
+ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data)
+    : modes(static_cast<int>(data.X.cols())), stride(padded(13 + modes)) {
+  const std::size_t n = static_cast<std::size_t>(data.nodes());
+  const std::size_t rows = data.six_dof() ? 6 : 3;
+  const std::size_t nm = static_cast<std::size_t>(modes);
+  const std::size_t width = static_cast<std::size_t>(stride);
+  B.assign(n * rows * width, 0.0);
+  MB.assign(rows * width, 0.0);
+  upper.assign((12 + nm) * width, 0.0);
+  X.resize(n * rows * nm);
+  for (std::size_t k = 0; k < n; ++k) {
+    double* x = X.data() + k * rows * nm;
+    for (int a = 0; a < modes; ++a) {
+      for (int i = 0; i < 3; ++i) {
+        *x++ = data.X(static_cast<Eigen::Index>(3 * k) + i, a);
+      }
+    }
+    if (rows == 6) {
+      for (int a = 0; a < modes; ++a) {
+        for (int i = 0; i < 3; ++i) *x++ = data.X_theta(static_cast<Eigen::Index>(3 * k) + i, a);
+      }
+    }
+  }
+}
+
+void relative_projection(const ProjectionData& data, const Vec3& r0, const Mat3& A,
+                         const Vec3& omega, const double* y, const double* ydot,
+                         ProjectionWorkspace& work, MatX& M, VecX& Qv) noexcept {
+  project(data, RelativeCoordinates(r0, A, omega), y, ydot, work, M, Qv);
+}
+
+void absolute_projection(const ProjectionData& data, const Mat3& A, const Mat3& Adot,
+                         const double* y, const double* ydot, ProjectionWorkspace& work, MatX& M,
+                         VecX& Qv) noexcept {
+  project(data, AbsoluteCoordinates(A, Adot), y, ydot, work, M, Qv);
+}
+
+}  // namespace floatframe

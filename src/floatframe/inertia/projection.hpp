@@ -1,0 +1,45 @@
+#pragma once
+// Inertia terms by projection of the finite-element mass matrix, paper equations (12)-(15):
+//   M = B*^T M* B*,   Qv = -B*^T M* Bdot* qdot,
+// B* stacks the velocity maps of the finite-element nodes. Two forms of M*:
+//   isoparametric  three rows a node, M* = M_s (x) I_3 is the same in every frame:
+//     absolute  B = [I  r1 I  r2 I  r3 I  A X],  Bdot qdot = 2 Adot X ydot (7), (42) relative  B =
+//     [I  -skew(r)  A X],          Bdot qdot = omega x (omega x r) + 2 omega x (A X ydot)   (11)
+//   six_dof        six rows a node in body axes, (A^T rdot, A^T omega + X_theta ydot), constant M*
+//   of the beams.
+//     Its rotations do not represent the field of centripetal accelerations exactly (theory,
+//     section 7).
+// The relative terms use the material-point acceleration of s, as preprocessing.hpp. With nm = 0
+// the body is rigid. Cost is linear in the number of nodes n: about 3 n nq^2 multiplications, nq =
+// 6+nm or 12+nm. Step time: no heap, noexcept.
+#include <vector>
+
+#include "floatframe/body/flexible_body.hpp"
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+struct ProjectionWorkspace {
+  int modes = 0;
+  int stride = 0;          ///< columns stored: nq, one for Bdot qdot, padded to a multiple of four
+  std::vector<double> B;   ///< rows of all nodes, row major, last used column Bdot qdot
+  std::vector<double> MB;  ///< six rows of M* B
+  std::vector<double> upper;  ///< nq rows of B^T M* [B, Bdot qdot]
+  std::vector<double> X;      ///< per node 3 x nm column major (six_dof: then 3 x nm of rotations)
+
+  ProjectionWorkspace() = default;
+  /// Big enough for both coordinate sets.
+  explicit ProjectionWorkspace(const ProjectionData& data);
+};
+
+/// M is (6+nm)^2, both halves written; Qv is 6+nm.
+void relative_projection(const ProjectionData& data, const Vec3& r0, const Mat3& A,
+                         const Vec3& omega, const double* y, const double* ydot,
+                         ProjectionWorkspace& work, MatX& M, VecX& Qv) noexcept;
+
+/// M is (12+nm)^2, both halves written; Qv is 12+nm.
+void absolute_projection(const ProjectionData& data, const Mat3& A, const Mat3& Adot,
+                         const double* y, const double* ydot, ProjectionWorkspace& work, MatX& M,
+                         VecX& Qv) noexcept;
+
+}  // namespace floatframe
