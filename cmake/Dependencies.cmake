@@ -1,0 +1,23 @@
+# Third-party libraries, all from the distribution's packages (scripts/install_packages.sh).
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# yaml-cpp calls its target `yaml-cpp` up to 0.7 (Debian 12) and `yaml-cpp::yaml-cpp` from 0.8 (Ubuntu 24.04).
+find_package(yaml-cpp REQUIRED)
+add_library(floatframe_yaml INTERFACE)
+if(TARGET yaml-cpp::yaml-cpp)
+  target_link_libraries(floatframe_yaml INTERFACE yaml-cpp::yaml-cpp)
+else()
+  target_link_libraries(floatframe_yaml INTERFACE yaml-cpp)
+endif()
+
+# Spectra is header only and its package has no CMake files on every distribution.
+find_path(SPECTRA_INCLUDE_DIR Spectra/SymGEigsShiftSolver.h REQUIRED)
+
+# What the library and the tests use inside, never in an installed header.
+add_library(floatframe_private_dependencies INTERFACE)
+target_include_directories(floatframe_private_dependencies SYSTEM INTERFACE ${SPECTRA_INCLUDE_DIR})
+target_link_libraries(floatframe_private_dependencies INTERFACE
+  floatframe_yaml fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json)

@@ -1,0 +1,29 @@
+# `cmake --install`: program, both copies of the library, headers, and the package for find_package(Floatframe).
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Floatframe)
+
+install(TARGETS floatframe EXPORT FloatframeTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET floatframe_v3)
+  install(TARGETS floatframe_v3
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/x86-64-v3 NAMELINK_SKIP)
+endif()
+if(TARGET floatframe_program)
+  file(RELATIVE_PATH library_from_program
+       ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  set_target_properties(floatframe_program PROPERTIES
+                        INSTALL_RPATH "$ORIGIN/${library_from_program}")
+  install(TARGETS floatframe_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/floatframe ${PROJECT_BINARY_DIR}/generated/floatframe
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+install(EXPORT FloatframeTargets NAMESPACE Floatframe:: DESTINATION ${package_dir})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/FloatframeConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/FloatframeConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/FloatframeConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/FloatframeConfig.cmake
+              ${PROJECT_BINARY_DIR}/FloatframeConfigVersion.cmake DESTINATION ${package_dir})

@@ -1,0 +1,39 @@
+#include "floatframe/core/build_info.hpp"
+
+#include <fstream>
+
+#include "floatframe/core/version.hpp"
+
+namespace floatframe {
+
+std::string version() { return FLOATFRAME_VERSION; }
+
+std::string instruction_set() {
+#if defined(__AVX2__) && defined(__FMA__) && defined(__BMI2__)
+  return "x86-64-v3";
+#elif defined(__x86_64__)
+  return "x86-64";
+#else
+  return "generic";
+#endif
+}
+
+std::string build_description() {
+  std::string text = version() + ", " + FLOATFRAME_BUILD_TYPE + ", " + FLOATFRAME_COMPILER + ", " + instruction_set();
+  const std::string sanitizers = FLOATFRAME_SANITIZERS;
+  if (!sanitizers.empty()) text += ", sanitizers " + sanitizers;
+  return text;
+}
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(file, line)) {
+    if (line.rfind("model name", 0) != 0) continue;
+    const std::size_t start = line.find_first_not_of(" \t", line.find(':') + 1);
+    if (line.find(':') != std::string::npos && start != std::string::npos) return line.substr(start);
+  }
+  return "unknown processor";
+}
+
+}  // namespace floatframe
