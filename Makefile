@@ -1,0 +1,58 @@
+# Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
+.DEFAULT_GOAL := build
+.PHONY: build test demo bench asan dev install-packages format check-format clean help
+
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+DEMO_MODEL := examples/iltis/iltis.yaml
+DEMO_OUTPUT := results/iltis
+CTEST := ctest --output-on-failure --no-tests=error -j2
+
+help:
+	@echo "make build         release build: build/floatframe"
+	@echo "make test          release build and all tests"
+	@echo "make demo          release build, then the Iltis over its road, with a report"
+	@echo "make bench         timing of the Iltis and of single kernels"
+	@echo "make asan          build and test with address and undefined-behaviour sanitizers"
+	@echo "make dev           debug build with assertions: build-dev/floatframe"
+	@echo "make format        format the sources; make check-format only looks"
+	@echo "make clean         remove the build folders"
+
+install-packages:
+	@scripts/install_packages.sh
+
+build: install-packages
+	cmake --preset release
+	cmake --build build --parallel $(JOBS)
+
+# The closing summary of ctest is the last thing printed.
+test: build
+	@cd build && $(CTEST)
+
+demo: build
+	build/floatframe run $(DEMO_MODEL) --output $(DEMO_OUTPUT)
+	@echo
+	@echo "Results are in $(CURDIR)/$(DEMO_OUTPUT):"
+	@ls -1 $(DEMO_OUTPUT) | sed 's/^/  /'
+	@for f in $(DEMO_OUTPUT)/*.html; do if [ -e "$$f" ]; then echo "Open the report in a browser: $(CURDIR)/$$f"; fi; done
+
+bench: build
+	build/floatframe bench iltis
+	@if [ -x build/floatframe_benchmarks ]; then build/floatframe_benchmarks; fi
+
+asan: install-packages
+	cmake --preset asan
+	cmake --build build-asan --parallel $(JOBS)
+	@cd build-asan && $(CTEST)
+
+dev: install-packages
+	cmake --preset dev
+	cmake --build build-dev --parallel $(JOBS)
+
+format:
+	scripts/format.sh
+
+check-format:
+	scripts/format.sh --check
+
+clean:
+	rm -rf build build-dev build-asan
