@@ -4,7 +4,7 @@
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
-DEMO_OUTPUT := results/iltis
+DEMO_OUTPUT := out/iltis
 CTEST := ctest --output-on-failure --no-tests=error -j2
 
 help:
@@ -29,11 +29,10 @@ test: build
 	@cd build && $(CTEST)
 
 demo: build
-	build/floatframe run $(DEMO_MODEL) --output $(DEMO_OUTPUT)
+	build/floatframe run $(DEMO_MODEL) --out $(DEMO_OUTPUT)
 	@echo
-	@echo "Results are in $(CURDIR)/$(DEMO_OUTPUT):"
-	@ls -1 $(DEMO_OUTPUT) | sed 's/^/  /'
-	@for f in $(DEMO_OUTPUT)/*.html; do if [ -e "$$f" ]; then echo "Open the report in a browser: $(CURDIR)/$$f"; fi; done
+	@echo "Report:  $(CURDIR)/$(DEMO_OUTPUT)/report.html (open it in a browser)"
+	@echo "Results: $(CURDIR)/$(DEMO_OUTPUT)/results.csv and summary.json"
 
 bench: build
 	build/floatframe bench iltis
