@@ -1,5 +1,5 @@
-// The program `floatframe`: everything is in the library, of which the dynamic linker picks the copy that fits the
-// processor.
+// The program `floatframe`: everything is in the library, of which the dynamic linker picks the
+// copy that fits the processor.
 #include "floatframe/apps/command_line.hpp"
 
 int main(int argc, char** argv) { return floatframe::command_line_main(argc, argv); }

@@ -19,7 +19,8 @@ std::string instruction_set() {
 }
 
 std::string build_description() {
-  std::string text = version() + ", " + FLOATFRAME_BUILD_TYPE + ", " + FLOATFRAME_COMPILER + ", " + instruction_set();
+  std::string text = version() + ", " + FLOATFRAME_BUILD_TYPE + ", " + FLOATFRAME_COMPILER + ", " +
+                     instruction_set();
   const std::string sanitizers = FLOATFRAME_SANITIZERS;
   if (!sanitizers.empty()) text += ", sanitizers " + sanitizers;
   return text;
@@ -31,7 +32,8 @@ std::string processor_name() {
   while (std::getline(file, line)) {
     if (line.rfind("model name", 0) != 0) continue;
     const std::size_t start = line.find_first_not_of(" \t", line.find(':') + 1);
-    if (line.find(':') != std::string::npos && start != std::string::npos) return line.substr(start);
+    if (line.find(':') != std::string::npos && start != std::string::npos)
+      return line.substr(start);
   }
   return "unknown processor";
 }

@@ -1,0 +1,36 @@
+"""scripts/check_includes.py finds arrows that point the wrong way."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "check_includes.py"
+
+
+class CheckIncludes(unittest.TestCase):
+    def check(self, files):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, text in files.items():
+                (root / name).parent.mkdir(exist_ok=True)
+                (root / name).write_text(text)
+            result = subprocess.run([sys.executable, "-B", str(SCRIPT), folder], capture_output=True, text=True)
+            return result.returncode, result.stderr.replace(folder + "/", "")
+
+    def test_allowed_arrows_pass(self):
+        self.assertEqual(self.check({"inertia/a.hpp": '#include "floatframe/body/b.hpp"\n#include <vector>\n'}), (0, ""))
+
+    def test_an_arrow_that_points_back_is_a_fault_with_its_line(self):
+        code, text = self.check({"model/a.hpp": '#pragma once\n#include "floatframe/integrator/b.hpp"\n'})
+        self.assertEqual(code, 1)
+        self.assertTrue(text.startswith("model/a.hpp:2: 'model' must not use 'integrator'; it may use "), text)
+
+    def test_a_folder_that_is_no_room_is_a_fault(self):
+        code, text = self.check({"util/a.hpp": ""})
+        self.assertEqual(code, 1)
+        self.assertIn("the folder 'util' is not a room", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
