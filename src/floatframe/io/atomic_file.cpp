@@ -1,0 +1,131 @@
+#include "floatframe/io/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+namespace floatframe {
+namespace {
+
+/// Holds back the signals that end a program; they are delivered when the object goes.
+class SignalHold {
+ public:
+  SignalHold() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
+    pthread_sigmask(SIG_BLOCK, &set, &before_);
+  }
+  ~SignalHold() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalHold(const SignalHold&) = delete;
+  SignalHold& operator=(const SignalHold&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+std::string cannot(const std::string& kind, const std::string& path, int error) {
+  return kind + " '" + path + "' cannot be written: " + std::strerror(error);
+}
+
+std::string temporary_name(const std::string& path) {
+  return path + ".part-" + std::to_string(::getpid());
+}
+
+bool is_special(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+}
+
+/// 0 or the system's error number.
+int write_all(int file, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file, content.data(), content.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      return errno;
+    }
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+int write_to(const std::string& path, int flags, std::string_view content, bool flush_to_disk) {
+  const int file = ::open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  if (file < 0) return errno;
+  int error = write_all(file, content);
+  // Without this a power failure after the rename could leave an empty file under the final name.
+  if (error == 0 && flush_to_disk && ::fsync(file) != 0 && errno != EINVAL) error = errno;
+  if (::close(file) != 0 && error == 0) error = errno;
+  return error;
+}
+
+}  // namespace
+
+void make_output_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw OutputError(cannot("the output folder", path, error.value()));
+  if (!std::filesystem::is_directory(path, error)) {
+    throw OutputError(cannot("the output folder", path, ENOTDIR));
+  }
+  const SignalHold hold;
+  const std::string probe = temporary_name((std::filesystem::path(path) / "floatframe").string());
+  const int failed = write_to(probe, O_CREAT | O_TRUNC, "", false);
+  ::unlink(probe.c_str());
+  if (failed != 0) throw OutputError(cannot("the output folder", path, failed));
+}
+
+void check_writable(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw OutputError(cannot("the file", path, EISDIR));
+  }
+  const SignalHold hold;
+  const bool special = is_special(path);
+  const std::string probe = special ? path : temporary_name(path);
+  const int failed = write_to(probe, special ? 0 : O_CREAT | O_TRUNC, "", false);
+  if (!special) ::unlink(probe.c_str());
+  if (failed != 0) throw OutputError(cannot("the file", path, failed));
+}
+
+void write_file(const std::string& path, std::string_view content) {
+  const SignalHold hold;
+  if (is_special(path)) {
+    const int error = write_to(path, 0, content, false);
+    if (error != 0) throw OutputError(cannot("the file", path, error));
+    return;
+  }
+  const std::string temporary = temporary_name(path);
+  int error = write_to(temporary, O_CREAT | O_TRUNC, content, true);
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    throw OutputError(cannot("the file", path, error));
+  }
+}
+
+void remove_file(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+}
+
+std::string file_name_from(std::string_view name) {
+  std::string text;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || c == '.';
+    text += plain ? c : '_';
+  }
+  if (text.empty()) return "model";
+  if (text.front() == '.') text.front() = '_';
+  return text;
+}
+
+}  // namespace floatframe

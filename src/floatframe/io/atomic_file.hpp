@@ -1,0 +1,40 @@
+#pragma once
+// Output files appear whole or not at all: the content goes to a temporary file in the same folder,
+// which is renamed when it is complete. SIGINT, SIGTERM and SIGHUP wait while a file is written, so
+// no temporary file stays behind.
+#include <exception>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace floatframe {
+
+/// A file or folder that cannot be written; one sentence with the system's reason.
+class OutputError : public std::exception {
+ public:
+  explicit OutputError(std::string message) : message_(std::move(message)) {}
+  const char* what() const noexcept override { return message_.c_str(); }
+
+ private:
+  std::string message_;
+};
+
+/// Makes the folder (and those above it) and proves that files can be made in it. Throws
+/// OutputError.
+void make_output_folder(const std::string& path);
+
+/// Proves that `path` can be written, without touching a file that is there. Throws OutputError.
+void check_writable(const std::string& path);
+
+/// Replaces the file at `path` by `content` in one stroke. What is there but is not a regular file
+/// (a device, a pipe) is written to directly. Throws OutputError.
+void write_file(const std::string& path, std::string_view content);
+
+/// Removes the file if it is there.
+void remove_file(const std::string& path);
+
+/// `name` as the name of a folder or file: letters, digits, '.', '-', '_' stay, others become '_';
+/// never empty, never starting with a dot.
+std::string file_name_from(std::string_view name);
+
+}  // namespace floatframe

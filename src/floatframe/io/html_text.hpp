@@ -1,0 +1,11 @@
+#pragma once
+// User text inside HTML and SVG: &, <, >, ", ' are escaped, control characters and broken UTF-8
+// become U+FFFD.
+#include <string>
+#include <string_view>
+
+namespace floatframe {
+
+std::string html_escape(std::string_view text);
+
+}  // namespace floatframe

@@ -1,0 +1,101 @@
+#include "floatframe/io/summary_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Text from files may hold bytes that are not UTF-8: they are replaced, never an error.
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Json array_of(const VecX& v) {
+  Json array = Json::array();
+  for (Eigen::Index i = 0; i < v.size(); ++i) array.push_back(v[i]);
+  return array;
+}
+
+Json coordinate_counts(const CoordinateCounts& c) {
+  return {{"rigid", c.rigid},
+          {"elastic", c.elastic},
+          {"total", c.total},
+          {"constraints", c.constraints}};
+}
+
+Json energy(double kinetic, double potential, double elastic, double total) {
+  return {{"kinetic_J", kinetic},
+          {"potential_J", potential},
+          {"elastic_J", elastic},
+          {"total_J", total}};
+}
+
+}  // namespace
+
+std::string summary_json(const RunSummary& s) {
+  const EnergySummary& e = s.energy;
+  const Json json = {
+      {"model", s.model},
+      {"coordinates", s.coordinates},
+      {"inertia", s.inertia},
+      {"step_s", s.step},
+      {"duration_s", s.duration},
+      {"steps", s.steps},
+      {"substeps", s.substeps},
+      {"iterations", s.iterations},
+      {"factorizations", s.factorizations},
+      {"cpu_s", s.cpu},
+      {"real_time_factor", s.real_time_factor},
+      {"max_position_violation", s.max_position_violation},
+      {"max_velocity_violation", s.max_velocity_violation},
+      {"energy",
+       {{"start", energy(e.kinetic_start, e.potential_start, e.elastic_start, e.total_start)},
+        {"end", energy(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end)}}},
+      {"status", s.status},
+      {"message", s.message}};
+  return dump(json);
+}
+
+std::string counts_json(const ModelCounts& c) {
+  const Json json = {{"bodies", c.bodies},
+                     {"flexible_bodies", c.flexible_bodies},
+                     {"joints", c.joints},
+                     {"cut_joints", c.cut_joints},
+                     {"relative", coordinate_counts(c.relative)},
+                     {"absolute", coordinate_counts(c.absolute)},
+                     {"degrees_of_freedom", c.degrees_of_freedom},
+                     {"redundant_constraints", c.redundant_constraints},
+                     {"cut_joint_names", c.cut_joint_names}};
+  return dump(json);
+}
+
+std::string statics_json(const std::string& model, const StaticsResult& statics) {
+  Json forces = Json::array(), joints = Json::array(), bodies = Json::array();
+  for (const StaticsForce& f : statics.forces) {
+    forces.push_back(
+        {{"name", f.name}, {"type", f.type}, {"force", f.force}, {"length", f.length}});
+  }
+  for (const StaticsJoint& j : statics.joints) {
+    joints.push_back({{"name", j.name},
+                      {"type", j.type},
+                      {"force", array_of(j.force)},
+                      {"torque", array_of(j.torque)}});
+  }
+  for (const StaticsBody& b : statics.bodies) {
+    bodies.push_back({{"name", b.name},
+                      {"position", array_of(b.position)},
+                      {"roll_pitch_yaw", array_of(b.roll_pitch_yaw)},
+                      {"amplitudes", array_of(b.amplitudes)}});
+  }
+  const Json json = {{"model", model},
+                     {"iterations", statics.iterations},
+                     {"residual", statics.residual},
+                     {"forces", forces},
+                     {"joints", joints},
+                     {"bodies", bodies}};
+  return dump(json);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,192 @@
+// Writers of results: CSV round trip, JSON keys and words, files that appear whole or not at all.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "floatframe/io/atomic_file.hpp"
+#include "floatframe/io/results_csv.hpp"
+#include "floatframe/io/summary_json.hpp"
+
+namespace floatframe {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "floatframe-test-XXXXXX").string();
+    path = ::mkdtemp(pattern.data());
+  }
+  ~TemporaryFolder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+TEST(ResultsCsv, HasOneHeaderLineWithUnits) {
+  const ResultTable table{{{"time", "s"}, {"chassis.z", "m"}, {"ratio", ""}}, {0, 0.5, 1}};
+  EXPECT_EQ(results_csv(table), "time [s],chassis.z [m],ratio\n0,0.5,1\n");
+}
+
+TEST(ResultsCsv, NumbersReadBackToTheSameBits) {
+  const std::vector<double> values{0.1,    1.0 / 3.0, -0.0,        5e-324,
+                                   1e300,  M_PI,      std::exp(1), 123456789.123456789,
+                                   -1e-17, 1.0,       0.1 + 0.2,   std::nextafter(1.0, 2.0)};
+  ResultTable table{{{"time", "s"}, {"a", "m"}}, {}};
+  table.data = values;
+  std::istringstream lines(results_csv(table));
+  std::string line;
+  std::getline(lines, line);
+  std::size_t i = 0;
+  while (std::getline(lines, line)) {
+    const std::size_t comma = line.find(',');
+    for (const std::string& field : {line.substr(0, comma), line.substr(comma + 1)}) {
+      const double read = std::strtod(field.c_str(), nullptr);
+      EXPECT_EQ(read, values[i]);
+      EXPECT_EQ(std::signbit(read), std::signbit(values[i]));
+      ++i;
+    }
+  }
+  EXPECT_EQ(i, values.size());
+}
+
+TEST(ResultsCsv, QuotesNamesWithSeparatorsAndKeepsOneHeaderLine) {
+  const ResultTable table{{{"time", "s"}, {"a,b", "m"}, {"say \"x\"", ""}, {"two\nlines", ""}}, {}};
+  EXPECT_EQ(results_csv(table), "time [s],\"a,b [m]\",\"say \"\"x\"\"\",\"two lines\"\n");
+}
+
+TEST(ResultsCsv, OfNothingIsEmpty) { EXPECT_EQ(results_csv({}), ""); }
+
+TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
+  RunSummary summary;
+  summary.model = "iltis";
+  summary.coordinates = "relative";
+  summary.inertia = "preprocessing";
+  summary.step = 0.01;
+  summary.energy.total_end = 2.5;
+  const auto json = nlohmann::ordered_json::parse(summary_json(summary));
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  EXPECT_EQ(keys,
+            (std::vector<std::string>{"model", "coordinates", "inertia", "step_s", "duration_s",
+                                      "steps", "substeps", "iterations", "factorizations", "cpu_s",
+                                      "real_time_factor", "max_position_violation",
+                                      "max_velocity_violation", "energy", "status", "message"}));
+  EXPECT_EQ(json["coordinates"], "relative");
+  EXPECT_EQ(json["step_s"], 0.01);
+  EXPECT_EQ(json["energy"]["end"]["total_J"], 2.5);
+  EXPECT_EQ(json["status"], "completed");
+}
+
+TEST(SummaryJson, NotFiniteIsNullAndBrokenTextIsReplaced) {
+  RunSummary summary;
+  summary.cpu = std::numeric_limits<double>::quiet_NaN();
+  summary.message = "bad \xFF byte";
+  const auto json = nlohmann::json::parse(summary_json(summary));
+  EXPECT_TRUE(json["cpu_s"].is_null());
+  EXPECT_EQ(json["message"], "bad \xEF\xBF\xBD byte");
+}
+
+TEST(CountsJson, HasTheDocumentedKeys) {
+  ModelCounts counts;
+  counts.bodies = 17;
+  counts.relative = {34, 64, 98, 24};
+  counts.cut_joint_names = {"front_left.rod_ball"};
+  const auto json = nlohmann::json::parse(counts_json(counts));
+  EXPECT_EQ(json["bodies"], 17);
+  EXPECT_EQ(json["relative"].dump(), R"({"constraints":24,"elastic":64,"rigid":34,"total":98})");
+  for (const char* key : {"flexible_bodies", "joints", "cut_joints", "absolute",
+                          "degrees_of_freedom", "redundant_constraints"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["cut_joint_names"][0], "front_left.rod_ball");
+}
+
+TEST(StaticsJson, ListsForcesJointsAndBodies) {
+  StaticsResult statics;
+  statics.forces.push_back({"leaf", "guided_spring", -2728.86, 0.07});
+  statics.joints.push_back({"hinge", "revolute", Vec3(1, 2, 3), Vec3(4, 5, 6)});
+  StaticsBody body;
+  body.name = "arm";
+  body.amplitudes = VecX::Constant(2, 0.5);
+  statics.bodies.push_back(body);
+  const auto json = nlohmann::json::parse(statics_json("iltis", statics));
+  EXPECT_EQ(json["forces"][0]["force"], -2728.86);
+  EXPECT_EQ(json["joints"][0]["torque"].dump(), "[4.0,5.0,6.0]");
+  EXPECT_EQ(json["bodies"][0]["amplitudes"].dump(), "[0.5,0.5]");
+}
+
+TEST(AtomicFile, ReplacesTheFileAndLeavesNothingElse) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "results.csv").string();
+  write_file(path, "first");
+  write_file(path, "second");
+  EXPECT_EQ(content_of(path), "second");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 1);
+}
+
+TEST(AtomicFile, FolderIsMadeWithThoseAboveItAndLeftEmpty) {
+  const TemporaryFolder folder;
+  const fs::path deep = folder.path / "a" / "b";
+  make_output_folder(deep.string());
+  EXPECT_TRUE(fs::is_directory(deep));
+  EXPECT_TRUE(fs::is_empty(deep));
+}
+
+TEST(AtomicFile, SaysWhatCannotBeWrittenAndWhy) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path / "file").string();
+  write_file(file, "x");
+  const auto message_of = [](auto&& action) -> std::string {
+    try {
+      action();
+    } catch (const OutputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(message_of([&] { make_output_folder(file + "/out"); }),
+            "the output folder '" + file + "/out' cannot be written: Not a directory");
+  EXPECT_EQ(message_of([&] { write_file(file + "/x", ""); }),
+            "the file '" + file + "/x' cannot be written: Not a directory");
+  EXPECT_EQ(message_of([&] { check_writable(folder.path.string()); }),
+            "the file '" + folder.path.string() + "' cannot be written: Is a directory");
+}
+
+TEST(AtomicFile, FullDeviceIsAnErrorAndStaysADevice) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  EXPECT_THROW(write_file("/dev/full", "x"), OutputError);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(AtomicFile, CheckLeavesAnExistingFileAlone) {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path / "bench.json").string();
+  write_file(path, "kept");
+  check_writable(path);
+  EXPECT_EQ(content_of(path), "kept");
+}
+
+TEST(AtomicFile, FileNamesFromUserText) {
+  EXPECT_EQ(file_name_from("iltis"), "iltis");
+  EXPECT_EQ(file_name_from("../../etc/passwd"), "_._.._etc_passwd");
+  EXPECT_EQ(file_name_from(".."), "_.");
+  EXPECT_EQ(file_name_from("my model"), "my_model");
+  EXPECT_EQ(file_name_from(""), "model");
+}
+
+}  // namespace
+}  // namespace floatframe
