@@ -1,0 +1,48 @@
+#include "floatframe/body/mirrored.hpp"
+
+#include <cmath>
+
+#include "floatframe/core/diagnostics.hpp"
+
+namespace floatframe {
+
+FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
+  const Vec3 s = P.diagonal();
+  if (P != Mat3(s.asDiagonal()) || s.cwiseAbs() != Vec3::Ones()) {
+    throw InputError("a mirror must be a diagonal matrix of +1 and -1");
+  }
+  const Vec3 axial = s.prod() * s;
+  FlexibleBody out = body;
+  InertiaInvariants& v = out.invariants;
+  v.m_u = s.cwiseProduct(v.m_u);
+  v.P_u = s.asDiagonal() * v.P_u * s.asDiagonal();
+  v.S = s.asDiagonal() * v.S;
+  for (int i = 0; i < 3; ++i) {
+    v.Si[i] = s(i) * (s.asDiagonal() * v.Si[i]);
+    for (int j = 0; j < 3; ++j) v.Sij[i][j] *= s(i) * s(j);
+  }
+  for (ModalNode& node : out.nodes) {
+    node.p = s.cwiseProduct(node.p);
+    node.X = s.asDiagonal() * node.X;
+    node.X_theta = axial.asDiagonal() * node.X_theta;
+  }
+  if (body.projection) {
+    auto data = std::make_shared<ProjectionData>(*body.projection);
+    data->p = s.asDiagonal() * data->p;
+    for (Eigen::Index r = 0; r < data->X.rows(); ++r) data->X.row(r) *= s(r % 3);
+    for (Eigen::Index r = 0; r < data->X_theta.rows(); ++r) data->X_theta.row(r) *= axial(r % 3);
+    const auto sign = [&](Eigen::Index dof) {
+      const Eigen::Index k = dof % 6;
+      return k < 3 ? s(k) : axial(k - 3);
+    };
+    for (Eigen::Index r = 0; r < data->M_6.outerSize(); ++r) {
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(data->M_6, r); it; ++it) {
+        it.valueRef() *= sign(it.row()) * sign(it.col());
+      }
+    }
+    out.projection = data;
+  }
+  return out;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,125 @@
+// 2-node Euler-Bernoulli beam in space: linear axial and torsion, cubic Hermite bending in two
+// planes. Local degrees of freedom (u v w rx ry rz) at each end, ry = -w', rz = v'. Source:
+// Przemieniecki, Theory of Matrix Structural Analysis (1968), consistent mass with rotary and
+// torsional inertia.
+#include <cmath>
+
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+namespace {
+
+using Mat12 = Eigen::Matrix<double, 12, 12>;
+
+/// Adds a 4 x 4 bending matrix of (d1, slope1, d2, slope2) to the local matrix. In the xy plane (v,
+/// rz) the slope is v' = rz, in the xz plane (w, ry) it is w' = -ry.
+void add_bending(const Eigen::Matrix4d& b, bool xz_plane, Mat12& m) {
+  const int dofs[4] = {xz_plane ? 2 : 1, xz_plane ? 4 : 5, xz_plane ? 8 : 7, xz_plane ? 10 : 11};
+  const double sign[4] = {1.0, xz_plane ? -1.0 : 1.0, 1.0, xz_plane ? -1.0 : 1.0};
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) m(dofs[i], dofs[j]) += sign[i] * sign[j] * b(i, j);
+  }
+}
+
+void add_linear(int dof, double diagonal, double off_diagonal, Mat12& m) {
+  m(dof, dof) += diagonal;
+  m(dof + 6, dof + 6) += diagonal;
+  m(dof, dof + 6) += off_diagonal;
+  m(dof + 6, dof) += off_diagonal;
+}
+
+void to_body_axes(const Mat3& T, const Mat12& local, MatX& out) {
+  out.resize(12, 12);
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      out.block<3, 3>(3 * i, 3 * j) = T * local.block<3, 3>(3 * i, 3 * j) * T.transpose();
+    }
+  }
+}
+
+std::string fault(const ElementInput& in) {
+  const Vec3 d = in.p[1] - in.p[0];
+  const double length = d.norm();
+  if (!(length > 1e-9)) return "has zero length";
+  const double r = in.reference.norm();
+  if (!(r > 0.0)) return "has a reference vector of zero length";
+  if (d.cross(in.reference).norm() < 1e-6 * length * r) {
+    return "has a reference vector parallel to its axis";
+  }
+  const BeamSection& s = in.section;
+  if (!(s.A > 0.0) || !(s.Iy > 0.0) || !(s.Iz > 0.0) || !(s.J > 0.0)) {
+    return "has a section whose A, Iy, Iz and J are not all positive";
+  }
+  return {};
+}
+
+void stiffness(const ElementInput& in, MatX& out) {
+  const double L = (in.p[1] - in.p[0]).norm();
+  const double E = in.material.young;
+  Eigen::Matrix4d b;
+  b << 12, 6 * L, -12, 6 * L,               //
+      6 * L, 4 * L * L, -6 * L, 2 * L * L,  //
+      -12, -6 * L, 12, -6 * L,              //
+      6 * L, 2 * L * L, -6 * L, 4 * L * L;
+  b /= L * L * L;
+  Mat12 k = Mat12::Zero();
+  const double axial = E * in.section.A / L;
+  const double torsion = in.material.shear() * in.section.J / L;
+  add_linear(0, axial, -axial, k);
+  add_linear(3, torsion, -torsion, k);
+  add_bending(E * in.section.Iz * b, false, k);
+  add_bending(E * in.section.Iy * b, true, k);
+  to_body_axes(beam_axes(in), k, out);
+}
+
+void mass(const ElementInput& in, bool section_inertia, MatX& out) {
+  const double L = (in.p[1] - in.p[0]).norm();
+  const double rho = in.material.density;
+  const double line = rho * in.section.A * L;
+  Eigen::Matrix4d t;
+  t << 156, 22 * L, 54, -13 * L,              //
+      22 * L, 4 * L * L, 13 * L, -3 * L * L,  //
+      54, 13 * L, 156, -22 * L,               //
+      -13 * L, -3 * L * L, -22 * L, 4 * L * L;
+  t *= line / 420.0;
+  Mat12 m = Mat12::Zero();
+  add_linear(0, line / 3.0, line / 6.0, m);
+  add_bending(t, false, m);
+  add_bending(t, true, m);
+  if (section_inertia) {
+    Eigen::Matrix4d r;
+    r << 36, 3 * L, -36, 3 * L,            //
+        3 * L, 4 * L * L, -3 * L, -L * L,  //
+        -36, -3 * L, 36, -3 * L,           //
+        3 * L, -L * L, -3 * L, 4 * L * L;
+    r *= rho / (30.0 * L);
+    add_bending(in.section.Iz * r, false, m);
+    add_bending(in.section.Iy * r, true, m);
+    const double polar = rho * (in.section.Iy + in.section.Iz) * L;
+    add_linear(3, polar / 3.0, polar / 6.0, m);
+  }
+  to_body_axes(beam_axes(in), m, out);
+}
+
+void scalar_mass(const ElementInput& in, MatX& out) {
+  const double line = in.material.density * in.section.A * (in.p[1] - in.p[0]).norm();
+  out.resize(2, 2);
+  out << line / 3.0, line / 6.0, line / 6.0, line / 3.0;
+}
+
+}  // namespace
+
+Mat3 beam_axes(const ElementInput& in) {
+  Mat3 T;
+  const Vec3 x = (in.p[1] - in.p[0]).normalized();
+  const Vec3 y = (in.reference - x * x.dot(in.reference)).normalized();
+  T.col(0) = x;
+  T.col(1) = y;
+  T.col(2) = x.cross(y);
+  return T;
+}
+
+const ElementKernel beam2_kernel{ElementType::beam2, "beam2", 2,           6, &fault,
+                                 &stiffness,         &mass,   &scalar_mass};
+
+}  // namespace floatframe

@@ -1,0 +1,49 @@
+#pragma once
+// What an element type must supply. A new type is one file with these functions and one entry in
+// the list of element_kernels.cpp; assembly, invariants and the generic tests run over the list.
+#include <span>
+#include <string>
+
+#include "floatframe/fe/fe_model.hpp"
+
+namespace floatframe {
+
+/// One element's data, gathered.
+struct ElementInput {
+  std::array<Vec3, 8> p;  ///< node positions
+  Material material;
+  BeamSection section;
+  Vec3 reference = Vec3::UnitZ();
+};
+
+struct ElementKernel {
+  ElementType type;
+  const char* name;
+  int nodes;
+  int dofs_per_node;  ///< 6: ux uy uz rx ry rz; 3: ux uy uz
+  /// What is wrong with the geometry or section, as the end of a sentence; empty if nothing is.
+  std::string (*fault)(const ElementInput&);
+  /// Stiffness in body axes.
+  void (*stiffness)(const ElementInput&, MatX&);
+  /// Consistent mass in body axes.
+  void (*mass)(const ElementInput&, bool section_inertia, MatX&);
+  /// int N^T N dm of the linear shape functions.
+  void (*scalar_mass)(const ElementInput&, MatX&);
+};
+
+std::span<const ElementKernel> element_kernels();
+const ElementKernel& element_kernel(ElementType type);
+ElementInput gather(const FeModel& model, const Element& element);
+
+/// Local axes of a beam: columns x (from node 1 to node 2), y (in the plane of x and the
+/// reference), z.
+Mat3 beam_axes(const ElementInput& input);
+
+/// Isotropic elasticity matrix for the strains (xx, yy, zz, xy, yz, zx) with engineering shear.
+Mat6 elasticity_matrix(const Material& material);
+
+extern const ElementKernel beam2_kernel;
+extern const ElementKernel tet4_kernel;
+extern const ElementKernel hex8_kernel;
+
+}  // namespace floatframe

@@ -1,0 +1,44 @@
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+
+std::span<const ElementKernel> element_kernels() {
+  static const ElementKernel list[] = {beam2_kernel, tet4_kernel, hex8_kernel};
+  return list;
+}
+
+const ElementKernel& element_kernel(ElementType type) {
+  for (const ElementKernel& kernel : element_kernels()) {
+    if (kernel.type == type) return kernel;
+  }
+  return element_kernels().front();
+}
+
+ElementInput gather(const FeModel& model, const Element& element) {
+  ElementInput input;
+  const ElementKernel& kernel = element_kernel(element.type);
+  for (int a = 0; a < kernel.nodes; ++a) {
+    input.p[static_cast<std::size_t>(a)] =
+        model.positions[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(a)])];
+  }
+  input.material = model.materials[static_cast<std::size_t>(element.material)];
+  if (element.type == ElementType::beam2) {
+    input.section = model.sections[static_cast<std::size_t>(element.section)];
+  }
+  input.reference = element.reference;
+  return input;
+}
+
+Mat6 elasticity_matrix(const Material& material) {
+  const double nu = material.poisson;
+  const double c = material.young / ((1.0 + nu) * (1.0 - 2.0 * nu));
+  Mat6 D = Mat6::Zero();
+  D.topLeftCorner<3, 3>().setConstant(c * nu);
+  for (int i = 0; i < 3; ++i) {
+    D(i, i) = c * (1.0 - nu);
+    D(3 + i, 3 + i) = material.shear();
+  }
+  return D;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,31 @@
+#pragma once
+// Pieces shared by the solid elements: strain-displacement matrix, expansion of a scalar mass to
+// three directions.
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe::solid {
+
+using Gradients = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 8>;  ///< column a: dN_a/dx
+using Strain = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 24>;
+
+/// Strains (xx, yy, zz, xy, yz, zx), engineering shear.
+inline Strain strain_matrix(const Gradients& g) {
+  Strain B = Strain::Zero(6, 3 * g.cols());
+  for (int a = 0; a < g.cols(); ++a) {
+    const double x = g(0, a), y = g(1, a), z = g(2, a);
+    B.block<6, 3>(0, 3 * a) << x, 0, 0, 0, y, 0, 0, 0, z, y, x, 0, 0, z, y, z, 0, x;
+  }
+  return B;
+}
+
+/// M_s (x) I_3
+inline void expand(const MatX& scalar, MatX& out) {
+  out = MatX::Zero(3 * scalar.rows(), 3 * scalar.cols());
+  for (int i = 0; i < scalar.rows(); ++i) {
+    for (int j = 0; j < scalar.cols(); ++j) {
+      for (int k = 0; k < 3; ++k) out(3 * i + k, 3 * j + k) = scalar(i, j);
+    }
+  }
+}
+
+}  // namespace floatframe::solid

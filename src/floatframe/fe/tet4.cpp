@@ -1,0 +1,51 @@
+// 4-node tetrahedron, constant strain. Nodes 1-3 counter-clockwise seen from node 4's opposite
+// side: positive volume V = (p2-p1) . ((p3-p1) x (p4-p1)) / 6. Scalar mass rho V/20 (1 1^T + I).
+#include <Eigen/LU>
+
+#include "floatframe/fe/solid_element.hpp"
+
+namespace floatframe {
+namespace {
+
+Mat3 edges(const ElementInput& in) {
+  Mat3 J;
+  for (int i = 0; i < 3; ++i) J.col(i) = in.p[static_cast<std::size_t>(i + 1)] - in.p[0];
+  return J;
+}
+
+std::string fault(const ElementInput& in) {
+  const Mat3 J = edges(in);
+  const double size = J.colwise().norm().maxCoeff();
+  if (!(J.determinant() > 1e-12 * size * size * size)) {
+    return "is inverted or flat (its volume is not positive)";
+  }
+  return {};
+}
+
+void stiffness(const ElementInput& in, MatX& out) {
+  const Mat3 J = edges(in);
+  const Mat3 inverse = J.inverse();
+  solid::Gradients g(3, 4);
+  for (int i = 0; i < 3; ++i) g.col(i + 1) = inverse.row(i).transpose();
+  g.col(0) = -(g.col(1) + g.col(2) + g.col(3));
+  const solid::Strain B = solid::strain_matrix(g);
+  out = B.transpose() * elasticity_matrix(in.material) * B * (J.determinant() / 6.0);
+}
+
+void scalar_mass(const ElementInput& in, MatX& out) {
+  const double m = in.material.density * edges(in).determinant() / 6.0;
+  out = m / 20.0 * (MatX::Ones(4, 4) + MatX::Identity(4, 4));
+}
+
+void mass(const ElementInput& in, bool, MatX& out) {
+  MatX scalar;
+  scalar_mass(in, scalar);
+  solid::expand(scalar, out);
+}
+
+}  // namespace
+
+const ElementKernel tet4_kernel{ElementType::tet4, "tet4", 4,           3, &fault,
+                                &stiffness,        &mass,  &scalar_mass};
+
+}  // namespace floatframe

@@ -1,0 +1,259 @@
+// Choice of dofs, check of the body reference, constraint modes and fixed-interface modes.
+#include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/so3.hpp"
+#include "floatframe/reduction/eigenmodes.hpp"
+#include "floatframe/reduction/reduction.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+enum class Role : char { inner, clamped, interface, inactive };
+
+std::string vector_text(const Vec3& v) {
+  std::ostringstream s;
+  s.precision(3);
+  const auto clean = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };
+  s << "(" << clean(v.x()) << ", " << clean(v.y()) << ", " << clean(v.z()) << ")";
+  return s.str();
+}
+
+int node_of(const FeModel& model, const DofSelection& selection, const char* what, Faults& faults) {
+  const int node = selection.node.empty() ? selection.index : model.find_node(selection.node);
+  if (node < 0 || node >= model.nodes()) {
+    faults.add({}, std::string(what) + ": there is no node " +
+                       (selection.node.empty() ? std::to_string(selection.index)
+                                               : "'" + selection.node + "'"));
+    return -1;
+  }
+  return node;
+}
+
+/// Throws if the clamped dofs leave a rigid motion, and says which.
+void check_reference(const FeModel& model, const std::vector<Role>& roles, int d) {
+  Vec3 centre = Vec3::Zero();
+  int count = 0;
+  int node = -1;
+  double size = 0.0;
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    if (roles[i] != Role::clamped) continue;
+    const int k = static_cast<int>(i) / d;
+    if (node < 0) node = k, centre = model.positions[static_cast<std::size_t>(k)];
+    ++count;
+  }
+  if (count == 0) {
+    throw InputError(
+        "the body reference clamps no degree of freedom, so the body is free to move rigidly");
+  }
+  for (const Vec3& p : model.positions) size = std::max(size, (p - centre).norm());
+  MatX R(count, 6);
+  int row = 0;
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    if (roles[i] != Role::clamped) continue;
+    const int axis = static_cast<int>(i) % d;
+    const Vec3 p = (model.positions[i / static_cast<std::size_t>(d)] - centre) / size;
+    if (axis < 3) {
+      R.block<1, 3>(row, 0) = Vec3::Unit(axis).transpose();
+      R.block<1, 3>(row, 3) = -skew(p).row(axis);
+    } else {
+      R.block<1, 3>(row, 0).setZero();
+      R.block<1, 3>(row, 3) = Vec3::Unit(axis - 3).transpose();
+    }
+    ++row;
+  }
+  const Eigen::JacobiSVD<MatX> svd(R, Eigen::ComputeFullV);
+  const VecX s = svd.singularValues();
+  if (s.size() == 6 && s(5) > 1e-8 * s(0)) return;
+  const Vec6 motion = svd.matrixV().col(5);
+  const Vec3 turn = motion.tail<3>();
+  if (turn.norm() < 1e-6) {
+    throw InputError("the body reference does not remove the translation along " +
+                     vector_text(motion.head<3>().normalized()));
+  }
+  throw InputError("the body reference does not remove the rotation about the direction " +
+                   vector_text(turn.normalized()) + " (clamped: " + model.node_label(node) +
+                   (count > 1 ? " and others)" : ")"));
+}
+
+SparseMatrix select(const SparseMatrix& A, const std::vector<int>& row_of, int rows,
+                    const std::vector<int>& column_of, int columns) {
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (int j = 0; j < A.outerSize(); ++j) {
+    if (column_of[static_cast<std::size_t>(j)] < 0) continue;
+    for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
+      const int r = row_of[static_cast<std::size_t>(it.row())];
+      if (r >= 0) triplets.emplace_back(r, column_of[static_cast<std::size_t>(j)], it.value());
+    }
+  }
+  SparseMatrix out(rows, columns);
+  out.setFromTriplets(triplets.begin(), triplets.end());
+  return out;
+}
+
+SparseMatrix eigen_mass(const FeModel& model, const ReductionOptions& options) {
+  const int d = model.dofs_per_node();
+  if (options.eigen_mass.value_or(options.mass_model) != MassModel::isoparametric) {
+    return assemble_mass(model, options.section_inertia, d);
+  }
+  const SparseRows scalar = assemble_scalar_mass(model);
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (int k = 0; k < scalar.outerSize(); ++k) {
+    for (SparseRows::InnerIterator it(scalar, k); it; ++it) {
+      for (int i = 0; i < 3; ++i) {
+        triplets.emplace_back(static_cast<int>(it.row()) * d + i,
+                              static_cast<int>(it.col()) * d + i, it.value());
+      }
+    }
+  }
+  SparseMatrix M(d * model.nodes(), d * model.nodes());
+  M.setFromTriplets(triplets.begin(), triplets.end());
+  return M;
+}
+
+}  // namespace
+
+ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& options) {
+  const int d = model.dofs_per_node();
+  const int total = d * model.nodes();
+  const SparseMatrix K = assemble_stiffness(model);
+  std::vector<Role> roles(static_cast<std::size_t>(total), Role::inner);
+  // Rotations of nodes that belong to solid elements only have no stiffness: they take no part.
+  const VecX diagonal = K.diagonal();
+  for (int i = 0; i < total; ++i) {
+    if (d == 6 && i % 6 >= 3 && diagonal(i) == 0.0)
+      roles[static_cast<std::size_t>(i)] = Role::inactive;
+  }
+  Faults faults;
+  const auto dof_text = [&](int node, int axis) {
+    return model.node_label(node) + " " + dof_names[axis];
+  };
+  for (const DofSelection& c : options.clamped) {
+    const int node = node_of(model, c, "the body reference", faults);
+    for (int axis = 0; axis < d && node >= 0; ++axis) {
+      if (((c.mask >> axis) & 1u) == 0) continue;
+      Role& role = roles[static_cast<std::size_t>(node * d + axis)];
+      if (role != Role::inactive) role = Role::clamped;
+    }
+  }
+  std::vector<int> interface_dofs;
+  std::vector<std::string> names;
+  for (const DofSelection& c : options.interfaces) {
+    const int node = node_of(model, c, "the interface", faults);
+    if (node < 0) continue;
+    if (c.mask == 0)
+      faults.add({}, "the interface at " + model.node_label(node) + " names no degree of freedom");
+    for (int axis = 0; axis < 6; ++axis) {
+      if (((c.mask >> axis) & 1u) == 0) continue;
+      if (axis >= d) {
+        faults.add({}, "the interface asks for " + dof_text(node, axis) +
+                           ", but the nodes of solid elements have no rotations");
+        continue;
+      }
+      Role& role = roles[static_cast<std::size_t>(node * d + axis)];
+      if (role == Role::clamped) {
+        faults.add({},
+                   dof_text(node, axis) + " is both clamped and an interface degree of freedom");
+      } else if (role == Role::interface) {
+        faults.add({}, dof_text(node, axis) + " is given twice as an interface degree of freedom");
+      } else if (role == Role::inactive) {
+        faults.add({}, dof_text(node, axis) +
+                           " has no stiffness and cannot be an interface degree of freedom");
+      } else {
+        role = Role::interface;
+        interface_dofs.push_back(node * d + axis);
+        names.push_back(
+            "static " +
+            (model.node_names.empty() || model.node_names[static_cast<std::size_t>(node)].empty()
+                 ? std::to_string(node)
+                 : model.node_names[static_cast<std::size_t>(node)]) +
+            " " + dof_names[axis]);
+      }
+    }
+  }
+  faults.throw_if_any();
+  check_reference(model, roles, d);
+
+  std::vector<int> inner_of(static_cast<std::size_t>(total), -1), interface_of(inner_of),
+      dof_of_inner;
+  for (int i = 0; i < total; ++i) {
+    if (roles[static_cast<std::size_t>(i)] != Role::inner) continue;
+    inner_of[static_cast<std::size_t>(i)] = static_cast<int>(dof_of_inner.size());
+    dof_of_inner.push_back(i);
+  }
+  const int ni = static_cast<int>(dof_of_inner.size());
+  const int nb = static_cast<int>(interface_dofs.size());
+  for (int b = 0; b < nb; ++b)
+    interface_of[static_cast<std::size_t>(interface_dofs[static_cast<std::size_t>(b)])] = b;
+  const SparseMatrix Kii = select(K, inner_of, ni, inner_of, ni);
+  const SparseMatrix Kib = select(K, inner_of, ni, interface_of, nb);
+
+  // Loose parts: a pivot that vanishes against its diagonal entry.
+  Eigen::SimplicialLDLT<SparseMatrix> factors;
+  if (ni > 0) {
+    factors.compute(Kii);
+    const VecX pivots = factors.vectorD();
+    const VecX scale = factors.permutationP() * VecX(Kii.diagonal());
+    for (int i = 0; i < ni; ++i) {
+      if (factors.info() == Eigen::Success && pivots(i) > 1e-13 * scale(i)) continue;
+      const int dof =
+          dof_of_inner[static_cast<std::size_t>(factors.permutationPinv().indices()(i))];
+      throw InputError(
+          "the stiffness is singular: " + dof_text(dof / d, dof % d) +
+          " can move without resistance (a part that is not connected, or a mechanism)");
+    }
+  }
+
+  int nn = options.normal_modes;
+  const SparseMatrix M = eigen_mass(model, options);
+  const SparseMatrix Mii = select(M, inner_of, ni, inner_of, ni);
+  if (options.max_frequency > 0.0) {
+    const int below = count_modes_below(Kii, Mii, 2.0 * std::numbers::pi * options.max_frequency);
+    nn = options.normal_modes > 0 ? std::min(below, options.normal_modes) : below;
+  }
+  if (nn < 0) throw InputError("the number of normal modes must not be negative");
+  if (nn > ni) {
+    throw InputError(std::to_string(nn) + " normal modes are asked for, but only " +
+                     std::to_string(ni) + " degrees of freedom are left inside the interface");
+  }
+  const Eigenmodes normal = lowest_modes(Kii, Mii, nn);
+  if (normal.omega.size() < nn) {
+    throw InputError(std::to_string(nn) +
+                     " normal modes are asked for, but the mass inside the interface allows only " +
+                     std::to_string(normal.omega.size()));
+  }
+
+  ModeSet set;
+  set.X = MatX::Zero(total, nb + nn);
+  if (nb > 0) {
+    const MatX inner = ni > 0 ? MatX(factors.solve(MatX(-Kib))) : MatX(0, nb);
+    for (int b = 0; b < nb; ++b) {
+      set.X(interface_dofs[static_cast<std::size_t>(b)], b) = 1.0;
+      for (int i = 0; i < ni; ++i)
+        set.X(dof_of_inner[static_cast<std::size_t>(i)], b) = inner(i, b);
+    }
+  }
+  for (int a = 0; a < nn; ++a) {
+    for (int i = 0; i < ni; ++i)
+      set.X(dof_of_inner[static_cast<std::size_t>(i)], nb + a) = normal.shapes(i, a);
+    names.push_back("normal " + std::to_string(a + 1));
+  }
+  // Static and dynamic modes do not couple in the stiffness, dynamic ones not among themselves.
+  const MatX KX = K * set.X.leftCols(nb);
+  MatX Kbb = set.X.leftCols(nb).transpose() * KX;
+  set.K = MatX::Zero(nb + nn, nb + nn);
+  set.K.topLeftCorner(nb, nb) = 0.5 * (Kbb + Kbb.transpose());
+  for (int a = 0; a < nn; ++a) set.K(nb + a, nb + a) = normal.omega(a) * normal.omega(a);
+  set.frequencies = normal.omega / (2.0 * std::numbers::pi);
+  set.names = std::move(names);
+  return set;
+}
+
+}  // namespace floatframe

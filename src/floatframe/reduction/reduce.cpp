@@ -1,0 +1,151 @@
+// Mode set -> flexible body: inertia integrals, projection data, modal damping.
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/body/fe_invariants.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/reduction/reduction.hpp"
+
+namespace floatframe {
+namespace {
+
+MatX modal_mass(const InertiaInvariants& v) { return v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2]; }
+
+InertiaInvariants compute_invariants(const FeModel& model, const MatX& X,
+                                     const ReductionOptions& options) {
+  if (options.mass_model == MassModel::isoparametric) return invariants_isoparametric(model, X);
+  return invariants_hermite(model, X, options.section_inertia);
+}
+
+/// D such that every mode of (K, M_ff) has the given ratio. With M x = mu K x, x^T K x = 1, w =
+/// 1/sqrt(mu): D = sum 2 ratio sqrt(mu) (K x)(K x)^T; massless modes (mu = 0) get none.
+MatX modal_damping(const MatX& K, const MatX& M, double ratio) {
+  MatX D = MatX::Zero(K.rows(), K.cols());
+  if (ratio == 0.0 || K.rows() == 0) return D;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(M, K);
+  if (solver.info() != Eigen::Success) {
+    throw InputError("modal damping needs a positive definite modal stiffness");
+  }
+  for (Eigen::Index i = 0; i < K.rows(); ++i) {
+    const double mu = solver.eigenvalues()(i);
+    if (!(mu > 1e-14 * solver.eigenvalues()(K.rows() - 1))) continue;
+    const VecX Kx = K * solver.eigenvectors().col(i);
+    D += 2.0 * ratio * std::sqrt(mu) * Kx * Kx.transpose();
+  }
+  return 0.5 * (D + D.transpose());
+}
+
+/// Replaces the modes by those of (K, M_ff).
+void orthonormalise(const FeModel& model, const ReductionOptions& options, ModeSet& set) {
+  const MatX M = modal_mass(compute_invariants(model, set.X, options));
+  const Eigen::SelfAdjointEigenSolver<MatX> check(M, Eigen::EigenvaluesOnly);
+  if (M.rows() > 0 && !(check.eigenvalues()(0) > 1e-14 * check.eigenvalues()(M.rows() - 1))) {
+    throw InputError("the modes cannot be orthonormalised: a combination of them has no mass");
+  }
+  if (M.rows() == 0) return;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(set.K, M);
+  MatX X = set.X * solver.eigenvectors();
+  set.K = solver.eigenvalues().asDiagonal();
+  set.names.clear();
+  for (Eigen::Index a = 0; a < X.cols(); ++a) {
+    Eigen::Index k = 0;
+    X.col(a).cwiseAbs().maxCoeff(&k);
+    if (X(k, a) < 0.0) X.col(a) = -X.col(a).eval();
+    set.names.push_back("orthonormal " + std::to_string(a + 1));
+  }
+  set.X = X;
+}
+
+ModeSet user_basis(const FeModel& model, const MatX& X) {
+  const int rows = model.dofs_per_node() * model.nodes();
+  if (X.rows() != rows) {
+    throw InputError("the given basis has " + std::to_string(X.rows()) + " rows; " +
+                     std::to_string(model.nodes()) + " nodes need " + std::to_string(rows));
+  }
+  if (!X.allFinite()) throw InputError("the given basis has entries that are not finite");
+  ModeSet set;
+  set.X = X;
+  const MatX KX = assemble_stiffness(model) * X;
+  const MatX K = X.transpose() * KX;
+  set.K = 0.5 * (K + K.transpose());
+  for (Eigen::Index a = 0; a < X.cols(); ++a) set.names.push_back("given " + std::to_string(a + 1));
+  return set;
+}
+
+std::shared_ptr<const ProjectionData> projection_data(const FeModel& model, const MatX& X,
+                                                      const ReductionOptions& options) {
+  if (options.mass_model == MassModel::hermite) return nullptr;
+  const int n = model.nodes();
+  const int d = model.dofs_per_node();
+  auto data = std::make_shared<ProjectionData>();
+  data->p.resize(3, n);
+  data->X.resize(3 * n, X.cols());
+  const bool six = options.mass_model == MassModel::six_dof;
+  if (six) data->X_theta = MatX::Zero(3 * n, X.cols());
+  for (int k = 0; k < n; ++k) {
+    data->p.col(k) = model.positions[static_cast<std::size_t>(k)];
+    data->X.middleRows<3>(3 * k) = X.middleRows<3>(d * k);
+    if (six && d == 6) data->X_theta.middleRows<3>(3 * k) = X.middleRows<3>(6 * k + 3);
+  }
+  if (six) {
+    data->M_6 = assemble_mass(model, options.section_inertia, 6);
+  } else {
+    data->M_s = assemble_scalar_mass(model);
+  }
+  return data;
+}
+
+}  // namespace
+
+FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
+  validate(model);
+  if (options.mass_model == MassModel::isoparametric) {
+    for (const PointMass& p : model.masses) {
+      if (p.J.cwiseAbs().maxCoeff() > 0.0) {
+        throw InputError(
+            "the point mass on " + model.node_label(p.node) +
+            " has rotary inertia, which the isoparametric mass model with three rows a node leaves "
+            "out; use six_dof or hermite");
+      }
+    }
+  }
+  if (!(options.damping_ratio >= 0.0))
+    throw InputError("the modal damping ratio must not be negative");
+  ModeSet set = options.basis ? user_basis(model, *options.basis)
+                : options.analytic_dynamic_per_plane
+                    ? analytic_bar_modes(model, *options.analytic_dynamic_per_plane)
+                    : craig_bampton_modes(model, options);
+  if (options.orthonormalise) orthonormalise(model, options, set);
+
+  FlexibleBody body;
+  body.mass_model = options.mass_model;
+  body.invariants = compute_invariants(model, set.X, options);
+  body.K = set.K;
+  const MatX M_ff = modal_mass(body.invariants);
+  body.D = modal_damping(body.K, M_ff, options.damping_ratio);
+  if (options.analytic_dynamic_per_plane && !options.basis && !options.orthonormalise) {
+    // Of the dynamic shapes, each by itself.
+    const Eigen::Index dynamic = body.K.rows() - 2;
+    set.frequencies =
+        (body.K.diagonal().tail(dynamic).array() / M_ff.diagonal().tail(dynamic).array()).sqrt() /
+        (2.0 * std::numbers::pi);
+  }
+  body.fixed_interface_frequencies = set.frequencies;
+  body.mode_names = set.names;
+  body.projection = projection_data(model, set.X, options);
+  const int d = model.dofs_per_node();
+  const Eigen::Index nm = set.X.cols();
+  body.nodes.resize(static_cast<std::size_t>(model.nodes()));
+  for (int k = 0; k < model.nodes(); ++k) {
+    ModalNode& node = body.nodes[static_cast<std::size_t>(k)];
+    if (!model.node_names.empty()) node.name = model.node_names[static_cast<std::size_t>(k)];
+    node.p = model.positions[static_cast<std::size_t>(k)];
+    node.X = set.X.middleRows<3>(d * k);
+    node.X_theta = Mat3X::Zero(3, nm);
+    if (d == 6) node.X_theta = set.X.middleRows<3>(6 * k + 3);
+  }
+  return body;
+}
+
+}  // namespace floatframe
