@@ -1,10 +1,17 @@
 #include "floatframe/core/build_info.hpp"
 
+#include <Eigen/Core>
 #include <fstream>
 
 #include "floatframe/core/version.hpp"
 
 namespace floatframe {
+
+// A program compiled for the baseline shares objects with the library compiled for AVX2: the layout
+// of fixed-size matrices must not depend on the instruction set. Eigen's own choice of alignment
+// does.
+static_assert(alignof(Eigen::Vector4d) == 32 && alignof(Eigen::Matrix<double, 6, 6>) == 32);
+static_assert(EIGEN_MALLOC_ALREADY_ALIGNED == 0);
 
 std::string version() { return FLOATFRAME_VERSION; }
 
