@@ -1,10 +1,12 @@
 #pragma once
-// What a user says about a system, by name, before anything is computed: the model file is read into this, and a
-// C++ user may fill it directly. Plain structs with documented units and defaults; `build_model` turns it into a Model.
+// What a user says about a system, by name, before anything is computed: the model file is read
+// into this, and a C++ user may fill it directly. Plain structs with documented units and defaults;
+// `build_model` turns it into a Model.
 //
-// Geometry is given in the *design configuration*: all bodies in place, the system assembled, joint coordinates
-// and modal amplitudes zero. Points and directions of joints and forces are world coordinates of that configuration,
-// so a joint at a point needs no body coordinates; each body has a design pose X_WB.
+// Geometry is given in the *design configuration*: all bodies in place, the system assembled, joint
+// coordinates and modal amplitudes zero. Points and directions of joints and forces are world
+// coordinates of that configuration, so a joint at a point needs no body coordinates; each body has
+// a design pose X_WB.
 #include <map>
 #include <optional>
 #include <string>
@@ -21,23 +23,34 @@ namespace floatframe {
 
 inline constexpr const char* ground_name = "ground";
 
-// ---------------------------------------------------------------------------------------------- flexible bodies
+// ----------------------------------------------------------------------------------------------
+// flexible bodies
 
-struct SolidRound { double diameter = 0.0; };                          ///< [m]
-struct HollowRound { double outer = 0.0, inner = 0.0; };               ///< diameters [m]
-struct Rectangle { double width = 0.0, height = 0.0; };                ///< along local y, along local z [m]
-struct SectionConstants { double A = 0, Iy = 0, Iz = 0, J = 0; };      ///< [m2], [m4]
+struct SolidRound {
+  double diameter = 0.0;
+};  ///< [m]
+struct HollowRound {
+  double outer = 0.0, inner = 0.0;
+};  ///< diameters [m]
+struct Rectangle {
+  double width = 0.0, height = 0.0;
+};  ///< along local y, along local z [m]
+struct SectionConstants {
+  double A = 0, Iy = 0, Iz = 0, J = 0;
+};  ///< [m2], [m4]
 using SectionDescription = std::variant<SolidRound, HollowRound, Rectangle, SectionConstants>;
 
 /// A straight bar, divided into equal 2-node Euler-Bernoulli beams.
 struct BarDescription {
   std::string name;
-  std::string from, to;                ///< names of points; bars that share a point share its node
-  std::optional<std::string> from_bar; ///< instead of `from`: start at a node of this earlier bar ...
-  double from_fraction = 0.0;          ///< ... at this fraction of its length counted from its `from` end
+  std::string from, to;  ///< names of points; bars that share a point share its node
+  std::optional<std::string>
+      from_bar;                ///< instead of `from`: start at a node of this earlier bar ...
+  double from_fraction = 0.0;  ///< ... at this fraction of its length counted from its `from` end
   int elements = 1;
   SectionDescription section;
-  Vec3 reference = Vec3::UnitZ();      ///< local y lies in the plane of the bar and this vector (design axes)
+  Vec3 reference =
+      Vec3::UnitZ();  ///< local y lies in the plane of the bar and this vector (design axes)
   Origin origin;
 };
 
@@ -54,8 +67,8 @@ struct NodeMass {
   Origin origin;
 };
 
-/// Analytic shapes of one straight bar clamped at its first point: per transverse plane the static tip shape and
-/// `dynamic_per_plane` clamped-pinned shapes.
+/// Analytic shapes of one straight bar clamped at its first point: per transverse plane the static
+/// tip shape and `dynamic_per_plane` clamped-pinned shapes.
 struct AnalyticShapes {
   int dynamic_per_plane = 0;
 };
@@ -70,44 +83,49 @@ struct FlexibleDescription {
   int normal_modes = 0;              ///< fixed-interface normal modes by number ...
   double max_frequency = 0.0;        ///< ... or all below this frequency [Hz] if positive
   std::optional<AnalyticShapes> analytic;  ///< replaces interfaces and normal_modes
-  std::optional<MatX> basis;         ///< user-given Rayleigh-Ritz basis: 6 rows a node (ux..rz), one column a mode
+  std::optional<MatX>
+      basis;  ///< user-given Rayleigh-Ritz basis: 6 rows a node (ux..rz), one column a mode
   bool orthonormalise = false;
   MassModel mass_model = MassModel::isoparametric;
-  bool section_inertia = false;      ///< rotary and torsional inertia of the section (six_dof and hermite)
-  double damping_ratio = 0.0;        ///< modal damping, fraction of critical
+  bool section_inertia =
+      false;  ///< rotary and torsional inertia of the section (six_dof and hermite)
+  double damping_ratio = 0.0;  ///< modal damping, fraction of critical
 };
 
 struct RigidDescription {
-  double mass = 0.0;                ///< [kg]; zero is legitimate (massless link)
-  Vec3 p_BC = Vec3::Zero();         ///< centre of mass in the body frame [m]
-  Mat3 J_C = Mat3::Zero();          ///< inertia about the centre of mass, body axes [kg m2]
+  double mass = 0.0;         ///< [kg]; zero is legitimate (massless link)
+  Vec3 p_BC = Vec3::Zero();  ///< centre of mass in the body frame [m]
+  Mat3 J_C = Mat3::Zero();   ///< inertia about the centre of mass, body axes [kg m2]
 };
 
 struct BodyDescription {
   std::string name;
-  Pose X_WB;                         ///< design pose; for a mirrored body the pose *after* mirroring
-  /// diag(+-1): the body is the mirror image of what `flexible` describes: body coordinates p_B = P p_template_B.
+  Pose X_WB;  ///< design pose; for a mirrored body the pose *after* mirroring
+  /// diag(+-1): the body is the mirror image of what `flexible` describes: body coordinates p_B = P
+  /// p_template_B.
   Mat3 mirror = Mat3::Identity();
-  Pose X_WT;                         ///< design pose of the template (equals X_WB when not mirrored)
+  Pose X_WT;  ///< design pose of the template (equals X_WB when not mirrored)
   std::variant<RigidDescription, FlexibleDescription, FlexibleBody> kind;
   Origin origin;
 };
 
-// ------------------------------------------------------------------------------------------------------- joints
+// -------------------------------------------------------------------------------------------------------
+// joints
 
 enum class JointType { weld, revolute, prismatic, cylindrical, universal, spherical, free };
 
-/// A function of time: offset polynomial pieces plus a sine: f = pieces(t) + amplitude sin(2 pi frequency t + phase).
+/// A function of time: offset polynomial pieces plus a sine: f = pieces(t) + amplitude sin(2 pi
+/// frequency t + phase).
 struct TimeFunction {
   PiecewisePolynomial pieces;
   double amplitude = 0.0, frequency = 0.0, phase = 0.0;
 };
 
-/// A place on a body. With `node` the named node of a flexible body; otherwise `point`, which on a flexible body must
-/// coincide with a node (within 1e-6 m).
+/// A place on a body. With `node` the named node of a flexible body; otherwise `point`, which on a
+/// flexible body must coincide with a node (within 1e-6 m).
 struct AttachmentDescription {
   std::string body = ground_name;
-  Vec3 point = Vec3::Zero();          ///< design configuration [m]
+  Vec3 point = Vec3::Zero();  ///< design configuration [m]
   std::optional<std::string> node;
   Origin origin;
 };
@@ -116,10 +134,12 @@ struct JointDescription {
   std::string name;
   JointType type = JointType::free;
   AttachmentDescription parent, child;  ///< the same design point unless a node says otherwise
-  Vec3 axis = Vec3::UnitZ();     ///< revolute, prismatic, cylindrical; first axis (fixed in parent) of universal
-  Vec3 axis_2 = Vec3::UnitX();   ///< second axis (fixed in child) of universal, not parallel to axis
-  /// Initial coordinates (start values where loops must close): revolute [rad], prismatic [m], cylindrical [m, rad],
-  /// universal [rad, rad], spherical rotation vector [rad] x 3, free [m] x 3 then rotation vector [rad] x 3.
+  Vec3 axis = Vec3::UnitZ();  ///< revolute, prismatic, cylindrical; first axis (fixed in parent) of
+                              ///< universal
+  Vec3 axis_2 = Vec3::UnitX();  ///< second axis (fixed in child) of universal, not parallel to axis
+  /// Initial coordinates (start values where loops must close): revolute [rad], prismatic [m],
+  /// cylindrical [m, rad], universal [rad, rad], spherical rotation vector [rad] x 3, free [m] x 3
+  /// then rotation vector [rad] x 3.
   std::vector<double> position;
   std::vector<double> velocity;
   std::optional<TimeFunction> motion;  ///< prescribed coordinate of a revolute or prismatic joint
@@ -135,21 +155,24 @@ struct RodDescription {
   Origin origin;
 };
 
-// ------------------------------------------------------------------------------------------------------- forces
+// -------------------------------------------------------------------------------------------------------
+// forces
 
 /// Along the line between two points. Tension positive: F = spring(length) + damper(rate).
 struct SpringDamperDescription {
   AttachmentDescription a, b;
-  PiecewisePolynomial spring;  ///< of the length [m] -> [N]; bump and rebound stops are pieces of it
+  PiecewisePolynomial
+      spring;  ///< of the length [m] -> [N]; bump and rebound stops are pieces of it
   PiecewisePolynomial damper;  ///< of the rate of the length [m/s] -> [N]
 };
 
-/// Along an axis fixed in a body, between a tip and the body point that slides with it (leaf spring):
-/// length L = axis . (reference - tip); F = spring(L) + damper(dL/dt), tension pulls the tip along +axis.
+/// Along an axis fixed in a body, between a tip and the body point that slides with it (leaf
+/// spring): length L = axis . (reference - tip); F = spring(L) + damper(dL/dt), tension pulls the
+/// tip along +axis.
 struct GuidedSpringDescription {
   AttachmentDescription reference;  ///< on the body that carries the axis
   AttachmentDescription tip;
-  Vec3 axis = Vec3::UnitZ();        ///< design direction
+  Vec3 axis = Vec3::UnitZ();  ///< design direction
   PiecewisePolynomial spring, damper;
 };
 
@@ -162,8 +185,9 @@ struct JointSpringDescription {
 
 enum class TyreLaw { vertical, radial };
 
-/// Penalty tyre on a road profile. vertical: F = max(0, k (R - (z_c - z_road(x_c))) - c zdot) upwards at the centre.
-/// radial: F = k (R - (z_c - z_road)) / sqrt(1 + s^2) along the road normal, s the slope below the centre.
+/// Penalty tyre on a road profile. vertical: F = max(0, k (R - (z_c - z_road(x_c))) - c zdot)
+/// upwards at the centre. radial: F = k (R - (z_c - z_road)) / sqrt(1 + s^2) along the road normal,
+/// s the slope below the centre.
 struct TyreDescription {
   AttachmentDescription centre;
   double radius = 0.0;     ///< unloaded [m]
@@ -174,7 +198,8 @@ struct TyreDescription {
   std::string road;
 };
 
-/// Force or torque: direction * magnitude(t), at a point of a body; the direction turns with the body if `follows`.
+/// Force or torque: direction * magnitude(t), at a point of a body; the direction turns with the
+/// body if `follows`.
 struct AppliedLoadDescription {
   AttachmentDescription at;
   Vec3 direction = Vec3::UnitX();  ///< design direction, used as given (not normalised)
@@ -185,13 +210,14 @@ struct AppliedLoadDescription {
 
 struct ForceDescription {
   std::string name;
-  std::variant<SpringDamperDescription, GuidedSpringDescription, JointSpringDescription, TyreDescription,
-               AppliedLoadDescription>
+  std::variant<SpringDamperDescription, GuidedSpringDescription, JointSpringDescription,
+               TyreDescription, AppliedLoadDescription>
       kind;
   Origin origin;
 };
 
-/// Height z(x) = pieces(x) + sum of cosine bumps height/2 (1 - cos(2 pi (x - start)/length)) on their intervals.
+/// Height z(x) = pieces(x) + sum of cosine bumps height/2 (1 - cos(2 pi (x - start)/length)) on
+/// their intervals.
 struct CosineBump {
   double start = 0.0, length = 1.0, height = 0.0;  ///< [m]
 };
@@ -202,24 +228,25 @@ struct RoadDescription {
   Origin origin;
 };
 
-// ------------------------------------------------------------------------------------------- outputs, simulation
+// -------------------------------------------------------------------------------------------
+// outputs, simulation
 
 enum class OutputKind {
-  position,          ///< of a point [m], component 0..2 = x y z
-  velocity,          ///< [m/s]
-  acceleration,      ///< [m/s2]
-  rotation,          ///< roll, pitch, yaw [rad]: R = Rz(yaw) Ry(pitch) Rx(roll) relative to the design pose
+  position,      ///< of a point [m], component 0..2 = x y z
+  velocity,      ///< [m/s]
+  acceleration,  ///< [m/s2]
+  rotation,  ///< roll, pitch, yaw [rad]: R = Rz(yaw) Ry(pitch) Rx(roll) relative to the design pose
   angular_velocity,  ///< world axes [rad/s]
   joint_position,    ///< coordinate `component` of a joint
   joint_velocity,
-  modal_amplitude,   ///< amplitude `component` (0-based) of a flexible body
-  force,             ///< scalar force of a force element [N] (torque [N m])
-  length,            ///< its measure: length, deflection or angle
+  modal_amplitude,  ///< amplitude `component` (0-based) of a flexible body
+  force,            ///< scalar force of a force element [N] (torque [N m])
+  length,           ///< its measure: length, deflection or angle
   rate
 };
 
 struct OutputDescription {
-  std::string name;   ///< column title without the unit
+  std::string name;  ///< column title without the unit
   OutputKind kind = OutputKind::position;
   AttachmentDescription at;  ///< for point quantities (node/point given) or body quantities
   std::string entity;        ///< joint or force name
@@ -234,23 +261,24 @@ enum class Start { given, equilibrium };
 struct SimulationDescription {
   Coordinates coordinates = Coordinates::relative;
   InertiaMethod inertia = InertiaMethod::preprocessing;
-  double step = 1e-3;              ///< [s]
-  double duration = 1.0;           ///< [s]
-  double output_interval = 0.0;    ///< [s]; 0: every step
+  double step = 1e-3;            ///< [s]
+  double duration = 1.0;         ///< [s]
+  double output_interval = 0.0;  ///< [s]; 0: every step
   Start start = Start::given;
-  Vec3 velocity = Vec3::Zero();    ///< added to the velocity of every free joint at the start [m/s]
-  double spectral_radius = 1.0;    ///< at infinite frequency: 1 = trapezoidal rule, below 1 = generalised-alpha
-  double tolerance = 1e-9;         ///< Newton: largest coordinate increment of the last iteration
+  Vec3 velocity = Vec3::Zero();  ///< added to the velocity of every free joint at the start [m/s]
+  double spectral_radius =
+      1.0;  ///< at infinite frequency: 1 = trapezoidal rule, below 1 = generalised-alpha
+  double tolerance = 1e-9;  ///< Newton: largest coordinate increment of the last iteration
   int max_iterations = 20;
-  double min_step = 0.0;           ///< smallest substep [s]; 0: step / 1024
-  double penalty = 0.0;            ///< 0: chosen from masses and step
+  double min_step = 0.0;             ///< smallest substep [s]; 0: step / 1024
+  double penalty = 0.0;              ///< 0: chosen from masses and step
   double position_tolerance = 1e-9;  ///< constraint violation accepted after a step [m]
   double velocity_tolerance = 1e-8;  ///< after the projections [m/s]
 };
 
 struct ModelDescription {
   std::string name = "model";
-  Vec3 gravity{0.0, 0.0, -9.81};   ///< [m/s2]
+  Vec3 gravity{0.0, 0.0, -9.81};  ///< [m/s2]
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
   std::vector<RodDescription> rods;

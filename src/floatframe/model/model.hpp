@@ -1,12 +1,115 @@
 #pragma once
-// The built system: immutable, shared by threads; names first, indices after.
+// The built system: immutable, shared by threads; names first, indices after. Made by
+// `build_model`.
+//
+// Markers are the only socket: a joint, rod or force knows two markers and never a coordinate set.
+// A marker sits on a node of a flexible body and moves with its deformation, or is fixed in a rigid
+// body or in the ground:
+//   p_BM = p + X y + exp(skew(X_theta y)) p_NM,   R_BM = exp(skew(X_theta y)) R_NM.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "floatframe/model/description.hpp"
 
 namespace floatframe {
 
-struct Model;
+struct Marker {
+  int body = -1;  ///< -1: ground
+  int node = -1;  ///< node of a flexible body; -1: fixed in the body frame (ground: world frame)
+  Pose X_NM;      ///< in the node frame; with node = -1 in the body frame
+  bool rotates = false;  ///< the rotation of the node enters (orientation or offset is used and
+                         ///< X_theta is not zero)
+};
 
-/// Checks and builds; throws InputError with every fault.
+struct Body {
+  std::string name;
+  std::shared_ptr<const FlexibleBody> data;
+  Pose X_WB;            ///< design pose
+  double length = 1.0;  ///< characteristic length: scales direction rows to lengths [m]
+  int modes() const noexcept { return data->modes(); }
+};
+
+struct Joint {
+  std::string name;
+  JointType type = JointType::free;
+  int parent = -1, child = -1;             ///< bodies
+  int frame_F = -1, frame_M = -1;          ///< markers on parent and child, z along the joint axis
+  Vec3 axis_2 = Vec3::UnitX();             ///< in the joint frame
+  std::vector<double> position, velocity;  ///< start values, in the user's form
+  std::optional<TimeFunction> motion;
+  bool cut = false;        ///< the user wants it cut in the relative formulation
+  bool automatic = false;  ///< a free joint added for a body that no joint leads to
+};
+
+struct Rod {
+  std::string name;
+  int a = -1, b = -1;
+  double length = 0.0;
+};
+
+struct Road {
+  std::string name;
+  PiecewisePolynomial pieces;
+  std::vector<CosineBump> bumps;
+};
+
+enum class ForceType { spring_damper, guided_spring, joint_spring, tyre, force, torque };
+
+/// One flat record for all force elements: the fields a type does not use stay at their defaults.
+struct Force {
+  std::string name;
+  ForceType type = ForceType::spring_damper;
+  int a = -1, b = -1;  ///< markers; one-point forces use b only (a = -1)
+  PiecewisePolynomial spring, damper;
+  Vec3 axis = Vec3::UnitZ();  ///< in marker a (guided), marker b (tyre axis, following load) or
+                              ///< world (load)
+  bool rotational = false;    ///< joint_spring about a revolute axis
+  double radius = 0, stiffness = 0, damping = 0;
+  TyreLaw law = TyreLaw::vertical;
+  int road = -1;
+  TimeFunction magnitude;
+  bool follows = false;
+};
+
+struct Output {
+  std::string name, unit;
+  OutputKind kind = OutputKind::position;
+  int marker = -1;  ///< point quantities, and the body frame of body quantities
+  int body = -1, joint = -1, force = -1;
+  int component = 0;
+};
+
+/// What a constraint row comes from, for messages: "joint 'front_left.ball'".
+struct ConstraintOwner {
+  enum class Kind { joint, rod } kind = Kind::joint;
+  int index = -1;
+};
+
+struct Model {
+  std::string name;
+  Vec3 gravity = Vec3::Zero();
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;  ///< automatic free joints last
+  std::vector<Rod> rods;
+  std::vector<Force> forces;
+  std::vector<Road> roads;
+  std::vector<Marker> markers;
+  std::vector<Output> outputs;
+  std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
+  double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
+  SimulationDescription simulation;
+
+  /// Name of a marker's body.
+  const std::string& body_name(int body) const;
+};
+
+/// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free
+/// joints to bodies no joint leads to. Throws InputError with every fault.
 Model build_model(const ModelDescription& description);
+
+/// "spring_damper", "tyre", ...
+const char* force_type_name(ForceType type) noexcept;
 
 }  // namespace floatframe

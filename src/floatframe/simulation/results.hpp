@@ -1,9 +1,11 @@
 #pragma once
-// What a run, a check and an equilibrium computation hand to writers: plain data, no dependence on the model.
+// What a run, a check and an equilibrium computation hand to writers: plain data, no dependence on
+// the model.
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "floatframe/formulation/counts.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -18,7 +20,9 @@ struct ResultTable {
   std::vector<Column> columns;
   std::vector<double> data;
   std::size_t rows() const { return columns.empty() ? 0 : data.size() / columns.size(); }
-  double at(std::size_t row, std::size_t column) const { return data[row * columns.size() + column]; }
+  double at(std::size_t row, std::size_t column) const {
+    return data[row * columns.size() + column];
+  }
 };
 
 struct EnergySummary {  ///< [J]
@@ -28,25 +32,21 @@ struct EnergySummary {  ///< [J]
 
 struct RunSummary {
   std::string model, coordinates, inertia;
-  double step = 0, duration = 0;                 ///< [s]; duration actually reached
-  long steps = 0, substeps = 0;                  ///< accepted output steps; extra steps by halving
+  double step = 0, duration = 0;  ///< [s]; duration actually reached
+  long steps = 0, substeps = 0;   ///< accepted output steps; extra steps by halving
   long iterations = 0, factorizations = 0;
-  double cpu = 0;                                ///< [s] of stepping, without input and output
-  double real_time_factor = 0;                   ///< duration / cpu
-  double max_position_violation = 0;             ///< [m] after steps
-  double max_velocity_violation = 0;             ///< [m/s] after the projections
+  double cpu = 0;                     ///< [s] of stepping, without input and output
+  double real_time_factor = 0;        ///< duration / cpu
+  double max_position_violation = 0;  ///< [m] after steps
+  double max_velocity_violation = 0;  ///< [m/s] after the projections
   EnergySummary energy;
-  std::string status = "completed";              ///< "completed" or "failed"
-  std::string message;                           ///< why it failed: time, culprit
+  std::string status = "completed";  ///< "completed" or "failed"
+  std::string message;               ///< why it failed: time, culprit
 };
 
 struct RunResult {
   ResultTable table;
   RunSummary summary;
-};
-
-struct CoordinateCounts {
-  int rigid = 0, elastic = 0, total = 0, constraints = 0;
 };
 
 struct ModelCounts {
@@ -59,7 +59,8 @@ struct ModelCounts {
 
 struct StaticsForce {
   std::string name, type;
-  double force = 0;   ///< tension positive [N]; torque [N m] for joint springs on revolutes; vertical force of tyres
+  double force = 0;   ///< tension positive [N]; torque [N m] for joint springs on revolutes;
+                      ///< vertical force of tyres
   double length = 0;  ///< measure of the element: length, deflection, angle
 };
 struct StaticsJoint {
@@ -69,9 +70,9 @@ struct StaticsJoint {
 };
 struct StaticsBody {
   std::string name;
-  Vec3 position = Vec3::Zero();         ///< body-frame origin [m]
-  Vec3 roll_pitch_yaw = Vec3::Zero();   ///< relative to the design pose [rad]
-  VecX amplitudes;                      ///< modal amplitudes
+  Vec3 position = Vec3::Zero();        ///< body-frame origin [m]
+  Vec3 roll_pitch_yaw = Vec3::Zero();  ///< relative to the design pose [rad]
+  VecX amplitudes;                     ///< modal amplitudes
 };
 struct StaticsResult {
   int iterations = 0;

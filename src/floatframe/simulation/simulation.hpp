@@ -9,7 +9,8 @@
 
 namespace floatframe {
 
-/// A run that cannot start or go on: cannot be assembled, singular mass matrix, loop that cannot close. Exit code 1.
+/// A run that cannot start or go on: cannot be assembled, singular mass matrix, loop that cannot
+/// close. Exit code 1.
 class RunError : public std::exception {
  public:
   explicit RunError(std::string message) : message_(std::move(message)) {}
@@ -31,9 +32,10 @@ struct RunOptions {
   bool record = true;
 };
 
-/// Runs the model with the options given (those of the model file, changed as the user wishes). A step that cannot
-/// converge ends the run: the result holds all up to there and summary.status = "failed". Throws RunError when it
-/// cannot start.
-RunResult run(const Model& model, const SimulationDescription& options, const RunOptions& run_options = {});
+/// Runs the model with the options given (those of the model file, changed as the user wishes). A
+/// step that cannot converge ends the run: the result holds all up to there and summary.status =
+/// "failed". Throws RunError when it cannot start.
+RunResult run(const Model& model, const SimulationDescription& options,
+              const RunOptions& run_options = {});
 
 }  // namespace floatframe

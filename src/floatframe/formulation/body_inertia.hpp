@@ -1,0 +1,57 @@
+#pragma once
+// The inertia terms of one body inside a formulation: picks the method at load time, owns its
+// scratch. Rigid bodies use preprocessing with zero modes under either method.
+#include "floatframe/body/flexible_body.hpp"
+#include "floatframe/inertia/preprocessing.hpp"
+#include "floatframe/inertia/projection.hpp"
+#include "floatframe/model/description.hpp"
+
+namespace floatframe {
+
+class BodyInertia {
+ public:
+  BodyInertia() = default;
+  /// Throws InputError if the body's mass model does not go with the method.
+  BodyInertia(const FlexibleBody& body, const std::string& name, InertiaMethod method)
+      : data_(body.invariants), work_(body.modes()) {
+    if (body.modes() == 0) return;
+    if (method == InertiaMethod::projection) {
+      if (body.mass_model == MassModel::hermite || !body.projection)
+        throw InputError(
+            "bodies." + name +
+            ": mass_model hermite has no nodal mass matrix, so it needs inertia: preprocessing; "
+            "use mass_model isoparametric or six_dof with inertia: projection");
+      projection_ = body.projection.get();
+      projection_work_ = ProjectionWorkspace(*projection_);
+    } else if (body.mass_model == MassModel::six_dof) {
+      throw InputError(
+          "bodies." + name +
+          ": mass_model six_dof is a nodal mass matrix, so it needs inertia: projection; "
+          "use mass_model isoparametric or hermite with inertia: preprocessing");
+    }
+  }
+
+  void relative(const Vec3& r0, const Mat3& A, const Vec3& omega, const double* y,
+                const double* ydot, MatX& M, VecX& Qv) noexcept {
+    if (projection_)
+      relative_projection(*projection_, r0, A, omega, y, ydot, projection_work_, M, Qv);
+    else
+      relative_preprocessing(data_, r0, A, omega, y, ydot, work_, M, Qv);
+  }
+  void absolute(const Mat3& A, const Mat3& Adot, const double* y, const double* ydot, MatX& M,
+                VecX& Qv) noexcept {
+    if (projection_)
+      absolute_projection(*projection_, A, Adot, y, ydot, projection_work_, M, Qv);
+    else
+      absolute_preprocessing(data_, A, Adot, y, ydot, work_, M, Qv);
+  }
+  const PreprocessingData& data() const noexcept { return data_; }
+
+ private:
+  PreprocessingData data_;
+  PreprocessingWorkspace work_;
+  const ProjectionData* projection_ = nullptr;
+  ProjectionWorkspace projection_work_;
+};
+
+}  // namespace floatframe

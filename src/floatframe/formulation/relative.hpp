@@ -1,0 +1,205 @@
+#pragma once
+// Equations of motion in joint coordinates and modal amplitudes, semi-recursive (paper section 6.2,
+// theory section 10).
+//
+// Tree of bodies from `find_topology`; body c hangs from marker F of its parent p by a joint, its
+// own marker M moves with its own modes. Twists Z = (sdot, omega) are taken about one common point
+// (the origin of this evaluation), with the material-point meaning of acceleration (theory section
+// 6), so no transport matrices appear:
+//   Z_c = Z_p + Phi_pc ydot_p + b_c v_c - Psi_c ydot_c
+// Residual: forward recursion of accelerations, body terms (46)-(63), backward recursion. Tangent:
+// composite inertia inside a *cluster*, Schur complement between clusters. A cluster is a set of
+// bodies that loop constraints or two-body forces tie together; it hangs from one parent body p and
+// its front holds [x_cluster | Z_p | y_p]. For a chain every body is a cluster and the elimination
+// is the O(n) articulated-body recursion; for a vehicle every suspension is one.
+//
+// The evaluation origin is the first body's joint point at that evaluation: positions stay small
+// numbers wherever the system is on the road.
+#include <memory>
+#include <vector>
+
+#include "floatframe/formulation/body_inertia.hpp"
+#include "floatframe/formulation/counts.hpp"
+#include "floatframe/model/constraint_part.hpp"
+#include "floatframe/model/force_evaluation.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/model.hpp"
+#include "floatframe/model/topology.hpp"
+
+namespace floatframe {
+
+class RelativeFormulation {
+ public:
+  /// The only allocating call. Throws InputError if a body lacks the data `method` needs.
+  RelativeFormulation(const Model& model, InertiaMethod method);
+
+  int velocities() const noexcept { return nv_; }
+  int configurations() const noexcept { return nq_; }
+  int constraints() const noexcept { return nc_; }
+  const Model& model() const noexcept { return model_; }
+  const Topology& topology() const noexcept { return topology_; }
+
+  /// Start values of the model in these coordinates (before loops are closed).
+  void start(VecX& q, VecX& v) const;
+  /// Marks the coordinates that the user gave a start value for.
+  std::vector<char> given_coordinates() const;
+
+  // -- the integrator's view; all noexcept and free of allocation
+  // ------------------------------------------------
+  void positions(double t, const VecX& q) noexcept;
+  void velocities(const VecX& v) noexcept;
+  /// Body inertia terms and forces at the present positions and velocities.
+  void dynamics() noexcept;
+  /// The forces alone.
+  void forces() noexcept;
+  /// out = M a - Q + Phi_q^T (alpha Phi + lambda)
+  void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept;
+  /// Factorises M mass + damping C + s (K + alpha Phi_q^T Phi_q). Returns -1 or a coordinate with a
+  /// vanishing pivot.
+  int factorize(double mass, double damping, double s, double alpha) noexcept;
+  void solve(VecX& b) noexcept;
+  const VecX& constraint_values() const noexcept { return phi_; }
+  void constraint_rates(VecX& out) noexcept;
+  void constraint_accelerations(const VecX& a, VecX& out) noexcept;
+  /// out = Phi_q^T w
+  void constraint_forces(const VecX& w, VecX& out) noexcept;
+  void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept;
+  void advance(VecX& x, const VecX& delta) const noexcept;
+
+  // -- what outputs, energies and other formulations want
+  // ---------------------------------------------------------
+  const MarkerState& marker(int index) const noexcept {
+    return markers_[static_cast<std::size_t>(index)].s;
+  }
+  const Vec3& origin() const noexcept { return origin_; }
+  const ForceState& force(int index) const noexcept {
+    return force_states_[static_cast<std::size_t>(index)];
+  }
+  /// The accelerations that `marker_acceleration` uses (`residual` and `constraint_accelerations`
+  /// set them too).
+  void set_accelerations(const VecX& a) noexcept { accelerations(a); }
+  Vec3 marker_acceleration(int index) const noexcept;
+  Vec3 body_position(int body) const noexcept;
+  const Mat3& body_rotation(int body) const noexcept;
+  Vec3 body_angular_velocity(int body) const noexcept;
+  Vec3 body_velocity(int body) const noexcept;
+  double amplitude(const VecX& q, int body, int mode) const noexcept;
+  double amplitude_rate(const VecX& v, int body, int mode) const noexcept;
+  double kinetic_energy(const VecX& v) noexcept;
+  double gravity_energy(const VecX& q) const noexcept;
+  double elastic_energy(const VecX& q) const noexcept;
+  /// Wrench that a tree joint's parent exerts on its child, about the joint point (after
+  /// `residual`).
+  void tree_joint_wrench(int joint, Vec3& force, Vec3& torque) const noexcept;
+  int tree_body_of_joint(int joint) const noexcept;
+
+  const std::vector<ConstraintPart>& parts() const noexcept { return parts_; }
+  int part_offset(std::size_t part) const noexcept { return part_offset_[part]; }
+  bool is_elastic(int i) const noexcept;
+  double total_mass() const noexcept;
+  /// "body 'arm'" or "joint 'hinge'" that coordinate i belongs to.
+  std::string coordinate_owner(int i) const;
+  /// Dense Phi_q, load time only.
+  MatX constraint_jacobian();
+  CoordinateCounts counts() const;
+
+ private:
+  struct BodyData {
+    int parent = -1, joint = -1;
+    JointType type = JointType::free;
+    bool reversed = false;
+    int frame_F = -1, frame_M = -1;
+    Vec3 axis_1, axis_2;
+    int nj = 0, nm = 0, nm_parent = 0;
+    int iq = 0, iyq = 0;  // configuration offsets of joint and modes
+    int iv = 0, iy = 0;   // velocity offsets
+    int cluster = -1;
+    bool phi = false, psi = false;
+    JointMotion motion;
+    Vec3 r0, w;
+    Mat3 A;
+    Vec6 Z, D, Zdot;
+    Mat6X b, Phi, Psi;
+    BodyInertia inertia;
+    MatX M, T;
+    VecX Qv, h, y, yd, ydd;
+    Mat6X MzPhi, U;
+    Vec6 wrench;
+  };
+  struct MarkerData {
+    MarkerState s;
+    int body = -1;
+    bool local = false;  // deforms with modes
+    bool rotates = false;
+    Vec3 p_B, pdot_B, pddot_B, zeta_B, zetadot_B, o_B;
+    Mat3 R_B, H;
+    Mat3X X, X_theta, Jr, Jw;
+    Mat3X HX;
+  };
+  struct PathEntry {
+    enum class What { joint, own_modes, parent_modes, marker_modes } what;
+    int body, marker;
+    bool side_b;
+    int front, count;  // position in the front of the cluster
+  };
+  struct Element {  // two-marker element (constraint part or force) inside a cluster, or one-body
+                    // element
+    int a = -1, b = -1;
+    int cluster = -1;  // -1: one body against the ground, added to the body's own matrix
+    int body = -1;
+    std::vector<PathEntry> path;
+    std::vector<int> columns;     // front indices touched, ascending
+    std::vector<int> entry_slot;  // for each path entry its first slot in `columns`
+  };
+  struct Cluster {
+    std::vector<int> bodies;   // parents before children
+    int parent = -1;           // body, -1: ground
+    int offset = 0, size = 0;  // velocity coordinates
+    int n = 0;                 // front size
+    MatX front;
+    VecX original, work;
+  };
+
+  void build_bodies(InertiaMethod method);
+  void build_clusters();
+  void build_elements();
+  Element make_element(int a, int b);
+  int mode_front(const Cluster& c, int body) const;
+  void marker_local_position(MarkerData& m, const VecX& y) noexcept;
+  void marker_world_position(MarkerData& m) noexcept;
+  void marker_local_velocity(MarkerData& m, const VecX& yd) noexcept;
+  void marker_world_velocity(MarkerData& m) noexcept;
+  void evaluate_constraints() noexcept;
+  void project(VecX& out) noexcept;  // body vectors h -> coordinates; consumes h
+  void add_wrench(int marker, const Vec3& force, const Vec3& torque) noexcept;  // h += J^T wrench
+  void accelerations(const VecX& a) noexcept;
+  void fill_gradient(const Element& e,
+                     const WrenchRow& g) noexcept;  // compressed gradient in slots_
+  void add_rank_one(const Element& e, const WrenchRow& g, double weight) noexcept;
+  void assemble_cluster(Cluster& c, double mass) noexcept;
+  BodyData& body(int i) noexcept { return bodies_[static_cast<std::size_t>(i)]; }
+  const BodyData& body(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)]; }
+  MarkerData& mark(int i) noexcept { return markers_[static_cast<std::size_t>(i)]; }
+
+  const Model& model_;
+  Topology topology_;
+  std::vector<BodyData> bodies_;
+  std::vector<int> order_;  // parents before children
+  std::vector<MarkerData> markers_;
+  std::vector<int> used_markers_of_body_offset_,
+      used_markers_;  // markers on each body, except its own frame_M
+  std::vector<ConstraintPart> parts_;
+  std::vector<int> part_offset_;
+  std::vector<ConstraintRow> rows_;
+  std::vector<Element> part_elements_, force_elements_;
+  std::vector<ForceState> force_states_;
+  std::vector<double> force_reference_;
+  std::vector<Cluster> clusters_;  // leaves before roots
+  std::vector<int> cluster_order_;
+  int nq_ = 0, nv_ = 0, nc_ = 0;
+  double time_ = 0.0;
+  Vec3 origin_ = Vec3::Zero();
+  VecX phi_, weights_, slots_;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,25 @@
+#pragma once
+// From a body's description (bars, sections, interfaces) to its reduced FlexibleBody: finite
+// elements, reduction, mirroring. Bodies with equal descriptions in their own template frame are
+// reduced once.
+#include <memory>
+#include <vector>
+
+#include "floatframe/model/description.hpp"
+
+namespace floatframe {
+
+class FlexibleBuilder {
+ public:
+  /// Adds faults (with the entity's marks) and returns null if the body cannot be built.
+  std::shared_ptr<const FlexibleBody> build(const BodyDescription& body, Faults& faults);
+
+ private:
+  struct Known {
+    std::string key;  ///< all numbers that decide the reduction
+    std::shared_ptr<const FlexibleBody> body;
+  };
+  std::vector<Known> known_;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,244 @@
+#include "floatframe/simulation/initial_state.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+
+namespace {
+
+double largest(const VecX& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
+
+/// Index into parts of the constraint row with the largest magnitude.
+const ConstraintPart& worst_part(const RelativeFormulation& f, const VecX& phi) {
+  Eigen::Index row = 0;
+  phi.cwiseAbs().maxCoeff(&row);
+  std::size_t k = f.parts().size() - 1;
+  while (k > 0 && f.part_offset(k) > row) --k;
+  return f.parts()[k];
+}
+
+/// Mobility of each coordinate in least-change corrections.
+VecX mobility(const RelativeFormulation& f) {
+  VecX w = VecX::Ones(f.velocities());
+  const std::vector<char> given = f.given_coordinates();
+  for (int i = 0; i < f.velocities(); ++i) {
+    if (f.is_elastic(i)) w[i] = 1e-4;
+    if (given[static_cast<std::size_t>(i)]) w[i] *= 1e-4;
+  }
+  return w;
+}
+
+/// Least weighted change x with J x = b.
+VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
+  const MatX Jw = J * w.cwiseSqrt().asDiagonal();
+  Eigen::CompleteOrthogonalDecomposition<MatX> cod;
+  cod.setThreshold(1e-11);
+  cod.compute(Jw);
+  return w.cwiseSqrt().cwiseProduct(cod.solve(b));
+}
+
+}  // namespace
+
+void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_positions) {
+  if (f.constraints() == 0) return;
+  const VecX w = mobility(f);
+  VecX q1 = q;
+  if (correct_positions) {
+    double violation = 0.0;
+    for (int pass = 0; pass < 100; ++pass) {
+      f.positions(0.0, q);
+      f.velocities(v);
+      violation = largest(f.constraint_values());
+      if (violation < 1e-13) break;
+      VecX x = least_change(f.constraint_jacobian(), w, -f.constraint_values());
+      const double size = largest(x);
+      if (!std::isfinite(size)) break;
+      if (size > 0.2) x *= 0.2 / size;
+      f.retract(q, x, q1);
+      q = q1;
+      if (size < 1e-15) break;
+    }
+    f.positions(0.0, q);
+    f.velocities(v);
+    violation = largest(f.constraint_values());
+    if (!(violation < 1e-10)) {
+      const ConstraintPart& part = worst_part(f, f.constraint_values());
+      throw RunError(
+          fmt::format("the model cannot be assembled: {} stays open by {:.3g} m at the start",
+                      owner_name(f.model(), part.owner), violation));
+    }
+  }
+  VecX rate(f.constraints());
+  for (int pass = 0; pass < 5; ++pass) {
+    f.positions(0.0, q);
+    f.velocities(v);
+    f.constraint_rates(rate);
+    if (largest(rate) < 1e-13) break;
+    v += least_change(f.constraint_jacobian(), w, -rate);
+  }
+  f.positions(0.0, q);
+  f.velocities(v);
+  f.constraint_rates(rate);
+  const double violation = largest(rate);
+  if (!(violation < 1e-8 * (1.0 + largest(v)))) {
+    const ConstraintPart& part = worst_part(f, rate);
+    throw RunError(fmt::format("the start velocities do not fit: {} opens at {:.3g} m/s",
+                               owner_name(f.model(), part.owner), violation));
+  }
+}
+
+Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
+  const int nv = f.velocities(), nc = f.constraints();
+  const VecX zero = VecX::Zero(nv);
+  Equilibrium e;
+  e.lambda = VecX::Zero(nc);
+  VecX r(nv), r1(nv), r2(nv), q1(q.size()), x = VecX::Zero(nv);
+  const auto evaluate = [&](const VecX& at, VecX& out) {
+    f.positions(0.0, at);
+    f.velocities(zero);
+    f.dynamics();
+    f.residual(zero, e.lambda, 0.0, out);
+  };
+  evaluate(q, r);
+  MatX mass(nv, nv);
+  for (int j = 0; j < nv; ++j) {
+    f.residual(VecX::Unit(nv, j), e.lambda, 0.0, r1);
+    mass.col(j) = r1 - r;
+  }
+  const double weight = std::max(1e-6, f.total_mass() * f.model().gravity.norm());
+  double mu = 1.0;  // [1/s2] pseudo-transient: (mu M + K) x = -r
+  double previous = std::numeric_limits<double>::infinity();
+  VecX best_q = q, best_lambda = e.lambda;
+  double best = previous;
+  int stalled = 0;
+  for (e.iterations = 0; e.iterations < 200; ++e.iterations) {
+    evaluate(q, r);
+    const MatX J = f.constraint_jacobian();
+    const VecX phi = f.constraint_values();
+    // Least-squares multipliers at the first iterate, Newton multipliers after.
+    if (e.iterations == 0 && nc > 0) {
+      e.lambda = J.transpose().completeOrthogonalDecomposition().solve(-r);
+      evaluate(q, r);
+    }
+    const double size = largest(r) + 1e3 * weight * largest(phi);
+    if (size < best) {
+      best = size;
+      best_q = q;
+      best_lambda = e.lambda;
+      stalled = 0;
+    } else {
+      ++stalled;
+    }
+    if (best < 1e-12 * weight || (best < 1e-9 * weight && stalled > 3)) break;
+    if (std::isfinite(previous))
+      mu = size < previous ? std::max(mu * 0.1, 1e-2) : std::min(mu * 10.0, 1e6);
+    previous = size;
+    MatX T = MatX::Zero(nv + nc, nv + nc);
+    for (int j = 0; j < nv; ++j) {
+      constexpr double step = 1e-6;
+      x.setZero();
+      x[j] = step;
+      f.retract(q, x, q1);
+      evaluate(q1, r1);
+      x[j] = -step;
+      f.retract(q, x, q1);
+      evaluate(q1, r2);
+      T.col(j).head(nv) = (r1 - r2) / (2.0 * step) + mu * mass.col(j);
+    }
+    T.topRightCorner(nv, nc) = J.transpose();
+    T.bottomLeftCorner(nc, nv) = J;
+    VecX b(nv + nc);
+    b << -r, -phi;
+    // Equilibrate: forces of stiff modes and lengths of constraints differ by many orders.
+    VecX d(nv + nc);
+    for (int i = 0; i < nv + nc; ++i) {
+      const double norm = T.row(i).cwiseAbs().maxCoeff();
+      d[i] = norm > 0.0 ? 1.0 / std::sqrt(norm) : 1.0;
+    }
+    const MatX Td = d.asDiagonal() * T * d.asDiagonal();
+    VecX step_vector;
+    if (nv + nc <= 700) {
+      Eigen::CompleteOrthogonalDecomposition<MatX> cod;
+      cod.setThreshold(1e-14);
+      cod.compute(Td);
+      step_vector = d.cwiseProduct(cod.solve(d.cwiseProduct(b)));
+    } else {
+      step_vector = d.cwiseProduct(Td.partialPivLu().solve(d.cwiseProduct(b)));
+    }
+    VecX dx = step_vector.head(nv);
+    const double length = largest(dx);
+    if (!std::isfinite(length)) break;
+    const double scale = length > 0.2 ? 0.2 / length : 1.0;
+    dx *= scale;
+    f.retract(q, dx, q1);
+    q = q1;
+    e.lambda += scale * step_vector.tail(nc);
+  }
+  q = best_q;
+  e.lambda = best_lambda;
+  evaluate(q, r);
+  e.residual = largest(r);
+  if (!(best < 1e-7 * weight)) {
+    Eigen::Index worst = 0;
+    r.cwiseAbs().maxCoeff(&worst);
+    throw RunError(fmt::format(
+        "no static equilibrium found: after {} iterations {} is out of balance by {:.3g} N "
+        "(or N m)",
+        e.iterations, f.coordinate_owner(static_cast<int>(worst)), r[worst]));
+  }
+  return e;
+}
+
+void dense_start(const MatX& mass, const MatX& stiffness, const MatX& J, const VecX& force,
+                 const VecX& gamma, const std::function<std::string(int)>& owner, VecX& a,
+                 VecX& lambda) {
+  const Eigen::Index nv = mass.rows(), nc = J.rows();
+  // Particular solution of J a = gamma plus the null space N of J: N^T M N z = N^T (force - M a_p).
+  MatX N = MatX::Identity(nv, nv);
+  VecX a_p = VecX::Zero(nv);
+  if (nc > 0) {
+    Eigen::CompleteOrthogonalDecomposition<MatX> cod;
+    cod.setThreshold(1e-11);
+    cod.compute(J);
+    a_p = cod.solve(gamma);
+    const Eigen::Index rank = cod.rank();
+    // The null space: the last nv - rank columns of an orthogonal factor of J^T.
+    Eigen::ColPivHouseholderQR<MatX> qr;
+    qr.setThreshold(1e-11);
+    qr.compute(J.transpose());
+    const MatX Q = qr.householderQ();
+    N = Q.rightCols(nv - rank);
+  }
+  const MatX Mr = N.transpose() * mass * N;
+  const MatX symmetric = 0.5 * (Mr + Mr.transpose());
+  Eigen::SelfAdjointEigenSolver<MatX> eig(symmetric);
+  const double top = std::max(eig.eigenvalues().cwiseAbs().maxCoeff(), 1e-300);
+  VecX z = eig.eigenvectors().transpose() * (N.transpose() * (force - mass * a_p));
+  for (Eigen::Index i = 0; i < z.size(); ++i) {
+    if (eig.eigenvalues()[i] > 1e-12 * top) {
+      z[i] /= eig.eigenvalues()[i];
+      continue;
+    }
+    const VecX n = N * eig.eigenvectors().col(i);
+    const double k = n.dot(stiffness * n);
+    if (!(k > 1e-9 * std::max(1.0, stiffness.cwiseAbs().maxCoeff()) * 1e-6)) {
+      Eigen::Index worst = 0;
+      n.cwiseAbs().maxCoeff(&worst);
+      throw RunError(
+          "the mass matrix is singular where nothing holds it: " + owner(static_cast<int>(worst)) +
+          " can move without mass, stiffness or constraint; give the body mass or inertia, or "
+          "remove the "
+          "freedom");
+    }
+    z[i] = 0.0;  // massless but stiff: the minimum-norm solution
+  }
+  a = a_p + N * (eig.eigenvectors() * z);
+  lambda = VecX::Zero(nc);
+  if (nc > 0) lambda = J.transpose().completeOrthogonalDecomposition().solve(force - mass * a);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,177 @@
+#pragma once
+// Steps any formulation through a run: outputs sampled into a table sized beforehand, substeps when
+// a step does not converge, counters for the summary. Nothing in `advance` or `sample` allocates.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "floatframe/formulation/relative.hpp"
+#include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/model/joint_measure.hpp"
+#include "floatframe/simulation/results.hpp"
+
+namespace floatframe {
+
+template <class F>
+class Runner {
+ public:
+  Runner(F& formulation, const StepOptions& options, double min_step)
+      : f_(formulation), integrator_(formulation, options), min_step_(min_step) {
+    reference_.assign(f_.model().outputs.size(), 0.0);
+  }
+
+  State& state() noexcept { return state_; }
+
+  /// Advances by h, in substeps if need be. False: the step did not converge at the smallest
+  /// substep.
+  bool advance(double h) noexcept {
+    StepReport r = integrator_.step(state_, h);
+    count(r);
+    if (r.status == StepStatus::converged) return true;
+    double remaining = h, sub = 0.5 * h;
+    const double end = state_.t + h;
+    while (remaining > 1e-9 * h) {
+      if (sub < min_step_ || !(sub > 0.0)) {
+        last_ = r;
+        return false;
+      }
+      const double now = std::min(sub, remaining);
+      r = integrator_.step(state_, now);
+      count(r);
+      if (r.status == StepStatus::converged) {
+        remaining -= now;
+        ++substeps_;
+        if (remaining > 0.0 && sub < 0.5 * h) sub *= 2.0;
+      } else {
+        sub = 0.5 * now;
+      }
+    }
+    state_.t = end;
+    return true;
+  }
+
+  /// Writes one row of outputs (time first) at the present state.
+  void sample(double* row) noexcept {
+    const Model& model = f_.model();
+    f_.positions(state_.t, state_.q);
+    f_.velocities(state_.v);
+    f_.forces();
+    f_.set_accelerations(state_.a);
+    *row++ = state_.t;
+    for (std::size_t k = 0; k < model.outputs.size(); ++k)
+      *row++ = value(model.outputs[k], reference_[k]);
+  }
+
+  double kinetic_energy() noexcept { return f_.kinetic_energy(state_.v); }
+  /// Gravity and the potential of force elements.
+  double potential_energy() noexcept {
+    f_.positions(state_.t, state_.q);
+    f_.velocities(state_.v);
+    f_.forces();
+    double sum = f_.gravity_energy(state_.q);
+    for (std::size_t k = 0; k < f_.model().forces.size(); ++k)
+      sum += f_.force(static_cast<int>(k)).energy;
+    return sum;
+  }
+  double elastic_energy() noexcept { return f_.elastic_energy(state_.q); }
+
+  /// The culprit of the last failed step, in words.
+  std::string failure() const {
+    const char* what =
+        last_.status == StepStatus::singular_tangent ? "the tangent matrix is singular at "
+        : last_.status == StepStatus::not_finite     ? "the state is not finite any more; look at "
+                                                     : "no convergence; look at ";
+    std::string who = "the constraints";
+    if (last_.coordinate >= 0) who = f_.coordinate_owner(last_.coordinate);
+    if (last_.constraint >= 0) {
+      std::size_t k = f_.parts().size();
+      while (k-- > 0 && f_.part_offset(k) > last_.constraint) {
+      }
+      if (k < f_.parts().size()) who = owner_name(f_.model(), f_.parts()[k].owner);
+    }
+    // A force that grew out of all proportion is a better hint than the coordinate it acts on.
+    double worst = 0.0;
+    int force = -1;
+    for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
+      const double x = std::abs(f_.force(static_cast<int>(k)).force);
+      if (!(x <= worst)) {
+        worst = x;
+        force = static_cast<int>(k);
+      }
+    }
+    std::string text =
+        fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}{}", state_.t,
+                    min_step_, what, who);
+    if (force >= 0)
+      text += fmt::format(" (largest force: '{}', {:.3g} N)",
+                          f_.model().forces[static_cast<std::size_t>(force)].name,
+                          f_.force(force).force);
+    return text;
+  }
+
+  long substeps() const noexcept { return substeps_; }
+  long iterations() const noexcept { return iterations_; }
+  long factorizations() const noexcept { return factorizations_; }
+  double max_position_violation() const noexcept { return max_position_; }
+  double max_velocity_violation() const noexcept { return max_velocity_; }
+
+ private:
+  void count(const StepReport& r) noexcept {
+    iterations_ += r.iterations;
+    factorizations_ += r.factorizations;
+    if (r.status == StepStatus::converged) {
+      max_position_ = std::max(max_position_, r.position_violation);
+      max_velocity_ = std::max(max_velocity_, r.velocity_violation);
+    }
+  }
+
+  double value(const Output& o, double& reference) noexcept {
+    switch (o.kind) {
+      case OutputKind::position:
+        return f_.marker(o.marker).r[o.component] + f_.origin()[o.component];
+      case OutputKind::velocity:
+        return f_.marker(o.marker).v[o.component];
+      case OutputKind::acceleration:
+        return f_.marker_acceleration(o.marker)[o.component];
+      case OutputKind::rotation: {
+        const Mat3& design = f_.model().bodies[static_cast<std::size_t>(o.body)].X_WB.R;
+        return roll_pitch_yaw(f_.body_rotation(o.body) * design.transpose())[o.component];
+      }
+      case OutputKind::angular_velocity:
+        return f_.body_angular_velocity(o.body)[o.component];
+      case OutputKind::joint_position: {
+        const Joint& j = f_.model().joints[static_cast<std::size_t>(o.joint)];
+        reference =
+            joint_position(j, f_.marker(j.frame_F), f_.marker(j.frame_M), o.component, reference);
+        return reference;
+      }
+      case OutputKind::joint_velocity: {
+        const Joint& j = f_.model().joints[static_cast<std::size_t>(o.joint)];
+        return joint_velocity(j, f_.marker(j.frame_F), f_.marker(j.frame_M), o.component);
+      }
+      case OutputKind::modal_amplitude:
+        return f_.amplitude(state_.q, o.body, o.component);
+      case OutputKind::force:
+        return f_.force(o.force).force;
+      case OutputKind::length:
+        return f_.force(o.force).length;
+      case OutputKind::rate:
+        return f_.force(o.force).rate;
+    }
+    return 0.0;
+  }
+
+  F& f_;
+  AugmentedLagrangian<F> integrator_;
+  State state_;
+  double min_step_;
+  StepReport last_;
+  std::vector<double> reference_;
+  long substeps_ = 0, iterations_ = 0, factorizations_ = 0;
+  double max_position_ = 0.0, max_velocity_ = 0.0;
+};
+
+}  // namespace floatframe
