@@ -72,7 +72,10 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
   const Eigen::JacobiSVD<MatX> svd(R, Eigen::ComputeFullV);
   const VecX s = svd.singularValues();
   if (s.size() == 6 && s(5) > 1e-8 * s(0)) return;
-  const Vec6 motion = svd.matrixV().col(5);
+  Vec6 motion = svd.matrixV().col(5);
+  Eigen::Index largest = 0;
+  motion.cwiseAbs().maxCoeff(&largest);
+  if (motion(largest) < 0.0) motion = -motion;
   const Vec3 turn = motion.tail<3>();
   if (turn.norm() < 1e-6) {
     throw InputError("the body reference does not remove the translation along " +
@@ -202,7 +205,8 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
     const VecX pivots = factors.vectorD();
     const VecX scale = factors.permutationP() * VecX(Kii.diagonal());
     for (int i = 0; i < ni; ++i) {
-      if (factors.info() == Eigen::Success && pivots(i) > 1e-13 * scale(i)) continue;
+      // The factorisation stops at the first pivot that is exactly zero; those before it are valid.
+      if (pivots(i) > 1e-13 * scale(i)) continue;
       const int dof =
           dof_of_inner[static_cast<std::size_t>(factors.permutationPinv().indices()(i))];
       throw InputError(
