@@ -1,0 +1,303 @@
+// Generic tests over the list of element kernels, and the beam against engineering formulas.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+#include <numbers>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/bar_frame.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/reduction/eigenmodes.hpp"
+#include "support/random_body.hpp"
+#include "support/reference_json.hpp"
+
+namespace floatframe::test {
+namespace {
+
+ElementInput distorted(const ElementKernel& kernel, Random& random) {
+  const Vec3 hex[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  const Vec3 tet[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  ElementInput in;
+  const Mat3 R = random.rotation();
+  for (int a = 0; a < kernel.nodes; ++a) {
+    const Vec3 p = kernel.nodes == 8 ? hex[a] : tet[a];
+    in.p[static_cast<std::size_t>(a)] = R * (p + random.vec3(0.12)) + Vec3(1, 2, 3);
+  }
+  in.material = {2e11, 0.3, 7500.0};
+  in.section = {1e-3, 2e-7, 5e-7, 4e-7};
+  in.reference = random.vec3();
+  return in;
+}
+
+/// The six rigid motions of an element's dofs: translations, then rotations about the origin.
+MatX rigid_motions(const ElementInput& in, const ElementKernel& kernel) {
+  const int d = kernel.dofs_per_node;
+  MatX R = MatX::Zero(d * kernel.nodes, 6);
+  for (int a = 0; a < kernel.nodes; ++a) {
+    R.block<3, 3>(d * a, 0).setIdentity();
+    R.block<3, 3>(d * a, 3) = -skew(in.p[static_cast<std::size_t>(a)]);
+    if (d == 6) R.block<3, 3>(d * a + 3, 3).setIdentity();
+  }
+  return R;
+}
+
+double volume(const ElementInput& in, const ElementKernel& kernel) {
+  if (kernel.type == ElementType::beam2) return in.section.A * (in.p[1] - in.p[0]).norm();
+  if (kernel.type == ElementType::tet4) {
+    return (in.p[1] - in.p[0]).dot((in.p[2] - in.p[0]).cross(in.p[3] - in.p[0])) / 6.0;
+  }
+  // Divergence theorem with bilinear faces: each face as the mean of its two triangulations.
+  const int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  double sum = 0.0;
+  for (const auto& f : faces) {
+    const auto p = [&](int i) { return in.p[static_cast<std::size_t>(f[i % 4])]; };
+    for (int start = 0; start < 2; ++start) {
+      sum += 0.5 * p(start).dot(p(start + 1).cross(p(start + 2))) / 6.0;
+      sum += 0.5 * p(start).dot(p(start + 2).cross(p(start + 3))) / 6.0;
+    }
+  }
+  return sum;
+}
+
+TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
+  Random random(1);
+  for (const ElementKernel& kernel : element_kernels()) {
+    SCOPED_TRACE(kernel.name);
+    for (int i = 0; i < 5; ++i) {
+      const ElementInput in = distorted(kernel, random);
+      ASSERT_EQ(kernel.fault(in), "");
+      MatX K, M, M_s;
+      kernel.stiffness(in, K);
+      kernel.mass(in, false, M);
+      kernel.scalar_mass(in, M_s);
+      const MatX R = rigid_motions(in, kernel);
+      EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-12 * K.maxCoeff());
+      EXPECT_LT((K * R).cwiseAbs().maxCoeff(), 1e-12 * K.cwiseAbs().maxCoeff());
+      EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatX>(K).eigenvalues()(6), 1e-9 * K.maxCoeff());
+      const double mass = 7500.0 * volume(in, kernel);
+      EXPECT_NEAR(M_s.sum() / mass, 1.0, 1e-13);
+      const MatX rigid = R.transpose() * M * R;
+      EXPECT_LT((rigid.topLeftCorner<3, 3>() - mass * Mat3::Identity()).cwiseAbs().maxCoeff(),
+                1e-12 * mass);
+      EXPECT_LT((M - M.transpose()).cwiseAbs().maxCoeff(), 1e-13 * M.maxCoeff());
+      EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatX>(M_s).eigenvalues()(0), 0.0);
+    }
+  }
+}
+
+TEST(Elements, ConstantStrainIsExact) {
+  Random random(2);
+  for (const ElementType type : {ElementType::tet4, ElementType::hex8}) {
+    const ElementKernel& kernel = element_kernel(type);
+    const ElementInput in = distorted(kernel, random);
+    const Mat3 G = random.matrix(3, 3);  // displacement gradient
+    VecX u(3 * kernel.nodes);
+    for (int a = 0; a < kernel.nodes; ++a)
+      u.segment<3>(3 * a) = G * in.p[static_cast<std::size_t>(a)];
+    Vec6 strain;
+    strain << G(0, 0), G(1, 1), G(2, 2), G(0, 1) + G(1, 0), G(1, 2) + G(2, 1), G(2, 0) + G(0, 2);
+    MatX K;
+    kernel.stiffness(in, K);
+    // 2 x 2 x 2 points do not integrate det J of a distorted brick exactly, but nearly.
+    const double energy = strain.dot(elasticity_matrix(in.material) * strain) * volume(in, kernel);
+    EXPECT_NEAR(u.dot(K * u) / energy, 1.0, 1e-12);
+  }
+}
+
+TEST(Elements, DistortedBrickMassIsExact) {
+  // Against 5 x 5 x 5 Gauss points by splitting nothing: moments of the mass up to second order,
+  // from a refined rule.
+  Random random(3);
+  const ElementKernel& kernel = element_kernel(ElementType::hex8);
+  const ElementInput in = distorted(kernel, random);
+  MatX M;
+  kernel.scalar_mass(in, M);
+  const double x[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
+                       0.9061798459386640};
+  const double w[5] = {0.2369268850561891, 0.4786286704993665, 128.0 / 225.0, 0.4786286704993665,
+                       0.2369268850561891};
+  const double corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                               {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  MatX exact = MatX::Zero(8, 8);
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      for (int k = 0; k < 5; ++k) {
+        VecX N(8);
+        Mat3 J = Mat3::Zero();
+        for (int a = 0; a < 8; ++a) {
+          const double fx = 1 + corner[a][0] * x[i], fy = 1 + corner[a][1] * x[j],
+                       fz = 1 + corner[a][2] * x[k];
+          N(a) = fx * fy * fz / 8.0;
+          const Vec3 d =
+              Vec3(corner[a][0] * fy * fz, corner[a][1] * fx * fz, corner[a][2] * fx * fy) / 8.0;
+          J += d * in.p[static_cast<std::size_t>(a)].transpose();
+        }
+        exact += 7500.0 * w[i] * w[j] * w[k] * J.determinant() * N * N.transpose();
+      }
+    }
+  }
+  EXPECT_LT(relative_error(M, exact), 1e-13);
+}
+
+FeModel cantilever(int elements, const BeamSection& section, const Vec3& direction,
+                   const Vec3& reference) {
+  BarFrame frame;
+  frame.points = {{"root", Vec3(0.1, 0.2, 0.3)}, {"tip", Vec3(0.1, 0.2, 0.3) + direction}};
+  frame.bars.resize(1);
+  frame.bars[0] = {"bar", "root", "tip", "", 0.0, elements, section, reference};
+  frame.material = {7e10, 0.33, 2700.0};
+  return build_bar_frame(frame);
+}
+
+TEST(Beam, CantileverTipDeflectionsInAnyDirection) {
+  Random random(4);
+  const BeamSection section = BeamSection::rectangle(0.02, 0.05);  // 20 mm along y, 50 mm along z
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 direction = i == 0 ? Vec3(1.5, 0, 0) : Vec3(1.5 * random.vec3().normalized());
+    const Vec3 reference = random.vec3();
+    const FeModel model = cantilever(4, section, direction, reference);
+    const Mat3 T = beam_axes(gather(model, model.elements[0]));
+    EXPECT_NEAR(T.col(2).dot(reference), 0.0, 1e-12);
+    EXPECT_GT(T.col(1).dot(reference), 0.0);
+    const SparseMatrix K = assemble_stiffness(model);
+    const int n = static_cast<int>(K.rows());
+    const Eigen::SimplicialLDLT<SparseMatrix> solver(
+        SparseMatrix(K.bottomRightCorner(n - 6, n - 6)));
+    const double L = 1.5, E = 7e10, G = E / 2.66;
+    const double expected[6] = {L / (E * section.A),
+                                L * L * L / (3 * E * section.Iz),
+                                L * L * L / (3 * E * section.Iy),
+                                L / (G * section.J),
+                                L / (E * section.Iy),
+                                L / (E * section.Iz)};
+    for (int k = 0; k < 6; ++k) {
+      VecX f = VecX::Zero(n - 6);
+      f.segment<3>(n - 12 + (k < 3 ? 0 : 3)) = T.col(k % 3);
+      const VecX u = solver.solve(f);
+      EXPECT_NEAR(T.col(k % 3).dot(u.segment<3>(n - 12 + (k < 3 ? 0 : 3))) / expected[k], 1.0, 1e-9)
+          << k;
+    }
+  }
+}
+
+TEST(Beam, CantileverFrequencies) {
+  const BeamSection section = BeamSection::hollow_round(0.05, 0.03);
+  const FeModel model = cantilever(12, section, Vec3(1.2, 0, 0), Vec3::UnitY());
+  const SparseMatrix K = assemble_stiffness(model);
+  const int n = static_cast<int>(K.rows()) - 6;
+  const auto modes = [&](bool section_inertia) {
+    const SparseMatrix M = assemble_mass(model, section_inertia, 6);
+    return lowest_modes(K.bottomRightCorner(n, n), M.bottomRightCorner(n, n), 8);
+  };
+  const double c = std::sqrt(7e10 * section.Iy / (2700.0 * section.A)) / (1.2 * 1.2);
+  const double betas[2] = {1.875104068711961, 4.694091132974175};
+  const VecX omega = modes(false).omega;
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(omega(i) / (betas[i / 2] * betas[i / 2] * c), 1.0, 2e-5);
+  // With section inertia bending is lower, and torsion appears: w = pi/2 sqrt(G J / (rho Ip)) / L.
+  const VecX with = modes(true).omega;
+  EXPECT_LT(with(2), omega(2));
+  const double torsion = std::numbers::pi / 2.0 * std::sqrt(7e10 / 2.66 / 2700.0) / 1.2;
+  EXPECT_NEAR((with.array() / torsion - 1.0).abs().minCoeff(), 0.0, 2e-3);
+}
+
+TEST(Beam, Sections) {
+  const BeamSection round = BeamSection::solid_round(0.03);
+  EXPECT_NEAR(round.A, 7.06858347e-4, 1e-12);
+  EXPECT_NEAR(round.Iy, 3.9760782e-8, 1e-16);
+  EXPECT_EQ(round.J, 2.0 * round.Iz);
+  const BeamSection square = BeamSection::rectangle(0.1, 0.1);
+  EXPECT_NEAR(square.J / (0.1406 * 1e-4), 1.0, 2e-3);  // Roark
+  const BeamSection flat = BeamSection::rectangle(0.01, 0.04);
+  EXPECT_GT(flat.Iy, flat.Iz);
+  EXPECT_NEAR(flat.J / (0.281 * 0.04 * 1e-6), 1.0, 3e-3);
+}
+
+TEST(BarFrames, SharedNodesAndNames) {
+  BarFrame frame;
+  frame.points = {
+      {"a", Vec3(0, 0, 0)}, {"b", Vec3(1, 0, 0)}, {"c", Vec3(1, 1, 0)}, {"d", Vec3(0.5, 0, 1)}};
+  frame.material = {2e11, 0.3, 7500};
+  const BeamSection s = BeamSection::solid_round(0.02);
+  frame.bars = {{"first", "a", "b", "", 0.0, 4, s, Vec3::UnitZ()},
+                {"second", "b", "c", "", 0.0, 2, s, Vec3::UnitZ()},
+                {"stub", "", "d", "first", 0.5, 1, s, Vec3::UnitX()}};
+  frame.masses = {{"d", 0.4}};
+  const FeModel model = build_bar_frame(frame);
+  EXPECT_EQ(model.nodes(), 5 + 2 + 1);
+  EXPECT_EQ(model.elements.size(), 7u);
+  EXPECT_EQ(model.find_node("b"), 4);
+  EXPECT_EQ(model.elements[6].nodes[0], 2);
+  EXPECT_EQ(model.find_node("d"), 7);
+  EXPECT_TRUE(model.positions[2].isApprox(Vec3(0.5, 0, 0)));
+  EXPECT_NEAR(assemble_scalar_mass(model).sum(), 7500 * s.A * (2.0 + 1.0) + 0.4, 1e-10);
+}
+
+std::string message(const BarFrame& frame) {
+  try {
+    build_bar_frame(frame);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(BarFrames, Faults) {
+  BarFrame good;
+  good.points = {{"a", Vec3(0, 0, 0)}, {"b", Vec3(1, 0, 0)}, {"c", Vec3(1, 1, 0)}};
+  good.material = {2e11, 0.3, 7500};
+  const BeamSection s = BeamSection::solid_round(0.02);
+  good.bars = {{"one", "a", "b", "", 0.0, 7, s, Vec3::UnitZ()}};
+  EXPECT_EQ(message(good), "no error");
+  BarFrame f = good;
+  f.bars.push_back({"stub", "", "c", "one", 0.2, 1, s, Vec3::UnitZ()});
+  EXPECT_EQ(message(f),
+            "bar 'stub': bar 'one' with 7 elements has no node at the fraction 0.2; the nearest "
+            "are at 0.142857 and "
+            "0.285714");
+  f = good;
+  f.bars[0].to = "x";
+  EXPECT_EQ(message(f), "bar 'one': there is no point 'x'");
+  f = good;
+  f.bars[0].to = "a";
+  EXPECT_EQ(message(f), "bar 'one' has zero length");
+  f = good;
+  f.bars[0].reference = Vec3(-2, 0, 0);
+  f.bars[0].elements = 1;
+  EXPECT_EQ(message(f), "bar 'one', element 1 has a reference vector parallel to its axis");
+  f = good;
+  f.bars[0].elements = 0;
+  EXPECT_EQ(message(f), "bar 'one': the number of elements must be at least 1, not 0");
+  f = good;
+  f.bars[0].elements = 1;
+  f.bars[0].section.Iy = -1.0;
+  EXPECT_EQ(message(f),
+            "bar 'one', element 1 has a section whose A, Iy, Iz and J are not all positive");
+  f = good;
+  f.material.young = 0.0;
+  EXPECT_EQ(message(f), "material 0: Young's modulus must be positive");
+  f = good;
+  f.masses = {{"b", -1.0}};
+  EXPECT_EQ(message(f), "point mass 0 on node 'b': the mass must not be negative");
+}
+
+TEST(FeModelFaults, IndicesAndInvertedElements) {
+  FeModel model = to_model(reference_body("tet4"));
+  std::swap(model.elements[0].nodes[0], model.elements[0].nodes[1]);
+  model.elements[1].nodes[2] = 77;
+  try {
+    validate(model);
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.faults().size(), 2u);
+    EXPECT_EQ(error.faults()[0].message,
+              "element 0 (tet4) is inverted or flat (its volume is not positive)");
+    EXPECT_EQ(error.faults()[1].message, "element 1 (tet4): node index 77 is out of range 0..11");
+  }
+}
+
+}  // namespace
+}  // namespace floatframe::test
