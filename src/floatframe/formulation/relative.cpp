@@ -57,26 +57,8 @@ void RelativeFormulation::build_bodies(InertiaMethod method) {
     b.U = Mat6X::Zero(6, b.nj + b.nm);
   }
   markers_.resize(model_.markers.size());
-  for (std::size_t i = 0; i < markers_.size(); ++i) {
-    const Marker& k = model_.markers[i];
-    MarkerData& m = markers_[i];
-    m.body = k.body;
-    m.p_B = k.X_NM.p;
-    m.R_B = k.X_NM.R;
-    m.pdot_B = m.pddot_B = m.zeta_B = m.zetadot_B = m.o_B = Vec3::Zero();
-    m.H.setIdentity();
-    const int nm = k.body < 0 ? 0 : model_.bodies[static_cast<std::size_t>(k.body)].modes();
-    m.X = m.X_theta = m.Jr = m.Jw = m.HX = Mat3X::Zero(3, nm);
-    if (k.node >= 0) {
-      const ModalNode& node = model_.bodies[static_cast<std::size_t>(k.body)]
-                                  .data->nodes[static_cast<std::size_t>(k.node)];
-      m.p_B = node.p + k.X_NM.p;
-      m.X = node.X;
-      m.X_theta = node.X_theta;
-      m.rotates = k.rotates && !node.X_theta.isZero(0.0);
-      m.local = !node.X.isZero(0.0) || m.rotates;
-    }
-  }
+  for (std::size_t i = 0; i < markers_.size(); ++i)
+    static_cast<LocalMarker&>(markers_[i]) = LocalMarker(model_, model_.markers[i]);
 }
 
 void RelativeFormulation::build_clusters() {
@@ -317,51 +299,11 @@ std::vector<char> RelativeFormulation::given_coordinates() const {
 // -------------------------------------------------------------------------------------------------------
 // kinematics
 
-void RelativeFormulation::marker_local_position(MarkerData& m, const VecX& y) noexcept {
-  const Marker& k = model_.markers[static_cast<std::size_t>(&m - markers_.data())];
-  const ModalNode& node =
-      model_.bodies[static_cast<std::size_t>(k.body)].data->nodes[static_cast<std::size_t>(k.node)];
-  m.p_B.noalias() = node.p + m.X * y;
-  if (m.rotates) {
-    const Vec3 theta = m.X_theta * y;
-    const Mat3 e = rotation_exp(theta);
-    m.H = rotation_tangent(theta);
-    m.HX.noalias() = m.H * m.X_theta;
-    m.o_B = e * k.X_NM.p;
-    m.p_B += m.o_B;
-    m.R_B.noalias() = e * k.X_NM.R;
-  } else {
-    m.p_B += k.X_NM.p;
-  }
-}
-
 void RelativeFormulation::marker_world_position(MarkerData& m) noexcept {
   const BodyData& b = body(m.body);
   m.s.r.noalias() = b.r0 + b.A * m.p_B;
   m.s.R.noalias() = b.A * m.R_B;
-  if (m.local) {
-    m.Jr.noalias() = b.A * m.X;
-    if (m.rotates) {
-      m.Jw.noalias() = b.A * m.HX;
-      const Vec3 o = b.A * m.o_B;
-      for (int k = 0; k < b.nm; ++k) m.Jr.col(k) += m.Jw.col(k).cross(o);
-    }
-  }
-}
-
-void RelativeFormulation::marker_local_velocity(MarkerData& m, const VecX& yd) noexcept {
-  m.pdot_B.noalias() = m.X * yd;
-  if (m.rotates) {
-    const Marker& k = model_.markers[static_cast<std::size_t>(&m - markers_.data())];
-    (void)k;
-    const Vec3 rate = m.X_theta * yd;
-    m.zeta_B.noalias() = m.H * rate;
-    const Vec3 theta = m.X_theta * body(m.body).y;
-    m.zetadot_B = rotation_tangent_bias(theta, rate);
-    const Vec3 o_dot = m.zeta_B.cross(m.o_B);
-    m.pdot_B += o_dot;
-    m.pddot_B = m.zetadot_B.cross(m.o_B) + m.zeta_B.cross(o_dot);
-  }
+  if (m.local) m.world_gradients(b.A);
 }
 
 void RelativeFormulation::marker_world_velocity(MarkerData& m) noexcept {
@@ -411,7 +353,7 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
     MarkerData& M = mark(b.frame_M);
     const MarkerData& F = mark(b.frame_F);
     joint_motion(b.type, b.axis_1, b.axis_2, q.data() + b.iq, at_rest, b.motion);
-    if (M.local) marker_local_position(M, b.y);
+    if (M.local) M.deform(b.y);
     const Mat3 R_WM = F.s.R * b.motion.R_FM;
     const Vec3 r_M = F.s.r + F.s.R * b.motion.p_FM;
     b.A.noalias() = R_WM * M.R_B.transpose();
@@ -435,7 +377,7 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
     for (int u = used_markers_of_body_offset_[static_cast<std::size_t>(i)];
          u < used_markers_of_body_offset_[static_cast<std::size_t>(i) + 1]; ++u) {
       MarkerData& m = mark(used_markers_[static_cast<std::size_t>(u)]);
-      if (m.local) marker_local_position(m, b.y);
+      if (m.local) m.deform(b.y);
       marker_world_position(m);
     }
   }
@@ -471,7 +413,7 @@ void RelativeFormulation::velocities(const VecX& v) noexcept {
     // The body frame seen from M, which may move with the body's own modes.
     Vec3 chi = Vec3::Zero(), chi_dot = Vec3::Zero(), zeta = Vec3::Zero(), zeta_dot = Vec3::Zero();
     if (M.local) {
-      marker_local_velocity(M, b.yd);
+      M.deform_rate(b.yd);
       chi = b.A * M.pdot_B;
       chi_dot = b.A * M.pddot_B;
       zeta = b.A * M.zeta_B;
@@ -488,7 +430,7 @@ void RelativeFormulation::velocities(const VecX& v) noexcept {
     for (int u = used_markers_of_body_offset_[static_cast<std::size_t>(i)];
          u < used_markers_of_body_offset_[static_cast<std::size_t>(i) + 1]; ++u) {
       MarkerData& m = mark(used_markers_[static_cast<std::size_t>(u)]);
-      if (m.local) marker_local_velocity(m, b.yd);
+      if (m.local) m.deform_rate(b.yd);
       marker_world_velocity(m);
     }
   }

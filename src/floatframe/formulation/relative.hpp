@@ -20,6 +20,7 @@
 
 #include "floatframe/formulation/body_inertia.hpp"
 #include "floatframe/formulation/counts.hpp"
+#include "floatframe/formulation/local_marker.hpp"
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/force_evaluation.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -126,15 +127,8 @@ class RelativeFormulation {
     Mat6X MzPhi, U;
     Vec6 wrench;
   };
-  struct MarkerData {
+  struct MarkerData : LocalMarker {
     MarkerState s;
-    int body = -1;
-    bool local = false;  // deforms with modes
-    bool rotates = false;
-    Vec3 p_B, pdot_B, pddot_B, zeta_B, zetadot_B, o_B;
-    Mat3 R_B, H;
-    Mat3X X, X_theta, Jr, Jw;
-    Mat3X HX;
   };
   struct PathEntry {
     enum class What { joint, own_modes, parent_modes, marker_modes } what;
@@ -165,9 +159,7 @@ class RelativeFormulation {
   void build_elements();
   Element make_element(int a, int b);
   int mode_front(const Cluster& c, int body) const;
-  void marker_local_position(MarkerData& m, const VecX& y) noexcept;
   void marker_world_position(MarkerData& m) noexcept;
-  void marker_local_velocity(MarkerData& m, const VecX& yd) noexcept;
   void marker_world_velocity(MarkerData& m) noexcept;
   void evaluate_constraints() noexcept;
   void project(VecX& out) noexcept;  // body vectors h -> coordinates; consumes h

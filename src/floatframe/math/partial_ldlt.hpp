@@ -1,9 +1,11 @@
 #pragma once
-// Dense partial factorisation F = L D L^T of the leading columns of a symmetric front (multifrontal elimination).
-// The front holds its lower triangle, column major. After `partial_ldlt(n, ne)`:
-//   columns 0..ne-1 below the diagonal: L; diagonal: D; trailing (n-ne) block: the Schur complement.
-// No pivoting: the tangents of this code are dominated by mass and penalty. A pivot that cancels to round-off, or is
-// not finite, stops the factorisation. Cost: sum over eliminated columns of (n-j)^2/2 multiplications.
+// Dense partial factorisation F = L D L^T of the leading columns of a symmetric front (multifrontal
+// elimination). The front holds its lower triangle, column major. After `partial_ldlt(n, ne)`:
+//   columns 0..ne-1 below the diagonal: L; diagonal: D; trailing (n-ne) block: the Schur
+//   complement.
+// No pivoting: the tangents of this code are dominated by mass and penalty. A pivot that cancels to
+// round-off, or is not finite, stops the factorisation. Cost: sum over eliminated columns of
+// (n-j)^2/2 multiplications.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +16,8 @@ namespace floatframe {
 /// Pivots smaller than this fraction of the original diagonal are round-off.
 inline constexpr double pivot_tolerance = 1e-14;
 
-/// Returns -1, or the first column whose pivot vanished. `original` receives the diagonal before elimination (size ne).
+/// Returns -1, or the first column whose pivot vanished. `original` receives the diagonal before
+/// elimination (size ne).
 inline int partial_ldlt(double* f, int ld, int n, int ne, double* original) noexcept {
   for (int j = 0; j < ne; ++j) original[j] = f[j * ld + j];
   constexpr int width = 4;

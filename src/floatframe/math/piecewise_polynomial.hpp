@@ -1,6 +1,7 @@
 #pragma once
-// One scalar function for every law of the step: spring and damper laws, tables, road profiles, motion.
-// Piece k holds on [breaks[k-1], breaks[k]); the first and last pieces extend to -inf and +inf:
+// One scalar function for every law of the step: spring and damper laws, tables, road profiles,
+// motion. Piece k holds on [breaks[k-1], breaks[k]); the first and last pieces extend to -inf and
+// +inf:
 //   f(x) = sum_j c[k][j] (x - centre[k])^j
 // Evaluation costs a binary search over the pieces and a Horner scheme; it never allocates.
 #include <algorithm>
@@ -36,7 +37,8 @@ class PiecewisePolynomial {
 
   /// Index of the piece that holds at x; at a break the right-hand piece.
   std::size_t piece_index(double x) const noexcept {
-    return static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin());
+    return static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), x) -
+                                    breaks_.begin());
   }
   Value piece_value(std::size_t k, double x) const noexcept {
     const Piece& p = pieces_[k];

@@ -5,8 +5,8 @@
 namespace floatframe {
 
 struct Pose {
-  Vec3 p = Vec3::Zero();        ///< position of B's origin in A [m]
-  Mat3 R = Mat3::Identity();    ///< columns are B's axes in A [-]
+  Vec3 p = Vec3::Zero();      ///< position of B's origin in A [m]
+  Mat3 R = Mat3::Identity();  ///< columns are B's axes in A [-]
 
   /// X_AC = X_AB * X_BC
   Pose operator*(const Pose& other) const noexcept { return {p + R * other.p, R * other.R}; }

@@ -4,7 +4,8 @@
 //   rotation_exp(t) = exp(skew(t))                                        R(t)
 //   rotation_tangent(t) = H(t) = I + (1-cos)/t^2 skew(t) + (t-sin)/t^3 skew(t)^2
 //     so that Rdot R^T = skew(H tdot) (angular velocity in the frame R maps into).
-// Series are used below |t| = 1e-2 so that no digits are lost. Source: theory.md section 10 (docs/theory.md).
+// Series are used below |t| = 1e-2 so that no digits are lost. Source: theory.md section 10
+// (docs/theory.md).
 #include <cmath>
 
 #include "floatframe/math/types.hpp"
@@ -18,8 +19,8 @@ inline Mat3 skew(const Vec3& a) noexcept {
   return s;
 }
 
-/// Coefficients of the exponential map: s = sin(t)/t, a = (1-cos t)/t^2, b = (t-sin t)/t^3 with t = |theta|,
-/// and the derivatives divided by t: da = a'(t)/t, db = b'(t)/t.
+/// Coefficients of the exponential map: s = sin(t)/t, a = (1-cos t)/t^2, b = (t-sin t)/t^3 with t =
+/// |theta|, and the derivatives divided by t: da = a'(t)/t, db = b'(t)/t.
 struct RotationCoefficients {
   double s, a, b, da, db;
 };
@@ -88,7 +89,8 @@ inline Vec3 quaternion_log(const Eigen::Quaterniond& q) noexcept {
   return 2.0 * std::atan2(n, sign * q.w()) / n * v;
 }
 
-/// Two unit vectors that complete the unit vector n to a right-handed orthonormal triad (t1, t2, n).
+/// Two unit vectors that complete the unit vector n to a right-handed orthonormal triad (t1, t2,
+/// n).
 inline void orthonormal_complement(const Vec3& n, Vec3& t1, Vec3& t2) noexcept {
   int k = 0;
   n.cwiseAbs().minCoeff(&k);

@@ -1,5 +1,6 @@
 #pragma once
-// Linear-algebra aliases. One scalar type: double. SI units, angles in radians, quaternions scalar first.
+// Linear-algebra aliases. One scalar type: double. SI units, angles in radians, quaternions scalar
+// first.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 

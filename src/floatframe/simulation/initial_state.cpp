@@ -21,13 +21,14 @@ const ConstraintPart& worst_part(const RelativeFormulation& f, const VecX& phi) 
   return f.parts()[k];
 }
 
-/// Mobility of each coordinate in least-change corrections.
-VecX mobility(const RelativeFormulation& f) {
+/// Which coordinates may move at a stage of closing loops: 0 rigid ones without a start value, 1
+/// modal amplitudes too, 2 all.
+VecX mobility(const RelativeFormulation& f, int stage) {
   VecX w = VecX::Ones(f.velocities());
   const std::vector<char> given = f.given_coordinates();
   for (int i = 0; i < f.velocities(); ++i) {
-    if (f.is_elastic(i)) w[i] = 1e-4;
-    if (given[static_cast<std::size_t>(i)]) w[i] *= 1e-4;
+    if (f.is_elastic(i)) w[i] = stage >= 1 ? 1e-4 : 0.0;
+    if (given[static_cast<std::size_t>(i)]) w[i] = stage >= 2 ? 1e-4 : 0.0;
   }
   return w;
 }
@@ -45,22 +46,27 @@ VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
 
 void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_positions) {
   if (f.constraints() == 0) return;
-  const VecX w = mobility(f);
+  const VecX q_start = q, v_start = v;
   VecX q1 = q;
   if (correct_positions) {
     double violation = 0.0;
-    for (int pass = 0; pass < 100; ++pass) {
-      f.positions(0.0, q);
-      f.velocities(v);
-      violation = largest(f.constraint_values());
-      if (violation < 1e-13) break;
-      VecX x = least_change(f.constraint_jacobian(), w, -f.constraint_values());
-      const double size = largest(x);
-      if (!std::isfinite(size)) break;
-      if (size > 0.2) x *= 0.2 / size;
-      f.retract(q, x, q1);
-      q = q1;
-      if (size < 1e-15) break;
+    for (int stage = 0; stage < 3; ++stage) {
+      const VecX w = mobility(f, stage);
+      q = q_start;
+      for (int pass = 0; pass < 100; ++pass) {
+        f.positions(0.0, q);
+        f.velocities(v);
+        violation = largest(f.constraint_values());
+        if (violation < 1e-14) break;
+        VecX x = least_change(f.constraint_jacobian(), w, -f.constraint_values());
+        const double size = largest(x);
+        if (!std::isfinite(size)) break;
+        if (size > 0.2) x *= 0.2 / size;
+        f.retract(q, x, q1);
+        q = q1;
+        if (size < 1e-15) break;
+      }
+      if (violation < 1e-11) break;
     }
     f.positions(0.0, q);
     f.velocities(v);
@@ -73,17 +79,24 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
     }
   }
   VecX rate(f.constraints());
-  for (int pass = 0; pass < 5; ++pass) {
+  double violation = 0.0;
+  const auto measure = [&] {
     f.positions(0.0, q);
     f.velocities(v);
     f.constraint_rates(rate);
-    if (largest(rate) < 1e-13) break;
-    v += least_change(f.constraint_jacobian(), w, -rate);
+    violation = largest(rate);
+  };
+  for (int stage = 0; stage < 3; ++stage) {
+    const VecX w = mobility(f, stage);
+    v = v_start;
+    for (int pass = 0; pass < 5; ++pass) {
+      measure();
+      if (violation < 1e-13) break;
+      v += least_change(f.constraint_jacobian(), w, -rate);
+    }
+    measure();
+    if (violation < 1e-10 * (1.0 + largest(v))) break;
   }
-  f.positions(0.0, q);
-  f.velocities(v);
-  f.constraint_rates(rate);
-  const double violation = largest(rate);
   if (!(violation < 1e-8 * (1.0 + largest(v)))) {
     const ConstraintPart& part = worst_part(f, rate);
     throw RunError(fmt::format("the start velocities do not fit: {} opens at {:.3g} m/s",

@@ -1,0 +1,150 @@
+#include "floatframe/math/block_ldlt.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "floatframe/math/partial_ldlt.hpp"
+
+namespace floatframe {
+
+BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<int, int>>& edges) {
+  const std::size_t n = sizes.size();
+  std::vector<std::set<int>> neighbours(n);
+  for (const auto& [a, b] : edges) {
+    if (a == b) continue;
+    neighbours[static_cast<std::size_t>(a)].insert(b);
+    neighbours[static_cast<std::size_t>(b)].insert(a);
+  }
+  nodes_.resize(n);
+  int offset = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    nodes_[k].size = sizes[k];
+    nodes_[k].offset = offset;
+    offset += sizes[k];
+  }
+  // Minimum degree, counted in unknowns; eliminating a block couples its neighbours.
+  std::vector<char> done(n, 0);
+  for (std::size_t step = 0; step < n; ++step) {
+    int best = -1;
+    long best_degree = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (done[k]) continue;
+      long degree = 0;
+      for (int j : neighbours[k]) degree += sizes[static_cast<std::size_t>(j)];
+      if (best < 0 || degree < best_degree) {
+        best = static_cast<int>(k);
+        best_degree = degree;
+      }
+    }
+    const auto b = static_cast<std::size_t>(best);
+    done[b] = 1;
+    nodes_[b].rank = static_cast<int>(step);
+    order_.push_back(best);
+    nodes_[b].blocks.assign(neighbours[b].begin(), neighbours[b].end());
+    for (int i : neighbours[b])
+      for (int j : neighbours[b])
+        if (i != j) neighbours[static_cast<std::size_t>(i)].insert(j);
+    for (int i : neighbours[b]) neighbours[static_cast<std::size_t>(i)].erase(best);
+  }
+  for (Node& node : nodes_) {
+    std::sort(node.blocks.begin(), node.blocks.end(), [&](int a, int b) {
+      return nodes_[static_cast<std::size_t>(a)].rank < nodes_[static_cast<std::size_t>(b)].rank;
+    });
+    int start = node.size;
+    for (int b : node.blocks) {
+      node.start.push_back(start);
+      for (int i = 0; i < sizes[static_cast<std::size_t>(b)]; ++i)
+        node.rows.push_back(nodes_[static_cast<std::size_t>(b)].offset + i);
+      start += sizes[static_cast<std::size_t>(b)];
+    }
+    node.matrix = MatX::Zero(start, start);
+    node.original = VecX::Zero(start);
+    node.work = VecX::Zero(start);
+  }
+  for (Node& node : nodes_) {
+    if (node.blocks.empty()) continue;
+    node.parent = node.blocks.front();
+    const Node& p = nodes_[static_cast<std::size_t>(node.parent)];
+    for (int b : node.blocks) {
+      const int at = start_of(p, b);
+      for (int i = 0; i < sizes[static_cast<std::size_t>(b)]; ++i)
+        node.parent_rows.push_back(at + i);
+    }
+  }
+}
+
+int BlockLdlt::start_of(const Node& n, int block) const noexcept {
+  if (&n == &nodes_[static_cast<std::size_t>(block)]) return 0;
+  for (std::size_t k = 0; k < n.blocks.size(); ++k)
+    if (n.blocks[k] == block) return n.start[k];
+  return -1;
+}
+
+void BlockLdlt::set_zero() noexcept {
+  for (Node& n : nodes_) n.matrix.setZero();
+}
+
+MatX& BlockLdlt::front(int a, int b, int& offset_a, int& offset_b) noexcept {
+  Node& na = nodes_[static_cast<std::size_t>(a)];
+  Node& nb = nodes_[static_cast<std::size_t>(b)];
+  Node& first = na.rank <= nb.rank ? na : nb;
+  offset_a = start_of(first, a);
+  offset_b = start_of(first, b);
+  return first.matrix;
+}
+
+void BlockLdlt::add(int a, int i, int b, int j, double x) noexcept {
+  int oa = 0, ob = 0;
+  MatX& f = front(a, b, oa, ob);
+  const int r = oa + i, c = ob + j;
+  f(std::max(r, c), std::min(r, c)) += x;
+}
+
+int BlockLdlt::factorize() noexcept {
+  for (const int k : order_) {
+    Node& n = nodes_[static_cast<std::size_t>(k)];
+    const int total = static_cast<int>(n.matrix.rows());
+    const int failed = partial_ldlt(n.matrix.data(), total, total, n.size, n.original.data());
+    if (failed >= 0) return n.offset + failed;
+    if (n.parent < 0) continue;
+    MatX& p = nodes_[static_cast<std::size_t>(n.parent)].matrix;
+    const int m = total - n.size;
+    for (int j = 0; j < m; ++j) {
+      const double* from = n.matrix.data() + static_cast<Eigen::Index>(n.size + j) * total + n.size;
+      double* to = p.data() +
+                   static_cast<Eigen::Index>(n.parent_rows[static_cast<std::size_t>(j)]) * p.rows();
+      for (int i = j; i < m; ++i) to[n.parent_rows[static_cast<std::size_t>(i)]] += from[i];
+    }
+  }
+  return -1;
+}
+
+void BlockLdlt::solve(VecX& x) noexcept {
+  for (const int k : order_) {
+    Node& n = nodes_[static_cast<std::size_t>(k)];
+    const int total = static_cast<int>(n.matrix.rows());
+    n.work.head(n.size) = x.segment(n.offset, n.size);
+    n.work.tail(total - n.size).setZero();
+    partial_forward(n.matrix.data(), total, total, n.size, n.work.data());
+    x.segment(n.offset, n.size) = n.work.head(n.size);
+    for (std::size_t i = 0; i < n.rows.size(); ++i)
+      x[n.rows[i]] += n.work[n.size + static_cast<int>(i)];
+  }
+  for (std::size_t l = order_.size(); l-- > 0;) {
+    Node& n = nodes_[static_cast<std::size_t>(order_[l])];
+    const int total = static_cast<int>(n.matrix.rows());
+    n.work.head(n.size) = x.segment(n.offset, n.size);
+    for (std::size_t i = 0; i < n.rows.size(); ++i)
+      n.work[n.size + static_cast<int>(i)] = x[n.rows[i]];
+    partial_backward(n.matrix.data(), total, total, n.size, n.work.data());
+    x.segment(n.offset, n.size) = n.work.head(n.size);
+  }
+}
+
+long BlockLdlt::factor_entries() const noexcept {
+  long sum = 0;
+  for (const Node& n : nodes_) sum += static_cast<long>(n.matrix.rows()) * n.size;
+  return sum;
+}
+
+}  // namespace floatframe

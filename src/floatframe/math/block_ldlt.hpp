@@ -1,0 +1,49 @@
+#pragma once
+// Sparse LDL^T over variable blocks (one block a body): multifrontal, ordered by minimum degree.
+// The pattern, the elimination order and all sizes are fixed at construction; assembling,
+// factorising and solving never allocate. Contributions of a pair of blocks go into the front of
+// the one eliminated first.
+#include <utility>
+#include <vector>
+
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+class BlockLdlt {
+ public:
+  BlockLdlt() = default;
+  /// sizes[k]: unknowns of block k; edges: pairs of blocks that are coupled.
+  BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<int, int>>& edges);
+
+  void set_zero() noexcept;
+  /// Adds x to entry (row i of block a, column j of block b) and its mirror image. The blocks must
+  /// be coupled or equal.
+  void add(int a, int i, int b, int j, double x) noexcept;
+  /// The front that holds the pair (a, b), and where each block starts in it.
+  MatX& front(int a, int b, int& offset_a, int& offset_b) noexcept;
+  MatX& front(int a) noexcept { return nodes_[static_cast<std::size_t>(a)].matrix; }
+
+  /// Returns -1 or the unknown (global index, blocks in their given order) whose pivot vanished.
+  int factorize() noexcept;
+  void solve(VecX& x) noexcept;
+
+  /// Entries of all factors, for reports.
+  long factor_entries() const noexcept;
+
+ private:
+  struct Node {
+    int size = 0, offset = 0, rank = 0, parent = -1;
+    std::vector<int> blocks;       // coupled blocks eliminated later, in elimination order
+    std::vector<int> start;        // where they start in the front
+    std::vector<int> rows;         // global index of each trailing row
+    std::vector<int> parent_rows;  // its place in the parent's front
+    MatX matrix;
+    VecX original, work;
+  };
+  int start_of(const Node& n, int block) const noexcept;
+  std::vector<Node> nodes_;
+  std::vector<int> order_;
+};
+
+}  // namespace floatframe

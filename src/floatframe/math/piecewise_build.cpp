@@ -1,0 +1,142 @@
+#include "floatframe/math/piecewise_build.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floatframe {
+namespace {
+
+/// Three-point end slope that keeps the shape (one-sided, limited).
+double end_slope(double h0, double h1, double d0, double d1) {
+  const double s = ((2.0 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
+  if (s * d0 <= 0.0) return 0.0;
+  if (d0 * d1 <= 0.0 && std::abs(s) > 3.0 * std::abs(d0)) return 3.0 * d0;
+  return s;
+}
+
+std::vector<double> pchip_slopes(const std::vector<TablePoint>& p) {
+  const std::size_t n = p.size();
+  std::vector<double> h(n - 1), d(n - 1), s(n);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    h[i] = p[i + 1].x - p[i].x;
+    d[i] = (p[i + 1].f - p[i].f) / h[i];
+  }
+  if (n == 2) return {d[0], d[0]};
+  s[0] = end_slope(h[0], h[1], d[0], d[1]);
+  s[n - 1] = end_slope(h[n - 2], h[n - 3], d[n - 2], d[n - 3]);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    if (d[i - 1] * d[i] <= 0.0) continue;  // a turning point stays one
+    const double w1 = 2.0 * h[i] + h[i - 1], w2 = h[i] + 2.0 * h[i - 1];
+    s[i] = (w1 + w2) / (w1 / d[i - 1] + w2 / d[i]);
+  }
+  return s;
+}
+
+/// Coefficients about `centre` of a piece given about its own centre (Taylor shift).
+std::vector<double> shifted(const PiecewisePolynomial::Piece& piece, double centre) {
+  std::vector<double> c = piece.coefficients;
+  const double t = centre - piece.centre;
+  if (t == 0.0) return c;
+  for (std::size_t j = 0; j + 1 < c.size(); ++j)
+    for (std::size_t k = c.size() - 1; k-- > j;) c[k] += t * c[k + 1];
+  return c;
+}
+
+}  // namespace
+
+PiecewisePolynomial table_function(const std::vector<TablePoint>& p, Interpolation interpolation,
+                                   Beyond beyond) {
+  const std::size_t n = p.size();
+  std::vector<double> breaks;
+  for (const TablePoint& q : p) breaks.push_back(q.x);
+  std::vector<PiecewisePolynomial::Piece> pieces(n + 1);
+  double first = 0.0, last = 0.0;
+  if (interpolation == Interpolation::linear) {
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      pieces[i + 1] = {p[i].x, {p[i].f, (p[i + 1].f - p[i].f) / (p[i + 1].x - p[i].x)}};
+    first = pieces[1].coefficients[1];
+    last = pieces[n - 1].coefficients[1];
+  } else {
+    std::vector<double> s = pchip_slopes(p);
+    if (beyond == Beyond::hold) s.front() = s.back() = 0.0;
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      const double h = p[i + 1].x - p[i].x, d = (p[i + 1].f - p[i].f) / h;
+      pieces[i + 1] = {p[i].x,
+                       {p[i].f, s[i], (3.0 * d - 2.0 * s[i] - s[i + 1]) / h,
+                        (s[i] + s[i + 1] - 2.0 * d) / (h * h)}};
+    }
+    first = s.front();
+    last = s.back();
+  }
+  if (beyond == Beyond::hold) first = last = 0.0;
+  pieces.front() = {p.front().x, {p.front().f, first}};
+  pieces.back() = {p.back().x, {p.back().f, last}};
+  return PiecewisePolynomial(std::move(breaks), std::move(pieces));
+}
+
+PiecewisePolynomial profile_function(const std::vector<TablePoint>& p) {
+  std::vector<double> breaks{p.front().x};
+  std::vector<PiecewisePolynomial::Piece> pieces{{p.front().x, {p.front().f}}};
+  for (std::size_t i = 0; i + 1 < p.size(); ++i) {
+    const double h = p[i + 1].x - p[i].x;
+    if (h <= 0.0) continue;  // a jump: the break is already there
+    pieces.push_back({p[i].x, {p[i].f, (p[i + 1].f - p[i].f) / h}});
+    breaks.push_back(p[i + 1].x);
+  }
+  pieces.push_back({p.back().x, {p.back().f}});
+  return PiecewisePolynomial(std::move(breaks), std::move(pieces));
+}
+
+PiecewisePolynomial operator+(const PiecewisePolynomial& a, const PiecewisePolynomial& b) {
+  std::vector<double> breaks = a.breaks();
+  breaks.insert(breaks.end(), b.breaks().begin(), b.breaks().end());
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  std::vector<PiecewisePolynomial::Piece> pieces;
+  for (std::size_t k = 0; k <= breaks.size(); ++k) {
+    // A break opens its right-hand piece; the first piece is looked up left of all breaks.
+    const std::size_t ka = k == 0 ? 0 : a.piece_index(breaks[k - 1]);
+    const std::size_t kb = k == 0 ? 0 : b.piece_index(breaks[k - 1]);
+    PiecewisePolynomial::Piece piece = a.pieces()[ka];
+    const std::vector<double> other = shifted(b.pieces()[kb], piece.centre);
+    if (other.size() > piece.coefficients.size()) piece.coefficients.resize(other.size(), 0.0);
+    for (std::size_t j = 0; j < other.size(); ++j) piece.coefficients[j] += other[j];
+    pieces.push_back(std::move(piece));
+  }
+  return PiecewisePolynomial(std::move(breaks), std::move(pieces));
+}
+
+PiecewisePolynomial ramp_below(double x0, double stiffness) {
+  return PiecewisePolynomial({x0}, {{x0, {0.0, stiffness}}, {x0, {0.0}}});
+}
+
+PiecewisePolynomial ramp_above(double x0, double stiffness) {
+  return PiecewisePolynomial({x0}, {{x0, {0.0}}, {x0, {0.0, stiffness}}});
+}
+
+JumpReport largest_jump(const PiecewisePolynomial& f) {
+  JumpReport r;
+  const std::vector<double>& b = f.breaks();
+  if (b.empty()) return r;
+  double width = b.back() - b.front();
+  if (!(width > 0.0)) width = std::max(std::abs(b.front()), 1.0);
+  double low = f.piece_value(0, b.front()).f, high = low;
+  for (std::size_t k = 0; k <= b.size(); ++k) {
+    const double x0 = k == 0 ? b.front() - width : b[k - 1];
+    const double x1 = k == b.size() ? b.back() + width : b[k];
+    constexpr int samples = 16;
+    for (int i = 0; i <= samples; ++i) {
+      const double v = f.piece_value(k, x0 + (x1 - x0) * i / samples).f;
+      low = std::min(low, v);
+      high = std::max(high, v);
+    }
+  }
+  r.range = high - low;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    const double jump = std::abs(f.piece_value(k + 1, b[k]).f - f.piece_value(k, b[k]).f);
+    if (jump > r.jump) r.jump = jump, r.at = k;
+  }
+  return r;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,132 @@
+#include "floatframe/simulation/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/runner.hpp"
+
+namespace floatframe {
+
+namespace {
+
+double cpu_seconds() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+StepOptions step_options(const Model& model, const SimulationDescription& o) {
+  StepOptions s;
+  s.spectral_radius = o.spectral_radius;
+  s.tolerance = o.tolerance;
+  s.max_iterations = o.max_iterations;
+  s.position_tolerance = o.position_tolerance;
+  s.velocity_tolerance = o.velocity_tolerance;
+  s.penalty_mass =
+      o.penalty > 0.0 ? o.penalty * o.step * o.step / 4.0 : default_penalty_mass(model);
+  return s;
+}
+
+template <class F>
+RunResult run_with(F& f, State start, const SimulationDescription& o,
+                   const RunOptions& run_options) {
+  const Model& model = f.model();
+  RunResult result;
+  RunSummary& s = result.summary;
+  s.model = model.name;
+  s.coordinates = o.coordinates == Coordinates::relative ? "relative" : "absolute";
+  s.inertia = o.inertia == InertiaMethod::preprocessing ? "preprocessing" : "projection";
+  s.step = o.step;
+
+  const StepOptions options = step_options(model, o);
+  Runner<F> runner(f, options, o.min_step > 0.0 ? o.min_step : o.step / 1024.0);
+  runner.state() = std::move(start);
+  start_accelerations(f, runner.state(), options.penalty_mass);
+  s.energy.kinetic_start = runner.kinetic_energy();
+  s.energy.potential_start = runner.potential_energy();
+  s.energy.elastic_start = runner.elastic_energy();
+  s.energy.total_start = s.energy.kinetic_start + s.energy.potential_start + s.energy.elastic_start;
+
+  ResultTable& table = result.table;
+  table.columns.push_back({"time", "s"});
+  for (const Output& out : model.outputs) table.columns.push_back({out.name, out.unit});
+  const std::size_t width = table.columns.size();
+  const long steps = std::max(0L, std::lround(std::ceil(o.duration / o.step - 1e-9)));
+  const long every =
+      o.output_interval > 0.0 ? std::max(1L, std::lround(o.output_interval / o.step)) : 1;
+  std::size_t rows = 0;
+  if (run_options.record) {
+    table.data.assign((static_cast<std::size_t>(steps / every) + 3) * width, 0.0);
+    runner.sample(table.data.data());
+    rows = 1;
+  }
+  const long report_every = std::max(1L, steps / 100);
+  for (long k = 0; k < steps; ++k) {
+    const double from = static_cast<double>(k) * o.step;
+    const double to = std::min(static_cast<double>(k + 1) * o.step, o.duration);
+    const double before = cpu_seconds();
+    const bool good = runner.advance(to - from);
+    if (good) {
+      runner.state().t = to;
+      ++s.steps;
+      if (run_options.record && ((k + 1) % every == 0 || k + 1 == steps))
+        runner.sample(table.data.data() + width * rows++);
+    }
+    s.cpu += cpu_seconds() - before;
+    if (!good) {
+      s.status = "failed";
+      s.message = runner.failure();
+      break;
+    }
+    if (run_options.progress && (k + 1) % report_every == 0)
+      run_options.progress(static_cast<double>(k + 1) / static_cast<double>(steps));
+  }
+  table.data.resize(rows * width);
+  s.duration = runner.state().t;
+  s.substeps = runner.substeps();
+  s.iterations = runner.iterations();
+  s.factorizations = runner.factorizations();
+  s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
+  s.max_position_violation = runner.max_position_violation();
+  s.max_velocity_violation = runner.max_velocity_violation();
+  s.energy.potential_end = runner.potential_energy();
+  s.energy.elastic_end = runner.elastic_energy();
+  s.energy.kinetic_end = runner.kinetic_energy();
+  s.energy.total_end = s.energy.kinetic_end + s.energy.potential_end + s.energy.elastic_end;
+  return result;
+}
+
+}  // namespace
+
+double default_penalty_mass(const Model& model) { return 1e5 * model.mean_mass; }
+
+State relative_start(RelativeFormulation& f, Start start) {
+  State state;
+  f.start(state.q, state.v);
+  VecX at_rest = VecX::Zero(f.velocities());
+  close_loops(f, state.q, start == Start::equilibrium ? at_rest : state.v, true);
+  if (start == Start::equilibrium) {
+    find_equilibrium(f, state.q);
+    close_loops(f, state.q, state.v, false);
+  }
+  return state;
+}
+
+RunResult run(const Model& model, const SimulationDescription& o, const RunOptions& run_options) {
+  if (o.coordinates == Coordinates::relative) {
+    RelativeFormulation f(model, o.inertia);
+    return run_with(f, relative_start(f, o.start), o, run_options);
+  }
+  RelativeFormulation tree(model, o.inertia);
+  const State start = relative_start(tree, o.start);
+  AbsoluteFormulation f(model, o.inertia);
+  State state;
+  f.start_from(tree, start.q, start.v, state.q, state.v);
+  return run_with(f, std::move(state), o, run_options);
+}
+
+}  // namespace floatframe

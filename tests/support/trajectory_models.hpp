@@ -1,0 +1,212 @@
+#pragma once
+// The flexible pendulum and slider-crank of tests/data/trajectories as models, with the modes and
+// invariants that the reference files hold, so that only the formulations and the integrator are
+// compared.
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "floatframe/model/model.hpp"
+
+namespace floatframe::testing {
+
+using nlohmann::json;
+
+inline json load_reference(const std::string& name) {
+  std::ifstream file(std::string(FLOATFRAME_TEST_DATA) + "/trajectories/" + name + ".json");
+  return json::parse(file);
+}
+
+inline FlexibleBody reference_body(const json& b,
+                                   const std::vector<std::pair<int, double>>& masses = {}) {
+  FlexibleBody f;
+  const int nm = static_cast<int>(b["K_modal"].size());
+  const json& v = b["invariants"];
+  f.invariants = InertiaInvariants::zero(nm);
+  f.invariants.m = v["m"];
+  for (int i = 0; i < 3; ++i) {
+    f.invariants.m_u[i] = v["m_bar_u"][i];
+    for (int j = 0; j < 3; ++j) f.invariants.P_u(i, j) = v["P_bar_u"][i][j];
+    for (int k = 0; k < nm; ++k) {
+      f.invariants.S(i, k) = v["S"][i][k];
+      for (int j = 0; j < 3; ++j) {
+        f.invariants.Si[i](j, k) = v["S_i"][i][j][k];
+        for (int l = 0; l < nm; ++l) f.invariants.Sij[i][j](l, k) = v["S_ij"][i][j][l][k];
+      }
+    }
+  }
+  f.K = f.D = MatX::Zero(nm, nm);
+  for (int i = 0; i < nm; ++i)
+    for (int j = 0; j < nm; ++j) f.K(i, j) = b["K_modal"][i][j];
+  f.K = (0.5 * (f.K + f.K.transpose())).eval();
+  const int n = static_cast<int>(b["nodes"].size());
+  for (int k = 0; k < n; ++k) {
+    ModalNode m;
+    m.name = "n" + std::to_string(k);
+    for (int i = 0; i < 3; ++i) m.p[i] = b["nodes"][k][i];
+    m.X = m.X_theta = Mat3X::Zero(3, nm);
+    for (int i = 0; i < 3; ++i)
+      for (int c = 0; c < nm; ++c) {
+        m.X(i, c) = b["X"][6 * k + i][c];
+        m.X_theta(i, c) = b["X"][6 * k + 3 + i][c];
+      }
+    f.nodes.push_back(m);
+  }
+  // Isoparametric projection data: linear elements of the same mass.
+  auto p = std::make_shared<ProjectionData>();
+  p->p = Mat3X::Zero(3, n);
+  p->X = MatX::Zero(3 * n, nm);
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (int k = 0; k < n; ++k) {
+    p->p.col(k) = f.nodes[static_cast<std::size_t>(k)].p;
+    p->X.middleRows<3>(3 * k) = f.nodes[static_cast<std::size_t>(k)].X;
+  }
+  for (const json& e : b["elements"]) {
+    const int a = e["nodes"][0], c = e["nodes"][1];
+    const double mass =
+        b["rho"].get<double>() * e["A"].get<double>() * (p->p.col(a) - p->p.col(c)).norm();
+    triplets.emplace_back(a, a, mass / 3.0);
+    triplets.emplace_back(c, c, mass / 3.0);
+    triplets.emplace_back(a, c, mass / 6.0);
+    triplets.emplace_back(c, a, mass / 6.0);
+  }
+  for (const auto& [node, mass] : masses) {
+    triplets.emplace_back(node, node, mass);
+    const ModalNode& m = f.nodes[static_cast<std::size_t>(node)];
+    InertiaInvariants& w = f.invariants;
+    w.m += mass;
+    w.m_u += mass * m.p;
+    w.P_u += mass * m.p * m.p.transpose();
+    w.S += mass * m.X;
+    for (int i = 0; i < 3; ++i) {
+      w.Si[static_cast<std::size_t>(i)] += mass * m.p[i] * m.X;
+      for (int j = 0; j < 3; ++j)
+        w.Sij[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] +=
+            mass * m.X.row(i).transpose() * m.X.row(j);
+    }
+  }
+  p->M_s.resize(n, n);
+  p->M_s.setFromTriplets(triplets.begin(), triplets.end());
+  f.projection = p;
+  return f;
+}
+
+/// One point to compare: output columns and reference columns by name.
+struct TrajectoryCase {
+  ModelDescription description;
+  std::vector<std::string> columns;  ///< of the reference csv, in the order of the outputs
+};
+
+inline void add_point(ModelDescription& d, TrajectoryCase& c, const std::string& body,
+                      const std::string& node, const std::string& label, const std::string& axes) {
+  for (const char axis : axes) {
+    OutputDescription o;
+    o.name = label + "_" + axis;
+    o.at.body = body;
+    o.at.node = node;
+    o.component = axis - 'x';
+    d.outputs.push_back(o);
+    c.columns.push_back(label + "_" + axis);
+  }
+}
+
+inline TrajectoryCase pendulum(const std::string& variant) {
+  const json j = load_reference("pendulum_" + variant);
+  TrajectoryCase c;
+  ModelDescription& d = c.description;
+  d.name = "pendulum_" + variant;
+  d.gravity = Vec3(0, -9.81, 0);
+  BodyDescription b;
+  b.name = "beam";
+  b.kind = reference_body(j["bodies"][0]);
+  d.bodies.push_back(b);
+  JointDescription hinge;
+  hinge.name = "hinge";
+  hinge.type = JointType::revolute;
+  hinge.child.body = "beam";
+  d.joints.push_back(hinge);
+  VecX y(6);
+  for (int i = 0; i < 6; ++i) y[i] = j["initial"]["z"][static_cast<std::size_t>(1 + i)];
+  d.amplitudes["beam"] = y;
+  add_point(d, c, "beam", "n10", "tip", "xyz");
+  add_point(d, c, "beam", "n5", "mid", "xyz");
+  d.simulation.tolerance = 1e-11;
+  return c;
+}
+
+/// The slider is the reference's point mass on the last node of the rod; the guide is a massless
+/// body on a slide.
+inline TrajectoryCase slider_crank(const std::string& variant) {
+  const json j = load_reference("slider_crank_" + variant);
+  TrajectoryCase c;
+  ModelDescription& d = c.description;
+  d.name = "slider_crank_" + variant;
+  d.gravity = Vec3(0, -9.81, 0);
+  BodyDescription crank, rod, guide;
+  crank.name = "crank";
+  crank.kind = reference_body(j["bodies"][0]);
+  rod.name = "rod";
+  rod.kind = reference_body(j["bodies"][1], {{8, 0.02}});
+  rod.X_WB.p = Vec3(0.15, 0, 0);
+  guide.name = "guide";
+  guide.kind = RigidDescription{};
+  guide.X_WB.p = Vec3(0.45, 0, 0);
+  d.bodies = {crank, rod, guide};
+  JointDescription hinge, pin, ball, slide;
+  hinge.name = "hinge";
+  hinge.type = JointType::revolute;
+  hinge.child.body = "crank";
+  hinge.position = {j["initial"]["z"][0]};
+  hinge.velocity = {j["initial"]["zdot"][0]};
+  pin.name = "pin";
+  pin.type = JointType::revolute;
+  pin.parent.body = "crank";
+  pin.child.body = "rod";
+  pin.parent.point = pin.child.point = Vec3(0.15, 0, 0);
+  slide.name = "slide";
+  slide.type = JointType::prismatic;
+  slide.axis = Vec3::UnitX();
+  slide.child.body = "guide";
+  slide.parent.point = slide.child.point = Vec3(0.45, 0, 0);
+  // Planar: the guide holds only the height of the slider, so it is joined by a point on the line
+  // of motion.
+  ball.name = "ball";
+  ball.type = JointType::revolute;
+  ball.parent.body = "guide";
+  ball.child.body = "rod";
+  ball.parent.point = ball.child.point = Vec3(0.45, 0, 0);
+  d.joints = {hinge, pin, slide, ball};
+  add_point(d, c, "rod", "n8", "slider", "x");
+  add_point(d, c, "crank", "n4", "crank_tip", "xy");
+  add_point(d, c, "rod", "n4", "rod_mid", "xy");
+  d.simulation.tolerance = 1e-12;
+  return c;
+}
+
+struct Csv {
+  std::vector<std::string> header;
+  std::vector<std::vector<double>> rows;
+  std::size_t column(const std::string& name) const {
+    for (std::size_t i = 0; i < header.size(); ++i)
+      if (header[i] == name) return i;
+    return header.size();
+  }
+};
+
+inline Csv read_csv(const std::string& path) {
+  Csv c;
+  std::ifstream file(path);
+  std::string line, cell;
+  std::getline(file, line);
+  for (std::stringstream s(line); std::getline(s, cell, ',');) c.header.push_back(cell);
+  while (std::getline(file, line)) {
+    c.rows.emplace_back();
+    for (std::stringstream s(line); std::getline(s, cell, ',');)
+      c.rows.back().push_back(std::stod(cell));
+  }
+  return c;
+}
+
+}  // namespace floatframe::testing
