@@ -96,6 +96,7 @@ class RelativeFormulation {
 
   const std::vector<ConstraintPart>& parts() const noexcept { return parts_; }
   int part_offset(std::size_t part) const noexcept { return part_offset_[part]; }
+  const ConstraintRow& constraint_row(int i) const noexcept { return rows_[static_cast<std::size_t>(i)]; }
   bool is_elastic(int i) const noexcept;
   double total_mass() const noexcept;
   /// "body 'arm'" or "joint 'hinge'" that coordinate i belongs to.

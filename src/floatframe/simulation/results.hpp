@@ -55,6 +55,7 @@ struct ModelCounts {
   int degrees_of_freedom = 0;
   int redundant_constraints = 0;
   std::vector<std::string> cut_joint_names;
+  std::vector<std::string> redundant_constraint_names;  ///< owners of rows that repeat earlier ones
 };
 
 struct StaticsForce {

@@ -1,0 +1,113 @@
+// Coordinates, constraints, degrees of freedom of a model, and its equilibrium.
+#include <Eigen/Dense>
+
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model/joint_measure.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+
+namespace {
+
+int rank_of(const MatX& J) {
+  if (J.rows() == 0) return 0;
+  Eigen::ColPivHouseholderQR<MatX> qr;
+  qr.setThreshold(1e-9);
+  qr.compute(J.transpose());
+  return static_cast<int>(qr.rank());
+}
+
+}  // namespace
+
+ModelCounts count(const Model& model) {
+  RelativeFormulation relative(model, model.simulation.inertia);
+  const AbsoluteFormulation absolute(model, model.simulation.inertia);
+  ModelCounts c;
+  c.bodies = static_cast<int>(model.bodies.size());
+  for (const Body& b : model.bodies) c.flexible_bodies += b.modes() > 0 ? 1 : 0;
+  c.joints = static_cast<int>(model.joints.size());
+  c.cut_joints = static_cast<int>(relative.topology().cut_joints.size());
+  for (const int j : relative.topology().cut_joints)
+    c.cut_joint_names.push_back(model.joints[static_cast<std::size_t>(j)].name);
+  c.relative = relative.counts();
+  c.absolute = absolute.counts();
+  // Rank at the assembled start, with position constraints only.
+  const State start = relative_start(relative, Start::given);
+  relative.positions(0.0, start.q);
+  relative.velocities(start.v);
+  const MatX J = relative.constraint_jacobian();
+  const int rank = rank_of(J);
+  c.degrees_of_freedom = relative.velocities() - rank;
+  c.redundant_constraints = relative.constraints() - rank;
+  for (std::size_t k = 0, row = 0; k < relative.parts().size() && c.redundant_constraints > 0;
+       ++k) {
+    const auto next = row + static_cast<std::size_t>(relative.parts()[k].rows());
+    const int before = rank_of(J.topRows(static_cast<Eigen::Index>(row)));
+    const int after = rank_of(J.topRows(static_cast<Eigen::Index>(next)));
+    if (after - before < relative.parts()[k].rows())
+      c.redundant_constraint_names.push_back(owner_name(model, relative.parts()[k].owner));
+    row = next;
+  }
+  return c;
+}
+
+StaticsResult statics(const Model& model) {
+  RelativeFormulation f(model, model.simulation.inertia);
+  State state;
+  f.start(state.q, state.v);
+  state.v.setZero();
+  close_loops(f, state.q, state.v, true);
+  const Equilibrium e = find_equilibrium(f, state.q);
+  const VecX zero = VecX::Zero(f.velocities());
+  VecX r(f.velocities());
+  f.positions(0.0, state.q);
+  f.velocities(zero);
+  f.dynamics();
+  f.residual(zero, e.lambda, 0.0, r);
+
+  StaticsResult s;
+  s.iterations = e.iterations;
+  s.residual = e.residual;
+  for (std::size_t k = 0; k < model.forces.size(); ++k) {
+    const ForceState& x = f.force(static_cast<int>(k));
+    s.forces.push_back(
+        {model.forces[k].name, force_type_name(model.forces[k].type), x.force, x.length});
+  }
+  for (std::size_t k = 0; k < model.joints.size(); ++k) {
+    StaticsJoint joint;
+    joint.name = model.joints[k].name;
+    joint.type = joint_type_name(model.joints[k].type);
+    f.tree_joint_wrench(static_cast<int>(k), joint.force, joint.torque);
+    s.joints.push_back(joint);
+  }
+  for (std::size_t k = 0; k < f.parts().size();
+       ++k) {  // multipliers of cut joints, motions and rods
+    const ConstraintPart& p = f.parts()[k];
+    for (int row = 0; row < p.rows(); ++row) {
+      const double lambda = e.lambda[f.part_offset(k) + row];
+      const WrenchRow& g = f.constraint_row(f.part_offset(k) + row).gradient;
+      if (p.owner.kind == ConstraintOwner::Kind::rod) {
+        const Rod& rod = model.rods[static_cast<std::size_t>(p.owner.index)];
+        s.forces.push_back({rod.name, "rod", lambda, rod.length});
+      } else {
+        StaticsJoint& joint = s.joints[static_cast<std::size_t>(p.owner.index)];
+        joint.force -= lambda * g.Fb;
+        joint.torque -= lambda * g.Tb;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    StaticsBody b;
+    const int k = static_cast<int>(i);
+    b.name = model.bodies[i].name;
+    b.position = f.body_position(k);
+    b.roll_pitch_yaw = roll_pitch_yaw(f.body_rotation(k) * model.bodies[i].X_WB.R.transpose());
+    b.amplitudes = VecX::Zero(model.bodies[i].modes());
+    for (int m = 0; m < model.bodies[i].modes(); ++m) b.amplitudes[m] = f.amplitude(state.q, k, m);
+    s.bodies.push_back(b);
+  }
+  return s;
+}
+
+}  // namespace floatframe
