@@ -1,0 +1,54 @@
+#pragma once
+// The expression language of model files: the text inside `${...}`.
+//   numbers, 'text', true, false, pi, parameter names
+//   + - * / ^ (right associative), unary -, parentheses
+//   == != < <= > >=   and or not
+//   sqrt sin cos tan asin acos atan atan2 exp log abs min max floor ceil round if(condition, a, b)
+// Angles in radians. Every result is finite: a division by zero or the root of a negative number is
+// an error.
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace floatframe {
+
+using ParameterValue = std::variant<bool, double, std::string>;
+using ParameterScope = std::map<std::string, ParameterValue, std::less<>>;
+
+/// What is wrong with an expression, without its place.
+class ExpressionError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Value of the expression `text` (without `${` and `}`). Throws ExpressionError.
+ParameterValue evaluate_expression(std::string_view text, const ParameterScope& scope);
+
+/// Replaces every `${...}` in `text`. A text that is one single `${...}` keeps the type of its
+/// value, otherwise the values are inserted as text. Throws ExpressionError.
+ParameterValue substitute_parameters(std::string_view text, const ParameterScope& scope);
+
+/// Number as a user would write it: the shortest digits that read back as the same double.
+std::string number_text(double value);
+/// Value as text: true, false, number_text or the text itself.
+std::string value_text(const ParameterValue& value);
+/// "a number", "true or false", "a text".
+const char* type_name(const ParameterValue& value);
+
+/// Letter or underscore, then letters, digits, underscores; hyphens too if `hyphen`.
+bool is_identifier(std::string_view name, bool hyphen = false);
+/// A name the expression language uses itself (pi, true, and, sqrt, ...).
+bool is_reserved_name(std::string_view name);
+
+/// What a plain (unquoted) scalar is in the YAML 1.2 subset of model files.
+struct PlainScalar {
+  enum class Kind { null, boolean, number, text, bad_number, bad_boolean };
+  Kind kind = Kind::text;
+  bool boolean = false;
+  double number = 0.0;
+  std::string complaint;  ///< why a bad_number or a bad_boolean is refused
+};
+PlainScalar classify_plain_scalar(std::string_view text);
+
+}  // namespace floatframe

@@ -1,0 +1,83 @@
+#pragma once
+// One use of a model or subsystem file: its tree, parameters, points, names and place in the world.
+// A model file is the root; every entry of `subsystems` is a child. Names of an instance carry its
+// prefix ("front_left.") in the model; inside its file they are written without. Names an instance
+// does not define itself are reached by `external` names (connected to names of the outer file) or,
+// downwards, by dotted names of its subsystems.
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floatframe/io/mirror.hpp"
+#include "floatframe/io/model_reader.hpp"
+#include "floatframe/io/yaml_value.hpp"
+
+namespace floatframe {
+
+enum class EntityKind { body, joint, rod, force, road };
+inline constexpr std::array<const char*, 5> entity_words{"body", "joint", "rod", "force", "road"};
+inline constexpr std::array<const char*, 5> entity_keys{"bodies", "joints", "rods", "forces",
+                                                        "roads"};
+
+struct ModelInstance {
+  ReadContext context;
+  const YamlDocument* document = nullptr;
+  ModelInstance* outer = nullptr;
+  std::string prefix;  ///< "" or "front_left."
+  ParameterScope scope;
+  Placement placement;  ///< coordinates of this file -> coordinates of the outer file
+  Placement world;      ///< coordinates of this file -> world
+  std::map<std::string, Vec3> points;  ///< coordinates of this file [m]
+  /// Names defined in this file; false: switched off by `when`.
+  std::array<std::map<std::string, bool>, 5> names;
+  std::map<std::string, std::string> external;  ///< external name -> outer name
+  std::vector<std::pair<std::string, std::unique_ptr<ModelInstance>>> children;
+  std::optional<YamlSection> root;
+
+  ModelInstance* child(const std::string& name) const;
+
+  /// Full name of an entity written as `name` in this file; nullopt if there is none. `off` tells
+  /// one switched off.
+  std::optional<std::string> resolve(EntityKind kind, const std::string& name,
+                                     bool* off = nullptr) const;
+  /// As above, with a fault at `value`. `bodies` include the ground.
+  std::optional<std::string> reference(EntityKind kind, const YamlValue& value) const;
+  /// A full name as it would be written in this file.
+  std::string written(const std::string& full) const;
+  /// All names that could be written in this file for a kind.
+  std::vector<std::string> known(EntityKind kind) const;
+
+  /// Design coordinates in this file of a named point, also of one of a subsystem
+  /// ("front_left.hub").
+  std::optional<Vec3> point(const std::string& name) const;
+  std::vector<std::string> known_points() const;
+  /// A point written as a name or as [x, y, z].
+  std::optional<Vec3> read_point(const YamlValue& value) const;
+};
+
+/// Files already parsed, each once.
+class ModelFiles {
+ public:
+  explicit ModelFiles(Faults& faults) : faults_(faults) {}
+  /// nullptr and a fault if the file cannot be read. `where`, `subject`: the place that names the
+  /// file.
+  const YamlDocument* load(const std::string& file, const SourceMark& where,
+                           const std::string& subject);
+  /// Position of the file in the order of loading (for sorting faults).
+  std::size_t order(const std::string& file) const;
+
+ private:
+  Faults& faults_;
+  std::vector<std::pair<std::string, std::unique_ptr<YamlDocument>>> documents_;
+};
+
+/// Reads the file and, recursively, its subsystems: parameters, points and the names of all
+/// entities. nullptr if the model file itself cannot be read.
+std::unique_ptr<ModelInstance> load_instances(const std::string& path,
+                                              const std::vector<ParameterOverride>& overrides,
+                                              ModelFiles& files, Faults& faults);
+
+}  // namespace floatframe

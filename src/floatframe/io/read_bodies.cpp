@@ -1,0 +1,169 @@
+// Bodies: position and orientation, rigid data, the choice between rigid and flexible.
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "floatframe/io/read_parts.hpp"
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+Mat3 read_orientation(const YamlValue& value) {
+  const char* what =
+      "a rotation vector [rx, ry, rz] [rad], a quaternion [w, x, y, z] or {roll, pitch, yaw} [rad]";
+  if (value.is_map()) {
+    auto s = value.section();
+    const double roll = s->number("roll", any_number("rad"), 0.0);
+    const double pitch = s->number("pitch", any_number("rad"), 0.0);
+    const double yaw = s->number("yaw", any_number("rad"), 0.0);
+    s->finish();
+    return rotation_exp(yaw * Vec3::UnitZ()) * rotation_exp(pitch * Vec3::UnitY()) *
+           rotation_exp(roll * Vec3::UnitX());
+  }
+  const auto v = value.numbers(3, 4, any_number(""), what);
+  if (!v) return Mat3::Identity();
+  if (v->size() == 3) return rotation_exp(Vec3((*v)[0], (*v)[1], (*v)[2]));
+  const Eigen::Quaterniond q((*v)[0], (*v)[1], (*v)[2], (*v)[3]);
+  if (std::abs(q.norm() - 1.0) > 1e-6) {
+    value.fault("found a quaternion of length " + number_text(q.norm()) + ", expected length 1");
+    return Mat3::Identity();
+  }
+  return q.normalized().toRotationMatrix();
+}
+
+Mat3 read_inertia(const YamlValue& value) {
+  const char* what = "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] [kg m2]";
+  if (value.is_list() && value.node().items.size() != 3 && value.node().items.size() != 6) {
+    value.unexpected(what);
+    return Mat3::Zero();
+  }
+  const auto v = value.numbers(3, 6, any_number("kg m2"), what);
+  if (!v) return Mat3::Zero();
+  Mat3 J = Vec3((*v)[0], (*v)[1], (*v)[2]).asDiagonal();
+  if (v->size() == 6) {
+    J(0, 1) = J(1, 0) = (*v)[3];
+    J(0, 2) = J(2, 0) = (*v)[4];
+    J(1, 2) = J(2, 1) = (*v)[5];
+  }
+  const Vec3 p = Eigen::SelfAdjointEigenSolver<Mat3>(J, Eigen::EigenvaluesOnly).eigenvalues();
+  const double slack = 1e-9 * p.cwiseAbs().maxCoeff();
+  const auto shown = [&](int i) { return number_text(std::round(p[i] * 1e9) / 1e9); };
+  if (p[0] < -slack)
+    value.fault("found the principal moment " + shown(0) + ", expected none below 0 [kg m2]");
+  else if (p[0] + p[1] < p[2] - slack)
+    value.fault("found the principal moments " + shown(0) + ", " + shown(1) + " and " + shown(2) +
+                ", expected none larger than the sum of the other two [kg m2]");
+  return J;
+}
+
+struct RigidRead {
+  RigidDescription description;
+  std::optional<Vec3> centre;
+};
+
+RigidRead read_rigid(const ModelInstance& self, YamlSection s) {
+  RigidRead r;
+  r.description.mass = s.required_number("mass", non_negative_number("kg"), 1.0);
+  if (const auto v = s.get("centre_of_mass")) r.centre = self.read_point(*v);
+  if (const auto v = s.get("inertia")) r.description.J_C = read_inertia(*v);
+  s.finish();
+  return r;
+}
+
+void read_body(const ModelInstance& self, const std::string& name, YamlSection& s,
+               ReadModel& model) {
+  BodyDescription body;
+  KnownBody known;
+  body.name = self.prefix + name;
+  body.origin = s.origin();
+  std::optional<Vec3> position;
+  const auto position_value = s.get("position");
+  if (position_value) position = self.read_point(*position_value);
+  if (const auto v = s.get("orientation")) body.X_WB.R = read_orientation(*v);
+  const auto rigid_value = s.get("rigid");
+  const auto flexible_value = s.get("flexible");
+  std::optional<std::size_t> use;
+  if (const auto v = s.get("use")) {
+    use = v->word({"rigid", "flexible"});
+    if (use && ((*use == 0 && !rigid_value) || (*use == 1 && !flexible_value)))
+      v->fault("found " + std::string(*use == 0 ? "rigid" : "flexible") +
+               ", but the body has no such group");
+  } else if (rigid_value && flexible_value) {
+    s.fault("found both rigid and flexible, expected a key 'use' that says which");
+  }
+  s.finish();
+  if (!rigid_value && !flexible_value) {
+    s.fault("missing key 'rigid' or 'flexible'");
+    known.sound = false;
+  }
+
+  std::optional<RigidRead> rigid;
+  std::optional<FlexibleRead> flexible;
+  if (rigid_value)
+    if (auto group = rigid_value->section("a map with mass, centre_of_mass, inertia")) {
+      for (const auto& [key, mark] : group->origin().keys) body.origin.keys.emplace(key, mark);
+      rigid = read_rigid(self, *group);
+    }
+  if (flexible_value)
+    if (auto group = flexible_value->section("a map with material, bars and modes"))
+      flexible = read_flexible(self, *group);
+  const bool take_flexible = flexible_value && (!rigid_value || (use && *use == 1));
+  known.flexible = take_flexible;
+  if (take_flexible && flexible) {
+    body.X_WB.p = position.value_or(flexible->first_point);
+    known.sound = flexible->sound;
+    known.nodes = std::move(flexible->nodes);
+    known.named_nodes = std::move(flexible->named_nodes);
+    known.modes = flexible->modes;
+    body.kind = std::move(flexible->description);
+  } else if (!take_flexible && rigid) {
+    const Vec3 centre = rigid->centre.value_or(position.value_or(Vec3::Zero()));
+    if (!rigid->centre && !position_value && rigid_value && !rigid_value->node().entries.empty() &&
+        !s.has("position")) {
+      bool given = false;
+      for (const YamlEntry& e : rigid_value->node().entries)
+        given = given || e.key == "centre_of_mass";
+      if (!given) s.fault("found neither position nor rigid.centre_of_mass, expected at least one");
+    }
+    body.X_WB.p = position.value_or(centre);
+    rigid->description.p_BC = body.X_WB.R.transpose() * (centre - body.X_WB.p);
+    body.kind = rigid->description;
+  } else {
+    known.sound = false;
+    body.kind = RigidDescription{};
+  }
+  body.X_WT = body.X_WB;
+  place(body, self.world);
+  known.origin = body.X_WB.p;
+  for (Vec3& p : known.nodes) p = self.world.point(p);
+  model.bodies.emplace(body.name, std::move(known));
+  model.description.bodies.push_back(std::move(body));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInstance& self,
+                                                                 EntityKind kind) {
+  std::vector<std::pair<std::string, YamlSection>> out;
+  if (!self.root) return out;
+  YamlSection root = *self.root;
+  const auto list = root.get(entity_keys[static_cast<std::size_t>(kind)]);
+  if (!list || !list->is_map()) return out;
+  for (const auto& [name, value] : list->named("a map of names")) {
+    const auto& names = self.names[static_cast<std::size_t>(kind)];
+    const auto it = names.find(name);
+    if (it == names.end() || !it->second) continue;
+    auto section = value.section();
+    if (!section) continue;
+    section->get("when");
+    out.emplace_back(name, std::move(*section));
+  }
+  return out;
+}
+
+void read_bodies(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, section] : active_entities(self, EntityKind::body))
+    read_body(self, name, section, model);
+}
+
+}  // namespace floatframe

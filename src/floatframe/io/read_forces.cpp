@@ -1,0 +1,239 @@
+// Force elements and roads.
+#include <cmath>
+
+#include "floatframe/io/read_parts.hpp"
+
+namespace floatframe {
+namespace {
+
+const std::vector<std::string> force_words{"spring_damper", "guided_spring", "joint_spring",
+                                           "tyre",          "force",         "torque"};
+constexpr LawUnits spring_units{"m", "N", "N/m"};
+constexpr LawUnits damper_units{"m/s", "N", "N s/m"};
+constexpr LawUnits torsion_units{"rad", "N m", "N m/rad"};
+constexpr LawUnits torsion_damper_units{"rad/s", "N m", "N m s/rad"};
+
+std::optional<AttachmentDescription> end(const ModelInstance& self, const ReadModel& model,
+                                         YamlSection& s, const char* key) {
+  const auto v = s.require(key);
+  if (!v) return std::nullopt;
+  const auto section = v->section("a place {body, at}");
+  if (!section) return std::nullopt;
+  return read_attachment(self, model, *section);
+}
+
+/// body and at (or node) written among the keys of the force itself.
+std::optional<AttachmentDescription> own_place(const ModelInstance& self, const ReadModel& model,
+                                               YamlSection& s) {
+  AttachmentDescription a;
+  a.origin = s.origin();
+  const auto body_value = s.require("body");
+  const auto body = body_value ? self.reference(EntityKind::body, *body_value) : std::nullopt;
+  const auto at = s.get("at");
+  const auto node = s.get("node");
+  if (at && node) node->fault("found with 'at', expected one of the two");
+  const auto point = at ? self.read_point(*at) : std::nullopt;
+  if (!body || (at && !point)) return std::nullopt;
+  a.body = *body;
+  if (*body == ground_name) {
+    body_value->fault("found ground, expected a body");
+    return std::nullopt;
+  }
+  const auto it = model.bodies.find(*body);
+  if (it == model.bodies.end()) return std::nullopt;
+  const Placement& w = self.world;
+  if (node) {
+    const auto name = node->text("the name of a node");
+    if (!name || !check_named_node(self, model, *body, *name, *node)) return std::nullopt;
+    a.node = *name;
+    a.point = w.P * (it->second.nodes[it->second.named_nodes.at(*name)] - w.t);
+    return a;
+  }
+  a.point = point ? *point : Vec3(w.P * (it->second.origin - w.t));
+  if (!check_node(self, model, *body, a.point, at ? *at : *body_value)) return std::nullopt;
+  return a;
+}
+
+/// spring, damper, bump_stop, rebound_stop; at least a spring or a damper or a stop.
+void laws(YamlSection& s, double free, PiecewisePolynomial& spring, PiecewisePolynomial& damper) {
+  int found = 0;
+  if (const auto v = s.get("spring")) ++found, spring = read_law(*v, free, spring_units);
+  if (const auto v = s.get("damper")) ++found, damper = read_law(*v, 0.0, damper_units);
+  for (const bool bump : {true, false})
+    if (const auto v = s.get(bump ? "bump_stop" : "rebound_stop")) {
+      ++found;
+      auto stop = v->section("a map with length and stiffness");
+      if (!stop) continue;
+      const double length = stop->required_number("length", any_number("m"), 0.0);
+      const double stiffness = stop->required_number("stiffness", positive_number("N/m"), 1.0);
+      stop->finish();
+      spring = spring + (bump ? ramp_below(length, stiffness) : ramp_above(length, stiffness));
+    }
+  if (found == 0) s.fault("found no law, expected spring, damper, bump_stop or rebound_stop");
+}
+
+void spring_damper(const ModelInstance& self, YamlSection& s, ReadModel& model,
+                   ForceDescription& f) {
+  SpringDamperDescription d;
+  const auto a = end(self, model, s, "from"), b = end(self, model, s, "to");
+  double length = 0.0;
+  if (a && b) {
+    d.a = *a;
+    d.b = *b;
+    length = (a->point - b->point).norm();
+    if (a->body == b->body)
+      s.fault("found both ends on '" + self.written(a->body) + "', expected two bodies");
+    else if (!(length > 1e-9))
+      s.fault("found both ends at the same point, expected two points apart");
+  }
+  laws(s, length, d.spring, d.damper);
+  f.kind = std::move(d);
+}
+
+void guided_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
+                   ForceDescription& f) {
+  GuidedSpringDescription d;
+  const auto a = end(self, model, s, "reference"), b = end(self, model, s, "tip");
+  const auto axis = s.require("axis");
+  if (const auto v = axis ? read_direction(*axis) : std::nullopt) d.axis = v->normalized();
+  double length = 0.0;
+  if (a && b) {
+    d.reference = *a;
+    d.tip = *b;
+    length = d.axis.dot(a->point - b->point);
+    if (a->body == b->body)
+      s.fault("found both ends on '" + self.written(a->body) + "', expected two bodies");
+  }
+  laws(s, length, d.spring, d.damper);
+  f.kind = std::move(d);
+}
+
+void joint_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
+                  ForceDescription& f) {
+  JointSpringDescription d;
+  const auto value = s.require("joint");
+  const auto joint = value ? self.reference(EntityKind::joint, *value) : std::nullopt;
+  bool turning = true;
+  if (joint) {
+    d.joint = *joint;
+    const auto it = model.joints.find(*joint);
+    if (it != model.joints.end()) {
+      turning = it->second == JointType::revolute;
+      if (!turning && it->second != JointType::prismatic)
+        value->unexpected("a revolute or prismatic joint");
+    }
+  }
+  int found = 0;
+  if (const auto v = s.get("spring"))
+    ++found, d.spring = read_law(*v, 0.0, turning ? torsion_units : spring_units);
+  if (const auto v = s.get("damper"))
+    ++found, d.damper = read_law(*v, 0.0, turning ? torsion_damper_units : damper_units);
+  if (found == 0) s.fault("found no law, expected spring or damper");
+  f.kind = std::move(d);
+}
+
+void tyre(const ModelInstance& self, YamlSection& s, ReadModel& model, ForceDescription& f) {
+  TyreDescription d;
+  if (const auto a = own_place(self, model, s)) d.centre = *a;
+  d.radius = s.required_number("radius", positive_number("m"), 1.0);
+  d.stiffness = s.required_number("stiffness", positive_number("N/m"), 1.0);
+  d.damping = s.number("damping", non_negative_number("N s/m"), 0.0);
+  if (const auto v = s.get("law"))
+    if (const auto w = v->word({"vertical", "radial"})) d.law = static_cast<TyreLaw>(*w);
+  if (const auto v = s.get("axis"))
+    if (const auto a = read_direction(*v)) d.axis = a->normalized();
+  if (const auto v = s.require("road"))
+    if (const auto r = self.reference(EntityKind::road, *v)) d.road = *r;
+  f.kind = std::move(d);
+}
+
+void load(const ModelInstance& self, YamlSection& s, ReadModel& model, ForceDescription& f,
+          bool torque) {
+  AppliedLoadDescription d;
+  d.torque = torque;
+  if (const auto a = own_place(self, model, s)) d.at = *a;
+  const auto direction = s.require("direction");
+  if (const auto v = direction ? read_direction(*direction) : std::nullopt) d.direction = *v;
+  if (const auto v = s.require("magnitude"))
+    d.magnitude = read_time_function(*v, torque ? "N m" : "N", Interpolation::linear);
+  d.follows = s.boolean("follows", false);
+  f.kind = std::move(d);
+}
+
+}  // namespace
+
+void read_forces(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, s] : active_entities(self, EntityKind::force)) {
+    ForceDescription f;
+    f.name = self.prefix + name;
+    f.origin = s.origin();
+    const auto value = s.require("type");
+    const auto type = value ? value->word(force_words) : std::nullopt;
+    if (!type) continue;
+    switch (*type) {
+      case 0:
+        spring_damper(self, s, model, f);
+        break;
+      case 1:
+        guided_spring(self, s, model, f);
+        break;
+      case 2:
+        joint_spring(self, s, model, f);
+        break;
+      case 3:
+        tyre(self, s, model, f);
+        break;
+      default:
+        load(self, s, model, f, *type == 5);
+    }
+    s.finish();
+    model.force_types.emplace(f.name, force_words[*type]);
+    place(f, self.world);
+    model.description.forces.push_back(std::move(f));
+  }
+}
+
+void read_roads(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, s] : active_entities(self, EntityKind::road)) {
+    RoadDescription r;
+    r.name = self.prefix + name;
+    r.origin = s.origin();
+    if (const auto v = s.get("profile")) {
+      std::vector<TablePoint> points;
+      const std::vector<YamlValue> items = v->list("a list of points [x, z]");
+      if (v->is_list() && items.empty()) v->fault("found an empty list, expected points [x, z]");
+      for (const YamlValue& item : items) {
+        const auto p = item.numbers(2, 2, any_number("m"), "a point [x, z] [m]");
+        if (!p) continue;
+        const std::size_t n = points.size();
+        if (n > 0 && (*p)[0] < points.back().x) {
+          item.fault("found x = " + number_text((*p)[0]) + " after " +
+                     number_text(points.back().x) + ", expected x that does not decrease [m]");
+          continue;
+        }
+        if (n > 1 && (*p)[0] == points[n - 1].x && (*p)[0] == points[n - 2].x) {
+          item.fault("found x = " + number_text((*p)[0]) +
+                     " a third time, expected two points at a jump");
+          continue;
+        }
+        points.push_back({(*p)[0], (*p)[1]});
+      }
+      if (!points.empty()) r.pieces = profile_function(points);
+    }
+    if (const auto v = s.get("bumps"))
+      for (const YamlValue& item : v->list("a list of bumps {start, length, height}")) {
+        auto b = item.section("a bump {start, length, height}");
+        if (!b) continue;
+        CosineBump bump;
+        bump.start = b->required_number("start", any_number("m"), 0.0);
+        bump.length = b->required_number("length", positive_number("m"), 1.0);
+        bump.height = b->required_number("height", any_number("m"), 0.0);
+        b->finish();
+        r.bumps.push_back(bump);
+      }
+    s.finish();
+    model.description.roads.push_back(std::move(r));
+  }
+}
+
+}  // namespace floatframe

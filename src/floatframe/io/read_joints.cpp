@@ -1,0 +1,281 @@
+// Joints and rods, and the places on bodies that they and the forces use.
+#include <cmath>
+
+#include "floatframe/io/read_parts.hpp"
+#include "floatframe/io/suggest.hpp"
+
+namespace floatframe {
+namespace {
+
+const std::vector<std::string> joint_words{"weld",      "revolute",  "prismatic", "cylindrical",
+                                           "universal", "spherical", "free"};
+
+constexpr double node_tolerance = 1e-6;  // [m], the same as when markers are placed
+
+std::string point_text(const Vec3& p) {
+  std::string text = "[";
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) text += ", ";
+    text += number_text(std::round(p[k] * 1e9) / 1e9);
+  }
+  text += ']';
+  return text;
+}
+
+std::size_t coordinates(JointType type) {
+  switch (type) {
+    case JointType::weld:
+      return 0;
+    case JointType::revolute:
+    case JointType::prismatic:
+      return 1;
+    case JointType::cylindrical:
+    case JointType::universal:
+      return 2;
+    case JointType::spherical:
+      return 3;
+    case JointType::free:
+      return 6;
+  }
+  return 0;
+}
+
+std::vector<double> start_values(YamlSection& s, const char* key, JointType type) {
+  const auto v = s.get(key);
+  if (!v) return {};
+  const std::size_t n = coordinates(type);
+  if (n == 0) {
+    v->fault("a weld has no coordinates, expected no such key");
+    return {};
+  }
+  if (n == 1 && !v->is_list()) {
+    const auto x = v->number(any_number(""));
+    return x ? std::vector<double>{*x} : std::vector<double>{};
+  }
+  const std::string what = n == 1 ? "a number"
+                                  : "a list of " + std::to_string(n) + " numbers for a " +
+                                        joint_words[static_cast<std::size_t>(type)] + " joint";
+  return v->numbers(n, n, any_number(""), what.c_str()).value_or(std::vector<double>{});
+}
+
+/// A node named for one side of a joint.
+void joint_node(const ModelInstance& self, const ReadModel& model, YamlSection& s, const char* key,
+                AttachmentDescription& side) {
+  const auto v = s.get(key);
+  if (!v) return;
+  const auto name = v->text("the name of a node");
+  if (name && check_named_node(self, model, side.body, *name, *v)) side.node = *name;
+}
+
+void read_joint(const ModelInstance& self, const std::string& name, YamlSection& s,
+                ReadModel& model) {
+  JointDescription j;
+  j.name = self.prefix + name;
+  j.origin = s.origin();
+  const auto type_value = s.require("type");
+  const std::size_t unknown = joint_words.size();
+  const std::size_t type = type_value ? type_value->word(joint_words).value_or(unknown) : unknown;
+  const auto parent_value = s.get("parent");
+  const auto parent =
+      parent_value ? self.reference(EntityKind::body, *parent_value) : std::string(ground_name);
+  const auto child_value = s.require("child");
+  const auto child = child_value ? self.reference(EntityKind::body, *child_value) : std::nullopt;
+  if (child && *child == ground_name)
+    child_value->fault("found ground, expected a body (the ground may be the parent)");
+  else if (parent && child && *parent == *child)
+    child_value->fault("found the same body as the parent, expected another");
+  j.parent.body = parent.value_or(ground_name);
+  j.child.body = child.value_or(ground_name);
+  j.parent.origin = j.child.origin = j.origin;
+  joint_node(self, model, s, "parent_node", j.parent);
+  joint_node(self, model, s, "child_node", j.child);
+  const auto at = s.get("at");
+  std::optional<Vec3> point;
+  if (at) {
+    point = self.read_point(*at);
+  } else if (child && type < unknown && static_cast<JointType>(type) == JointType::free) {
+    const auto it = model.bodies.find(*child);
+    if (it != model.bodies.end()) {
+      const Placement& w =
+          self.world;  // back to the coordinates of this file: P is its own inverse
+      point = w.P * (it->second.origin - w.t);
+    }
+  } else if (!(j.parent.node && j.child.node) && type < unknown) {
+    s.fault("missing key 'at'");
+  }
+  j.parent.point = j.child.point = point.value_or(Vec3::Zero());
+  if (point && at) {
+    bool good = true;
+    if (parent && !j.parent.node) good = check_node(self, model, *parent, *point, *at);
+    if (good && child && !j.child.node) check_node(self, model, *child, *point, *at);
+  }
+  if (type >= unknown) {
+    for (const char* key : {"axis", "axis_2", "position", "velocity", "motion", "cut"}) s.get(key);
+    s.finish();
+    return;
+  }
+  j.type = static_cast<JointType>(type);
+  const bool has_axis = j.type == JointType::revolute || j.type == JointType::prismatic ||
+                        j.type == JointType::cylindrical || j.type == JointType::universal;
+  if (has_axis) {
+    const auto axis = s.require("axis");
+    if (const auto a = axis ? read_direction(*axis) : std::nullopt) {
+      j.axis = a->normalized();
+      if (j.type == JointType::universal) {
+        const auto second = s.require("axis_2");
+        if (const auto b = second ? read_direction(*second) : std::nullopt) {
+          j.axis_2 = b->normalized();
+          if (j.axis.cross(j.axis_2).norm() < 1e-6)
+            second->fault("found a direction parallel to 'axis', expected another");
+        }
+      }
+    } else if (j.type == JointType::universal) {
+      if (const auto second = s.require("axis_2")) read_direction(*second);
+    }
+  }
+  j.position = start_values(s, "position", j.type);
+  j.velocity = start_values(s, "velocity", j.type);
+  if (j.type == JointType::revolute || j.type == JointType::prismatic)
+    if (const auto v = s.get("motion")) {
+      j.motion =
+          read_time_function(*v, j.type == JointType::revolute ? "rad" : "m", Interpolation::cubic);
+      for (const char* key : {"position", "velocity"})
+        if (s.has(key))
+          s.get(key)->fault(
+              "found with a prescribed motion, which decides it, expected no such key");
+    }
+  j.cut = s.boolean("cut", false);
+  s.finish();
+  model.joints.emplace(j.name, j.type);
+  place(j, self.world);
+  model.description.joints.push_back(std::move(j));
+}
+
+}  // namespace
+
+std::optional<Vec3> read_direction(const YamlValue& value) {
+  if (value.is_scalar()) {
+    const auto w = value.word({"x", "y", "z", "-x", "-y", "-z"});
+    if (!w) return std::nullopt;
+    return (*w < 3 ? 1.0 : -1.0) * Vec3::Unit(static_cast<Eigen::Index>(*w % 3));
+  }
+  const auto v = value.vector("");
+  if (v && !(v->norm() > 1e-12)) {
+    value.fault("found a vector of length zero, expected a direction");
+    return std::nullopt;
+  }
+  return v;
+}
+
+bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
+                const Vec3& point, const YamlValue& value) {
+  const auto it = model.bodies.find(body);
+  if (it == model.bodies.end() || !it->second.flexible || !it->second.sound) return true;
+  const Vec3 p = self.world.point(point);
+  double best = -1.0;
+  Vec3 nearest = p;
+  for (const Vec3& n : it->second.nodes) {
+    const double d = (n - p).norm();
+    if (best < 0.0 || d < best) best = d, nearest = n;
+  }
+  if (best <= node_tolerance) return true;
+  const Placement& w = self.world;
+  value.fault("found the point " + point_text(point) + " on the flexible body '" +
+              self.written(body) + "', expected one of its nodes; the nearest is at " +
+              point_text(w.P * (nearest - w.t)));
+  return false;
+}
+
+bool check_named_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
+                      const std::string& node, const YamlValue& value) {
+  const auto it = model.bodies.find(body);
+  if (it == model.bodies.end()) {
+    if (body == ground_name) value.fault("found a node on the ground, expected a flexible body");
+    return false;
+  }
+  if (!it->second.sound) return false;
+  if (!it->second.flexible) {
+    value.fault("found a node on the rigid body '" + self.written(body) +
+                "', expected a flexible body");
+    return false;
+  }
+  if (it->second.named_nodes.count(node)) return true;
+  std::vector<std::string> known;
+  for (const auto& [name, unused] : it->second.named_nodes) known.push_back(name);
+  value.fault("the flexible body '" + self.written(body) + "' has no node '" + node + "'" +
+              did_you_mean(node, known));
+  return false;
+}
+
+std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
+                                                     const ReadModel& model, YamlSection s) {
+  AttachmentDescription a;
+  a.origin = s.origin();
+  const auto body_value = s.require("body");
+  const auto body = body_value ? self.reference(EntityKind::body, *body_value) : std::nullopt;
+  const auto at = s.get("at");
+  const auto node = s.get("node");
+  s.finish();
+  if (at && node) {
+    node->fault("found with 'at', expected one of the two");
+    return std::nullopt;
+  }
+  const auto point = at ? self.read_point(*at) : std::nullopt;
+  if (!body || (at && !point)) return std::nullopt;
+  a.body = *body;
+  if (node) {
+    const auto name = node->text("the name of a node");
+    if (!name || !check_named_node(self, model, *body, *name, *node)) return std::nullopt;
+    a.node = *name;
+    const auto it = model.bodies.find(*body);
+    const Placement& w = self.world;
+    a.point = w.P * (it->second.nodes[it->second.named_nodes.at(*name)] - w.t);
+    return a;
+  }
+  if (point) {
+    a.point = *point;
+    if (!check_node(self, model, *body, *point, *at)) return std::nullopt;
+    return a;
+  }
+  const auto it = model.bodies.find(*body);
+  if (it == model.bodies.end()) {
+    s.fault("missing key 'at'");  // the ground has no frame origin of its own
+    return std::nullopt;
+  }
+  const Placement& w = self.world;
+  a.point = w.P * (it->second.origin - w.t);
+  if (!check_node(self, model, *body, a.point, s.value())) return std::nullopt;
+  return a;
+}
+
+void read_joints(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, section] : active_entities(self, EntityKind::joint))
+    read_joint(self, name, section, model);
+}
+
+void read_rods(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, s] : active_entities(self, EntityKind::rod)) {
+    RodDescription r;
+    r.name = self.prefix + name;
+    r.origin = s.origin();
+    std::optional<AttachmentDescription> ends[2];
+    const char* keys[2] = {"from", "to"};
+    for (int i = 0; i < 2; ++i)
+      if (const auto v = s.require(keys[i]))
+        if (auto end = v->section("a place {body, at}"))
+          ends[i] = read_attachment(self, model, *end);
+    if (const auto v = s.get("length")) r.length = v->number(positive_number("m"));
+    s.finish();
+    if (!ends[0] || !ends[1]) continue;
+    r.a = *ends[0];
+    r.b = *ends[1];
+    if (r.a.body == r.b.body)
+      s.fault("found both ends on '" + self.written(r.a.body) + "', expected two bodies");
+    else if (!s.has("length") && !((r.a.point - r.b.point).norm() > 1e-9))
+      s.fault("found length 0, expected two points apart");
+    place(r, self.world);
+    model.description.rods.push_back(std::move(r));
+  }
+}
+
+}  // namespace floatframe

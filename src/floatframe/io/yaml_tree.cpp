@@ -1,0 +1,283 @@
+#include "floatframe/io/yaml_tree.hpp"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace floatframe {
+namespace {
+
+constexpr int deepest_nesting = 50;
+constexpr std::uintmax_t largest_file = 64u << 20u;
+
+// Inside `${...}` the characters that would end a plain scalar in a flow list or map are hidden
+// from the YAML parser as control characters (which the text cannot hold), so that `[0, ${a},
+// ${min(b, c)}]` needs no quotes.
+constexpr std::array<std::pair<char, char>, 8> hidden{{{'{', '\x01'},
+                                                       {'}', '\x02'},
+                                                       {',', '\x03'},
+                                                       {'[', '\x04'},
+                                                       {']', '\x05'},
+                                                       {'#', '\x06'},
+                                                       {':', '\x07'},
+                                                       {'?', '\x08'}}};
+
+void hide_expressions(std::string& text) {
+  for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at + 1)) {
+    const std::size_t end = text.find_first_of("}\n", at);
+    if (end == std::string::npos || text[end] == '\n') continue;
+    for (std::size_t k = at + 1; k <= end; ++k)
+      for (const auto& [plain, secret] : hidden)
+        if (text[k] == plain) text[k] = secret;
+  }
+}
+
+std::string revealed(std::string text) {
+  for (char& c : text)
+    for (const auto& [plain, secret] : hidden)
+      if (c == secret) c = plain;
+  return text;
+}
+
+struct TooDeep {};
+
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  TreeBuilder(const std::string& file, YamlNode& root, Faults& faults)
+      : file_(file), root_(root), faults_(faults) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    refuse(mark, "", anchor);
+    YamlNode n;
+    place(n, mark);
+    scalar(std::move(n));
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    fault(mark, "aliases (*name) are not allowed, use parameters");
+    YamlNode n;
+    place(n, mark);
+    scalar(std::move(n));
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    refuse(mark, tag, anchor);
+    YamlNode n;
+    place(n, mark);
+    n.kind = YamlNode::Kind::scalar;
+    n.text = revealed(value);
+    n.quoted = tag == "!";
+    scalar(std::move(n));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(mark, tag, anchor, YamlNode::Kind::sequence);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(mark, tag, anchor, YamlNode::Kind::map);
+  }
+  void OnMapEnd() override { close(); }
+  bool empty() const { return !seen_; }
+
+ private:
+  struct Level {
+    YamlNode node;
+    bool has_key = false;
+    bool skip = false;  // the value belongs to a refused key
+    YamlEntry entry;
+    std::map<std::string, int> keys;  // key -> line
+  };
+
+  void fault(const YAML::Mark& mark, std::string message) {
+    faults_.add({file_, mark.line + 1, mark.column + 1}, std::move(message));
+  }
+  void place(YamlNode& n, const YAML::Mark& mark) {
+    n.line = mark.line + 1;
+    n.column = mark.column + 1;
+  }
+  void refuse(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    if (anchor != 0) fault(mark, "anchors (&name) are not allowed, use parameters");
+    if (!tag.empty() && tag != "?" && tag != "!") fault(mark, "tags (!name) are not allowed");
+  }
+  void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+            YamlNode::Kind kind) {
+    refuse(mark, tag, anchor);
+    if (stack_.size() >= static_cast<std::size_t>(deepest_nesting)) {
+      fault(mark, "lists and maps are nested too deeply, at most " +
+                      std::to_string(deepest_nesting) + " levels are allowed");
+      throw TooDeep{};
+    }
+    Level level;
+    level.node.kind = kind;
+    place(level.node, mark);
+    stack_.push_back(std::move(level));
+  }
+  void close() {
+    YamlNode n = std::move(stack_.back().node);
+    stack_.pop_back();
+    value(std::move(n), true);
+  }
+  void scalar(YamlNode n) { value(std::move(n), false); }
+
+  void value(YamlNode n, bool compound) {
+    if (stack_.empty()) {
+      root_ = std::move(n);
+      seen_ = true;
+      return;
+    }
+    Level& top = stack_.back();
+    if (top.node.kind == YamlNode::Kind::sequence) {
+      top.node.items.push_back(std::move(n));
+      return;
+    }
+    if (top.has_key) {
+      top.entry.value = std::move(n);
+      if (top.entry.value.line == 0) {
+        top.entry.value.line = top.entry.line;
+        top.entry.value.column = top.entry.column;
+      }
+      if (!top.skip) top.node.entries.push_back(std::move(top.entry));
+      top.has_key = false;
+      return;
+    }
+    top.has_key = true;
+    top.skip = false;
+    top.entry = YamlEntry{n.text, n.line, n.column, {}};
+    const SourceMark mark{file_, n.line, n.column};
+    if (compound || n.kind != YamlNode::Kind::scalar) {
+      faults_.add(mark, "a key must be a name");
+      top.skip = true;
+    } else if (n.text == "<<" && !n.quoted) {
+      faults_.add(mark, "merge keys (<<) are not allowed, use parameters or subsystems");
+      top.skip = true;
+    } else {
+      const auto [it, fresh] = top.keys.emplace(n.text, n.line);
+      if (!fresh) {
+        faults_.add(mark, "duplicate key '" + n.text + "', first used in line " +
+                              std::to_string(it->second));
+        top.skip = true;
+      }
+    }
+  }
+
+  const std::string& file_;
+  YamlNode& root_;
+  Faults& faults_;
+  std::vector<Level> stack_;
+  bool seen_ = false;
+};
+
+/// Length of the UTF-8 sequence at text[k]; 0 if it is not valid UTF-8.
+std::size_t utf8_length(const std::string& text, std::size_t k) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const unsigned c = byte(k);
+  const auto tail = [&](std::size_t i) { return (byte(k + i) & 0xC0u) == 0x80u; };
+  if (c < 0x80) return 1;
+  if (c >= 0xC2 && c <= 0xDF) return tail(1) ? 2 : 0;
+  if (c >= 0xE0 && c <= 0xEF) return tail(1) && tail(2) ? 3 : 0;
+  if (c >= 0xF0 && c <= 0xF4) return tail(1) && tail(2) && tail(3) ? 4 : 0;
+  return 0;
+}
+
+/// Refuses binary data and tabs in the indentation.
+bool check_text(const std::string& file, const std::string& text, Faults& faults) {
+  int line = 1;
+  std::size_t start = 0;
+  bool indentation = true;
+  for (std::size_t k = 0; k < text.size();) {
+    const char c = text[k];
+    const std::size_t n = utf8_length(text, k);
+    const SourceMark mark{file, line, static_cast<int>(k - start) + 1};
+    const auto u = static_cast<unsigned char>(c);
+    if (n == 0 || u == 0x7F || (u < 0x20 && c != '\n' && c != '\r' && c != '\t')) {
+      faults.add(mark, "this is not a text file (UTF-8)");
+      return false;
+    }
+    if (c == '\t' && indentation) {
+      const std::size_t next = text.find_first_not_of(" \t\r", k);
+      if (next != std::string::npos && text[next] != '\n' && text[next] != '#') {
+        faults.add(mark, "a tab in the indentation, use spaces");
+        return false;
+      }
+    }
+    if (c == '\n') {
+      ++line;
+      start = k + 1;
+      indentation = true;
+    } else if (c != ' ' && c != '\t') {
+      indentation = false;
+    }
+    k += n;
+  }
+  return true;
+}
+
+}  // namespace
+
+YamlDocument parse_yaml(const std::string& file, const std::string& original, Faults& faults) {
+  YamlDocument document{file, {}};
+  std::string text = original;
+  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
+  if (!check_text(file, text, faults)) return document;
+  hide_expressions(text);
+  std::istringstream stream(text);
+  TreeBuilder builder(file, document.root, faults);
+  try {
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder) || builder.empty()) {
+      faults.add({file, 1, 1}, "the file is empty");
+      return document;
+    }
+    YamlNode second;
+    Faults ignored;
+    TreeBuilder more(file, second, ignored);
+    if (parser.HandleNextDocument(more))
+      faults.add({file, second.line > 0 ? second.line : 1, second.column > 0 ? second.column : 1},
+                 "a second document starts here, a model file holds one");
+  } catch (const TooDeep&) {
+  } catch (const YAML::Exception& e) {
+    SourceMark mark{file, e.mark.line + 1, e.mark.column + 1};
+    if (e.mark.is_null()) mark.line = mark.column = 1;
+    faults.add(mark, "YAML syntax: " + revealed(e.msg));
+  }
+  return document;
+}
+
+bool read_text_file(const std::string& file, std::string& text, Faults& faults,
+                    const SourceMark& where, const std::string& subject) {
+  const auto fail = [&](const std::string& why) {
+    if (where.file.empty())
+      faults.add({file, 0, 0}, why);
+    else
+      faults.add(where, subject + ": '" + file + "': " + why);
+    return false;
+  };
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) return fail("the file does not exist");
+  if (std::filesystem::is_directory(status)) return fail("this is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) return fail("this is not a regular file");
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) return fail("the file cannot be read");
+  if (size > largest_file) return fail("the file is larger than 64 MB");
+  std::ifstream in(file, std::ios::binary);
+  text.assign(static_cast<std::size_t>(size), '\0');
+  if (size > 0) in.read(text.data(), static_cast<std::streamsize>(size));
+  if (!in) return fail("the file cannot be read");
+  return true;
+}
+
+}  // namespace floatframe

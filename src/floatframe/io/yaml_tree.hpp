@@ -1,0 +1,45 @@
+#pragma once
+// A YAML document as a tree that remembers where everything was written. Only the subset that model
+// files use is accepted: maps, lists and scalars. Duplicate keys, anchors, aliases, merge keys,
+// tags, several documents, tabs in the indentation, very deep nesting and anything that is not
+// UTF-8 text are faults, so that no file is read differently from what it looks like.
+#include <string>
+#include <vector>
+
+#include "floatframe/core/diagnostics.hpp"
+
+namespace floatframe {
+
+struct YamlEntry;
+
+struct YamlNode {
+  enum class Kind { null, scalar, sequence, map };
+  Kind kind = Kind::null;
+  int line = 0, column = 0;        ///< from 1
+  std::string text;                ///< scalar
+  bool quoted = false;             ///< scalar in quotes or a block scalar: always a text
+  std::vector<YamlNode> items;     ///< sequence
+  std::vector<YamlEntry> entries;  ///< map, in the order of the file, keys unique
+};
+
+struct YamlEntry {
+  std::string key;
+  int line = 0, column = 0;  ///< of the key
+  YamlNode value;
+};
+
+struct YamlDocument {
+  std::string file;  ///< as the user gave it
+  YamlNode root;
+};
+
+/// Parses `text`; faults go to `faults`. A document with faults is returned as far as it was
+/// understood.
+YamlDocument parse_yaml(const std::string& file, const std::string& text, Faults& faults);
+
+/// Reads a regular file of at most 64 MB; a file that cannot be read gives a fault marked `where`
+/// (or the file itself if `where` is empty) and false.
+bool read_text_file(const std::string& file, std::string& text, Faults& faults,
+                    const SourceMark& where, const std::string& subject);
+
+}  // namespace floatframe
