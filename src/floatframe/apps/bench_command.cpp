@@ -1,0 +1,84 @@
+// floatframe bench iltis: finds the Iltis model, measures, prints and optionally writes JSON.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "floatframe/apps/bench_iltis.hpp"
+#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/atomic_file.hpp"
+
+namespace floatframe {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In a build folder beside the examples, in the current folder, or where the program is installed.
+std::string find_iltis() {
+  const fs::path file = fs::path("examples") / "iltis" / "iltis.yaml";
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  std::vector<fs::path> places{file};
+  if (!error) {
+    const fs::path above = program.parent_path().parent_path();
+    places = {above / file, file, above / "share" / "floatframe" / file};
+  }
+  std::string tried;
+  for (const fs::path& place : places) {
+    if (fs::is_regular_file(place, error)) return place.string();
+    tried += (tried.empty() ? "" : ", ") + place.string();
+  }
+  throw InputError(fmt::format("the Iltis model was not found ({}); give it with --model", tried));
+}
+
+int run_bench(BenchOptions options, const std::string& json_file) {
+  if (options.model.empty()) options.model = find_iltis();
+  if (!json_file.empty()) {
+    try {
+      check_writable(json_file);
+    } catch (const OutputError& error) {
+      throw InputError(error.what());
+    }
+  }
+  ProgressBar bar(true, 100.0, "%");
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  const BenchResult result = bench_iltis(options);
+  bar.clear();
+  if (!json_file.empty()) write_file(json_file, bench_json(result));
+  print(bench_text(result));
+  return 0;
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Action& action) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure processor times on this machine");
+  bench->require_subcommand(1);
+  CLI::App* iltis = bench->add_subcommand(
+      "iltis", "The Iltis manoeuvre: Table 1 of the paper beside this machine");
+  auto options = std::make_shared<BenchOptions>();
+  auto json_file = std::make_shared<std::string>();
+  iltis->add_option("--json", *json_file, "Write the figures to this file as JSON")
+      ->type_name("FILE");
+  iltis->add_option("--repeat", options->repeats, "Runs of each combination (default 5)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  iltis
+      ->add_option("--elements", options->elements,
+                   "Elements a bar, comma-separated (default 5,10,50,100)")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 100000))
+      ->type_name("LIST");
+  iltis
+      ->add_option("--model", options->model,
+                   "Model file with a parameter ne (default: the example iltis.yaml)")
+      ->type_name("FILE");
+  iltis->footer("Times are processor seconds of stepping, without input and output.");
+  iltis->callback([options, json_file, &action] {
+    action = [options, json_file] { return run_bench(*options, *json_file); };
+  });
+}
+
+}  // namespace floatframe

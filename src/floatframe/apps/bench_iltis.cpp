@@ -1,0 +1,110 @@
+#include "floatframe/apps/bench_iltis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/dense_factorization.hpp"
+#include "floatframe/io/model_reader.hpp"
+#include "floatframe/simulation/iteration_timer.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+namespace {
+
+struct Combination {
+  Coordinates coordinates;
+  InertiaMethod inertia;
+};
+
+constexpr Combination combinations[] = {{Coordinates::absolute, InertiaMethod::projection},
+                                        {Coordinates::absolute, InertiaMethod::preprocessing},
+                                        {Coordinates::relative, InertiaMethod::projection},
+                                        {Coordinates::relative, InertiaMethod::preprocessing}};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+BenchRow measure(const Model& model, SimulationDescription simulation,
+                 const Combination& combination, const BenchOptions& options, int elements,
+                 const std::function<void()>& one_done) {
+  simulation.coordinates = combination.coordinates;
+  simulation.inertia = combination.inertia;
+  BenchRow row;
+  row.coordinates = combination.coordinates;
+  row.inertia = combination.inertia;
+  row.elements_per_bar = elements;
+  RunOptions run_options;
+  run_options.record = false;
+  std::vector<double> times;
+  for (int repeat = 0; repeat < options.repeats; ++repeat) {
+    const RunSummary summary = run(model, simulation, run_options).summary;
+    if (summary.status != "completed") {
+      throw RunError(
+          fmt::format("{} coordinates, inertia terms by {}, {} elements a bar: the run failed: {}",
+                      word(row.coordinates), word(row.inertia), elements, summary.message));
+    }
+    times.push_back(summary.cpu);
+    row.steps = summary.steps;
+    row.substeps = summary.substeps;
+    row.iterations = summary.iterations;
+    row.real_time_factor = std::max(row.real_time_factor, summary.real_time_factor);
+    one_done();
+  }
+  row.cpu_min = *std::min_element(times.begin(), times.end());
+  row.cpu_median = median(times);
+  return row;
+}
+
+}  // namespace
+
+BenchResult bench_iltis(const BenchOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds = [](Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+  };
+  BenchResult result;
+  result.repeats = options.repeats;
+  const double runs =
+      static_cast<double>(options.elements.size() * std::size(combinations)) * options.repeats;
+  double runs_done = 0.0;
+  const auto one_done = [&] {
+    runs_done += 1.0;
+    if (options.progress) options.progress(runs_done / runs);
+  };
+  const int largest = *std::max_element(options.elements.begin(), options.elements.end());
+  for (const int elements : options.elements) {
+    const Clock::time_point start = Clock::now();
+    const ModelDescription description =
+        read_model(options.model, {{"ne", std::to_string(elements)}});
+    const Clock::time_point was_read = Clock::now();
+    const Model model = build_model(description);
+    result.builds.push_back({elements, seconds(start, was_read), seconds(was_read, Clock::now())});
+    result.step = description.simulation.step;
+    result.duration = description.simulation.duration;
+    if (elements == largest) {
+      result.dense_llt = dense_factorization_seconds(98);
+      result.rel_p_iteration = relative_iteration_seconds(model, description.simulation);
+    }
+    for (const Combination& combination : combinations) {
+      result.rows.push_back(
+          measure(model, description.simulation, combination, options, elements, one_done));
+    }
+  }
+  std::stable_sort(result.rows.begin(), result.rows.end(),
+                   [](const BenchRow& a, const BenchRow& b) {
+                     const auto order = [](const BenchRow& r) {
+                       return std::pair(r.coordinates != Coordinates::absolute,
+                                        r.inertia != InertiaMethod::projection);
+                     };
+                     return order(a) < order(b);
+                   });
+  return result;
+}
+
+}  // namespace floatframe

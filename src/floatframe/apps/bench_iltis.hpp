@@ -1,0 +1,52 @@
+#pragma once
+// Table 1 of the paper on this machine: processor time of the Iltis manoeuvre in the four
+// combinations of coordinates and inertia method against the number of elements a bar; what the
+// model's preparation costs; and two yardsticks measured in the same run, a dense Cholesky
+// factorisation and one full Newton iteration.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "floatframe/model/description.hpp"
+
+namespace floatframe {
+
+struct BenchRow {
+  Coordinates coordinates = Coordinates::relative;
+  InertiaMethod inertia = InertiaMethod::preprocessing;
+  int elements_per_bar = 0;
+  double cpu_min = 0, cpu_median = 0;  ///< [s] of a whole run, without input and output
+  long steps = 0, iterations = 0, substeps = 0;
+  double real_time_factor = 0;  ///< of the fastest run
+};
+
+struct BenchBuild {
+  int elements_per_bar = 0;
+  double read = 0,
+         build = 0;  ///< [s] reading the model file; finite elements, modes and constant integrals
+};
+
+struct BenchResult {
+  std::vector<BenchRow> rows;      ///< by combination, then by elements a bar
+  std::vector<BenchBuild> builds;  ///< one for each number of elements
+  double step = 0, duration = 0;   ///< [s]
+  int repeats = 0;
+  double dense_llt = 0;        ///< [s], 98 x 98
+  double rel_p_iteration = 0;  ///< [s], at the largest number of elements
+};
+
+struct BenchOptions {
+  std::string model;  ///< model file with the parameter `ne`
+  std::vector<int> elements{5, 10, 50, 100};
+  int repeats = 5;
+  std::function<void(double)> progress;
+};
+
+/// Throws InputError for a faulty model, RunError when a run fails.
+BenchResult bench_iltis(const BenchOptions& options);
+
+/// Tables for the terminal, the paper's figures beside ours.
+std::string bench_text(const BenchResult& result);
+std::string bench_json(const BenchResult& result);
+
+}  // namespace floatframe

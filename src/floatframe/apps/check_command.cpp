@@ -1,0 +1,79 @@
+// floatframe check: reads and builds a model and counts its coordinates in both formulations.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/text_table.hpp"
+#include "floatframe/io/summary_json.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+namespace {
+
+std::string counts_text(const ModelCounts& c) {
+  TextTable table({"", "relative", "absolute"});
+  const auto add = [&](const char* name, int relative, int absolute) {
+    table.add({name, std::to_string(relative), std::to_string(absolute)});
+  };
+  add("rigid coordinates", c.relative.rigid, c.absolute.rigid);
+  add("elastic coordinates", c.relative.elastic, c.absolute.elastic);
+  add("all coordinates", c.relative.total, c.absolute.total);
+  add("constraints", c.relative.constraints, c.absolute.constraints);
+  std::string text = table.text(2);
+  text += fmt::format("  degrees of freedom: {}\n  redundant constraints: {}\n",
+                      c.degrees_of_freedom, c.redundant_constraints);
+  if (c.cut_joint_names.empty()) return text;
+  text += "  joints cut in the relative formulation:\n";
+  for (const std::string& name : c.cut_joint_names) text += "    " + name + '\n';
+  return text;
+}
+
+std::string flexible_bodies_text(const Model& model) {
+  TextTable table(
+      {"flexible body", "modes", "mass [kg]", "nodes", "fixed-interface frequencies [Hz]"}, {4});
+  for (const Body& body : model.bodies) {
+    if (body.modes() == 0) continue;
+    std::string frequencies;
+    for (const double f : body.data->fixed_interface_frequencies) {
+      frequencies += fmt::format("{}{:.3f}", frequencies.empty() ? "" : "  ", f);
+    }
+    table.add({body.name, std::to_string(body.modes()),
+               fmt::format("{:.6g}", body.data->invariants.m),
+               std::to_string(body.data->nodes.size()), frequencies.empty() ? "-" : frequencies});
+  }
+  return table.empty() ? "" : "\n" + table.text(2);
+}
+
+int check_model(const ModelArguments& arguments, bool json) {
+  const ModelDescription description = read_model(arguments);
+  const Model model = build_model(description);
+  const ModelCounts counts = count(model);
+  if (json) {
+    print(counts_json(counts));
+  } else {
+    print(fmt::format("{}: {}, {} ({} cut)\n\n", description.name, bodies_text(counts),
+                      plural(counts.joints, "joint"), counts.cut_joints) +
+          counts_text(counts) + flexible_bodies_text(model));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<ModelArguments>();
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command =
+      app.add_subcommand("check", "Check a model file and count its coordinates and constraints");
+  add_model_arguments(*command, *arguments);
+  command->add_flag("--json", *json, "JSON on standard output");
+  command->footer(
+      "Prints masses [kg] and frequencies [Hz] of the flexible bodies as well.\n"
+      "Exit codes: 0 the model is sound, 1 it cannot be assembled, 2 bad input.");
+  command->callback([arguments, json, &action] {
+    action = [arguments, json] { return check_model(*arguments, *json); };
+  });
+}
+
+}  // namespace floatframe

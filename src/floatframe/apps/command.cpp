@@ -1,0 +1,85 @@
+#include "floatframe/apps/command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/atomic_file.hpp"
+#include "floatframe/io/model_reader.hpp"
+
+namespace floatframe {
+
+void add_model_arguments(CLI::App& app, ModelArguments& arguments) {
+  app.add_option("MODEL", arguments.path, "Model file (YAML)")->required()->type_name("");
+  // One value an occurrence: `--set a=1 model.yaml` must not swallow the model.
+  app.add_option("--set", arguments.settings,
+                 "Change a parameter of the model file; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+}
+
+ModelDescription read_model(const ModelArguments& arguments) {
+  std::vector<ParameterOverride> overrides;
+  for (const std::string& setting : arguments.settings) {
+    const std::size_t equal = setting.find('=');
+    if (equal == std::string::npos || equal == 0) {
+      throw InputError(fmt::format("--set: found '{}', expected NAME=VALUE", setting));
+    }
+    overrides.push_back({setting.substr(0, equal), setting.substr(equal + 1)});
+  }
+  return read_model(arguments.path, overrides);
+}
+
+double positive_number(const std::string& option, const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool complete = end != text.c_str() && *end == '\0';
+  if (!complete || !std::isfinite(value) || !(value > 0.0)) {
+    throw InputError(fmt::format("{}: found '{}', expected a positive number [s]", option, text));
+  }
+  return value;
+}
+
+const char* word(Coordinates coordinates) noexcept {
+  return coordinates == Coordinates::relative ? "relative" : "absolute";
+}
+
+const char* word(InertiaMethod inertia) noexcept {
+  return inertia == InertiaMethod::preprocessing ? "preprocessing" : "projection";
+}
+
+Coordinates coordinates_from(const std::string& text) {
+  return text == "absolute" ? Coordinates::absolute : Coordinates::relative;
+}
+
+InertiaMethod inertia_from(const std::string& text) {
+  return text == "projection" ? InertiaMethod::projection : InertiaMethod::preprocessing;
+}
+
+std::string bodies_text(const ModelCounts& counts) {
+  return fmt::format("{} ({} flexible)", plural(counts.bodies, "body", "bodies"),
+                     counts.flexible_bodies);
+}
+
+std::string plural(long count, const std::string& one, const std::string& many) {
+  if (count == 1) return "1 " + one;
+  return std::to_string(count) + " " + (many.empty() ? one + "s" : many);
+}
+
+void print(const std::string& text) {
+  errno = 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0) {
+    throw OutputError(std::string("standard output cannot be written: ") + std::strerror(errno));
+  }
+}
+
+}  // namespace floatframe

@@ -1,0 +1,52 @@
+#pragma once
+// What the subcommands share. Each `add_..._command` declares its options on the application; when
+// it is the one that was given it sets `action`, which does the work and returns the exit code.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "floatframe/model/description.hpp"
+#include "floatframe/simulation/results.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace floatframe {
+
+using Action = std::function<int()>;
+
+void add_run_command(CLI::App& app, Action& action);
+void add_check_command(CLI::App& app, Action& action);
+void add_statics_command(CLI::App& app, Action& action);
+void add_bench_command(CLI::App& app, Action& action);
+
+/// MODEL and --set, as every command that reads a model takes them.
+struct ModelArguments {
+  std::string path;
+  std::vector<std::string> settings;  ///< "name=value"
+};
+void add_model_arguments(CLI::App& app, ModelArguments& arguments);
+
+/// Throws InputError.
+ModelDescription read_model(const ModelArguments& arguments);
+
+/// The number in an option's text; InputError unless it is finite and positive.
+double positive_number(const std::string& option, const std::string& text);
+
+/// The command line's words.
+const char* word(Coordinates coordinates) noexcept;
+const char* word(InertiaMethod inertia) noexcept;
+Coordinates coordinates_from(const std::string& word);
+InertiaMethod inertia_from(const std::string& word);
+
+/// "17 bodies (12 flexible)"
+std::string bodies_text(const ModelCounts& counts);
+
+/// 1, "body" -> "1 body"; 2, "body", "bodies" -> "2 bodies"; without plural an "s" is added.
+std::string plural(long count, const std::string& one, const std::string& many = "");
+
+/// Writes to standard output; throws OutputError if that fails (a full disk).
+void print(const std::string& text);
+
+}  // namespace floatframe

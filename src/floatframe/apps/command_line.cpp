@@ -1,0 +1,99 @@
+#include "floatframe/apps/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+#include <set>
+
+#include "floatframe/apps/command.hpp"
+#include "floatframe/core/build_info.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr int failed = 1, bad_input = 2;
+
+void say(const std::string& message) { fmt::print(stderr, "floatframe: {}\n", message); }
+
+/// One fault a line, as compilers do; the number of faults last.
+int report(const InputError& error) {
+  std::set<std::string> files;
+  for (const InputFault& fault : error.faults()) {
+    files.insert(fault.mark.file);
+    if (fault.mark.file.empty()) {
+      say(fault.message);
+    } else {
+      fmt::print(stderr, "{}\n", fault.text());
+    }
+  }
+  files.erase("");
+  if (error.faults().size() > 1) {
+    const std::string where = files.empty()       ? "the input"
+                              : files.size() == 1 ? *files.begin()
+                                                  : plural(static_cast<long>(files.size()), "file");
+    fmt::print(stderr, "{} faults in {}\n", error.faults().size(), where);
+  }
+  return bad_input;
+}
+
+/// The subcommand that was reached, for the hint which help to read.
+std::string command_path(const CLI::App& app) {
+  std::string path = app.get_name();
+  for (const CLI::App* sub : app.get_subcommands()) path += " " + command_path(*sub);
+  return path;
+}
+
+int parse_and_act(int argc, char** argv) {
+  CLI::App app(
+      "Simulates flexible multibody systems with the floating frame of reference formulation.",
+      "floatframe");
+  app.get_formatter()->column_width(34);
+  app.set_version_flag("--version", "floatframe " + build_description());
+  app.require_subcommand(1);
+  app.footer(
+      "SI units, angles in radians. Exit codes: 0 done, 1 failed run, 2 bad input.\n"
+      "`floatframe COMMAND --help` shows the options of a command.");
+  Action action;
+  add_run_command(app, action);
+  add_check_command(app, action);
+  add_statics_command(app, action);
+  add_bench_command(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    std::string message = error.what();
+    const char* commands = "run, check, statics or bench";
+    if (argc <= 1) {
+      message = fmt::format("a command is required: {}", commands);
+    } else if (app.get_subcommands().empty() && argv[1][0] != '-') {
+      message = fmt::format("found the command '{}', expected {}", argv[1], commands);
+    }
+    say(fmt::format("{} (see {} --help)", message, command_path(app)));
+    return bad_input;
+  }
+  return action();
+}
+
+}  // namespace
+
+int command_line_main(int argc, char** argv) {
+  try {
+    return parse_and_act(argc, argv);
+  } catch (const InputError& error) {
+    return report(error);
+  } catch (const RunError& error) {
+    say(error.what());
+  } catch (const std::bad_alloc&) {
+    say("there is not enough memory");
+  } catch (const std::exception& error) {
+    say(error.what());
+  }
+  return failed;
+}
+
+}  // namespace floatframe

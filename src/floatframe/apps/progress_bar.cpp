@@ -1,0 +1,45 @@
+#include "floatframe/apps/progress_bar.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace floatframe {
+
+ProgressBar::ProgressBar(bool wanted, double total, std::string unit)
+    : active_(wanted && ::isatty(STDERR_FILENO) == 1),
+      total_(total),
+      unit_(std::move(unit)),
+      start_(std::chrono::steady_clock::now()) {}
+
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::show(double fraction) {
+  if (!active_) return;
+  constexpr int cells = 40;
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  const int full = static_cast<int>(fraction * cells);
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+  std::string rest;
+  // An estimate of the time to go means nothing at the very start and is of no use in short runs.
+  if (fraction > 0.02 && passed.count() > 1.0) {
+    rest = fmt::format(", {:.0f} s to go", passed.count() * (1.0 - fraction) / fraction);
+  }
+  const std::string line =
+      fmt::format("\r[{}{}] {:.4g} of {:.4g} {}{}\x1b[K", std::string(full, '#'),
+                  std::string(cells - full, '.'), fraction * total_, total_, unit_, rest);
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void ProgressBar::clear() {
+  if (!drawn_) return;
+  std::fputs("\r\x1b[K", stderr);
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+}  // namespace floatframe

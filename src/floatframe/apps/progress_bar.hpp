@@ -1,0 +1,27 @@
+#pragma once
+// Progress of a run on a terminal (standard error); nothing where standard error is a file or a
+// pipe.
+#include <chrono>
+#include <string>
+
+namespace floatframe {
+
+class ProgressBar {
+ public:
+  /// `total`: what is counted, for instance 8 with unit "s".
+  ProgressBar(bool wanted, double total, std::string unit);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  void show(double fraction);
+  /// Wipes the line, so that what is printed next starts at its beginning.
+  void clear();
+
+ private:
+  bool active_, drawn_ = false;
+  double total_;
+  std::string unit_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace floatframe

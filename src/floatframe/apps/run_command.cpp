@@ -1,0 +1,225 @@
+// floatframe run: simulates a model and writes results.csv, report.html and summary.json.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+
+#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/core/build_info.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/atomic_file.hpp"
+#include "floatframe/io/report_html.hpp"
+#include "floatframe/io/results_csv.hpp"
+#include "floatframe/io/summary_json.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+namespace {
+
+struct RunArguments {
+  ModelArguments model;
+  std::string coordinates, inertia, step, duration, out;
+  bool no_report = false, quiet = false;
+};
+
+void apply(const RunArguments& arguments, SimulationDescription& simulation) {
+  if (!arguments.coordinates.empty()) {
+    simulation.coordinates = coordinates_from(arguments.coordinates);
+  }
+  if (!arguments.inertia.empty()) simulation.inertia = inertia_from(arguments.inertia);
+  if (!arguments.step.empty()) simulation.step = positive_number("--step", arguments.step);
+  if (!arguments.duration.empty()) {
+    simulation.duration = positive_number("--duration", arguments.duration);
+  }
+  constexpr double most_steps = 1e9;
+  if (simulation.duration > most_steps * simulation.step) {
+    throw InputError(
+        fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} steps",
+                    simulation.duration, simulation.step, most_steps));
+  }
+}
+
+struct OutputPaths {
+  std::string folder, results, report, summary;
+};
+
+OutputPaths make_output_paths(const RunArguments& arguments, const std::string& model_name) {
+  const std::filesystem::path folder =
+      arguments.out.empty() ? std::filesystem::path("out") / file_name_from(model_name)
+                            : std::filesystem::path(arguments.out);
+  try {
+    make_output_folder(folder.string());
+  } catch (const OutputError& error) {
+    throw InputError(error.what());
+  }
+  return {folder.string(), (folder / "results.csv").string(), (folder / "report.html").string(),
+          (folder / "summary.json").string()};
+}
+
+FactTable model_facts(const Model& model) {
+  FactTable facts{"Model", {}};
+  try {
+    const ModelCounts c = count(model);
+    const auto coordinates = [](const CoordinateCounts& k) {
+      return fmt::format("{} rigid + {} elastic = {}, {}", k.rigid, k.elastic, k.total,
+                         plural(k.constraints, "constraint"));
+    };
+    facts.rows = {{"bodies", fmt::format("{}, {} flexible", c.bodies, c.flexible_bodies)},
+                  {"joints", fmt::format("{}, {} cut", c.joints, c.cut_joints)},
+                  {"relative coordinates", coordinates(c.relative)},
+                  {"absolute coordinates", coordinates(c.absolute)},
+                  {"degrees of freedom", std::to_string(c.degrees_of_freedom)}};
+  } catch (const RunError& error) {
+    facts.rows = {{"coordinates", fmt::format("not counted: {}", error.what())}};
+  }
+  return facts;
+}
+
+FactTable setting_facts(const RunArguments& arguments, const SimulationDescription& s) {
+  FactTable facts{"Settings",
+                  {{"model file", arguments.model.path},
+                   {"coordinates", word(s.coordinates)},
+                   {"inertia terms", word(s.inertia)},
+                   {"step", fmt::format("{:g} s", s.step)},
+                   {"duration asked", fmt::format("{:g} s", s.duration)},
+                   {"start", s.start == Start::equilibrium ? "static equilibrium" : "as given"},
+                   {"spectral radius at infinity", fmt::format("{:g}", s.spectral_radius)},
+                   {"Newton tolerance", fmt::format("{:g}", s.tolerance)},
+                   {"Newton iterations at most", std::to_string(s.max_iterations)}}};
+  for (const std::string& setting : arguments.model.settings) {
+    facts.rows.push_back({"parameter set", setting});
+  }
+  return facts;
+}
+
+/// A run that could not start leaves a summary and a report that say so, in place of older results.
+RunResult failed_start(const ModelDescription& description, const std::string& message) {
+  RunResult result;
+  result.summary.model = description.name;
+  result.summary.coordinates = word(description.simulation.coordinates);
+  result.summary.inertia = word(description.simulation.inertia);
+  result.summary.step = description.simulation.step;
+  result.summary.status = "failed";
+  result.summary.message = message;
+  return result;
+}
+
+void write_outputs(const OutputPaths& paths, const RunArguments& arguments, Report&& report) {
+  // The files of one run belong together: what this run does not write must not stay from an
+  // earlier one.
+  if (report.result.table.columns.empty()) {
+    remove_file(paths.results);
+  } else {
+    write_file(paths.results, results_csv(report.result.table));
+  }
+  if (arguments.no_report) {
+    remove_file(paths.report);
+  } else {
+    write_file(paths.report, report_html(report));
+  }
+  write_file(paths.summary, summary_json(report.result.summary));
+}
+
+std::string summary_text(const RunSummary& s) {
+  return fmt::format(
+      "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time){}\n"
+      "  {} coordinates, inertia terms by {}, step {:g} s\n"
+      "  {}, {} by halving, {}, {}\n"
+      "  largest constraint violation {:.2g} m, {:.2g} m/s\n",
+      s.model, s.duration, s.cpu, s.real_time_factor,
+      s.status == "completed" ? "" : ", then it failed", s.coordinates, s.inertia, s.step,
+      plural(s.steps, "step"), s.substeps, plural(s.iterations, "Newton iteration"),
+      plural(s.factorizations, "factorization"), s.max_position_violation,
+      s.max_velocity_violation);
+}
+
+std::string files_text(const OutputPaths& paths, const RunArguments& arguments, bool has_table) {
+  std::string text;
+  if (has_table) text += fmt::format("  results  {}\n", paths.results);
+  if (!arguments.no_report) text += fmt::format("  report   {}\n", paths.report);
+  return text + fmt::format("  summary  {}\n", paths.summary);
+}
+
+int run_model(const RunArguments& arguments) {
+  ModelDescription description = read_model(arguments.model);
+  apply(arguments, description.simulation);
+  std::optional<Model> model;
+  std::string fault;
+  try {
+    model = build_model(description);
+  } catch (const RunError& error) {
+    fault = error.what();
+  }
+  const OutputPaths paths = make_output_paths(arguments, description.name);
+
+  Report report;
+  if (model) {
+    if (!arguments.no_report) report.facts.push_back(model_facts(*model));
+    ProgressBar bar(!arguments.quiet, description.simulation.duration, "s");
+    RunOptions options;
+    options.progress = [&bar](double fraction) { bar.show(fraction); };
+    try {
+      report.result = run(*model, description.simulation, options);
+    } catch (const RunError& error) {
+      fault = error.what();
+    }
+  }
+  if (!fault.empty()) report.result = failed_start(description, fault);
+  report.facts.push_back(setting_facts(arguments, description.simulation));
+  report.software = build_description();
+  report.processor = processor_name();
+
+  const RunSummary summary = report.result.summary;
+  const bool has_table = !report.result.table.columns.empty();
+  write_outputs(paths, arguments, std::move(report));
+  if (!arguments.quiet) {
+    print((has_table ? summary_text(summary) : "") + files_text(paths, arguments, has_table));
+  }
+  if (summary.status == "completed") return 0;
+  fmt::print(stderr, "floatframe: the run failed: {}\n", summary.message);
+  if (has_table) {
+    fmt::print(stderr,
+               "floatframe: the results up to {:.9g} s are kept in {} and marked as partial\n",
+               summary.duration, paths.folder);
+  }
+  return 1;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command =
+      app.add_subcommand("run", "Simulate a model; write results, report and summary");
+  add_model_arguments(*command, arguments->model);
+  command
+      ->add_option("--coordinates", arguments->coordinates,
+                   "Formulation: relative (joint coordinates) or absolute (natural coordinates)")
+      ->check(CLI::IsMember({"relative", "absolute"}))
+      ->type_name("WORD");
+  command
+      ->add_option("--inertia", arguments->inertia,
+                   "Inertia terms: preprocessing (constant integrals) or projection (all nodes)")
+      ->check(CLI::IsMember({"preprocessing", "projection"}))
+      ->type_name("WORD");
+  command->add_option("--step", arguments->step, "Time step [s]; default: that of the model file")
+      ->type_name("SECONDS");
+  command
+      ->add_option("--duration", arguments->duration,
+                   "Time to simulate [s]; default: that of the model file")
+      ->type_name("SECONDS");
+  command->add_option("--out", arguments->out, "Folder for the files; default: out/<model name>")
+      ->type_name("DIR");
+  command->add_flag("--no-report", arguments->no_report, "Do not write report.html");
+  command->add_flag("--quiet", arguments->quiet,
+                    "No progress bar, no summary; faults are still shown");
+  command->footer(
+      "Files: results.csv (SI units, radians), report.html, summary.json.\n"
+      "Exit codes: 0 completed, 1 failed (results up to there are kept), 2 bad input.");
+  command->callback(
+      [arguments, &action] { action = [arguments] { return run_model(*arguments); }; });
+}
+
+}  // namespace floatframe

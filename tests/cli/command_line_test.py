@@ -1,0 +1,303 @@
+#!/usr/bin/env python3
+"""The program `floatframe` from outside: exit codes, messages, files. Set FLOATFRAME_BINARY or give its path."""
+import csv
+import html.parser
+import json
+import os
+import pathlib
+import pty
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BINARY = os.environ.get("FLOATFRAME_BINARY") or (
+    sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else "build/floatframe")
+BINARY = str(pathlib.Path(BINARY).resolve())
+
+# A rod of 1 m on a hinge, level at the start.
+PENDULUM = """\
+floatframe: 1
+name: pendulum
+parameters: {mass: 2}
+bodies:
+  rod:
+    position: [0, 0, 0]
+    rigid: {mass: "${mass}", centre_of_mass: [0.5, 0, 0], inertia: [0.01, 0.2, 0.2]}
+joints:
+  hinge: {type: revolute, child: rod, at: [0, 0, 0], axis: y}
+outputs:
+  rod.z: {position: {body: rod, at: [1, 0, 0]}, axis: z}
+simulation: {step: 0.01, duration: 0.5}
+"""
+
+# A slider driven along x at 1 m/s and a hanging weight on a massless rod between the two: stretched after 1 s.
+DEAD_END = """\
+floatframe: 1
+name: dead_end
+bodies:
+  slider:
+    rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [0.1, 0.1, 0.1]}
+  crank:
+    position: [1, 0, 0]
+    rigid: {mass: 1, centre_of_mass: [1.25, 0, 0], inertia: [0.1, 0.1, 0.1]}
+joints:
+  drive: {type: prismatic, child: slider, at: [0, 0, 0], axis: x, motion: {polynomial: [0, -1]}}
+  hinge: {type: revolute, child: crank, at: [1, 0, 0], axis: y}
+rods:
+  tie: {from: {body: slider, at: [0, 0, 0]}, to: {body: crank, at: [1, 0, 0.75]}}
+outputs:
+  slider.x: {position: slider, axis: x}
+simulation: {step: 0.01, duration: 2}
+"""
+
+
+class Page(html.parser.HTMLParser):
+    """Checks that tags match and notes what the page refers to."""
+    VOID = {"meta", "br", "link", "img"}
+
+    def __init__(self):
+        super().__init__(convert_charrefs=True)
+        self.open, self.faults, self.tags, self.text = [], [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.faults.append(f"unexpected </{tag}> at {self.getpos()}")
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="floatframe-cli-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "pendulum.yaml").write_text(PENDULUM)
+
+    def floatframe(self, *arguments, **options):
+        return subprocess.run([BINARY, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              timeout=120, check=False, **options)
+
+    def expect(self, code, *arguments, out="", err=""):
+        done = self.floatframe(*arguments)
+        self.assertEqual(done.returncode, code, done.stderr + done.stdout)
+        self.assertIn(out, done.stdout)
+        self.assertIn(err, done.stderr)
+        return done
+
+    def files(self, folder="."):
+        return sorted(p.name for p in (self.folder / folder).rglob("*") if p.is_file())
+
+
+class Help(CommandLine):
+    def test_every_command_explains_itself(self):
+        for command in ((), ("run",), ("check",), ("statics",), ("bench",), ("bench", "iltis")):
+            done = self.expect(0, *command, "--help", out="Usage: floatframe")
+            self.assertEqual(done.stderr, "")
+
+    def test_help_names_units_and_exit_codes(self):
+        text = self.floatframe("run", "--help").stdout
+        for part in ("[s]", "SECONDS", "relative", "projection", "out/<model name>", "Exit codes", "--set NAME=VALUE"):
+            self.assertIn(part, text)
+
+    def test_version(self):
+        self.expect(0, "--version", out="floatframe 0.")
+
+
+class Misuse(CommandLine):
+    def test_bad_options_exit_2_with_one_line(self):
+        for arguments, message in (
+                ((), "a command is required: run, check, statics or bench"),
+                (("fly",), "found the command 'fly', expected run, check, statics or bench"),
+                (("run",), "MODEL is required"),
+                (("run", "pendulum.yaml", "--frobnicate"), "--frobnicate"),
+                (("run", "pendulum.yaml", "--coordinates", "polar"), "polar not in {relative,absolute}"),
+                (("run", "pendulum.yaml", "--inertia", "guess"), "guess not in {preprocessing,projection}"),
+                (("run", "pendulum.yaml", "--step", "-0.1"), "--step: found '-0.1', expected a positive number [s]"),
+                (("run", "pendulum.yaml", "--step", "0"), "--step: found '0', expected a positive number [s]"),
+                (("run", "pendulum.yaml", "--step", "nan"), "--step: found 'nan', expected a positive number [s]"),
+                (("run", "pendulum.yaml", "--step", "1ms"), "--step: found '1ms', expected a positive number [s]"),
+                (("run", "pendulum.yaml", "--duration", "inf"), "--duration: found 'inf'"),
+                (("run", "pendulum.yaml", "--step", "1e-300"), "takes more than 1e+09 steps"),
+                (("run", "pendulum.yaml", "--set", "mass"), "--set: found 'mass', expected NAME=VALUE"),
+                (("check", "pendulum.yaml", "--set", "=3"), "--set: found '=3', expected NAME=VALUE"),
+                (("bench",), "subcommand is required"),
+                (("bench", "iltis", "--repeat", "0"), "--repeat"),
+                (("bench", "iltis", "--elements", "5,x"), "--elements"),
+                (("bench", "iltis", "--model", "pendulum.yaml", "--json", "."), "Is a directory")):
+            with self.subTest(arguments=arguments):
+                done = self.expect(2, *arguments, err=message)
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                self.assertTrue(done.stderr.startswith("floatframe: "), done.stderr)
+                self.assertEqual(done.stdout, "")
+        self.assertEqual(self.files(), ["pendulum.yaml"])
+
+    def test_missing_file(self):
+        for command in ("run", "check", "statics"):
+            self.expect(2, command, "nowhere.yaml", err="nowhere.yaml")
+
+    def test_faults_are_listed_and_counted(self):
+        (self.folder / "bad.yaml").write_text(PENDULUM.replace("step: 0.01", "stepp: 0.01").replace("type: rev", "typ: rev"))
+        for command in ("run", "check", "statics"):
+            done = self.expect(2, command, "bad.yaml")
+            lines = done.stderr.splitlines()
+            self.assertGreaterEqual(len(lines), 3, done.stderr)
+            self.assertEqual(lines[-1], f"{len(lines) - 1} faults in bad.yaml")
+            for line in lines[:-1]:
+                self.assertRegex(line, r"^bad\.yaml:\d+:\d+: ")
+        self.assertEqual(self.files(), ["bad.yaml", "pendulum.yaml"])
+
+    def test_output_folder_that_cannot_be_written(self):
+        done = self.expect(2, "run", "pendulum.yaml", "--out", "pendulum.yaml/out",
+                           err="the output folder 'pendulum.yaml/out' cannot be written: Not a directory")
+        self.assertEqual(done.stdout, "")
+
+    def test_full_standard_output(self):
+        with open("/dev/full", "w", encoding="ascii") as full:
+            done = subprocess.run([BINARY, "check", "pendulum.yaml"], cwd=self.folder, stdout=full,
+                                  stderr=subprocess.PIPE, text=True, timeout=60, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("standard output cannot be written", done.stderr)
+
+
+class Run(CommandLine):
+    def read_csv(self, folder):
+        with open(self.folder / folder / "results.csv", newline="", encoding="utf-8") as file:
+            return list(csv.reader(file))
+
+    def test_writes_three_files_and_says_where(self):
+        done = self.expect(0, "run", "pendulum.yaml")
+        for name in ("results.csv", "report.html", "summary.json"):
+            self.assertIn(f"out/pendulum/{name}", done.stdout)
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(self.files("out"), ["report.html", "results.csv", "summary.json"])
+
+        rows = self.read_csv("out/pendulum")
+        self.assertEqual(rows[0], ["time [s]", "rod.z [m]"])
+        self.assertEqual(len(rows), 52)
+        times = [float(row[0]) for row in rows[1:]]
+        self.assertEqual(times[0], 0.0)
+        self.assertAlmostEqual(times[-1], 0.5, 12)
+        # Falls from rest under gravity: a tip of a rod of 1 m that starts level sinks, first slowly.
+        heights = [float(row[1]) for row in rows[1:]]
+        self.assertLess(heights[-1], -0.5)
+        self.assertGreaterEqual(min(heights), -1.0 - 1e-9)
+
+        summary = json.loads((self.folder / "out/pendulum/summary.json").read_text())
+        for key in ("model", "coordinates", "inertia", "step_s", "duration_s", "steps", "substeps", "iterations",
+                    "factorizations", "cpu_s", "real_time_factor", "max_position_violation",
+                    "max_velocity_violation", "energy", "status"):
+            self.assertIn(key, summary)
+        self.assertEqual(summary["status"], "completed")
+        self.assertEqual(summary["steps"], 50)
+        self.assertEqual(summary["coordinates"], "relative")
+
+    def test_report_is_well_formed_and_self_contained(self):
+        self.expect(0, "run", "pendulum.yaml")
+        page = Page()
+        page.feed((self.folder / "out/pendulum/report.html").read_text(encoding="utf-8"))
+        page.close()
+        self.assertEqual(page.faults, [])
+        self.assertEqual(page.open, [])
+        for tag, attributes in page.tags:
+            self.assertNotIn(tag, ("script", "img", "link", "iframe", "object"))
+            for name in ("src", "href", "style"):
+                self.assertNotIn(name, attributes)
+        text = " ".join(page.text)
+        for part in ("pendulum", "rod.z", "time [s]", "z [m]", "total"):
+            self.assertIn(part, text)
+        self.assertNotIn("results are partial", text)
+
+    def test_options_reach_the_run(self):
+        self.expect(0, "run", "--set", "mass=3", "pendulum.yaml", "--coordinates", "absolute", "--step", "0.005",
+                    "--duration", "0.1", "--out", "a/b", "--no-report", "--quiet")
+        self.assertEqual(self.files("a/b"), ["results.csv", "summary.json"])
+        summary = json.loads((self.folder / "a/b/summary.json").read_text())
+        self.assertEqual((summary["coordinates"], summary["step_s"], summary["steps"]), ("absolute", 0.005, 20))
+
+    def test_quiet_prints_nothing(self):
+        done = self.expect(0, "run", "pendulum.yaml", "--quiet")
+        self.assertEqual(done.stdout + done.stderr, "")
+
+    def test_runs_repeat_to_the_bit(self):
+        self.expect(0, "run", "pendulum.yaml", "--out", "one", "--quiet")
+        self.expect(0, "run", "pendulum.yaml", "--out", "two", "--quiet")
+        self.assertEqual((self.folder / "one/results.csv").read_bytes(), (self.folder / "two/results.csv").read_bytes())
+
+    def test_failed_run_keeps_partial_results(self):
+        (self.folder / "dead_end.yaml").write_text(DEAD_END)
+        done = self.expect(1, "run", "dead_end.yaml", err="floatframe: the run failed: ")
+        self.assertIn("marked as partial", done.stderr)
+        rows = self.read_csv("out/dead_end")
+        end = float(rows[-1][0])
+        self.assertTrue(0.9 < end < 1.01, end)
+        self.assertTrue(all(len(row) == len(rows[0]) for row in rows))
+        summary = json.loads((self.folder / "out/dead_end/summary.json").read_text())
+        self.assertEqual(summary["status"], "failed")
+        self.assertRegex(summary["message"], "'(tie|hinge|crank|slider|drive)'")
+        report = (self.folder / "out/dead_end/report.html").read_text(encoding="utf-8")
+        self.assertIn("This run failed: the results are partial.", report)
+
+    def test_progress_bar_on_a_terminal_only(self):
+        self.assertEqual(self.expect(0, "run", "pendulum.yaml").stderr, "")
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.chdir(self.folder)
+            os.execv(BINARY, [BINARY, "run", "pendulum.yaml"])
+        shown = b""
+        try:
+            while chunk := os.read(terminal, 4096):
+                shown += chunk
+        except OSError:
+            pass
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), 0)
+        self.assertIn(b"[########################################]", shown)
+
+    def test_interrupt_leaves_earlier_results_alone(self):
+        self.expect(0, "run", "pendulum.yaml", "--quiet")
+        before = {p.name: p.read_bytes() for p in (self.folder / "out/pendulum").iterdir()}
+        process = subprocess.Popen([BINARY, "run", "pendulum.yaml", "--duration", "20000", "--step", "1e-4"],
+                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        after = {p.name: p.read_bytes() for p in (self.folder / "out/pendulum").iterdir()}
+        self.assertEqual(before, after)
+
+
+class CheckAndStatics(CommandLine):
+    def test_check_counts(self):
+        counts = json.loads(self.expect(0, "check", "pendulum.yaml", "--json").stdout)
+        self.assertEqual(counts["bodies"], 1)
+        self.assertEqual(counts["flexible_bodies"], 0)
+        self.assertEqual(counts["joints"], 1)
+        self.assertEqual(counts["cut_joints"], 0)
+        self.assertEqual(counts["relative"], {"rigid": 1, "elastic": 0, "total": 1, "constraints": 0})
+        self.assertEqual(counts["absolute"]["total"] - counts["absolute"]["constraints"], 1)
+        self.assertEqual(counts["degrees_of_freedom"], 1)
+        self.assertEqual(counts["redundant_constraints"], 0)
+        self.expect(0, "check", "pendulum.yaml", out="degrees of freedom: 1")
+
+    def test_statics(self):
+        result = json.loads(self.expect(0, "statics", "pendulum.yaml", "--json").stdout)
+        self.assertEqual(set(result), {"model", "iterations", "residual", "forces", "joints", "bodies"})
+        self.assertEqual(result["bodies"][0]["name"], "rod")
+        force = result["joints"][0]["force"]
+        self.assertAlmostEqual(force[2], 2 * 9.81, 6)
+        self.expect(0, "statics", "pendulum.yaml", out="hinge")
+
+
+if __name__ == "__main__":
+    unittest.main()
