@@ -52,16 +52,16 @@ Eigenmodes subspace_iteration(const SparseMatrix& K, const SparseMatrix& M, int 
   VecX mu, last;
   MatX z;
   int settled = 0;
-  for (int iteration = 0; iteration < 300 && settled < 4; ++iteration) {
-    const MatX MX = M * X;
+  for (int iteration = 0; iteration < 300 && settled < 6; ++iteration) {
+    MatX MX = M * X;
     MatX Y = factors.solve(MX);
-    // A loose orthonormalisation keeps the reduced problem well conditioned.
-    const MatX KY = K * Y;
+    // K Y = M X, so Y^T K Y = Y^T M X: a product with K would lose the digits of the low modes.
     for (Eigen::Index j = 0; j < p; ++j) {
-      const double norm = std::sqrt(std::max(Y.col(j).dot(KY.col(j)), 1e-300));
+      const double norm = std::sqrt(std::max(Y.col(j).dot(MX.col(j)), 1e-300));
       Y.col(j) /= norm;
+      MX.col(j) /= norm;
     }
-    MatX Kr = Y.transpose() * (K * Y);
+    MatX Kr = Y.transpose() * MX;
     MatX Mr = Y.transpose() * (M * Y);
     Kr = 0.5 * (Kr + Kr.transpose()).eval();
     Mr = 0.5 * (Mr + Mr.transpose()).eval();
@@ -80,7 +80,7 @@ Eigenmodes subspace_iteration(const SparseMatrix& K, const SparseMatrix& M, int 
     if (rank < p) X.rightCols(p - rank) = Y.leftCols(p - rank);
     const Eigen::Index used = std::min<Eigen::Index>(count, rank);
     if (last.size() >= used &&
-        ((mu.head(used) - last.head(used)).array().abs() <= 1e-13 * mu.head(used).array()).all()) {
+        ((mu.head(used) - last.head(used)).array().abs() <= 1e-11 * mu.head(used).array()).all()) {
       ++settled;
     } else {
       settled = 0;
