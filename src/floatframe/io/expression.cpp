@@ -21,6 +21,13 @@ constexpr int deepest_nesting = 100;
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
+std::string in_quotes(std::string_view s) {
+  std::string t(1, '\'');
+  t += s;
+  t += '\'';
+  return t;
+}
+
 /// Recursive descent; one function a level of precedence.
 class Parser {
  public:
@@ -244,7 +251,7 @@ class Parser {
     throw ExpressionError("'" + std::string(where) + "' needs true or false, found " + describe(v));
   }
   static std::string describe(const ParameterValue& v) {
-    return v.index() == 2 ? "'" + std::get<std::string>(v) + "'" : value_text(v);
+    return v.index() == 2 ? in_quotes(std::get<std::string>(v)) : value_text(v);
   }
   static double finite(double x) {
     if (!std::isfinite(x)) throw ExpressionError("the result is not a finite number");
@@ -254,7 +261,7 @@ class Parser {
   void skip_blanks() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
   }
-  std::string here() const { return "'" + std::string(text_.substr(at_, 12)) + "'"; }
+  std::string here() const { return in_quotes(text_.substr(at_, 12)); }
   bool symbol(std::string_view s) {
     skip_blanks();
     if (text_.substr(at_, s.size()) != s) return false;

@@ -97,7 +97,12 @@ class Loader {
   }
 
   static std::string shown(const ParameterValue& v) {
-    return v.index() == 2 ? "'" + value_text(v) + "'" : value_text(v);
+    std::string text = value_text(v);
+    if (v.index() == 2) {
+      text.insert(text.begin(), '\'');
+      text += '\'';
+    }
+    return text;
   }
 
   void collect_names(ModelInstance& self, std::size_t kind) {
@@ -225,8 +230,8 @@ class Loader {
     }
     for (const std::string& name : missing) child.external.emplace(name, "");
     if (!missing.empty())
-      section.fault("the external names " + joined(missing) + " of '" + child.document->file +
-                    "' are not connected, expected them in 'connect'");
+      section.fault("'" + child.document->file + "' needs " + joined(missing) +
+                    ", expected it in 'connect'");
   }
 
   ModelFiles& files_;

@@ -25,7 +25,8 @@ Mat3 read_orientation(const YamlValue& value) {
   if (v->size() == 3) return rotation_exp(Vec3((*v)[0], (*v)[1], (*v)[2]));
   const Eigen::Quaterniond q((*v)[0], (*v)[1], (*v)[2], (*v)[3]);
   if (std::abs(q.norm() - 1.0) > 1e-6) {
-    value.fault("found a quaternion of length " + number_text(q.norm()) + ", expected length 1");
+    value.fault("found a quaternion of length " + number_text(std::round(q.norm() * 1e6) / 1e6) +
+                ", expected length 1");
     return Mat3::Identity();
   }
   return q.normalized().toRotationMatrix();

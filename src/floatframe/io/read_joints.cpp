@@ -133,6 +133,13 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
       if (const auto second = s.require("axis_2")) read_direction(*second);
     }
   }
+  const auto unused = [&](const char* key) {
+    if (const auto v = s.get(key))
+      v->fault("is not used by a " + joint_words[type] + " joint, expected no such key");
+  };
+  if (!has_axis) unused("axis");
+  if (j.type != JointType::universal) unused("axis_2");
+  if (j.type != JointType::revolute && j.type != JointType::prismatic) unused("motion");
   j.position = start_values(s, "position", j.type);
   j.velocity = start_values(s, "velocity", j.type);
   if (j.type == JointType::revolute || j.type == JointType::prismatic)

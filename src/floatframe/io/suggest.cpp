@@ -29,7 +29,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
   if (name.size() > 100) return {};
   const std::string* best = nullptr;
-  int distance = std::max(1, static_cast<int>(name.size()) / 3) + 1;
+  int distance = std::max(name.size() > 1 ? 1 : 0, static_cast<int>(name.size()) / 3) + 1;
   for (const std::string& k : known) {
     if (k.size() > 100) continue;
     const int d = edit_distance(name, k);

@@ -16,7 +16,7 @@ namespace floatframe {
 namespace {
 
 constexpr int deepest_nesting = 50;
-constexpr std::uintmax_t largest_file = 64u << 20u;
+constexpr std::uintmax_t largest_file = 16u << 20u;
 
 // Inside `${...}` the characters that would end a plain scalar in a flow list or map are hidden
 // from the YAML parser as control characters (which the text cannot hold), so that `[0, ${a},
@@ -252,6 +252,8 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Fa
     SourceMark mark{file, e.mark.line + 1, e.mark.column + 1};
     if (e.mark.is_null()) mark.line = mark.column = 1;
     faults.add(mark, "YAML syntax: " + revealed(e.msg));
+  } catch (const std::exception& e) {  // the parser's own limit on recursion
+    faults.add({file, 1, 1}, std::string("YAML syntax: ") + e.what());
   }
   return document;
 }
@@ -272,7 +274,7 @@ bool read_text_file(const std::string& file, std::string& text, Faults& faults,
   if (!std::filesystem::is_regular_file(status)) return fail("this is not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) return fail("the file cannot be read");
-  if (size > largest_file) return fail("the file is larger than 64 MB");
+  if (size > largest_file) return fail("the file is larger than 16 MB");
   std::ifstream in(file, std::ios::binary);
   text.assign(static_cast<std::size_t>(size), '\0');
   if (size > 0) in.read(text.data(), static_cast<std::streamsize>(size));

@@ -37,7 +37,7 @@ struct YamlDocument {
 /// understood.
 YamlDocument parse_yaml(const std::string& file, const std::string& text, Faults& faults);
 
-/// Reads a regular file of at most 64 MB; a file that cannot be read gives a fault marked `where`
+/// Reads a regular file of at most 16 MB; a file that cannot be read gives a fault marked `where`
 /// (or the file itself if `where` is empty) and false.
 bool read_text_file(const std::string& file, std::string& text, Faults& faults,
                     const SourceMark& where, const std::string& subject);
