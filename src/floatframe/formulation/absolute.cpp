@@ -90,8 +90,11 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
   rows_.resize(static_cast<std::size_t>(nc_ - part_rows_));
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);
-  phi_ = weights_ = VecX::Zero(nc_);
-  a_ = VecX::Zero(nq_);
+  phi_ = weights_ = lambda_ = VecX::Zero(nc_);
+  a_ = omega2_ = VecX::Zero(nq_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    omega2_.segment(bodies_[i].offset + 12, bodies_[i].nm) =
+        bodies_[i].inertia.own_frequencies_squared(model_.bodies[i].data->K);
   int widest = 12;
   for (int s : sizes) widest = std::max(widest, s);
   for (Gradient* g : {&ga_, &gb_}) {
@@ -352,6 +355,7 @@ void AbsoluteFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
 void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
                                    VecX& out) noexcept {
   a_ = a;
+  lambda_ = lambda;
   weights_ = lambda;
   weights_ += alpha * phi_;
   out.setZero();
@@ -400,6 +404,51 @@ void AbsoluteFormulation::constraint_rates(VecX& out) noexcept {
       const ConstraintRow& row = rows_[static_cast<std::size_t>(i - part_rows_)];
       const WrenchRow& g = row.gradient;
       out[i] = g.Fa.dot(a.v) + g.Ta.dot(a.w) + g.Fb.dot(b.v) + g.Tb.dot(b.w) + row.phi_t;
+    }
+  }
+}
+
+void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) noexcept {
+  const auto point = [&](const MarkerData& m) -> Vec3 {  // on the body
+    const BodyData& b = body(m.body);
+    Vec3 x = delta.segment<3>(b.offset);
+    for (int c = 0; c < 3; ++c) x += m.p_B[c] * delta.segment<3>(b.offset + 3 + 3 * c);
+    if (m.local) x.noalias() += m.Jr * delta.segment(b.offset + 12, b.nm);
+    return x;
+  };
+  for (const BodyData& b : bodies_) {
+    for (int k = 0; k < 6; ++k) {
+      const Vec3 du = delta.segment<3>(b.offset + 3 + 3 * pair_a[k]);
+      const Vec3 dv = delta.segment<3>(b.offset + 3 + 3 * pair_b[k]);
+      out[b.row + k] = b.length * (k < 3 ? b.A.col(pair_a[k]).dot(du)
+                                         : b.A.col(pair_a[k]).dot(dv) + b.A.col(pair_b[k]).dot(du));
+    }
+    for (int p = 0; p < b.points; ++p) {
+      const MarkerData& m =
+          markers_[static_cast<std::size_t>(b.point_marker[static_cast<std::size_t>(p)])];
+      out.segment<3>(b.row + 6 + 3 * p) = delta.segment<3>(b.offset + 12 + b.nm + 3 * p) - point(m);
+    }
+  }
+  const auto motion = [&](int marker, Vec3& linear, Vec3& angular) {
+    const MarkerData& m = markers_[static_cast<std::size_t>(marker)];
+    linear.setZero();
+    angular.setZero();
+    if (m.body < 0) return;
+    const BodyData& b = body(m.body);
+    linear = m.point >= 0 ? Vec3(delta.segment<3>(m.point)) : point(m);
+    for (int c = 0; c < 3; ++c)
+      angular += 0.5 * b.A.col(c).cross(delta.segment<3>(b.offset + 3 + 3 * c));
+    if (m.rotates) angular.noalias() += m.Jw * delta.segment(b.offset + 12, b.nm);
+  };
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const ConstraintPart& p = parts_[k];
+    Vec3 ra, wa, rb, wb;
+    motion(p.a, ra, wa);
+    motion(p.b, rb, wb);
+    for (int r = 0; r < p.rows(); ++r) {
+      const int i = part_offset_[k] + r;
+      const WrenchRow& g = rows_[static_cast<std::size_t>(i - part_rows_)].gradient;
+      out[i] = g.Fa.dot(ra) + g.Ta.dot(wa) + g.Fb.dot(rb) + g.Tb.dot(wb);
     }
   }
 }
@@ -471,7 +520,7 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
     for (int k = 0; k < 6; ++k) {
       const int ia = 3 + 3 * pair_a[k], ib = 3 + 3 * pair_b[k];
       const Vec3 u = b.A.col(pair_a[k]), v = b.A.col(pair_b[k]);
-      const double g = s * b.length * weights_[b.row + k];
+      const double g = s * b.length * lambda_[b.row + k];
       if (k < 3) {
         f.block<3, 3>(ia, ia) += l2 * u * u.transpose();
         for (int c = 0; c < 3; ++c) f(ia + c, ia + c) += g;
@@ -486,10 +535,14 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
       const MarkerData& m =
           markers_[static_cast<std::size_t>(b.point_marker[static_cast<std::size_t>(p)])];
       const int at = 12 + b.nm + 3 * p;
+      // The tip definition is bilinear in A and y: geometric stiffness of its multipliers.
+      for (int c = 0; c < 3; ++c)
+        for (int k = 0; k < b.nm; ++k)
+          for (int i2 = 0; i2 < 3; ++i2)
+            f(12 + k, 3 + 3 * c + i2) -= s * lambda_[b.row + 6 + 3 * p + i2] * m.X(c, k);
       for (int c = 0; c < 3; ++c) {
         gradient(b.point_marker[static_cast<std::size_t>(p)], false, -Vec3::Unit(c), Vec3::Zero(),
                  ga_);
-        (void)m;
         ga_.index[static_cast<std::size_t>(ga_.count)] = at + c;
         ga_.value[static_cast<std::size_t>(ga_.count++)] = 1.0;
         gb_.body = -1;
@@ -519,6 +572,14 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
       gradient(p.a, true, g.Fa, g.Ta, ga_);
       gradient(p.b, true, g.Fb, g.Tb, gb_);
       add_rank_one(ga_, gb_, penalty);
+    }
+    if (p.kind == ConstraintPart::Kind::distance) {  // its gradient d/L turns with the rod
+      const double w = s * lambda_[part_offset_[k]] / p.scale;
+      for (int c = 0; c < 3; ++c) {
+        gradient(p.a, true, -Vec3::Unit(c), Vec3::Zero(), ga_);
+        gradient(p.b, true, Vec3::Unit(c), Vec3::Zero(), gb_);
+        add_rank_one(ga_, gb_, w);
+      }
     }
   }
   return matrix_.factorize();

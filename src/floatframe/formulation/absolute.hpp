@@ -44,8 +44,11 @@ class AbsoluteFormulation {
   int factorize(double mass, double damping, double s, double alpha) noexcept;
   void solve(VecX& b) noexcept { matrix_.solve(b); }
   const VecX& constraint_values() const noexcept { return phi_; }
+  /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates [1/s2].
+  const VecX& own_frequencies_squared() const noexcept { return omega2_; }
   void constraint_rates(VecX& out) noexcept;
   void constraint_accelerations(const VecX& a, VecX& out) noexcept;
+  void constraint_increments(const VecX& delta, VecX& out) noexcept;
   void constraint_forces(const VecX& w, VecX& out) noexcept;
   void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept { q = q0 + x; }
   void advance(VecX& x, const VecX& delta) const noexcept { x += delta; }
@@ -130,7 +133,7 @@ class AbsoluteFormulation {
   Gradient ga_, gb_;
   int nq_ = 0, nc_ = 0;
   double time_ = 0.0;
-  VecX phi_, weights_, a_;
+  VecX omega2_, phi_, weights_, lambda_, a_;
 };
 
 }  // namespace floatframe

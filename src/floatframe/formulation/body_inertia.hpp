@@ -1,6 +1,9 @@
 #pragma once
 // The inertia terms of one body inside a formulation: picks the method at load time, owns its
 // scratch. Rigid bodies use preprocessing with zero modes under either method.
+#include <algorithm>
+#include <string>
+
 #include "floatframe/body/flexible_body.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/inertia/projection.hpp"
@@ -44,6 +47,13 @@ class BodyInertia {
       absolute_projection(*projection_, A, Adot, y, ydot, projection_work_, M, Qv);
     else
       absolute_preprocessing(data_, A, Adot, y, ydot, work_, M, Qv);
+  }
+  /// K_kk / M_kk of each mode, zero for massless ones [1/s2].
+  VecX own_frequencies_squared(const MatX& K) const {
+    VecX w = VecX::Zero(data_.modes());
+    for (Eigen::Index k = 0; k < w.size(); ++k)
+      if (data_.M_ff(k, k) > 0.0) w[k] = std::max(0.0, K(k, k) / data_.M_ff(k, k));
+    return w;
   }
   const PreprocessingData& data() const noexcept { return data_; }
 

@@ -55,6 +55,9 @@ void RelativeFormulation::build_bodies(InertiaMethod method) {
     b.y = b.yd = b.ydd = VecX::Zero(b.nm);
     b.MzPhi = Mat6X::Zero(6, b.nm_parent);
     b.U = Mat6X::Zero(6, b.nj + b.nm);
+    b.g_force.setZero();
+    b.g_virial.setZero();
+    b.g_modal = b.G_modal = Mat3X::Zero(3, b.nm);
   }
   markers_.resize(model_.markers.size());
   for (std::size_t i = 0; i < markers_.size(); ++i)
@@ -234,10 +237,14 @@ void RelativeFormulation::build_elements() {
       force_elements_.push_back(e);
     }
   }
+  omega2_ = VecX::Zero(nv_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    omega2_.segment(bodies_[i].iy, bodies_[i].nm) =
+        bodies_[i].inertia.own_frequencies_squared(model_.bodies[i].data->K);
   rows_.resize(static_cast<std::size_t>(nc_));
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);
-  phi_ = weights_ = VecX::Zero(nc_);
+  phi_ = weights_ = lambda_ = VecX::Zero(nc_);
   std::size_t widest = 64;
   for (const Element& e : part_elements_) widest = std::max(widest, e.columns.size());
   for (const Element& e : force_elements_) widest = std::max(widest, e.columns.size());
@@ -480,6 +487,16 @@ void RelativeFormulation::add_wrench(int marker, const Vec3& force, const Vec3& 
   }
 }
 
+void RelativeFormulation::add_geometric(int marker, const Vec3& force) noexcept {
+  const MarkerData& m = mark(marker);
+  if (m.body < 0) return;
+  BodyData& b = body(m.body);
+  b.g_force += force;
+  b.g_virial.noalias() += m.s.r * force.transpose();
+  if (m.local)
+    for (int k = 0; k < b.nm; ++k) b.g_modal.col(k) += m.Jr.col(k).cross(force);
+}
+
 void RelativeFormulation::project(VecX& out) noexcept {
   for (std::size_t k = order_.size(); k-- > 0;) {
     BodyData& b = body(order_[k]);
@@ -518,6 +535,9 @@ void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alp
   for (const int i : order_) {
     BodyData& b = body(i);
     const Vec6 zdot = b.Zdot + b.D;
+    b.g_force.setZero();
+    b.g_virial.setZero();
+    b.g_modal.setZero();
     b.h = -b.Qv;
     b.h.noalias() += b.M.leftCols<6>() * zdot;
     if (b.nm > 0) {
@@ -530,37 +550,53 @@ void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alp
   for (std::size_t k = 0; k < model_.forces.size(); ++k) {
     const Force& f = model_.forces[k];
     const WrenchRow& w = force_states_[k].wrench;
-    if (f.a >= 0) add_wrench(f.a, -w.Fa, -w.Ta);
+    if (f.a >= 0) {
+      add_wrench(f.a, -w.Fa, -w.Ta);
+      add_geometric(f.a, -w.Fa);
+    }
     add_wrench(f.b, -w.Fb, -w.Tb);
+    add_geometric(f.b, -w.Fb);
   }
+  lambda_ = lambda;
+  weights_ = lambda;
+  weights_ += alpha * phi_;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const ConstraintPart& p = parts_[k];
-    for (int r = 0; r < p.rows(); ++r) {
-      const int i = part_offset_[k] + r;
-      const ConstraintRow& row = rows_[static_cast<std::size_t>(i)];
-      const double w = alpha * row.phi + lambda[i];
-      add_wrench(p.a, w * row.gradient.Fa, w * row.gradient.Ta);
-      add_wrench(p.b, w * row.gradient.Fb, w * row.gradient.Tb);
-    }
+    WrenchRow sum;
+    sum_rows(k, weights_, sum);
+    add_wrench(p.a, sum.Fa, sum.Ta);
+    add_wrench(p.b, sum.Fb, sum.Tb);
+    sum_rows(k, lambda_,
+             sum);  // the penalty part vanishes with convergence and would only disturb the tangent
+    add_geometric(p.a, sum.Fa);
+    add_geometric(p.b, sum.Fb);
   }
   project(out);
+}
+
+void RelativeFormulation::sum_rows(std::size_t part, const VecX& w, WrenchRow& sum) const noexcept {
+  sum.Fa.setZero();
+  sum.Ta.setZero();
+  sum.Fb.setZero();
+  sum.Tb.setZero();
+  for (int r = 0; r < parts_[part].rows(); ++r) {
+    const int i = part_offset_[part] + r;
+    const WrenchRow& g = rows_[static_cast<std::size_t>(i)].gradient;
+    sum.Fa += w[i] * g.Fa;
+    sum.Ta += w[i] * g.Ta;
+    sum.Fb += w[i] * g.Fb;
+    sum.Tb += w[i] * g.Tb;
+  }
 }
 
 void RelativeFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
   for (BodyData& b : bodies_) b.h.setZero();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const ConstraintPart& p = parts_[k];
-    Vec3 fa = Vec3::Zero(), ta = fa, fb = fa, tb = fa;
-    for (int r = 0; r < p.rows(); ++r) {
-      const int i = part_offset_[k] + r;
-      const WrenchRow& g = rows_[static_cast<std::size_t>(i)].gradient;
-      fa += w[i] * g.Fa;
-      ta += w[i] * g.Ta;
-      fb += w[i] * g.Fb;
-      tb += w[i] * g.Tb;
-    }
-    add_wrench(p.a, fa, ta);
-    add_wrench(p.b, fb, tb);
+    WrenchRow sum;
+    sum_rows(k, w, sum);
+    add_wrench(p.a, sum.Fa, sum.Ta);
+    add_wrench(p.b, sum.Fb, sum.Tb);
   }
   project(out);
 }
@@ -575,6 +611,33 @@ void RelativeFormulation::constraint_rates(VecX& out) noexcept {
       const ConstraintRow& row = rows_[static_cast<std::size_t>(i)];
       const WrenchRow& g = row.gradient;
       out[i] = g.Fa.dot(a.v) + g.Ta.dot(a.w) + g.Fb.dot(b.v) + g.Tb.dot(b.w) + row.phi_t;
+    }
+  }
+}
+
+void RelativeFormulation::constraint_increments(const VecX&, VecX& out) noexcept {
+  const auto motion = [&](int marker, Vec3& linear, Vec3& angular) {
+    const MarkerData& m = mark(marker);
+    linear.setZero();
+    angular.setZero();
+    if (m.body < 0) return;
+    const BodyData& b = body(m.body);  // `solve` left the increments [Z; y] in h
+    angular = b.h.segment<3>(3);
+    linear = b.h.head<3>() + angular.cross(m.s.r);
+    if (m.local) {
+      linear.noalias() += m.Jr * b.h.tail(b.nm);
+      if (m.rotates) angular.noalias() += m.Jw * b.h.tail(b.nm);
+    }
+  };
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const ConstraintPart& p = parts_[k];
+    Vec3 ra, wa, rb, wb;
+    motion(p.a, ra, wa);
+    motion(p.b, rb, wb);
+    for (int r = 0; r < p.rows(); ++r) {
+      const int i = part_offset_[k] + r;
+      const WrenchRow& g = rows_[static_cast<std::size_t>(i)].gradient;
+      out[i] = g.Fa.dot(ra) + g.Ta.dot(wa) + g.Fb.dot(rb) + g.Tb.dot(wb);
     }
   }
 }
@@ -681,10 +744,24 @@ void RelativeFormulation::assemble_cluster(Cluster& c, double) noexcept {
       }
       c.front.block(iy, iy, b.nm, b.nm) += Y;
       b.U.rightCols(b.nm) = N;
+      b.U.bottomRightCorner(3, b.nm) += b.G_modal;
     }
-    for (int j = 0; j < b.nj; ++j) b.U.col(j).noalias() = Mz * b.b.col(j);
+    const Mat3 G_angular = b.G_virial - b.G_virial.trace() * Mat3::Identity();
+    const auto geometric = [&](const auto& s) -> Vec3 {
+      return s.template head<3>().cross(b.G_force) + G_angular * s.template tail<3>();
+    };
     for (int j = 0; j < b.nj; ++j) {
-      for (int l = j; l < b.nj; ++l) c.front(ij + l, ij + j) += b.b.col(l).dot(b.U.col(j));
+      b.U.col(j).noalias() = Mz * b.b.col(j);
+      b.U.col(j).tail<3>() += geometric(b.b.col(j));
+    }
+    for (int j = 0; j < b.nj; ++j) {
+      // Coordinate j stands above l, but rotations of one ball have no order: symmetric part.
+      const bool above = (b.type == JointType::free && j < 3) || b.type == JointType::cylindrical ||
+                         b.type == JointType::universal;
+      for (int l = j; l < b.nj; ++l)
+        c.front(ij + l, ij + j) +=
+            above ? b.b.col(j).dot(b.U.col(l))
+                  : 0.5 * (b.b.col(l).dot(b.U.col(j)) + b.b.col(j).dot(b.U.col(l)));
       for (int l = 0; l < b.nm; ++l) c.front(iy + l, ij + j) += b.U.col(b.nj + l).dot(b.b.col(j));
     }
     // Couplings with everything between here and the cluster's parent.
@@ -713,6 +790,13 @@ void RelativeFormulation::assemble_cluster(Cluster& c, double) noexcept {
       break;
     }
     if (b.parent < 0) continue;
+    {
+      BodyData& p = body(b.parent);
+      p.G_force += b.G_force;
+      p.G_virial += b.G_virial;
+      if (b.phi)
+        for (int k2 = 0; k2 < b.nm_parent; ++k2) p.G_modal.col(k2) += geometric(b.Phi.col(k2));
+    }
     if (b.phi) b.MzPhi.noalias() = Mz * b.Phi;
     if (b.parent != c.parent) {
       BodyData& p = body(b.parent);
@@ -740,6 +824,9 @@ int RelativeFormulation::factorize(double mass, double damping, double s, double
       const FlexibleBody& data = *model_.bodies[static_cast<std::size_t>(i)].data;
       b.T.bottomRightCorner(b.nm, b.nm) += s * data.K + damping * data.D;
     }
+    b.G_force = s * b.g_force;
+    b.G_virial = s * b.g_virial;
+    b.G_modal = s * b.g_modal;
   }
   for (Cluster& c : clusters_) c.front.setZero();
   for (std::size_t k = 0; k < model_.forces.size(); ++k) {

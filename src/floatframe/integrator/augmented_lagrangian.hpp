@@ -10,7 +10,8 @@
 //   h^2),  s = 1/c2
 // Newton:  T dx = -s [M a + Phi_q^T (alpha Phi + lambda) - Q],  T = M + (c1/c2) C + s (K + Phi_q^T
 // alpha Phi_q)
-//   then q (+)= dx and lambda += alpha Phi(q).
+//   then q (+)= dx and lambda += alpha (Phi + Phi_q dx), which is alpha Phi(q) but for the
+//   curvature of the constraints.
 // Projections with the same factorised T (increment form of T v = W v* - s Phi_q^T alpha Phi_t with
 // multipliers):
 //   v -= T^-1 s Phi_q^T alpha Phi_dot(v),  a -= T^-1 s Phi_q^T alpha Phi_ddot(a), repeated until
@@ -87,7 +88,12 @@ class AugmentedLagrangian {
     a_hat_ += am * state.a_alg - af * state.a;
     a_hat_ /= (1.0 - af);
 
-    x_ = h * state.v + (0.5 * h * h) * state.a_alg;
+    // Predictor: the trapezoidal step of each coordinate as if it were an oscillator of its own
+    // (frequency 0 for rigid coordinates). A Taylor step would throw modes with omega h >> 1 far
+    // away.
+    const VecX& omega2 = f_.own_frequencies_squared();
+    for (Eigen::Index i = 0; i < x_.size(); ++i)
+      x_[i] = (h * state.v[i] + 0.5 * h * h * state.a_alg[i]) / (1.0 + 0.25 * h * h * omega2[i]);
     lambda_ = state.lambda;
     double increment = 0.0;
     bool converged = false;
@@ -100,7 +106,6 @@ class AugmentedLagrangian {
       const VecX& phi = f_.constraint_values();
       report.position_violation = largest(phi);
       if (report.iterations > 0) {
-        lambda_ += alpha * phi;
         converged = increment < options_.tolerance &&
                     report.position_violation < options_.position_tolerance;
         if (!std::isfinite(increment) || !std::isfinite(report.position_violation)) {
@@ -128,6 +133,12 @@ class AugmentedLagrangian {
       }
       delta_ = -s * rhs_;
       f_.solve(delta_);
+      // The multiplier that belongs to this solution: lambda + alpha (Phi + Phi_q dx). Taking
+      // Phi(q) after the update instead would feed the curvature of the constraints, alpha O(dx^2),
+      // into the multipliers.
+      f_.constraint_increments(delta_, work_);
+      work_ += phi;
+      lambda_ += alpha * work_;
       f_.advance(x_, delta_);
       increment = largest(delta_);
       ++report.iterations;

@@ -133,7 +133,9 @@ class Builder {
           m.node = static_cast<int>(k);
         }
       }
-      if (best > node_tolerance) {
+      if (best > node_tolerance && X_BM.p.norm() <= node_tolerance && frame_is_clamped(nodes)) {
+        m.node = -1;  // the body frame itself, which follows fully clamped nodes rigidly
+      } else if (best > node_tolerance) {
         const Vec3 nearest = m.node < 0 ? Vec3::Zero().eval()
                                         : Vec3(b.X_WB * nodes[static_cast<std::size_t>(m.node)].p);
         faults_.add(mark, who + ": found point " + point_text(at.point) + " on flexible body '" +
@@ -154,6 +156,13 @@ class Builder {
       if (same(model_.markers[k], m)) return static_cast<int>(k);
     model_.markers.push_back(m);
     return static_cast<int>(model_.markers.size()) - 1;
+  }
+
+  /// True if some node keeps its place and orientation in the body frame in every mode.
+  static bool frame_is_clamped(const std::vector<ModalNode>& nodes) {
+    for (const ModalNode& n : nodes)
+      if (n.X.isZero(0.0) && n.X_theta.isZero(0.0)) return true;
+    return false;
   }
 
   static bool same(const Marker& a, const Marker& b) {
