@@ -79,8 +79,8 @@ Ticks nice_ticks(double low, double high, int about, bool cover) {
       break;
     }
   }
-  // A value within rounding of a tick is on the tick.
-  const double slack = 1e-9;
+  // A value just beyond a tick counts as on it: 40.0001 m must not stretch the axis to 50 m.
+  const double slack = cover ? 0.01 : 1e-9;
   const double from = cover ? std::floor(low / step + slack) : std::ceil(low / step - slack);
   const double to = cover ? std::ceil(high / step - slack) : std::floor(high / step + slack);
   return {from * step, step, static_cast<int>(to - from) + 1};
