@@ -1,0 +1,171 @@
+// Mirror rules: twice is the identity, two planes are a half turn, handed quantities change as
+// vectors of their kind.
+#include "floatframe/io/mirror.hpp"
+
+#include <gtest/gtest.h>
+
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+const Vec3 p(0.3, -1.2, 0.7), a(0.2, 0.5, -0.4);
+
+JointDescription joint(JointType type, std::vector<double> q) {
+  JointDescription j;
+  j.type = type;
+  j.parent.point = j.child.point = p;
+  j.axis = a.normalized();
+  j.axis_2 = Vec3(1.0, 0.3, 0.1).normalized();
+  j.position = j.velocity = std::move(q);
+  return j;
+}
+
+void expect_equal(const JointDescription& x, const JointDescription& y) {
+  EXPECT_LT((x.parent.point - y.parent.point).norm(), 1e-15);
+  EXPECT_LT((x.axis - y.axis).norm(), 1e-15);
+  EXPECT_LT((x.axis_2 - y.axis_2).norm(), 1e-15);
+  ASSERT_EQ(x.position.size(), y.position.size());
+  for (std::size_t i = 0; i < x.position.size(); ++i) {
+    EXPECT_NEAR(x.position[i], y.position[i], 1e-15);
+    EXPECT_NEAR(x.velocity[i], y.velocity[i], 1e-15);
+  }
+}
+
+std::vector<JointDescription> all_joints() {
+  return {joint(JointType::weld, {}),
+          joint(JointType::revolute, {0.3}),
+          joint(JointType::prismatic, {0.3}),
+          joint(JointType::cylindrical, {0.3, 0.4}),
+          joint(JointType::universal, {0.3, 0.4}),
+          joint(JointType::spherical, {0.3, 0.4, 0.5}),
+          joint(JointType::free, {0.3, 0.4, 0.5, 0.6, 0.7, 0.8})};
+}
+
+TEST(Mirror, TwiceIsTheOriginal) {
+  const Placement m = reflection(1, 0.35);
+  for (const JointDescription& j : all_joints()) {
+    JointDescription image = j;
+    place(image, m);
+    place(image, m);
+    expect_equal(image, j);
+  }
+  const Placement twice = m * m;
+  EXPECT_EQ(twice.P, Mat3::Identity());
+  EXPECT_EQ(twice.t, Vec3::Zero());
+}
+
+TEST(Mirror, OneAfterTheOtherIsTheProduct) {
+  const Placement x = reflection(0, -0.0385), y = reflection(1, 0.2);
+  for (const JointDescription& j : all_joints()) {
+    JointDescription steps = j, once = j;
+    place(steps, x);
+    place(steps, y);
+    place(once, y * x);
+    expect_equal(steps, once);
+  }
+}
+
+/// Two planes are a half turn about their common line: every vector turns, polar or axial.
+TEST(Mirror, TwoPlanesAreAHalfTurn) {
+  const Placement both = reflection(1, 0.0) * reflection(0, 0.0);
+  const Mat3 R = rotation_exp(Vec3(0.0, 0.0, std::acos(-1.0)));
+  EXPECT_LT((both.P - R).norm(), 1e-15);
+  EXPECT_EQ(both.polar(a), both.axial(a));
+  EXPECT_LT((both.point(p) - R * p).norm(), 1e-15);
+}
+
+TEST(Mirror, VectorsOfBothKinds) {
+  const Placement m = reflection(1, 0.1);  // y -> 0.2 - y
+  EXPECT_EQ(m.point(Vec3(1, 2, 3)), Vec3(1, -1.8, 3));
+  EXPECT_EQ(m.polar(Vec3(1, 2, 3)), Vec3(1, -2, 3));
+  EXPECT_EQ(m.axial(Vec3(1, 2, 3)), Vec3(-1, 2, -3));
+}
+
+/// The same coordinate must mean the mirrored motion: P R(axis, q) P = R(axis', q).
+TEST(Mirror, SameCoordinateMeansTheMirroredMotion) {
+  for (const Placement& m :
+       {reflection(0, 0.4), reflection(2, 0.0), reflection(0, 1.0) * reflection(1, 0.0)}) {
+    const double q = 0.7;
+    JointDescription j = joint(JointType::revolute, {q});
+    const Mat3 R = rotation_exp(q * j.axis);
+    place(j, m);
+    EXPECT_LT((m.P * R * m.P - rotation_exp(q * j.axis)).norm(), 1e-14);
+
+    j = joint(JointType::universal, {q, 0.2});
+    const Mat3 U = rotation_exp(q * j.axis) * rotation_exp(0.2 * j.axis_2);
+    place(j, m);
+    EXPECT_LT((m.P * U * m.P - rotation_exp(q * j.axis) * rotation_exp(0.2 * j.axis_2)).norm(),
+              1e-14);
+
+    j = joint(JointType::cylindrical, {q, 0.2});
+    const Vec3 shift = q * j.axis;
+    const Mat3 C = rotation_exp(0.2 * j.axis);
+    place(j, m);
+    EXPECT_LT((m.P * shift - j.position[0] * j.axis).norm(), 1e-15);
+    EXPECT_LT((m.P * C * m.P - rotation_exp(j.position[1] * j.axis)).norm(), 1e-14);
+
+    j = joint(JointType::free, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
+    const Vec3 theta(0.4, 0.5, 0.6);
+    place(j, m);
+    const Vec3 image(j.position[3], j.position[4], j.position[5]);
+    EXPECT_LT((m.P * rotation_exp(theta) * m.P - rotation_exp(image)).norm(), 1e-14);
+    EXPECT_LT(
+        (m.polar(Vec3(0.1, 0.2, 0.3)) - Vec3(j.position[0], j.position[1], j.position[2])).norm(),
+        1e-15);
+  }
+}
+
+TEST(Mirror, RigidBody) {
+  BodyDescription b;
+  b.X_WB = {p, rotation_exp(a)};
+  RigidDescription r;
+  r.mass = 2.0;
+  r.p_BC = Vec3(0.1, 0.2, 0.3);
+  r.J_C << 2.0, 0.1, 0.2, 0.1, 3.0, 0.3, 0.2, 0.3, 4.0;
+  b.kind = r;
+  const Placement m = reflection(1, 0.5);
+  BodyDescription image = b;
+  place(image, m);
+  const auto& s = std::get<RigidDescription>(image.kind);
+  // Centre of mass and inertia in world axes are the mirror images.
+  EXPECT_LT((image.X_WB * s.p_BC - m.point(b.X_WB * r.p_BC)).norm(), 1e-15);
+  const Mat3 J = b.X_WB.R * r.J_C * b.X_WB.R.transpose();
+  EXPECT_LT((image.X_WB.R * s.J_C * image.X_WB.R.transpose() - m.P * J * m.P).norm(), 1e-14);
+  EXPECT_NEAR(image.X_WB.R.determinant(), 1.0, 1e-14);
+  EXPECT_EQ(image.mirror, Mat3::Identity());
+  place(image, m);
+  EXPECT_LT((image.X_WB.p - b.X_WB.p).norm(), 1e-15);
+  EXPECT_LT((std::get<RigidDescription>(image.kind).J_C - r.J_C).norm(), 1e-15);
+}
+
+TEST(Mirror, FlexibleBodyKeepsItsDescription) {
+  BodyDescription b;
+  b.X_WB = b.X_WT = {p, rotation_exp(a)};
+  FlexibleDescription f;
+  f.points["tip"] = Vec3(1, 2, 3);
+  b.kind = f;
+  const Placement m = reflection(0, -0.0385);
+  place(b, m);
+  EXPECT_EQ(b.mirror, m.P);
+  EXPECT_EQ(b.X_WT.p, p);
+  // A point of the template, in template body coordinates, ends at its mirror image.
+  const Vec3 in_body = b.X_WT.inverse() * Vec3(1, 2, 3);
+  EXPECT_LT((b.X_WB * Vec3(b.mirror * in_body) - m.point(Vec3(1, 2, 3))).norm(), 1e-14);
+}
+
+TEST(Mirror, Loads) {
+  const Placement m = reflection(2, 0.0);
+  for (bool torque : {false, true}) {
+    ForceDescription f;
+    AppliedLoadDescription l;
+    l.torque = torque;
+    l.direction = a;
+    f.kind = l;
+    place(f, m);
+    EXPECT_EQ(std::get<AppliedLoadDescription>(f.kind).direction, torque ? m.axial(a) : m.polar(a));
+  }
+}
+
+}  // namespace
+}  // namespace floatframe

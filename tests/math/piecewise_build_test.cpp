@@ -1,0 +1,89 @@
+// Tables, road profiles, sums and the continuity check of piecewise polynomials.
+#include "floatframe/math/piecewise_build.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace floatframe {
+namespace {
+
+TEST(Table, LinearGoesThroughItsPointsAndContinues) {
+  const auto f = table_function({{0, 1}, {1, 3}, {3, 2}}, Interpolation::linear, Beyond::tangent);
+  EXPECT_DOUBLE_EQ(f(-1).f, -1.0);
+  EXPECT_DOUBLE_EQ(f(0.5).f, 2.0);
+  EXPECT_DOUBLE_EQ(f(2).f, 2.5);
+  EXPECT_DOUBLE_EQ(f(5).f, 1.0);
+  const auto g = table_function({{0, 1}, {1, 3}, {3, 2}}, Interpolation::linear, Beyond::hold);
+  EXPECT_DOUBLE_EQ(g(-1).f, 1.0);
+  EXPECT_DOUBLE_EQ(g(5).f, 2.0);
+}
+
+TEST(Table, CubicIsMonotoneAndSmooth) {
+  const std::vector<TablePoint> p{{0, 0}, {1, 0.1}, {2, 5}, {3, 5.1}, {5, 6}, {6, 6}};
+  for (const Beyond beyond : {Beyond::tangent, Beyond::hold}) {
+    const auto f = table_function(p, Interpolation::cubic, beyond);
+    for (const TablePoint& q : p) EXPECT_NEAR(f(q.x).f, q.f, 1e-14);
+    double last = f(0).f;
+    for (double x = 0.0; x < 6.0; x += 0.01) {
+      EXPECT_GE(f(x).f, last - 1e-12);
+      last = f(x).f;
+    }
+    for (std::size_t k = 0; k < f.breaks().size(); ++k) {
+      const double x = f.breaks()[k];
+      EXPECT_NEAR(f.piece_value(k, x).f, f.piece_value(k + 1, x).f, 1e-13);
+      EXPECT_NEAR(f.piece_value(k, x).df, f.piece_value(k + 1, x).df, 1e-13);
+    }
+  }
+  // Two points: a straight line.
+  const auto line = table_function({{0, 1}, {2, 5}}, Interpolation::cubic, Beyond::tangent);
+  EXPECT_DOUBLE_EQ(line(3).f, 7.0);
+}
+
+TEST(Profile, JumpsAndFlatEnds) {
+  const auto f = profile_function({{5, 0}, {15, 2}, {20, 2}, {20, 1.7}, {21, 1.7}, {21, 0}});
+  EXPECT_DOUBLE_EQ(f(-10).f, 0.0);
+  EXPECT_DOUBLE_EQ(f(10).f, 1.0);
+  EXPECT_DOUBLE_EQ(f(10).df, 0.2);
+  EXPECT_DOUBLE_EQ(f(19.999).f, 2.0);
+  EXPECT_DOUBLE_EQ(f(20).f, 1.7);
+  EXPECT_DOUBLE_EQ(f(20.5).f, 1.7);
+  EXPECT_DOUBLE_EQ(f(21).f, 0.0);
+  EXPECT_DOUBLE_EQ(f(100).f, 0.0);
+  EXPECT_EQ(profile_function({{0, 0.3}})(7).f, 0.3);
+}
+
+TEST(Sum, AddsValuesAndSlopes) {
+  const PiecewisePolynomial a({0.5}, {{0.5, {1, 2, 3}}, {-1, {4, 5}}});
+  const PiecewisePolynomial b({0.2, 0.5, 0.9},
+                              {{0, {1}}, {2, {0, 1, 1, 1}}, {0, {7}}, {1, {1, 1}}});
+  const PiecewisePolynomial c = a + b;
+  EXPECT_EQ(c.breaks().size(), 3u);
+  for (double x = -2.0; x < 3.0; x += 0.05) {
+    EXPECT_NEAR(c(x).f, a(x).f + b(x).f, 1e-12);
+    EXPECT_NEAR(c(x).df, a(x).df + b(x).df, 1e-12);
+    EXPECT_NEAR(c(x).ddf, a(x).ddf + b(x).ddf, 1e-12);
+  }
+}
+
+TEST(Stops, ActOnTheirSide) {
+  const auto bump = ramp_below(0.1, 1000), rebound = ramp_above(0.3, 500);
+  EXPECT_DOUBLE_EQ(bump(0.05).f, -50.0);
+  EXPECT_DOUBLE_EQ(bump(0.2).f, 0.0);
+  EXPECT_DOUBLE_EQ(rebound(0.2).f, 0.0);
+  EXPECT_DOUBLE_EQ(rebound(0.5).f, 100.0);
+}
+
+TEST(Continuity, JumpAgainstRange) {
+  const PiecewisePolynomial joined({1.0}, {{0, {0, 100}}, {1, {100, 300}}});
+  EXPECT_TRUE(largest_jump(joined).continuous());
+  const PiecewisePolynomial nearly({1.0}, {{0, {0, 100}}, {1, {100.0001, 300}}});
+  EXPECT_TRUE(largest_jump(nearly).continuous());
+  const PiecewisePolynomial jump({1.0}, {{0, {0, 100}}, {1, {100.01, 300}}});
+  EXPECT_FALSE(largest_jump(jump).continuous());
+  EXPECT_NEAR(largest_jump(jump).jump, 0.01, 1e-12);
+  EXPECT_TRUE(largest_jump(PiecewisePolynomial()).continuous());
+}
+
+}  // namespace
+}  // namespace floatframe
