@@ -133,6 +133,7 @@ class Misuse(CommandLine):
                 (("run", "pendulum.yaml", "--set", "mass"), "--set: found 'mass', expected NAME=VALUE"),
                 (("check", "pendulum.yaml", "--set", "=3"), "--set: found '=3', expected NAME=VALUE"),
                 (("bench",), "subcommand is required"),
+                (("bench", "iltis", "--model", "pendulum.yaml", "--duration", "0"), "--duration: found '0'"),
                 (("bench", "iltis", "--repeat", "0"), "--repeat"),
                 (("bench", "iltis", "--elements", "5,x"), "--elements"),
                 (("bench", "iltis", "--model", "pendulum.yaml", "--json", "."), "Is a directory")):
@@ -297,6 +298,28 @@ class CheckAndStatics(CommandLine):
         force = result["joints"][0]["force"]
         self.assertAlmostEqual(force[2], 2 * 9.81, 6)
         self.expect(0, "statics", "pendulum.yaml", out="hinge")
+
+
+class Bench(CommandLine):
+    def test_iltis_finds_its_model_and_writes_json(self):
+        examples = pathlib.Path(os.environ.get("FLOATFRAME_EXAMPLES") or
+                                pathlib.Path(__file__).resolve().parents[2] / "examples")
+        model = examples / "iltis" / "iltis.yaml"
+        done = self.expect(0, "bench", "iltis", "--repeat", 1, "--elements", "5,10", "--duration", 0.1,
+                           "--json", "bench.json", "--model", model)
+        for part in ("Abs. + B", "Rel. + P", "paper", "4.19", "0.79", "x real time",
+                     "one dense LLT of a 98 x 98 matrix", "one full Newton iteration"):
+            self.assertIn(part, done.stdout)
+        figures = json.loads((self.folder / "bench.json").read_text())
+        self.assertEqual(len(figures["rows"]), 8)
+        for row in figures["rows"]:
+            self.assertEqual(row["steps"], 10)
+            self.assertGreater(row["iterations"], 0)
+            self.assertGreater(row["cpu_s_min"], 0)
+            self.assertGreaterEqual(row["cpu_s_median"], row["cpu_s_min"])
+        self.assertGreater(figures["dense_llt_98_us"], 0)
+        self.assertGreater(figures["rel_p_iteration_us"], 0)
+        self.assertEqual(self.files(), ["bench.json", "pendulum.yaml"])
 
 
 if __name__ == "__main__":

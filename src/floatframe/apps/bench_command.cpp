@@ -33,7 +33,18 @@ std::string find_iltis() {
   throw InputError(fmt::format("the Iltis model was not found ({}); give it with --model", tried));
 }
 
-int run_bench(BenchOptions options, const std::string& json_file) {
+struct BenchArguments {
+  BenchOptions options;
+  std::string step, duration, json_file;
+};
+
+int run_bench(const BenchArguments& arguments) {
+  BenchOptions options = arguments.options;
+  const std::string& json_file = arguments.json_file;
+  if (!arguments.step.empty()) options.step = positive_number("--step", arguments.step);
+  if (!arguments.duration.empty()) {
+    options.duration = positive_number("--duration", arguments.duration);
+  }
   if (options.model.empty()) options.model = find_iltis();
   if (!json_file.empty()) {
     try {
@@ -58,27 +69,30 @@ void add_bench_command(CLI::App& app, Action& action) {
   bench->require_subcommand(1);
   CLI::App* iltis = bench->add_subcommand(
       "iltis", "The Iltis manoeuvre: Table 1 of the paper beside this machine");
-  auto options = std::make_shared<BenchOptions>();
-  auto json_file = std::make_shared<std::string>();
-  iltis->add_option("--json", *json_file, "Write the figures to this file as JSON")
+  auto arguments = std::make_shared<BenchArguments>();
+  iltis->add_option("--json", arguments->json_file, "Write the figures to this file as JSON")
       ->type_name("FILE");
-  iltis->add_option("--repeat", options->repeats, "Runs of each combination (default 5)")
+  iltis->add_option("--repeat", arguments->options.repeats, "Runs of each combination (default 5)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
   iltis
-      ->add_option("--elements", options->elements,
+      ->add_option("--elements", arguments->options.elements,
                    "Elements a bar, comma-separated (default 5,10,50,100)")
       ->delimiter(',')
       ->check(CLI::Range(1, 100000))
       ->type_name("LIST");
   iltis
-      ->add_option("--model", options->model,
+      ->add_option("--model", arguments->options.model,
                    "Model file with a parameter ne (default: the example iltis.yaml)")
       ->type_name("FILE");
+  iltis->add_option("--step", arguments->step, "Time step [s]; default: that of the model file")
+      ->type_name("SECONDS");
+  iltis
+      ->add_option("--duration", arguments->duration,
+                   "Time to simulate [s]; default: that of the model file")
+      ->type_name("SECONDS");
   iltis->footer("Times are processor seconds of stepping, without input and output.");
-  iltis->callback([options, json_file, &action] {
-    action = [options, json_file] { return run_bench(*options, *json_file); };
-  });
+  iltis->callback([arguments, &action] { action = [arguments] { return run_bench(*arguments); }; });
 }
 
 }  // namespace floatframe

@@ -80,8 +80,9 @@ BenchResult bench_iltis(const BenchOptions& options) {
   const int largest = *std::max_element(options.elements.begin(), options.elements.end());
   for (const int elements : options.elements) {
     const Clock::time_point start = Clock::now();
-    const ModelDescription description =
-        read_model(options.model, {{"ne", std::to_string(elements)}});
+    ModelDescription description = read_model(options.model, {{"ne", std::to_string(elements)}});
+    if (options.step > 0.0) description.simulation.step = options.step;
+    if (options.duration > 0.0) description.simulation.duration = options.duration;
     const Clock::time_point was_read = Clock::now();
     const Model model = build_model(description);
     result.builds.push_back({elements, seconds(start, was_read), seconds(was_read, Clock::now())});

@@ -39,6 +39,7 @@ struct BenchOptions {
   std::string model;  ///< model file with the parameter `ne`
   std::vector<int> elements{5, 10, 50, 100};
   int repeats = 5;
+  double step = 0, duration = 0;  ///< [s]; 0: those of the model file
   std::function<void(double)> progress;
 };
 
