@@ -20,7 +20,7 @@ target_compile_options(floatframe_compiler INTERFACE
   $<$<CONFIG:Release>:-O3>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
   # These two see through inlined Eigen expressions of dynamic size and report what cannot happen.
-  target_compile_options(floatframe_compiler INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds)
+  target_compile_options(floatframe_compiler INTERFACE -Wno-maybe-uninitialized -Wno-restrict -Wno-array-bounds)
 endif()
 if(FLOATFRAME_SANITIZE)
   target_compile_options(floatframe_compiler INTERFACE

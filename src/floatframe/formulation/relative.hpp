@@ -111,6 +111,8 @@ class RelativeFormulation {
     return rows_[static_cast<std::size_t>(i)];
   }
   bool is_elastic(int i) const noexcept;
+  /// Indices into q of the translations of free joints to the ground.
+  std::vector<int> free_translations() const;
   double total_mass() const noexcept;
   /// "body 'arm'" or "joint 'hinge'" that coordinate i belongs to.
   std::string coordinate_owner(int i) const;

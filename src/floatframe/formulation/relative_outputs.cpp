@@ -85,6 +85,14 @@ bool RelativeFormulation::is_elastic(int i) const noexcept {
   return false;
 }
 
+std::vector<int> RelativeFormulation::free_translations() const {
+  std::vector<int> indices;
+  for (const BodyData& b : bodies_)
+    if (b.type == JointType::free && b.parent < 0)
+      indices.insert(indices.end(), {b.iq, b.iq + 1, b.iq + 2});
+  return indices;
+}
+
 double RelativeFormulation::total_mass() const noexcept {
   double m = 0.0;
   for (const BodyData& b : bodies_) m += b.inertia.data().m;

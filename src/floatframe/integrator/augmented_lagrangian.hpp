@@ -144,7 +144,17 @@ class AugmentedLagrangian {
       ++report.iterations;
     }
 
-    project(s * alpha, report);
+    if (f_.constraints() > 0) {
+      constexpr double stiffness = 1e-2;
+      const int pivot = f_.factorize(1.0, 0.0, stiffness * s, alpha / stiffness);
+      ++report.factorizations;
+      if (pivot >= 0) {
+        report.status = StepStatus::singular_tangent;
+        report.coordinate = pivot;
+        return report;
+      }
+      project(s * alpha, report);
+    }
     a_alg_ = base * (x_ - h * state.v - (h * h * (0.5 - beta)) * state.a_alg);
     state.t += h;
     state.q.swap(q_);
@@ -162,7 +172,6 @@ class AugmentedLagrangian {
 
  private:
   void project(double weight, StepReport& report) noexcept {
-    if (f_.constraints() == 0) return;
     for (int pass = 0; pass < options_.max_projections; ++pass) {
       f_.constraint_rates(rate_);
       report.velocity_violation = largest(rate_);

@@ -42,6 +42,20 @@ VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
   return w.cwiseSqrt().cwiseProduct(cod.solve(b));
 }
 
+/// A vehicle on a road is in balance wherever it stands: free bodies go back to their start in the
+/// horizontal directions that the equilibrium does not care about.
+template <class Evaluate>
+void keep_neutral_positions(RelativeFormulation& f, const VecX& start, VecX& q, double residual,
+                            double weight, const Evaluate& evaluate) {
+  VecX r(f.velocities());
+  for (const int i : f.free_translations()) {
+    VecX moved = q;
+    moved[i] = start[i];
+    evaluate(moved, r);
+    if (largest(r) < residual + 1e-10 * weight) q = moved;
+  }
+}
+
 }  // namespace
 
 void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_positions) {
@@ -109,6 +123,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   const VecX zero = VecX::Zero(nv);
   Equilibrium e;
   e.lambda = VecX::Zero(nc);
+  const VecX start_q = q;
   VecX r(nv), r1(nv), r2(nv), q1(q.size()), x = VecX::Zero(nv);
   const auto evaluate = [&](const VecX& at, VecX& out) {
     f.positions(0.0, at);
@@ -193,6 +208,9 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   }
   q = best_q;
   e.lambda = best_lambda;
+  evaluate(q, r);
+  e.residual = largest(r);
+  keep_neutral_positions(f, start_q, q, e.residual, weight, evaluate);
   evaluate(q, r);
   e.residual = largest(r);
   if (!(best < 1e-7 * weight)) {
