@@ -195,7 +195,8 @@ class RelativeFormulation {
   void fill_gradient(const Element& e,
                      const WrenchRow& g) noexcept;  // compressed gradient in slots_
   void add_rank_one(const Element& e, const WrenchRow& g, double weight) noexcept;
-  void assemble_cluster(Cluster& c, double mass) noexcept;
+  void add_isotropic(const Element& e, double weight) noexcept;
+  void assemble_cluster(Cluster& c) noexcept;
   BodyData& body(int i) noexcept { return bodies_[static_cast<std::size_t>(i)]; }
   const BodyData& body(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)]; }
   MarkerData& mark(int i) noexcept { return markers_[static_cast<std::size_t>(i)]; }

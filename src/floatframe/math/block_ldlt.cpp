@@ -57,7 +57,8 @@ BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<
         node.rows.push_back(nodes_[static_cast<std::size_t>(b)].offset + i);
       start += sizes[static_cast<std::size_t>(b)];
     }
-    node.matrix = MatX::Zero(start, start);
+    node.total = start;
+    node.matrix = MatX::Zero(front_stride(start), start);
     node.original = VecX::Zero(start);
     node.work = VecX::Zero(start);
   }
@@ -103,14 +104,14 @@ void BlockLdlt::add(int a, int i, int b, int j, double x) noexcept {
 int BlockLdlt::factorize() noexcept {
   for (const int k : order_) {
     Node& n = nodes_[static_cast<std::size_t>(k)];
-    const int total = static_cast<int>(n.matrix.rows());
-    const int failed = partial_ldlt(n.matrix.data(), total, total, n.size, n.original.data());
+    const int total = n.total, ld = static_cast<int>(n.matrix.rows());
+    const int failed = partial_ldlt(n.matrix.data(), ld, total, n.size, n.original.data());
     if (failed >= 0) return n.offset + failed;
     if (n.parent < 0) continue;
     MatX& p = nodes_[static_cast<std::size_t>(n.parent)].matrix;
     const int m = total - n.size;
     for (int j = 0; j < m; ++j) {
-      const double* from = n.matrix.data() + static_cast<Eigen::Index>(n.size + j) * total + n.size;
+      const double* from = n.matrix.data() + static_cast<Eigen::Index>(n.size + j) * ld + n.size;
       double* to = p.data() +
                    static_cast<Eigen::Index>(n.parent_rows[static_cast<std::size_t>(j)]) * p.rows();
       for (int i = j; i < m; ++i) to[n.parent_rows[static_cast<std::size_t>(i)]] += from[i];
@@ -122,28 +123,28 @@ int BlockLdlt::factorize() noexcept {
 void BlockLdlt::solve(VecX& x) noexcept {
   for (const int k : order_) {
     Node& n = nodes_[static_cast<std::size_t>(k)];
-    const int total = static_cast<int>(n.matrix.rows());
+    const int total = n.total, ld = static_cast<int>(n.matrix.rows());
     n.work.head(n.size) = x.segment(n.offset, n.size);
     n.work.tail(total - n.size).setZero();
-    partial_forward(n.matrix.data(), total, total, n.size, n.work.data());
+    partial_forward(n.matrix.data(), ld, total, n.size, n.work.data());
     x.segment(n.offset, n.size) = n.work.head(n.size);
     for (std::size_t i = 0; i < n.rows.size(); ++i)
       x[n.rows[i]] += n.work[n.size + static_cast<int>(i)];
   }
   for (std::size_t l = order_.size(); l-- > 0;) {
     Node& n = nodes_[static_cast<std::size_t>(order_[l])];
-    const int total = static_cast<int>(n.matrix.rows());
+    const int total = n.total, ld = static_cast<int>(n.matrix.rows());
     n.work.head(n.size) = x.segment(n.offset, n.size);
     for (std::size_t i = 0; i < n.rows.size(); ++i)
       n.work[n.size + static_cast<int>(i)] = x[n.rows[i]];
-    partial_backward(n.matrix.data(), total, total, n.size, n.work.data());
+    partial_backward(n.matrix.data(), ld, total, n.size, n.work.data());
     x.segment(n.offset, n.size) = n.work.head(n.size);
   }
 }
 
 long BlockLdlt::factor_entries() const noexcept {
   long sum = 0;
-  for (const Node& n : nodes_) sum += static_cast<long>(n.matrix.rows()) * n.size;
+  for (const Node& n : nodes_) sum += static_cast<long>(n.total) * n.size;
   return sum;
 }
 

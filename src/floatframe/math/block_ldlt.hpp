@@ -33,7 +33,7 @@ class BlockLdlt {
 
  private:
   struct Node {
-    int size = 0, offset = 0, rank = 0, parent = -1;
+    int size = 0, total = 0, offset = 0, rank = 0, parent = -1;
     std::vector<int> blocks;       // coupled blocks eliminated later, in elimination order
     std::vector<int> start;        // where they start in the front
     std::vector<int> rows;         // global index of each trailing row

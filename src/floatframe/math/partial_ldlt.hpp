@@ -16,37 +16,44 @@ namespace floatframe {
 /// Pivots smaller than this fraction of the original diagonal are round-off.
 inline constexpr double pivot_tolerance = 1e-14;
 
+/// Leading dimension for a front of n rows: a multiple of four, so that whole SIMD lanes are worked
+/// on.
+inline constexpr int front_stride(int n) noexcept { return (n + 3) & ~3; }
+
 /// Returns -1, or the first column whose pivot vanished. `original` receives the diagonal before
-/// elimination (size ne).
+/// elimination (size ne). With a leading dimension that is a multiple of four, rows n..ld must be
+/// zero, and entries above the diagonal are scratch.
 inline int partial_ldlt(double* f, int ld, int n, int ne, double* original) noexcept {
   for (int j = 0; j < ne; ++j) original[j] = f[j * ld + j];
+  const bool padded = ld % 4 == 0;
+  const int end = padded ? front_stride(n) : n;
+  const int mask = padded ? ~3 : ~0;
   constexpr int width = 4;
-  double scaled[width];
   for (int j0 = 0; j0 < ne; j0 += width) {
     const int j1 = std::min(j0 + width, ne);
     for (int j = j0; j < j1; ++j) {  // factorise the panel column by column, left-looking inside it
       double* __restrict cj = f + j * ld;
       for (int p = j0; p < j; ++p) {
         const double* __restrict cp = f + p * ld;
-        const double w = cp[j] * f[p * ld + p];
-        for (int i = j; i < n; ++i) cj[i] -= w * cp[i];
+        const double w = cp[j] * cp[p];
+        for (int i = j & mask; i < end; ++i) cj[i] -= w * cp[i];
       }
       const double d = cj[j];
       if (!(std::abs(d) > pivot_tolerance * std::abs(original[j])) || !std::isfinite(d)) return j;
       const double inverse = 1.0 / d;
-      for (int i = j + 1; i < n; ++i) cj[i] *= inverse;
+      for (int i = j + 1; i < end; ++i) cj[i] *= inverse;
     }
+    const double* __restrict c0 = f + j0 * ld;
     if (j1 - j0 == width) {  // trailing update with four columns at once
-      const double* __restrict c0 = f + j0 * ld;
       const double* __restrict c1 = c0 + ld;
       const double* __restrict c2 = c1 + ld;
       const double* __restrict c3 = c2 + ld;
-      for (int p = 0; p < width; ++p) scaled[p] = f[(j0 + p) * ld + j0 + p];
+      const double d0 = c0[j0], d1 = c1[j0 + 1], d2 = c2[j0 + 2], d3 = c3[j0 + 3];
       for (int k = j1; k < n; ++k) {
         double* __restrict ck = f + k * ld;
-        const double w0 = c0[k] * scaled[0], w1 = c1[k] * scaled[1];
-        const double w2 = c2[k] * scaled[2], w3 = c3[k] * scaled[3];
-        for (int i = k; i < n; ++i) ck[i] -= w0 * c0[i] + w1 * c1[i] + w2 * c2[i] + w3 * c3[i];
+        const double w0 = c0[k] * d0, w1 = c1[k] * d1, w2 = c2[k] * d2, w3 = c3[k] * d3;
+        for (int i = k & mask; i < end; ++i)
+          ck[i] -= w0 * c0[i] + w1 * c1[i] + w2 * c2[i] + w3 * c3[i];
       }
     } else {
       for (int p = j0; p < j1; ++p) {
@@ -55,7 +62,7 @@ inline int partial_ldlt(double* f, int ld, int n, int ne, double* original) noex
         for (int k = j1; k < n; ++k) {
           double* __restrict ck = f + k * ld;
           const double w = cp[k] * d;
-          for (int i = k; i < n; ++i) ck[i] -= w * cp[i];
+          for (int i = k & mask; i < end; ++i) ck[i] -= w * cp[i];
         }
       }
     }

@@ -1,5 +1,7 @@
 #include "floatframe/model/joint_motion.hpp"
 
+#include <utility>
+
 namespace floatframe {
 
 namespace {
@@ -116,6 +118,28 @@ void joint_configuration(JointType type, const double* user, double* q) noexcept
   if (rotation >= 0)
     write_quaternion(quaternion_exp(Vec3(user[rotation], user[rotation + 1], user[rotation + 2])),
                      q + rotation);
+}
+
+void joint_reverse(JointType type, double* position, double* velocity) noexcept {
+  if (type == JointType::universal) {
+    std::swap(position[0], position[1]);
+    std::swap(velocity[0], velocity[1]);
+  }
+  const int rotation = quaternion_offset(type);
+  if (rotation >= 0) {
+    Eigen::Map<Vec3> omega(velocity + rotation);
+    const Mat3 R_MF = rotation_exp(-Eigen::Map<const Vec3>(position + rotation));
+    if (type == JointType::free) {
+      Eigen::Map<Vec3> p(position), p_dot(velocity);
+      p_dot = (R_MF * (p_dot - omega.cross(p))).eval();
+      p = (R_MF * p).eval();
+    }
+    omega = (R_MF * omega).eval();
+  }
+  for (int i = 0; i < joint_velocities(type); ++i) {
+    position[i] = -position[i];
+    velocity[i] = -velocity[i];
+  }
 }
 
 double joint_coordinate(JointType type, const double* q, int component) noexcept {

@@ -64,6 +64,12 @@ void joint_advance(JointType type, double* x, const double* delta) noexcept;
 /// Start values in the form the user gives them (rotation vectors) to a configuration.
 void joint_configuration(JointType type, const double* user, double* q) noexcept;
 
+/// Start values in the user's form (joint_velocities numbers each) of the same joint seen the other
+/// way round, parent and child exchanged. Single-axis coordinates change sign, the two axes of a
+/// universal joint change places; with R, p the motion of M in F:
+///   spherical, free: R' = R^T, p' = -R^T p, w' = -R^T w, pdot' = R^T (w x p - pdot)
+void joint_reverse(JointType type, double* position, double* velocity) noexcept;
+
 /// Coordinate numbers for output: rotation vectors instead of quaternions.
 double joint_coordinate(JointType type, const double* q, int component) noexcept;
 
