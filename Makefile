@@ -22,10 +22,11 @@ install-packages:
 
 build: install-packages
 	cmake --preset release
-	cmake --build build --parallel $(JOBS)
+	cmake --build build --parallel $(JOBS) --target floatframe_program
 
 # The closing summary of ctest is the last thing printed.
 test: build
+	cmake --build build --parallel $(JOBS)
 	@cd build && $(CTEST)
 
 demo: build
@@ -35,8 +36,9 @@ demo: build
 	@echo "Results: $(CURDIR)/$(DEMO_OUTPUT)/results.csv and summary.json"
 
 bench: build
+	cmake --build build --parallel $(JOBS) --target floatframe_benchmarks
 	build/floatframe bench iltis
-	@if [ -x build/floatframe_benchmarks ]; then build/floatframe_benchmarks; fi
+	build/floatframe_benchmarks
 
 asan: install-packages
 	cmake --preset asan
