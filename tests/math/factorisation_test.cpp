@@ -1,0 +1,163 @@
+// Partial LDL^T of a front and the block-sparse LDL^T against dense Eigen factorisations.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "floatframe/math/block_ldlt.hpp"
+#include "floatframe/math/partial_ldlt.hpp"
+#include "support/random_body.hpp"
+
+namespace floatframe::test {
+namespace {
+
+MatX random_spd(Random& random, int n) {
+  const MatX a = random.matrix(n, n);
+  return a * a.transpose() + MatX::Identity(n, n);
+}
+
+/// The lower triangle of `a` in a front with leading dimension ld; the upper one holds rubbish.
+MatX front_of(const MatX& a, int ld) {
+  MatX f = MatX::Zero(ld, a.cols());
+  f.topRows(a.rows()).setConstant(12345.0);
+  f.topRows(a.rows()).triangularView<Eigen::Lower>() = a;
+  return f;
+}
+
+TEST(PartialLdlt, FullFactorisationSolves) {
+  Random random(1);
+  for (int n = 1; n <= 23; ++n)
+    for (const int ld : {front_stride(n), n + 5}) {
+      const MatX a = random_spd(random, n);
+      MatX f = front_of(a, ld);
+      VecX diagonal(n), b = random.vector(n);
+      ASSERT_EQ(partial_ldlt(f.data(), ld, n, n, diagonal.data()), -1);
+      EXPECT_EQ(diagonal, a.diagonal());
+      const VecX expected = a.llt().solve(b);
+      partial_forward(f.data(), ld, n, n, b.data());
+      partial_backward(f.data(), ld, n, n, b.data());
+      EXPECT_LT((b - expected).norm(), 1e-12 * expected.norm()) << n << " in " << ld;
+    }
+}
+
+TEST(PartialLdlt, TrailingBlockIsTheSchurComplement) {
+  Random random(2);
+  for (int n = 2; n <= 19; ++n)
+    for (int ne = 0; ne <= n; ++ne) {
+      const MatX a = random_spd(random, n);
+      MatX f = front_of(a, front_stride(n));
+      VecX diagonal(n), b = random.vector(n);
+      ASSERT_EQ(partial_ldlt(f.data(), front_stride(n), n, ne, diagonal.data()), -1);
+      const int m = n - ne;
+      if (m == 0 || ne == 0) continue;
+      const MatX A11 = a.topLeftCorner(ne, ne), A21 = a.bottomLeftCorner(m, ne);
+      const MatX schur = a.bottomRightCorner(m, m) - A21 * A11.llt().solve(A21.transpose());
+      const MatX lower = f.block(ne, ne, m, m).triangularView<Eigen::Lower>();
+      const MatX expected = schur.triangularView<Eigen::Lower>();
+      EXPECT_LT((lower - expected).norm(), 1e-12 * a.norm());
+      // Forward substitution leaves b2 - A21 A11^-1 b1 behind.
+      const VecX rest = b.tail(m) - A21 * A11.llt().solve(b.head(ne));
+      partial_forward(f.data(), front_stride(n), n, ne, b.data());
+      EXPECT_LT((b.tail(m) - rest).norm(), 1e-11 * (1.0 + rest.norm()));
+    }
+}
+
+TEST(PartialLdlt, NamesTheVanishingPivot) {
+  Random random(3);
+  const int n = 9;
+  for (int dependent = 1; dependent < n; ++dependent) {
+    MatX g = random.matrix(n, n);
+    g.row(dependent) = 0.3 * g.row(0);  // unknown `dependent` moves as unknown 0 does
+    const MatX a = g * g.transpose();
+    MatX f = front_of(a, front_stride(n));
+    VecX diagonal(n);
+    EXPECT_EQ(partial_ldlt(f.data(), front_stride(n), n, n, diagonal.data()), dependent);
+  }
+  MatX a = random_spd(random, n);
+  a(4, 4) = std::numeric_limits<double>::quiet_NaN();
+  MatX f = front_of(a, front_stride(n));
+  VecX diagonal(n);
+  EXPECT_EQ(partial_ldlt(f.data(), front_stride(n), n, n, diagonal.data()), 4);
+}
+
+TEST(PartialLdlt, IndefiniteFrontsAreSolvedToo) {
+  Random random(4);
+  MatX a = random_spd(random, 12);
+  a.bottomRightCorner(3, 3) -= 100.0 * MatX::Identity(3, 3);
+  MatX f = front_of(a, 12);
+  VecX diagonal(12), b = random.vector(12);
+  const VecX expected = a.fullPivLu().solve(b);
+  ASSERT_EQ(partial_ldlt(f.data(), 12, 12, 12, diagonal.data()), -1);
+  partial_forward(f.data(), 12, 12, 12, b.data());
+  partial_backward(f.data(), 12, 12, 12, b.data());
+  EXPECT_LT((b - expected).norm(), 1e-11 * expected.norm());
+}
+
+struct Graph {
+  std::vector<int> sizes;
+  std::vector<std::pair<int, int>> edges;
+};
+
+Graph random_graph(Random& random, int blocks, double density) {
+  Graph g;
+  for (int k = 0; k < blocks; ++k) g.sizes.push_back(1 + static_cast<int>(random(0.0, 6.99)));
+  for (int a = 0; a < blocks; ++a)
+    for (int b = a + 1; b < blocks; ++b)
+      if (random(0.0, 1.0) < density)
+        g.edges.push_back(random() > 0.0 ? std::pair{a, b} : std::pair{b, a});
+  return g;
+}
+
+TEST(BlockLdlt, RandomPatternsAgainstDense) {
+  Random random(5);
+  for (int trial = 0; trial < 40; ++trial) {
+    Graph g = random_graph(random, 1 + trial / 3, trial % 5 == 0 ? 0.0 : 0.25);
+    if (!g.edges.empty()) g.edges.push_back(g.edges.front());  // repeated edges are allowed
+    std::vector<int> start;
+    int n = 0;
+    for (const int s : g.sizes) {
+      start.push_back(n);
+      n += s;
+    }
+    BlockLdlt sparse(g.sizes, g.edges);
+    for (int repeat = 0; repeat < 2; ++repeat) {  // the storage is used again
+      MatX dense = MatX::Zero(n, n);
+      sparse.set_zero();
+      const auto add = [&](int a, int i, int b, int j, double x) {
+        const int r = start[static_cast<std::size_t>(a)] + i,
+                  c = start[static_cast<std::size_t>(b)] + j;
+        dense(r, c) += x;
+        if (r != c) dense(c, r) += x;
+        sparse.add(a, i, b, j, x);
+      };
+      for (int a = 0; a < static_cast<int>(g.sizes.size()); ++a) {
+        const int s = g.sizes[static_cast<std::size_t>(a)];
+        for (int i = 0; i < s; ++i)
+          for (int j = 0; j <= i; ++j) add(a, i, a, j, i == j ? 60.0 + random() : random());
+      }
+      for (const auto& [a, b] : g.edges)
+        for (int i = 0; i < g.sizes[static_cast<std::size_t>(a)]; ++i)
+          for (int j = 0; j < g.sizes[static_cast<std::size_t>(b)]; ++j) add(a, i, b, j, random());
+      VecX x = random.vector(n);
+      const VecX expected = dense.llt().solve(x);
+      ASSERT_EQ(sparse.factorize(), -1);
+      sparse.solve(x);
+      EXPECT_LT((x - expected).norm(), 1e-12 * expected.norm());
+    }
+  }
+}
+
+TEST(BlockLdlt, ChainHasNoFillAndNamesTheUnknown) {
+  const int blocks = 50, size = 3;
+  std::vector<int> sizes(blocks, size);
+  std::vector<std::pair<int, int>> edges;
+  for (int k = 1; k < blocks; ++k) edges.emplace_back(k - 1, k);
+  BlockLdlt m(sizes, edges);
+  EXPECT_EQ(m.factor_entries(), (blocks - 1) * 2 * size * size + size * size);
+  m.set_zero();
+  for (int k = 0; k < blocks; ++k)
+    for (int i = 0; i < size; ++i) m.add(k, i, k, i, k == 20 && i == 1 ? 0.0 : 1.0);
+  EXPECT_EQ(m.factorize(), 20 * size + 1);
+}
+
+}  // namespace
+}  // namespace floatframe::test
