@@ -85,6 +85,10 @@ class AbsoluteFormulation {
   const MatX& body_mass(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)].M; }
 
  private:
+  // Pairs of axes of the orthonormality rows: u.u, v.v, w.w, u.v, u.w, v.w.
+  static constexpr int pair_a[6] = {0, 1, 2, 0, 0, 1};
+  static constexpr int pair_b[6] = {0, 1, 2, 1, 2, 2};
+
   struct BodyData {
     int offset = 0, nm = 0, points = 0;
     int row = 0;  // first constraint row: 6 orthonormality, 3 a point

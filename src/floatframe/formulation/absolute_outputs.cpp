@@ -1,0 +1,78 @@
+// What outputs, energies and counts take from the absolute formulation; not part of the step's
+// inner loop.
+#include "floatframe/formulation/absolute.hpp"
+
+namespace floatframe {
+
+double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
+  double sum = 0.0;
+  for (BodyData& b : bodies_) {
+    b.inertia.absolute(b.A, b.Adot, b.y.data(), b.yd.data(), b.M, b.Qv);
+    const VecX x = v.segment(b.offset, 12 + b.nm);
+    sum += 0.5 * x.dot(b.M * x);
+  }
+  return sum;
+}
+
+double AbsoluteFormulation::gravity_energy(const VecX&) const noexcept {
+  double sum = 0.0;
+  for (const BodyData& b : bodies_) {
+    const PreprocessingData& d = b.inertia.data();
+    const Vec3 m_bar = d.m_u + d.S * b.y;
+    sum -= model_.gravity.dot(d.m * b.r0 + b.A * m_bar);
+  }
+  return sum;
+}
+
+double AbsoluteFormulation::elastic_energy(const VecX& q) const noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const VecX y = q.segment(bodies_[i].offset + 12, bodies_[i].nm);
+    if (y.size() > 0) sum += 0.5 * y.dot(model_.bodies[i].data->K * y);
+  }
+  return sum;
+}
+
+std::string AbsoluteFormulation::coordinate_owner(int i) const {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const BodyData& b = bodies_[k];
+    if (i < b.offset || i >= b.offset + b.size()) continue;
+    const int j = i - b.offset;
+    const std::string name = "body '" + model_.bodies[k].name + "'";
+    if (j < 12) return name;
+    if (j < 12 + b.nm) return "mode " + std::to_string(j - 11) + " of " + name;
+    return "outer point " + std::to_string((j - 12 - b.nm) / 3 + 1) + " of " + name;
+  }
+  return "coordinate " + std::to_string(i);
+}
+
+MatX AbsoluteFormulation::constraint_jacobian() {
+  MatX J = MatX::Zero(nc_, nq_);
+  VecX w = VecX::Zero(nc_), row(nq_);
+  for (int i = 0; i < nc_; ++i) {
+    w.setZero();
+    w[i] = 1.0;
+    constraint_forces(w, row);
+    J.row(i) = row.transpose();
+  }
+  return J;
+}
+
+CoordinateCounts AbsoluteFormulation::counts() const {
+  CoordinateCounts c;
+  for (const BodyData& b : bodies_) {
+    c.rigid += 12 + 3 * b.points;
+    c.elastic += b.nm;
+  }
+  c.total = c.rigid + c.elastic;
+  c.constraints = nc_;
+  return c;
+}
+
+MatX AbsoluteFormulation::mass_matrix() const {
+  MatX M = MatX::Zero(nq_, nq_);
+  for (const BodyData& b : bodies_) M.block(b.offset, b.offset, 12 + b.nm, 12 + b.nm) = b.M;
+  return M;
+}
+
+}  // namespace floatframe
