@@ -1,0 +1,370 @@
+// The step itself: order of accuracy, free rotations without singularity, constraint levels after a
+// step, and what a step that fails leaves behind.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+#include "support/random_model.hpp"
+
+namespace floatframe::test {
+namespace {
+
+/// A formulation with its start state, in either set of coordinates.
+template <class F>
+struct System {
+  System(const Model& model, StepOptions o)
+      : tree(model, InertiaMethod::preprocessing),
+        f(model, InertiaMethod::preprocessing),
+        options(o) {
+    options.penalty_mass = default_penalty_mass(model);
+    const State start = relative_start(tree, Start::given);
+    if constexpr (std::is_same_v<F, RelativeFormulation>) {
+      state = start;
+    } else {
+      f.start_from(tree, start.q, start.v, state.q, state.v);
+    }
+    start_accelerations(f, state, options.penalty_mass);
+  }
+  void run(double h, long steps) {
+    AugmentedLagrangian<F> integrator(f, options);
+    for (long k = 0; k < steps; ++k) {
+      const StepReport r = integrator.step(state, h);
+      ASSERT_EQ(r.status, StepStatus::converged) << "step " << k;
+      worst.position_violation = std::max(worst.position_violation, r.position_violation);
+      worst.velocity_violation = std::max(worst.velocity_violation, r.velocity_violation);
+    }
+    evaluate_at(f, state.t, state.q, state.v);
+  }
+  RelativeFormulation tree;
+  F f;
+  StepOptions options;
+  State state;
+  StepReport worst;
+};
+
+RigidDescription rod_body(double length) {
+  RigidDescription r;
+  r.mass = 1.0;
+  r.p_BC = Vec3(0.5 * length, 0.0, 0.0);
+  r.J_C = Vec3(1e-4, length * length / 12.0, length * length / 12.0 + 1e-5).asDiagonal();
+  return r;
+}
+
+/// Two rods in the x-z plane; the second hinge is out of line, so that the motion is spatial.
+ModelDescription double_pendulum() {
+  ModelDescription d;
+  for (int k = 0; k < 2; ++k) {
+    BodyDescription b;
+    b.name = k == 0 ? "upper" : "lower";
+    b.X_WB.p = Vec3(k, 0.0, 0.0);
+    b.kind = rod_body(1.0);
+    d.bodies.push_back(b);
+    JointDescription j;
+    j.name = b.name + "_hinge";
+    j.type = JointType::revolute;
+    j.axis = k == 0 ? Vec3(0.0, 1.0, 0.0) : Vec3(0.3, 1.0, 0.2);
+    if (k == 1) j.parent.body = "upper";
+    j.child.body = b.name;
+    j.parent.point = j.child.point = b.X_WB.p;
+    j.velocity = {k == 0 ? 0.5 : -1.0};
+    d.joints.push_back(j);
+  }
+  OutputDescription tip;
+  tip.name = "tip";
+  tip.at = {"lower", Vec3(2.0, 0.0, 0.0), std::nullopt, {}};
+  d.outputs.push_back(tip);
+  return d;
+}
+
+/// Tip position at t = 0.5, by steps of h.
+template <class F>
+std::vector<Vec3> tip_path(const Model& m, double h, double rho) {
+  StepOptions o;
+  o.spectral_radius = rho;
+  o.tolerance = 1e-12;
+  System<F> s(m, o);
+  std::vector<Vec3> path;
+  const long every = std::lround(0.05 / h);
+  for (int k = 0; k < 10; ++k) {
+    s.run(h, every);
+    path.push_back(s.f.marker(m.outputs[0].marker).r + s.f.origin());
+  }
+  return path;
+}
+
+double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, (a[k] - b[k]).norm());
+  return worst;
+}
+
+template <class F>
+void expect_second_order(double rho) {
+  const Model m = build_model(double_pendulum());
+  const std::vector<Vec3> exact = tip_path<F>(m, 1.5625e-4, 1.0);
+  const double coarse = largest_distance(tip_path<F>(m, 5e-3, rho), exact);
+  const double fine = largest_distance(tip_path<F>(m, 2.5e-3, rho), exact);
+  const double order = std::log2(coarse / fine);
+  EXPECT_GT(order, 1.9) << "rho " << rho;
+  EXPECT_LT(order, 2.1) << "rho " << rho;
+  EXPECT_LT(coarse, 1e-3);
+}
+
+TEST(Order, TrapezoidalRuleRelative) { expect_second_order<RelativeFormulation>(1.0); }
+TEST(Order, TrapezoidalRuleAbsolute) { expect_second_order<AbsoluteFormulation>(1.0); }
+TEST(Order, GeneralisedAlphaRelative) { expect_second_order<RelativeFormulation>(0.8); }
+TEST(Order, GeneralisedAlphaAbsolute) { expect_second_order<AbsoluteFormulation>(0.8); }
+
+TEST(Order, BothCoordinateSetsTakeTheSamePath) {
+  const Model m = build_model(double_pendulum());
+  const double coarse = largest_distance(tip_path<RelativeFormulation>(m, 5e-3, 1.0),
+                                         tip_path<AbsoluteFormulation>(m, 5e-3, 1.0));
+  const double fine = largest_distance(tip_path<RelativeFormulation>(m, 2.5e-3, 1.0),
+                                       tip_path<AbsoluteFormulation>(m, 2.5e-3, 1.0));
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.1);
+}
+
+/// An asymmetric top about its centre of mass, spun about its unstable axis.
+Model top(JointType type) {
+  ModelDescription d;
+  d.gravity.setZero();
+  BodyDescription b;
+  b.name = "top";
+  b.X_WB.R = rotation_exp(Vec3(0.3, -0.4, 0.2));
+  RigidDescription r;
+  r.mass = 2.0;
+  r.J_C = Vec3(0.1, 0.2, 0.27).asDiagonal();
+  b.kind = r;
+  d.bodies.push_back(b);
+  JointDescription j;
+  j.name = "joint";
+  j.type = type;
+  j.child.body = "top";
+  const Vec3 spin = b.X_WB.R * Vec3(0.3, 7.0, 0.2);
+  j.velocity.assign(type == JointType::free ? 3 : 0, 0.4);
+  for (int k = 0; k < 3; ++k) j.velocity.push_back(spin[k]);
+  d.joints.push_back(j);
+  return build_model(d);
+}
+
+struct Drift {
+  double momentum = 0.0, energy = 0.0, turned = 0.0, tilt = 0.0;
+};
+
+template <class F>
+Drift spin(JointType type, double h) {
+  const Model m = top(type);
+  StepOptions o;
+  o.tolerance = 1e-12;
+  System<F> s(m, o);
+  const Mat3 J = Vec3(0.1, 0.2, 0.27).asDiagonal();
+  const auto momentum = [&]() -> Vec3 {
+    const Mat3& R = s.f.body_rotation(0);
+    return R * J * R.transpose() * s.f.body_angular_velocity(0);
+  };
+  evaluate_at(s.f, 0.0, s.state.q, s.state.v);
+  const Vec3 L0 = momentum();
+  const Vec3 axis0 = s.f.body_rotation(0).col(1);
+  const double E0 = s.f.kinetic_energy(s.state.v);
+  Drift d;
+  for (int k = 0; k < 40; ++k) {
+    s.run(h, std::lround(0.1 / h));
+    d.momentum = std::max(d.momentum, (momentum() - L0).norm() / L0.norm());
+    d.turned += 0.1 * s.f.body_angular_velocity(0).norm();
+    d.tilt = std::max(d.tilt, 1.0 - s.f.body_rotation(0).col(1).dot(axis0));
+    d.energy = std::max(d.energy, std::abs(s.f.kinetic_energy(s.state.v) / E0 - 1.0));
+    evaluate_at(s.f, s.state.t, s.state.q, s.state.v);
+  }
+  return d;
+}
+
+template <class F>
+void expect_momentum(JointType type) {
+  const Drift coarse = spin<F>(type, 4e-3), fine = spin<F>(type, 2e-3);
+  EXPECT_GT(coarse.turned, 4 * 2 * M_PI) << "several full turns";
+  EXPECT_GT(coarse.tilt, 1.5) << "tumbles over";
+  EXPECT_LT(coarse.momentum, 1e-2);
+  EXPECT_LT(fine.momentum, 0.3 * coarse.momentum + 1e-10);
+  EXPECT_LT(fine.energy, 0.3 * coarse.energy + 1e-10);
+}
+
+TEST(Spin, FreeBodyRelative) { expect_momentum<RelativeFormulation>(JointType::free); }
+TEST(Spin, FreeBodyAbsolute) { expect_momentum<AbsoluteFormulation>(JointType::free); }
+TEST(Spin, SphericalJointRelative) { expect_momentum<RelativeFormulation>(JointType::spherical); }
+TEST(Spin, SphericalJointAbsolute) { expect_momentum<AbsoluteFormulation>(JointType::spherical); }
+
+/// Crank, coupler and rocker with skew axes where the loop allows, and a rod that carries a mass.
+Model four_bar() {
+  ModelDescription d;
+  const Vec3 points[] = {{0, 0, 0}, {0.3, 0, 0.4}, {1.2, 0, 0.6}, {1.0, 0, 0}};
+  const char* names[] = {"crank", "coupler", "rocker"};
+  for (int k = 0; k < 3; ++k) {
+    BodyDescription b;
+    b.name = names[k];
+    const Vec3 x = points[k + 1] - points[k];
+    b.X_WB.p = points[k];
+    b.X_WB.R.col(0) = x.normalized();
+    b.X_WB.R.col(1) = Vec3::UnitY();
+    b.X_WB.R.col(2) = b.X_WB.R.col(0).cross(Vec3::UnitY());
+    b.kind = rod_body(x.norm());
+    d.bodies.push_back(b);
+  }
+  for (int k = 0; k < 4; ++k) {
+    JointDescription j;
+    j.name = "joint_" + std::to_string(k);
+    // One hinge, one universal and two balls: a spatial loop without redundant rows.
+    j.type = k == 0 ? JointType::revolute : k == 1 ? JointType::universal : JointType::spherical;
+    j.axis = Vec3::UnitY();
+    j.axis_2 = Vec3::UnitX();
+    if (k > 0) j.parent.body = names[k - 1];
+    if (k < 3) {
+      j.child.body = names[k];
+    } else {
+      j.child.body = names[2];
+      j.parent.body = ground_name;
+    }
+    j.parent.point = j.child.point = points[k];
+    if (k == 0) j.velocity = {3.0};
+    d.joints.push_back(j);
+  }
+  BodyDescription load;
+  load.name = "load";
+  load.X_WB.p = Vec3(0.3, 0.2, -0.3);
+  RigidDescription r;
+  r.mass = 0.5;
+  r.J_C = 0.001 * Mat3::Identity();
+  load.kind = r;
+  d.bodies.push_back(load);
+  RodDescription rod;
+  rod.name = "rod";
+  rod.a = {"crank", points[1], std::nullopt, {}};
+  rod.b = {"load", load.X_WB.p + Vec3(0, 0, 0.05), std::nullopt, {}};
+  d.rods.push_back(rod);
+  return build_model(d);
+}
+
+template <class F>
+void expect_constraints_held(double rho) {
+  const Model m = four_bar();
+  StepOptions o;
+  o.spectral_radius = rho;
+  System<F> s(m, o);
+  VecX rates(s.f.constraints()), accelerations(s.f.constraints());
+  for (int k = 0; k < 20; ++k) {
+    s.run(2e-3, 10);
+    EXPECT_LT(largest(s.f.constraint_values()), 1e-9);
+    s.f.constraint_rates(rates);
+    EXPECT_LT(largest(rates), 1e-8);
+    s.f.constraint_accelerations(s.state.a, accelerations);
+    EXPECT_LT(largest(accelerations), 1e-4);
+  }
+  EXPECT_LT(s.worst.position_violation, 1e-9);
+  EXPECT_LT(s.worst.velocity_violation, 1e-8);
+}
+
+TEST(Constraints, HeldAfterEveryStepRelative) {
+  expect_constraints_held<RelativeFormulation>(1.0);
+  expect_constraints_held<RelativeFormulation>(0.8);
+}
+TEST(Constraints, HeldAfterEveryStepAbsolute) {
+  expect_constraints_held<AbsoluteFormulation>(1.0);
+  expect_constraints_held<AbsoluteFormulation>(0.8);
+}
+
+bool same_bits(const VecX& a, const VecX& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+bool same_bits(const State& a, const State& b) {
+  return a.t == b.t && same_bits(a.q, b.q) && same_bits(a.v, b.v) && same_bits(a.a, b.a) &&
+         same_bits(a.a_alg, b.a_alg) && same_bits(a.lambda, b.lambda);
+}
+
+template <class F>
+void expect_untouched() {
+  const Model m = four_bar();
+  for (const int limit : {1, 2, 3}) {
+    StepOptions o;
+    o.max_iterations = limit;
+    o.tolerance = 1e-30;  // out of reach
+    System<F> s(m, o);
+    const State before = s.state;
+    AugmentedLagrangian<F> integrator(s.f, s.options);
+    const StepReport r = integrator.step(s.state, 1e-2);
+    EXPECT_EQ(r.status, StepStatus::not_converged);
+    EXPECT_EQ(r.iterations, limit);
+    EXPECT_EQ(r.factorizations, limit);
+    EXPECT_TRUE(same_bits(s.state, before));
+    ASSERT_GE(r.coordinate, 0);
+    ASSERT_LT(r.coordinate, s.f.velocities());
+    const std::string who = s.f.coordinate_owner(r.coordinate);
+    EXPECT_TRUE(who.find("joint '") != std::string::npos || who.find("body '") != std::string::npos)
+        << who;
+    // With the tolerance back the same state goes on as if nothing had been tried.
+    System<F> fresh(m, StepOptions{});
+    s.options = fresh.options;
+    AugmentedLagrangian<F> again(s.f, s.options), first(fresh.f, fresh.options);
+    EXPECT_EQ(again.step(s.state, 1e-3).status, StepStatus::converged);
+    EXPECT_EQ(first.step(fresh.state, 1e-3).status, StepStatus::converged);
+    EXPECT_TRUE(same_bits(s.state, fresh.state));
+  }
+}
+
+TEST(Failure, StepWithoutConvergenceLeavesTheStateRelative) {
+  expect_untouched<RelativeFormulation>();
+}
+TEST(Failure, StepWithoutConvergenceLeavesTheStateAbsolute) {
+  expect_untouched<AbsoluteFormulation>();
+}
+
+TEST(Failure, OpenConstraintIsNamed) {
+  // Increments are accepted at once, constraints never.
+  const Model m = four_bar();
+  StepOptions o;
+  o.max_iterations = 4;
+  o.tolerance = 1e30;
+  o.position_tolerance = 0.0;
+  System<RelativeFormulation> s(m, o);
+  const State before = s.state;
+  AugmentedLagrangian<RelativeFormulation> integrator(s.f, s.options);
+  const StepReport r = integrator.step(s.state, 1e-2);
+  EXPECT_EQ(r.status, StepStatus::not_converged);
+  EXPECT_EQ(r.coordinate, -1);
+  EXPECT_GE(r.constraint, 0);
+  EXPECT_LT(r.constraint, s.f.constraints());
+  EXPECT_TRUE(same_bits(s.state, before));
+}
+
+TEST(Failure, MasslessFreedomIsASingularTangent) {
+  ModelDescription d = double_pendulum();
+  std::get<RigidDescription>(d.bodies[1].kind) = RigidDescription{};
+  const Model m = build_model(d);
+  RelativeFormulation f(m, InertiaMethod::preprocessing);
+  State state;
+  f.start(state.q, state.v);
+  state.a = state.a_alg = VecX::Zero(f.velocities());
+  state.lambda = VecX::Zero(0);
+  const State before = state;
+  AugmentedLagrangian<RelativeFormulation> integrator(f, StepOptions{});
+  const StepReport r = integrator.step(state, 1e-2);
+  EXPECT_EQ(r.status, StepStatus::singular_tangent);
+  EXPECT_EQ(f.coordinate_owner(r.coordinate), "joint 'lower_hinge'");
+  EXPECT_TRUE(same_bits(state, before));
+}
+
+TEST(Failure, StateThatIsNotFiniteIsRefused) {
+  const Model m = build_model(double_pendulum());
+  System<RelativeFormulation> s(m, StepOptions{});
+  s.state.v[0] = std::numeric_limits<double>::quiet_NaN();
+  const State before = s.state;
+  AugmentedLagrangian<RelativeFormulation> integrator(s.f, s.options);
+  EXPECT_NE(integrator.step(s.state, 1e-3).status, StepStatus::converged);
+  EXPECT_TRUE(same_bits(s.state, before));
+}
+
+}  // namespace
+}  // namespace floatframe::test
