@@ -13,11 +13,8 @@ else()
   target_link_libraries(floatframe_yaml INTERFACE yaml-cpp)
 endif()
 
-# Spectra is header only and its package has no CMake files on every distribution.
-find_path(SPECTRA_INCLUDE_DIR Spectra/SymGEigsShiftSolver.h REQUIRED)
 
 # What the library and the tests use inside, never in an installed header.
 add_library(floatframe_private_dependencies INTERFACE)
-target_include_directories(floatframe_private_dependencies SYSTEM INTERFACE ${SPECTRA_INCLUDE_DIR})
 target_link_libraries(floatframe_private_dependencies INTERFACE
   floatframe_yaml fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json)

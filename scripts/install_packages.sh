@@ -9,7 +9,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build make pkg-config python3
-  libeigen3-dev libspectra-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev
+  libeigen3-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev
 )
 
@@ -33,7 +33,7 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   fi
   {
     echo "This is not a Debian or Ubuntu system and these tools are missing: ${missing_tools[*]}"
-    echo "Install them and the libraries Eigen 3.4, Spectra, yaml-cpp, fmt, CLI11, nlohmann-json, GoogleTest and"
+    echo "Install them and the libraries Eigen 3.4, yaml-cpp, fmt, CLI11, nlohmann-json, GoogleTest and"
     echo "Google Benchmark with the system's package manager. On Debian the packages are called:"
     echo "  ${packages[*]}"
   } >&2

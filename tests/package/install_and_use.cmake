@@ -18,7 +18,7 @@ file(GLOB_RECURSE headers RELATIVE ${WORK}/prefix/include ${WORK}/prefix/include
 set(text "#pragma once\n")
 foreach(header IN LISTS headers)
   file(STRINGS ${WORK}/prefix/include/${header} foreign
-       REGEX "#include <(yaml-cpp|fmt|CLI|nlohmann|Spectra)/")
+       REGEX "#include <(yaml-cpp|fmt|CLI|nlohmann)/")
   if(NOT foreign)
     string(APPEND text "#include \"${header}\"\n")
   endif()
