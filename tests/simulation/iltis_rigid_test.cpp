@@ -9,6 +9,7 @@
 #include "floatframe/formulation/relative.hpp"
 #include "simulation/figures.hpp"
 #include "simulation/iltis.hpp"
+#include "support/trajectory_models.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -85,6 +86,38 @@ TEST(IltisRigid, Equilibrium) {
     expect_digits(rear + ".arm angle [rad]", sign * body_of(s, rear + ".arm").roll_pitch_yaw[0],
                   0.01401, 5);
   }
+}
+
+TEST(IltisRigid, RampAndPlateauAgainstAnIndependentModel) {
+  // Every 10 ms up to the first stair. The history was integrated with fixed steps of 0.5 ms and
+  // printed to 0.01 mm; where a wheel meets a corner of the road the two differ by a part of a
+  // step.
+  const testing::Csv reference =
+      testing::read_csv(std::string(FLOATFRAME_TEST_DATA) + "/trajectories/iltis_rigid.csv");
+  const ModelDescription d = iltis({{"flexible", "false"}});
+  const Model model = build_model(d);
+  const RunResult r = run(model, with(d.simulation, combinations[0], 5e-4, 3.7, 0.01));
+  ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+  ASSERT_EQ(r.table.rows(), reference.rows.size());
+  const auto worst = [&](const char* ours, const char* theirs, double scale) {
+    const std::size_t k = column(r.table, ours), j = reference.column(theirs);
+    double x = 0.0;
+    for (std::size_t i = 0; i < r.table.rows(); ++i)
+      x = std::max(x, std::abs(scale * r.table.at(i, k) - reference.rows[i][j]));
+    return x;
+  };
+  const double chassis = worst("chassis.z", "z_chassis", 1.0);
+  const double front = worst("front_left.wheel.z", "z_wheel_FL", 1.0);
+  const double rear = worst("rear_left.wheel.z", "z_wheel_RL", 1.0);
+  const double pitch = worst("chassis.pitch", "pitch_deg", 1.0 / degree);
+  figure("ramp and plateau, chassis height [m]", chassis);
+  figure("ramp and plateau, front wheel height [m]", front);
+  figure("ramp and plateau, rear wheel height [m]", rear);
+  figure("ramp and plateau, pitch [deg]", pitch);
+  EXPECT_LT(chassis, 1e-4);
+  EXPECT_LT(front, 2e-4);
+  EXPECT_LT(rear, 2e-4);
+  EXPECT_LT(pitch, 0.01);
 }
 
 struct Bump {
