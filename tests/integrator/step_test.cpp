@@ -275,8 +275,10 @@ TEST(Constraints, HeldAfterEveryStepAbsolute) {
 }
 
 bool same_bits(const VecX& a, const VecX& b) {
-  return a.size() == b.size() &&
-         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+  if (a.size() != b.size()) return false;
+  for (Eigen::Index k = 0; k < a.size(); ++k)  // NaN equals NaN here, -0 is not 0
+    if (std::memcmp(&a[k], &b[k], sizeof(double)) != 0) return false;
+  return true;
 }
 
 bool same_bits(const State& a, const State& b) {
