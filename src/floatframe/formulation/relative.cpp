@@ -243,6 +243,17 @@ void RelativeFormulation::build_elements() {
   rows_.resize(static_cast<std::size_t>(nc_));
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);
+  // The angle of a spring on a tree joint is the joint's own coordinate, whatever it turns in a
+  // step.
+  for (const Force& f : model_.forces) {
+    int owner = -1;
+    for (std::size_t i = 0; i < bodies_.size() && f.rotational; ++i) {
+      const BodyData& b = bodies_[i];
+      if ((b.frame_F == f.a && b.frame_M == f.b) || (b.frame_F == f.b && b.frame_M == f.a))
+        owner = static_cast<int>(i);
+    }
+    force_tree_body_.push_back(owner);
+  }
   phi_ = weights_ = lambda_ = VecX::Zero(nc_);
   std::size_t widest = 64;
   for (const Element& e : part_elements_) widest = std::max(widest, e.columns.size());

@@ -131,6 +131,7 @@ class RelativeFormulation {
     int iq = 0, iyq = 0;  // configuration offsets of joint and modes
     int iv = 0, iy = 0;   // velocity offsets
     int cluster = -1;
+    double angle = 0.0;  // coordinate of a revolute joint, in the sense of its own parent and child
     bool phi = false, psi = false;
     JointMotion motion;
     Vec3 r0, w;
@@ -214,6 +215,8 @@ class RelativeFormulation {
   std::vector<Element> part_elements_, force_elements_;
   std::vector<ForceState> force_states_;
   std::vector<double> force_reference_;
+  std::vector<int>
+      force_tree_body_;  // joint springs on tree joints: the body whose joint it is, else -1
   std::vector<Cluster> clusters_;  // leaves before roots
   std::vector<int> cluster_order_;
   int nq_ = 0, nv_ = 0, nc_ = 0;

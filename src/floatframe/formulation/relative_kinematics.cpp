@@ -60,6 +60,7 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
     MarkerData& M = mark(b.frame_M);
     const MarkerData& F = mark(b.frame_F);
     joint_motion(b.type, b.axis_1, b.axis_2, q.data() + b.iq, at_rest, b.motion);
+    if (b.type == JointType::revolute) b.angle = b.reversed ? -q[b.iq] : q[b.iq];
     if (M.local) M.deform(b.y);
     const Mat3 R_WM = F.s.R * b.motion.R_FM;
     const Vec3 r_M = F.s.r + F.s.R * b.motion.p_FM;

@@ -33,7 +33,9 @@ ModelCounts count(const Model& model) {
   c.relative = relative.counts();
   c.absolute = absolute.counts();
   // Rank at the assembled start, with position constraints only.
-  const State start = relative_start(relative, Start::given);
+  State start = relative_start(relative, Start::given);
+  start_accelerations(relative, start,
+                      default_penalty_mass(model));  // a singular mass matrix shows here
   relative.positions(0.0, start.q);
   relative.velocities(start.v);
   const MatX J = relative.constraint_jacobian();

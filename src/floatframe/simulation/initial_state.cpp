@@ -263,9 +263,11 @@ void dense_start(const MatX& mass, const MatX& stiffness, const MatX& J, const V
       n.cwiseAbs().maxCoeff(&worst);
       throw RunError(
           "the mass matrix is singular where nothing holds it: " + owner(static_cast<int>(worst)) +
-          " can move without mass, stiffness or constraint; give the body mass or inertia, or "
-          "remove the "
-          "freedom");
+          " can move without mass, stiffness or constraint; give the body mass or inertia (a "
+          "straight bar "
+          "has none about its own axis unless mass_model is hermite or six_dof with "
+          "section_inertia), or "
+          "remove the freedom");
     }
     z[i] = 0.0;  // massless but stiff: the minimum-norm solution
   }

@@ -46,7 +46,7 @@ void dense_start(const MatX& mass, const MatX& stiffness, const MatX& J, const V
 template <class F>
 bool has_massless_coordinate(F& f, const State& state) {
   const int nv = f.velocities();
-  if (nv > 1000) return false;
+  if (nv == 0 || nv > 1000) return false;
   const VecX zero = VecX::Zero(nv);
   VecX r0(nv), column(nv), diagonal(nv);
   f.residual(zero, state.lambda, 0.0, r0);

@@ -20,7 +20,7 @@ class Runner {
  public:
   Runner(F& formulation, const StepOptions& options, double min_step)
       : f_(formulation), integrator_(formulation, options), min_step_(min_step) {
-    reference_.assign(f_.model().outputs.size(), 0.0);
+    follow_.resize(f_.model().outputs.size());
   }
 
   State& state() noexcept { return state_; }
@@ -62,7 +62,7 @@ class Runner {
     f_.set_accelerations(state_.a);
     *row++ = state_.t;
     for (std::size_t k = 0; k < model.outputs.size(); ++k)
-      *row++ = value(model.outputs[k], reference_[k]);
+      *row++ = value(model.outputs[k], follow_[k]);
   }
 
   double kinetic_energy() noexcept { return f_.kinetic_energy(state_.v); }
@@ -119,6 +119,16 @@ class Runner {
   double max_velocity_violation() const noexcept { return max_velocity_; }
 
  private:
+  struct Follow {
+    bool started = false;
+    double time = 0.0, position = 0.0, rate = 0.0;
+  };
+  /// The start value the user gave, so that an output begins at the turn he means.
+  static double start_position(const Joint& joint, int component) noexcept {
+    const auto k = static_cast<std::size_t>(component);
+    return k < joint.position.size() ? joint.position[k] : 0.0;
+  }
+
   void count(const StepReport& r) noexcept {
     iterations_ += r.iterations;
     factorizations_ += r.factorizations;
@@ -128,7 +138,7 @@ class Runner {
     }
   }
 
-  double value(const Output& o, double& reference) noexcept {
+  double value(const Output& o, Follow& follow) noexcept {
     switch (o.kind) {
       case OutputKind::position:
         return f_.marker(o.marker).r[o.component] + f_.origin()[o.component];
@@ -143,10 +153,16 @@ class Runner {
       case OutputKind::angular_velocity:
         return f_.body_angular_velocity(o.body)[o.component];
       case OutputKind::joint_position: {
+        // Angles are followed over turns with the mean joint velocity since the last sample.
         const Joint& j = f_.model().joints[static_cast<std::size_t>(o.joint)];
-        reference =
-            joint_position(j, f_.marker(j.frame_F), f_.marker(j.frame_M), o.component, reference);
-        return reference;
+        const MarkerState& parent = f_.marker(j.frame_F);
+        const MarkerState& child = f_.marker(j.frame_M);
+        const double rate = joint_velocity(j, parent, child, o.component);
+        const double expected =
+            follow.started ? follow.position + 0.5 * (state_.t - follow.time) * (follow.rate + rate)
+                           : start_position(j, o.component);
+        follow = {true, state_.t, joint_position(j, parent, child, o.component, expected), rate};
+        return follow.position;
       }
       case OutputKind::joint_velocity: {
         const Joint& j = f_.model().joints[static_cast<std::size_t>(o.joint)];
@@ -169,7 +185,7 @@ class Runner {
   State state_;
   double min_step_;
   StepReport last_;
-  std::vector<double> reference_;
+  std::vector<Follow> follow_;
   long substeps_ = 0, iterations_ = 0, factorizations_ = 0;
   double max_position_ = 0.0, max_velocity_ = 0.0;
 };
