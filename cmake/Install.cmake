@@ -10,10 +10,11 @@ endif()
 if(TARGET floatframe_program)
   file(RELATIVE_PATH library_from_program
        ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-  # The same entry in the build tree: a shorter RPATH would be padded with empty ones, which mean the current folder.
+  # One RPATH for the build tree and the installation: otherwise CMake pads the shorter one with empty entries, which
+  # mean the current folder.
   set_target_properties(floatframe_program PROPERTIES
-                        BUILD_RPATH "$ORIGIN/${library_from_program}"
-                        INSTALL_RPATH "$ORIGIN/${library_from_program}")
+                        BUILD_WITH_INSTALL_RPATH ON
+                        INSTALL_RPATH "$ORIGIN/lib:$ORIGIN/${library_from_program}")
   install(TARGETS floatframe_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
