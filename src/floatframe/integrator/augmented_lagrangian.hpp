@@ -17,8 +17,9 @@
 //   v -= T^-1 s Phi_q^T alpha Phi_dot(v),  a -= T^-1 s Phi_q^T alpha Phi_ddot(a), repeated until
 //   the tolerance.
 // Nothing here allocates after construction, throws or prints. The state is untouched unless the
-// step converged.
+// step is accepted.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "floatframe/math/types.hpp"
@@ -41,16 +42,27 @@ struct StepOptions {
   double velocity_tolerance = 1e-8;
   double penalty_mass = 1.0;  ///< s alpha [kg]: the penalty grows like 1/h^2
   int max_projections = 12;
+  /// > 0: exactly so many Newton iterations a step, accepted whatever their error (bounded work).
+  int fixed_iterations = 0;
+  /// > 0: no iteration is begun later than this after the start of the step [s of wall clock]; the
+  /// step is accepted as it is then.
+  double time_budget = 0.0;
 };
 
-enum class StepStatus { converged, not_converged, singular_tangent, not_finite };
+/// cut_short: accepted before it converged, because `fixed_iterations` or `time_budget` says so.
+enum class StepStatus { converged, cut_short, not_converged, singular_tangent, not_finite };
 
 struct StepReport {
   StepStatus status = StepStatus::converged;
   int iterations = 0, factorizations = 0;
   double position_violation = 0.0, velocity_violation = 0.0;
-  int coordinate = -1;  ///< with the vanishing pivot or the largest residual
-  int constraint = -1;  ///< with the largest violation, if that did not converge
+  int coordinate = -1;     ///< with the vanishing pivot or the largest residual
+  int constraint = -1;     ///< with the largest violation, if that did not converge
+  double increment = 0.0;  ///< the last Newton increment, largest coordinate [m, rad, amplitudes]
+  /// The state was replaced by that of the end of the step.
+  bool accepted() const noexcept {
+    return status == StepStatus::converged || status == StepStatus::cut_short;
+  }
 };
 
 template <class F>
@@ -67,6 +79,7 @@ class AugmentedLagrangian {
   /// One step of size h from `state`, which is replaced only if the step converged.
   StepReport step(State& state, double h) noexcept {
     StepReport report;
+    const auto begin = options_.time_budget > 0.0 ? Clock::now() : Clock::time_point{};
     const double rho = options_.spectral_radius;
     const bool trapezoidal = rho >= 1.0;
     const double am = trapezoidal ? 0.0 : (2.0 * rho - 1.0) / (rho + 1.0);
@@ -112,8 +125,19 @@ class AugmentedLagrangian {
           report.status = StepStatus::not_finite;
           return report;
         }
+        if (options_.fixed_iterations > 0) {
+          if (report.iterations >= options_.fixed_iterations) {
+            if (!converged) report.status = StepStatus::cut_short;
+            break;
+          }
+          converged = false;
+        }
         if (converged) break;
-        if (report.iterations >= options_.max_iterations) {
+        if (options_.time_budget > 0.0 && elapsed(begin) > options_.time_budget) {
+          report.status = StepStatus::cut_short;
+          break;
+        }
+        if (options_.fixed_iterations == 0 && report.iterations >= options_.max_iterations) {
           report.status = StepStatus::not_converged;
           if (increment >= options_.tolerance)
             report.coordinate = worst_coordinate();
@@ -140,7 +164,7 @@ class AugmentedLagrangian {
       work_ += phi;
       lambda_ += alpha * work_;
       f_.advance(x_, delta_);
-      increment = largest(delta_);
+      report.increment = increment = largest(delta_);
       ++report.iterations;
     }
 
@@ -171,6 +195,11 @@ class AugmentedLagrangian {
   const StepOptions& options() const noexcept { return options_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  static double elapsed(Clock::time_point begin) noexcept {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
   void project(double weight, StepReport& report) noexcept {
     for (int pass = 0; pass < options_.max_projections; ++pass) {
       f_.constraint_rates(rate_);
