@@ -79,7 +79,19 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
     couple(p.a, p.b);
   }
   for (const Force& f : model_.forces) couple(f.a, f.b);
-  matrix_ = BlockLdlt(sizes, edges);
+  for (Linearization& l : linearizations_) {
+    l.matrix = BlockLdlt(sizes, edges);
+    l.row_start.assign(static_cast<std::size_t>(nc_) + 1, 0);
+    std::size_t most = 0;
+    for (const BodyData& b : bodies_)
+      most += static_cast<std::size_t>(6 * 6 + 3 * b.points * (13 + b.nm));
+    for (const ConstraintPart& p : parts_)
+      for (const int marker : {p.a, p.b})
+        if (const int i = markers_[static_cast<std::size_t>(marker)].body; i >= 0)
+          most += static_cast<std::size_t>(p.rows() * body(i).size());
+    l.column.assign(most, 0);
+    l.value.assign(most, 0.0);
+  }
   rows_.resize(static_cast<std::size_t>(nc_ - part_rows_));
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);

@@ -34,6 +34,9 @@ class AbsoluteFormulation {
   void start_from(RelativeFormulation& tree, const VecX& tree_q, const VecX& tree_v, VecX& q,
                   VecX& v) const;
 
+  /// Of a factorisation, in iterations that reuse one (measured on the Iltis).
+  static constexpr double factorization_cost = 1.5;
+
   // -- the integrator's view
   // ---------------------------------------------------------------------------------------
   void positions(double t, const VecX& q) noexcept;
@@ -41,8 +44,11 @@ class AbsoluteFormulation {
   void dynamics() noexcept;
   void forces() noexcept;
   void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept;
-  int factorize(double mass, double damping, double s, double alpha) noexcept;
-  void solve(VecX& b) noexcept { matrix_.solve(b); }
+  /// As in relative.hpp: T = M mass + damping C + s (K + alpha Phi_q^T Phi_q), kept in a slot.
+  int factorize(double mass, double damping, double s, double alpha, int slot = 0) noexcept;
+  void solve(VecX& b, int slot = 0) noexcept { linearizations_[slot].matrix.solve(b); }
+  /// b := T^-1 (b + Phi_q^T w) and increments := Phi_q b, with the Phi_q of the factorisation.
+  void solve(VecX& b, const VecX& w, VecX& increments, int slot) noexcept;
   const VecX& constraint_values() const noexcept { return phi_; }
   /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates [1/s2].
   const VecX& own_frequencies_squared() const noexcept { return omega2_; }
@@ -113,12 +119,21 @@ class AbsoluteFormulation {
     std::vector<double> value;
   };
 
+  /// A factorised tangent and the rows of Phi_q it was made with.
+  struct Linearization {
+    BlockLdlt matrix;
+    std::vector<int> row_start, column;
+    std::vector<double> value;
+  };
+
   MarkerState constraint_state(const MarkerData& m) const noexcept;
   void add_wrench(int marker, bool through_point, const Vec3& force, const Vec3& torque,
                   VecX& out) const noexcept;
   void gradient(int marker, bool through_point, const Vec3& force, const Vec3& torque,
                 Gradient& g) const noexcept;
-  void add_rank_one(const Gradient& a, const Gradient& b, double weight) noexcept;
+  void add_rank_one(BlockLdlt& matrix, const Gradient& a, const Gradient& b,
+                    double weight) noexcept;
+  void keep_row(Linearization& l, int row, const Gradient& a, const Gradient& b) noexcept;
   void add_part_forces(const VecX& w, VecX& out) const noexcept;
   void add_body_constraint_forces(const VecX& w, VecX& out) const noexcept;
   BodyData& body(int i) noexcept { return bodies_[static_cast<std::size_t>(i)]; }
@@ -133,7 +148,7 @@ class AbsoluteFormulation {
   int part_rows_ = 0;  // first row of the parts
   std::vector<ForceState> force_states_;
   std::vector<double> force_reference_;
-  BlockLdlt matrix_;
+  Linearization linearizations_[2];
   Gradient ga_, gb_;
   int nq_ = 0, nc_ = 0;
   double time_ = 0.0;

@@ -35,11 +35,11 @@ void AbsoluteFormulation::gradient(int marker, bool through_point, const Vec3& f
     for (int i = 0; i < 3; ++i) put(m.point - b.offset + i, force[i]);
 }
 
-void AbsoluteFormulation::add_rank_one(const Gradient& a, const Gradient& b,
+void AbsoluteFormulation::add_rank_one(BlockLdlt& matrix, const Gradient& a, const Gradient& b,
                                        double weight) noexcept {
   const auto own = [&](const Gradient& g) {
     if (g.body < 0) return;
-    MatX& f = matrix_.front(g.body);
+    MatX& f = matrix.front(g.body);
     for (int j = 0; j < g.count; ++j) {
       const double w = weight * g.value[static_cast<std::size_t>(j)];
       double* column =
@@ -52,7 +52,7 @@ void AbsoluteFormulation::add_rank_one(const Gradient& a, const Gradient& b,
   own(b);
   if (a.body < 0 || b.body < 0) return;
   int oa = 0, ob = 0;
-  MatX& f = matrix_.front(a.body, b.body, oa, ob);
+  MatX& f = matrix.front(a.body, b.body, oa, ob);
   const bool a_first = oa < ob;
   const Gradient& first = a_first ? a : b;
   const Gradient& second = a_first ? b : a;
@@ -68,12 +68,29 @@ void AbsoluteFormulation::add_rank_one(const Gradient& a, const Gradient& b,
   }
 }
 
-int AbsoluteFormulation::factorize(double mass, double damping, double s, double alpha) noexcept {
-  matrix_.set_zero();
+void AbsoluteFormulation::keep_row(Linearization& l, int row, const Gradient& a,
+                                   const Gradient& b) noexcept {
+  auto at = static_cast<std::size_t>(l.row_start[static_cast<std::size_t>(row)]);
+  for (const Gradient* g : {&a, &b}) {
+    if (g->body < 0) continue;
+    const int offset = body(g->body).offset;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(g->count); ++k, ++at) {
+      l.column[at] = offset + g->index[k];
+      l.value[at] = g->value[k];
+    }
+  }
+  l.row_start[static_cast<std::size_t>(row) + 1] = static_cast<int>(at);
+}
+
+int AbsoluteFormulation::factorize(double mass, double damping, double s, double alpha,
+                                   int slot) noexcept {
+  Linearization& linear = linearizations_[slot];
+  BlockLdlt& matrix = linear.matrix;
+  matrix.set_zero();
   const double penalty = s * alpha;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyData& b = bodies_[i];
-    MatX& f = matrix_.front(static_cast<int>(i));
+    MatX& f = matrix.front(static_cast<int>(i));
     f.topLeftCorner(12 + b.nm, 12 + b.nm) += mass * b.M;
     if (b.nm > 0) {
       const FlexibleBody& data = *model_.bodies[i].data;
@@ -94,6 +111,20 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
         f.block<3, 3>(ib, ia) += l2 * u * v.transpose();
         for (int c = 0; c < 3; ++c) f(ib + c, ia + c) += g;
       }
+      ga_.body = static_cast<int>(i);
+      gb_.body = -1;
+      ga_.count = 0;
+      for (int c = 0; c < 3; ++c) {
+        const auto at = static_cast<std::size_t>(ga_.count);
+        ga_.index[at] = ia + c;
+        ga_.value[at] = b.length * v[c];
+        ++ga_.count;
+        if (k < 3) continue;
+        ga_.index[at + 1] = ib + c;
+        ga_.value[at + 1] = b.length * u[c];
+        ++ga_.count;
+      }
+      keep_row(linear, b.row + k, ga_, gb_);
     }
     for (int p = 0; p < b.points; ++p) {
       const MarkerData& m =
@@ -110,7 +141,8 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
         ga_.index[static_cast<std::size_t>(ga_.count)] = at + c;
         ga_.value[static_cast<std::size_t>(ga_.count++)] = 1.0;
         gb_.body = -1;
-        add_rank_one(ga_, gb_, penalty);
+        add_rank_one(matrix, ga_, gb_, penalty);
+        keep_row(linear, b.row + 6 + 3 * p + c, ga_, gb_);
       }
     }
   }
@@ -125,7 +157,7 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
       gradient(force.b, false, row.g.Fb, row.g.Tb, gb_);
       if (ga_.body >= 0 && ga_.body == gb_.body)
         continue;  // within one body only its modes feel it: left to Newton
-      add_rank_one(ga_, gb_, weight);
+      add_rank_one(matrix, ga_, gb_, weight);
     }
   }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
@@ -135,18 +167,35 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
           rows_[static_cast<std::size_t>(part_offset_[k] + r - part_rows_)].gradient;
       gradient(p.a, true, g.Fa, g.Ta, ga_);
       gradient(p.b, true, g.Fb, g.Tb, gb_);
-      add_rank_one(ga_, gb_, penalty);
+      add_rank_one(matrix, ga_, gb_, penalty);
+      keep_row(linear, part_offset_[k] + r, ga_, gb_);
     }
     if (p.kind == ConstraintPart::Kind::distance) {  // its gradient d/L turns with the rod
       const double w = s * lambda_[part_offset_[k]] / p.scale;
       for (int c = 0; c < 3; ++c) {
         gradient(p.a, true, -Vec3::Unit(c), Vec3::Zero(), ga_);
         gradient(p.b, true, Vec3::Unit(c), Vec3::Zero(), gb_);
-        add_rank_one(ga_, gb_, w);
+        add_rank_one(matrix, ga_, gb_, w);
       }
     }
   }
-  return matrix_.factorize();
+  return matrix.factorize();
+}
+
+void AbsoluteFormulation::solve(VecX& b, const VecX& w, VecX& increments, int slot) noexcept {
+  Linearization& l = linearizations_[slot];
+  for (int i = 0; i < nc_; ++i)
+    for (int k = l.row_start[static_cast<std::size_t>(i)];
+         k < l.row_start[static_cast<std::size_t>(i) + 1]; ++k)
+      b[l.column[static_cast<std::size_t>(k)]] += w[i] * l.value[static_cast<std::size_t>(k)];
+  l.matrix.solve(b);
+  for (int i = 0; i < nc_; ++i) {
+    double sum = 0.0;
+    for (int k = l.row_start[static_cast<std::size_t>(i)];
+         k < l.row_start[static_cast<std::size_t>(i) + 1]; ++k)
+      sum += l.value[static_cast<std::size_t>(k)] * b[l.column[static_cast<std::size_t>(k)]];
+    increments[i] = sum;
+  }
 }
 
 }  // namespace floatframe

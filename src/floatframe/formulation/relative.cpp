@@ -43,9 +43,9 @@ void RelativeFormulation::build_bodies(InertiaMethod method) {
     };
     b.phi = link.parent >= 0 && b.nm_parent > 0 && moves(b.frame_F);
     b.psi = b.nm > 0 && moves(b.frame_M);
-    b.b = Mat6X::Zero(6, b.nj);
+    b.damped = b.nm > 0 && !m.data->D.isZero(0.0);
+    b.S = Mat6X::Zero(6, b.nj + b.nm);
     b.Phi = Mat6X::Zero(6, b.nm_parent);
-    b.Psi = Mat6X::Zero(6, b.nm);
     b.inertia = BodyInertia(*m.data, m.name, method);
     b.M = MatX::Zero(6 + b.nm, 6 + b.nm);
     b.T = b.M;
@@ -54,9 +54,9 @@ void RelativeFormulation::build_bodies(InertiaMethod method) {
     b.y = b.yd = b.ydd = VecX::Zero(b.nm);
     b.MzPhi = Mat6X::Zero(6, b.nm_parent);
     b.U = Mat6X::Zero(6, b.nj + b.nm);
-    b.g_force.setZero();
-    b.g_virial.setZero();
-    b.g_modal = b.G_modal = Mat3X::Zero(3, b.nm);
+    b.G_force.setZero();
+    b.G_virial.setZero();
+    b.G_modal = Mat3X::Zero(3, b.nm);
   }
   markers_.resize(model_.markers.size());
   for (std::size_t i = 0; i < markers_.size(); ++i)
@@ -162,9 +162,8 @@ void RelativeFormulation::build_clusters() {
     }
     c.size = nv_ - c.offset;
     c.n = c.size + (c.parent < 0 ? 0 : 6 + body(c.parent).nm);
-    c.front = MatX::Zero(front_stride(c.n), c.n);
     c.original = VecX::Zero(c.n);
-    c.work = VecX::Zero(c.n);
+    c.work = VecX::Zero(front_stride(c.n));
   }
 }
 
@@ -208,21 +207,34 @@ RelativeFormulation::Element RelativeFormulation::make_element(int a, int b) {
   };
   if (a >= 0) walk(pa, a, false, body_a);
   walk(pb, b, true, body_b);
-  for (const PathEntry& p : e.path)
-    for (int k = 0; k < p.count; ++k) e.columns.push_back(p.front + k);
-  std::sort(e.columns.begin(), e.columns.end());
-  e.columns.erase(std::unique(e.columns.begin(), e.columns.end()), e.columns.end());
-  for (const PathEntry& p : e.path)
-    e.entry_slot.push_back(static_cast<int>(
-        std::lower_bound(e.columns.begin(), e.columns.end(), p.front) - e.columns.begin()));
+  int last = 0;
+  if (!e.path.empty()) e.first = c.n;
+  for (const PathEntry& p : e.path) {
+    e.first = std::min(e.first, p.front);
+    last = std::max(last, p.front + p.count);
+  }
+  if (e.path.empty()) return e;
+  e.first &= ~3;
+  e.width = front_stride(last - e.first);
   return e;
 }
 
 void RelativeFormulation::build_elements() {
-  for (const ConstraintPart& p : parts_) {
-    part_elements_.push_back(make_element(p.a, p.b));
+  int gradients = 0;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    Element e = make_element(parts_[k].a, parts_[k].b);
+    e.gradient = gradients;
+    gradients += e.width * parts_[k].rows();
+    if (e.cluster >= 0)
+      clusters_[static_cast<std::size_t>(e.cluster)].parts.push_back(static_cast<int>(k));
+    part_elements_.push_back(std::move(e));
     part_offset_.push_back(nc_);
-    nc_ += p.rows();
+    nc_ += parts_[k].rows();
+  }
+  for (Linearization& l : linearizations_) {
+    for (const BodyData& b : bodies_) l.bodies.push_back({b.S, b.Phi});
+    for (const Cluster& c : clusters_) l.fronts.push_back(MatX::Zero(front_stride(c.n), c.n));
+    l.gradients.assign(static_cast<std::size_t>(gradients), 0.0);
   }
   for (const Force& f : model_.forces) {
     const bool two_bodies = f.a >= 0 && mark(f.a).body >= 0 && mark(f.b).body >= 0;
@@ -256,8 +268,10 @@ void RelativeFormulation::build_elements() {
   }
   phi_ = weights_ = lambda_ = VecX::Zero(nc_);
   std::size_t widest = 64;
-  for (const Element& e : part_elements_) widest = std::max(widest, e.columns.size());
-  for (const Element& e : force_elements_) widest = std::max(widest, e.columns.size());
+  for (const Element& e : part_elements_)
+    widest = std::max(widest, static_cast<std::size_t>(e.width));
+  for (const Element& e : force_elements_)
+    widest = std::max(widest, static_cast<std::size_t>(e.width));
   for (const BodyData& b : bodies_) widest = std::max(widest, static_cast<std::size_t>(6 + b.nm));
   slots_ = VecX::Zero(3 * static_cast<Eigen::Index>(widest));
   // Markers grouped by body; a body's own joint marker is handled with the joint.

@@ -6,7 +6,7 @@
 // own marker M moves with its own modes. Twists Z = (sdot, omega) are taken about one common point
 // (the origin of this evaluation), with the material-point meaning of acceleration (theory section
 // 6), so no transport matrices appear:
-//   Z_c = Z_p + Phi_pc ydot_p + b_c v_c - Psi_c ydot_c
+//   Z_c = Z_p + Phi_pc ydot_p + S_c [v_c; ydot_c],  S_c = [b_c, -Psi_c]
 // Residual: forward recursion of accelerations, body terms (46)-(63), backward recursion. Tangent:
 // composite inertia inside a *cluster*, Schur complement between clusters. A cluster is a set of
 // bodies that loop constraints or two-body forces tie together; it hangs from one parent body p and
@@ -52,6 +52,9 @@ class RelativeFormulation {
   /// Marks the coordinates that the user gave a start value for.
   std::vector<char> given_coordinates() const;
 
+  /// Of a factorisation, in iterations that reuse one (measured on the Iltis).
+  static constexpr double factorization_cost = 1.3;
+
   // -- the integrator's view; all noexcept and free of allocation
   // ------------------------------------------------
   void positions(double t, const VecX& q) noexcept;
@@ -62,16 +65,21 @@ class RelativeFormulation {
   void forces() noexcept;
   /// out = M a - Q + Phi_q^T (alpha Phi + lambda)
   void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept;
-  /// Factorises M mass + damping C + s (K + alpha Phi_q^T Phi_q). Returns -1 or a coordinate with a
-  /// vanishing pivot.
-  int factorize(double mass, double damping, double s, double alpha) noexcept;
-  void solve(VecX& b) noexcept;
+  /// Factorises T = M mass + damping C + s (K + alpha Phi_q^T Phi_q) at the present configuration,
+  /// with the forces and multipliers of the last `residual`. Returns -1 or a coordinate with a
+  /// vanishing pivot. Each slot keeps one factorisation together with the directions of motion it
+  /// was made with, so it solves on when the configuration has moved.
+  int factorize(double mass, double damping, double s, double alpha, int slot = 0) noexcept;
+  /// b := T^-1 b
+  void solve(VecX& b, int slot = 0) noexcept;
+  /// b := T^-1 (b + Phi_q^T w) and increments := Phi_q b, with the Phi_q of the factorisation.
+  void solve(VecX& b, const VecX& w, VecX& increments, int slot) noexcept;
   const VecX& constraint_values() const noexcept { return phi_; }
   /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates [1/s2].
   const VecX& own_frequencies_squared() const noexcept { return omega2_; }
   void constraint_rates(VecX& out) noexcept;
   void constraint_accelerations(const VecX& a, VecX& out) noexcept;
-  /// out = Phi_q delta for the solution of the last `solve`.
+  /// out = Phi_q delta at the present configuration.
   void constraint_increments(const VecX& delta, VecX& out) noexcept;
   /// out = Phi_q^T w
   void constraint_forces(const VecX& w, VecX& out) noexcept;
@@ -132,23 +140,21 @@ class RelativeFormulation {
     int iv = 0, iy = 0;   // velocity offsets
     int cluster = -1;
     double angle = 0.0;  // coordinate of a revolute joint, in the sense of its own parent and child
-    bool phi = false, psi = false;
+    bool phi = false, psi = false, damped = false;
     JointMotion motion;
     Vec3 r0, w;
     Mat3 A;
     Vec6 Z, D, Zdot;
-    Mat6X b, Phi, Psi;
+    // Z_c = Z_p + Phi ydot_p + S [v_joint; ydot_c]; the columns of the own modes are -Psi, zero
+    // without `psi`.
+    Mat6X S, Phi;
     BodyInertia inertia;
     MatX M, T;
     VecX Qv, h, y, yd, ydd;
     Mat6X MzPhi, U;
     Vec6 wrench;
-    // Point forces of the last residual on this body, for the geometric stiffness: sum F, sum r
-    // F^T, sum Jr x F.
-    Vec3 g_force;
-    Mat3 g_virial;
-    Mat3X g_modal;
-    // The same, scaled by s and summed over the subtree while the tangent is assembled.
+    // Point forces on this body and, while the tangent is assembled, on its subtree, scaled by s,
+    // for the geometric stiffness: sum F, sum r F^T, sum Jr x F.
     Vec3 G_force;
     Mat3 G_virial;
     Mat3X G_modal;
@@ -168,16 +174,25 @@ class RelativeFormulation {
     int cluster = -1;  // -1: one body against the ground, added to the body's own matrix
     int body = -1;
     std::vector<PathEntry> path;
-    std::vector<int> columns;     // front indices touched, ascending
-    std::vector<int> entry_slot;  // for each path entry its first slot in `columns`
+    int first = 0, width = 0;  // the range of the front that the path touches, in whole lanes
+    int gradient = 0;  // where its rows start in Linearization::gradients (constraint parts)
   };
   struct Cluster {
     std::vector<int> bodies;   // parents before children
     int parent = -1;           // body, -1: ground
     int offset = 0, size = 0;  // velocity coordinates
     int n = 0;                 // front size
-    MatX front;
+    std::vector<int> parts;    // constraint parts whose elements lie in this cluster
     VecX original, work;
+  };
+  /// A factorised tangent with the directions of motion it was made with.
+  struct Linearization {
+    struct Directions {
+      Mat6X S, Phi;
+    };
+    std::vector<Directions> bodies;
+    std::vector<MatX> fronts;       // one a cluster
+    std::vector<double> gradients;  // rows of Phi_q over the ranges of their elements
   };
 
   void build_bodies(InertiaMethod method);
@@ -190,17 +205,28 @@ class RelativeFormulation {
   void evaluate_constraints() noexcept;
   void project(VecX& out) noexcept;  // body vectors h -> coordinates; consumes h
   void add_wrench(int marker, const Vec3& force, const Vec3& torque) noexcept;  // h += J^T wrench
+  void gather_geometric(double s) noexcept;
   void add_geometric(int marker, const Vec3& force) noexcept;
   void sum_rows(std::size_t part, const VecX& w, WrenchRow& sum) const noexcept;
   void accelerations(const VecX& a) noexcept;
-  void fill_gradient(const Element& e,
-                     const WrenchRow& g) noexcept;  // compressed gradient in slots_
-  void add_rank_one(const Element& e, const WrenchRow& g, double weight) noexcept;
-  void add_isotropic(const Element& e, double weight) noexcept;
-  void assemble_cluster(Cluster& c) noexcept;
+  // Gradient of a row over the element's range of the front, and of the three components of r_b -
+  // r_a.
+  void fill_gradient(const Element& e, const WrenchRow& g, double* out) const noexcept;
+  void fill_distance(const Element& e, double* out) const noexcept;
+  void assemble_elements(double damping, double s, double alpha, Linearization& l) noexcept;
+  void assemble_cluster(Cluster& c, MatX& front) noexcept;
+  void solve_with(Linearization& l, VecX& b, const VecX* w, VecX* increments) noexcept;
+  void spread(const VecX& x) noexcept;  // coordinates -> h = [Z; y] of each body
   BodyData& body(int i) noexcept { return bodies_[static_cast<std::size_t>(i)]; }
   const BodyData& body(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)]; }
+  /// The six-row columns of a path entry that is not the marker's own.
+  const double* directions(const PathEntry& p) const noexcept {
+    const BodyData& b = body(p.body);
+    if (p.what == PathEntry::What::parent_modes) return b.Phi.data();
+    return b.S.data() + (p.what == PathEntry::What::own_modes ? 6 * b.nj : 0);
+  }
   MarkerData& mark(int i) noexcept { return markers_[static_cast<std::size_t>(i)]; }
+  const MarkerData& mark(int i) const noexcept { return markers_[static_cast<std::size_t>(i)]; }
 
   const Model& model_;
   Topology topology_;
@@ -217,7 +243,8 @@ class RelativeFormulation {
   std::vector<double> force_reference_;
   std::vector<int>
       force_tree_body_;  // joint springs on tree joints: the body whose joint it is, else -1
-  std::vector<Cluster> clusters_;  // leaves before roots
+  std::vector<Cluster> clusters_;
+  Linearization linearizations_[2];
   std::vector<int> cluster_order_;
   int nq_ = 0, nv_ = 0, nc_ = 0;
   double time_ = 0.0;

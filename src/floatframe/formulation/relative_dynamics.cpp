@@ -1,5 +1,6 @@
 // Residual and constraints: accelerations root to leaves, body terms, wrenches leaves to root.
 #include "floatframe/formulation/relative.hpp"
+#include "floatframe/math/small_products.hpp"
 
 namespace floatframe {
 
@@ -36,28 +37,21 @@ void RelativeFormulation::add_wrench(int marker, const Vec3& force, const Vec3& 
   }
 }
 
-void RelativeFormulation::add_geometric(int marker, const Vec3& force) noexcept {
-  const MarkerData& m = mark(marker);
-  if (m.body < 0) return;
-  BodyData& b = body(m.body);
-  b.g_force += force;
-  b.g_virial.noalias() += m.s.r * force.transpose();
-  if (m.local)
-    for (int k = 0; k < b.nm; ++k) b.g_modal.col(k) += m.Jr.col(k).cross(force);
-}
-
 void RelativeFormulation::project(VecX& out) noexcept {
   for (std::size_t k = order_.size(); k-- > 0;) {
     BodyData& b = body(order_[k]);
     const Vec6 hz = b.h.head<6>();
-    if (b.psi) b.h.tail(b.nm).noalias() -= b.Psi.transpose() * hz;
-    out.segment(b.iy, b.nm) = b.h.tail(b.nm);
-    for (int j = 0; j < b.nj; ++j) out[b.iv + j] = b.b.col(j).dot(hz);
+    double* o = out.data() + b.iv;
+    transposed_times(b.S.data(), b.psi ? b.nj + b.nm : b.nj, hz.data(), o);
+    if (b.psi)
+      for (int j = 0; j < b.nm; ++j) o[b.nj + j] += b.h[6 + j];
+    else
+      for (int j = 0; j < b.nm; ++j) o[b.nj + j] = b.h[6 + j];
     b.wrench = hz;
     if (b.parent >= 0) {
       BodyData& p = body(b.parent);
       p.h.head<6>() += hz;
-      if (b.phi) p.h.tail(p.nm).noalias() += b.Phi.transpose() * hz;
+      if (b.phi) add_transposed_times(b.Phi.data(), p.nm, hz.data(), p.h.data() + 6);
     }
   }
 }
@@ -70,10 +64,9 @@ void RelativeFormulation::accelerations(const VecX& a) noexcept {
     if (b.parent >= 0) {
       const BodyData& p = body(b.parent);
       z = p.Zdot;
-      if (b.phi) z.noalias() += b.Phi * p.ydd;
+      if (b.phi) add_times(b.Phi.data(), p.nm, p.ydd.data(), z.data());
     }
-    for (int j = 0; j < b.nj; ++j) z += b.b.col(j) * a[b.iv + j];
-    if (b.psi) z.noalias() -= b.Psi * b.ydd;
+    add_times(b.S.data(), b.psi ? b.nj + b.nm : b.nj, a.data() + b.iv, z.data());
     b.Zdot = z;  // without the bias D
   }
 }
@@ -84,27 +77,20 @@ void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alp
   for (const int i : order_) {
     BodyData& b = body(i);
     const Vec6 zdot = b.Zdot + b.D;
-    b.g_force.setZero();
-    b.g_virial.setZero();
-    b.g_modal.setZero();
+    const int n = 6 + b.nm;
     b.h = -b.Qv;
-    b.h.noalias() += b.M.leftCols<6>() * zdot;
-    if (b.nm > 0) {
-      b.h.noalias() += b.M.rightCols(b.nm) * b.ydd;
-      const FlexibleBody& data = *model_.bodies[static_cast<std::size_t>(i)].data;
-      b.h.tail(b.nm).noalias() += data.K * b.y;
-      b.h.tail(b.nm).noalias() += data.D * b.yd;
-    }
+    add_product(b.M.data(), n, 6, zdot.data(), b.h.data());
+    if (b.nm == 0) continue;
+    add_product(b.M.data() + 6 * n, n, b.nm, b.ydd.data(), b.h.data());
+    const FlexibleBody& data = *model_.bodies[static_cast<std::size_t>(i)].data;
+    add_product(data.K.data(), b.nm, b.nm, b.y.data(), b.h.data() + 6);
+    if (b.damped) add_product(data.D.data(), b.nm, b.nm, b.yd.data(), b.h.data() + 6);
   }
   for (std::size_t k = 0; k < model_.forces.size(); ++k) {
     const Force& f = model_.forces[k];
     const WrenchRow& w = force_states_[k].wrench;
-    if (f.a >= 0) {
-      add_wrench(f.a, -w.Fa, -w.Ta);
-      add_geometric(f.a, -w.Fa);
-    }
+    if (f.a >= 0) add_wrench(f.a, -w.Fa, -w.Ta);
     add_wrench(f.b, -w.Fb, -w.Tb);
-    add_geometric(f.b, -w.Fb);
   }
   lambda_ = lambda;
   weights_ = lambda;
@@ -115,10 +101,6 @@ void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alp
     sum_rows(k, weights_, sum);
     add_wrench(p.a, sum.Fa, sum.Ta);
     add_wrench(p.b, sum.Fb, sum.Tb);
-    sum_rows(k, lambda_,
-             sum);  // the penalty part vanishes with convergence and would only disturb the tangent
-    add_geometric(p.a, sum.Fa);
-    add_geometric(p.b, sum.Fb);
   }
   project(out);
 }
@@ -164,13 +146,29 @@ void RelativeFormulation::constraint_rates(VecX& out) noexcept {
   }
 }
 
-void RelativeFormulation::constraint_increments(const VecX&, VecX& out) noexcept {
+void RelativeFormulation::spread(const VecX& x) noexcept {
+  for (const int i : order_) {
+    BodyData& b = body(i);
+    Vec6 z = Vec6::Zero();
+    if (b.parent >= 0) {
+      const BodyData& p = body(b.parent);
+      z = p.h.head<6>();
+      if (b.phi) add_times(b.Phi.data(), p.nm, p.h.data() + 6, z.data());
+    }
+    add_times(b.S.data(), b.psi ? b.nj + b.nm : b.nj, x.data() + b.iv, z.data());
+    b.h.head<6>() = z;
+    b.h.tail(b.nm) = x.segment(b.iy, b.nm);
+  }
+}
+
+void RelativeFormulation::constraint_increments(const VecX& delta, VecX& out) noexcept {
+  spread(delta);
   const auto motion = [&](int marker, Vec3& linear, Vec3& angular) {
     const MarkerData& m = mark(marker);
     linear.setZero();
     angular.setZero();
     if (m.body < 0) return;
-    const BodyData& b = body(m.body);  // `solve` left the increments [Z; y] in h
+    const BodyData& b = body(m.body);
     angular = b.h.segment<3>(3);
     linear = b.h.head<3>() + angular.cross(m.s.r);
     if (m.local) {

@@ -69,8 +69,8 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
     marker_world_position(M);
     for (int k = 0; k < b.nj; ++k) {
       const Vec3 omega = F.s.R * b.motion.H.block<3, 1>(3, k);
-      b.b.block<3, 1>(0, k) = F.s.R * b.motion.H.block<3, 1>(0, k) + r_M.cross(omega);
-      b.b.block<3, 1>(3, k) = omega;
+      b.S.block<3, 1>(0, k) = F.s.R * b.motion.H.block<3, 1>(0, k) + r_M.cross(omega);
+      b.S.block<3, 1>(3, k) = omega;
     }
     if (b.phi)
       for (int k = 0; k < b.nm_parent; ++k) {
@@ -79,8 +79,8 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
       }
     if (b.psi)
       for (int k = 0; k < b.nm; ++k) {
-        b.Psi.block<3, 1>(3, k) = M.Jw.col(k);
-        b.Psi.block<3, 1>(0, k) = M.Jr.col(k) + r_M.cross(M.Jw.col(k));
+        b.S.block<3, 1>(3, b.nj + k) = -M.Jw.col(k);
+        b.S.block<3, 1>(0, b.nj + k) = M.Jw.col(k).cross(r_M) - M.Jr.col(k);
       }
     for (int u = used_markers_of_body_offset_[static_cast<std::size_t>(i)];
          u < used_markers_of_body_offset_[static_cast<std::size_t>(i) + 1]; ++u) {

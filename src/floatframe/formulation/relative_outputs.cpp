@@ -118,12 +118,14 @@ MatX RelativeFormulation::constraint_jacobian() {
     const Cluster& c = clusters_[static_cast<std::size_t>(e.cluster)];
     for (int r = 0; r < parts_[k].rows(); ++r) {
       const int row = part_offset_[k] + r;
-      fill_gradient(e, rows_[static_cast<std::size_t>(row)].gradient);
-      for (std::size_t j = 0; j < e.columns.size(); ++j) {
-        const int front = e.columns[j];
+      fill_gradient(e, rows_[static_cast<std::size_t>(row)].gradient, slots_.data());
+      for (int j = 0; j < e.width; ++j) {
+        const int front = e.first + j;
+        // Never touched: the parent's twist, and the rows that fill up the last lanes.
+        if ((front >= c.size && front < c.size + 6) || front >= c.n) continue;
         const int column =
             front < c.size ? c.offset + front : body(c.parent).iy + front - c.size - 6;
-        J(row, column) = slots_[static_cast<Eigen::Index>(j)];
+        J(row, column) = slots_[j];
       }
     }
   }

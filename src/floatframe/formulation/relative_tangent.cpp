@@ -1,20 +1,52 @@
 // Tangent of the relative formulation: composite inertia inside clusters, elimination between them.
+#include <algorithm>
+
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/math/partial_ldlt.hpp"
+#include "floatframe/math/small_products.hpp"
 
 namespace floatframe {
 
-// tangent
+namespace {
 
-void RelativeFormulation::fill_gradient(const Element& e, const WrenchRow& g) noexcept {
-  const auto n = static_cast<Eigen::Index>(e.columns.size());
-  slots_.head(n).setZero();
-  for (std::size_t k = 0; k < e.path.size(); ++k) {
-    const PathEntry& p = e.path[k];
+/// Lower triangle of front += w g g^T on the rows and columns first..first+n, in whole lanes: what
+/// lies above the diagonal is scratch, and g is zero beyond the front.
+void add_outer(MatX& front, int first, int n, const double* g, double w) noexcept {
+  const Eigen::Index ld = front.rows();
+  double* column = front.data() + first * ld + first;
+  const int columns = std::min(n, static_cast<int>(front.cols()) - first);
+  for (int j = 0; j < columns; ++j, column += ld) {
+    const double x = w * g[j];
+    if (x == 0.0) continue;
+    for (int i = j & ~3; i < n; i += 4) lanes(column + i) += x * lanes(g + i);
+  }
+}
+
+/// The same for the three rows of g (n each): front += w (g0 g0^T + g1 g1^T + g2 g2^T).
+void add_three_outer(MatX& front, int first, int n, const double* g, double w) noexcept {
+  const Eigen::Index ld = front.rows();
+  const double *g0 = g, *g1 = g + n, *g2 = g + 2 * n;
+  double* column = front.data() + first * ld + first;
+  const int columns = std::min(n, static_cast<int>(front.cols()) - first);
+  for (int j = 0; j < columns; ++j, column += ld) {
+    const double x = w * g0[j], y = w * g1[j], z = w * g2[j];
+    for (int i = j & ~3; i < n; i += 4)
+      lanes(column + i) += x * lanes(g0 + i) + y * lanes(g1 + i) + z * lanes(g2 + i);
+  }
+}
+
+}  // namespace
+
+// elements
+
+void RelativeFormulation::fill_gradient(const Element& e, const WrenchRow& g,
+                                        double* row) const noexcept {
+  for (int j = 0; j < e.width; ++j) row[j] = 0.0;
+  for (const PathEntry& p : e.path) {
     const MarkerData& m = mark(p.marker);
     const Vec3& force = p.side_b ? g.Fb : g.Fa;
     const Vec3& torque = p.side_b ? g.Tb : g.Ta;
-    double* out = slots_.data() + e.entry_slot[k];
+    double* out = row + (p.front - e.first);
     if (p.what == PathEntry::What::marker_modes) {
       for (int j = 0; j < p.count; ++j) {
         out[j] += m.Jr.col(j).dot(force);
@@ -25,189 +57,80 @@ void RelativeFormulation::fill_gradient(const Element& e, const WrenchRow& g) no
     Vec6 f;
     f.head<3>() = force;
     f.tail<3>() = m.s.r.cross(force) + torque;
-    const BodyData& b = body(p.body);
-    switch (p.what) {
-      case PathEntry::What::joint:
-        for (int j = 0; j < p.count; ++j) out[j] += b.b.col(j).dot(f);
-        break;
-      case PathEntry::What::own_modes:
-        for (int j = 0; j < p.count; ++j) out[j] -= b.Psi.col(j).dot(f);
-        break;
-      case PathEntry::What::parent_modes:
-        for (int j = 0; j < p.count; ++j) out[j] += b.Phi.col(j).dot(f);
-        break;
-      case PathEntry::What::marker_modes:
-        break;
-    }
+    add_transposed_times(directions(p), p.count, f.data(), out);
   }
 }
 
-void RelativeFormulation::add_rank_one(const Element& e, const WrenchRow& g,
-                                       double weight) noexcept {
-  if (weight == 0.0) return;
-  fill_gradient(e, g);
-  Cluster& c = clusters_[static_cast<std::size_t>(e.cluster)];
-  const std::size_t n = e.columns.size();
-  for (std::size_t j = 0; j < n; ++j) {
-    const double w = weight * slots_[static_cast<Eigen::Index>(j)];
-    if (w == 0.0) continue;
-    double* column = c.front.data() + static_cast<Eigen::Index>(e.columns[j]) * c.front.rows();
-    for (std::size_t i = j; i < n; ++i)
-      column[e.columns[i]] += w * slots_[static_cast<Eigen::Index>(i)];
-  }
-}
-
-void RelativeFormulation::add_isotropic(const Element& e, double weight) noexcept {
-  // J = d(r_b - r_a)/d(columns), 3 x n, column by column in slots_; front += weight J^T J.
-  const auto n = static_cast<Eigen::Index>(e.columns.size());
-  slots_.head(3 * n).setZero();
-  for (std::size_t k = 0; k < e.path.size(); ++k) {
-    const PathEntry& p = e.path[k];
+void RelativeFormulation::fill_distance(const Element& e, double* rows) const noexcept {
+  for (int j = 0; j < 3 * e.width; ++j) rows[j] = 0.0;
+  for (const PathEntry& p : e.path) {
     const MarkerData& m = mark(p.marker);
     const double sign = p.side_b ? 1.0 : -1.0;
-    double* out = slots_.data() + 3 * e.entry_slot[k];
+    double* x = rows + (p.front - e.first);
+    double* y = x + e.width;
+    double* z = y + e.width;
     if (p.what == PathEntry::What::marker_modes) {
-      for (int j = 0; j < 3 * p.count; ++j) out[j] += sign * m.Jr.data()[j];
+      for (int j = 0; j < p.count; ++j) {
+        x[j] += sign * m.Jr(0, j);
+        y[j] += sign * m.Jr(1, j);
+        z[j] += sign * m.Jr(2, j);
+      }
       continue;
     }
-    const BodyData& b = body(p.body);
-    const Mat6X& columns = p.what == PathEntry::What::joint       ? b.b
-                           : p.what == PathEntry::What::own_modes ? b.Psi
-                                                                  : b.Phi;
-    const double factor = p.what == PathEntry::What::own_modes ? -sign : sign;
-    const Vec3 r = m.s.r;
-    for (int j = 0; j < p.count; ++j) {
-      const double* c = columns.data() + 6 * j;
-      out[3 * j] += factor * (c[0] + c[4] * r[2] - c[5] * r[1]);
-      out[3 * j + 1] += factor * (c[1] + c[5] * r[0] - c[3] * r[2]);
-      out[3 * j + 2] += factor * (c[2] + c[3] * r[1] - c[4] * r[0]);
-    }
-  }
-  Cluster& c = clusters_[static_cast<std::size_t>(e.cluster)];
-  const double* J = slots_.data();
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const double x = weight * J[3 * j], y = weight * J[3 * j + 1], z = weight * J[3 * j + 2];
-    double* column =
-        c.front.data() +
-        static_cast<Eigen::Index>(e.columns[static_cast<std::size_t>(j)]) * c.front.rows();
-    for (Eigen::Index i = j; i < n; ++i)
-      column[e.columns[static_cast<std::size_t>(i)]] +=
-          x * J[3 * i] + y * J[3 * i + 1] + z * J[3 * i + 2];
-  }
-}
-
-void RelativeFormulation::assemble_cluster(Cluster& c) noexcept {
-  // Composite inertia inside the cluster, leaves to root (theory section 10).
-  for (std::size_t k = c.bodies.size(); k-- > 0;) {
-    const int i = c.bodies[k];
-    BodyData& b = body(i);
-    const int ij = b.iv - c.offset, iy = b.iy - c.offset;
-    auto Mz = b.T.topLeftCorner<6, 6>();
-    if (b.nm > 0) {
-      auto N = b.T.topRightCorner(6, b.nm);
-      auto Y = b.T.bottomRightCorner(b.nm, b.nm);
-      if (b.psi) {  // from the body frame to marker M
-        b.U.leftCols(b.nm).noalias() = Mz * b.Psi;
-        Y.noalias() -= b.Psi.transpose() * N;
-        Y.noalias() -= N.transpose() * b.Psi;
-        Y.noalias() += b.Psi.transpose() * b.U.leftCols(b.nm);
-        N -= b.U.leftCols(b.nm);
-      }
-      c.front.block(iy, iy, b.nm, b.nm) += Y;
-      b.U.rightCols(b.nm) = N;
-      b.U.bottomRightCorner(3, b.nm) += b.G_modal;
-    }
-    const Mat3 G_angular = b.G_virial - b.G_virial.trace() * Mat3::Identity();
-    const auto geometric = [&](const auto& s) -> Vec3 {
-      return s.template head<3>().cross(b.G_force) + G_angular * s.template tail<3>();
-    };
-    for (int j = 0; j < b.nj; ++j) {
-      b.U.col(j).noalias() = Mz * b.b.col(j);
-      b.U.col(j).tail<3>() += geometric(b.b.col(j));
-    }
-    for (int j = 0; j < b.nj; ++j) {
-      // Coordinate j stands above l, but rotations of one ball have no order: symmetric part.
-      const bool above = (b.type == JointType::free && j < 3) || b.type == JointType::cylindrical ||
-                         b.type == JointType::universal;
-      for (int l = j; l < b.nj; ++l)
-        c.front(ij + l, ij + j) +=
-            above ? b.b.col(j).dot(b.U.col(l))
-                  : 0.5 * (b.b.col(l).dot(b.U.col(j)) + b.b.col(j).dot(b.U.col(l)));
-      for (int l = 0; l < b.nm; ++l) c.front(iy + l, ij + j) += b.U.col(b.nj + l).dot(b.b.col(j));
-    }
-    // Couplings with everything between here and the cluster's parent.
-    const int width = b.nj + b.nm;
-    int current = i;
-    while (true) {
-      const BodyData& d = body(current);
-      if (d.parent < 0) break;
-      const bool inside = d.parent != c.parent;
-      const BodyData& p = body(d.parent);
-      if (inside) {
-        const int pj = p.iv - c.offset, py = p.iy - c.offset;
-        if (d.phi)
-          for (int a = 0; a < p.nm; ++a)
-            for (int l = 0; l < width; ++l) c.front(ij + l, py + a) += d.Phi.col(a).dot(b.U.col(l));
-        for (int a = 0; a < p.nj; ++a)
-          for (int l = 0; l < width; ++l) c.front(ij + l, pj + a) += p.b.col(a).dot(b.U.col(l));
-        if (p.psi)
-          for (int a = 0; a < p.nm; ++a)
-            for (int l = 0; l < width; ++l) c.front(ij + l, py + a) -= p.Psi.col(a).dot(b.U.col(l));
-        current = d.parent;
-        continue;
-      }
-      c.front.block(c.size, ij, 6, width) += b.U;
-      if (d.phi) c.front.block(c.size + 6, ij, p.nm, width).noalias() += d.Phi.transpose() * b.U;
-      break;
-    }
-    if (b.parent < 0) continue;
-    {
-      BodyData& p = body(b.parent);
-      p.G_force += b.G_force;
-      p.G_virial += b.G_virial;
-      if (b.phi)
-        for (int k2 = 0; k2 < b.nm_parent; ++k2) p.G_modal.col(k2) += geometric(b.Phi.col(k2));
-    }
-    if (b.phi) b.MzPhi.noalias() = Mz * b.Phi;
-    if (b.parent != c.parent) {
-      BodyData& p = body(b.parent);
-      p.T.topLeftCorner<6, 6>() += Mz;
-      if (b.phi) {
-        p.T.topRightCorner(6, p.nm) += b.MzPhi;
-        p.T.bottomRightCorner(p.nm, p.nm).noalias() += b.Phi.transpose() * b.MzPhi;
-      }
-    } else {
-      c.front.block<6, 6>(c.size, c.size) += Mz;
-      if (b.phi) {
-        c.front.block(c.size + 6, c.size, b.nm_parent, 6) += b.MzPhi.transpose();
-        c.front.block(c.size + 6, c.size + 6, b.nm_parent, b.nm_parent).noalias() +=
-            b.Phi.transpose() * b.MzPhi;
-      }
+    const double* c = directions(p);
+    const Vec3& r = m.s.r;
+    for (int j = 0; j < p.count; ++j, c += 6) {
+      x[j] += sign * (c[0] + c[4] * r[2] - c[5] * r[1]);
+      y[j] += sign * (c[1] + c[5] * r[0] - c[3] * r[2]);
+      z[j] += sign * (c[2] + c[3] * r[1] - c[4] * r[0]);
     }
   }
 }
 
-int RelativeFormulation::factorize(double mass, double damping, double s, double alpha) noexcept {
-  for (const int i : order_) {
-    BodyData& b = body(i);
-    b.T.noalias() = mass * b.M;
-    if (b.nm > 0) {
-      const FlexibleBody& data = *model_.bodies[static_cast<std::size_t>(i)].data;
-      b.T.bottomRightCorner(b.nm, b.nm) += s * data.K + damping * data.D;
-    }
-    b.G_force = s * b.g_force;
-    b.G_virial = s * b.g_virial;
-    b.G_modal = s * b.g_modal;
+void RelativeFormulation::add_geometric(int marker, const Vec3& force) noexcept {
+  const MarkerData& m = mark(marker);
+  if (m.body < 0) return;
+  BodyData& b = body(m.body);
+  b.G_force += force;
+  b.G_virial.noalias() += m.s.r * force.transpose();
+  if (m.local)
+    for (int k = 0; k < b.nm; ++k) b.G_modal.col(k) += m.Jr.col(k).cross(force);
+}
+
+void RelativeFormulation::gather_geometric(double s) noexcept {
+  for (BodyData& b : bodies_) {
+    b.G_force.setZero();
+    b.G_virial.setZero();
+    b.G_modal.setZero();
   }
-  for (Cluster& c : clusters_) c.front.setZero();
+  for (std::size_t k = 0; k < model_.forces.size(); ++k) {
+    const Force& f = model_.forces[k];
+    const WrenchRow& w = force_states_[k].wrench;
+    if (f.a >= 0) add_geometric(f.a, -s * w.Fa);
+    add_geometric(f.b, -s * w.Fb);
+  }
+  // Multipliers only: the penalty part vanishes with convergence and would disturb the tangent.
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    WrenchRow sum;
+    sum_rows(k, lambda_, sum);
+    add_geometric(parts_[k].a, s * sum.Fa);
+    add_geometric(parts_[k].b, s * sum.Fb);
+  }
+}
+
+void RelativeFormulation::assemble_elements(double damping, double s, double alpha,
+                                            Linearization& l) noexcept {
   for (std::size_t k = 0; k < model_.forces.size(); ++k) {
     const ForceState& f = force_states_[k];
     const Element& e = force_elements_[k];
     for (int r = 0; r < f.row_count; ++r) {
       const TangentRow& row = f.rows[r];
       const double weight = s * row.k + damping * row.c;
+      if (weight == 0.0) continue;
       if (e.cluster >= 0) {
-        add_rank_one(e, row.g, weight);
+        fill_gradient(e, row.g, slots_.data());
+        add_outer(l.fronts[static_cast<std::size_t>(e.cluster)], e.first, e.width, slots_.data(),
+                  weight);
       } else if (e.body >= 0) {  // a body against the ground: into its own matrix
         BodyData& b = body(e.body);
         const bool side_b = mark(e.b).body >= 0;
@@ -228,29 +151,160 @@ int RelativeFormulation::factorize(double mass, double damping, double s, double
   }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Element& e = part_elements_[k];
+    if (e.cluster < 0) continue;
+    MatX& front = l.fronts[static_cast<std::size_t>(e.cluster)];
+    double* g = l.gradients.data() + e.gradient;
     if (parts_[k].kind == ConstraintPart::Kind::coincident) {
-      add_isotropic(e, s * alpha);
+      fill_distance(e, g);
+      add_three_outer(front, e.first, e.width, g, s * alpha);
       continue;
     }
-    for (int r = 0; r < parts_[k].rows(); ++r)
-      add_rank_one(e, rows_[static_cast<std::size_t>(part_offset_[k] + r)].gradient, s * alpha);
-    if (parts_[k].kind == ConstraintPart::Kind::distance)  // its gradient d/L turns with the rod
-      add_isotropic(e, s * lambda_[part_offset_[k]] / parts_[k].scale);
+    for (int r = 0; r < parts_[k].rows(); ++r, g += e.width) {
+      fill_gradient(e, rows_[static_cast<std::size_t>(part_offset_[k] + r)].gradient, g);
+      add_outer(front, e.first, e.width, g, s * alpha);
+    }
+    if (parts_[k].kind == ConstraintPart::Kind::distance) {  // its gradient d/L turns with the rod
+      fill_distance(e, slots_.data());
+      add_three_outer(front, e.first, e.width, slots_.data(),
+                      s * lambda_[part_offset_[k]] / parts_[k].scale);
+    }
   }
+}
 
+// assembly and factorisation
+
+void RelativeFormulation::assemble_cluster(Cluster& c, MatX& front) noexcept {
+  const Eigen::Index ld = front.rows();
+  // Composite inertia inside the cluster, leaves to root (theory section 10).
+  for (std::size_t k = c.bodies.size(); k-- > 0;) {
+    const int i = c.bodies[k];
+    BodyData& b = body(i);
+    const int width = b.nj + b.nm, at = b.iv - c.offset;
+    const int nt = 6 + b.nm;
+    const double* T = b.T.data();
+    const double* S = b.S.data();
+    double* U = b.U.data();
+    const Mat3 G_angular = b.G_virial - b.G_virial.trace() * Mat3::Identity();
+    const auto geometric = [&](const double* s) -> Vec3 {
+      const Eigen::Map<const Vec3> linear(s), angular(s + 3);
+      return linear.cross(b.G_force) + G_angular * angular;
+    };
+    // U = Mz S + [0, N]: what a unit of each coordinate asks of the body's twist.
+    for (int j = 0; j < width; ++j) {
+      double* u = U + 6 * j;
+      if (j < b.nj)
+        for (int r = 0; r < 6; ++r) u[r] = 0.0;
+      else
+        for (int r = 0; r < 6; ++r) u[r] = T[static_cast<Eigen::Index>(6 + j - b.nj) * nt + r];
+      if (j >= b.nj && !b.psi) continue;
+      const double* x = S + 6 * j;
+      for (int p = 0; p < 6; ++p)
+        for (int r = 0; r < 6; ++r) u[r] += T[static_cast<Eigen::Index>(p) * nt + r] * x[p];
+    }
+    // Modes against modes: Y + S^T U + N^T S.
+    for (int j = b.nj; j < width; ++j) {
+      double* column = front.data() + static_cast<Eigen::Index>(at + j) * ld + at;
+      const double* y = T + static_cast<Eigen::Index>(6 + j - b.nj) * nt + 6 - b.nj;
+      for (int r = j; r < width; ++r) column[r] += y[r];
+      if (!b.psi) continue;
+      for (int r = j; r < width; ++r)
+        column[r] += dot6(S + 6 * r, U + 6 * j) +
+                     dot6(T + static_cast<Eigen::Index>(6 + r - b.nj) * nt, S + 6 * j);
+    }
+    for (int j = 0; j < b.nj; ++j) {
+      Eigen::Map<Vec3>(U + 6 * j + 3) += geometric(S + 6 * j);
+    }
+    for (int j = 0; j < b.nm; ++j) Eigen::Map<Vec3>(U + 6 * (b.nj + j) + 3) += b.G_modal.col(j);
+    for (int j = 0; j < b.nj; ++j) {
+      // Coordinate j stands above l, but rotations of one ball have no order: symmetric part.
+      const bool above = (b.type == JointType::free && j < 3) || b.type == JointType::cylindrical ||
+                         b.type == JointType::universal;
+      double* column = front.data() + static_cast<Eigen::Index>(at + j) * ld + at;
+      for (int l = j; l < b.nj; ++l)
+        column[l] += above ? dot6(S + 6 * j, U + 6 * l)
+                           : 0.5 * (dot6(S + 6 * l, U + 6 * j) + dot6(S + 6 * j, U + 6 * l));
+      for (int l = b.nj; l < width; ++l) column[l] += dot6(U + 6 * l, S + 6 * j);
+    }
+    // Couplings with everything between here and the cluster's parent.
+    int current = i;
+    while (true) {
+      const BodyData& d = body(current);
+      if (d.parent < 0) break;
+      const BodyData& p = body(d.parent);
+      if (d.parent == c.parent) {
+        for (int l = 0; l < width; ++l) {
+          double* column = front.data() + static_cast<Eigen::Index>(at + l) * ld + c.size;
+          for (int r = 0; r < 6; ++r) column[r] += U[6 * l + r];
+          if (d.phi) add_transposed_times(d.Phi.data(), p.nm, U + 6 * l, column + 6);
+        }
+        break;
+      }
+      const int pj = p.iv - c.offset, py = p.iy - c.offset;
+      const auto couple = [&](const double* directions, int count, int column_at) {
+        for (int a = 0; a < count; ++a) {
+          double* column = front.data() + static_cast<Eigen::Index>(column_at + a) * ld + at;
+          add_transposed_times(U, width, directions + 6 * a, column);
+        }
+      };
+      if (d.phi) couple(d.Phi.data(), p.nm, py);
+      couple(p.S.data(), p.psi ? p.nj + p.nm : p.nj, pj);
+      current = d.parent;
+    }
+    if (b.parent < 0) continue;
+    BodyData& p = body(b.parent);
+    p.G_force += b.G_force;
+    p.G_virial += b.G_virial;
+    if (b.phi)
+      for (int q = 0; q < b.nm_parent; ++q) p.G_modal.col(q) += geometric(b.Phi.data() + 6 * q);
+    auto Mz = b.T.topLeftCorner<6, 6>();
+    if (b.phi) b.MzPhi.noalias() = Mz.lazyProduct(b.Phi);
+    if (b.parent != c.parent) {
+      p.T.topLeftCorner<6, 6>() += Mz;
+      if (b.phi) {
+        p.T.topRightCorner(6, p.nm) += b.MzPhi;
+        p.T.bottomRightCorner(p.nm, p.nm).noalias() += b.Phi.transpose().lazyProduct(b.MzPhi);
+      }
+    } else {
+      front.block<6, 6>(c.size, c.size) += Mz;
+      if (b.phi) {
+        front.block(c.size + 6, c.size, b.nm_parent, 6) += b.MzPhi.transpose();
+        front.block(c.size + 6, c.size + 6, b.nm_parent, b.nm_parent).noalias() +=
+            b.Phi.transpose().lazyProduct(b.MzPhi);
+      }
+    }
+  }
+}
+
+int RelativeFormulation::factorize(double mass, double damping, double s, double alpha,
+                                   int slot) noexcept {
+  Linearization& linear = linearizations_[slot];
+  gather_geometric(s);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    BodyData& b = bodies_[i];
+    b.T = b.M;
+    if (mass != 1.0) b.T *= mass;
+    if (b.nm > 0) {
+      const FlexibleBody& data = *model_.bodies[i].data;
+      b.T.bottomRightCorner(b.nm, b.nm) += s * data.K + damping * data.D;
+    }
+    linear.bodies[i].S = b.S;
+    if (b.phi) linear.bodies[i].Phi = b.Phi;
+  }
+  for (MatX& front : linear.fronts) front.setZero();
+  assemble_elements(damping, s, alpha, linear);
   for (std::size_t k = cluster_order_.size(); k-- > 0;) {
     Cluster& c = clusters_[static_cast<std::size_t>(cluster_order_[k])];
-    assemble_cluster(c);
-    const int failed = partial_ldlt(c.front.data(), static_cast<int>(c.front.rows()), c.n, c.size,
-                                    c.original.data());
+    MatX& front = linear.fronts[static_cast<std::size_t>(cluster_order_[k])];
+    assemble_cluster(c, front);
+    const int failed = partial_ldlt(front.data(), c.n, c.size, c.original.data());
     if (failed >= 0) return c.offset + failed;
     if (c.parent >= 0) {
       BodyData& p = body(c.parent);
       const int np = c.n - c.size;
       for (int j = 0; j < np; ++j) {
-        p.T(j, j) += c.front(c.size + j, c.size + j);
+        p.T(j, j) += front(c.size + j, c.size + j);
         for (int i = j + 1; i < np; ++i) {
-          const double x = c.front(c.size + i, c.size + j);
+          const double x = front(c.size + i, c.size + j);
           p.T(i, j) += x;
           p.T(j, i) += x;
         }
@@ -260,50 +314,91 @@ int RelativeFormulation::factorize(double mass, double damping, double s, double
   return -1;
 }
 
-void RelativeFormulation::solve(VecX& x) noexcept {
+void RelativeFormulation::solve(VecX& x, int slot) noexcept {
+  solve_with(linearizations_[slot], x, nullptr, nullptr);
+}
+
+void RelativeFormulation::solve(VecX& x, const VecX& w, VecX& increments, int slot) noexcept {
+  solve_with(linearizations_[slot], x, &w, &increments);
+}
+
+void RelativeFormulation::solve_with(Linearization& linear, VecX& x, const VecX* w,
+                                     VecX* increments) noexcept {
   // Leaves to root: linear terms of the minimisation 1/2 x^T T x - b^T x; body vectors h carry them
   // upwards.
   for (BodyData& b : bodies_) b.h.setZero();
+  if (increments) increments->setZero();
   for (std::size_t k = cluster_order_.size(); k-- > 0;) {
     Cluster& c = clusters_[static_cast<std::size_t>(cluster_order_[k])];
-    c.work.head(c.size) = x.segment(c.offset, c.size);
-    c.work.tail(c.n - c.size).setZero();
-    for (std::size_t l = c.bodies.size(); l-- > 0;) {
-      BodyData& b = body(c.bodies[l]);
-      const Vec6 hz = b.h.head<6>();
-      if (b.psi) b.h.tail(b.nm).noalias() -= b.Psi.transpose() * hz;
-      c.work.segment(b.iy - c.offset, b.nm) += b.h.tail(b.nm);
-      for (int j = 0; j < b.nj; ++j) c.work[b.iv - c.offset + j] += b.b.col(j).dot(hz);
-      if (b.parent < 0) continue;
-      if (b.parent != c.parent) {
-        BodyData& p = body(b.parent);
-        p.h.head<6>() += hz;
-        if (b.phi) p.h.tail(p.nm).noalias() += b.Phi.transpose() * hz;
-      } else {
-        c.work.segment<6>(c.size) += hz;
-        if (b.phi) c.work.tail(b.nm_parent).noalias() += b.Phi.transpose() * hz;
+    const MatX& front = linear.fronts[static_cast<std::size_t>(cluster_order_[k])];
+    double* work = c.work.data();
+    for (int j = 0; j < c.size; ++j) work[j] = x[c.offset + j];
+    for (int j = c.size; j < c.work.size(); ++j) work[j] = 0.0;
+    if (w)
+      for (const int part : c.parts) {
+        const auto q = static_cast<std::size_t>(part);
+        const Element& e = part_elements_[q];
+        const double* g = linear.gradients.data() + e.gradient;
+        double* out = work + e.first;
+        for (int r = 0; r < parts_[q].rows(); ++r, g += e.width) {
+          const double force = (*w)[part_offset_[q] + r];
+          for (int j = 0; j < e.width; j += 4) lanes(out + j) += force * lanes(g + j);
+        }
       }
+    for (std::size_t l = c.bodies.size(); l-- > 0;) {
+      const auto i = static_cast<std::size_t>(c.bodies[l]);
+      BodyData& b = bodies_[i];
+      const Linearization::Directions& d = linear.bodies[i];
+      const Vec6 hz = b.h.head<6>();
+      double* own = work + (b.iv - c.offset);
+      add_transposed_times(d.S.data(), b.psi ? b.nj + b.nm : b.nj, hz.data(), own);
+      for (int j = 0; j < b.nm; ++j) own[b.nj + j] += b.h[6 + j];
+      if (b.parent < 0) continue;
+      double* up = b.parent != c.parent ? body(b.parent).h.data() : work + c.size;
+      for (int j = 0; j < 6; ++j) up[j] += hz[j];
+      if (b.phi) add_transposed_times(d.Phi.data(), b.nm_parent, hz.data(), up + 6);
     }
-    partial_forward(c.front.data(), static_cast<int>(c.front.rows()), c.n, c.size, c.work.data());
-    if (c.parent >= 0) body(c.parent).h += c.work.tail(c.n - c.size);
+    partial_forward(front.data(), c.n, c.size, work);
+    if (c.parent >= 0) {
+      double* up = body(c.parent).h.data();
+      for (int j = c.size; j < c.n; ++j) up[j - c.size] += work[j];
+    }
   }
   // Root to leaves: h now holds the increments [Z; y] of each body.
   for (const int k : cluster_order_) {
     Cluster& c = clusters_[static_cast<std::size_t>(k)];
-    if (c.parent >= 0) c.work.tail(c.n - c.size) = body(c.parent).h;
-    partial_backward(c.front.data(), static_cast<int>(c.front.rows()), c.n, c.size, c.work.data());
-    x.segment(c.offset, c.size) = c.work.head(c.size);
+    const MatX& front = linear.fronts[static_cast<std::size_t>(k)];
+    double* work = c.work.data();
+    if (c.parent >= 0) {
+      const double* up = body(c.parent).h.data();
+      for (int j = c.size; j < c.n; ++j) work[j] = up[j - c.size];
+    }
+    partial_backward(front.data(), c.n, c.size, work);
+    for (int j = 0; j < c.size; ++j) x[c.offset + j] = work[j];
+    if (increments)
+      for (const int part : c.parts) {
+        const auto q = static_cast<std::size_t>(part);
+        const Element& e = part_elements_[q];
+        const double* g = linear.gradients.data() + e.gradient;
+        const double* in = work + e.first;
+        for (int r = 0; r < parts_[q].rows(); ++r, g += e.width) {
+          Lanes products = {};
+          for (int j = 0; j < e.width; j += 4) products += lanes(g + j) * lanes(in + j);
+          (*increments)[part_offset_[q] + r] = sum(products);
+        }
+      }
     for (const int i : c.bodies) {
       BodyData& b = body(i);
+      const Linearization::Directions& d = linear.bodies[static_cast<std::size_t>(i)];
       Vec6 z = Vec6::Zero();
       if (b.parent >= 0) {
         const BodyData& p = body(b.parent);
         z = p.h.head<6>();
-        if (b.phi) z.noalias() += b.Phi * p.h.tail(p.nm);
+        if (b.phi) add_times(d.Phi.data(), p.nm, p.h.data() + 6, z.data());
       }
-      for (int j = 0; j < b.nj; ++j) z += b.b.col(j) * x[b.iv + j];
-      b.h.tail(b.nm) = x.segment(b.iy, b.nm);
-      if (b.psi) z.noalias() -= b.Psi * b.h.tail(b.nm);
+      const double* own = work + (b.iv - c.offset);
+      add_times(d.S.data(), b.psi ? b.nj + b.nm : b.nj, own, z.data());
+      for (int j = 0; j < b.nm; ++j) b.h[6 + j] = own[b.nj + j];
       b.h.head<6>() = z;
     }
   }

@@ -65,6 +65,39 @@ struct StepReport {
   }
 };
 
+/// Whether a step should begin with the factorisation it finds. Measured in iterations: what the
+/// last step that began with a fresh one cost against one that did not. When keeping it does not
+/// pay, it is tried again after 2, 4, 8, ... 32 steps.
+class Renewal {
+ public:
+  explicit Renewal(double cost) : cost_(cost) {}
+  /// s: the factor of the stiffness in the factorisation, which belongs to one step size.
+  bool due(double s) const noexcept { return !valid_ || s != s_ || wait_ > 0; }
+  void renewed(double s) noexcept {
+    s_ = s;
+    valid_ = true;
+  }
+  /// After a step: its iterations, its factorisations, and whether it began with one.
+  void spent(int iterations, int factorizations, bool fresh) noexcept {
+    const double cost = iterations + cost_ * factorizations;
+    if (fresh) {
+      fresh_cost_ = cost;
+      if (wait_ > 0) --wait_;
+    } else if (cost > fresh_cost_) {
+      patience_ = std::min(2 * patience_, 32);
+      wait_ = patience_;
+    } else {
+      patience_ = std::max(1, patience_ / 2);
+    }
+  }
+  void spoiled() noexcept { valid_ = false; }
+
+ private:
+  double cost_, s_ = 0.0, fresh_cost_ = 0.0;
+  int patience_ = 1, wait_ = 0;
+  bool valid_ = false;
+};
+
 template <class F>
 class AugmentedLagrangian {
  public:
@@ -73,118 +106,25 @@ class AugmentedLagrangian {
     const int nv = f_.velocities(), nc = f_.constraints();
     q_ = VecX::Zero(f_.configurations());
     x_ = v_ = a_ = a_alg_ = rhs_ = delta_ = v_hat_ = a_hat_ = VecX::Zero(nv);
-    lambda_ = rate_ = work_ = VecX::Zero(nc);
+    lambda_ = rate_ = work_ = increments_ = VecX::Zero(nc);
   }
 
-  /// One step of size h from `state`, which is replaced only if the step converged.
+  /// One step of size h from `state`, which is replaced only if the step is accepted.
   StepReport step(State& state, double h) noexcept {
+    const Scheme k(options_, h);
     StepReport report;
-    const auto begin = options_.time_budget > 0.0 ? Clock::now() : Clock::time_point{};
-    const double rho = options_.spectral_radius;
-    const bool trapezoidal = rho >= 1.0;
-    const double am = trapezoidal ? 0.0 : (2.0 * rho - 1.0) / (rho + 1.0);
-    const double af = trapezoidal ? 0.0 : rho / (rho + 1.0);
-    const double gamma = trapezoidal ? 0.5 : 0.5 + af - am;
-    const double beta = trapezoidal ? 0.25 : 0.25 * (gamma + 0.5) * (gamma + 0.5);
-    const double c1 = gamma / (beta * h);
-    const double c2 = (1.0 - am) / ((1.0 - af) * beta * h * h);
-    const double s = 1.0 / c2;
-    const double alpha = options_.penalty_mass / s;
-
-    // a_alg_{n+1} = (x - h v_n - h^2 (1/2 - beta) a_alg_n) / (beta h^2)
-    // a = [(1 - am) a_alg_{n+1} + am a_alg_n - af a_n] / (1 - af),  v = v_n + h (1 - gamma) a_alg_n
-    // + h gamma a_alg_{n+1}
-    const double base = 1.0 / (beta * h * h);
-    v_hat_ = state.v + (h * (1.0 - gamma)) * state.a_alg;
-    v_hat_ -= (h * gamma * base) * (h * state.v + (h * h * (0.5 - beta)) * state.a_alg);
-    a_hat_ = (-(1.0 - am) * base) * (h * state.v + (h * h * (0.5 - beta)) * state.a_alg);
-    a_hat_ += am * state.a_alg - af * state.a;
-    a_hat_ /= (1.0 - af);
-
-    // Predictor: the trapezoidal step of each coordinate as if it were an oscillator of its own
-    // (frequency 0 for rigid coordinates). A Taylor step would throw modes with omega h >> 1 far
-    // away.
-    const VecX& omega2 = f_.own_frequencies_squared();
-    for (Eigen::Index i = 0; i < x_.size(); ++i)
-      x_[i] = (h * state.v[i] + 0.5 * h * h * state.a_alg[i]) / (1.0 + 0.25 * h * h * omega2[i]);
-    lambda_ = state.lambda;
-    double increment = 0.0;
-    bool converged = false;
-    while (true) {
-      f_.retract(state.q, x_, q_);
-      v_ = c1 * x_ + v_hat_;
-      a_ = c2 * x_ + a_hat_;
-      f_.positions(state.t + h, q_);
-      f_.velocities(v_);
-      const VecX& phi = f_.constraint_values();
-      report.position_violation = largest(phi);
-      if (report.iterations > 0) {
-        converged = increment < options_.tolerance &&
-                    report.position_violation < options_.position_tolerance;
-        if (!std::isfinite(increment) || !std::isfinite(report.position_violation)) {
-          report.status = StepStatus::not_finite;
-          return report;
-        }
-        if (options_.fixed_iterations > 0) {
-          if (report.iterations >= options_.fixed_iterations) {
-            if (!converged) report.status = StepStatus::cut_short;
-            break;
-          }
-          converged = false;
-        }
-        if (converged) break;
-        if (options_.time_budget > 0.0 && elapsed(begin) > options_.time_budget) {
-          report.status = StepStatus::cut_short;
-          break;
-        }
-        if (options_.fixed_iterations == 0 && report.iterations >= options_.max_iterations) {
-          report.status = StepStatus::not_converged;
-          if (increment >= options_.tolerance)
-            report.coordinate = worst_coordinate();
-          else
-            report.constraint = index_of_largest(phi);
-          return report;
-        }
-      }
-      f_.dynamics();
-      f_.residual(a_, lambda_, alpha, rhs_);
-      const int pivot = f_.factorize(1.0, c1 / c2, s, alpha);
-      ++report.factorizations;
-      if (pivot >= 0) {
-        report.status = StepStatus::singular_tangent;
-        report.coordinate = pivot;
-        return report;
-      }
-      delta_ = -s * rhs_;
-      f_.solve(delta_);
-      // The multiplier that belongs to this solution: lambda + alpha (Phi + Phi_q dx). Taking
-      // Phi(q) after the update instead would feed the curvature of the constraints, alpha O(dx^2),
-      // into the multipliers.
-      f_.constraint_increments(delta_, work_);
-      work_ += phi;
-      lambda_ += alpha * work_;
-      f_.advance(x_, delta_);
-      report.increment = increment = largest(delta_);
-      ++report.iterations;
+    predict(state, k);
+    if (newton(state, k, report); !report.accepted()) {
+      projection_.spoiled();
+      return report;
     }
-
-    if (f_.constraints() > 0) {
-      constexpr double stiffness = 1e-2;
-      const int pivot = f_.factorize(1.0, 0.0, stiffness * s, alpha / stiffness);
-      ++report.factorizations;
-      if (pivot >= 0) {
-        report.status = StepStatus::singular_tangent;
-        report.coordinate = pivot;
-        return report;
-      }
-      project(s * alpha, report);
-    }
-    a_alg_ = base * (x_ - h * state.v - (h * h * (0.5 - beta)) * state.a_alg);
+    if (f_.constraints() > 0 && !project(k, report)) return report;
+    a_alg_ = k.base * (x_ - h * state.v - (h * h * (0.5 - k.beta)) * state.a_alg);
     state.t += h;
     state.q.swap(q_);
     state.v.swap(v_);
     state.a.swap(a_);
-    if (trapezoidal)
+    if (k.trapezoidal)
       state.a_alg = state.a;
     else
       state.a_alg.swap(a_alg_);
@@ -196,32 +136,189 @@ class AugmentedLagrangian {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static double elapsed(Clock::time_point begin) noexcept {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
+  static constexpr int newton_slot = 0, projection_slot = 1;
+
+  /// The constants of one step size.
+  struct Scheme {
+    Scheme(const StepOptions& o, double step) noexcept : h(step) {
+      const double rho = o.spectral_radius;
+      trapezoidal = rho >= 1.0;
+      am = trapezoidal ? 0.0 : (2.0 * rho - 1.0) / (rho + 1.0);
+      af = trapezoidal ? 0.0 : rho / (rho + 1.0);
+      gamma = trapezoidal ? 0.5 : 0.5 + af - am;
+      beta = trapezoidal ? 0.25 : 0.25 * (gamma + 0.5) * (gamma + 0.5);
+      base = 1.0 / (beta * h * h);
+      c1 = gamma / (beta * h);
+      c2 = (1.0 - am) / ((1.0 - af) * beta * h * h);
+      s = 1.0 / c2;
+      penalty = o.penalty_mass;
+      alpha = penalty / s;
+    }
+    double h, am, af, gamma, beta, base, c1, c2, s, penalty, alpha;
+    bool trapezoidal;
+  };
+
+  /// The histories v_hat and a_hat, and the first guess of x.
+  void predict(const State& state, const Scheme& k) noexcept {
+    // a_alg_{n+1} = (x - h v_n - h^2 (1/2 - beta) a_alg_n) / (beta h^2)
+    // a = [(1 - am) a_alg_{n+1} + am a_alg_n - af a_n] / (1 - af),  v = v_n + h (1 - gamma) a_alg_n
+    // + h gamma a_alg_{n+1}
+    const double h = k.h, from_v = h, from_a = h * h * (0.5 - k.beta);
+    const VecX& omega2 = f_.own_frequencies_squared();
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      const double known = k.base * (from_v * state.v[i] + from_a * state.a_alg[i]);
+      v_hat_[i] = state.v[i] + h * (1.0 - k.gamma) * state.a_alg[i] - h * k.gamma * known;
+      a_hat_[i] = (k.am * state.a_alg[i] - k.af * state.a[i] - (1.0 - k.am) * known) / (1.0 - k.af);
+      // Each coordinate as an oscillator of its own (frequency 0 for rigid coordinates),
+      // a = f - omega^2 x under a constant load f. A Taylor step would throw modes with
+      // omega h >> 1 far away.
+      x_[i] = (state.a[i] - a_hat_[i]) / (k.c2 + omega2[i]);
+    }
+    lambda_ = state.lambda;
   }
 
-  void project(double weight, StepReport& report) noexcept {
-    for (int pass = 0; pass < options_.max_projections; ++pass) {
-      f_.constraint_rates(rate_);
+  void newton(const State& state, const Scheme& k, StepReport& report) noexcept {
+    const bool constrained = f_.constraints() > 0;
+    const auto begin = options_.time_budget > 0.0 ? Clock::now() : Clock::time_point{};
+    bool renew = true, measured = false;
+    double increment = 0.0, error = 0.0;
+    while (true) {
+      f_.retract(state.q, x_, q_);
+      v_ = k.c1 * x_ + v_hat_;
+      a_ = k.c2 * x_ + a_hat_;
+      // Without constraints nothing has to be known about the end of a converged step.
+      if (report.iterations == 0 || constrained || !good_enough(report, error)) {
+        f_.positions(state.t + k.h, q_);
+        f_.velocities(v_);
+      }
+      if (report.iterations > 0) {
+        if (constrained) report.position_violation = largest(f_.constraint_values());
+        if (!std::isfinite(increment) || !std::isfinite(report.position_violation)) {
+          report.status = StepStatus::not_finite;
+          return;
+        }
+        const bool converged = good_enough(report, error);
+        if (options_.fixed_iterations > 0) {
+          if (report.iterations >= options_.fixed_iterations) {
+            if (!converged) report.status = StepStatus::cut_short;
+            break;
+          }
+        } else if (converged) {
+          break;
+        } else if (report.iterations >= options_.max_iterations) {
+          report.status = StepStatus::not_converged;
+          if (error >= options_.tolerance)
+            report.coordinate = index_of_largest(delta_);
+          else
+            report.constraint = index_of_largest(f_.constraint_values());
+          return;
+        }
+        if (options_.time_budget > 0.0 &&
+            std::chrono::duration<double>(Clock::now() - begin).count() > options_.time_budget) {
+          if (!converged) report.status = StepStatus::cut_short;
+          break;
+        }
+        // Would a fresh tangent get there sooner than the one at hand?
+        renew =
+            reuse_rate_ > 0.9 || std::log(options_.tolerance / increment) / std::log(reuse_rate_) >
+                                     1.0 + F::factorization_cost;
+        // An old experience is trusted less and less.
+        if (renew) reuse_rate_ *= 0.8;
+      }
+      f_.dynamics();
+      f_.residual(a_, lambda_, 0.0, rhs_);
+      if (renew) {
+        const int pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, k.alpha, newton_slot);
+        ++report.factorizations;
+        if (pivot >= 0) {
+          report.status = StepStatus::singular_tangent;
+          report.coordinate = pivot;
+          return;
+        }
+      }
+      // (T + s alpha Phi_q^T Phi_q) dx = -s (M a + Phi_q^T lambda - Q) - s alpha Phi_q^T Phi. With
+      // the Phi_q of the factorisation on the penalty, an old factorisation converges like any
+      // modified Newton iteration; with today's, it would not for stiff penalties.
+      delta_ = -k.s * rhs_;
+      if (constrained) {
+        const VecX& phi = f_.constraint_values();
+        work_ = -k.penalty * phi;
+        f_.solve(delta_, work_, increments_, newton_slot);
+        // The multiplier that belongs to this solution. Taking Phi(q) after the update instead
+        // would feed the curvature of the constraints, alpha O(dx^2), into the multipliers.
+        lambda_ += k.alpha * (phi + increments_);
+      } else {
+        f_.solve(delta_, newton_slot);
+      }
+      f_.advance(x_, delta_);
+      const double last = increment;
+      report.increment = increment = largest(delta_);
+      ++report.iterations;
+      // Geometric convergence: the error left is increment * rate / (1 - rate).
+      measured = report.iterations > 1 && last > 0.0;
+      if (measured) rate_of_convergence_ = increment / last;
+      if (measured && !renew) reuse_rate_ = rate_of_convergence_;
+      error = rate_of_convergence_ < 0.5
+                  ? increment * rate_of_convergence_ / (1.0 - rate_of_convergence_)
+                  : increment;
+    }
+    // A rate that was not measured for a while is trusted less and less.
+    if (!measured) rate_of_convergence_ = std::min(1.0, 1.2 * rate_of_convergence_);
+  }
+
+  bool good_enough(const StepReport& report, double error) const noexcept {
+    return error < options_.tolerance && report.position_violation < options_.position_tolerance;
+  }
+
+  /// Velocities and accelerations onto the constraints, orthogonal in W = M + 0.01 s K (the Newton
+  /// tangent itself would feed energy into stiff modes). False if W is singular.
+  bool project(const Scheme& k, StepReport& report) noexcept {
+    const bool fresh = projection_.due(k.s);
+    if (fresh) {
+      constexpr double stiffness = 1e-2;
+      const int pivot =
+          f_.factorize(1.0, 0.0, stiffness * k.s, k.alpha / stiffness, projection_slot);
+      ++report.factorizations;
+      if (pivot >= 0) {
+        report.status = StepStatus::singular_tangent;
+        report.coordinate = pivot;
+        projection_.spoiled();
+        return false;
+      }
+      projection_.renewed(k.s);
+    }
+    int passes = 0;
+    f_.constraint_rates(rate_);
+    report.velocity_violation = largest(rate_);
+    const double enough = 0.1 * options_.velocity_tolerance;
+    for (int pass = 0; pass < options_.max_projections && report.velocity_violation >= enough;
+         ++pass) {
+      correct(v_, k.penalty);
       report.velocity_violation = largest(rate_);
-      if (report.velocity_violation < 0.1 * options_.velocity_tolerance) break;
-      work_ = -weight * rate_;
-      f_.constraint_forces(work_, delta_);
-      f_.solve(delta_);
-      v_ += delta_;
-      f_.velocities(v_);
+      ++passes;
     }
-    double first = 0.0;
+    f_.velocities(v_);
+    f_.constraint_accelerations(a_, rate_);
+    const double first = largest(rate_);
+    double violation = first;
     for (int pass = 0; pass < options_.max_projections; ++pass) {
-      f_.constraint_accelerations(a_, rate_);
-      const double violation = largest(rate_);
-      if (pass == 0) first = violation;
       if (violation < 1e-6 + 1e-9 * first || (pass > 3 && violation > 0.5 * first)) break;
-      work_ = -weight * rate_;
-      f_.constraint_forces(work_, delta_);
-      f_.solve(delta_);
-      a_ += delta_;
+      correct(a_, k.penalty);
+      violation = largest(rate_);
+      ++passes;
     }
+    projection_.spent(passes, fresh ? 1 : 0, fresh);
+    return true;
+  }
+
+  /// One pass: z -= W^-1 Phi_q^T penalty rate, and the rate that is left.
+  void correct(VecX& z, double penalty) noexcept {
+    work_ = -penalty * rate_;
+    delta_.setZero();
+    f_.solve(delta_, work_, increments_, projection_slot);
+    z += delta_;
+    f_.constraint_increments(delta_, increments_);
+    rate_ += increments_;
   }
 
   /// Largest magnitude; NaN if any entry is.
@@ -239,11 +336,14 @@ class AugmentedLagrangian {
     if (x.size() > 0) x.cwiseAbs().maxCoeff(&k);
     return k;
   }
-  int worst_coordinate() const noexcept { return index_of_largest(delta_); }
 
   F& f_;
   StepOptions options_;
-  VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_, lambda_, rate_, work_;
+  Renewal projection_{3.0 * F::factorization_cost};
+  double rate_of_convergence_ = 1.0;  ///< of the last Newton iteration
+  double reuse_rate_ = 0.1;           ///< of the last one with an old tangent
+  VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
+  VecX lambda_, rate_, work_, increments_;
 };
 
 }  // namespace floatframe

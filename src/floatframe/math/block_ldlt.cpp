@@ -60,7 +60,7 @@ BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<
     node.total = start;
     node.matrix = MatX::Zero(front_stride(start), start);
     node.original = VecX::Zero(start);
-    node.work = VecX::Zero(start);
+    node.work = VecX::Zero(front_stride(start));
   }
   for (Node& node : nodes_) {
     if (node.blocks.empty()) continue;
@@ -105,7 +105,7 @@ int BlockLdlt::factorize() noexcept {
   for (const int k : order_) {
     Node& n = nodes_[static_cast<std::size_t>(k)];
     const int total = n.total, ld = static_cast<int>(n.matrix.rows());
-    const int failed = partial_ldlt(n.matrix.data(), ld, total, n.size, n.original.data());
+    const int failed = partial_ldlt(n.matrix.data(), total, n.size, n.original.data());
     if (failed >= 0) return n.offset + failed;
     if (n.parent < 0) continue;
     MatX& p = nodes_[static_cast<std::size_t>(n.parent)].matrix;
@@ -123,21 +123,21 @@ int BlockLdlt::factorize() noexcept {
 void BlockLdlt::solve(VecX& x) noexcept {
   for (const int k : order_) {
     Node& n = nodes_[static_cast<std::size_t>(k)];
-    const int total = n.total, ld = static_cast<int>(n.matrix.rows());
+    const int total = n.total;
     n.work.head(n.size) = x.segment(n.offset, n.size);
-    n.work.tail(total - n.size).setZero();
-    partial_forward(n.matrix.data(), ld, total, n.size, n.work.data());
+    n.work.tail(n.work.size() - n.size).setZero();
+    partial_forward(n.matrix.data(), total, n.size, n.work.data());
     x.segment(n.offset, n.size) = n.work.head(n.size);
     for (std::size_t i = 0; i < n.rows.size(); ++i)
       x[n.rows[i]] += n.work[n.size + static_cast<int>(i)];
   }
   for (std::size_t l = order_.size(); l-- > 0;) {
     Node& n = nodes_[static_cast<std::size_t>(order_[l])];
-    const int total = n.total, ld = static_cast<int>(n.matrix.rows());
+    const int total = n.total;
     n.work.head(n.size) = x.segment(n.offset, n.size);
     for (std::size_t i = 0; i < n.rows.size(); ++i)
       n.work[n.size + static_cast<int>(i)] = x[n.rows[i]];
-    partial_backward(n.matrix.data(), ld, total, n.size, n.work.data());
+    partial_backward(n.matrix.data(), total, n.size, n.work.data());
     x.segment(n.offset, n.size) = n.work.head(n.size);
   }
 }

@@ -1,7 +1,7 @@
 #pragma once
 // Dense partial factorisation F = L D L^T of the leading columns of a symmetric front (multifrontal
 // elimination). The front holds its lower triangle, column major. After `partial_ldlt(n, ne)`:
-//   columns 0..ne-1 below the diagonal: L; diagonal: D; trailing (n-ne) block: the Schur
+//   columns 0..ne-1 below the diagonal: L; diagonal: 1/D; trailing (n-ne) block: the Schur
 //   complement.
 // No pivoting: the tangents of this code are dominated by mass and penalty. A pivot that cancels to
 // round-off, or is not finite, stops the factorisation. Cost: sum over eliminated columns of
@@ -9,85 +9,149 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/math/types.hpp"
+#include "floatframe/math/lanes.hpp"
 
 namespace floatframe {
 
 /// Pivots smaller than this fraction of the original diagonal are round-off.
 inline constexpr double pivot_tolerance = 1e-14;
 
-/// Leading dimension for a front of n rows: a multiple of four, so that whole SIMD lanes are worked
+/// Leading dimension of a front of n rows: a multiple of four, so that whole SIMD lanes are worked
 /// on.
 inline constexpr int front_stride(int n) noexcept { return (n + 3) & ~3; }
 
 /// Returns -1, or the first column whose pivot vanished. `original` receives the diagonal before
-/// elimination (size ne). With a leading dimension that is a multiple of four, rows n..ld must be
-/// zero, and entries above the diagonal are scratch.
-inline int partial_ldlt(double* f, int ld, int n, int ne, double* original) noexcept {
+/// elimination (size ne). The leading dimension is `front_stride(n)`; rows n and beyond must be
+/// zero, and entries above the diagonal are scratch. The diagonal of eliminated columns receives
+/// 1/D.
+inline int partial_ldlt(double* f, int n, int ne, double* original) noexcept {
+  const int ld = front_stride(n);
   for (int j = 0; j < ne; ++j) original[j] = f[j * ld + j];
-  const bool padded = ld % 4 == 0;
-  const int end = padded ? front_stride(n) : n;
-  const int mask = padded ? ~3 : ~0;
   constexpr int width = 4;
   for (int j0 = 0; j0 < ne; j0 += width) {
     const int j1 = std::min(j0 + width, ne);
+    double inverse[width] = {}, d[width] = {};
     for (int j = j0; j < j1; ++j) {  // factorise the panel column by column, left-looking inside it
-      double* __restrict cj = f + j * ld;
+      double* cj = f + j * ld;
       for (int p = j0; p < j; ++p) {
-        const double* __restrict cp = f + p * ld;
-        const double w = cp[j] * cp[p];
-        for (int i = j & mask; i < end; ++i) cj[i] -= w * cp[i];
+        const double* cp = f + p * ld;
+        const double w = cp[j] * d[p - j0];
+        for (int i = j0; i < ld; i += 4) lanes(cj + i) -= w * lanes(cp + i);
       }
-      const double d = cj[j];
-      if (!(std::abs(d) > pivot_tolerance * std::abs(original[j])) || !std::isfinite(d)) return j;
-      const double inverse = 1.0 / d;
-      for (int i = j + 1; i < end; ++i) cj[i] *= inverse;
+      const double pivot = cj[j];
+      if (!(std::abs(pivot) > pivot_tolerance * std::abs(original[j])) || !std::isfinite(pivot))
+        return j;
+      d[j - j0] = pivot;
+      inverse[j - j0] = 1.0 / pivot;
+      for (int i = j0; i < ld; i += 4) lanes(cj + i) *= inverse[j - j0];
     }
-    const double* __restrict c0 = f + j0 * ld;
-    if (j1 - j0 == width) {  // trailing update with four columns at once
-      const double* __restrict c1 = c0 + ld;
-      const double* __restrict c2 = c1 + ld;
-      const double* __restrict c3 = c2 + ld;
-      const double d0 = c0[j0], d1 = c1[j0 + 1], d2 = c2[j0 + 2], d3 = c3[j0 + 3];
-      for (int k = j1; k < n; ++k) {
-        double* __restrict ck = f + k * ld;
-        const double w0 = c0[k] * d0, w1 = c1[k] * d1, w2 = c2[k] * d2, w3 = c3[k] * d3;
-        for (int i = k & mask; i < end; ++i)
-          ck[i] -= w0 * c0[i] + w1 * c1[i] + w2 * c2[i] + w3 * c3[i];
+    // Trailing update, two columns at a time with the panel's four.
+    const double* c0 = f + j0 * ld;
+    if (j1 - j0 == width) {
+      const double* c1 = c0 + ld;
+      const double* c2 = c1 + ld;
+      const double* c3 = c2 + ld;
+      int k = j1;
+      for (; k + 1 < n; k += 2) {
+        double* a = f + k * ld;
+        double* b = a + ld;
+        const double a0 = c0[k] * d[0], a1 = c1[k] * d[1], a2 = c2[k] * d[2], a3 = c3[k] * d[3];
+        const double b0 = c0[k + 1] * d[0], b1 = c1[k + 1] * d[1], b2 = c2[k + 1] * d[2],
+                     b3 = c3[k + 1] * d[3];
+        for (int i = k & ~3; i < ld; i += 4) {
+          const Lanes l0 = lanes(c0 + i), l1 = lanes(c1 + i), l2 = lanes(c2 + i),
+                      l3 = lanes(c3 + i);
+          lanes(a + i) -= (a0 * l0 + a1 * l1) + (a2 * l2 + a3 * l3);
+          lanes(b + i) -= (b0 * l0 + b1 * l1) + (b2 * l2 + b3 * l3);
+        }
+      }
+      if (k < n) {
+        double* a = f + k * ld;
+        const double a0 = c0[k] * d[0], a1 = c1[k] * d[1], a2 = c2[k] * d[2], a3 = c3[k] * d[3];
+        for (int i = k & ~3; i < ld; i += 4)
+          lanes(a + i) -=
+              (a0 * lanes(c0 + i) + a1 * lanes(c1 + i)) + (a2 * lanes(c2 + i) + a3 * lanes(c3 + i));
       }
     } else {
       for (int p = j0; p < j1; ++p) {
-        const double* __restrict cp = f + p * ld;
-        const double d = cp[p];
+        const double* cp = f + p * ld;
         for (int k = j1; k < n; ++k) {
-          double* __restrict ck = f + k * ld;
-          const double w = cp[k] * d;
-          for (int i = k & mask; i < end; ++i) ck[i] -= w * cp[i];
+          double* a = f + k * ld;
+          const double w = cp[k] * d[p - j0];
+          for (int i = k & ~3; i < ld; i += 4) lanes(a + i) -= w * lanes(cp + i);
         }
       }
     }
+    for (int j = j0; j < j1; ++j) f[j * ld + j] = inverse[j - j0];
   }
   return -1;
 }
 
 /// b(0..n) with the front's L: forward substitution of the eliminated columns, then division by D.
-/// The trailing part of b becomes b2 - L21 L11^-1 b1.
-inline void partial_forward(const double* f, int ld, int n, int ne, double* b) noexcept {
-  for (int j = 0; j < ne; ++j) {
-    const double* __restrict c = f + j * ld;
-    const double w = b[j];
-    for (int i = j + 1; i < n; ++i) b[i] -= w * c[i];
+/// The trailing part of b becomes b2 - L21 L11^-1 b1. b has room for `front_stride(n)` finite
+/// numbers.
+inline void partial_forward(const double* f, int n, int ne, double* b) noexcept {
+  const int ld = front_stride(n);
+  for (int j0 = 0; j0 < ne; j0 += 4) {
+    const int j1 = std::min(j0 + 4, ne), rest = j0 + 4;
+    const double* c = f + j0 * ld;
+    if (j1 == rest) {
+      const double *c1 = c + ld, *c2 = c1 + ld, *c3 = c2 + ld;
+      double* t = b + j0;
+      const double b0 = t[0];
+      const double b1 = t[1] - b0 * c[j0 + 1];
+      const double b2 = t[2] - b0 * c[j0 + 2] - b1 * c1[j0 + 2];
+      const double b3 = t[3] - b0 * c[j0 + 3] - b1 * c1[j0 + 3] - b2 * c2[j0 + 3];
+      t[1] = b1;
+      t[2] = b2;
+      t[3] = b3;
+      for (int i = rest; i < ld; i += 4)
+        lanes(b + i) -=
+            (b0 * lanes(c + i) + b1 * lanes(c1 + i)) + (b2 * lanes(c2 + i) + b3 * lanes(c3 + i));
+    } else {
+      for (int j = j0; j < j1; ++j, c += ld) {
+        for (int i = j + 1; i < rest; ++i) b[i] -= b[j] * c[i];
+        for (int i = rest; i < ld; i += 4) lanes(b + i) -= b[j] * lanes(c + i);
+      }
+    }
   }
-  for (int j = 0; j < ne; ++j) b[j] /= f[j * ld + j];
+  for (int j = 0; j < ne; ++j) b[j] *= f[j * ld + j];
 }
 
 /// Backward substitution: b(0..ne) -= L21^T b(ne..n), then L11^-T.
-inline void partial_backward(const double* f, int ld, int n, int ne, double* b) noexcept {
-  for (int j = ne; j-- > 0;) {
-    const double* __restrict c = f + j * ld;
-    double sum = 0.0;
-    for (int i = j + 1; i < n; ++i) sum += c[i] * b[i];
-    b[j] -= sum;
+inline void partial_backward(const double* f, int n, int ne, double* b) noexcept {
+  const int ld = front_stride(n);
+  for (int j0 = (ne - 1) & ~3; j0 >= 0; j0 -= 4) {
+    const int j1 = std::min(j0 + 4, ne), rest = j0 + 4;
+    const double* c = f + j0 * ld;
+    if (j1 == rest) {
+      const double *c1 = c + ld, *c2 = c1 + ld, *c3 = c2 + ld;
+      Lanes s0 = {}, s1 = {}, s2 = {}, s3 = {};
+      for (int i = rest; i < ld; i += 4) {
+        const Lanes x = lanes(b + i);
+        s0 += x * lanes(c + i);
+        s1 += x * lanes(c1 + i);
+        s2 += x * lanes(c2 + i);
+        s3 += x * lanes(c3 + i);
+      }
+      double* t = b + j0;
+      const double x3 = t[3] - sum(s3);
+      const double x2 = t[2] - sum(s2) - c2[j0 + 3] * x3;
+      const double x1 = t[1] - sum(s1) - c1[j0 + 3] * x3 - c1[j0 + 2] * x2;
+      t[0] -= sum(s0) + c[j0 + 3] * x3 + c[j0 + 2] * x2 + c[j0 + 1] * x1;
+      t[1] = x1;
+      t[2] = x2;
+      t[3] = x3;
+      continue;
+    }
+    for (int j = j1; j-- > j0;) {
+      const double* cj = f + j * ld;
+      Lanes v = {};
+      for (int i = rest; i < ld; i += 4) v += lanes(b + i) * lanes(cj + i);
+      double s = sum(v);
+      for (int i = j + 1; i < rest; ++i) s += cj[i] * b[i];
+      b[j] -= s;
+    }
   }
 }
 
