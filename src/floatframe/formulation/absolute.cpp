@@ -95,6 +95,7 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
   rows_.resize(static_cast<std::size_t>(nc_ - part_rows_));
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);
+  for (const Input& input : model_.inputs) inputs_.push_back(input.initial);
   phi_ = weights_ = lambda_ = VecX::Zero(nc_);
   a_ = omega2_ = VecX::Zero(nq_);
   for (std::size_t i = 0; i < bodies_.size(); ++i)

@@ -9,6 +9,9 @@
 //   parts between markers; positions through the outer points
 // Rotations of markers act through omega = 1/2 sum u x udot (exact on the orthonormality manifold).
 // The tangent is factorised by bodies (BlockLdlt): never one dense matrix.
+#include <algorithm>
+#include <cassert>
+#include <span>
 #include <vector>
 
 #include "floatframe/formulation/body_inertia.hpp"
@@ -29,6 +32,13 @@ class AbsoluteFormulation {
   int configurations() const noexcept { return nq_; }
   int constraints() const noexcept { return nc_; }
   const Model& model() const noexcept { return model_; }
+
+  /// Values of `model().inputs`, held until they are set again; at first their initial values.
+  void set_inputs(std::span<const double> values) noexcept {
+    assert(values.size() == inputs_.size());
+    std::copy(values.begin(), values.end(), inputs_.begin());
+  }
+  std::span<const double> inputs() const noexcept { return inputs_; }
 
   /// The same configuration and velocities as a relative state.
   void start_from(RelativeFormulation& tree, const VecX& tree_q, const VecX& tree_v, VecX& q,
@@ -147,7 +157,7 @@ class AbsoluteFormulation {
   std::vector<ConstraintRow> rows_;
   int part_rows_ = 0;  // first row of the parts
   std::vector<ForceState> force_states_;
-  std::vector<double> force_reference_;
+  std::vector<double> force_reference_, inputs_;
   Linearization linearizations_[2];
   Gradient ga_, gb_;
   int nq_ = 0, nc_ = 0;

@@ -13,7 +13,8 @@ void AbsoluteFormulation::forces() noexcept {
     const Force& f = model_.forces[k];
     const MarkerState& b = markers_[static_cast<std::size_t>(f.b)].s;
     const MarkerState& a = f.a >= 0 ? markers_[static_cast<std::size_t>(f.a)].s : b;
-    evaluate_force(model_, f, a, b, Vec3::Zero(), time_, force_reference_[k], force_states_[k]);
+    evaluate_force(model_, f, a, b, Vec3::Zero(), time_, force_reference_[k], force_states_[k],
+                   inputs_);
     if (f.type == ForceType::joint_spring) force_reference_[k] = force_states_[k].length;
   }
 }

@@ -255,6 +255,7 @@ void RelativeFormulation::build_elements() {
   rows_.resize(static_cast<std::size_t>(nc_));
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);
+  for (const Input& input : model_.inputs) inputs_.push_back(input.initial);
   // The angle of a spring on a tree joint is the joint's own coordinate, whatever it turns in a
   // step.
   for (const Force& f : model_.forces) {

@@ -22,7 +22,10 @@
 //
 // The evaluation origin is the first body's joint point at that evaluation: positions stay small
 // numbers wherever the system is on the road.
+#include <algorithm>
+#include <cassert>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "floatframe/formulation/body_inertia.hpp"
@@ -45,6 +48,13 @@ class RelativeFormulation {
   int configurations() const noexcept { return nq_; }
   int constraints() const noexcept { return nc_; }
   const Model& model() const noexcept { return model_; }
+
+  /// Values of `model().inputs`, held until they are set again; at first their initial values.
+  void set_inputs(std::span<const double> values) noexcept {
+    assert(values.size() == inputs_.size());
+    std::copy(values.begin(), values.end(), inputs_.begin());
+  }
+  std::span<const double> inputs() const noexcept { return inputs_; }
   const Topology& topology() const noexcept { return topology_; }
 
   /// Start values of the model in these coordinates (before loops are closed).
@@ -240,7 +250,7 @@ class RelativeFormulation {
   std::vector<ConstraintRow> rows_;
   std::vector<Element> part_elements_, force_elements_;
   std::vector<ForceState> force_states_;
-  std::vector<double> force_reference_;
+  std::vector<double> force_reference_, inputs_;
   std::vector<int>
       force_tree_body_;  // joint springs on tree joints: the body whose joint it is, else -1
   std::vector<Cluster> clusters_;

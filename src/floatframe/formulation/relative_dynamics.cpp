@@ -20,7 +20,7 @@ void RelativeFormulation::forces() noexcept {
     const MarkerState& b = mark(f.b).s;
     const MarkerState& a = f.a >= 0 ? mark(f.a).s : b;
     if (force_tree_body_[k] >= 0) force_reference_[k] = body(force_tree_body_[k]).angle;
-    evaluate_force(model_, f, a, b, origin_, time_, force_reference_[k], force_states_[k]);
+    evaluate_force(model_, f, a, b, origin_, time_, force_reference_[k], force_states_[k], inputs_);
     if (f.type == ForceType::joint_spring) force_reference_[k] = force_states_[k].length;
   }
 }

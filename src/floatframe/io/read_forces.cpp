@@ -155,7 +155,8 @@ void load(const ModelInstance& self, YamlSection& s, ReadModel& model, ForceDesc
   const auto direction = s.require("direction");
   if (const auto v = direction ? read_direction(*direction) : std::nullopt) d.direction = *v;
   if (const auto v = s.require("magnitude"))
-    d.magnitude = read_time_function(*v, torque ? "N m" : "N", Interpolation::linear);
+    static_cast<TimeFunction&>(d.magnitude) =
+        read_time_function(*v, torque ? "N m" : "N", Interpolation::linear);
   d.follows = s.boolean("follows", false);
   f.kind = std::move(d);
 }

@@ -121,6 +121,22 @@ struct TimeFunction {
   double amplitude = 0.0, frequency = 0.0, phase = 0.0;
 };
 
+/// What drives a load, an actuator or a motor: a function of time, plus the value of an input if
+/// one is named.
+struct SignalDescription : TimeFunction {
+  std::string input;
+};
+
+/// A number that comes from outside while the model runs, held during a step: from a controller or
+/// a test rig in real time; everywhere else it keeps its initial value.
+struct InputDescription {
+  std::string name;
+  std::string unit;                 ///< for people and for the layout of packets
+  double initial = 0.0;             ///< value until another one comes
+  std::optional<double> low, high;  ///< values outside are refused
+  Origin origin;
+};
+
 /// A place on a body. With `node` the named node of a flexible body; otherwise `point`, which on a
 /// flexible body must coincide with a node (within 1e-6 m).
 struct AttachmentDescription {
@@ -163,7 +179,8 @@ struct SpringDamperDescription {
   AttachmentDescription a, b;
   PiecewisePolynomial
       spring;  ///< of the length [m] -> [N]; bump and rebound stops are pieces of it
-  PiecewisePolynomial damper;  ///< of the rate of the length [m/s] -> [N]
+  PiecewisePolynomial damper;                 ///< of the rate of the length [m/s] -> [N]
+  std::optional<SignalDescription> actuator;  ///< added to both [N]
 };
 
 /// Along an axis fixed in a body, between a tip and the body point that slides with it (leaf
@@ -174,13 +191,19 @@ struct GuidedSpringDescription {
   AttachmentDescription tip;
   Vec3 axis = Vec3::UnitZ();  ///< design direction
   PiecewisePolynomial spring, damper;
+  std::optional<SignalDescription> actuator;  ///< added to both [N]
 };
 
 /// About the axis of a revolute (angle) or along that of a prismatic joint (displacement):
-/// generalised force on the coordinate = -(spring(q) + damper(qdot)).
+/// generalised force on the coordinate = actuator - spring(q - target) - damper(qdot - rate of the
+/// target). With a target it is a position-controlled motor. The rate of the target is the
+/// derivative of its function of time plus the input `target_rate`; that of its input is not known.
 struct JointSpringDescription {
   std::string joint;
   PiecewisePolynomial spring, damper;
+  std::optional<SignalDescription> actuator;  ///< [N] or [N m], positive raises the coordinate
+  std::optional<SignalDescription> target;    ///< [m] or [rad]
+  std::string target_rate;                    ///< an input [m/s] or [rad/s]; empty: none
 };
 
 enum class TyreLaw { vertical, radial };
@@ -203,7 +226,7 @@ struct TyreDescription {
 struct AppliedLoadDescription {
   AttachmentDescription at;
   Vec3 direction = Vec3::UnitX();  ///< design direction, used as given (not normalised)
-  TimeFunction magnitude;          ///< [N] or [N m] per unit of direction
+  SignalDescription magnitude;     ///< [N] or [N m] per unit of direction
   bool torque = false;
   bool follows = false;
 };
@@ -284,6 +307,7 @@ struct ModelDescription {
   std::vector<RodDescription> rods;
   std::vector<ForceDescription> forces;
   std::vector<RoadDescription> roads;
+  std::vector<InputDescription> inputs;
   std::vector<OutputDescription> outputs;
   /// Initial modal amplitudes and their rates by body name.
   std::map<std::string, VecX> amplitudes, amplitude_rates;

@@ -22,7 +22,16 @@ double piece_integral(const PiecewisePolynomial::Piece& p, double x0, double x1)
   return i1 * t1 - i0 * t0;
 }
 
-void spring_damper(const Force& f, const MarkerState& a, const MarkerState& b,
+double input_value(std::span<const double> inputs, int index) noexcept {
+  return index < 0 ? 0.0 : inputs[static_cast<std::size_t>(index)];
+}
+
+/// Magnitude of a load, force of an actuator.
+double drive(const Force& f, double t, std::span<const double> inputs) noexcept {
+  return evaluate(f.magnitude, t).f + input_value(inputs, f.input);
+}
+
+void spring_damper(const Force& f, const MarkerState& a, const MarkerState& b, double actuator,
                    ForceState& out) noexcept {
   const Vec3 d = b.r - a.r;
   const double length = d.norm();
@@ -30,7 +39,7 @@ void spring_damper(const Force& f, const MarkerState& a, const MarkerState& b,
   out.length = length;
   out.rate = n.dot(b.v - a.v);
   const PiecewisePolynomial::Value s = f.spring(length), c = f.damper(out.rate);
-  out.force = s.f + c.f;
+  out.force = s.f + c.f + actuator;
   const Vec3 pull = out.force * n;
   out.wrench = {pull, Vec3::Zero(), -pull, Vec3::Zero()};
   out.rows[0] = {{-n, Vec3::Zero(), n, Vec3::Zero()}, s.df, c.df};
@@ -46,14 +55,14 @@ void spring_damper(const Force& f, const MarkerState& a, const MarkerState& b,
   out.energy = law_energy(f.spring, length);
 }
 
-void guided_spring(const Force& f, const MarkerState& a, const MarkerState& b,
+void guided_spring(const Force& f, const MarkerState& a, const MarkerState& b, double actuator,
                    ForceState& out) noexcept {
   const Vec3 e = a.R * f.axis;
   const Vec3 d = b.r - a.r;
   out.length = -e.dot(d);
   out.rate = -e.dot(b.v - a.v) - a.w.cross(e).dot(d);
   const PiecewisePolynomial::Value s = f.spring(out.length), c = f.damper(out.rate);
-  out.force = s.f + c.f;
+  out.force = s.f + c.f + actuator;
   // ds = -e.(dr_b - dr_a) - (dpi_a x e).d
   const WrenchRow g{e, -e.cross(d), -e, Vec3::Zero()};
   out.wrench = {-out.force * g.Fa, -out.force * g.Ta, -out.force * g.Fb, Vec3::Zero()};
@@ -62,8 +71,14 @@ void guided_spring(const Force& f, const MarkerState& a, const MarkerState& b,
   out.energy = law_energy(f.spring, out.length);
 }
 
+/// `target`: where the spring and the damper pull to, with its rate.
+struct Target {
+  double position = 0.0, rate = 0.0;
+};
+
 void joint_spring(const Force& f, const MarkerState& a, const MarkerState& b,
-                  double reference_angle, ForceState& out) noexcept {
+                  double reference_angle, double actuator, const Target& target,
+                  ForceState& out) noexcept {
   const Vec3 z = a.R.col(2);
   WrenchRow g;
   if (f.rotational) {
@@ -78,12 +93,13 @@ void joint_spring(const Force& f, const MarkerState& a, const MarkerState& b,
     out.rate = z.dot(b.v - a.v) + a.w.cross(z).dot(d);
     g = {-z, z.cross(d), z, Vec3::Zero()};
   }
-  const PiecewisePolynomial::Value s = f.spring(out.length), c = f.damper(out.rate);
-  out.force = s.f + c.f;
+  const PiecewisePolynomial::Value s = f.spring(out.length - target.position),
+                                   c = f.damper(out.rate - target.rate);
+  out.force = s.f + c.f - actuator;
   out.wrench = {-out.force * g.Fa, -out.force * g.Ta, -out.force * g.Fb, -out.force * g.Tb};
   out.rows[0] = {g, s.df, c.df};
   out.row_count = 1;
-  out.energy = law_energy(f.spring, out.length);
+  out.energy = law_energy(f.spring, out.length - target.position);
 }
 
 void tyre(const Model& model, const Force& f, const MarkerState& b, const Vec3& origin,
@@ -158,27 +174,35 @@ RoadPoint road_at(const Road& road, double x) noexcept {
 
 void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,
-                    ForceState& out) noexcept {
+                    ForceState& out, std::span<const double> inputs) noexcept {
   const Vec3 zero = Vec3::Zero();
+  const double actuator = force.driven ? drive(force, t, inputs) : 0.0;
   out.wrench = {zero, zero, zero, zero};
   out.row_count = 0;
   out.force = out.length = out.rate = out.energy = 0.0;
   switch (force.type) {
     case ForceType::spring_damper:
-      spring_damper(force, a, b, out);
+      spring_damper(force, a, b, actuator, out);
       break;
     case ForceType::guided_spring:
-      guided_spring(force, a, b, out);
+      guided_spring(force, a, b, actuator, out);
       break;
-    case ForceType::joint_spring:
-      joint_spring(force, a, b, reference_angle, out);
+    case ForceType::joint_spring: {
+      Target target;
+      if (force.targeted) {
+        const PiecewisePolynomial::Value value = evaluate(force.target, t);
+        target = {value.f + input_value(inputs, force.target_input),
+                  value.df + input_value(inputs, force.target_rate_input)};
+      }
+      joint_spring(force, a, b, reference_angle, actuator, target, out);
       break;
+    }
     case ForceType::tyre:
       tyre(model, force, b, origin, out);
       break;
     case ForceType::force:
     case ForceType::torque: {
-      const double magnitude = evaluate(force.magnitude, t).f;
+      const double magnitude = drive(force, t, inputs);
       const Vec3 load = magnitude * (force.follows ? Vec3(b.R * force.axis) : force.axis);
       out.force = magnitude;
       (force.type == ForceType::force ? out.wrench.Fb : out.wrench.Tb) = load;

@@ -8,6 +8,8 @@
 //   r_b joint_spring   s = displacement along, or angle about, z of a tyre           vertical: f =
 //   max(0, k (R - h) + damping) upwards; radial: along the road normal force, torque  direction *
 //   magnitude(t)
+#include <span>
+
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -34,10 +36,11 @@ struct RoadPoint {
 RoadPoint road_at(const Road& road, double x) noexcept;
 
 /// `origin`: the point that the markers' positions are measured from. `reference_angle` picks the
-/// turn of a joint angle: the result lies within half a turn of it.
+/// turn of a joint angle: the result lies within half a turn of it. `inputs`: values of
+/// `model.inputs`; the tangent rows hold at fixed inputs.
 void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,
-                    ForceState& out) noexcept;
+                    ForceState& out, std::span<const double> inputs = {}) noexcept;
 
 /// Potential energy of a law: integral of spring(s) from 0 to s (from the nearest end of its first
 /// piece outwards).

@@ -6,6 +6,7 @@
 // A marker sits on a node of a flexible body and moves with its deformation, or is fixed in a rigid
 // body or in the ground:
 //   p_BM = p + X y + exp(skew(X_theta y)) p_NM,   R_BM = exp(skew(X_theta y)) R_NM.
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,8 +70,22 @@ struct Force {
   double radius = 0, stiffness = 0, damping = 0;
   TyreLaw law = TyreLaw::vertical;
   int road = -1;
-  TimeFunction magnitude;
+  TimeFunction magnitude;  ///< of a load; of the actuator of the other elements
+  int input = -1;          ///< added to the magnitude
+  bool driven = false;     ///< the element has an actuator
+  TimeFunction target;     ///< of a joint_spring
+  int target_input = -1, target_rate_input = -1;
+  bool targeted = false;  ///< the element has a target
   bool follows = false;
+};
+
+/// An external signal. Its value belongs to a run, not to the model: see `set_inputs` of the
+/// formulations.
+struct Input {
+  std::string name, unit;
+  double initial = 0.0;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
 };
 
 struct Output {
@@ -95,6 +110,7 @@ struct Model {
   std::vector<Rod> rods;
   std::vector<Force> forces;
   std::vector<Road> roads;
+  std::vector<Input> inputs;
   std::vector<Marker> markers;
   std::vector<Output> outputs;
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body

@@ -34,6 +34,9 @@ State relative_start(RelativeFormulation& f, Start start);
 /// s alpha of the integrator when the user gives no penalty: 1e5 mean body masses.
 double default_penalty_mass(const Model& model);
 
+/// The integrator's options that a simulation description asks for.
+StepOptions step_options(const Model& model, const SimulationDescription& o);
+
 /// Dense fallback for mass matrices that are singular on the null space of the constraints only
 /// where stiffness acts. `mass`, `stiffness`: nv x nv, `J`: nc x nv. Throws RunError naming the
 /// coordinate that has neither.

@@ -30,7 +30,7 @@ class Runner {
   bool advance(double h) noexcept {
     StepReport r = integrator_.step(state_, h);
     count(r);
-    if (r.status == StepStatus::converged) return true;
+    if (r.accepted()) return true;
     double remaining = h, sub = 0.5 * h;
     const double end = state_.t + h;
     while (remaining > 1e-9 * h) {
@@ -41,7 +41,7 @@ class Runner {
       const double now = std::min(sub, remaining);
       r = integrator_.step(state_, now);
       count(r);
-      if (r.status == StepStatus::converged) {
+      if (r.accepted()) {
         remaining -= now;
         ++substeps_;
         if (remaining > 0.0 && sub < 0.5 * h) sub *= 2.0;
@@ -112,6 +112,8 @@ class Runner {
     return text;
   }
 
+  /// Steps accepted before they had converged (`StepStatus::cut_short`).
+  long cut_short() const noexcept { return cut_short_; }
   long substeps() const noexcept { return substeps_; }
   long iterations() const noexcept { return iterations_; }
   long factorizations() const noexcept { return factorizations_; }
@@ -132,7 +134,8 @@ class Runner {
   void count(const StepReport& r) noexcept {
     iterations_ += r.iterations;
     factorizations_ += r.factorizations;
-    if (r.status == StepStatus::converged) {
+    if (r.status == StepStatus::cut_short) ++cut_short_;
+    if (r.accepted()) {
       max_position_ = std::max(max_position_, r.position_violation);
       max_velocity_ = std::max(max_velocity_, r.velocity_violation);
     }
@@ -186,7 +189,7 @@ class Runner {
   double min_step_;
   StepReport last_;
   std::vector<Follow> follow_;
-  long substeps_ = 0, iterations_ = 0, factorizations_ = 0;
+  long cut_short_ = 0, substeps_ = 0, iterations_ = 0, factorizations_ = 0;
   double max_position_ = 0.0, max_velocity_ = 0.0;
 };
 

@@ -19,18 +19,6 @@ double cpu_seconds() noexcept {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-StepOptions step_options(const Model& model, const SimulationDescription& o) {
-  StepOptions s;
-  s.spectral_radius = o.spectral_radius;
-  s.tolerance = o.tolerance;
-  s.max_iterations = o.max_iterations;
-  s.position_tolerance = o.position_tolerance;
-  s.velocity_tolerance = o.velocity_tolerance;
-  s.penalty_mass =
-      o.penalty > 0.0 ? o.penalty * o.step * o.step / 4.0 : default_penalty_mass(model);
-  return s;
-}
-
 template <class F>
 RunResult run_with(F& f, State start, const SimulationDescription& o,
                    const RunOptions& run_options) {
@@ -103,6 +91,18 @@ RunResult run_with(F& f, State start, const SimulationDescription& o,
 }  // namespace
 
 double default_penalty_mass(const Model& model) { return 1e5 * model.mean_mass; }
+
+StepOptions step_options(const Model& model, const SimulationDescription& o) {
+  StepOptions s;
+  s.spectral_radius = o.spectral_radius;
+  s.tolerance = o.tolerance;
+  s.max_iterations = o.max_iterations;
+  s.position_tolerance = o.position_tolerance;
+  s.velocity_tolerance = o.velocity_tolerance;
+  s.penalty_mass =
+      o.penalty > 0.0 ? o.penalty * o.step * o.step / 4.0 : default_penalty_mass(model);
+  return s;
+}
 
 State relative_start(RelativeFormulation& f, Start start) {
   State state;
