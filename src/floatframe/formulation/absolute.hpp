@@ -46,6 +46,8 @@ class AbsoluteFormulation {
 
   /// Of a factorisation, in iterations that reuse one (measured on the Iltis).
   static constexpr double factorization_cost = 1.5;
+  /// Steps that a factorisation of the projections serves: here the bodies themselves turn.
+  static constexpr int projection_lifetime = 1;
 
   // -- the integrator's view
   // ---------------------------------------------------------------------------------------

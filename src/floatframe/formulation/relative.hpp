@@ -64,6 +64,9 @@ class RelativeFormulation {
 
   /// Of a factorisation, in iterations that reuse one (measured on the Iltis).
   static constexpr double factorization_cost = 1.3;
+  /// Steps that a factorisation of the projections serves. It bends the direction of the projection
+  /// by the turn of the joints in so many steps, which keeps the order of the integration.
+  static constexpr int projection_lifetime = 3;
 
   // -- the integrator's view; all noexcept and free of allocation
   // ------------------------------------------------

@@ -65,39 +65,6 @@ struct StepReport {
   }
 };
 
-/// Whether a step should begin with the factorisation it finds. Measured in iterations: what the
-/// last step that began with a fresh one cost against one that did not. When keeping it does not
-/// pay, it is tried again after 2, 4, 8, ... 32 steps.
-class Renewal {
- public:
-  explicit Renewal(double cost) : cost_(cost) {}
-  /// s: the factor of the stiffness in the factorisation, which belongs to one step size.
-  bool due(double s) const noexcept { return !valid_ || s != s_ || wait_ > 0; }
-  void renewed(double s) noexcept {
-    s_ = s;
-    valid_ = true;
-  }
-  /// After a step: its iterations, its factorisations, and whether it began with one.
-  void spent(int iterations, int factorizations, bool fresh) noexcept {
-    const double cost = iterations + cost_ * factorizations;
-    if (fresh) {
-      fresh_cost_ = cost;
-      if (wait_ > 0) --wait_;
-    } else if (cost > fresh_cost_) {
-      patience_ = std::min(2 * patience_, 32);
-      wait_ = patience_;
-    } else {
-      patience_ = std::max(1, patience_ / 2);
-    }
-  }
-  void spoiled() noexcept { valid_ = false; }
-
- private:
-  double cost_, s_ = 0.0, fresh_cost_ = 0.0;
-  int patience_ = 1, wait_ = 0;
-  bool valid_ = false;
-};
-
 template <class F>
 class AugmentedLagrangian {
  public:
@@ -115,7 +82,7 @@ class AugmentedLagrangian {
     StepReport report;
     predict(state, k);
     if (newton(state, k, report); !report.accepted()) {
-      projection_.spoiled();
+      projection_age_ = F::projection_lifetime;
       return report;
     }
     if (f_.constraints() > 0 && !project(k, report)) return report;
@@ -273,8 +240,7 @@ class AugmentedLagrangian {
   /// Velocities and accelerations onto the constraints, orthogonal in W = M + 0.01 s K (the Newton
   /// tangent itself would feed energy into stiff modes). False if W is singular.
   bool project(const Scheme& k, StepReport& report) noexcept {
-    const bool fresh = projection_.due(k.s);
-    if (fresh) {
+    if (k.s != projection_s_ || projection_age_ >= F::projection_lifetime) {
       constexpr double stiffness = 1e-2;
       const int pivot =
           f_.factorize(1.0, 0.0, stiffness * k.s, k.alpha / stiffness, projection_slot);
@@ -282,12 +248,13 @@ class AugmentedLagrangian {
       if (pivot >= 0) {
         report.status = StepStatus::singular_tangent;
         report.coordinate = pivot;
-        projection_.spoiled();
+        projection_s_ = 0.0;
         return false;
       }
-      projection_.renewed(k.s);
+      projection_s_ = k.s;
+      projection_age_ = 0;
     }
-    int passes = 0;
+    ++projection_age_;
     f_.constraint_rates(rate_);
     report.velocity_violation = largest(rate_);
     const double enough = 0.1 * options_.velocity_tolerance;
@@ -295,7 +262,6 @@ class AugmentedLagrangian {
          ++pass) {
       correct(v_, k.penalty);
       report.velocity_violation = largest(rate_);
-      ++passes;
     }
     f_.velocities(v_);
     f_.constraint_accelerations(a_, rate_);
@@ -305,9 +271,7 @@ class AugmentedLagrangian {
       if (violation < 1e-6 + 1e-9 * first || (pass > 3 && violation > 0.5 * first)) break;
       correct(a_, k.penalty);
       violation = largest(rate_);
-      ++passes;
     }
-    projection_.spent(passes, fresh ? 1 : 0, fresh);
     return true;
   }
 
@@ -339,7 +303,8 @@ class AugmentedLagrangian {
 
   F& f_;
   StepOptions options_;
-  Renewal projection_{3.0 * F::factorization_cost};
+  double projection_s_ = 0.0;         ///< of the factorisation of the projections
+  int projection_age_ = 0;            ///< steps it has served
   double rate_of_convergence_ = 1.0;  ///< of the last Newton iteration
   double reuse_rate_ = 0.1;           ///< of the last one with an old tangent
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
