@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "floatframe/math/types.hpp"
 
@@ -80,14 +81,21 @@ class AugmentedLagrangian {
   StepReport step(State& state, double h) noexcept {
     const Scheme k(options_, h);
     StepReport report;
+    // Experience from another run must not matter (the caller may round t).
+    if (!(std::abs(state.t - continues_at_) < 1e-6 * h)) {
+      rate_of_convergence_ = 1.0;
+      reuse_rate_ = 0.1;
+      projection_s_ = 0.0;
+    }
     predict(state, k);
     if (newton(state, k, report); !report.accepted()) {
-      projection_age_ = F::projection_lifetime;
+      continues_at_ = std::numeric_limits<double>::quiet_NaN();
       return report;
     }
     if (f_.constraints() > 0 && !project(k, report)) return report;
     a_alg_ = k.base * (x_ - h * state.v - (h * h * (0.5 - k.beta)) * state.a_alg);
     state.t += h;
+    continues_at_ = state.t;
     state.q.swap(q_);
     state.v.swap(v_);
     state.a.swap(a_);
@@ -303,6 +311,7 @@ class AugmentedLagrangian {
 
   F& f_;
   StepOptions options_;
+  double continues_at_ = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step
   double projection_s_ = 0.0;         ///< of the factorisation of the projections
   int projection_age_ = 0;            ///< steps it has served
   double rate_of_convergence_ = 1.0;  ///< of the last Newton iteration
