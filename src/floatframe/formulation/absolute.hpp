@@ -46,8 +46,6 @@ class AbsoluteFormulation {
 
   /// Of a factorisation, in iterations that reuse one (measured on the Iltis).
   static constexpr double factorization_cost = 1.5;
-  /// Steps that a factorisation of the projections serves: here the bodies themselves turn.
-  static constexpr int projection_lifetime = 1;
 
   // -- the integrator's view
   // ---------------------------------------------------------------------------------------
@@ -57,7 +55,13 @@ class AbsoluteFormulation {
   void forces() noexcept;
   void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept;
   /// As in relative.hpp: T = M mass + damping C + s (K + alpha Phi_q^T Phi_q), kept in a slot.
-  int factorize(double mass, double damping, double s, double alpha, int slot = 0) noexcept;
+  int factorize(double mass, double damping, double s, double alpha, int slot = 0) noexcept {
+    return eliminate(mass, damping, s, s * alpha, true, linearizations_[slot]);
+  }
+  /// M + s K + penalty Phi_q^T Phi_q without geometric stiffness.
+  int factorize_metric(double s, double penalty, int slot) noexcept {
+    return eliminate(1.0, 0.0, s, penalty, false, linearizations_[slot]);
+  }
   void solve(VecX& b, int slot = 0) noexcept { linearizations_[slot].matrix.solve(b); }
   /// b := T^-1 (b + Phi_q^T w) and increments := Phi_q b, with the Phi_q of the factorisation.
   void solve(VecX& b, const VecX& w, VecX& increments, int slot) noexcept;
@@ -145,6 +149,8 @@ class AbsoluteFormulation {
                 Gradient& g) const noexcept;
   void add_rank_one(BlockLdlt& matrix, const Gradient& a, const Gradient& b,
                     double weight) noexcept;
+  int eliminate(double mass, double damping, double s, double penalty, bool geometric,
+                Linearization& l) noexcept;
   void keep_row(Linearization& l, int row, const Gradient& a, const Gradient& b) noexcept;
   void add_part_forces(const VecX& w, VecX& out) const noexcept;
   void add_body_constraint_forces(const VecX& w, VecX& out) const noexcept;

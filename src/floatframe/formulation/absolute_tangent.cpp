@@ -82,12 +82,10 @@ void AbsoluteFormulation::keep_row(Linearization& l, int row, const Gradient& a,
   l.row_start[static_cast<std::size_t>(row) + 1] = static_cast<int>(at);
 }
 
-int AbsoluteFormulation::factorize(double mass, double damping, double s, double alpha,
-                                   int slot) noexcept {
-  Linearization& linear = linearizations_[slot];
+int AbsoluteFormulation::eliminate(double mass, double damping, double s, double penalty,
+                                   bool geometric, Linearization& linear) noexcept {
   BlockLdlt& matrix = linear.matrix;
   matrix.set_zero();
-  const double penalty = s * alpha;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyData& b = bodies_[i];
     MatX& f = matrix.front(static_cast<int>(i));
@@ -101,7 +99,7 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
     for (int k = 0; k < 6; ++k) {
       const int ia = 3 + 3 * pair_a[k], ib = 3 + 3 * pair_b[k];
       const Vec3 u = b.A.col(pair_a[k]), v = b.A.col(pair_b[k]);
-      const double g = s * b.length * lambda_[b.row + k];
+      const double g = geometric ? s * b.length * lambda_[b.row + k] : 0.0;
       if (k < 3) {
         f.block<3, 3>(ia, ia) += l2 * u * u.transpose();
         for (int c = 0; c < 3; ++c) f(ia + c, ia + c) += g;
@@ -131,7 +129,7 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
           markers_[static_cast<std::size_t>(b.point_marker[static_cast<std::size_t>(p)])];
       const int at = 12 + b.nm + 3 * p;
       // The tip definition is bilinear in A and y: geometric stiffness of its multipliers.
-      for (int c = 0; c < 3; ++c)
+      for (int c = 0; c < 3 && geometric; ++c)
         for (int k = 0; k < b.nm; ++k)
           for (int i2 = 0; i2 < 3; ++i2)
             f(12 + k, 3 + 3 * c + i2) -= s * lambda_[b.row + 6 + 3 * p + i2] * m.X(c, k);
@@ -170,7 +168,8 @@ int AbsoluteFormulation::factorize(double mass, double damping, double s, double
       add_rank_one(matrix, ga_, gb_, penalty);
       keep_row(linear, part_offset_[k] + r, ga_, gb_);
     }
-    if (p.kind == ConstraintPart::Kind::distance) {  // its gradient d/L turns with the rod
+    if (geometric &&
+        p.kind == ConstraintPart::Kind::distance) {  // its gradient d/L turns with the rod
       const double w = s * lambda_[part_offset_[k]] / p.scale;
       for (int c = 0; c < 3; ++c) {
         gradient(p.a, true, -Vec3::Unit(c), Vec3::Zero(), ga_);

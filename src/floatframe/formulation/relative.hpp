@@ -64,9 +64,6 @@ class RelativeFormulation {
 
   /// Of a factorisation, in iterations that reuse one (measured on the Iltis).
   static constexpr double factorization_cost = 1.3;
-  /// Steps that a factorisation of the projections serves. It bends the direction of the projection
-  /// by the turn of the joints in so many steps, which keeps the order of the integration.
-  static constexpr int projection_lifetime = 3;
 
   // -- the integrator's view; all noexcept and free of allocation
   // ------------------------------------------------
@@ -83,6 +80,9 @@ class RelativeFormulation {
   /// vanishing pivot. Each slot keeps one factorisation together with the directions of motion it
   /// was made with, so it solves on when the configuration has moved.
   int factorize(double mass, double damping, double s, double alpha, int slot = 0) noexcept;
+  /// Factorises M + s K + penalty Phi_q^T Phi_q with the modal stiffness and that of forces,
+  /// without geometric stiffness: the metric of the projections.
+  int factorize_metric(double s, double penalty, int slot) noexcept;
   /// b := T^-1 b
   void solve(VecX& b, int slot = 0) noexcept;
   /// b := T^-1 (b + Phi_q^T w) and increments := Phi_q b, with the Phi_q of the factorisation.
@@ -226,7 +226,10 @@ class RelativeFormulation {
   // r_a.
   void fill_gradient(const Element& e, const WrenchRow& g, double* out) const noexcept;
   void fill_distance(const Element& e, double* out) const noexcept;
-  void assemble_elements(double damping, double s, double alpha, Linearization& l) noexcept;
+  void assemble_elements(double damping, double s, double penalty, bool geometric,
+                         Linearization& l) noexcept;
+  int eliminate(double mass, double damping, double s, double penalty, bool geometric,
+                Linearization& l) noexcept;
   void assemble_cluster(Cluster& c, MatX& front) noexcept;
   void solve_with(Linearization& l, VecX& b, const VecX* w, VecX* increments) noexcept;
   void spread(const VecX& x) noexcept;  // coordinates -> h = [Z; y] of each body

@@ -35,6 +35,14 @@ void add_three_outer(MatX& front, int first, int n, const double* g, double w) n
   }
 }
 
+/// Zeros in the lower triangle, in whole lanes.
+void clear_lower(MatX& front) noexcept {
+  const Eigen::Index ld = front.rows();
+  double* column = front.data();
+  for (Eigen::Index j = 0; j < front.cols(); ++j, column += ld)
+    for (Eigen::Index i = j & ~3; i < ld; i += 4) lanes(column + i) = Lanes{};
+}
+
 }  // namespace
 
 // elements
@@ -118,8 +126,8 @@ void RelativeFormulation::gather_geometric(double s) noexcept {
   }
 }
 
-void RelativeFormulation::assemble_elements(double damping, double s, double alpha,
-                                            Linearization& l) noexcept {
+void RelativeFormulation::assemble_elements(double damping, double s, double penalty,
+                                            bool geometric, Linearization& l) noexcept {
   for (std::size_t k = 0; k < model_.forces.size(); ++k) {
     const ForceState& f = force_states_[k];
     const Element& e = force_elements_[k];
@@ -156,14 +164,15 @@ void RelativeFormulation::assemble_elements(double damping, double s, double alp
     double* g = l.gradients.data() + e.gradient;
     if (parts_[k].kind == ConstraintPart::Kind::coincident) {
       fill_distance(e, g);
-      add_three_outer(front, e.first, e.width, g, s * alpha);
+      add_three_outer(front, e.first, e.width, g, penalty);
       continue;
     }
     for (int r = 0; r < parts_[k].rows(); ++r, g += e.width) {
       fill_gradient(e, rows_[static_cast<std::size_t>(part_offset_[k] + r)].gradient, g);
-      add_outer(front, e.first, e.width, g, s * alpha);
+      add_outer(front, e.first, e.width, g, penalty);
     }
-    if (parts_[k].kind == ConstraintPart::Kind::distance) {  // its gradient d/L turns with the rod
+    if (geometric &&
+        parts_[k].kind == ConstraintPart::Kind::distance) {  // its gradient d/L turns with the rod
       fill_distance(e, slots_.data());
       add_three_outer(front, e.first, e.width, slots_.data(),
                       s * lambda_[part_offset_[k]] / parts_[k].scale);
@@ -277,21 +286,35 @@ void RelativeFormulation::assemble_cluster(Cluster& c, MatX& front) noexcept {
 
 int RelativeFormulation::factorize(double mass, double damping, double s, double alpha,
                                    int slot) noexcept {
-  Linearization& linear = linearizations_[slot];
   gather_geometric(s);
+  return eliminate(mass, damping, s, s * alpha, true, linearizations_[slot]);
+}
+
+int RelativeFormulation::factorize_metric(double s, double penalty, int slot) noexcept {
+  for (BodyData& b : bodies_) {
+    b.G_force.setZero();
+    b.G_virial.setZero();
+    b.G_modal.setZero();
+  }
+  return eliminate(1.0, 0.0, s, penalty, false, linearizations_[slot]);
+}
+
+int RelativeFormulation::eliminate(double mass, double damping, double s, double penalty,
+                                   bool geometric, Linearization& linear) noexcept {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyData& b = bodies_[i];
     b.T = b.M;
     if (mass != 1.0) b.T *= mass;
     if (b.nm > 0) {
       const FlexibleBody& data = *model_.bodies[i].data;
-      b.T.bottomRightCorner(b.nm, b.nm) += s * data.K + damping * data.D;
+      b.T.bottomRightCorner(b.nm, b.nm) += s * data.K;
+      if (b.damped && damping != 0.0) b.T.bottomRightCorner(b.nm, b.nm) += damping * data.D;
     }
     linear.bodies[i].S = b.S;
     if (b.phi) linear.bodies[i].Phi = b.Phi;
   }
-  for (MatX& front : linear.fronts) front.setZero();
-  assemble_elements(damping, s, alpha, linear);
+  for (MatX& front : linear.fronts) clear_lower(front);
+  assemble_elements(damping, s, penalty, geometric, linear);
   for (std::size_t k = cluster_order_.size(); k-- > 0;) {
     Cluster& c = clusters_[static_cast<std::size_t>(cluster_order_[k])];
     MatX& front = linear.fronts[static_cast<std::size_t>(cluster_order_[k])];

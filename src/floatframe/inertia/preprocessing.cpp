@@ -47,18 +47,33 @@ PreprocessingData::PreprocessingData(const InertiaInvariants& v)
   const int nm = v.modes();
   Si.resize(9, nm);
   Sij.resize(9 * nm, nm);
-  Sij_skew.resize(3 * nm, nm);
   Sij_sum.resize(6, nm * nm);
   M_ff = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];  // (40)
   for (int i = 0; i < 3; ++i) Si.middleRows<3>(3 * i) = v.Si[i];
+  const int nl = by_modes.stride = (nm + 3) & ~3;
+  by_modes.S = VecX::Zero(3 * nl);
+  by_modes.Si = VecX::Zero(9 * nl);
+  by_modes.Sij = MatX::Zero(9 * nl, nm);
+  by_modes.Sij_skew = MatX::Zero(3 * nl, nm);
+  for (int a = 0; a < nm; ++a) {
+    for (int i = 0; i < 3; ++i) by_modes.S(i * nl + a) = v.S(i, a);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        by_modes.Si((3 * i + j) * nl + a) = v.Si[i](j, a);
+        for (int b = 0; b < nm; ++b) by_modes.Sij((3 * i + j) * nl + a, b) = v.Sij[i][j](b, a);
+      }
+    }
+    for (int b = 0; b < nm; ++b) {
+      by_modes.Sij_skew(a, b) = v.Sij[0][1](a, b) - v.Sij[1][0](a, b);
+      by_modes.Sij_skew(nl + a, b) = v.Sij[0][2](a, b) - v.Sij[2][0](a, b);
+      by_modes.Sij_skew(2 * nl + a, b) = v.Sij[1][2](a, b) - v.Sij[2][1](a, b);
+    }
+  }
   for (int a = 0; a < nm; ++a) {
     for (int b = 0; b < nm; ++b) {
       for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) Sij(9 * a + 3 * i + j, b) = v.Sij[i][j](b, a);
       }
-      Sij_skew(3 * a, b) = v.Sij[0][1](a, b) - v.Sij[1][0](a, b);
-      Sij_skew(3 * a + 1, b) = v.Sij[0][2](a, b) - v.Sij[2][0](a, b);
-      Sij_skew(3 * a + 2, b) = v.Sij[1][2](a, b) - v.Sij[2][1](a, b);
       const int c = a + nm * b;
       for (int i = 0; i < 3; ++i) Sij_sum(i, c) = v.Sij[i][i](a, b);
       Sij_sum(3, c) = v.Sij[0][1](a, b) + v.Sij[1][0](a, b);
@@ -79,68 +94,6 @@ void deform(const PreprocessingData& data, const double* y, DeformedInvariants& 
       d.P_bar(i, j) = data.P_u(i, j) + first(i, j) + second(j, i);  // (33)
       d.P_bar(j, i) = d.P_bar(i, j);
     }
-  }
-}
-
-void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const Mat3& A,
-                            const Vec3& omega, const double* y, const double* ydot,
-                            PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
-  const int nm = data.modes();
-  const int nq = 6 + nm;
-  DeformedInvariants& d = work.deformed;
-  deform(data, y, d);
-
-  const Vec3 c = A * d.m_bar;
-  const Vec3 m_vec = data.m * r0 + c;                               // (49)
-  const Mat3 J_bar = d.P_bar.trace() * Mat3::Identity() - d.P_bar;  // (21)
-  const Mat3 AJ = A * J_bar;
-  Mat3 J = AJ * A.transpose();  // (51), about the frame origin
-  J += (data.m * r0.squaredNorm() + 2.0 * r0.dot(c)) *
-       Mat3::Identity();  // ... moved to the origin of r0
-  J -= m_vec * r0.transpose();
-  J -= r0 * c.transpose();
-
-  M.topLeftCorner<6, 6>().setZero();
-  for (int k = 0; k < 3; ++k) M(k, k) = data.m;  // (47)
-  const Mat3 m_tilde = skew(m_vec);
-  M.block<3, 3>(3, 0) = m_tilde;  // (48)
-  M.block<3, 3>(0, 3) = -m_tilde;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) M(3 + i, 3 + j) = 0.5 * (J(i, j) + J(j, i));
-  }
-
-  // Velocity terms shared by all modes.
-  const Vec3 w = A.transpose() * omega;  // omega in body axes
-  const Vec3 AS_rate = A * times(data.S, ydot);
-  const Mat3 S_d_rate = times9(d.S_d, ydot);
-  const Vec3 F_d_rate =
-      r0.cross(omega.cross(AS_rate)) + A * (w * S_d_rate.trace() - S_d_rate * w);  // F_d ydot, (62)
-  Qv.head<3>() = omega.cross(m_vec.cross(omega)) - 2.0 * omega.cross(AS_rate);     // (60)
-  Qv.segment<3>(3) = -omega.cross(M.block<3, 3>(3, 3) * omega) - 2.0 * F_d_rate;   // (61)
-  // F_d^T omega = S^T A^T ((omega x r0) x omega) + sum_ij (|w|^2 delta_ij - w_i w_j) (S_d^i)_(j)
-  const Vec3 g = A.transpose() * omega.cross(r0).cross(omega);
-  const Mat3 W = w.squaredNorm() * Mat3::Identity() - w * w.transpose();
-  const Eigen::Map<const Eigen::Matrix<double, 9, 1>> W9(W.data());
-
-  double* skew_rate = work.product.data();
-  affine(nullptr, data.Sij_skew.data(), 3 * nm, nm, ydot, skew_rate);
-  for (int a = 0; a < nm; ++a) {
-    const Vec3 s = data.S.col(a);
-    const auto S_d = d.S_d.col(a).head<9>();
-    const Vec3 AS = A * s;  // (50)
-    const Vec3 F_bar(S_d(5) - S_d(7), S_d(6) - S_d(2), S_d(1) - S_d(3));
-    const Vec3 F = r0.cross(AS) + A * F_bar;  // (53)
-    M.block<3, 1>(0, 6 + a) = AS;
-    M.block<3, 1>(3, 6 + a) = F;
-    const double C_rate = -w.z() * skew_rate[3 * a] + w.y() * skew_rate[3 * a + 1] -
-                          w.x() * skew_rate[3 * a + 2];  // (C ydot)_a
-    Qv(6 + a) = g.dot(s) + W9.dot(S_d) - 2.0 * C_rate;   // (63)
-  }
-  for (int a = 0; a < nm; ++a) {
-    double* column = M.data() + static_cast<std::ptrdiff_t>(a + 6) * nq;
-    const double* mff = data.M_ff.data() + static_cast<std::ptrdiff_t>(a) * nm;
-    for (int b = 0; b < nm; ++b) column[6 + b] = mff[b];  // (54)
-    for (int k = 0; k < 6; ++k) M(6 + a, k) = column[k];
   }
 }
 

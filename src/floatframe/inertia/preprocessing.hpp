@@ -32,10 +32,18 @@ struct PreprocessingData {
   MatX Si;  ///< 9 x nm: row 3i+j is row j of S^i
   MatX
       Sij;  ///< 9nm x nm: row 9a+3i+j, column b: S^ij(b, a), so that Sij y stacks the rows y^T S^ij
-  MatX Sij_skew;  ///< 3nm x nm: rows 3a..3a+2: S^12-S^21, S^13-S^31, S^23-S^32, row a of each
-  MatX Sij_sum;   ///< 6 x nm^2: S^11, S^22, S^33, S^12+S^21, S^13+S^31, S^23+S^32, entry (a, b) in
-                  ///< column a+nm b
-  MatX M_ff;      ///< nm x nm: S^11 + S^22 + S^33
+  MatX Sij_sum;  ///< 6 x nm^2: S^11, S^22, S^33, S^12+S^21, S^13+S^31, S^23+S^32, entry (a, b) in
+                 ///< column a+nm b
+  MatX M_ff;     ///< nm x nm: S^11 + S^22 + S^33
+  /// The same with the modes side by side, `stride` numbers a row, zero beyond the last mode: what
+  /// the relative terms walk through in whole lanes.
+  struct ByModes {
+    int stride = 0;
+    VecX S;         ///< 3 rows
+    VecX Si;        ///< 9 rows: row 3i+j is row j of S^i
+    MatX Sij;       ///< 9 rows in each column b: row 3i+j holds S^ij(b, a)
+    MatX Sij_skew;  ///< 3 rows in each column b: S^12-S^21, S^13-S^31, S^23-S^32, entries (a, b)
+  } by_modes;
 
   PreprocessingData() = default;
   explicit PreprocessingData(const InertiaInvariants& invariants);
@@ -51,11 +59,11 @@ struct DeformedInvariants {
 
 struct PreprocessingWorkspace {
   DeformedInvariants deformed;
-  VecX product;  ///< 9nm
-  VecX S_dot;    ///< 9nm: rows ydot^T S^ij
+  VecX S_dot;  ///< 9nm: rows ydot^T S^ij
+  VecX rows;   ///< 18 rows of `ByModes::stride` numbers
   PreprocessingWorkspace() = default;
   explicit PreprocessingWorkspace(int modes)
-      : product(VecX::Zero(9 * modes)), S_dot(VecX::Zero(9 * modes)) {
+      : S_dot(VecX::Zero(9 * modes)), rows(VecX::Zero(18 * ((modes + 3) & ~3))) {
     deformed.S_d = MatX::Zero(9, modes);
   }
 };

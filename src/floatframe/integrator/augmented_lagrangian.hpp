@@ -85,7 +85,6 @@ class AugmentedLagrangian {
     if (!(std::abs(state.t - continues_at_) < 1e-6 * h)) {
       rate_of_convergence_ = 1.0;
       reuse_rate_ = 0.1;
-      projection_s_ = 0.0;
     }
     predict(state, k);
     if (newton(state, k, report); !report.accepted()) {
@@ -248,21 +247,13 @@ class AugmentedLagrangian {
   /// Velocities and accelerations onto the constraints, orthogonal in W = M + 0.01 s K (the Newton
   /// tangent itself would feed energy into stiff modes). False if W is singular.
   bool project(const Scheme& k, StepReport& report) noexcept {
-    if (k.s != projection_s_ || projection_age_ >= F::projection_lifetime) {
-      constexpr double stiffness = 1e-2;
-      const int pivot =
-          f_.factorize(1.0, 0.0, stiffness * k.s, k.alpha / stiffness, projection_slot);
-      ++report.factorizations;
-      if (pivot >= 0) {
-        report.status = StepStatus::singular_tangent;
-        report.coordinate = pivot;
-        projection_s_ = 0.0;
-        return false;
-      }
-      projection_s_ = k.s;
-      projection_age_ = 0;
+    const int pivot = f_.factorize_metric(0.01 * k.s, k.penalty, projection_slot);
+    ++report.factorizations;
+    if (pivot >= 0) {
+      report.status = StepStatus::singular_tangent;
+      report.coordinate = pivot;
+      return false;
     }
-    ++projection_age_;
     f_.constraint_rates(rate_);
     report.velocity_violation = largest(rate_);
     const double enough = 0.1 * options_.velocity_tolerance;
@@ -312,8 +303,6 @@ class AugmentedLagrangian {
   F& f_;
   StepOptions options_;
   double continues_at_ = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step
-  double projection_s_ = 0.0;         ///< of the factorisation of the projections
-  int projection_age_ = 0;            ///< steps it has served
   double rate_of_convergence_ = 1.0;  ///< of the last Newton iteration
   double reuse_rate_ = 0.1;           ///< of the last one with an old tangent
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;

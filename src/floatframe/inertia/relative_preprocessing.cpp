@@ -1,0 +1,145 @@
+// Relative inertia terms, (46)-(63). Rows over the modes are worked on in whole lanes.
+#include "floatframe/inertia/preprocessing.hpp"
+#include "floatframe/math/lanes.hpp"
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+/// out += C x, C rows x n with a multiple of four rows.
+void add_columns(const double* C, int rows, int n, const double* x, double* out) noexcept {
+  int b = 0;
+  for (; b + 1 < n; b += 2) {
+    const double* c0 = C + static_cast<std::ptrdiff_t>(b) * rows;
+    const double* c1 = c0 + rows;
+    const double x0 = x[b], x1 = x[b + 1];
+    for (int r = 0; r < rows; r += 4) lanes(out + r) += x0 * lanes(c0 + r) + x1 * lanes(c1 + r);
+  }
+  if (b < n) {
+    const double* c0 = C + static_cast<std::ptrdiff_t>(b) * rows;
+    for (int r = 0; r < rows; r += 4) lanes(out + r) += x[b] * lanes(c0 + r);
+  }
+}
+
+/// a . x over one row.
+double dot(const double* a, const double* x, int stride) noexcept {
+  Lanes s = {};
+  for (int r = 0; r < stride; r += 4) s += lanes(a + r) * lanes(x + r);
+  return sum(s);
+}
+
+/// Rows 3i+j as the 3 x 3 matrix whose column i is S^i x.
+Mat3 times9(const double* rows, const double* x, int stride) noexcept {
+  Mat3 s;
+  for (int c = 0; c < 9; ++c) s.data()[c] = dot(rows + c * stride, x, stride);
+  return s;
+}
+
+}  // namespace
+
+void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const Mat3& A,
+                            const Vec3& omega, const double* y, const double* ydot,
+                            PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
+  const int nm = data.modes();
+  const int nq = 6 + nm;
+  const int nl = data.by_modes.stride;
+  double* S_d = work.rows.data();    // 9 rows: row 3i+j is row j of S_d^i
+  double* skew_rate = S_d + 9 * nl;  // 3 rows: (S^12-S^21) ydot, ...
+  double* AS = skew_rate + 3 * nl;   // 3 rows
+  double* y_row = AS + 3 * nl;       // padded with zeros
+  double* ydot_row = y_row + nl;
+  double* Q_row = ydot_row + nl;
+
+  Vec3 m_bar = data.m_u, AS_rate = Vec3::Zero();
+  Mat3 P_bar = data.P_u, S_d_rate = Mat3::Zero();
+  if (nm > 0) {
+    for (int a = 0; a < nm; ++a) y_row[a] = y[a];
+    for (int a = 0; a < nm; ++a) ydot_row[a] = ydot[a];
+    const double* S = data.by_modes.S.data();
+    const double* Si = data.by_modes.Si.data();
+    for (int r = 0; r < 9 * nl; r += 4) lanes(S_d + r) = lanes(Si + r);
+    add_columns(data.by_modes.Sij.data(), 9 * nl, nm, y, S_d);  // (38)
+    const Mat3 first = times9(Si, y_row, nl);                   // column i: S^i y
+    const Mat3 second = times9(S_d, y_row, nl);                 // column i: S_d^i y
+    Vec3 S_rate;
+    for (int j = 0; j < 3; ++j) {
+      m_bar[j] += dot(S + j * nl, y_row, nl);  // (29)
+      S_rate[j] = dot(S + j * nl, ydot_row, nl);
+    }
+    AS_rate = A * S_rate;
+    S_d_rate = times9(S_d, ydot_row, nl);
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j) P_bar(j, i) = P_bar(i, j) += first(i, j) + second(j, i);  // (33)
+  }
+
+  const Vec3 c = A * m_bar;
+  const Vec3 m_vec = data.m * r0 + c;                           // (49)
+  const Mat3 J_bar = P_bar.trace() * Mat3::Identity() - P_bar;  // (21)
+  const Mat3 AJ = A * J_bar;
+  Mat3 J = AJ * A.transpose();  // (51), about the frame origin
+  J += (data.m * r0.squaredNorm() + 2.0 * r0.dot(c)) *
+       Mat3::Identity();  // ... moved to the origin of r0
+  J -= m_vec * r0.transpose();
+  J -= r0 * c.transpose();
+
+  M.topLeftCorner<6, 6>().setZero();
+  for (int k = 0; k < 3; ++k) M(k, k) = data.m;  // (47)
+  const Mat3 m_tilde = skew(m_vec);
+  M.block<3, 3>(3, 0) = m_tilde;  // (48)
+  M.block<3, 3>(0, 3) = -m_tilde;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) M(3 + i, 3 + j) = 0.5 * (J(i, j) + J(j, i));
+  }
+
+  // Velocity terms shared by all modes.
+  const Vec3 w = A.transpose() * omega;  // omega in body axes
+  const Vec3 F_d_rate =
+      r0.cross(omega.cross(AS_rate)) + A * (w * S_d_rate.trace() - S_d_rate * w);  // F_d ydot, (62)
+  Qv.head<3>() = omega.cross(m_vec.cross(omega)) - 2.0 * omega.cross(AS_rate);     // (60)
+  Qv.segment<3>(3) = -omega.cross(M.block<3, 3>(3, 3) * omega) - 2.0 * F_d_rate;   // (61)
+  if (nm == 0) return;
+
+  // F_d^T omega = S^T A^T ((omega x r0) x omega) + sum_ij (|w|^2 delta_ij - w_i w_j) (S_d^i)_(j)
+  const Vec3 g = A.transpose() * omega.cross(r0).cross(omega);
+  const Mat3 W = w.squaredNorm() * Mat3::Identity() - w * w.transpose();
+  for (int r = 0; r < 3 * nl; r += 4) lanes(skew_rate + r) = Lanes{};
+  add_columns(data.by_modes.Sij_skew.data(), 3 * nl, nm, ydot, skew_rate);
+
+  double* M_data = M.data();
+  const double* S = data.by_modes.S.data();
+  for (int r = 0; r < nl; r += 4) {
+    const Lanes s0 = lanes(S + r), s1 = lanes(S + nl + r), s2 = lanes(S + 2 * nl + r);
+    const auto d = [&](int i, int j) -> const Lanes& { return lanes(S_d + (3 * i + j) * nl + r); };
+    const Lanes f0 = d(1, 2) - d(2, 1), f1 = d(2, 0) - d(0, 2), f2 = d(0, 1) - d(1, 0);  // F_bar
+    Lanes a[3], F[3];
+    for (int k = 0; k < 3; ++k) {
+      a[k] = A(k, 0) * s0 + A(k, 1) * s1 + A(k, 2) * s2;  // (50)
+      F[k] = A(k, 0) * f0 + A(k, 1) * f1 + A(k, 2) * f2;
+    }
+    F[0] += r0.y() * a[2] - r0.z() * a[1];  // (53)
+    F[1] += r0.z() * a[0] - r0.x() * a[2];
+    F[2] += r0.x() * a[1] - r0.y() * a[0];
+    const Lanes C_rate = w.y() * lanes(skew_rate + nl + r) - w.z() * lanes(skew_rate + r) -
+                         w.x() * lanes(skew_rate + 2 * nl + r);  // (C ydot)_a
+    lanes(Q_row + r) = (g[0] * s0 + g[1] * s1 + g[2] * s2) +
+                       (W(0, 0) * d(0, 0) + W(1, 1) * d(1, 1) + W(2, 2) * d(2, 2)) +
+                       W(0, 1) * (d(0, 1) + d(1, 0)) + W(0, 2) * (d(0, 2) + d(2, 0)) +
+                       W(1, 2) * (d(1, 2) + d(2, 1)) - 2.0 * C_rate;  // (63)
+    const int count = nm - r < 4 ? nm - r : 4;
+    for (int l = 0; l < count; ++l) {
+      double* column = M_data + static_cast<std::ptrdiff_t>(6 + r + l) * nq;
+      for (int k = 0; k < 3; ++k) {
+        column[k] = M_data[k * nq + 6 + r + l] = a[k][l];
+        column[3 + k] = M_data[(3 + k) * nq + 6 + r + l] = F[k][l];
+      }
+    }
+  }
+  for (int a = 0; a < nm; ++a) Qv[6 + a] = Q_row[a];
+  for (int a = 0; a < nm; ++a) {
+    double* column = M_data + static_cast<std::ptrdiff_t>(6 + a) * nq + 6;
+    const double* mff = data.M_ff.data() + static_cast<std::ptrdiff_t>(a) * nm;
+    for (int b = 0; b < nm; ++b) column[b] = mff[b];  // (54)
+  }
+}
+
+}  // namespace floatframe
