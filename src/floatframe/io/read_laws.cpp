@@ -79,9 +79,12 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
   return good ? table_function(points, interpolation, beyond) : PiecewisePolynomial();
 }
 
-/// The keys of a function of time, with a fault unless there are some or `optional` is set.
+constexpr const char* time_laws =
+    "a number or a map with one of polynomial, piecewise, table, and sine";
+
+/// The keys of a function of time; a fault with `expected` if there are none, unless it is null.
 TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation table,
-                        bool optional) {
+                        const char* expected) {
   TimeFunction f;
   int laws = 0;
   if (const auto v = section.get("polynomial")) {
@@ -108,10 +111,9 @@ TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation ta
     }
   }
   section.finish();
-  if (laws > 1 || (laws == 0 && !sine && !optional))
-    section.fault(
-        "found " + std::to_string(laws) +
-        " laws, expected a number or a map with one of polynomial, piecewise, table, and sine");
+  if (laws > 1 || (laws == 0 && !sine && expected != nullptr))
+    section.fault("found " + std::to_string(laws) + " laws, expected " +
+                  (expected != nullptr ? expected : time_laws));
   return f;
 }
 
@@ -173,7 +175,7 @@ PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits
 TimeFunction read_time_function(const YamlValue& value, const char* unit, Interpolation table) {
   if (!value.is_map()) return constant(value, unit);
   auto section = value.section();
-  return time_terms(*section, unit, table, false);
+  return time_terms(*section, unit, table, time_laws);
 }
 
 SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
@@ -188,7 +190,10 @@ SignalDescription read_signal(const ModelInstance& self, const YamlValue& value,
   const auto input = section->get("input");
   if (input)
     if (const auto name = self.reference(EntityKind::input, *input)) signal.input = *name;
-  function = time_terms(*section, unit, table, input.has_value());
+  function = time_terms(*section, unit, table,
+                        input ? nullptr
+                              : "a number or a map with input or one of polynomial, piecewise, "
+                                "table, and sine");
   return signal;
 }
 
