@@ -160,8 +160,8 @@ const Case cases[] = {
     {"negative_mass.yaml",
      "negative_mass.yaml:4:19: bodies.block.rigid.mass: found -3, expected a number >= 0 [kg]"},
     {"no_law.yaml",
-     "no_law.yaml:8:3: forces.spring: found no law, expected spring, damper, bump_stop or "
-     "rebound_stop"},
+     "no_law.yaml:8:3: forces.spring: found no law, expected spring, damper, bump_stop, "
+     "rebound_stop or actuator"},
     {"no_modes.yaml",
      "no_modes.yaml:5:5: bodies.arm.flexible: found no modes, expected static_modes, normal_modes, "
      "analytic or basis"},

@@ -122,9 +122,10 @@ class RealTimeRunner {
         inputs_.reset();
         f_.set_inputs(inputs_.values());
       }
-      const double to = options_.endless ? static_cast<double>(k + 1) * step_
-                                         : std::min(static_cast<double>(k + 1) * step_, duration_);
-      const bool good = runner_.advance(to - static_cast<double>(k) * step_);
+      // Steps of one and the same size; only the last may be a part of one.
+      const bool part = k + 1 == steps && static_cast<double>(steps) * step_ > duration_;
+      const double to = part ? duration_ : static_cast<double>(k + 1) * step_;
+      const bool good = runner_.advance(part ? duration_ - static_cast<double>(k) * step_ : step_);
       if (good) {
         runner_.state().t = to;
         ++report_.steps;
