@@ -89,6 +89,14 @@ TEST(RealTime, GivesTheResultsOfARun) {
                     1e-12 * (1.0 + std::abs(expected.table.data[i])))
             << i;
       EXPECT_EQ(r.cpu.count(), 11u);
+      long steps = 0, iterations = 0;
+      for (std::size_t k = 0; k < r.by_iterations.size(); ++k) {
+        steps += r.by_iterations[k].steps;
+        iterations += static_cast<long>(k) * r.by_iterations[k].steps;
+      }
+      EXPECT_EQ(steps, 11);
+      EXPECT_EQ(iterations, r.iterations);
+      EXPECT_EQ(r.iterations, expected.summary.iterations);
       EXPECT_EQ(r.elapsed.count(), 11u);
     }
 }

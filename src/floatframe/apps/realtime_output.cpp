@@ -83,6 +83,20 @@ Json histogram_json(const Histogram& h) {
           {"bins_us", bins}};
 }
 
+/// How much of the processor time is work and how much the machine's mood.
+std::string iterations_text(const RealTimeReport& r) {
+  TextTable table({"Newton iterations", "steps", "mean", "largest"});
+  const std::size_t n = r.by_iterations.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const StepsOfWork& work = r.by_iterations[k];
+    if (work.steps > 0)
+      table.add({std::to_string(k) + (k + 1 == n ? " and more" : ""), std::to_string(work.steps),
+                 duration_text(work.cpu_sum / static_cast<double>(work.steps)),
+                 duration_text(work.cpu_max)});
+  }
+  return table.empty() ? "" : "\nprocessor time by Newton iterations of the step\n" + table.text(2);
+}
+
 std::string port_text(const RealTimeReport& r, const Model& model, const UdpPort& port) {
   const UdpCounts& c = port.counts();
   std::string text = fmt::format(
@@ -154,9 +168,9 @@ std::string realtime_text(const RealTimeReport& r, const Model& model, const Udp
       r.coordinates, r.inertia, r.step, r.steps, r.substeps, r.cut_short,
       r.steps > 0 ? static_cast<double>(r.iterations) / static_cast<double>(r.steps) : 0.0,
       percentiles(r.cpu), percentiles(r.elapsed));
-  text +=
-      fmt::format("  largest share       {:.1f} % of the step is processor time, at t = {:g} s\n",
-                  100.0 * r.cpu.max() / r.step, r.worst_cpu_at);
+  text += fmt::format(
+      "  largest share       {:.1f} % of the step is processor time, at t = {:g} s with {}\n",
+      100.0 * r.cpu.max() / r.step, r.worst_cpu_at, plural(r.worst_cpu_iterations, "iteration"));
   if (r.paced) {
     text += fmt::format(
         "  wake-up of the host {}\n"
@@ -168,11 +182,15 @@ std::string realtime_text(const RealTimeReport& r, const Model& model, const Udp
                         r.priority ? "real-time priority" : "normal priority",
                         r.memory_locked ? "locked" : "not locked",
                         plural(r.preemptions, "preemption"), plural(r.page_faults, "page fault"));
+    if (r.stolen > 0.0)
+      text += fmt::format("  virtual machine     {} taken by its host, of all processors\n",
+                          duration_text(r.stolen));
   }
   if (port != nullptr) text += port_text(r, model, *port);
   for (const std::string& refusal : r.refusals) text += "  note: " + refusal + "\n";
   if (r.cpu.count() > 0)
     text += "\nprocessor time a step, number of steps (bars: logarithm)\n" + histogram_text(r.cpu);
+  text += iterations_text(r);
   if (r.wake.count() > 0)
     text += "\nwake-up latency of the host, number of sleeps\n" + histogram_text(r.wake);
   return text;
@@ -204,7 +222,9 @@ std::string realtime_json(const RealTimeReport& r, const Model& model, const Udp
                {"slipped_s", r.slipped},
                {"preemptions", r.preemptions},
                {"page_faults", r.page_faults},
+               {"stolen_s", r.stolen},
                {"worst_cpu_at_s", r.worst_cpu_at},
+               {"worst_cpu_iterations", r.worst_cpu_iterations},
                {"largest_cpu_share", r.cpu.max() / r.step},
                {"cpu", histogram_json(r.cpu)},
                {"wall_clock", histogram_json(r.elapsed)},
@@ -221,6 +241,16 @@ std::string realtime_json(const RealTimeReport& r, const Model& model, const Udp
                        {"repeated", c.repeated},
                        {"send_errors", c.send_errors},
                        {"largest_age_steps", c.largest_age}};
+  }
+  json["by_iterations"] = Json::array();
+  for (std::size_t k = 0; k < r.by_iterations.size(); ++k) {
+    const StepsOfWork& work = r.by_iterations[k];
+    if (work.steps > 0)
+      json["by_iterations"].push_back(
+          {{"iterations", k},
+           {"steps", work.steps},
+           {"cpu_mean_us", 1e6 * work.cpu_sum / static_cast<double>(work.steps)},
+           {"cpu_max_us", 1e6 * work.cpu_max}});
   }
   json["input_timeouts"] = r.input_timeouts;
   Json inputs = Json::object(), outputs = Json::object();

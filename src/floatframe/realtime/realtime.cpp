@@ -50,7 +50,9 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
   {
     const FlushDenormals flush;
     if (options.paced) warm_up<F>(f.model(), d, step_options, start);
+    const double stolen_before = stolen_time();
     end = runner.run();
+    report.stolen = stolen_time() - stolen_before;
   }
   switch (end) {
     case End::completed:

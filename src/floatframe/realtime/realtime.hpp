@@ -9,6 +9,7 @@
 // the processor). Steps that start late for it start at once, one after the other, until the model
 // has caught up; if it is more than `max_lag` behind, the clock is moved instead (a *slip*): model
 // time then stays behind the wall clock by the sum of all slips.
+#include <array>
 #include <atomic>
 #include <string>
 #include <vector>
@@ -36,6 +37,11 @@ struct RealTimeOptions {
   std::atomic<double>* progress = nullptr;  ///< model time [s], for another thread to look at
 };
 
+struct StepsOfWork {
+  long steps = 0;
+  double cpu_sum = 0.0, cpu_max = 0.0;  ///< processor time [s]
+};
+
 struct RealTimeReport {
   std::string model, coordinates, inertia;
   double step = 0.0;
@@ -51,11 +57,16 @@ struct RealTimeReport {
   Histogram cpu;      ///< processor time of each step: inputs, integration, outputs
   Histogram elapsed;  ///< wall clock of the same
   Histogram wake;     ///< wall clock between the due time and the wake-up of a sleep: the host's
-  double worst_cpu_at = 0.0;  ///< model time of the largest processor time [s]
+  double worst_cpu_at = 0.0;      ///< model time of the largest processor time [s]
+  long worst_cpu_iterations = 0;  ///< Newton iterations of that step
+  /// Steps by the number of their Newton iterations: the last entry holds all with more. Work grows
+  /// with the iterations; a slow step with few of them was slowed down by the machine.
+  std::array<StepsOfWork, 24> by_iterations{};
   long program_overruns = 0, host_overruns = 0;
   long late_steps = 0;  ///< not finished when the next one was due
   long slips = 0;
-  double slipped = 0.0;                   ///< sum of all slips [s]
+  double slipped = 0.0;  ///< sum of all slips [s]
+  double stolen = 0.0;   ///< of all processors of a virtual machine, by its host [s]; 0 if unknown
   long preemptions = 0, page_faults = 0;  ///< of the stepping thread
 
   double max_position_violation = 0.0, max_velocity_violation = 0.0;

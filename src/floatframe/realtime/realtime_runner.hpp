@@ -125,6 +125,7 @@ class RealTimeRunner {
       // Steps of one and the same size; only the last may be a part of one.
       const bool part = k + 1 == steps && static_cast<double>(steps) * step_ > duration_;
       const double to = part ? duration_ : static_cast<double>(k + 1) * step_;
+      const long iterations = runner_.iterations();
       const bool good = runner_.advance(part ? duration_ - static_cast<double>(k) * step_ : step_);
       if (good) {
         runner_.state().t = to;
@@ -133,7 +134,7 @@ class RealTimeRunner {
       }
       const Nanoseconds cpu = thread_cpu_clock() - cpu_begin;
       const Nanoseconds wall_end = wall_clock();
-      count(cpu, wall_end - wall_begin, period);
+      count(cpu, wall_end - wall_begin, period, runner_.iterations() - iterations);
       if (options_.paced && wall_end > due + period) ++report_.late_steps;
       if (options_.progress != nullptr)
         options_.progress->store(runner_.state().t, std::memory_order_relaxed);
@@ -147,9 +148,17 @@ class RealTimeRunner {
     return end;
   }
 
-  void count(Nanoseconds cpu, Nanoseconds elapsed, Nanoseconds period) noexcept {
-    if (1e-9 * static_cast<double>(cpu) > report_.cpu.max())
+  void count(Nanoseconds cpu, Nanoseconds elapsed, Nanoseconds period, long iterations) noexcept {
+    const double seconds = 1e-9 * static_cast<double>(cpu);
+    if (seconds > report_.cpu.max()) {
       report_.worst_cpu_at = runner_.state().t;
+      report_.worst_cpu_iterations = iterations;
+    }
+    const auto most = static_cast<long>(report_.by_iterations.size()) - 1;
+    StepsOfWork& work = report_.by_iterations[static_cast<std::size_t>(std::min(iterations, most))];
+    ++work.steps;
+    work.cpu_sum += seconds;
+    work.cpu_max = std::max(work.cpu_max, seconds);
     report_.cpu.add(cpu);
     report_.elapsed.add(elapsed);
     if (cpu > period)

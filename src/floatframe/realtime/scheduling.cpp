@@ -5,9 +5,11 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 namespace floatframe {
 namespace {
@@ -20,6 +22,15 @@ void touch_stack() noexcept {
 }
 
 }  // namespace
+
+double stolen_time() {
+  std::ifstream file("/proc/stat");
+  std::string word;
+  double user = 0, nice = 0, system = 0, idle = 0, wait = 0, irq = 0, soft_irq = 0, steal = 0;
+  file >> word >> user >> nice >> system >> idle >> wait >> irq >> soft_irq >> steal;
+  const long ticks = sysconf(_SC_CLK_TCK);
+  return file && word == "cpu" && ticks > 0 ? steal / static_cast<double>(ticks) : 0.0;
+}
 
 RealTimeScheduling::RealTimeScheduling(const SchedulingRequest& request) {
   slack_before_ = prctl(PR_GET_TIMERSLACK, 0, 0, 0, 0);

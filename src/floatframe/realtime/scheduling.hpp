@@ -15,6 +15,10 @@ struct SchedulingRequest {
   bool lock_memory = false;
 };
 
+/// Time that the host has taken from all processors of this virtual machine since it started [s]; 0
+/// if the system does not tell.
+double stolen_time();
+
 class RealTimeScheduling {
  public:
   explicit RealTimeScheduling(const SchedulingRequest& request);
