@@ -60,6 +60,13 @@ TEST(Histogram, FiguresOfKnownValues) {
     EXPECT_LE(h.percentile(p), 1.04 * exact) << p;
   }
   EXPECT_DOUBLE_EQ(h.percentile(1.0), h.max());
+  EXPECT_EQ(h.count_above(0.0), h.count());
+  EXPECT_EQ(h.count_above(1.0), 0u);
+  const double middle = Histogram::lower(Histogram::bin_of(80'000));
+  const auto above = std::count_if(values.begin(), values.end(), [middle](Nanoseconds x) {
+    return 1e-9 * static_cast<double>(x) >= middle;
+  });
+  EXPECT_EQ(h.count_above(middle), static_cast<std::uint64_t>(above));
 }
 
 }  // namespace

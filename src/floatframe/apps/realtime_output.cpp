@@ -99,14 +99,18 @@ std::string iterations_text(const RealTimeReport& r) {
 
 std::string port_text(const RealTimeReport& r, const Model& model, const UdpPort& port) {
   const UdpCounts& c = port.counts();
-  std::string text = fmt::format(
-      "  inputs              {} received, {} used, {} overtaken by newer ones, {} stale, {} of "
-      "another layout, {} foreign\n"
-      "  outputs             {} sent, {} repeated, {} failed{}\n",
-      plural(c.received, "packet"), c.used, c.superseded, c.stale, c.mismatched, c.foreign,
-      plural(c.sent, "packet"), c.repeated, c.send_errors,
-      port.send_error() != 0 ? fmt::format(" (the last: {})", std::strerror(port.send_error()))
-                             : "");
+  std::string text;
+  if (!model.inputs.empty() || c.received > 0)
+    text += fmt::format(
+        "  inputs              {} received, {} used, {} overtaken by newer ones, {} stale, {} of "
+        "another layout, {} foreign\n",
+        plural(c.received, "packet"), c.used, c.superseded, c.stale, c.mismatched, c.foreign);
+  if (port.wants_outputs())
+    text += fmt::format("  outputs             {} sent, {} repeated, {} failed{}\n",
+                        plural(c.sent, "packet"), c.repeated, c.send_errors,
+                        port.send_error() != 0
+                            ? fmt::format(" (the last: {})", std::strerror(port.send_error()))
+                            : "");
   for (std::size_t i = 0; i < r.refused_inputs.size(); ++i)
     if (r.refused_inputs[i] > 0)
       text += fmt::format("  input '{}'  {} refused: not finite or not from {:g} to {:g}\n",
@@ -169,8 +173,9 @@ std::string realtime_text(const RealTimeReport& r, const Model& model, const Udp
       r.steps > 0 ? static_cast<double>(r.iterations) / static_cast<double>(r.steps) : 0.0,
       percentiles(r.cpu), percentiles(r.elapsed));
   text += fmt::format(
-      "  largest share       {:.1f} % of the step is processor time, at t = {:g} s with {}\n",
-      100.0 * r.cpu.max() / r.step, r.worst_cpu_at, plural(r.worst_cpu_iterations, "iteration"));
+      "  share of the step   largest {:.1f} %, at t = {:g} s with {}; {} above 30 %\n",
+      100.0 * r.cpu.max() / r.step, r.worst_cpu_at, plural(r.worst_cpu_iterations, "iteration"),
+      plural(static_cast<long>(r.cpu.count_above(0.3 * r.step)), "step"));
   if (r.paced) {
     text += fmt::format(
         "  wake-up of the host {}\n"
@@ -226,6 +231,7 @@ std::string realtime_json(const RealTimeReport& r, const Model& model, const Udp
                {"worst_cpu_at_s", r.worst_cpu_at},
                {"worst_cpu_iterations", r.worst_cpu_iterations},
                {"largest_cpu_share", r.cpu.max() / r.step},
+               {"steps_above_30_percent", r.cpu.count_above(0.3 * r.step)},
                {"cpu", histogram_json(r.cpu)},
                {"wall_clock", histogram_json(r.elapsed)},
                {"wake_up", histogram_json(r.wake)}};

@@ -48,6 +48,13 @@ class Histogram {
     return max();
   }
 
+  /// Values in the bins that lie above `seconds` as a whole.
+  std::uint64_t count_above(double seconds) const noexcept {
+    std::uint64_t sum = 0;
+    for (std::size_t k = bins; k-- > 0 && lower(k) >= seconds;) sum += counts_[k];
+    return sum;
+  }
+
   std::uint64_t count(std::size_t bin) const noexcept { return counts_[bin]; }
   /// Ends of a bin [s]: it holds lower <= x < upper.
   static double lower(std::size_t bin) noexcept { return 1e-9 * static_cast<double>(start(bin)); }
