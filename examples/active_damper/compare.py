@@ -39,7 +39,7 @@ def ride(arguments, layout, settings, gain):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default=str(HERE.parents[1] / "build" / "floatframe"))
+    parser.add_argument("--program", default=floatframe_link.find_program())
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the model")
     parser.add_argument("--duration", type=float, help="[s]; default: that of the model")
     parser.add_argument("--gain", type=float, default=8000.0, help="of the skyhook [N s/m]")

@@ -5,18 +5,33 @@
     link.send({"front_left": 250.0})                # inputs that are not named keep what was sent last
 """
 import json
+import pathlib
+import shutil
 import socket
 import struct
 import subprocess
+import sys
 
 HEADER = struct.Struct("<4sHHQQdII")  # magic, version, kind, layout, sequence, time, count, flags
 MAGIC, VERSION, INPUTS, OUTPUTS, LAST = b"FFRT", 1, 1, 2, 1
 
 
+def find_program():
+    """build/floatframe of the tree these examples belong to, else floatframe of the search path."""
+    built = pathlib.Path(__file__).resolve().parents[2] / "build" / "floatframe"
+    return str(built) if built.is_file() else shutil.which("floatframe") or str(built)
+
+
 def read_layout(program, model, *options):
     """The layout of a model, asked from the program. `options`: such as --set name=value."""
-    command = [program, "realtime", str(model), "--layout", "--json", *options]
-    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    try:
+        done = subprocess.run([program, "realtime", str(model), "--layout", "--json", *options], check=False,
+                              capture_output=True, text=True)
+    except OSError as error:
+        sys.exit(f"{program}: {error.strerror}; say with --program where floatframe is")
+    if done.returncode != 0:
+        sys.exit(done.stderr.strip())
+    return json.loads(done.stdout)
 
 
 class Link:

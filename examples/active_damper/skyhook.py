@@ -8,6 +8,7 @@ The force pulls the chassis down while it rises and pushes it up while it falls.
 """
 import argparse
 import math
+import pathlib
 
 import floatframe_link
 
@@ -50,8 +51,8 @@ def heading():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default="build/floatframe", help="the program, asked for the layout")
-    parser.add_argument("--model", default="examples/active_damper/active_damper.yaml")
+    parser.add_argument("--program", default=floatframe_link.find_program(), help="asked for the layout")
+    parser.add_argument("--model", default=str(pathlib.Path(__file__).resolve().parent / "active_damper.yaml"))
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="as given to the model")
     parser.add_argument("--gain", type=float, default=8000.0, help="of the skyhook [N s/m]; 0: passive")
     parser.add_argument("--largest-force", type=float, default=8000.0, help="[N]")
