@@ -153,6 +153,11 @@ class RealTime(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.assertEqual(self.report()["iterations"], 50)
         self.assertGreater(self.report()["cut_short"], 0)
+        done = self.floatframe("cart.yaml", "--no-pace", "--quiet", "--budget", "1e-9", "--coordinates", "absolute",
+                               "--report", "report.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.report()["iterations"], 50)  # the first iteration always begins
+        self.assertGreater(self.report()["cut_short"], 0)
 
     def test_interrupt_ends_with_the_report(self):
         process = self.start("cart.yaml", "--endless", "--output", "udp", "--send",

@@ -208,7 +208,7 @@ TEST(RealTime, OverrunsAreTheProgramsOrTheHosts) {
   options.max_lag = 10.0;
   const RealTimeReport r = run_real_time(model(), simulation(0.2, 0.02), options, &port);
   EXPECT_EQ(r.steps, 10);
-  EXPECT_EQ(r.program_overruns, 1);
+  EXPECT_GE(r.program_overruns, 1);
   EXPECT_GE(r.host_overruns, 1);
   EXPECT_GE(r.late_steps, 2);
   EXPECT_EQ(r.slips, 0);
