@@ -21,8 +21,9 @@ ALLOWED = {
     "integrator": {"core", "math", "body", "inertia", "model", "formulation"},
     "simulation": {"core", "math", "body", "inertia", "model", "formulation", "integrator"},
     "io": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator", "simulation"},
+    "realtime": {"core", "math", "body", "inertia", "model", "formulation", "integrator", "simulation"},
     "apps": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator",
-             "simulation", "io"},
+             "simulation", "realtime", "io"},
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]floatframe/([^/">]+)/')

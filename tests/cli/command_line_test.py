@@ -118,8 +118,8 @@ class Help(CommandLine):
 class Misuse(CommandLine):
     def test_bad_options_exit_2_with_one_line(self):
         for arguments, message in (
-                ((), "a command is required: run, check, statics or bench"),
-                (("fly",), "found the command 'fly', expected run, check, statics or bench"),
+                ((), "a command is required: run, check, statics, realtime or bench"),
+                (("fly",), "found the command 'fly', expected run, check, statics, realtime or bench"),
                 (("run",), "MODEL is required"),
                 (("run", "pendulum.yaml", "--frobnicate"), "--frobnicate"),
                 (("run", "pendulum.yaml", "--coordinates", "polar"), "polar not in {relative,absolute}"),

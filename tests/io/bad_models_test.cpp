@@ -86,6 +86,31 @@ const Case cases[] = {
     {"infinite_mass.yaml",
      "infinite_mass.yaml:4:19: bodies.block.rigid.mass: found 1e999, expected a number >= 0 [kg] "
      "(numbers must be finite)"},
+    {"input_limits.yaml",
+     "input_limits.yaml:6:27: inputs.one.initial: found 7, expected a number not above max, 5"
+     "\n"
+     "input_limits.yaml:7:22: inputs.two.max: found 3, expected a number above min, 3"
+     "\n"
+     "input_limits.yaml:8:3: inputs.three: initial: found 0, expected a number not below min, 1"
+     "\n"
+     "input_limits.yaml:9:10: inputs.four: unknown key 'inital', did you mean 'initial'?"
+     "\n"
+     "input_limits.yaml:10:16: inputs.five.unit: found 'N, m', expected a unit of at most 20 "
+     "characters without commas, quotes and brackets"},
+    {"input_uses.yaml",
+     "input_uses.yaml:11:66: forces.a.magnitude.input: unknown input 'torqe', did you mean "
+     "'torque'?"
+     "\n"
+     "input_uses.yaml:12:57: forces.b.actuator.input: the input 'spare' is switched off by its "
+     "'when'"
+     "\n"
+     "input_uses.yaml:13:74: forces.c.target: found without spring and damper, expected a law that "
+     "pulls to the target"
+     "\n"
+     "input_uses.yaml:14:48: forces.d.magnitude: found 0 laws, expected a number or a map with "
+     "input or one of polynomial, piecewise, table, and sine"
+     "\n"
+     "input_uses.yaml:15:74: forces.e.target: unknown key 'gain'"},
     {"joint_spring_on_ball.yaml",
      "joint_spring_on_ball.yaml:10:34: forces.k.joint: found 'ball', expected a revolute or "
      "prismatic joint"},
@@ -135,8 +160,8 @@ const Case cases[] = {
     {"negative_mass.yaml",
      "negative_mass.yaml:4:19: bodies.block.rigid.mass: found -3, expected a number >= 0 [kg]"},
     {"no_law.yaml",
-     "no_law.yaml:8:3: forces.spring: found no law, expected spring, damper, bump_stop or "
-     "rebound_stop"},
+     "no_law.yaml:8:3: forces.spring: found no law, expected spring, damper, bump_stop, "
+     "rebound_stop or actuator"},
     {"no_modes.yaml",
      "no_modes.yaml:5:5: bodies.arm.flexible: found no modes, expected static_modes, normal_modes, "
      "analytic or basis"},

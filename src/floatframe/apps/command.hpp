@@ -19,6 +19,7 @@ using Action = std::function<int()>;
 void add_run_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);
 void add_statics_command(CLI::App& app, Action& action);
+void add_realtime_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
 
 /// MODEL and --set, as every command that reads a model takes them.

@@ -17,10 +17,11 @@
 
 namespace floatframe {
 
-enum class EntityKind { body, joint, rod, force, road };
-inline constexpr std::array<const char*, 5> entity_words{"body", "joint", "rod", "force", "road"};
-inline constexpr std::array<const char*, 5> entity_keys{"bodies", "joints", "rods", "forces",
-                                                        "roads"};
+enum class EntityKind { body, joint, rod, force, road, input };
+inline constexpr std::array<const char*, 6> entity_words{"body",  "joint", "rod",
+                                                         "force", "road",  "input"};
+inline constexpr std::array<const char*, 6> entity_keys{"bodies", "joints", "rods",
+                                                        "forces", "roads",  "inputs"};
 
 struct ModelInstance {
   ReadContext context;
@@ -32,7 +33,7 @@ struct ModelInstance {
   Placement world;      ///< coordinates of this file -> world
   std::map<std::string, Vec3> points;  ///< coordinates of this file [m]
   /// Names defined in this file; false: switched off by `when`.
-  std::array<std::map<std::string, bool>, 5> names;
+  std::array<std::map<std::string, bool>, entity_words.size()> names;
   std::map<std::string, std::string> external;  ///< external name -> outer name
   std::vector<std::pair<std::string, std::unique_ptr<ModelInstance>>> children;
   std::optional<YamlSection> root;

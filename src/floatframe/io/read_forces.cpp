@@ -54,9 +54,12 @@ std::optional<AttachmentDescription> own_place(const ModelInstance& self, const 
   return a;
 }
 
-/// spring, damper, bump_stop, rebound_stop; at least a spring or a damper or a stop.
-void laws(YamlSection& s, double free, PiecewisePolynomial& spring, PiecewisePolynomial& damper) {
+/// spring, damper, bump_stop, rebound_stop, actuator; at least one of them.
+void laws(const ModelInstance& self, YamlSection& s, double free, PiecewisePolynomial& spring,
+          PiecewisePolynomial& damper, std::optional<SignalDescription>& actuator) {
   int found = 0;
+  if (const auto v = s.get("actuator"))
+    ++found, actuator = read_signal(self, *v, "N", Interpolation::linear);
   if (const auto v = s.get("spring")) ++found, spring = read_law(*v, free, spring_units);
   if (const auto v = s.get("damper")) ++found, damper = read_law(*v, 0.0, damper_units);
   for (const bool bump : {true, false})
@@ -69,7 +72,8 @@ void laws(YamlSection& s, double free, PiecewisePolynomial& spring, PiecewisePol
       stop->finish();
       spring = spring + (bump ? ramp_below(length, stiffness) : ramp_above(length, stiffness));
     }
-  if (found == 0) s.fault("found no law, expected spring, damper, bump_stop or rebound_stop");
+  if (found == 0)
+    s.fault("found no law, expected spring, damper, bump_stop, rebound_stop or actuator");
 }
 
 void spring_damper(const ModelInstance& self, YamlSection& s, ReadModel& model,
@@ -86,7 +90,7 @@ void spring_damper(const ModelInstance& self, YamlSection& s, ReadModel& model,
     else if (!(length > 1e-9))
       s.fault("found both ends at the same point, expected two points apart");
   }
-  laws(s, length, d.spring, d.damper);
+  laws(self, s, length, d.spring, d.damper, d.actuator);
   f.kind = std::move(d);
 }
 
@@ -104,7 +108,7 @@ void guided_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
     if (a->body == b->body)
       s.fault("found both ends on '" + self.written(a->body) + "', expected two bodies");
   }
-  laws(s, length, d.spring, d.damper);
+  laws(self, s, length, d.spring, d.damper, d.actuator);
   f.kind = std::move(d);
 }
 
@@ -128,7 +132,19 @@ void joint_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
     ++found, d.spring = read_law(*v, 0.0, turning ? torsion_units : spring_units);
   if (const auto v = s.get("damper"))
     ++found, d.damper = read_law(*v, 0.0, turning ? torsion_damper_units : damper_units);
-  if (found == 0) s.fault("found no law, expected spring or damper");
+  const bool law = found > 0;
+  if (const auto v = s.get("actuator"))
+    ++found, d.actuator = read_signal(self, *v, turning ? "N m" : "N", Interpolation::linear);
+  if (found == 0) s.fault("found no law, expected spring, damper or actuator");
+  const auto target = [&](const char* key, const char* unit, Interpolation table,
+                          std::optional<SignalDescription>& out) {
+    const auto v = s.get(key);
+    if (!v) return;
+    out = read_signal(self, *v, unit, table);
+    if (!law) v->fault("found without spring and damper, expected a law that pulls to the target");
+  };
+  target("target", turning ? "rad" : "m", Interpolation::cubic, d.target);
+  target("target_rate", turning ? "rad/s" : "m/s", Interpolation::linear, d.target_rate);
   f.kind = std::move(d);
 }
 
@@ -155,8 +171,7 @@ void load(const ModelInstance& self, YamlSection& s, ReadModel& model, ForceDesc
   const auto direction = s.require("direction");
   if (const auto v = direction ? read_direction(*direction) : std::nullopt) d.direction = *v;
   if (const auto v = s.require("magnitude"))
-    static_cast<TimeFunction&>(d.magnitude) =
-        read_time_function(*v, torque ? "N m" : "N", Interpolation::linear);
+    d.magnitude = read_signal(self, *v, torque ? "N m" : "N", Interpolation::linear);
   d.follows = s.boolean("follows", false);
   f.kind = std::move(d);
 }

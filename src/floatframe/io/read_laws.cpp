@@ -79,6 +79,51 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
   return good ? table_function(points, interpolation, beyond) : PiecewisePolynomial();
 }
 
+constexpr const char* time_laws =
+    "a number or a map with one of polynomial, piecewise, table, and sine";
+
+/// The keys of a function of time; a fault with `expected` if there are none, unless it is null.
+TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation table,
+                        const char* expected) {
+  TimeFunction f;
+  int laws = 0;
+  if (const auto v = section.get("polynomial")) {
+    ++laws;
+    f.pieces = PiecewisePolynomial(
+        {}, {{section.number("about", any_number("s"), 0.0), coefficients(*v)}});
+  }
+  if (const auto v = section.get("piecewise")) {
+    ++laws;
+    f.pieces = read_piecewise(*v, {"s", unit, unit});
+  }
+  if (const auto v = section.get("table")) {
+    ++laws;
+    f.pieces = read_table(section, *v, table, Beyond::hold, "s");
+  }
+  bool sine = false;
+  if (const auto v = section.get("sine")) {
+    sine = true;
+    if (auto s = v->section("a map with amplitude, frequency, phase")) {
+      f.amplitude = s->required_number("amplitude", any_number(unit), 0.0);
+      f.frequency = s->required_number("frequency", positive_number("Hz"), 1.0);
+      f.phase = s->number("phase", any_number("rad"), 0.0);
+      s->finish();
+    }
+  }
+  section.finish();
+  if (laws > 1 || (laws == 0 && !sine && expected != nullptr))
+    section.fault("found " + std::to_string(laws) + " laws, expected " +
+                  (expected != nullptr ? expected : time_laws));
+  return f;
+}
+
+TimeFunction constant(const YamlValue& value, const char* unit) {
+  TimeFunction f;
+  if (const auto c = value.number(any_number(unit)))
+    f.pieces = PiecewisePolynomial::polynomial({*c});
+  return f;
+}
+
 }  // namespace
 
 PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units) {
@@ -128,43 +173,28 @@ PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits
 }
 
 TimeFunction read_time_function(const YamlValue& value, const char* unit, Interpolation table) {
-  TimeFunction f;
+  if (!value.is_map()) return constant(value, unit);
+  auto section = value.section();
+  return time_terms(*section, unit, table, time_laws);
+}
+
+SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
+                              Interpolation table) {
+  SignalDescription signal;
+  TimeFunction& function = signal;
   if (!value.is_map()) {
-    if (const auto c = value.number(any_number(unit)))
-      f.pieces = PiecewisePolynomial::polynomial({*c});
-    return f;
+    function = constant(value, unit);
+    return signal;
   }
   auto section = value.section();
-  int laws = 0;
-  if (const auto v = section->get("polynomial")) {
-    ++laws;
-    f.pieces = PiecewisePolynomial(
-        {}, {{section->number("about", any_number("s"), 0.0), coefficients(*v)}});
-  }
-  if (const auto v = section->get("piecewise")) {
-    ++laws;
-    f.pieces = read_piecewise(*v, {"s", unit, unit});
-  }
-  if (const auto v = section->get("table")) {
-    ++laws;
-    f.pieces = read_table(*section, *v, table, Beyond::hold, "s");
-  }
-  bool sine = false;
-  if (const auto v = section->get("sine")) {
-    sine = true;
-    if (auto s = v->section("a map with amplitude, frequency, phase")) {
-      f.amplitude = s->required_number("amplitude", any_number(unit), 0.0);
-      f.frequency = s->required_number("frequency", positive_number("Hz"), 1.0);
-      f.phase = s->number("phase", any_number("rad"), 0.0);
-      s->finish();
-    }
-  }
-  section->finish();
-  if (laws > 1 || (laws == 0 && !sine))
-    section->fault(
-        "found " + std::to_string(laws) +
-        " laws, expected a number or a map with one of polynomial, piecewise, table, and sine");
-  return f;
+  const auto input = section->get("input");
+  if (input)
+    if (const auto name = self.reference(EntityKind::input, *input)) signal.input = *name;
+  function = time_terms(*section, unit, table,
+                        input ? nullptr
+                              : "a number or a map with input or one of polynomial, piecewise, "
+                                "table, and sine");
+  return signal;
 }
 
 }  // namespace floatframe

@@ -33,6 +33,7 @@ void read_bodies(const ModelInstance& self, ReadModel& model);
 void read_joints(const ModelInstance& self, ReadModel& model);
 void read_rods(const ModelInstance& self, ReadModel& model);
 void read_roads(const ModelInstance& self, ReadModel& model);
+void read_inputs(const ModelInstance& self, ReadModel& model);
 void read_forces(const ModelInstance& self, ReadModel& model);
 void read_initial(const ModelInstance& self, ReadModel& model);
 void read_outputs(const ModelInstance& self, ReadModel& model);
@@ -82,5 +83,8 @@ struct LawUnits {
 PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units);
 /// A function of time: a number is a constant, tables hold their end values, `sine` may be added.
 TimeFunction read_time_function(const YamlValue& value, const char* unit, Interpolation table);
+/// The same, or {input: name}, or both in one map: then they add up.
+SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
+                              Interpolation table);
 
 }  // namespace floatframe

@@ -31,6 +31,7 @@ class Builder {
     bodies();
     faults_.throw_if_any();
     roads();
+    inputs();
     joints();
     rods();
     forces();
@@ -190,6 +191,52 @@ class Builder {
     for (const RoadDescription& r : d_.roads) model_.roads.push_back({r.name, r.pieces, r.bumps});
   }
 
+  void inputs() {
+    std::set<std::string> names;
+    for (const InputDescription& i : d_.inputs) {
+      const std::string who = "inputs." + i.name;
+      if (!names.insert(i.name).second)
+        faults_.add(i.origin.mark, who + ": the name is taken, expected a name used once");
+      Input input;
+      input.name = i.name;
+      input.unit = i.unit;
+      input.initial = i.initial;
+      if (i.low) input.low = *i.low;
+      if (i.high) input.high = *i.high;
+      if (!(input.low < input.high))
+        faults_.add(i.origin.of("max"), who + ".max: found " + number(input.high) +
+                                            ", expected a number above min, " + number(input.low));
+      else if (!std::isfinite(i.initial) || i.initial < input.low || i.initial > input.high)
+        faults_.add(i.origin.of("initial"), who + ".initial: found " + number(i.initial) +
+                                                ", expected a number from " + number(input.low) +
+                                                " to " + number(input.high));
+      model_.inputs.push_back(std::move(input));
+    }
+  }
+
+  /// Index of an input by name; -1 for no name, and with a fault for an unknown one.
+  int input_index(const std::string& name, const SourceMark& mark, const std::string& who) {
+    if (name.empty()) return -1;
+    for (std::size_t i = 0; i < model_.inputs.size(); ++i)
+      if (model_.inputs[i].name == name) return static_cast<int>(i);
+    faults_.add(mark, who + ": found input '" + name + "', expected the name of an input");
+    return -1;
+  }
+
+  void actuate(Force& force, const std::optional<SignalDescription>& signal, const SourceMark& mark,
+               const std::string& who) {
+    if (!signal) return;
+    force.magnitude = *signal;
+    force.input = input_index(signal->input, mark, who);
+    force.driven = true;
+  }
+
+  static std::string number(double x) {
+    std::ostringstream s;
+    s << x;
+    return s.str();
+  }
+
   void joints() {
     std::set<std::string> names;
     for (const JointDescription& j : d_.joints) {
@@ -295,6 +342,7 @@ class Builder {
         force.b = add_marker(s->b, I, false, f.origin.of("to"), who + ".to");
         force.spring = s->spring;
         force.damper = s->damper;
+        actuate(force, s->actuator, f.origin.of("actuator"), who + ".actuator");
         good = force.a >= 0 && force.b >= 0;
         if (good &&
             model_.markers[static_cast<std::size_t>(force.a)].body ==
@@ -311,11 +359,22 @@ class Builder {
         force.axis = g->axis.normalized();
         force.spring = g->spring;
         force.damper = g->damper;
+        actuate(force, g->actuator, f.origin.of("actuator"), who + ".actuator");
         good = force.a >= 0 && force.b >= 0;
       } else if (const auto* js = std::get_if<JointSpringDescription>(&f.kind)) {
         force.type = ForceType::joint_spring;
         force.spring = js->spring;
         force.damper = js->damper;
+        actuate(force, js->actuator, f.origin.of("actuator"), who + ".actuator");
+        if (js->target)
+          force.target = {*js->target,
+                          input_index(js->target->input, f.origin.of("target"), who + ".target")};
+        if (js->target_rate)
+          force.target_rate = {*js->target_rate,
+                               input_index(js->target_rate->input, f.origin.of("target_rate"),
+                                           who + ".target_rate")};
+        force.targeted = js->target || js->target_rate;
+        force.derived_rate = !js->target_rate;
         good = false;
         for (const Joint& j : model_.joints)
           if (j.name == js->joint) {
@@ -353,6 +412,7 @@ class Builder {
         force.b = add_marker(l->at, I, l->torque || l->follows, f.origin.of("at"), who + ".at");
         force.axis = l->direction;
         force.magnitude = l->magnitude;
+        force.input = input_index(l->magnitude.input, f.origin.of("magnitude"), who + ".magnitude");
         force.follows = l->follows;
         good = force.b >= 0;
       }

@@ -196,14 +196,15 @@ struct GuidedSpringDescription {
 
 /// About the axis of a revolute (angle) or along that of a prismatic joint (displacement):
 /// generalised force on the coordinate = actuator - spring(q - target) - damper(qdot - rate of the
-/// target). With a target it is a position-controlled motor. The rate of the target is the
-/// derivative of its function of time plus the input `target_rate`; that of its input is not known.
+/// target). With a target it is a position-controlled motor, with the rate of a target alone
+/// a speed-controlled one. Without `target_rate` the rate is the derivative of the function of time
+/// in `target`; that of an input is not known and taken as zero.
 struct JointSpringDescription {
   std::string joint;
   PiecewisePolynomial spring, damper;
-  std::optional<SignalDescription> actuator;  ///< [N] or [N m], positive raises the coordinate
-  std::optional<SignalDescription> target;    ///< [m] or [rad]
-  std::string target_rate;                    ///< an input [m/s] or [rad/s]; empty: none
+  std::optional<SignalDescription> actuator;     ///< [N] or [N m], positive raises the coordinate
+  std::optional<SignalDescription> target;       ///< [m] or [rad]
+  std::optional<SignalDescription> target_rate;  ///< [m/s] or [rad/s]
 };
 
 enum class TyreLaw { vertical, radial };

@@ -190,9 +190,11 @@ void evaluate_force(const Model& model, const Force& force, const MarkerState& a
     case ForceType::joint_spring: {
       Target target;
       if (force.targeted) {
-        const PiecewisePolynomial::Value value = evaluate(force.target, t);
-        target = {value.f + input_value(inputs, force.target_input),
-                  value.df + input_value(inputs, force.target_rate_input)};
+        const PiecewisePolynomial::Value position = evaluate(force.target.function, t);
+        target.position = position.f + input_value(inputs, force.target.input);
+        target.rate = force.derived_rate ? position.df
+                                         : evaluate(force.target_rate.function, t).f +
+                                               input_value(inputs, force.target_rate.input);
       }
       joint_spring(force, a, b, reference_angle, actuator, target, out);
       break;

@@ -58,6 +58,12 @@ struct Road {
 
 enum class ForceType { spring_damper, guided_spring, joint_spring, tyre, force, torque };
 
+/// A function of time plus, with `input` >= 0, the value of that input.
+struct Signal {
+  TimeFunction function;
+  int input = -1;
+};
+
 /// One flat record for all force elements: the fields a type does not use stay at their defaults.
 struct Force {
   std::string name;
@@ -70,12 +76,12 @@ struct Force {
   double radius = 0, stiffness = 0, damping = 0;
   TyreLaw law = TyreLaw::vertical;
   int road = -1;
-  TimeFunction magnitude;  ///< of a load; of the actuator of the other elements
-  int input = -1;          ///< added to the magnitude
-  bool driven = false;     ///< the element has an actuator
-  TimeFunction target;     ///< of a joint_spring
-  int target_input = -1, target_rate_input = -1;
-  bool targeted = false;  ///< the element has a target
+  TimeFunction magnitude;      ///< of a load; of the actuator of the other elements
+  int input = -1;              ///< added to the magnitude
+  bool driven = false;         ///< the element has an actuator
+  Signal target, target_rate;  ///< of a joint_spring
+  bool targeted = false;       ///< it has one of them
+  bool derived_rate = false;   ///< the rate of the target is the derivative of its function
   bool follows = false;
 };
 

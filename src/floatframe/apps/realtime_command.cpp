@@ -1,0 +1,266 @@
+// floatframe realtime: steps a model with the wall clock and exchanges inputs and outputs by UDP.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <csignal>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/apps/realtime_output.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/atomic_file.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+namespace {
+
+struct RealTimeArguments {
+  ModelArguments model;
+  std::string coordinates, inertia, step, duration, budget, max_lag, timeout, input_timeout, report;
+  std::string input = "none", output = "none", listen, send = "127.0.0.1:47101";
+  int iterations = 0, priority = 0;
+  bool endless = false, lock_step = false, no_pace = false, lock_memory = false, strict = false;
+  bool layout = false, json = false, quiet = false;
+};
+
+std::atomic<bool> stop_wanted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// The first Ctrl-C ends the run with its report, a second one ends the program.
+class StopOnSignal {
+ public:
+  StopOnSignal() {
+    stop_wanted = false;
+    struct sigaction action {};
+    action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
+    action.sa_flags = SA_RESETHAND;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, &interrupt_before_);
+    sigaction(SIGTERM, &action, &terminate_before_);
+  }
+  ~StopOnSignal() {
+    sigaction(SIGINT, &interrupt_before_, nullptr);
+    sigaction(SIGTERM, &terminate_before_, nullptr);
+  }
+  StopOnSignal(const StopOnSignal&) = delete;
+  StopOnSignal& operator=(const StopOnSignal&) = delete;
+
+ private:
+  struct sigaction interrupt_before_ {};
+  struct sigaction terminate_before_ {};
+};
+
+/// Shows how far the run is, once a second, from a thread of its own: the stepping thread only
+/// writes one number.
+class ProgressThread {
+ public:
+  ProgressThread(bool wanted, double duration) {
+    if (!wanted) return;
+    thread_ = std::thread([this, duration] {
+      ProgressBar bar(true, duration, "s");
+      std::unique_lock lock(mutex_);
+      while (!ended_.wait_for(lock, std::chrono::seconds(1), [this] { return end_; }))
+        bar.show(time.load(std::memory_order_relaxed) / duration);
+    });
+  }
+  ~ProgressThread() {
+    if (!thread_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      end_ = true;
+    }
+    ended_.notify_one();
+    thread_.join();
+  }
+  ProgressThread(const ProgressThread&) = delete;
+  ProgressThread& operator=(const ProgressThread&) = delete;
+
+  std::atomic<double> time{0.0};
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool end_ = false;
+  std::thread thread_;
+};
+
+double zero_or_more(const std::string& option, const std::string& text) {
+  return text == "0" ? 0.0 : positive_number(option, text);
+}
+
+void apply(const RealTimeArguments& arguments, SimulationDescription& simulation) {
+  if (!arguments.coordinates.empty())
+    simulation.coordinates = coordinates_from(arguments.coordinates);
+  if (!arguments.inertia.empty()) simulation.inertia = inertia_from(arguments.inertia);
+  if (!arguments.step.empty()) simulation.step = positive_number("--step", arguments.step);
+  if (!arguments.duration.empty())
+    simulation.duration = positive_number("--duration", arguments.duration);
+  if (!arguments.no_pace && simulation.step < 1e-6)
+    throw InputError(
+        fmt::format("found a step of {:g} s, expected at least 1e-6 s in step with the wall clock",
+                    simulation.step));
+  if (simulation.duration > 1e12 * simulation.step)
+    throw InputError(fmt::format("a duration of {:g} s with a step of {:g} s takes too many steps",
+                                 simulation.duration, simulation.step));
+}
+
+RealTimeOptions options_from(const RealTimeArguments& arguments) {
+  RealTimeOptions options;
+  options.paced = !arguments.no_pace;
+  options.endless = arguments.endless;
+  options.fixed_iterations = arguments.iterations;
+  if (!arguments.budget.empty())
+    options.time_budget = positive_number("--budget", arguments.budget);
+  if (!arguments.max_lag.empty()) options.max_lag = zero_or_more("--max-lag", arguments.max_lag);
+  if (!arguments.input_timeout.empty())
+    options.input_timeout = positive_number("--input-timeout", arguments.input_timeout);
+  options.priority = arguments.priority;
+  options.lock_memory = arguments.lock_memory;
+  options.strict = arguments.strict;
+  options.stop = &stop_wanted;
+  return options;
+}
+
+std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Model& model) {
+  UdpPortOptions options;
+  options.inputs = arguments.input == "udp";
+  options.outputs = arguments.output == "udp";
+  options.lock_step = arguments.lock_step;
+  options.stop = &stop_wanted;
+  if (!arguments.timeout.empty()) options.timeout = positive_number("--timeout", arguments.timeout);
+  if (options.lock_step && !(options.inputs && options.outputs))
+    throw InputError("--lockstep: found without --input udp and --output udp, expected both");
+  if (!options.inputs && !options.outputs) return nullptr;
+  if (options.inputs && model.inputs.empty())
+    throw InputError(fmt::format(
+        "--input udp: found no inputs in the model '{}', expected a section 'inputs'", model.name));
+  options.send = parse_udp_address(arguments.send, "--send");
+  // Whoever sends to this machine only hears this machine only.
+  const bool ipv6 = options.outputs && options.send.family() == AF_INET6;
+  const bool near = !options.outputs || options.send.loopback();
+  const std::string host = near ? (ipv6 ? "[::1]" : "127.0.0.1") : (ipv6 ? "[::]" : "0.0.0.0");
+  const std::string listen =
+      !arguments.listen.empty() ? arguments.listen : host + (options.inputs ? ":47100" : ":0");
+  options.listen = parse_udp_address(listen, "--listen");
+  if (options.outputs && options.listen.family() != options.send.family())
+    throw InputError(
+        fmt::format("--listen: found {} beside --send {}, expected both IPv4 or both IPv6", listen,
+                    arguments.send));
+  return std::make_unique<UdpPort>(model, options);
+}
+
+std::string port_line(const RealTimeArguments& arguments, const UdpPort& port) {
+  std::string text;
+  if (arguments.input == "udp") text += fmt::format("listening at {}", port.local().text());
+  if (arguments.output == "udp")
+    text += fmt::format("{}sending to {}", text.empty() ? "" : ", ", arguments.send);
+  return text + "\n";
+}
+
+int run_command(const RealTimeArguments& arguments) {
+  if (arguments.json && !arguments.layout)
+    throw InputError("--json: found without --layout; a run writes JSON with --report FILE");
+  ModelDescription description = read_model(arguments.model);
+  apply(arguments, description.simulation);
+  const Model model = build_model(description);
+  if (arguments.layout) {
+    print(arguments.json ? layout_json(model) : layout_text(model));
+    return 0;
+  }
+  RealTimeOptions options = options_from(arguments);
+  if (!arguments.report.empty()) {
+    try {
+      check_writable(arguments.report);
+    } catch (const OutputError& error) {
+      throw InputError(error.what());
+    }
+  }
+  const StopOnSignal stop_on_signal;
+  const std::unique_ptr<UdpPort> port = open_port(arguments, model);
+  if (port && !arguments.quiet) print(port_line(arguments, *port));
+
+  RealTimeReport report;
+  {
+    ProgressThread progress(!arguments.quiet && !arguments.endless,
+                            description.simulation.duration);
+    options.progress = &progress.time;
+    report = run_real_time(model, description.simulation, options, port.get());
+  }
+  if (!arguments.report.empty())
+    write_file(arguments.report, realtime_json(report, model, port.get()));
+  if (!arguments.quiet) print(realtime_text(report, model, port.get()));
+  if (report.status != "failed") return 0;
+  fmt::print(stderr, "floatframe: the run failed: {}\n", report.message);
+  return 1;
+}
+
+void add_options(CLI::App& command, RealTimeArguments& a) {
+  const auto seconds = [&command](const char* name, std::string& value, const char* help) {
+    command.add_option(name, value, help)->type_name("SECONDS");
+  };
+  const auto words = [&command](const char* name, std::string& value,
+                                const std::vector<std::string>& known, const char* help) {
+    command.add_option(name, value, help)->check(CLI::IsMember(known))->type_name("WORD");
+  };
+  words("--coordinates", a.coordinates, {"relative", "absolute"},
+        "Formulation: relative (joint coordinates) or absolute (natural coordinates)");
+  words("--inertia", a.inertia, {"preprocessing", "projection"},
+        "Inertia terms: preprocessing (constant integrals) or projection (all nodes)");
+  seconds("--step", a.step, "Time step [s]; default: that of the model file");
+  seconds("--duration", a.duration, "Time to run [s]; default: that of the model file");
+  command.add_flag("--endless", a.endless, "Run until Ctrl-C instead");
+  words("--input", a.input, {"udp", "none"}, "Where inputs come from: udp or none (default)");
+  words("--output", a.output, {"udp", "none"}, "Where outputs go to: udp or none (default)");
+  command.add_option("--listen", a.listen, "Where inputs come in; default: 127.0.0.1:47100")
+      ->type_name("HOST:PORT");
+  command.add_option("--send", a.send, "Where outputs go to; default: 127.0.0.1:47101")
+      ->type_name("HOST:PORT");
+  command.add_flag("--lockstep", a.lock_step,
+                   "Wait before each step for the inputs that answer the last outputs");
+  seconds("--timeout", a.timeout, "Longest wait of --lockstep; default: 5");
+  seconds("--input-timeout", a.input_timeout,
+          "Inputs return to their initial values if none come for so long; default: never");
+  command
+      .add_option("--iterations", a.iterations,
+                  "Fixed number of Newton iterations a step; default: to convergence")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  seconds("--budget", a.budget, "No Newton iteration begins later in a step than this");
+  seconds("--max-lag", a.max_lag,
+          "Late steps catch up to this lag, then the clock is moved; default: 0.1");
+  command.add_option("--priority", a.priority, "Real-time priority (SCHED_FIFO)")
+      ->check(CLI::Range(1, 99))
+      ->type_name("1-99");
+  command.add_flag("--lock-memory", a.lock_memory, "Keep all memory of the program resident");
+  command.add_flag("--strict", a.strict,
+                   "Fail if the priority or the locked memory is not granted");
+  command.add_flag("--no-pace", a.no_pace, "As fast as possible, without the wall clock");
+  command.add_option("--report", a.report, "Write figures and histograms to this file as JSON")
+      ->type_name("FILE");
+  command.add_flag("--layout", a.layout, "Print names and order of the values in the packets only");
+  command.add_flag("--json", a.json, "With --layout: as JSON");
+  command.add_flag("--quiet", a.quiet, "No progress, no summary; faults are still shown");
+}
+
+}  // namespace
+
+void add_realtime_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<RealTimeArguments>();
+  CLI::App* command = app.add_subcommand(
+      "realtime", "Step a model with the wall clock; exchange inputs and outputs by UDP");
+  add_model_arguments(*command, arguments->model);
+  add_options(*command, *arguments);
+  command->footer(
+      "Ctrl-C ends the run with its summary. The packets are described in docs/realtime.md.\n"
+      "Exit codes: 0 done or stopped, 1 failed, 2 bad input.");
+  command->callback(
+      [arguments, &action] { action = [arguments] { return run_command(*arguments); }; });
+}
+
+}  // namespace floatframe

@@ -1,0 +1,38 @@
+#pragma once
+// The two clocks of a paced run, in nanoseconds: CLOCK_MONOTONIC, which nobody sets back, and the
+// processor time of the calling thread. The second one stands still while the host runs something
+// else, so their difference over a step tells preemption from computation. (On a virtual machine
+// time stolen by the hypervisor may count as processor time; only the host can tell.)
+#include <time.h>
+
+#include <cstdint>
+
+namespace floatframe {
+
+using Nanoseconds = std::int64_t;
+
+inline Nanoseconds nanoseconds(const timespec& t) noexcept {
+  return static_cast<Nanoseconds>(t.tv_sec) * 1'000'000'000 + t.tv_nsec;
+}
+
+inline Nanoseconds wall_clock() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return nanoseconds(t);
+}
+
+inline Nanoseconds thread_cpu_clock() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return nanoseconds(t);
+}
+
+/// Sleeps until the wall clock shows `due`; false if a signal ended the sleep early.
+inline bool sleep_until(Nanoseconds due) noexcept {
+  timespec t{};
+  t.tv_sec = static_cast<time_t>(due / 1'000'000'000);
+  t.tv_nsec = static_cast<long>(due % 1'000'000'000);
+  return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == 0;
+}
+
+}  // namespace floatframe

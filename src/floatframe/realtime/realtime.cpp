@@ -1,0 +1,104 @@
+#include "floatframe/realtime/realtime.hpp"
+
+#include <fmt/format.h>
+
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/realtime/denormals.hpp"
+#include "floatframe/realtime/realtime_runner.hpp"
+#include "floatframe/realtime/scheduling.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+namespace {
+
+StepOptions bounded(StepOptions s, const RealTimeOptions& options) {
+  s.fixed_iterations = options.fixed_iterations;
+  s.time_budget = options.time_budget;
+  return s;
+}
+
+/// A few steps of a second system of the same kind: program pages are mapped, calls into libraries
+/// are resolved, caches and branch predictors know the code. Nothing of it touches the run.
+template <class F>
+void warm_up(const Model& model, const SimulationDescription& d, const StepOptions& step_options,
+             const State& start) {
+  F f(model, d.inertia);
+  RealTimeReport report;
+  RealTimeOptions options;
+  options.paced = false;
+  RealTimeRunner<F> runner(f, step_options, options, d.step, 20.0 * d.step, nullptr, report);
+  runner.state() = start;
+  runner.run();
+  runner.sample();
+}
+
+template <class F>
+void run_with(F& f, State start, const SimulationDescription& d, const RealTimeOptions& options,
+              SignalPort* port, RealTimeReport& report) {
+  const StepOptions step_options = bounded(floatframe::step_options(f.model(), d), options);
+  start_accelerations(f, start, step_options.penalty_mass);
+  RealTimeRunner<F> runner(f, step_options, options, d.step, d.duration, port, report);
+  runner.state() = start;
+  const RealTimeScheduling scheduling({options.priority, options.lock_memory});
+  report.priority = scheduling.has_priority();
+  report.memory_locked = scheduling.memory_locked();
+  report.refusals = scheduling.refusals();
+  if (options.strict && !report.refusals.empty()) throw RunError(report.refusals.front());
+  using End = typename RealTimeRunner<F>::End;
+  End end = End::completed;
+  {
+    const FlushDenormals flush;
+    if (options.paced) warm_up<F>(f.model(), d, step_options, start);
+    const double stolen_before = stolen_time();
+    end = runner.run();
+    report.stolen = stolen_time() - stolen_before;
+  }
+  switch (end) {
+    case End::completed:
+      break;
+    case End::stopped:
+      report.status = "stopped";
+      break;
+    case End::failed:
+      report.status = "failed";
+      report.message = runner.failure();
+      break;
+    case End::no_inputs:
+      report.status = "failed";
+      report.message =
+          fmt::format("no inputs came in answer to the outputs at t = {:.9g} s", runner.state().t);
+      break;
+  }
+  const std::span<const double> row = runner.sample();
+  report.outputs.assign(row.begin() + 1, row.end());
+  const InputBuffer& inputs = runner.inputs();
+  report.inputs.assign(inputs.values().begin(), inputs.values().end());
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    report.refused_inputs.push_back(inputs.refused(i));
+}
+
+}  // namespace
+
+RealTimeReport run_real_time(const Model& model, const SimulationDescription& d,
+                             const RealTimeOptions& options, SignalPort* port) {
+  RealTimeReport report;
+  report.model = model.name;
+  report.coordinates = d.coordinates == Coordinates::relative ? "relative" : "absolute";
+  report.inertia = d.inertia == InertiaMethod::preprocessing ? "preprocessing" : "projection";
+  report.step = d.step;
+  report.paced = options.paced;
+  RelativeFormulation tree(model, d.inertia);
+  const State start = relative_start(tree, d.start);
+  if (d.coordinates == Coordinates::relative) {
+    run_with(tree, start, d, options, port, report);
+  } else {
+    AbsoluteFormulation f(model, d.inertia);
+    State state;
+    f.start_from(tree, start.q, start.v, state.q, state.v);
+    run_with(f, std::move(state), d, options, port, report);
+  }
+  return report;
+}
+
+}  // namespace floatframe

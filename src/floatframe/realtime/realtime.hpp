@@ -1,0 +1,83 @@
+#pragma once
+// A model that runs in step with the wall clock: step k starts at k h after the start of the clock,
+// takes the inputs that are there, computes the state at (k + 1) h and sends its outputs as soon as
+// they are known. So outputs are ahead of the clock by h less the time of computation, and a
+// controller that answers within that time acts on the next step.
+//
+// Overruns. A step whose computation takes longer than h is an overrun: by the *program* if the
+// processor time of the stepping thread exceeds h, by the *host* otherwise (something else ran on
+// the processor). Steps that start late for it start at once, one after the other, until the model
+// has caught up; if it is more than `max_lag` behind, the clock is moved instead (a *slip*): model
+// time then stays behind the wall clock by the sum of all slips.
+#include <array>
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "floatframe/model/description.hpp"
+#include "floatframe/model/model.hpp"
+#include "floatframe/realtime/histogram.hpp"
+#include "floatframe/realtime/signal_port.hpp"
+
+namespace floatframe {
+
+struct RealTimeOptions {
+  bool paced = true;     ///< false: as fast as possible
+  bool endless = false;  ///< until `stop`; else for the duration of the simulation description
+  /// > 0: so many Newton iterations a step, accepted whatever their error. 0: to convergence, with
+  /// the step divided if need be, down to an eighth.
+  int fixed_iterations = 0;
+  double time_budget = 0.0;  ///< > 0: no Newton iteration begins later in a step [s of wall clock]
+  double max_lag = 0.1;      ///< [s]; 0: never catch up
+  double input_timeout = 0.0;  ///< > 0: initial values return if no inputs come for so long [s]
+  int priority = 0;            ///< 1 to 99: SCHED_FIFO
+  bool lock_memory = false;
+  bool strict = false;  ///< RunError if priority or locked memory is not granted
+  const std::atomic<bool>* stop = nullptr;  ///< ends the run after the present step
+  std::atomic<double>* progress = nullptr;  ///< model time [s], for another thread to look at
+};
+
+struct StepsOfWork {
+  long steps = 0;
+  double cpu_sum = 0.0, cpu_max = 0.0;  ///< processor time [s]
+};
+
+struct RealTimeReport {
+  std::string model, coordinates, inertia;
+  double step = 0.0;
+  double time = 0.0;  ///< model time reached [s]
+  double wall = 0.0;  ///< [s], start of the first step to end of the last one
+  bool paced = true, priority = false, memory_locked = false;
+  std::vector<std::string> refusals;  ///< priority or locked memory that was not granted
+  std::string status = "completed";   ///< "completed", "stopped" or "failed"
+  std::string message;                ///< why it failed: time, culprit
+  long steps = 0, substeps = 0, iterations = 0, factorizations = 0;
+  long cut_short = 0;  ///< steps accepted before they had converged
+
+  Histogram cpu;      ///< processor time of each step: inputs, integration, outputs
+  Histogram elapsed;  ///< wall clock of the same
+  Histogram wake;     ///< wall clock between the due time and the wake-up of a sleep: the host's
+  double worst_cpu_at = 0.0;      ///< model time of the largest processor time [s]
+  long worst_cpu_iterations = 0;  ///< Newton iterations of that step
+  /// Steps by the number of their Newton iterations: the last entry holds all with more. Work grows
+  /// with the iterations; a slow step with few of them was slowed down by the machine.
+  std::array<StepsOfWork, 24> by_iterations{};
+  long program_overruns = 0, host_overruns = 0;
+  long late_steps = 0;  ///< not finished when the next one was due
+  long slips = 0;
+  double slipped = 0.0;  ///< sum of all slips [s]
+  double stolen = 0.0;   ///< of all processors of a virtual machine, by its host [s]; 0 if unknown
+  long preemptions = 0, page_faults = 0;  ///< of the stepping thread
+
+  double max_position_violation = 0.0, max_velocity_violation = 0.0;
+  long input_timeouts = 0;
+  std::vector<double> inputs, outputs;  ///< values at the end
+  std::vector<long> refused_inputs;     ///< values refused, by input
+};
+
+/// Runs until the duration is over, `stop` is set or a step fails (`status`). `port` may be null.
+/// Throws InputError or RunError if the run cannot start.
+RealTimeReport run_real_time(const Model& model, const SimulationDescription& description,
+                             const RealTimeOptions& options, SignalPort* port);
+
+}  // namespace floatframe

@@ -1,0 +1,186 @@
+#pragma once
+// The loop of a paced run, for any formulation; see realtime.hpp for what it does. All memory is
+// taken by the constructor: `run` neither allocates, locks, prints nor throws.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "floatframe/realtime/realtime.hpp"
+#include "floatframe/simulation/runner.hpp"
+
+namespace floatframe {
+
+template <class F>
+class RealTimeRunner {
+ public:
+  /// `step`, `duration` [s]; `report` is filled by `run`.
+  RealTimeRunner(F& formulation, const StepOptions& step_options, const RealTimeOptions& options,
+                 double step, double duration, SignalPort* port, RealTimeReport& report)
+      : f_(formulation),
+        runner_(formulation, step_options,
+                step_options.fixed_iterations > 0 ? step : smallest_part * step),
+        options_(options),
+        step_(step),
+        duration_(duration),
+        port_(port),
+        inputs_(formulation.model()),
+        row_(formulation.model().outputs.size() + 1, 0.0),
+        report_(report) {}
+
+  State& state() noexcept { return runner_.state(); }
+  const InputBuffer& inputs() const noexcept { return inputs_; }
+  /// The culprit of a failed step (allocates: after `run`).
+  std::string failure() const { return runner_.failure(); }
+  /// Time and outputs at the present state.
+  std::span<const double> sample() noexcept {
+    runner_.sample(row_.data());
+    return row_;
+  }
+
+  enum class End { completed, stopped, failed, no_inputs };
+
+  End run() noexcept {
+    const rusage before = usage();
+    const End end = loop();
+    const rusage after = usage();
+    report_.preemptions = after.ru_nivcsw - before.ru_nivcsw;
+    report_.page_faults = after.ru_minflt - before.ru_minflt + after.ru_majflt - before.ru_majflt;
+    report_.substeps = runner_.substeps();
+    report_.iterations = runner_.iterations();
+    report_.factorizations = runner_.factorizations();
+    report_.cut_short = runner_.cut_short();
+    report_.max_position_violation = runner_.max_position_violation();
+    report_.max_velocity_violation = runner_.max_velocity_violation();
+    report_.time = runner_.state().t;
+    return end;
+  }
+
+ private:
+  static constexpr double smallest_part = 0.125;
+
+  static rusage usage() noexcept {
+    rusage u{};
+    getrusage(RUSAGE_THREAD, &u);
+    return u;
+  }
+  bool stopped() const noexcept {
+    return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed);
+  }
+
+  End loop() noexcept {
+    const long steps = options_.endless ? std::numeric_limits<long>::max()
+                                        : std::lround(std::ceil(duration_ / step_ - 1e-9));
+    const double h = 1e9 * step_;
+    const auto period = static_cast<Nanoseconds>(h);
+    const auto max_lag = static_cast<Nanoseconds>(1e9 * options_.max_lag);
+    const long patience = options_.input_timeout > 0.0
+                              ? std::max(1L, std::lround(options_.input_timeout / step_))
+                              : std::numeric_limits<long>::max();
+    long without_inputs = 0;
+    f_.set_inputs(inputs_.values());
+    send(0, steps == 0);
+    const Nanoseconds start = wall_clock();
+    Nanoseconds base = start;  // due time of step 0
+    End end = End::completed;
+    for (long k = 0; k < steps; ++k) {
+      if (stopped()) {
+        end = End::stopped;
+        break;
+      }
+      Nanoseconds due = base + std::llround(static_cast<double>(k) * h);
+      if (options_.paced) {
+        const Nanoseconds lag = wall_clock() - due;
+        if (lag < 0) {
+          // A signal ends the sleep early: it either stops the run or means nothing.
+          while (!sleep_until(due) && !stopped()) {
+          }
+          if (stopped()) {
+            end = End::stopped;
+            break;
+          }
+          report_.wake.add(wall_clock() - due);
+        } else if (lag > max_lag) {
+          base += lag;
+          due += lag;
+          ++report_.slips;
+          report_.slipped += 1e-9 * static_cast<double>(lag);
+        }
+      }
+      if (port_ != nullptr && !port_->wait()) {
+        end = End::no_inputs;
+        break;
+      }
+      const Nanoseconds wall_begin = wall_clock(), cpu_begin = thread_cpu_clock();
+      if (port_ != nullptr && port_->receive(inputs_)) {
+        without_inputs = 0;
+        f_.set_inputs(inputs_.values());
+      } else if (++without_inputs == patience) {
+        ++report_.input_timeouts;
+        inputs_.reset();
+        f_.set_inputs(inputs_.values());
+      }
+      // Steps of one and the same size; only the last may be a part of one.
+      const bool part = k + 1 == steps && static_cast<double>(steps) * step_ > duration_;
+      const double to = part ? duration_ : static_cast<double>(k + 1) * step_;
+      const long iterations = runner_.iterations();
+      const bool good = runner_.advance(part ? duration_ - static_cast<double>(k) * step_ : step_);
+      if (good) {
+        runner_.state().t = to;
+        ++report_.steps;
+        send(static_cast<std::uint64_t>(k) + 1, k + 1 == steps);
+      }
+      const Nanoseconds cpu = thread_cpu_clock() - cpu_begin;
+      const Nanoseconds wall_end = wall_clock();
+      count(cpu, wall_end - wall_begin, period, runner_.iterations() - iterations);
+      if (options_.paced && wall_end > due + period) ++report_.late_steps;
+      if (options_.progress != nullptr)
+        options_.progress->store(runner_.state().t, std::memory_order_relaxed);
+      if (!good) {
+        end = End::failed;
+        break;
+      }
+    }
+    report_.wall = 1e-9 * static_cast<double>(wall_clock() - start);
+    if (end != End::completed) send(static_cast<std::uint64_t>(report_.steps), true);
+    return end;
+  }
+
+  void count(Nanoseconds cpu, Nanoseconds elapsed, Nanoseconds period, long iterations) noexcept {
+    const double seconds = 1e-9 * static_cast<double>(cpu);
+    if (seconds > report_.cpu.max()) {
+      report_.worst_cpu_at = runner_.state().t;
+      report_.worst_cpu_iterations = iterations;
+    }
+    const auto most = static_cast<long>(report_.by_iterations.size()) - 1;
+    StepsOfWork& work = report_.by_iterations[static_cast<std::size_t>(std::min(iterations, most))];
+    ++work.steps;
+    work.cpu_sum += seconds;
+    work.cpu_max = std::max(work.cpu_max, seconds);
+    report_.cpu.add(cpu);
+    report_.elapsed.add(elapsed);
+    if (cpu > period)
+      ++report_.program_overruns;
+    else if (elapsed > period)
+      ++report_.host_overruns;
+  }
+
+  void send(std::uint64_t step, bool last) noexcept {
+    if (port_ == nullptr || !port_->wants_outputs()) return;
+    runner_.sample(row_.data());
+    port_->send(step, row_[0], std::span<const double>(row_).subspan(1), last);
+  }
+
+  F& f_;
+  Runner<F> runner_;
+  RealTimeOptions options_;
+  double step_, duration_;
+  SignalPort* port_;
+  InputBuffer inputs_;
+  std::vector<double> row_;
+  RealTimeReport& report_;
+};
+
+}  // namespace floatframe
