@@ -519,24 +519,6 @@ class Builder {
 
 }  // namespace
 
-const char* force_type_name(ForceType type) noexcept {
-  switch (type) {
-    case ForceType::spring_damper:
-      return "spring_damper";
-    case ForceType::guided_spring:
-      return "guided_spring";
-    case ForceType::joint_spring:
-      return "joint_spring";
-    case ForceType::tyre:
-      return "tyre";
-    case ForceType::force:
-      return "force";
-    case ForceType::torque:
-      return "torque";
-  }
-  return "force";
-}
-
 const std::string& Model::body_name(int body) const {
   static const std::string ground = ground_name;
   return body < 0 ? ground : bodies[static_cast<std::size_t>(body)].name;
