@@ -75,21 +75,23 @@ void ModelBuilder::finish() {
       if (m.body == static_cast<int>(i) && m.node < 0) length = std::max(length, m.X_NM.p.norm());
     if (v.m > 0.0) length = std::max(length, std::sqrt(std::max(v.P_u.trace(), 0.0) / v.m));
     b.length = length > 0.0 ? length : 1.0;
-    const auto amplitudes = [&](const std::map<std::string, VecX>& given, std::vector<VecX>& out) {
+    const auto amplitudes = [&](const char* key, const std::map<std::string, VecX>& given,
+                                std::vector<VecX>& out) {
       const auto it = given.find(b.name);
       out.push_back(it == given.end() ? VecX() : it->second);
       if (it != given.end() && it->second.size() != b.modes())
-        faults.add({}, "initial." + b.name + ": found " + std::to_string(it->second.size()) +
-                           " modal amplitudes, expected " + std::to_string(b.modes()));
+        faults.add(d.bodies[i].origin.of(key),
+                   std::string(key) + "." + b.name + ": found a list of " +
+                       std::to_string(it->second.size()) + ", expected a list of " +
+                       std::to_string(b.modes()) + " amplitudes, one a mode");
     };
-    amplitudes(d.amplitudes, model.amplitudes);
-    amplitudes(d.amplitude_rates, model.amplitude_rates);
+    amplitudes("initial.amplitudes", d.amplitudes, model.amplitudes);
+    amplitudes("initial.amplitude_rates", d.amplitude_rates, model.amplitude_rates);
   }
   model.mean_mass = heavy > 0 ? mass / heavy : 1.0;
-  for (const auto& [name, values] : d.amplitudes) {
-    (void)values;
-    if (body_index(name, {}, "initial.amplitudes") == unknown) continue;
-  }
+  for (const auto& [name, values] : d.amplitudes) body_index(name, {}, "initial.amplitudes");
+  for (const auto& [name, values] : d.amplitude_rates)
+    body_index(name, {}, "initial.amplitude_rates");
 }
 
 }  // namespace floatframe
