@@ -14,7 +14,8 @@ namespace {
 /// A clamped bar with `modes` in place of its last lines, `more` below; the fault without the
 /// folder.
 template <class Use>
-std::string fault_of(const std::string& modes, const std::string& more, const Use& use) {
+std::string fault_of(const std::string& modes, const std::string& more, const Use& use,
+                     int elements = 10, const std::string& clamped = "      clamped: [a]\n") {
   const std::string name =
       std::string("bar_") + ::testing::UnitTest::GetInstance()->current_test_info()->name();
   const auto path = std::filesystem::temp_directory_path() / (name + ".yaml");
@@ -24,9 +25,9 @@ std::string fault_of(const std::string& modes, const std::string& more, const Us
                          "  bar:\n"
                          "    flexible:\n"
                          "      material: {young: 70e9, poisson: 0.3, density: 2700}\n"
-                         "      bars: {b: {from: a, to: b, elements: 10, section: {round: 0.01}}}\n"
-                         "      clamped: [a]\n"
-                      << modes << more;
+                         "      bars: {b: {from: a, to: b, elements: "
+                      << elements << ", section: {round: 0.01}}}\n"
+                      << clamped << modes << more;
   std::string text = "no fault";
   try {
     use(read_model(path.string()));
@@ -68,6 +69,32 @@ TEST(BuildFaults, MassModelThatDoesNotGoWithTheInertiaMethod) {
   EXPECT_EQ(fault_of(modes + "six_dof\n", "", with(InertiaMethod::projection)), "no fault");
   EXPECT_EQ(fault_of(modes + "hermite\n", "", with(InertiaMethod::preprocessing)), "no fault");
   EXPECT_EQ(fault_of(modes + "isoparametric\n", "", with(InertiaMethod::projection)), "no fault");
+}
+
+// Twenty shapes on the twenty transverse dofs that the ten free nodes of a bar have.
+TEST(BuildFaults, AsManyModesAsTheMeshHasWaysToMove) {
+  const auto text = [](int shapes, const std::string& joint, int elements) {
+    const std::string bar = "      analytic: {dynamic_per_plane: " + std::to_string(shapes) + "}\n";
+    std::string fault = fault_of(bar, joint, build, elements, "");
+    const std::size_t number = fault.find("(relative");
+    return number == std::string::npos ? fault : fault.substr(0, number);
+  };
+  const std::string hinge =
+      "joints: {h: {type: universal, child: bar, at: a, axis: y, axis_2: z}}\n";
+  EXPECT_EQ(text(8, hinge, 10), "no fault");
+  EXPECT_EQ(text(9, hinge, 10),
+            ":5:5: bodies.bar: found 20 modes of which a combination moves no mass ");
+  EXPECT_EQ(text(9, "", 10),
+            ":5:5: bodies.bar: found 20 modes of which a combination moves no mass ");
+  EXPECT_EQ(text(9, hinge, 20), "no fault");
+  // What is fixed to the ground has no rigid motion that its modes could repeat.
+  const std::string weld = "joints: {h: {type: weld, child: bar, at: a}}\n";
+  EXPECT_EQ(text(9, weld, 10), "no fault");
+  EXPECT_EQ(text(10, weld, 10),
+            ":5:5: bodies.bar: found 22 modes of which a combination moves no mass ");
+  EXPECT_EQ(text(0, weld, 1), "no fault");
+  EXPECT_EQ(text(0, hinge, 1),
+            ":5:5: bodies.bar: found 2 modes of which a combination moves no mass ");
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "floatframe/model/build_flexible.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/modal_mass.hpp"
 #include "floatframe/model/model_builder.hpp"
 
 namespace floatframe {
@@ -28,6 +31,22 @@ void check_rigid(const BodyDescription& b, const RigidDescription& r, Faults& fa
         b.origin.of("inertia"),
         who + ".inertia: found principal moments " + point_text(J) +
             ", expected positive ones of which none exceeds the sum of the other two [kg m2]");
+}
+
+/// Twists at the origin of the body, in its axes, that a joint to the ground lets it have.
+Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
+  JointMotion motion;
+  const double q[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, v[6] = {};
+  joint_motion(joint.type, Vec3::UnitZ(), joint.axis_2, q, v, motion);
+  const Vec3 p_BM =
+      M.node < 0 ? M.X_NM.p : Vec3(body.data->nodes[static_cast<std::size_t>(M.node)].p + M.X_NM.p);
+  Mat6X free = motion.H.leftCols(joint_velocities(joint.type));
+  for (Eigen::Index k = 0; k < free.cols(); ++k) {
+    const Vec3 w = M.X_NM.R * free.col(k).tail<3>();
+    free.col(k).head<3>() = M.X_NM.R * free.col(k).head<3>() - w.cross(p_BM);
+    free.col(k).tail<3>() = w;
+  }
+  return free;
 }
 
 }  // namespace
@@ -57,6 +76,27 @@ void ModelBuilder::bodies() {
     model.bodies.push_back(std::move(body));
   }
   if (d.bodies.empty()) faults.add({}, "bodies: found none, expected at least one body");
+}
+
+void ModelBuilder::modal_masses() {
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Body& b = model.bodies[i];
+    if (b.modes() == 0) continue;
+    // Any motion, unless a joint to the ground says which.
+    Mat6X free = Mat6::Identity();
+    for (const Joint& j : model.joints) {
+      if (j.parent != ground_index || j.child != static_cast<int>(i)) continue;
+      if (joint_velocities(j.type) >= free.cols()) continue;
+      free = rigid_motions(j, b, marker(j.frame_M));
+    }
+    const double own = relative_modal_mass(b.data->invariants, free);
+    if (own > least_modal_mass) continue;
+    std::ostringstream s;
+    s << "bodies." << b.name << ": found " << b.modes()
+      << " modes of which a combination moves no mass (relative modal mass " << own
+      << "), expected fewer modes or more elements";
+    faults.add(d.bodies[i].origin.of("flexible"), s.str());
+  }
 }
 
 void ModelBuilder::finish() {

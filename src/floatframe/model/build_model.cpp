@@ -48,6 +48,7 @@ Model build_model(const ModelDescription& description) {
   b.outputs();
   b.faults.throw_if_any();
   b.free_joints();
+  b.modal_masses();
   b.finish();
   b.faults.throw_if_any();
   return std::move(b.model);

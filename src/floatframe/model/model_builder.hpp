@@ -26,6 +26,8 @@ struct ModelBuilder {
   void rods();
   void forces();
   void outputs();
+  /// Refuses bodies whose modes have no inertia of their own.
+  void modal_masses();
   /// Lengths and masses that scale the equations; start values of the modes.
   void finish();
 
