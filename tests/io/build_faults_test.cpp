@@ -83,18 +83,18 @@ TEST(BuildFaults, AsManyModesAsTheMeshHasWaysToMove) {
       "joints: {h: {type: universal, child: bar, at: a, axis: y, axis_2: z}}\n";
   EXPECT_EQ(text(8, hinge, 10), "no fault");
   EXPECT_EQ(text(9, hinge, 10),
-            ":5:5: bodies.bar: found 20 modes of which a combination moves no mass ");
+            ":6:7: bodies.bar: found 20 modes of which a combination moves no mass ");
   EXPECT_EQ(text(9, "", 10),
-            ":5:5: bodies.bar: found 20 modes of which a combination moves no mass ");
+            ":6:7: bodies.bar: found 20 modes of which a combination moves no mass ");
   EXPECT_EQ(text(9, hinge, 20), "no fault");
   // What is fixed to the ground has no rigid motion that its modes could repeat.
   const std::string weld = "joints: {h: {type: weld, child: bar, at: a}}\n";
   EXPECT_EQ(text(9, weld, 10), "no fault");
   EXPECT_EQ(text(10, weld, 10),
-            ":5:5: bodies.bar: found 22 modes of which a combination moves no mass ");
+            ":6:7: bodies.bar: found 22 modes of which a combination moves no mass ");
   EXPECT_EQ(text(0, weld, 1), "no fault");
   EXPECT_EQ(text(0, hinge, 1),
-            ":5:5: bodies.bar: found 2 modes of which a combination moves no mass ");
+            ":6:7: bodies.bar: found 2 modes of which a combination moves no mass ");
 }
 
 }  // namespace
