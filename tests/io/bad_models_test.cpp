@@ -118,6 +118,18 @@ const Case cases[] = {
      "joint_type.yaml:8:15: joints.pin.type: found 'hinge', expected weld, revolute, prismatic, "
      "cylindrical, universal, spherical or free"},
     {"key_is_a_list.yaml", "key_is_a_list.yaml:2:3: a key must be a name"},
+    {"key_of_another_group.yaml",
+     "key_of_another_group.yaml:5:5: bodies.block: unknown key 'mas', did you mean 'rigid.mass'?"
+     "\n"
+     "key_of_another_group.yaml:6:5: bodies.block.rigid: missing key 'mass'"
+     "\n"
+     "key_of_another_group.yaml:6:13: bodies.block.rigid: unknown key 'mas', did you mean 'mass'?"
+     "\n"
+     "key_of_another_group.yaml:8:5: bodies.bar: unknown key 'mass_modle', did you mean "
+     "'flexible.mass_model'?"
+     "\n"
+     "key_of_another_group.yaml:10:7: bodies.bar.flexible: unknown key 'mas', did you mean "
+     "'masses'?"},
     {"latin1.yaml", "latin1.yaml:2:10: this is not a text file (UTF-8)"},
     {"law_jumps.yaml",
      "law_jumps.yaml:14:11: forces.spring.spring.piecewise[1]: the law jumps from 100 to 200 at 1, "

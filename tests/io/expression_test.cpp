@@ -117,6 +117,9 @@ TEST(Suggestion, NearestKnownName) {
   EXPECT_EQ(did_you_mean("Clamped", known), ", did you mean 'clamped'?");
   EXPECT_EQ(did_you_mean("calmped", known), ", did you mean 'clamped'?");
   EXPECT_EQ(did_you_mean("colour", known), "");
+  EXPECT_EQ(did_you_mean("mas", {"masses", "mass_model"}), ", did you mean 'masses'?");
+  EXPECT_EQ(did_you_mean("mas", {"material", "mass"}), ", did you mean 'mass'?");
+  EXPECT_EQ(did_you_mean("ma", {"masses"}), "");
   EXPECT_EQ(edit_distance("abcd", "abdc"), 1);
   EXPECT_EQ(edit_distance("", "abc"), 3);
 }

@@ -2,6 +2,7 @@
 // Random flexible and rigid bodies, systems of them, and states, for tests that run over every
 // joint type. Modes are random numbers, not the shapes of any structure: nothing in the
 // formulations may depend on more than the invariants and the modal rows of the nodes.
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,9 +14,12 @@
 
 namespace floatframe::test {
 
-inline constexpr JointType all_joint_types[] = {
-    JointType::weld,      JointType::revolute,  JointType::prismatic, JointType::cylindrical,
-    JointType::universal, JointType::spherical, JointType::free};
+/// Every joint of the library's list.
+inline constexpr auto all_joint_types = [] {
+  std::array<JointType, std::size(joint_kinds)> types{};
+  for (std::size_t k = 0; k < types.size(); ++k) types[k] = joint_kinds[k].type;
+  return types;
+}();
 
 inline std::string node_name(int k) {
   std::string name("n");

@@ -13,6 +13,7 @@
 #include "floatframe/io/report_html.hpp"
 #include "floatframe/io/results_csv.hpp"
 #include "floatframe/io/summary_json.hpp"
+#include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -145,6 +146,7 @@ std::string files_text(const OutputPaths& paths, const RunArguments& arguments, 
 int run_model(const RunArguments& arguments) {
   ModelDescription description = read_model(arguments.model);
   apply(arguments, description.simulation);
+  check_inertia_method(description, description.simulation.inertia);
   std::optional<Model> model;
   std::string fault;
   try {

@@ -92,7 +92,9 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
   } else if (rigid_value && flexible_value) {
     s.fault("found both rigid and flexible, expected a key 'use' that says which");
   }
-  s.finish();
+  s.finish({"rigid.mass", "rigid.centre_of_mass", "rigid.inertia", "flexible.material",
+            "flexible.bars", "flexible.masses", "flexible.clamped", "flexible.static_modes",
+            "flexible.normal_modes", "flexible.mass_model", "flexible.damping"});
   if (!rigid_value && !flexible_value) {
     s.fault("missing key 'rigid' or 'flexible'");
     known.sound = false;
@@ -106,8 +108,10 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
       rigid = read_rigid(self, *group);
     }
   if (flexible_value)
-    if (auto group = flexible_value->section("a map with material, bars and modes"))
+    if (auto group = flexible_value->section("a map with material, bars and modes")) {
+      for (const auto& [key, mark] : group->origin().keys) body.origin.keys.emplace(key, mark);
       flexible = read_flexible(self, *group);
+    }
   const bool take_flexible = flexible_value && (!rigid_value || (use && *use == 1));
   known.flexible = take_flexible;
   if (take_flexible && flexible) {

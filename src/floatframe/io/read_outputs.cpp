@@ -204,7 +204,7 @@ class OutputReader {
 };
 
 void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValue& value,
-                     std::map<std::string, VecX>& out) {
+                     const char* key, std::map<std::string, VecX>& out) {
   for (const auto& [name, v] : value.named("a map of bodies to lists of modal amplitudes", true)) {
     bool off = false;
     const auto body = self.resolve(EntityKind::body, name, &off);
@@ -228,6 +228,9 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
                              n < 0 ? "a list of amplitudes" : what.c_str());
     if (!a) continue;
     out[*body] = Eigen::Map<const VecX>(a->data(), static_cast<Eigen::Index>(a->size()));
+    // With normal modes below a frequency their number is known only when the body is reduced.
+    for (BodyDescription& b : model.description.bodies)
+      if (b.name == *body) b.origin.keys[key] = v.mark();
   }
 }
 
@@ -241,9 +244,9 @@ void read_initial(const ModelInstance& self, ReadModel& model) {
   auto s = value->section("a map with amplitudes and amplitude_rates");
   if (!s) return;
   if (const auto v = s->get("amplitudes"))
-    read_amplitudes(self, model, *v, model.description.amplitudes);
+    read_amplitudes(self, model, *v, "initial.amplitudes", model.description.amplitudes);
   if (const auto v = s->get("amplitude_rates"))
-    read_amplitudes(self, model, *v, model.description.amplitude_rates);
+    read_amplitudes(self, model, *v, "initial.amplitude_rates", model.description.amplitude_rates);
   s->finish();
 }
 

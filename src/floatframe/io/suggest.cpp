@@ -26,8 +26,8 @@ int edit_distance(std::string_view a, std::string_view b) {
   return last[n];
 }
 
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
-  if (name.size() > 100) return {};
+const std::string* nearest(std::string_view name, const std::vector<std::string>& known) {
+  if (name.size() > 100) return nullptr;
   const std::string* best = nullptr;
   int distance = std::max(name.size() > 1 ? 1 : 0, static_cast<int>(name.size()) / 3) + 1;
   for (const std::string& k : known) {
@@ -35,6 +35,16 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
     const int d = edit_distance(name, k);
     if (d < distance) distance = d, best = &k;
   }
+  if (best || name.size() < 3) return best;
+  // A word broken off: the shortest that goes on from there.
+  for (const std::string& k : known)
+    if (std::string_view(k).substr(0, name.size()) == name && (!best || k.size() < best->size()))
+      best = &k;
+  return best;
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
+  const std::string* best = nearest(name, known);
   return best ? ", did you mean '" + *best + "'?" : std::string();
 }
 

@@ -10,8 +10,11 @@ namespace floatframe {
 /// Number of single-letter edits between two names, case ignored.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// ", did you mean 'name'?" or an empty text if nothing known is near (a third of the letters, at
-/// least one).
+/// The known name that is near (a third of the letters, at least one, are edited) or, if none is,
+/// the shortest that begins with `name` (three letters or more); null if nothing fits.
+const std::string* nearest(std::string_view name, const std::vector<std::string>& known);
+
+/// ", did you mean 'name'?" with the nearest known name, or an empty text.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace floatframe

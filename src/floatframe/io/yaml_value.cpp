@@ -301,15 +301,21 @@ std::optional<YamlValue> YamlSection::require(const char* key) {
   return v;
 }
 
-void YamlSection::finish() {
+void YamlSection::finish(const std::vector<std::string>& elsewhere) {
   for (const YamlEntry& e : value_.node().entries) {
     if (std::find(asked_.begin(), asked_.end(), e.key) != asked_.end()) continue;
     std::vector<std::string> free;
     for (const std::string& k : asked_)
       if (!has(k.c_str())) free.push_back(k);
-    value_.context().faults->add(
-        {*value_.context().file, e.line, e.column},
-        path_prefix() + "unknown key '" + shortened(e.key) + "'" + did_you_mean(e.key, free));
+    std::string hint = did_you_mean(e.key, free);
+    if (hint.empty()) {  // a key of another group: its path is the hint
+      std::vector<std::string> last;
+      for (const std::string& k : elsewhere) last.push_back(k.substr(k.rfind('.') + 1));
+      if (const std::string* best = nearest(e.key, last))
+        hint = ", did you mean '" + elsewhere[static_cast<std::size_t>(best - last.data())] + "'?";
+    }
+    value_.context().faults->add({*value_.context().file, e.line, e.column},
+                                 path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint);
   }
 }
 

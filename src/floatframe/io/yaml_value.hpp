@@ -138,8 +138,9 @@ class YamlSection {
   std::optional<YamlValue> get(const char* key);
   /// The value of a key that must be there; a fault if it is not.
   std::optional<YamlValue> require(const char* key);
-  /// Faults for all keys nobody asked for.
-  void finish();
+  /// Faults for all keys nobody asked for. `elsewhere`: keys that belong into other groups, as
+  /// "group.key", to suggest where nothing here is near.
+  void finish(const std::vector<std::string>& elsewhere = {});
 
   /// Marks of the entity and of all its keys.
   Origin origin() const;

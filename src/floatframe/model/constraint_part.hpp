@@ -9,7 +9,10 @@
 //   distance       (d.d - L^2)/(2L) = 0                       1 row
 //   drive_position z_a.d - f(t) = 0                           1 row
 //   drive_angle    l (angle of x_b about z_a - f(t)) = 0      1 row
+// A new kind is two functions and one entry in the list of constraint_part.cpp; the generic tests
+// run over the list.
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +46,25 @@ PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept;
 /// Fills `rows[0 .. part.rows())`.
 void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                          double t, ConstraintRow* rows) noexcept;
+
+/// K += d(sum lambda_r gradient_r)/d(motion): the exact geometric stiffness of multipliers (or
+/// penalty forces) on the rows. Not symmetric where rotations meet, because increments of a
+/// rotation multiply from the left.
+void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
+                              const MarkerState& b, const double* lambda, Mat12& K) noexcept;
+
+/// What a kind of part must supply: step-time functions, noexcept and free of allocation.
+struct ConstraintKind {
+  ConstraintPart::Kind kind;
+  const char* name;
+  bool on_axis;  ///< the gradient is that of phi only where both markers share the z axis
+  void (*evaluate)(const ConstraintPart&, const MarkerState& a, const MarkerState& b, double t,
+                   ConstraintRow* rows) noexcept;
+  void (*curvature)(const ConstraintPart&, const MarkerState& a, const MarkerState& b,
+                    const double* lambda, Mat12& K) noexcept;
+};
+/// In the order of ConstraintPart::Kind.
+std::span<const ConstraintKind> constraint_kinds() noexcept;
 
 /// Parts that hold joint `index` of the model closed (without its motion).
 void append_joint_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);

@@ -1,17 +1,20 @@
 #pragma once
-// Force elements between two markers (a may be absent). A force is a scalar f(s, sdot) of a measure
-// s with gradient g: generalised force Q = -f g (tension positive), tangents -dQ/dq = f_s g g^T + f
-// (dg/dq), -dQ/dqdot = f_sdot g g^T. Each element returns its wrenches, the rows of its tangent,
-// and what outputs want to know.
-//   spring_damper  s = |r_b - r_a|, g along the line; f (I - n n^T)/s is its geometric stiffness
-//   guided_spring  s = e.(r_a - r_b), e fixed in the body of a; the reaction acts on a at the point
-//   r_b joint_spring   s = displacement along, or angle about, z of a tyre           vertical: f =
-//   max(0, k (R - h) + damping) upwards; radial: along the road normal force, torque  direction *
-//   magnitude(t)
+// Force elements between two markers (a may be absent). Most are a scalar f(s, sdot) of a measure s
+// with gradient g, tension positive: generalised force Q = -f g. The formulas stand in the file of
+// each kind (force_*.cpp); force_kind.hpp has the list of them.
+//
+// A step wants the wrench and the part of the tangent that a symmetric factorisation can use: rows
+// g with weights, -dQ/dq ~ sum k g g^T, -dQ/dqdot ~ sum c g g^T. The exact derivatives are in
+// ForceTangent. What the rows leave out of them, kind by kind, is said in its list of regimes and
+// held by the tests: the dependence of rates on positions (smaller than the damping by h |v| / s, h
+// the step), the turning of axes and loads, whatever is not symmetric. It costs iterations, not
+// accuracy.
 #include <span>
 
+#include "floatframe/model/law_energy.hpp"
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
+#include "floatframe/model/road.hpp"
 
 namespace floatframe {
 
@@ -29,21 +32,24 @@ struct ForceState {
   double energy = 0.0;  ///< potential energy [J]
 };
 
-/// Height and slope of a road at x.
-struct RoadPoint {
-  double z = 0.0, slope = 0.0;
+/// Derivatives of the wrench (torques in world axes about the marker points) with respect to small
+/// motions and rates of the markers, in the order of Vec12; the other one held.
+struct ForceTangent {
+  Mat12 K;  ///< -d(wrench)/d(motion)
+  Mat12 C;  ///< -d(wrench)/d(rates)
 };
-RoadPoint road_at(const Road& road, double x) noexcept;
 
 /// `origin`: the point that the markers' positions are measured from. `reference_angle` picks the
 /// turn of a joint angle: the result lies within half a turn of it. `inputs`: values of
-/// `model.inputs`; the tangent rows hold at fixed inputs.
+/// `model.inputs`; the tangents hold at fixed inputs.
 void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,
                     ForceState& out, std::span<const double> inputs = {}) noexcept;
 
-/// Potential energy of a law: integral of spring(s) from 0 to s (from the nearest end of its first
-/// piece outwards).
-double law_energy(const PiecewisePolynomial& law, double s) noexcept;
+/// The exact tangent of the same element at the same place.
+void evaluate_force_tangent(const Model& model, const Force& force, const MarkerState& a,
+                            const MarkerState& b, const Vec3& origin, double t,
+                            double reference_angle, ForceTangent& out,
+                            std::span<const double> inputs = {}) noexcept;
 
 }  // namespace floatframe

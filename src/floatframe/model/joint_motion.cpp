@@ -24,26 +24,6 @@ Mat3 rotation_z(double angle) noexcept {
 
 }  // namespace
 
-const char* joint_type_name(JointType type) noexcept {
-  switch (type) {
-    case JointType::weld:
-      return "weld";
-    case JointType::revolute:
-      return "revolute";
-    case JointType::prismatic:
-      return "prismatic";
-    case JointType::cylindrical:
-      return "cylindrical";
-    case JointType::universal:
-      return "universal";
-    case JointType::spherical:
-      return "spherical";
-    case JointType::free:
-      return "free";
-  }
-  return "joint";
-}
-
 void joint_motion(JointType type, const Vec3& axis_1, const Vec3& axis_2, const double* q,
                   const double* v, JointMotion& m) noexcept {
   m.R_FM.setIdentity();

@@ -18,36 +18,45 @@ struct JointMotion {
   Vec6 bias;
 };
 
+struct JointKind {
+  JointType type;
+  const char* name;
+  int velocities;              ///< velocity coordinates
+  int quaternion_offset = -1;  ///< of the quaternion in the configuration, -1 if there is none
+};
+
+/// All joint types, in the order of JointType. The generic tests run over this list.
+inline constexpr JointKind joint_kinds[] = {
+    {JointType::weld, "weld", 0},           {JointType::revolute, "revolute", 1},
+    {JointType::prismatic, "prismatic", 1}, {JointType::cylindrical, "cylindrical", 2},
+    {JointType::universal, "universal", 2}, {JointType::spherical, "spherical", 3, 0},
+    {JointType::free, "free", 6, 3}};
+
+constexpr const JointKind& joint_kind(JointType type) noexcept {
+  return joint_kinds[static_cast<std::size_t>(type)];
+}
+
+static_assert([] {
+  std::size_t index = 0;
+  for (const JointKind& kind : joint_kinds)
+    if (static_cast<std::size_t>(kind.type) != index++) return false;
+  return true;
+}());
+
 /// Number of velocity coordinates of a joint.
-constexpr int joint_velocities(JointType type) noexcept {
-  switch (type) {
-    case JointType::weld:
-      return 0;
-    case JointType::revolute:
-    case JointType::prismatic:
-      return 1;
-    case JointType::cylindrical:
-    case JointType::universal:
-      return 2;
-    case JointType::spherical:
-      return 3;
-    case JointType::free:
-      return 6;
-  }
-  return 0;
+constexpr int joint_velocities(JointType type) noexcept { return joint_kind(type).velocities; }
+
+/// Offset of the quaternion in the joint's configuration, -1 if it has none.
+constexpr int quaternion_offset(JointType type) noexcept {
+  return joint_kind(type).quaternion_offset;
 }
 
 /// Number of configuration numbers of a joint (quaternions have four).
 constexpr int joint_configurations(JointType type) noexcept {
-  return joint_velocities(type) + (type == JointType::spherical || type == JointType::free ? 1 : 0);
+  return joint_velocities(type) + (quaternion_offset(type) >= 0 ? 1 : 0);
 }
 
-/// Offset of the quaternion in the joint's configuration, -1 if it has none.
-constexpr int quaternion_offset(JointType type) noexcept {
-  return type == JointType::spherical ? 0 : type == JointType::free ? 3 : -1;
-}
-
-const char* joint_type_name(JointType type) noexcept;
+constexpr const char* joint_type_name(JointType type) noexcept { return joint_kind(type).name; }
 
 /// `axis_1` (fixed in F) and `axis_2` (fixed in M): axes of a universal joint in the joint frame; z
 /// for all others.

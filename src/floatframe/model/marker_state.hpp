@@ -19,4 +19,20 @@ struct WrenchRow {
   Vec3 Fa, Ta, Fb, Tb;
 };
 
+/// Small motions of two markers: (dr_a, dpi_a, dr_b, dpi_b), translations and rotations in world
+/// axes, R_new = exp(skew(dpi)) R. Rates: (v_a, w_a, v_b, w_b).
+using Vec12 = Eigen::Matrix<double, 12, 1>;
+using Mat12 = Eigen::Matrix<double, 12, 12>;
+
+/// Offsets of the four parts in a Vec12.
+namespace part_of {
+inline constexpr int r_a = 0, pi_a = 3, r_b = 6, pi_b = 9;
+}
+
+inline Vec12 stacked(const WrenchRow& g) noexcept {
+  Vec12 x;
+  x << g.Fa, g.Ta, g.Fb, g.Tb;
+  return x;
+}
+
 }  // namespace floatframe

@@ -42,20 +42,6 @@ VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
   return w.cwiseSqrt().cwiseProduct(cod.solve(b));
 }
 
-/// A vehicle on a road is in balance wherever it stands: free bodies go back to their start in the
-/// horizontal directions that the equilibrium does not care about.
-template <class Evaluate>
-void keep_neutral_positions(RelativeFormulation& f, const VecX& start, VecX& q, double residual,
-                            double weight, const Evaluate& evaluate) {
-  VecX r(f.velocities());
-  for (const int i : f.free_translations()) {
-    VecX moved = q;
-    moved[i] = start[i];
-    evaluate(moved, r);
-    if (largest(r) < residual + 1e-10 * weight) q = moved;
-  }
-}
-
 }  // namespace
 
 void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_positions) {
@@ -116,112 +102,6 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
     throw RunError(fmt::format("the start velocities do not fit: {} opens at {:.3g} m/s",
                                owner_name(f.model(), part.owner), violation));
   }
-}
-
-Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
-  const int nv = f.velocities(), nc = f.constraints();
-  const VecX zero = VecX::Zero(nv);
-  Equilibrium e;
-  e.lambda = VecX::Zero(nc);
-  const VecX start_q = q;
-  VecX r(nv), r1(nv), r2(nv), q1(q.size()), x = VecX::Zero(nv);
-  const auto evaluate = [&](const VecX& at, VecX& out) {
-    f.positions(0.0, at);
-    f.velocities(zero);
-    f.dynamics();
-    f.residual(zero, e.lambda, 0.0, out);
-  };
-  evaluate(q, r);
-  MatX mass(nv, nv);
-  for (int j = 0; j < nv; ++j) {
-    f.residual(VecX::Unit(nv, j), e.lambda, 0.0, r1);
-    mass.col(j) = r1 - r;
-  }
-  const double weight = std::max(1e-6, f.total_mass() * f.model().gravity.norm());
-  double mu = 1.0;  // [1/s2] pseudo-transient: (mu M + K) x = -r
-  double previous = std::numeric_limits<double>::infinity();
-  VecX best_q = q, best_lambda = e.lambda;
-  double best = previous;
-  int stalled = 0;
-  for (e.iterations = 0; e.iterations < 200; ++e.iterations) {
-    evaluate(q, r);
-    const MatX J = f.constraint_jacobian();
-    const VecX phi = f.constraint_values();
-    // Least-squares multipliers at the first iterate, Newton multipliers after.
-    if (e.iterations == 0 && nc > 0) {
-      e.lambda = J.transpose().completeOrthogonalDecomposition().solve(-r);
-      evaluate(q, r);
-    }
-    const double size = largest(r) + 1e3 * weight * largest(phi);
-    if (size < best) {
-      best = size;
-      best_q = q;
-      best_lambda = e.lambda;
-      stalled = 0;
-    } else {
-      ++stalled;
-    }
-    if (best < 1e-12 * weight || (best < 1e-9 * weight && stalled > 3)) break;
-    if (std::isfinite(previous))
-      mu = size < previous ? std::max(mu * 0.1, 1e-2) : std::min(mu * 10.0, 1e6);
-    previous = size;
-    MatX T = MatX::Zero(nv + nc, nv + nc);
-    for (int j = 0; j < nv; ++j) {
-      constexpr double step = 1e-6;
-      x.setZero();
-      x[j] = step;
-      f.retract(q, x, q1);
-      evaluate(q1, r1);
-      x[j] = -step;
-      f.retract(q, x, q1);
-      evaluate(q1, r2);
-      T.col(j).head(nv) = (r1 - r2) / (2.0 * step) + mu * mass.col(j);
-    }
-    T.topRightCorner(nv, nc) = J.transpose();
-    T.bottomLeftCorner(nc, nv) = J;
-    VecX b(nv + nc);
-    b << -r, -phi;
-    // Equilibrate: forces of stiff modes and lengths of constraints differ by many orders.
-    VecX d(nv + nc);
-    for (int i = 0; i < nv + nc; ++i) {
-      const double norm = T.row(i).cwiseAbs().maxCoeff();
-      d[i] = norm > 0.0 ? 1.0 / std::sqrt(norm) : 1.0;
-    }
-    const MatX Td = d.asDiagonal() * T * d.asDiagonal();
-    VecX step_vector;
-    if (nv + nc <= 700) {
-      Eigen::CompleteOrthogonalDecomposition<MatX> cod;
-      cod.setThreshold(1e-14);
-      cod.compute(Td);
-      step_vector = d.cwiseProduct(cod.solve(d.cwiseProduct(b)));
-    } else {
-      step_vector = d.cwiseProduct(Td.partialPivLu().solve(d.cwiseProduct(b)));
-    }
-    VecX dx = step_vector.head(nv);
-    const double length = largest(dx);
-    if (!std::isfinite(length)) break;
-    const double scale = length > 0.2 ? 0.2 / length : 1.0;
-    dx *= scale;
-    f.retract(q, dx, q1);
-    q = q1;
-    e.lambda += scale * step_vector.tail(nc);
-  }
-  q = best_q;
-  e.lambda = best_lambda;
-  evaluate(q, r);
-  e.residual = largest(r);
-  keep_neutral_positions(f, start_q, q, e.residual, weight, evaluate);
-  evaluate(q, r);
-  e.residual = largest(r);
-  if (!(best < 1e-7 * weight)) {
-    Eigen::Index worst = 0;
-    r.cwiseAbs().maxCoeff(&worst);
-    throw RunError(fmt::format(
-        "no static equilibrium found: after {} iterations {} is out of balance by {:.3g} N "
-        "(or N m)",
-        e.iterations, f.coordinate_owner(static_cast<int>(worst)), r[worst]));
-  }
-  return e;
 }
 
 void dense_start(const MatX& mass, const MatX& stiffness, const MatX& J, const VecX& force,

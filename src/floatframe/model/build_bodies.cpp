@@ -1,0 +1,137 @@
+// Bodies, rigid and flexible, and what is known of them once their markers are.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "floatframe/model/build_flexible.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/modal_mass.hpp"
+#include "floatframe/model/model_builder.hpp"
+
+namespace floatframe {
+
+namespace {
+
+void check_rigid(const BodyDescription& b, const RigidDescription& r, Faults& faults) {
+  const std::string who = "bodies." + b.name;
+  if (!(r.mass >= 0.0) || !std::isfinite(r.mass))
+    faults.add(b.origin.of("mass"),
+               who + ".mass: found " + std::to_string(r.mass) + ", expected a number >= 0 [kg]");
+  if (!r.J_C.allFinite() || !r.p_BC.allFinite()) {
+    faults.add(b.origin.of("inertia"),
+               who + ".inertia: found a value that is not finite, expected numbers");
+    return;
+  }
+  const Vec3 J = Eigen::SelfAdjointEigenSolver<Mat3>(r.J_C).eigenvalues();
+  const double slack = 1e-9 * J.cwiseAbs().maxCoeff();
+  if (J[0] < -slack || J[0] + J[1] < J[2] - slack)
+    faults.add(
+        b.origin.of("inertia"),
+        who + ".inertia: found principal moments " + point_text(J) +
+            ", expected positive ones of which none exceeds the sum of the other two [kg m2]");
+}
+
+/// Twists at the origin of the body, in its axes, that a joint to the ground lets it have.
+Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
+  JointMotion motion;
+  const double q[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, v[6] = {};
+  joint_motion(joint.type, Vec3::UnitZ(), joint.axis_2, q, v, motion);
+  const Vec3 p_BM =
+      M.node < 0 ? M.X_NM.p : Vec3(body.data->nodes[static_cast<std::size_t>(M.node)].p + M.X_NM.p);
+  Mat6X free = motion.H.leftCols(joint_velocities(joint.type));
+  for (Eigen::Index k = 0; k < free.cols(); ++k) {
+    const Vec3 w = M.X_NM.R * free.col(k).tail<3>();
+    free.col(k).head<3>() = M.X_NM.R * free.col(k).head<3>() - w.cross(p_BM);
+    free.col(k).tail<3>() = w;
+  }
+  return free;
+}
+
+}  // namespace
+
+void ModelBuilder::bodies() {
+  std::set<std::string> names{ground_name};
+  FlexibleBuilder flexible;
+  for (const BodyDescription& b : d.bodies) {
+    Body body;
+    body.name = b.name;
+    body.X_WB = b.X_WB;
+    if (!names.insert(b.name).second)
+      faults.add(b.origin.mark,
+                 "bodies." + b.name + ": the name is taken, expected a name used once");
+    if (const auto* rigid = std::get_if<RigidDescription>(&b.kind)) {
+      check_rigid(b, *rigid, faults);
+      FlexibleBody data;
+      data.invariants = InertiaInvariants::rigid(rigid->mass, rigid->p_BC, rigid->J_C);
+      data.K = data.D = MatX::Zero(0, 0);
+      body.data = std::make_shared<const FlexibleBody>(std::move(data));
+    } else if (const auto* given = std::get_if<FlexibleBody>(&b.kind)) {
+      body.data = std::make_shared<const FlexibleBody>(*given);
+    } else {
+      body.data = flexible.build(b, faults);
+    }
+    if (!body.data) body.data = std::make_shared<const FlexibleBody>();
+    model.bodies.push_back(std::move(body));
+  }
+  if (d.bodies.empty()) faults.add({}, "bodies: found none, expected at least one body");
+}
+
+void ModelBuilder::modal_masses() {
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Body& b = model.bodies[i];
+    if (b.modes() == 0) continue;
+    // Any motion, unless a joint to the ground says which.
+    Mat6X free = Mat6::Identity();
+    for (const Joint& j : model.joints) {
+      if (j.parent != ground_index || j.child != static_cast<int>(i)) continue;
+      if (joint_velocities(j.type) >= free.cols()) continue;
+      free = rigid_motions(j, b, marker(j.frame_M));
+    }
+    const double own = relative_modal_mass(b.data->invariants, free);
+    if (own > least_modal_mass) continue;
+    std::ostringstream s;
+    s << "bodies." << b.name << ": found " << b.modes()
+      << " modes of which a combination moves no mass (relative modal mass " << own
+      << "), expected fewer modes or more elements";
+    faults.add(d.bodies[i].origin.of("flexible"), s.str());
+  }
+}
+
+void ModelBuilder::finish() {
+  double mass = 0.0;
+  int heavy = 0;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    Body& b = model.bodies[i];
+    const InertiaInvariants& v = b.data->invariants;
+    if (v.m > 0.0) {
+      mass += v.m;
+      ++heavy;
+    }
+    double length = 0.0;
+    for (const ModalNode& n : b.data->nodes) length = std::max(length, n.p.norm());
+    for (const Marker& m : model.markers)
+      if (m.body == static_cast<int>(i) && m.node < 0) length = std::max(length, m.X_NM.p.norm());
+    if (v.m > 0.0) length = std::max(length, std::sqrt(std::max(v.P_u.trace(), 0.0) / v.m));
+    b.length = length > 0.0 ? length : 1.0;
+    const auto amplitudes = [&](const char* key, const std::map<std::string, VecX>& given,
+                                std::vector<VecX>& out) {
+      const auto it = given.find(b.name);
+      out.push_back(it == given.end() ? VecX() : it->second);
+      if (it != given.end() && it->second.size() != b.modes())
+        faults.add(d.bodies[i].origin.of(key),
+                   std::string(key) + "." + b.name + ": found a list of " +
+                       std::to_string(it->second.size()) + ", expected a list of " +
+                       std::to_string(b.modes()) + " amplitudes, one a mode");
+    };
+    amplitudes("initial.amplitudes", d.amplitudes, model.amplitudes);
+    amplitudes("initial.amplitude_rates", d.amplitude_rates, model.amplitude_rates);
+  }
+  model.mean_mass = heavy > 0 ? mass / heavy : 1.0;
+  for (const auto& [name, values] : d.amplitudes) body_index(name, {}, "initial.amplitudes");
+  for (const auto& [name, values] : d.amplitude_rates)
+    body_index(name, {}, "initial.amplitude_rates");
+}
+
+}  // namespace floatframe

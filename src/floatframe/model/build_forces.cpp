@@ -1,0 +1,124 @@
+// Force elements of the description: their markers, laws and parameters.
+#include <set>
+
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/model_builder.hpp"
+
+namespace floatframe {
+
+namespace {
+
+/// One description on its way to a Force; `build` returns false after a fault.
+struct ForceBuild {
+  ModelBuilder& builder;
+  const Origin& origin;
+  const std::string who;
+  Force force;
+
+  int marker(const AttachmentDescription& at, bool oriented, const char* key) {
+    return builder.add_marker(at, Mat3::Identity(), oriented, origin.of(key), who + "." + key);
+  }
+  int input(const SignalDescription& signal, const char* key) {
+    return builder.input_index(signal.input, origin.of(key), who + "." + key);
+  }
+  void actuate(const std::optional<SignalDescription>& signal) {
+    if (!signal) return;
+    force.magnitude = *signal;
+    force.input = input(*signal, "actuator");
+    force.driven = true;
+  }
+  bool fault(const SourceMark& mark, const std::string& message) {
+    builder.faults.add(mark, who + message);
+    return false;
+  }
+
+  bool build(const SpringDamperDescription& d) {
+    force.type = ForceType::spring_damper;
+    force.a = marker(d.a, false, "from");
+    force.b = marker(d.b, false, "to");
+    force.spring = d.spring;
+    force.damper = d.damper;
+    actuate(d.actuator);
+    if (force.a < 0 || force.b < 0) return false;
+    if (builder.marker(force.a).body < 0 && builder.marker(force.b).body < 0)
+      return fault(origin.mark, ": found both ends on the ground, expected a body at one end");
+    return true;
+  }
+
+  bool build(const GuidedSpringDescription& d) {
+    force.type = ForceType::guided_spring;
+    force.a = marker(d.reference, true, "reference");
+    force.b = marker(d.tip, false, "tip");
+    force.axis = d.axis.normalized();
+    force.spring = d.spring;
+    force.damper = d.damper;
+    actuate(d.actuator);
+    return force.a >= 0 && force.b >= 0;
+  }
+
+  bool build(const JointSpringDescription& d) {
+    force.type = ForceType::joint_spring;
+    force.spring = d.spring;
+    force.damper = d.damper;
+    actuate(d.actuator);
+    if (d.target) force.target = {*d.target, input(*d.target, "target")};
+    if (d.target_rate) force.target_rate = {*d.target_rate, input(*d.target_rate, "target_rate")};
+    force.targeted = d.target || d.target_rate;
+    force.derived_rate = !d.target_rate;
+    for (const Joint& joint : builder.model.joints) {
+      if (joint.name != d.joint) continue;
+      force.a = joint.frame_F;
+      force.b = joint.frame_M;
+      force.rotational = joint.type == JointType::revolute;
+      if (joint.type == JointType::revolute || joint.type == JointType::prismatic) return true;
+      return fault(origin.of("joint"), std::string(".joint: found a ") +
+                                           joint_type_name(joint.type) +
+                                           " joint, expected a revolute or prismatic one");
+    }
+    // A joint with a fault of its own is missing here too: one sentence about it is enough.
+    if (!builder.faults.empty()) return false;
+    return fault(origin.of("joint"),
+                 ".joint: found '" + d.joint + "', expected the name of a joint");
+  }
+
+  bool build(const TyreDescription& d) {
+    force.type = ForceType::tyre;
+    force.b = marker(d.centre, d.law == TyreLaw::radial, "centre");
+    force.radius = d.radius;
+    force.stiffness = d.stiffness;
+    force.damping = d.damping;
+    force.law = d.law;
+    force.axis = d.axis.normalized();
+    for (std::size_t k = 0; k < builder.model.roads.size(); ++k)
+      if (builder.model.roads[k].name == d.road) force.road = static_cast<int>(k);
+    if (force.road < 0)
+      return fault(origin.of("road"), ".road: found '" + d.road + "', expected the name of a road");
+    return force.b >= 0;
+  }
+
+  bool build(const AppliedLoadDescription& d) {
+    force.type = d.torque ? ForceType::torque : ForceType::force;
+    force.b = marker(d.at, d.torque || d.follows, "at");
+    force.axis = d.direction;
+    force.magnitude = d.magnitude;
+    force.input = input(d.magnitude, "magnitude");
+    force.follows = d.follows;
+    return force.b >= 0;
+  }
+};
+
+}  // namespace
+
+void ModelBuilder::forces() {
+  std::set<std::string> names;
+  for (const ForceDescription& f : d.forces) {
+    ForceBuild b{*this, f.origin, "forces." + f.name, {}};
+    b.force.name = f.name;
+    if (!names.insert(f.name).second)
+      b.fault(f.origin.mark, ": the name is taken, expected a name used once");
+    if (std::visit([&](const auto& kind) { return b.build(kind); }, f.kind))
+      model.forces.push_back(std::move(b.force));
+  }
+}
+
+}  // namespace floatframe

@@ -1,0 +1,84 @@
+// Result columns: what they measure and their units.
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/model_builder.hpp"
+
+namespace floatframe {
+
+void ModelBuilder::outputs() {
+  static const char* const units[] = {"m", "m/s", "m/s2", "rad", "rad/s", "",
+                                      "",  "",    "N",    "m",   "m/s"};
+  for (const OutputDescription& o : d.outputs) {
+    Output out;
+    out.name = o.name;
+    out.kind = o.kind;
+    out.component = o.component;
+    out.unit = units[static_cast<int>(o.kind)];
+    const std::string who = "outputs." + o.name;
+    switch (o.kind) {
+      case OutputKind::position:
+      case OutputKind::velocity:
+      case OutputKind::acceleration:
+        out.marker = add_marker(o.at, Mat3::Identity(), false, o.origin.mark, who);
+        if (out.marker < 0) continue;
+        break;
+      case OutputKind::rotation:
+      case OutputKind::angular_velocity:
+      case OutputKind::modal_amplitude:
+        out.body = body_index(o.at.body, o.origin.mark, who);
+        if (out.body < 0) continue;
+        if (o.kind == OutputKind::modal_amplitude) {
+          const int nm = model.bodies[static_cast<std::size_t>(out.body)].modes();
+          if (o.component < 0 || o.component >= nm) {
+            faults.add(o.origin.mark, who + ": found mode " + std::to_string(o.component + 1) +
+                                          ", expected 1 to " + std::to_string(nm));
+            continue;
+          }
+          out.unit = "-";
+        }
+        break;
+      case OutputKind::joint_position:
+      case OutputKind::joint_velocity: {
+        for (std::size_t k = 0; k < model.joints.size(); ++k)
+          if (model.joints[k].name == o.entity) out.joint = static_cast<int>(k);
+        if (out.joint < 0) {
+          faults.add(o.origin.mark,
+                     who + ": found '" + o.entity + "', expected the name of a joint");
+          continue;
+        }
+        const JointType type = model.joints[static_cast<std::size_t>(out.joint)].type;
+        if (o.component < 0 || o.component >= joint_velocities(type)) {
+          faults.add(o.origin.mark, who + ": found coordinate " + std::to_string(o.component + 1) +
+                                        ", expected 1 to " +
+                                        std::to_string(joint_velocities(type)));
+          continue;
+        }
+        const bool metres = type == JointType::prismatic ||
+                            ((type == JointType::cylindrical) && o.component == 0) ||
+                            (type == JointType::free && o.component < 3);
+        out.unit = metres ? "m" : "rad";
+        if (o.kind == OutputKind::joint_velocity) out.unit += "/s";
+        break;
+      }
+      case OutputKind::force:
+      case OutputKind::length:
+      case OutputKind::rate: {
+        for (std::size_t k = 0; k < model.forces.size(); ++k)
+          if (model.forces[k].name == o.entity) out.force = static_cast<int>(k);
+        if (out.force < 0) {
+          faults.add(o.origin.mark,
+                     who + ": found '" + o.entity + "', expected the name of a force");
+          continue;
+        }
+        const Force& f = model.forces[static_cast<std::size_t>(out.force)];
+        if (f.rotational || f.type == ForceType::torque)
+          out.unit = o.kind == OutputKind::force    ? "N m"
+                     : o.kind == OutputKind::length ? "rad"
+                                                    : "rad/s";
+        break;
+      }
+    }
+    model.outputs.push_back(std::move(out));
+  }
+}
+
+}  // namespace floatframe

@@ -1,0 +1,132 @@
+// Spring on the coordinate of a prismatic or revolute joint, z the axis of marker a:
+// f = spring(s - target) + damper(sdot - rate of the target) - actuator; with a target it is a
+// motor.
+//   along   s = z.d (axis_measure.hpp), Q = -f g
+//   about   s = angle of x_b about z, followed over several turns; g = (0, -z, 0, z),
+//           sdot = z.(w_b - w_a)
+// The markers of a hinge share the axis. Where they do not (cut joints before they close) the angle
+// changes by m.(dpi_b - dpi_a), m = (p x_b x y_a - q x_b x x_a)/(p^2 + q^2), p = x_b.x_a, q =
+// x_b.y_a; m = z on the axis. The torque stays along z.
+//   stiffness    f_s g s_x^T + f_sdot g (dsdot/d(motion))^T + f dg/d(motion),   damping   f_sdot g
+//   g^T
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/model/axis_measure.hpp"
+#include "floatframe/model/force_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+struct Measure {
+  double s, rate;
+  WrenchRow g;
+};
+
+Measure measure(const ForceInput& in) noexcept {
+  const Vec3 z = in.a.R.col(2);
+  if (!in.force.rotational) {
+    const AxisMeasure m = axis_measure(z, in.a, in.b);
+    return {m.s, m.rate, m.g};
+  }
+  const Vec3 x = in.b.R.col(0);
+  const double angle = std::atan2(x.dot(in.a.R.col(1)), x.dot(in.a.R.col(0)));
+  const double turns = std::remainder(angle - in.reference_angle, 2.0 * std::numbers::pi);
+  return {in.reference_angle + turns, z.dot(in.b.w - in.a.w), {Vec3::Zero(), -z, Vec3::Zero(), z}};
+}
+
+/// f and its slopes; spring and damper pull to the target.
+struct Law {
+  double f, f_s, f_rate;
+  double stretch;  ///< s - target
+};
+
+Law law_at(const ForceInput& in, const Measure& m) noexcept {
+  double target = 0.0, target_rate = 0.0;
+  if (in.force.targeted) {
+    const PiecewisePolynomial::Value position = evaluate(in.force.target.function, in.t);
+    target = position.f + in.input(in.force.target.input);
+    target_rate = in.force.derived_rate ? position.df
+                                        : evaluate(in.force.target_rate.function, in.t).f +
+                                              in.input(in.force.target_rate.input);
+  }
+  const PiecewisePolynomial::Value s = in.force.spring(m.s - target);
+  const PiecewisePolynomial::Value c = in.force.damper(m.rate - target_rate);
+  return {s.f + c.f - in.actuator(), s.df, c.df, m.s - target};
+}
+
+void evaluate(const ForceInput& in, ForceState& out) noexcept {
+  const Measure m = measure(in);
+  out.length = m.s;
+  out.rate = m.rate;
+  const Law law = law_at(in, m);
+  const double f = law.f;
+  out.force = f;
+  out.wrench = {-f * m.g.Fa, -f * m.g.Ta, -f * m.g.Fb, -f * m.g.Tb};
+  out.rows[0] = {m.g, law.f_s, law.f_rate};
+  out.row_count = 1;
+  out.energy = law_energy(in.force.spring, law.stretch);
+}
+
+void tangent(const ForceInput& in, ForceTangent& out) noexcept {
+  const Measure m = measure(in);
+  const Law law = law_at(in, m);
+  const Vec3 z = in.a.R.col(2);
+  const Vec12 g = stacked(m.g);
+  out.C.noalias() = law.f_rate * g * g.transpose();
+  if (!in.force.rotational) {
+    out.K.noalias() = law.f_s * g * g.transpose();
+    out.K.noalias() += law.f_rate * g * axis_rate_gradient(z, in.a, in.b).transpose();
+    add_axis_curvature(z, in.a, in.b, law.f, out.K);
+    return;
+  }
+  using namespace part_of;
+  const Vec3 x = in.b.R.col(0), x_a = in.a.R.col(0), y_a = in.a.R.col(1);
+  const double p = x.dot(x_a), q = x.dot(y_a);
+  const double r2 = p * p + q * q;
+  const Vec3 turn = r2 > 0.0 ? Vec3((p * x.cross(y_a) - q * x.cross(x_a)) / r2) : z;
+  Vec12 h = Vec12::Zero();
+  h.segment<3>(pi_a) = law.f_rate * z.cross(in.b.w - in.a.w) - law.f_s * turn;
+  h.segment<3>(pi_b) = law.f_s * turn;
+  out.K.noalias() = g * h.transpose();
+  const Mat3 Z = law.f * skew(z);  // f d(z) = -Z dpi_a
+  out.K.block<3, 3>(pi_a, pi_a) += Z;
+  out.K.block<3, 3>(pi_b, pi_a) -= Z;
+}
+
+constexpr const char* turning = "the turning of the axis with its body";
+constexpr ForceRegime regimes[] = {
+    {.name = "along", .rows_leave_out = turning},
+    {.name = "about", .rows_leave_out = turning},
+    {.name = "about_after_turns", .rows_leave_out = turning},
+    {.name = "motor_along", .rows_leave_out = turning, .conservative = false},
+    {.name = "motor_about", .rows_leave_out = turning, .conservative = false}};
+
+ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
+  ForceExample x;
+  x.force.type = ForceType::joint_spring;
+  x.force.rotational = regime == 1 || regime == 2 || regime == 4;
+  x.force.spring = example_spring(numbers);
+  x.force.damper = example_damper(numbers);
+  x.a = numbers.marker();
+  x.b = x.force.rotational ? numbers.marker_on_axis(x.a) : numbers.marker();
+  if (regime >= 3) {
+    add_example_drive(x, numbers);
+    x.force.targeted = true;
+    x.force.target.function.pieces = PiecewisePolynomial::polynomial({0.1, numbers(-1.0, 1.0)});
+    x.force.target.input = static_cast<int>(x.inputs.size());
+    x.inputs.push_back(numbers(-0.5, 0.5));
+    x.force.target_rate.input = static_cast<int>(x.inputs.size());
+    x.inputs.push_back(numbers(-0.5, 0.5));
+  }
+  if (regime == 2) x.reference_angle = 6.0 * std::numbers::pi;
+  return x;
+}
+
+}  // namespace
+
+const ForceKind joint_spring_kind{
+    ForceType::joint_spring, "joint_spring", true, evaluate, tangent, regimes, example};
+
+}  // namespace floatframe

@@ -1,0 +1,62 @@
+#include "floatframe/model/force_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+constexpr const ForceKind* list[] = {&spring_damper_kind, &guided_spring_kind,
+                                     &joint_spring_kind,  &tyre_kind,
+                                     &applied_force_kind, &applied_torque_kind};
+
+const ForceKind& kind_of(const Force& force) noexcept {
+  return *list[static_cast<std::size_t>(force.type)];
+}
+
+}  // namespace
+
+std::span<const ForceKind* const> force_kinds() noexcept { return list; }
+
+const char* force_type_name(ForceType type) noexcept {
+  return list[static_cast<std::size_t>(type)]->name;
+}
+
+void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
+                    const MarkerState& b, const Vec3& origin, double t, double reference_angle,
+                    ForceState& out, std::span<const double> inputs) noexcept {
+  const Vec3 zero = Vec3::Zero();
+  out.wrench = {zero, zero, zero, zero};
+  out.row_count = 0;
+  out.force = out.length = out.rate = out.energy = 0.0;
+  kind_of(force).evaluate({model, force, a, b, origin, t, reference_angle, inputs}, out);
+}
+
+void evaluate_force_tangent(const Model& model, const Force& force, const MarkerState& a,
+                            const MarkerState& b, const Vec3& origin, double t,
+                            double reference_angle, ForceTangent& out,
+                            std::span<const double> inputs) noexcept {
+  out.K.setZero();
+  out.C.setZero();
+  kind_of(force).tangent({model, force, a, b, origin, t, reference_angle, inputs}, out);
+}
+
+void add_example_drive(ForceExample& example, ExampleNumbers& numbers) {
+  TimeFunction& f = example.force.magnitude;
+  f.pieces = PiecewisePolynomial::polynomial({numbers(-5.0, 5.0), numbers(1.0, 3.0)});
+  f.amplitude = numbers(1.0, 3.0);
+  f.frequency = 2.0;
+  example.force.driven = true;
+  example.force.input = static_cast<int>(example.inputs.size());
+  example.inputs.push_back(numbers(-50.0, 50.0));
+  example.t = numbers(0.0, 1.0);
+}
+
+PiecewisePolynomial example_spring(ExampleNumbers& numbers) {
+  return PiecewisePolynomial::polynomial(
+      {numbers(-80.0, 80.0), numbers(100.0, 400.0), numbers(-60.0, 60.0), numbers(10.0, 90.0)});
+}
+
+PiecewisePolynomial example_damper(ExampleNumbers& numbers) {
+  return PiecewisePolynomial::polynomial({0.0, numbers(10.0, 50.0), numbers(-4.0, 4.0), 1.5});
+}
+
+}  // namespace floatframe

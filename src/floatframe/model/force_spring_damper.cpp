@@ -1,0 +1,94 @@
+// Spring and damper along the line between two points: s = |d|, d = r_b - r_a, n = d/s,
+// f = spring(s) + damper(sdot) + actuator.
+//   wrench       f n on a, -f n on b
+//   stiffness    f_s n n^T + f/s (I - n n^T) + f_sdot n (dsdot/dd)^T,  dsdot/dd = (I - n n^T) v / s
+//   damping      f_sdot n n^T
+// between the points a and b. The first two terms of the stiffness are three rows.
+#include "floatframe/model/force_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+/// Points closer than this have no line between them: the force keeps the direction x and only the
+/// slope of the law is left of the tangent [m].
+constexpr double coincident = 1e-12;
+
+struct Line {
+  Vec3 n;
+  double length, rate;
+};
+
+Line line_between(const MarkerState& a, const MarkerState& b) noexcept {
+  const Vec3 d = b.r - a.r;
+  const double length = d.norm();
+  const Vec3 n = length > coincident ? Vec3(d / length) : Vec3::UnitX();
+  return {n, length, n.dot(b.v - a.v)};
+}
+
+void evaluate(const ForceInput& in, ForceState& out) noexcept {
+  const auto [n, length, rate] = line_between(in.a, in.b);
+  const PiecewisePolynomial::Value s = in.force.spring(length), c = in.force.damper(rate);
+  const Vec3 zero = Vec3::Zero();
+  out.length = length;
+  out.rate = rate;
+  out.force = s.f + c.f + in.actuator();
+  const Vec3 pull = out.force * n;
+  out.wrench = {pull, zero, -pull, zero};
+  out.rows[0] = {{-n, zero, n, zero}, s.df, c.df};
+  out.row_count = 1;
+  if (length > coincident) {
+    Vec3 t1, t2;
+    orthonormal_complement(n, t1, t2);
+    const double k = out.force / length;
+    out.rows[1] = {{-t1, zero, t1, zero}, k, 0.0};
+    out.rows[2] = {{-t2, zero, t2, zero}, k, 0.0};
+    out.row_count = 3;
+  }
+  out.energy = law_energy(in.force.spring, length);
+}
+
+void tangent(const ForceInput& in, ForceTangent& out) noexcept {
+  const auto [n, length, rate] = line_between(in.a, in.b);
+  const PiecewisePolynomial::Value s = in.force.spring(length), c = in.force.damper(rate);
+  const Mat3 along = n * n.transpose();
+  Mat3 K = s.df * along;
+  if (length > coincident) {
+    const Mat3 across = Mat3::Identity() - along;
+    K += (s.f + c.f + in.actuator()) / length * across;
+    const Vec3 turn = across * (in.b.v - in.a.v) / length;
+    K += c.df * n * turn.transpose();
+  }
+  const auto spread = [](const Mat3& block, Mat12& whole) {
+    using namespace part_of;
+    whole.block<3, 3>(r_a, r_a) = whole.block<3, 3>(r_b, r_b) = block;
+    whole.block<3, 3>(r_a, r_b) = whole.block<3, 3>(r_b, r_a) = -block;
+  };
+  spread(K, out.K);
+  spread(c.df * along, out.C);
+}
+
+constexpr ForceRegime regimes[] = {{.name = "anywhere"},
+                                   {.name = "short"},
+                                   {.name = "points_coincide", .regular = false},
+                                   {.name = "actuated", .conservative = false}};
+
+ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
+  ForceExample x;
+  x.force.type = ForceType::spring_damper;
+  x.force.spring = example_spring(numbers);
+  x.force.damper = example_damper(numbers);
+  x.a = numbers.marker();
+  x.b = numbers.marker();
+  if (regime == 1) x.b.r = x.a.r + 0.1 * numbers.direction();
+  if (regime == 2) x.b.r = x.a.r;
+  if (regime == 3) add_example_drive(x, numbers);
+  return x;
+}
+
+}  // namespace
+
+const ForceKind spring_damper_kind{
+    ForceType::spring_damper, "spring_damper", true, evaluate, tangent, regimes, example};
+
+}  // namespace floatframe

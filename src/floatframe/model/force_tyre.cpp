@@ -1,0 +1,199 @@
+// Penalty tyre on a road profile of slope sigma and curvature kappa below the wheel centre, at the
+// height h above the road; it pushes or does nothing.
+//   vertical   f = k (R - h) - c hdot upwards at the centre, hdot = v_z - sigma v_x
+//   radial     f = q (k (R - h) - c hdot), q = 1/sqrt(1 + sigma^2), along the normal n = q (-sigma,
+//              0, 1) of the straight line through the road point below the centre. It acts at the
+//              contact point, r_w below the centre in the plane of the wheel:
+//              e_x = axis x n / |axis x n|, e_z = e_x x axis, arm = -r_w e_z, r_w = h q^2 / e_z.z
+// Derivatives, with dsigma = kappa dx, dh = dz - sigma dx, dq = -sigma q^3 dsigma, dn = -q^2 tau
+// dsigma, tau = q (1, 0, sigma) along the road:
+//   df = q (-k dh + c v_x dsigma) + f dq/q,  d(torque) = d(arm) x f n + arm x d(f n)
+// On a straight road -df = k n.dr of a radial tyre: one row. What the row leaves out does not
+// change the number of iterations of a vehicle on stairs.
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/model/force_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+struct Contact {
+  bool touches = false;
+  RoadPoint road;
+  double h, rate, q, f;
+  Vec3 n;
+};
+
+Contact contact(const ForceInput& in) noexcept {
+  const Force& t = in.force;
+  const Vec3 centre = in.b.r + in.origin;
+  Contact c;
+  c.road = road_at(in.model.roads[static_cast<std::size_t>(t.road)], centre.x());
+  c.h = centre.z() - c.road.z;
+  c.rate = in.b.v.z() - c.road.slope * in.b.v.x();
+  const bool radial = t.law == TyreLaw::radial;
+  c.q = radial ? 1.0 / std::sqrt(1.0 + c.road.slope * c.road.slope) : 1.0;
+  c.n = radial ? Vec3(-c.road.slope * c.q, 0.0, c.q) : Vec3::UnitZ();
+  c.f = (t.stiffness * (t.radius - c.h) - t.damping * c.rate) * c.q;
+  c.touches = c.h < t.radius && c.f > 0.0;
+  return c;
+}
+
+struct Wheel {
+  Vec3 axis, e_x, e_z;
+  double sine;  ///< |axis x n|
+  double r_w;
+};
+
+/// False for a wheel that lies on the road: it has no contact point below its centre.
+bool upright(const ForceInput& in, const Contact& c, Wheel& w) noexcept {
+  w.axis = in.b.R * in.force.axis;
+  const Vec3 u = w.axis.cross(c.n);
+  w.sine = u.norm();
+  if (w.sine < 1e-6) return false;
+  w.e_x = u / w.sine;
+  w.e_z = w.e_x.cross(w.axis);
+  if (std::abs(w.e_z.z()) < 1e-6) return false;
+  w.r_w = c.h * c.q * c.q / w.e_z.z();
+  return true;
+}
+
+void evaluate(const ForceInput& in, ForceState& out) noexcept {
+  const Contact c = contact(in);
+  out.length = c.h;
+  out.rate = c.rate;
+  if (!c.touches) return;
+  const Force& t = in.force;
+  const double spring = t.radius - c.h;
+  const Vec3 zero = Vec3::Zero();
+  out.force = c.f;
+  out.wrench.Fb = c.f * c.n;
+  out.rows[0] = {{zero, zero, c.n, zero}, t.stiffness, t.damping};
+  out.row_count = 1;
+  out.energy = 0.5 * t.stiffness * spring * spring * c.q * c.q;
+  Wheel w;
+  if (t.law == TyreLaw::vertical || !upright(in, c, w)) return;
+  out.wrench.Tb = -w.r_w * w.e_z.cross(out.wrench.Fb);
+}
+
+void tangent(const ForceInput& in, ForceTangent& out) noexcept {
+  using namespace part_of;
+  const Contact c = contact(in);
+  if (!c.touches) return;
+  const Force& t = in.force;
+  const double sigma = c.road.slope, q = c.q;
+  const Vec3 height_gradient(-sigma, 0.0, 1.0);  // dh/dr = dhdot/dv
+  const bool radial = t.law == TyreLaw::radial;
+  const double kappa = c.road.curvature;
+  const Vec3 x = Vec3::UnitX();
+  // Along dr: df = f_r.dr, dn = n_x dx, dq = q_x dx.
+  const double q_x = radial ? -sigma * q * q * q * kappa : 0.0;
+  const Vec3 n_x = radial ? Vec3(-q * q * q * kappa * Vec3(1.0, 0.0, sigma)) : Vec3::Zero();
+  const Vec3 f_r =
+      -q * t.stiffness * height_gradient + (q * t.damping * in.b.v.x() * kappa + c.f * q_x / q) * x;
+  const Vec3 f_v = -q * t.damping * height_gradient;
+  const Mat3 force_r = c.n * f_r.transpose() + c.f * n_x * x.transpose();
+  out.K.block<3, 3>(r_b, r_b) = -force_r;
+  out.C.block<3, 3>(r_b, r_b) = -c.n * f_v.transpose();
+  Wheel w;
+  if (!radial || !upright(in, c, w)) return;
+  const Vec3 arm = -w.r_w * w.e_z, push = c.f * c.n;
+  const Mat3 arm_cross = skew(arm);
+  out.C.block<3, 3>(pi_b, r_b) = arm_cross * out.C.block<3, 3>(r_b, r_b);
+  // d(arm) for given dh q^2 + 2 h q dq, d(axis), dn.
+  const auto arm_change = [&](double drop, const Vec3& axis_change, const Vec3& n_change) {
+    const Vec3 u = axis_change.cross(c.n) + w.axis.cross(n_change);
+    const Vec3 e_x = (u - w.e_x.dot(u) * w.e_x) / w.sine;
+    const Vec3 e_z = e_x.cross(w.axis) + w.e_x.cross(axis_change);
+    const double r_w = (drop - w.r_w * e_z.z()) / w.e_z.z();
+    return Vec3(-r_w * w.e_z - w.r_w * e_z);
+  };
+  for (int k = 0; k < 3; ++k) {
+    const double dx = k == 0 ? 1.0 : 0.0;
+    const double drop = q * q * height_gradient[k] + 2.0 * c.h * q * q_x * dx;
+    out.K.block<3, 1>(pi_b, r_b + k) =
+        -(arm_change(drop, Vec3::Zero(), dx * n_x).cross(push) + arm_cross * force_r.col(k));
+    out.K.block<3, 1>(pi_b, pi_b + k) =
+        -arm_change(0.0, Vec3::Unit(k).cross(w.axis), Vec3::Zero()).cross(push);
+  }
+}
+
+constexpr const char* slope = "that a vertical force changes along a slope";
+constexpr const char* heel = "the torque of a wheel that heels";
+
+enum Regime : std::size_t {
+  vertical_flat,
+  vertical_slope,
+  vertical_bump,
+  radial_flat,
+  radial_slope,
+  radial_bump,
+  radial_heeling,
+  radial_heeling_on_bump,
+  airborne,
+  held_by_damper,
+  lying
+};
+constexpr ForceRegime regimes[] = {
+    {.name = "vertical_flat"},
+    {.name = "vertical_slope", .rows_leave_out = slope, .conservative = false},
+    {.name = "vertical_bump", .rows_leave_out = slope, .conservative = false},
+    {.name = "radial_flat", .rows_leave_out = heel},
+    {.name = "radial_slope", .rows_leave_out = heel},
+    {.name = "radial_bump", .rows_leave_out = heel, .conservative = false},
+    {.name = "radial_heeling", .rows_leave_out = heel, .conservative = false},
+    {.name = "radial_heeling_on_bump", .rows_leave_out = heel, .conservative = false},
+    {.name = "airborne", .acts = false},
+    {.name = "held_by_damper", .rows_leave_out = heel, .acts = false},
+    {.name = "lying", .regular = false}};
+
+ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
+  const bool vertical = regime <= vertical_bump;
+  const bool bump =
+      regime == vertical_bump || regime == radial_bump || regime == radial_heeling_on_bump;
+  const bool sloping =
+      bump || regime == vertical_slope || regime == radial_slope || regime == radial_heeling;
+  const bool heeling = regime == radial_heeling || regime == radial_heeling_on_bump;
+  ForceExample x;
+  Road road;
+  if (sloping)
+    road.pieces = PiecewisePolynomial::polynomial({numbers(-1.0, 1.0), numbers(-0.6, 0.6)});
+  if (bump) road.bumps.push_back({-3.0, 6.0, numbers(0.2, 0.8)});
+  x.model.roads.push_back(road);
+  Force& f = x.force;
+  f.type = ForceType::tyre;
+  f.law = vertical ? TyreLaw::vertical : TyreLaw::radial;
+  f.road = 0;
+  f.radius = numbers(0.3, 0.5);
+  f.stiffness = numbers(800.0, 2000.0);
+  f.damping = numbers(1.0, 5.0);
+  f.axis = Vec3::UnitY();
+  x.origin = numbers.vector(1.0);
+  MarkerState& b = x.b;
+  b = numbers.marker();
+  // A steered wheel, turned about its axis; upright across the road unless it heels.
+  const Vec3 place = b.r + x.origin;
+  const RoadPoint below = road_at(road, place.x());
+  const Vec3 normal = Vec3(-below.slope, 0.0, 1.0).normalized();
+  Mat3 R = rotation_exp(std::atan2(normal.x(), normal.z()) * Vec3::UnitY()) *
+           rotation_exp(numbers(-0.7, 0.7) * Vec3::UnitZ());
+  if (heeling) R = R * rotation_exp(numbers(0.2, 0.6) * Vec3::UnitX());
+  if (regime == lying) R = rotation_exp(0.5 * std::numbers::pi * Vec3::UnitX());
+  b.R = R * rotation_exp(numbers(-3.0, 3.0) * Vec3::UnitY());
+  const double depth = regime == airborne ? -0.1 : numbers(0.05, 0.12);
+  b.r.z() = below.z + f.radius - depth - x.origin.z();
+  if (regime == held_by_damper) {
+    f.damping = 500.0;
+    b.v.z() = below.slope * b.v.x() + 3.0;
+  }
+  x.a = b;
+  return x;
+}
+
+}  // namespace
+
+const ForceKind tyre_kind{ForceType::tyre, "tyre", false, evaluate, tangent, regimes, example};
+
+}  // namespace floatframe

@@ -1,0 +1,24 @@
+#include "floatframe/model/inertia_choice.hpp"
+
+namespace floatframe {
+
+void check_inertia_method(const ModelDescription& description, InertiaMethod method) {
+  Faults faults;
+  for (const BodyDescription& b : description.bodies) {
+    const auto* flexible = std::get_if<FlexibleDescription>(&b.kind);
+    if (!flexible) continue;
+    const SourceMark& mark = b.origin.of("mass_model");
+    const std::string who = "bodies." + b.name + ".flexible.mass_model: found ";
+    if (method == InertiaMethod::projection && flexible->mass_model == MassModel::hermite)
+      faults.add(mark, who +
+                           "hermite with inertia terms by projection, expected isoparametric or "
+                           "six_dof (or preprocessing)");
+    if (method == InertiaMethod::preprocessing && flexible->mass_model == MassModel::six_dof)
+      faults.add(mark, who +
+                           "six_dof with inertia terms by preprocessing, expected isoparametric "
+                           "or hermite (or projection)");
+  }
+  faults.throw_if_any();
+}
+
+}  // namespace floatframe

@@ -1,0 +1,11 @@
+#pragma once
+// Which inertia method goes with which mass model.
+#include "floatframe/model/description.hpp"
+
+namespace floatframe {
+
+/// Throws InputError, with the place of the mass model, for every flexible body whose mass model
+/// cannot be used with `method`.
+void check_inertia_method(const ModelDescription& description, InertiaMethod method);
+
+}  // namespace floatframe

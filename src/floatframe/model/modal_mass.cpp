@@ -1,0 +1,60 @@
+#include "floatframe/model/modal_mass.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <vector>
+
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+
+double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free) {
+  const Eigen::Index nm = v.modes();
+  const MatX M_ff = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
+  const double top = nm > 0 ? M_ff.diagonal().maxCoeff() : 0.0;
+  std::vector<Eigen::Index> massive;
+  for (Eigen::Index k = 0; k < nm; ++k)
+    if (M_ff(k, k) > 1e-14 * top) massive.push_back(k);
+  if (massive.empty() || !(v.m > 0.0)) return 1.0;
+
+  // Lengths in units of the radius of gyration, so that translations and rotations compare.
+  const double l = std::sqrt(std::max(v.inertia_about_origin().trace() / v.m, 1e-300));
+  Mat6 M6 = Mat6::Zero();
+  M6.topLeftCorner<3, 3>().diagonal().setConstant(v.m);
+  M6.bottomLeftCorner<3, 3>() = skew(v.m_u) / l;
+  M6.topRightCorner<3, 3>() = -skew(v.m_u) / l;
+  M6.bottomRightCorner<3, 3>() = v.inertia_about_origin() / (l * l);
+  Mat6X G(6, nm);
+  G.topRows<3>() = v.S;
+  for (int i = 0; i < 3; ++i) {  // int r x X dm
+    const auto j = static_cast<std::size_t>((i + 1) % 3), k = static_cast<std::size_t>((i + 2) % 3);
+    G.row(3 + i) = (v.Si[j].row((i + 2) % 3) - v.Si[k].row((i + 1) % 3)) / l;
+  }
+  MatX own = M_ff;
+  if (free.cols() > 0) {
+    Mat6X Z = free;
+    Z.bottomRows<3>() *= l;
+    for (Eigen::Index k = 0; k < Z.cols(); ++k) Z.col(k).normalize();
+    const MatX M_rr = Z.transpose() * M6 * Z;
+    const MatX M_rf = Z.transpose() * G;
+    const Eigen::SelfAdjointEigenSolver<MatX> rigid(M_rr);
+    for (Eigen::Index k = 0; k < M_rr.rows(); ++k) {
+      const double mass = rigid.eigenvalues()[k];
+      if (!(mass > 1e-10 * v.m)) continue;
+      const VecX g = M_rf.transpose() * rigid.eigenvectors().col(k);
+      own -= g * g.transpose() / mass;
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(massive.size());
+  MatX scaled(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Eigen::Index a = massive[static_cast<std::size_t>(i)];
+      const Eigen::Index b = massive[static_cast<std::size_t>(j)];
+      scaled(i, j) = own(a, b) / std::sqrt(M_ff(a, a) * M_ff(b, b));
+    }
+  const Eigen::SelfAdjointEigenSolver<MatX> solver(scaled, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0];
+}
+
+}  // namespace floatframe

@@ -1,0 +1,20 @@
+#pragma once
+// Whether the modes of a body have inertia of their own. The nodes of a coarse mesh can move in few
+// ways; modes that are as many as these, together with the rigid motions, hold combinations that
+// move no mass: the mass matrix
+//   M = [M_rr G^T; G M_ff]     of the free rigid motions and the modes
+// is singular though every mode alone is sound. Such a model has no answer or any, so it is
+// refused.
+#include "floatframe/body/inertia_invariants.hpp"
+
+namespace floatframe {
+
+/// Smallest eigenvalue of D^-1/2 (M_ff - G M_rr^+ G^T) D^-1/2, D the diagonal of M_ff, over the
+/// modes that have mass; 1 if there are none. Sound bodies have more than 1e-6, singular ones
+/// rounding errors. `free`: the rigid motions the body is free to make, columns (v; w) at the body
+/// origin in body axes; those without inertia (a bar about its axis) are left out.
+double relative_modal_mass(const InertiaInvariants& invariants, const Mat6X& free);
+
+inline constexpr double least_modal_mass = 1e-9;
+
+}  // namespace floatframe

@@ -1,0 +1,23 @@
+#include "floatframe/model/road.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace floatframe {
+
+RoadPoint road_at(const Road& road, double x) noexcept {
+  const PiecewisePolynomial::Value v = road.pieces(x);
+  RoadPoint p{v.f, v.df, v.ddf};
+  for (const CosineBump& bump : road.bumps) {
+    const double s = (x - bump.start) / bump.length;
+    if (s <= 0.0 || s >= 1.0) continue;
+    const double w = 2.0 * std::numbers::pi;
+    const double sine = std::sin(w * s), cosine = std::cos(w * s), rate = w / bump.length;
+    p.z += 0.5 * bump.height * (1.0 - cosine);
+    p.slope += 0.5 * bump.height * rate * sine;
+    p.curvature += 0.5 * bump.height * rate * rate * cosine;
+  }
+  return p;
+}
+
+}  // namespace floatframe

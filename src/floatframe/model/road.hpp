@@ -1,0 +1,13 @@
+#pragma once
+// Road profiles: height over x, a piecewise polynomial plus cosine bumps.
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+/// Height [m], slope [-] and second derivative [1/m] of a road at x.
+struct RoadPoint {
+  double z = 0.0, slope = 0.0, curvature = 0.0;
+};
+RoadPoint road_at(const Road& road, double x) noexcept;
+
+}  // namespace floatframe

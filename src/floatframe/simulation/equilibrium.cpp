@@ -1,0 +1,234 @@
+// Static equilibrium in relative coordinates: a quick search, then a patient one.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+
+namespace {
+
+double largest(const VecX& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
+
+/// Residual, tangent and constraints of the statics at q, by finite differences; load time only.
+class Statics {
+ public:
+  explicit Statics(RelativeFormulation& f)
+      : f_(f), zero_(VecX::Zero(f.velocities())), mass_(f.velocities(), f.velocities()) {}
+
+  void evaluate(const VecX& q, const VecX& lambda, VecX& out) {
+    f_.positions(0.0, q);
+    f_.velocities(zero_);
+    f_.dynamics();
+    f_.residual(zero_, lambda, 0.0, out);
+  }
+  void find_mass(const VecX& q, const VecX& lambda) {
+    const int nv = f_.velocities();
+    VecX rest(nv), r1(nv);
+    evaluate(q, lambda, rest);
+    for (int j = 0; j < nv; ++j) {
+      f_.residual(VecX::Unit(nv, j), lambda, 0.0, r1);
+      mass_.col(j) = r1 - rest;
+    }
+  }
+  /// Where the model is: r, phi, J, K. `first`: least-squares multipliers instead of those given.
+  void linearise(const VecX& q, VecX& lambda, bool first) {
+    const int nv = f_.velocities();
+    r.resize(nv);
+    evaluate(q, lambda, r);
+    J = f_.constraint_jacobian();
+    phi = f_.constraint_values();
+    if (first && phi.size() > 0) {
+      lambda = J.transpose().completeOrthogonalDecomposition().solve(-r);
+      evaluate(q, lambda, r);
+    }
+    K.resize(nv, nv);
+    VecX q1 = q, r1(nv), r2(nv), x = VecX::Zero(nv);
+    for (int j = 0; j < nv; ++j) {
+      constexpr double step = 1e-6;
+      x.setZero();
+      x[j] = step;
+      f_.retract(q, x, q1);
+      evaluate(q1, lambda, r1);
+      x[j] = -step;
+      f_.retract(q, x, q1);
+      evaluate(q1, lambda, r2);
+      K.col(j) = (r1 - r2) / (2.0 * step);
+    }
+  }
+  /// Solves (mu M + K) dx + J^T dlambda = -r, J dx = -phi; at most 0.2 in any coordinate. False if
+  /// the solution is not finite.
+  bool step(double mu, VecX& dx, VecX& dlambda) const {
+    const Eigen::Index nv = r.size(), nc = phi.size();
+    MatX T = MatX::Zero(nv + nc, nv + nc);
+    T.topLeftCorner(nv, nv) = K + mu * mass_;
+    T.topRightCorner(nv, nc) = J.transpose();
+    T.bottomLeftCorner(nc, nv) = J;
+    VecX b(nv + nc);
+    b << -r, -phi;
+    // Equilibrate: forces of stiff modes and lengths of constraints differ by many orders.
+    VecX d(nv + nc);
+    for (Eigen::Index i = 0; i < nv + nc; ++i) {
+      const double norm = T.row(i).cwiseAbs().maxCoeff();
+      d[i] = norm > 0.0 ? 1.0 / std::sqrt(norm) : 1.0;
+    }
+    const MatX Td = d.asDiagonal() * T * d.asDiagonal();
+    VecX x;
+    if (nv + nc <= 700) {
+      Eigen::CompleteOrthogonalDecomposition<MatX> cod;
+      cod.setThreshold(1e-14);
+      cod.compute(Td);
+      x = d.cwiseProduct(cod.solve(d.cwiseProduct(b)));
+    } else {
+      x = d.cwiseProduct(Td.partialPivLu().solve(d.cwiseProduct(b)));
+    }
+    const double length = largest(x.head(nv));
+    if (!std::isfinite(length)) return false;
+    x *= length > 0.2 ? 0.2 / length : 1.0;
+    dx = x.head(nv);
+    dlambda = x.tail(nc);
+    return true;
+  }
+
+  VecX r, phi;
+  MatX J, K;
+
+ private:
+  RelativeFormulation& f_;
+  VecX zero_;
+  MatX mass_;
+};
+
+/// The best state met in a search.
+struct Best {
+  VecX q, lambda;
+  double size = std::numeric_limits<double>::infinity();
+  int stalled = 0;
+  void offer(const VecX& at, const VecX& multipliers, double its_size) {
+    if (its_size < size) {
+      q = at;
+      lambda = multipliers;
+      size = its_size;
+      stalled = 0;
+    } else {
+      ++stalled;
+    }
+  }
+  bool done(double weight) const {
+    return size < 1e-12 * weight || (size < 1e-9 * weight && stalled > 3);
+  }
+};
+
+/// Pseudo-transient Newton: quick where the start is near, and finds equilibria of any kind.
+void approach(RelativeFormulation& f, Statics& statics, double weight, VecX q, VecX lambda,
+              int& iterations, Best& best) {
+  double mu = 1.0;  // [1/s2]: (mu M + K) x = -r
+  double previous = std::numeric_limits<double>::infinity();
+  VecX dx, dlambda, q1 = q;
+  for (int k = 0; k < 200; ++k, ++iterations) {
+    statics.linearise(q, lambda, k == 0);
+    const double size = largest(statics.r) + 1e3 * weight * largest(statics.phi);
+    best.offer(q, lambda, size);
+    if (best.done(weight)) return;
+    if (std::isfinite(previous))
+      mu = size < previous ? std::max(mu * 0.1, 1e-2) : std::min(mu * 10.0, 1e6);
+    previous = size;
+    if (!statics.step(mu, dx, dlambda)) return;
+    f.retract(q, dx, q1);
+    q = q1;
+    lambda += dlambda;
+  }
+}
+
+/// Downhill, for starts far from equilibrium, where the residual must grow before it vanishes: a
+/// step is taken if the forces did work along it, (g(q) + g(q + dx)).dx < 0 with g the residual
+/// without multipliers; otherwise mu grows until the step follows -M^-1 g.
+void descend(RelativeFormulation& f, Statics& statics, double weight, VecX q, VecX lambda,
+             int& iterations, Best& best) {
+  const VecX none = VecX::Zero(lambda.size());
+  double mu = 1.0;
+  VecX dx, dlambda, q1 = q, g(f.velocities()), g1(f.velocities()), r1(f.velocities());
+  bool first = true, moved = true;
+  double size = 0.0;
+  for (int k = 0; k < 500; ++k, ++iterations) {
+    if (moved) {
+      statics.linearise(q, lambda, first);
+      first = false;
+      size = largest(statics.r) + 1e3 * weight * largest(statics.phi);
+      best.offer(q, lambda, size);
+      if (best.done(weight)) return;
+      statics.evaluate(q, none, g);
+    }
+    if (!statics.step(mu, dx, dlambda)) return;
+    f.retract(q, dx, q1);
+    statics.evaluate(q1, lambda + dlambda, r1);
+    const double size1 = largest(r1) + 1e3 * weight * largest(f.constraint_values());
+    statics.evaluate(q1, none, g1);
+    const double start = g.dot(dx), work = 0.5 * (start + g1.dot(dx));
+    // Closing constraints and the last digits do not follow the work.
+    const bool downhill = start < 0.0 && work < 0.0;
+    const bool closer = size1 < 0.5 * size && size1 < 1e-3 * weight;
+    moved = downhill || closer;
+    if (moved) {
+      q = q1;
+      lambda += dlambda;
+      mu = std::max(mu * 0.2, 1e-9);
+    } else {
+      mu *= 10.0;
+      if (mu > 1e12) return;
+    }
+  }
+}
+
+/// A vehicle on a road is in balance wherever it stands: free bodies go back to their start in the
+/// horizontal directions that the equilibrium does not care about.
+template <class Evaluate>
+void keep_neutral_positions(RelativeFormulation& f, const VecX& start, VecX& q, double residual,
+                            double weight, const Evaluate& evaluate) {
+  VecX r(f.velocities());
+  for (const int i : f.free_translations()) {
+    VecX moved = q;
+    moved[i] = start[i];
+    evaluate(moved, r);
+    if (largest(r) < residual + 1e-10 * weight) q = moved;
+  }
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
+  Equilibrium e;
+  e.lambda = VecX::Zero(f.constraints());
+  const VecX start_q = q;
+  const double weight = std::max(1e-6, f.total_mass() * f.model().gravity.norm());
+  constexpr double accepted = 1e-7;
+  Statics statics(f);
+  statics.find_mass(q, e.lambda);
+  Best best{q, e.lambda};
+  approach(f, statics, weight, q, e.lambda, e.iterations, best);
+  if (!(best.size < accepted * weight))
+    descend(f, statics, weight, q, e.lambda, e.iterations, best);
+  q = best.q;
+  e.lambda = best.lambda;
+  VecX r(f.velocities());
+  const auto evaluate = [&](const VecX& at, VecX& out) { statics.evaluate(at, e.lambda, out); };
+  evaluate(q, r);
+  e.residual = largest(r);
+  keep_neutral_positions(f, start_q, q, e.residual, weight, evaluate);
+  evaluate(q, r);
+  e.residual = largest(r);
+  if (!(best.size < accepted * weight)) {
+    Eigen::Index worst = 0;
+    r.cwiseAbs().maxCoeff(&worst);
+    throw RunError(fmt::format(
+        "no static equilibrium found: after {} iterations {} is out of balance by {:.3g} N "
+        "(or N m)",
+        e.iterations, f.coordinate_owner(static_cast<int>(worst)), r[worst]));
+  }
+  return e;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,177 @@
+// Every registered kind of constraint part, and every joint of the list of joints as the parts it
+// is made of: gradient, velocity term, time derivatives and curvature against differences.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "floatframe/model/constraint_part.hpp"
+#include "floatframe/model/example_numbers.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "support/marker_motion.hpp"
+
+namespace floatframe::test {
+namespace {
+
+constexpr int samples = 30;
+
+struct Case {
+  std::string name;
+  std::vector<ConstraintPart> parts;
+};
+
+const TimeFunction& motion() {
+  static const TimeFunction f{PiecewisePolynomial::polynomial({0.1, 0.3, -0.2}), 0.2, 1.5, 0.4};
+  return f;
+}
+
+std::vector<Case> all_cases() {
+  std::vector<Case> all;
+  ExampleNumbers numbers(5);
+  for (const ConstraintKind& kind : constraint_kinds()) {
+    ConstraintPart p;
+    p.kind = kind.kind;
+    p.e_a = numbers.direction();
+    p.n_b = numbers.direction();
+    p.c = numbers(-0.5, 0.5);
+    p.scale = numbers(0.5, 1.5);
+    p.motion = &motion();
+    all.push_back({std::string("part_") + kind.name, {p}});
+  }
+  for (const JointKind& kind : joint_kinds) {
+    Model model;
+    model.bodies.resize(1);
+    model.bodies[0].length = 0.7;
+    Joint joint;
+    joint.type = kind.type;
+    joint.child = 0;
+    joint.axis_2 = numbers.direction();
+    model.joints.push_back(joint);
+    Case c{std::string("joint_") + kind.name, {}};
+    append_joint_parts(model, 0, c.parts);
+    int rows = 0;
+    for (const ConstraintPart& p : c.parts) rows += p.rows();
+    EXPECT_EQ(rows, 6 - kind.velocities) << kind.name;
+    all.push_back(c);
+  }
+  return all;
+}
+
+class Constraint : public ::testing::TestWithParam<Case> {
+ protected:
+  MarkerPair pair(const ConstraintPart& part) {
+    MarkerPair p;
+    p.a = numbers_.marker();
+    const bool on_axis = constraint_kinds()[static_cast<std::size_t>(part.kind)].on_axis;
+    p.b = on_axis ? numbers_.marker_on_axis(p.a) : numbers_.marker();
+    return p;
+  }
+  static std::vector<ConstraintRow> rows(const ConstraintPart& part, const MarkerPair& p,
+                                         double t = 0.3) {
+    std::vector<ConstraintRow> r(static_cast<std::size_t>(part.rows()));
+    evaluate_constraint(part, p.a, p.b, t, r.data());
+    return r;
+  }
+  static VecX values(const ConstraintPart& part, const MarkerPair& p, double t = 0.3) {
+    const auto r = rows(part, p, t);
+    VecX phi(part.rows());
+    for (int k = 0; k < part.rows(); ++k) phi[k] = r[static_cast<std::size_t>(k)].phi;
+    return phi;
+  }
+  static Vec12 push(const ConstraintPart& part, const MarkerPair& p, const VecX& lambda) {
+    const auto r = rows(part, p);
+    Vec12 sum = Vec12::Zero();
+    for (int k = 0; k < part.rows(); ++k)
+      sum += lambda[k] * stacked(r[static_cast<std::size_t>(k)].gradient);
+    return sum;
+  }
+  ExampleNumbers numbers_{3};
+};
+
+TEST_P(Constraint, GradientAgainstFiniteDifferences) {
+  double worst = 0.0;
+  for (const ConstraintPart& part : GetParam().parts)
+    for (int k = 0; k < samples; ++k) {
+      const MarkerPair p = pair(part);
+      const MatX numeric = jacobian([&](const Vec12& x) { return values(part, moved(p, x)); });
+      const auto r = rows(part, p);
+      for (int i = 0; i < part.rows(); ++i) {
+        const Vec12 g = stacked(r[static_cast<std::size_t>(i)].gradient);
+        worst = std::max(worst, (g - numeric.row(i).transpose()).cwiseAbs().maxCoeff());
+        EXPECT_GT(g.norm(), 1e-3);
+      }
+    }
+  EXPECT_LT(worst, 1e-9);
+  std::printf("[ figure ] gradient_error_%s %.1e\n", GetParam().name.c_str(), worst);
+}
+
+TEST_P(Constraint, CurvatureAgainstFiniteDifferences) {
+  double worst = 0.0;
+  for (const ConstraintPart& part : GetParam().parts)
+    for (int k = 0; k < samples; ++k) {
+      const MarkerPair p = pair(part);
+      VecX lambda(part.rows());
+      for (int i = 0; i < part.rows(); ++i) lambda[i] = numbers_(-3.0, 3.0);
+      Mat12 K = Mat12::Zero();
+      add_constraint_curvature(part, p.a, p.b, lambda.data(), K);
+      const MatX numeric =
+          jacobian([&](const Vec12& x) { return push(part, moved(p, x), lambda); });
+      worst = std::max(worst,
+                       (K - numeric).cwiseAbs().maxCoeff() / (1.0 + numeric.cwiseAbs().maxCoeff()));
+    }
+  EXPECT_LT(worst, 1e-9);
+  std::printf("[ figure ] curvature_error_%s %.1e\n", GetParam().name.c_str(), worst);
+}
+
+// quad is the rate of Phi_q V for velocities V that stay; by the chain rule V^T (dg/dx) V.
+TEST_P(Constraint, VelocityTermAgainstFiniteDifferencesAndCurvature) {
+  for (const ConstraintPart& part : GetParam().parts)
+    for (int k = 0; k < samples; ++k) {
+      const MarkerPair p = pair(part);
+      const Vec12 v = velocity(p);
+      const auto r = rows(part, p);
+      for (int i = 0; i < part.rows(); ++i) {
+        const VecX unit = VecX::Unit(part.rows(), i);
+        const VecX rate = derivative([&](double h) {
+          return VecX::Constant(1, push(part, moved(p, h * v), unit).dot(v)).eval();
+        });
+        const double quad = r[static_cast<std::size_t>(i)].quad;
+        EXPECT_NEAR(quad, rate[0], 1e-8 * (1.0 + std::abs(quad)));
+        Mat12 K = Mat12::Zero();
+        add_constraint_curvature(part, p.a, p.b, unit.data(), K);
+        EXPECT_NEAR(quad, v.dot(K * v), 1e-12 * (1.0 + v.squaredNorm()));
+      }
+    }
+}
+
+TEST_P(Constraint, TimeDerivativesAgainstFiniteDifferences) {
+  for (const ConstraintPart& part : GetParam().parts) {
+    const MarkerPair p = pair(part);
+    const auto r = rows(part, p);
+    const VecX first = derivative([&](double h) { return values(part, p, 0.3 + h); });
+    const VecX second = derivative([&](double h) {
+      VecX rate(part.rows());
+      const auto at = rows(part, p, 0.3 + h);
+      for (int i = 0; i < part.rows(); ++i) rate[i] = at[static_cast<std::size_t>(i)].phi_t;
+      return rate;
+    });
+    for (int i = 0; i < part.rows(); ++i) {
+      EXPECT_NEAR(r[static_cast<std::size_t>(i)].phi_t, first[i], 1e-9);
+      EXPECT_NEAR(r[static_cast<std::size_t>(i)].phi_tt, second[i], 1e-8);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryKind, Constraint, ::testing::ValuesIn(all_cases()),
+                         [](const auto& c) { return c.param.name; });
+
+TEST(ConstraintKinds, AreListedInTheirOrder) {
+  std::set<std::string> names;
+  std::size_t index = 0;
+  for (const ConstraintKind& kind : constraint_kinds()) {
+    EXPECT_EQ(static_cast<std::size_t>(kind.kind), index++);
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+  }
+}
+
+}  // namespace
+}  // namespace floatframe::test
