@@ -140,6 +140,8 @@ class RelativeFormulation {
   /// Dense Phi_q, load time only.
   MatX constraint_jacobian();
   CoordinateCounts counts() const;
+  /// Multiplications of the elimination in one factorisation (without the assembly of the fronts).
+  double elimination_work() const noexcept;
 
  private:
   struct BodyData {

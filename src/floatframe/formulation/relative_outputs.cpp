@@ -132,6 +132,13 @@ MatX RelativeFormulation::constraint_jacobian() {
   return J;
 }
 
+double RelativeFormulation::elimination_work() const noexcept {
+  double sum = 0.0;
+  for (const Cluster& c : clusters_)
+    for (int j = 0; j < c.size; ++j) sum += 0.5 * (c.n - j) * (c.n - j + 1);
+  return sum;
+}
+
 CoordinateCounts RelativeFormulation::counts() const {
   CoordinateCounts c;
   for (const BodyData& b : bodies_) {
