@@ -21,8 +21,10 @@ ALLOWED = {
     "integrator": {"core", "math", "body", "inertia", "model", "formulation"},
     "simulation": {"core", "math", "body", "inertia", "model", "formulation", "integrator"},
     "io": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator", "simulation"},
+    "sweep": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator",
+              "simulation", "io"},
     "apps": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator",
-             "simulation", "io"},
+             "simulation", "io", "sweep"},
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]floatframe/([^/">]+)/')
