@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""How much faster a study runs on two threads than on one, with two independent processes as calibration.
+
+    bench/sweep_speedup.py [--program build/floatframe] [--runs 64] [--repeat 3] [--duration S] [--mpi]
+
+Each repetition times, one after the other: all runs on one thread; all runs on two threads; two processes side by
+side with half of the runs each, on one thread (what the machine can give to two programs that share nothing); with
+--mpi all runs on two MPI processes. The ratios are those of the wall times to that of one thread. `processors` is
+the processor time divided by the wall time: below 2 in the parallel columns the machine had other work to do.
+The tables of all variants are compared byte for byte.
+"""
+import argparse
+import os
+import pathlib
+import resource
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+
+
+def processor_time():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def timed(commands, environment=None):
+    """Wall time and processors used of commands started together."""
+    before, start = processor_time(), time.perf_counter()
+    processes = [subprocess.Popen(command, stdout=subprocess.DEVNULL, env=environment) for command in commands]
+    codes = [process.wait() for process in processes]
+    wall = time.perf_counter() - start
+    if any(codes):
+        sys.exit(f"a study failed: {commands}")
+    return wall, (processor_time() - before) / wall
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", default=str(ROOT / "build" / "floatframe"))
+    parser.add_argument("--model", default=str(ROOT / "examples" / "iltis" / "iltis.yaml"))
+    parser.add_argument("--runs", type=int, default=64)
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--duration", help="of each run [s]; default: that of the model file")
+    parser.add_argument("--mpi", action="store_true", help="also two MPI processes")
+    arguments = parser.parse_args()
+    program = str(pathlib.Path(arguments.program).resolve())
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+
+    with tempfile.TemporaryDirectory(prefix="floatframe-speedup-") as scratch:
+        folder = pathlib.Path(scratch)
+        speeds = [3.0 + 3.0 * k / (arguments.runs - 1) for k in range(arguments.runs)]
+        # Odd and even runs: both halves take the same time.
+        plans = {"all": speeds, "even": speeds[::2], "odd": speeds[1::2]}
+        for name, values in plans.items():
+            (folder / f"{name}.csv").write_text("speed\n" + "".join(f"{v!r}\n" for v in values))
+
+        def sweep(plan, threads, out, *launcher):
+            command = [*launcher, program, "sweep", arguments.model, "--table", str(folder / f"{plan}.csv"), "--fresh",
+                       "--quiet", "--threads", str(threads), "--out", str(folder / out)]
+            return command + (["--duration", arguments.duration] if arguments.duration else [])
+
+        variants = {"1 thread": [sweep("all", 1, "one")], "2 threads": [sweep("all", 2, "two")],
+                    "2 processes": [sweep("even", 1, "even"), sweep("odd", 1, "odd")]}
+        if arguments.mpi:
+            mpirun = shutil.which("mpirun") or sys.exit("mpirun is not installed")
+            variants["2 MPI processes"] = [sweep("all", 1, "mpi", mpirun, "-n", "2", "--oversubscribe")]
+        times = {name: [] for name in variants}
+        print(f"{arguments.runs} runs of {pathlib.Path(arguments.model).name}; "
+              + subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip())
+        print(f"{'load':>6}" + "".join(f"  {name + ' [s]':>20}  {'processors':>10}" for name in variants))
+        for _ in range(arguments.repeat):
+            line = f"{os.getloadavg()[0]:6.2f}"
+            for name, commands in variants.items():
+                wall, processors = timed(commands, environment)
+                times[name].append(wall)
+                line += f"  {wall:20.3f}  {processors:10.2f}"
+            print(line, flush=True)
+        tables = {out: (folder / out / "sweep.csv").read_bytes() for out in
+                  ["one", "two"] + (["mpi"] if arguments.mpi else [])}
+        if len(set(tables.values())) != 1:
+            sys.exit("the tables differ")
+        print("tables: the same bytes")
+        for name in list(variants)[1:]:
+            ratios = [a / b for a, b in zip(times["1 thread"], times[name])]
+            print(f"{name:>16}: {min(times['1 thread']) / min(times[name]):.2f} times faster than 1 thread (quickest), "
+                  f"{statistics.median(ratios):.2f} (median of pairs)")
+
+
+if __name__ == "__main__":
+    main()
