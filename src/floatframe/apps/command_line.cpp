@@ -63,12 +63,13 @@ int parse_and_act(int argc, char** argv) {
   add_statics_command(app, action);
   add_bench_command(app, action);
   add_sweep_command(app, action);
+  add_advise_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     std::string message = error.what();
-    const char* commands = "run, check, statics, bench or sweep";
+    const char* commands = "run, check, statics, bench, sweep or advise";
     if (argc <= 1) {
       message = fmt::format("a command is required: {}", commands);
     } else if (app.get_subcommands().empty() && argv[1][0] != '-') {
