@@ -94,9 +94,10 @@ TEST(ModeAdvice, StaticSharesBelongToTheStaticModes) {
 TEST(ModeAdvice, IrrelevantModesGoAndTheRunConfirmsIt) {
   const ModelDescription d = description(cantilever);
   const ModeAdviceReport report = advise(d);
-  EXPECT_EQ(report.dropped, report.candidates);
-  EXPECT_EQ(report.trials, 1);
   ASSERT_GE(report.dropped, 4);
+  // Normal modes 1 and 2 are the first in y and z; all above are superfluous.
+  for (std::size_t k = 4; k < 8; ++k)
+    EXPECT_EQ(report.bodies[0].modes[k].action, ModeAction::drop) << k;
   EXPECT_EQ(report.bodies[0].modes[1].action == ModeAction::drop, false);
   EXPECT_LT(report.flops_reduced, 0.7 * report.flops_full);
   ASSERT_FALSE(report.differences.empty());
@@ -104,7 +105,7 @@ TEST(ModeAdvice, IrrelevantModesGoAndTheRunConfirmsIt) {
 
   // The claim, checked by other means: the model file with fewer normal modes gives the same curve.
   const RunResult full = run(build_model(d), d.simulation);
-  const ModelDescription few = description(cantilever, {{"normal", "0"}});
+  const ModelDescription few = description(cantilever, {{"normal", "2"}});
   const RunResult reduced = run(build_model(few), few.simulation);
   double high = 0.0, difference = 0.0;
   for (std::size_t r = 0; r < full.table.rows(); ++r) {
