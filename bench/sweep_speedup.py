@@ -6,7 +6,9 @@
 Each repetition times, one after the other: all runs on one thread; all runs on two threads; two processes side by
 side with half of the runs each, on one thread (what the machine can give to two programs that share nothing); with
 --mpi all runs on two MPI processes. The ratios are those of the wall times to that of one thread. `processors` is
-the processor time divided by the wall time: below 2 in the parallel columns the machine had other work to do.
+the processor time divided by the wall time: below 2 in the parallel columns the machine had other work to do, and the
+ratio says as much about that as about the program. "per processor" is the ratio of processor times, which shows what
+threads cost each other whatever the load: 1 if nothing.
 The tables of all variants are compared byte for byte.
 """
 import argparse
@@ -29,14 +31,14 @@ def processor_time():
 
 
 def timed(commands, environment=None):
-    """Wall time and processors used of commands started together."""
+    """Wall time and processor time of commands started together."""
     before, start = processor_time(), time.perf_counter()
     processes = [subprocess.Popen(command, stdout=subprocess.DEVNULL, env=environment) for command in commands]
     codes = [process.wait() for process in processes]
     wall = time.perf_counter() - start
     if any(codes):
         sys.exit(f"a study failed: {commands}")
-    return wall, (processor_time() - before) / wall
+    return wall, processor_time() - before
 
 
 def main():
@@ -70,15 +72,17 @@ def main():
             mpirun = shutil.which("mpirun") or sys.exit("mpirun is not installed")
             variants["2 MPI processes"] = [sweep("all", 1, "mpi", mpirun, "-n", "2", "--oversubscribe")]
         times = {name: [] for name in variants}
+        processor_times = {name: [] for name in variants}
         print(f"{arguments.runs} runs of {pathlib.Path(arguments.model).name}; "
               + subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip())
         print(f"{'load':>6}" + "".join(f"  {name + ' [s]':>20}  {'processors':>10}" for name in variants))
         for _ in range(arguments.repeat):
             line = f"{os.getloadavg()[0]:6.2f}"
             for name, commands in variants.items():
-                wall, processors = timed(commands, environment)
+                wall, processor = timed(commands, environment)
                 times[name].append(wall)
-                line += f"  {wall:20.3f}  {processors:10.2f}"
+                processor_times[name].append(processor)
+                line += f"  {wall:20.3f}  {processor / wall:10.2f}"
             print(line, flush=True)
         tables = {out: (folder / out / "sweep.csv").read_bytes() for out in
                   ["one", "two"] + (["mpi"] if arguments.mpi else [])}
@@ -88,7 +92,8 @@ def main():
         for name in list(variants)[1:]:
             ratios = [a / b for a, b in zip(times["1 thread"], times[name])]
             print(f"{name:>16}: {min(times['1 thread']) / min(times[name]):.2f} times faster than 1 thread (quickest), "
-                  f"{statistics.median(ratios):.2f} (median of pairs)")
+                  f"{statistics.median(ratios):.2f} (median of pairs); per processor "
+                  f"{min(processor_times['1 thread']) / min(processor_times[name]):.2f}")
 
 
 if __name__ == "__main__":

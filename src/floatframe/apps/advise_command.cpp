@@ -49,7 +49,7 @@ std::string cost_text(const ModeAdviceReport& r) {
                full > 0.0 ? fmt::format("{:.3f}", reduced / full) : "-"});
   };
   add("amplitudes", r.modes, r.modes - r.dropped, "{:.0f}");
-  add("kflop of flexible bodies an iteration (count)", 1e-3 * r.flops_full, 1e-3 * r.flops_reduced,
+  add("kflop of flexible bodies a step (count)", 1e-3 * r.flops_full, 1e-3 * r.flops_reduced,
       "{:.3g}");
   add("Newton iterations a step (measured)",
       per_step(static_cast<double>(r.full.iterations), r.full),

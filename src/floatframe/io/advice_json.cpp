@@ -15,7 +15,7 @@ Json cost(const RunSummary& s, double flops) {
   return {{"steps", s.steps},
           {"iterations_per_step", static_cast<double>(s.iterations) / steps},
           {"cpu_us_per_step", 1e6 * s.cpu / steps},
-          {"flops_per_iteration", flops}};
+          {"flops_per_step", flops}};
 }
 
 }  // namespace

@@ -153,13 +153,17 @@ BodyAdvice body_advice(const Model& model, int index, const MatX& y, const VecX&
   return advice;
 }
 
-/// One Newton iteration: inertia terms 24 k^2 + 155 k + 300 (twice the counted multiplications are
-/// not told apart), and k amplitudes eliminated from a front with 6 coordinates of the body's
-/// motion.
-double flops(double k) {
-  const double inertia = 24.0 * k * k + 155.0 * k + 300.0;
+/// Floating-point operations of a step for a body with k modes: its inertia terms in every
+/// iteration, and its amplitudes eliminated in every factorisation from a front with the 6
+/// coordinates of the body's motion.
+double flops(double k, const RunSummary& counts) {
+  const double steps = static_cast<double>(std::max(1L, counts.steps));
   const double front = 6.0;
-  return inertia + k * k * k / 3.0 + k * k * front + k * front * front;
+  const double inertia = 24.0 * k * k + 155.0 * k + 300.0;
+  const double elimination = k * k * k / 3.0 + k * k * front + k * front * front;
+  return (static_cast<double>(counts.iterations) * inertia +
+          static_cast<double>(counts.factorizations) * elimination) /
+         steps;
 }
 
 /// Range of each output of the full model and what the solver's tolerance makes of it.
@@ -361,8 +365,8 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
         ++report.quasi_static;
       }
     }
-    report.flops_full += flops(static_cast<double>(body.modes.size()));
-    report.flops_reduced += flops(kept);
+    report.flops_full += flops(static_cast<double>(body.modes.size()), full.summary);
+    report.flops_reduced += flops(kept, full.summary);
   }
 
   // Cost, alternating so that a change of the machine's load meets both.

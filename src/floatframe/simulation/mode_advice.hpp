@@ -80,8 +80,9 @@ struct ModeAdviceReport {
   std::string refused_by;  ///< the output that changed most in the smallest model refused ...
   double refused_difference =
       0;  ///< ... and by what part of its range; "" if the model did not run
-  /// Of inertia terms and elimination of the amplitudes, in one Newton iteration of the relative
-  /// formulation: a k^3/3 + ... count, not a measurement.
+  /// A step's floating-point operations for the flexible bodies, counted and not measured: inertia
+  /// terms of all iterations and elimination of the amplitudes in all factorisations of the full
+  /// model.
   double flops_full = 0, flops_reduced = 0;
 };
 

@@ -42,15 +42,16 @@ std::string plan_hash(const SweepPlan& plan) {
   return hash.text();
 }
 
-/// What all processes must agree upon before any file was read.
-std::string study_hash(const SweepOptions& o) {
+/// What all processes must agree upon before they work together; with the content of the files that
+/// the first run reads.
+std::string study_hash(const SweepOptions& o, const SweepRunner& runner) {
   ContentHash hash;
   hash.add(program_identity())
       .add(plan_hash(o.plan))
       .add(static_cast<std::uint64_t>(o.keep_results));
   for (const SweepSetting& s : o.fixed) hash.add(s.name).add(s.value);
   for (const SweepMeasure& m : o.measures) hash.add(m.output).add(m.statistic);
-  return hash.text();
+  return hash.add(runner.files_of_first_run()).text();
 }
 
 SweepIdentity identity_of(const SweepOptions& o, const std::map<std::string, std::string>& files) {
@@ -143,6 +144,7 @@ class Coordinator {
         journal_(journal),
         ranks_(ranks),
         give_up_(give_up),
+        study_(ranks ? study_hash(options, runner) : ""),
         credit_(ranks ? static_cast<std::size_t>(ranks->size()) : 0, 0),
         pool_(options.threads, [&runner](std::size_t run, int, std::atomic<double>& progress) {
           return runner.line(run, progress);
@@ -195,10 +197,11 @@ class Coordinator {
     const std::string word = word_of(message.text);
     long& credit = credit_[static_cast<std::size_t>(message.from)];
     if (word == "hello") {
-      if (rest_of(message.text) != study_hash(options_))
-        throw RunError(
-            fmt::format("process {} runs another build of the program or was given other arguments",
-                        message.from));
+      if (rest_of(message.text) != study_)
+        throw RunError(fmt::format(
+            "process {} runs another build of the program, sees another model file or was "
+            "given other arguments",
+            message.from));
     } else if (word == "want") {
       credit += std::stol(rest_of(message.text));
     } else if (word == "done") {
@@ -220,6 +223,7 @@ class Coordinator {
   SweepJournal& journal_;
   Ranks* ranks_;
   std::atomic<bool>& give_up_;
+  std::string study_;
   std::vector<long> credit_;
   WorkerPool pool_;
 };
@@ -296,7 +300,7 @@ void serve_sweep(const SweepOptions& o, Ranks& ranks, const std::atomic<bool>& s
     WorkerPool pool(o.threads, [&](std::size_t run, int, std::atomic<double>& progress) {
       return runner.line(run, progress);
     });
-    ranks.send(0, "hello " + study_hash(o));
+    ranks.send(0, "hello " + study_hash(o, runner));
     ranks.send(0, fmt::format("want {}", o.threads));
     bool ahead = false;
     while (!dismissed) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/io/atomic_file.hpp"
 #include "floatframe/io/results_csv.hpp"
@@ -111,6 +112,12 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
     write_file(path("summary.json"), summary_json(result.summary));
   }
   return encode_row(run, row);
+}
+
+std::string SweepRunner::files_of_first_run() const {
+  ContentHash hash;
+  for (const auto& [file, content] : reader_.read(0).fingerprint.files) hash.add(content);
+  return hash.text();
 }
 
 std::map<std::string, std::string> SweepRunner::files() const {

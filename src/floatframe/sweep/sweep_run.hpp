@@ -39,6 +39,8 @@ class SweepRunner {
 
   /// Files read so far and the fingerprints of their contents.
   std::map<std::string, std::string> files() const;
+  /// Fingerprint of the contents of the files that the first run reads. Throws InputError.
+  std::string files_of_first_run() const;
 
  private:
   SweepCase read(std::size_t run);
