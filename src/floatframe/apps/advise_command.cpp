@@ -81,12 +81,13 @@ std::string advice_text(const std::string& model, const SimulationDescription& s
   } else {
     text += fmt::format("  Dropping {}, verified by a run without {}:\n", plural(r.dropped, "mode"),
                         r.dropped == 1 ? "it" : "them");
-    TextTable table({"output", "range", "largest difference", "of the range [%]"});
+    TextTable table({"output", "range", "rms difference", "largest", "of peaks", "judged [%]"});
     constexpr std::size_t shown = 8;
     for (std::size_t k = 0; k < std::min(shown, r.differences.size()); ++k) {
       const OutputDifference& d = r.differences[k];
       const std::string unit = d.unit.empty() ? "" : " [" + d.unit + "]";
-      table.add({d.name + unit, fmt::format("{:.4g}", d.range), fmt::format("{:.2g}", d.largest),
+      table.add({d.name + unit, fmt::format("{:.4g}", d.range), fmt::format("{:.2g}", d.rms),
+                 fmt::format("{:.2g}", d.largest), fmt::format("{:.2g}", d.peaks),
                  percent(d.relative)});
     }
     text += table.text(4);

@@ -46,7 +46,9 @@ std::string advice_json(const std::string& model, double step, const ModeAdviceR
     differences.push_back({{"output", d.name},
                            {"unit", d.unit},
                            {"range", d.range},
+                           {"rms_difference", d.rms},
                            {"largest_difference", d.largest},
+                           {"difference_of_peaks", d.peaks},
                            {"solver_noise", d.noise},
                            {"relative", number(d.relative)}});
   const Json json = {{"model", model},
@@ -56,6 +58,7 @@ std::string advice_json(const std::string& model, double step, const ModeAdviceR
                      {"quasi_static", r.quasi_static},
                      {"candidates", r.candidates},
                      {"reduced_models_run", r.trials},
+                     {"newton_tolerance_compared", r.tolerance},
                      {"thresholds",
                       {{"drop_share", options.drop_share},
                        {"static_ratio", options.static_ratio},

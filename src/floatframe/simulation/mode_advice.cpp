@@ -167,7 +167,7 @@ double flops(double k, const RunSummary& counts) {
 }
 
 /// Range of each output of the full model and what the solver's tolerance makes of it.
-std::vector<OutputDifference> scales(const ResultTable& full, const ResultTable& finer,
+std::vector<OutputDifference> scales(const ResultTable& full, const ResultTable& other,
                                      std::size_t outputs) {
   std::vector<OutputDifference> out;
   for (std::size_t c = 1; c <= outputs; ++c) {
@@ -179,7 +179,7 @@ std::vector<OutputDifference> scales(const ResultTable& full, const ResultTable&
       const double x = full.at(r, c);
       low = r == 0 ? x : std::min(low, x);
       high = r == 0 ? x : std::max(high, x);
-      if (r < finer.rows()) d.noise = std::max(d.noise, std::abs(x - finer.at(r, c)));
+      if (r < other.rows()) d.noise = std::max(d.noise, std::abs(x - other.at(r, c)));
     }
     d.range = high - low;
     out.push_back(std::move(d));
@@ -198,14 +198,26 @@ std::vector<OutputDifference> compare(const std::vector<OutputDifference>& scale
     double largest_range = 0.0;
     for (const OutputDifference& other : scale)
       if (other.unit == d.unit) largest_range = std::max(largest_range, other.range);
-    for (std::size_t r = 0; r < std::min(full.rows(), reduced.rows()); ++r)
-      d.largest = std::max(d.largest, std::abs(full.at(r, f + 1) - reduced.at(r, c)));
+    const std::size_t rows = std::min(full.rows(), reduced.rows());
+    double high[2] = {0, 0}, low[2] = {0, 0};
+    for (std::size_t r = 0; r < rows; ++r) {
+      const double x[2] = {full.at(r, f + 1), reduced.at(r, c)};
+      for (int i = 0; i < 2; ++i) {
+        high[i] = r == 0 ? x[i] : std::max(high[i], x[i]);
+        low[i] = r == 0 ? x[i] : std::min(low[i], x[i]);
+      }
+      d.largest = std::max(d.largest, std::abs(x[0] - x[1]));
+      d.rms += (x[0] - x[1]) * (x[0] - x[1]) / static_cast<double>(rows);
+    }
+    d.rms = std::sqrt(d.rms);
+    d.peaks = std::max(std::abs(high[0] - high[1]), std::abs(low[0] - low[1]));
+    const double judged = std::max(d.rms, d.peaks);
     const bool still = d.range <= 1e-3 * largest_range && d.largest <= 10.0 * d.noise;
     const double range = std::max(d.range, 1e-6 * largest_range);
     if (full.rows() != reduced.rows())
       d.relative = std::numeric_limits<double>::infinity();
-    else if (d.largest > 0.0 && !still)
-      d.relative = range > 0.0 ? d.largest / range : std::numeric_limits<double>::infinity();
+    else if (judged > 0.0 && !still)
+      d.relative = range > 0.0 ? judged / range : std::numeric_limits<double>::infinity();
     out.push_back(std::move(d));
   }
   std::stable_sort(out.begin(), out.end(),
@@ -263,12 +275,20 @@ Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep) 
 
 ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& given,
                               const AdviceOptions& options) {
+  // What a mode does to the outputs must not drown in what the Newton tolerance does to them (a
+  // tyre that meets an edge a moment later): runs that are compared have a tolerance of their own.
   SimulationDescription simulation = given;
   simulation.output_interval = 0.0;
+  simulation.tolerance = std::min(given.tolerance, std::max(1e-3 * given.tolerance, 1e-12));
   ModeAdviceReport report;
-  const RunResult full = run(watched(model), simulation);
+  RunResult full = run(watched(model), simulation);
+  if (full.summary.status != "completed") {  // closer than round-off allows
+    simulation.tolerance = given.tolerance;
+    full = run(watched(model), simulation);
+  }
   if (full.summary.status != "completed")
     throw RunError("the model does not run to its end: " + full.summary.message);
+  report.tolerance = simulation.tolerance;
 
   // Amplitudes of the run, body by body.
   const ResultTable& table = full.table;
@@ -301,14 +321,10 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
 
   std::vector<OutputDifference> scale;
   if (!candidates.empty()) {
-    SimulationDescription finer = simulation;
-    finer.tolerance = 0.1 * simulation.tolerance;
-    ResultTable finer_table;
-    try {
-      finer_table = run(model, finer).table;
-    } catch (const RunError&) {  // a tolerance below what round-off allows: no noise is known
-    }
-    scale = scales(table, finer_table, model.outputs.size());
+    SimulationDescription other = simulation;
+    other.tolerance = 10.0 * simulation.tolerance;
+    const ResultTable other_table = run(model, other).table;
+    scale = scales(table, other_table, model.outputs.size());
   }
 
   // The largest number of candidates whose loss the outputs do not show, by halving.
@@ -321,11 +337,21 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
         if (!gone.contains(&m)) keep[static_cast<std::size_t>(body.body)].push_back(m.mode);
     return with_modes(model, keep);
   };
-  std::size_t good = 0, bad = candidates.size() + 1;
+  // Modes of equal shares go together: to drop one on the left of a vehicle and keep that on the
+  // right would make it lean.
+  std::vector<std::size_t> steps{0};
+  for (std::size_t k = 1; k <= candidates.size(); ++k) {
+    const auto share = [&](std::size_t i) {
+      return std::max(candidates[i]->static_share, candidates[i]->dynamic_share);
+    };
+    if (k == candidates.size() || share(k) > 1.01 * share(k - 1)) steps.push_back(k);
+  }
+  std::size_t good = 0, bad = steps.size();
   Model reduced = model;
   while (bad - good > 1) {
     // All of them first: most often that is the answer.
-    const std::size_t count = bad > candidates.size() ? candidates.size() : (good + bad) / 2;
+    const std::size_t at = bad == steps.size() ? bad - 1 : (good + bad) / 2;
+    const std::size_t count = steps[at];
     const Model trial = without(count);
     ++report.trials;
     bool passed = false;
@@ -339,20 +365,22 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
     } catch (const RunError&) {  // a model that cannot be assembled or moved without these modes
     }
     if (passed) {
-      good = count;
+      good = at;
       report.differences = std::move(differences);
       reduced = trial;
     } else {
-      bad = count;
+      bad = at;
       report.refused_by = differences.empty() ? "" : differences.front().name;
       report.refused_difference = differences.empty() ? 0.0 : differences.front().relative;
     }
   }
-  report.dropped = static_cast<int>(good);
+  const std::size_t dropped = steps[good];
+  report.dropped = static_cast<int>(dropped);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    candidates[k]->action = k < good ? ModeAction::drop : ModeAction::keep;
-    candidates[k]->retained = k >= good;
+    candidates[k]->action = k < dropped ? ModeAction::drop : ModeAction::keep;
+    candidates[k]->retained = k >= dropped;
   }
+  std::vector<double> kept_modes;
   for (BodyAdvice& body : report.bodies) {
     double kept = 0.0;
     for (ModeAdvice& m : body.modes) {
@@ -365,21 +393,24 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
         ++report.quasi_static;
       }
     }
-    report.flops_full += flops(static_cast<double>(body.modes.size()), full.summary);
-    report.flops_reduced += flops(kept, full.summary);
+    kept_modes.push_back(kept);
   }
 
-  // Cost, alternating so that a change of the machine's load meets both.
+  // Cost with the tolerance given, alternating so that a change of the machine's load meets both.
   RunOptions quiet;
   quiet.record = false;
   for (int k = 0; k < std::max(1, options.repeat); ++k) {
-    const RunSummary a = run(model, simulation, quiet).summary;
+    const RunSummary a = run(model, given, quiet).summary;
     if (k == 0 || a.cpu < report.full.cpu) report.full = a;
     if (report.dropped == 0) continue;
-    const RunSummary b = run(reduced, simulation, quiet).summary;
+    const RunSummary b = run(reduced, given, quiet).summary;
     if (k == 0 || b.cpu < report.reduced.cpu) report.reduced = b;
   }
   if (report.dropped == 0) report.reduced = report.full;
+  for (std::size_t k = 0; k < report.bodies.size(); ++k) {
+    report.flops_full += flops(static_cast<double>(report.bodies[k].modes.size()), report.full);
+    report.flops_reduced += flops(kept_modes[k], report.full);
+  }
   return report;
 }
 

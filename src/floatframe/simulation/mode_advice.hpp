@@ -54,28 +54,32 @@ struct BodyAdvice {
 
 struct OutputDifference {
   std::string name, unit;
-  double range = 0;    ///< largest minus smallest sample of the full model
-  double largest = 0;  ///< largest difference between the two runs
-  double noise =
-      0;  ///< largest difference when the full model is run with a tenth of the tolerance
-  /// largest / range. The range counts as at least a millionth of the largest range of an output in
-  /// the same unit, and an output that stays below a thousandth of that is not compared within ten
-  /// times its noise (0): it stands still but for the solver's round-off.
+  double range = 0;  ///< largest minus smallest sample of the full model
+  double rms = 0;    ///< root mean square of the difference between the two runs
+  double largest =
+      0;             ///< largest difference; in a sharp peak that comes a little later it is large
+  double peaks = 0;  ///< difference of the largest or of the smallest samples, the larger one
+  double noise = 0;  ///< largest difference when the full model is run with ten times the tolerance
+  /// What is judged: the larger of rms and peaks over the range. The range counts as at least a
+  /// millionth of the largest range of an output in the same unit, and an output that stays below a
+  /// thousandth of that is not compared within ten times its noise (0): it stands still but for the
+  /// solver's round-off.
   double relative = 0;
 };
 
 struct AdviceOptions {
   double drop_share = 1e-3;    ///< both shares below this: may be dropped
   double static_ratio = 0.05;  ///< kinetic ratio below this: follows its load
-  double tolerance = 0.01;     ///< of the range of every output: the verified difference allowed
+  double tolerance = 0.01;     ///< of the range of every output: rms and peak differences allowed
   int repeat = 3;              ///< runs of which the quickest counts
 };
 
 struct ModeAdviceReport {
   std::vector<BodyAdvice> bodies;
   int modes = 0, dropped = 0, quasi_static = 0, candidates = 0;
-  int trials = 0;                             ///< reduced models that were run
-  RunSummary full, reduced;                   ///< quickest of the repeated runs
+  int trials = 0;            ///< reduced models that were run
+  double tolerance = 0;      ///< Newton tolerance of the runs compared, below that of the model
+  RunSummary full, reduced;  ///< quickest of the repeated runs
   std::vector<OutputDifference> differences;  ///< the largest first
   std::string refused_by;  ///< the output that changed most in the smallest model refused ...
   double refused_difference =
