@@ -10,6 +10,11 @@ the processor time divided by the wall time: below 2 in the parallel columns the
 ratio says as much about that as about the program. "per processor" is the ratio of processor times, which shows what
 threads cost each other whatever the load: 1 if nothing.
 The tables of all variants are compared byte for byte.
+
+At last one study on two threads is watched from outside (/proc/<pid>/task/*/schedstat): for every thread the time it
+ran, the time it was ready but had no processor, which is the machine's, and the rest, in which it waited for the
+program itself. The estimate for two free processors is the sum of all processor times over the time of the main thread, half of that
+of the two workers (runs are handed out one by one, so that both get the same), and the longest own waiting.
 """
 import argparse
 import os
@@ -39,6 +44,24 @@ def timed(commands, environment=None):
     if any(codes):
         sys.exit(f"a study failed: {commands}")
     return wall, processor_time() - before
+
+
+def watched(command):
+    """Per thread: seconds on a processor, ready without a processor, and alive; sampled every 5 ms."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    start = time.perf_counter()
+    threads = {}
+    while process.poll() is None:
+        for task in pathlib.Path(f"/proc/{process.pid}/task").glob("*"):
+            try:
+                ran, ready, _ = (task / "schedstat").read_text().split()
+            except (OSError, ValueError):  # the thread has just ended
+                continue
+            now = time.perf_counter() - start
+            first = threads.get(task.name, (0, 0, now, now))[2]
+            threads[task.name] = (int(ran) * 1e-9, int(ready) * 1e-9, first, now)
+        time.sleep(0.005)
+    return {name: (ran, ready, last - first) for name, (ran, ready, first, last) in threads.items()}
 
 
 def main():
@@ -94,6 +117,15 @@ def main():
             print(f"{name:>16}: {min(times['1 thread']) / min(times[name]):.2f} times faster than 1 thread (quickest), "
                   f"{statistics.median(ratios):.2f} (median of pairs); per processor "
                   f"{min(processor_times['1 thread']) / min(processor_times[name]):.2f}")
+        threads = watched(variants["2 threads"][0])
+        print("one study on two threads, thread by thread [s]:   ran   ready   waited for the program")
+        for ran, ready, alive in sorted(threads.values(), reverse=True):
+            print(f"{ran:53.3f}  {ready:6.3f}  {max(0.0, alive - ran - ready):8.3f}")
+        workers = sorted(threads.values(), reverse=True)[:2]
+        total = sum(ran for ran, _, _ in threads.values())
+        parallel = sum(ran for ran, _, _ in workers)
+        waited = max(alive - ran - ready for ran, ready, alive in workers)
+        print(f"two free processors: about {total / (total - parallel + 0.5 * parallel + waited):.2f} times faster than 1")
 
 
 if __name__ == "__main__":
