@@ -3,6 +3,7 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(Threads REQUIRED)
 
 # yaml-cpp calls its target `yaml-cpp` up to 0.7 (Debian 12) and `yaml-cpp::yaml-cpp` from 0.8 (Ubuntu 24.04).
 find_package(yaml-cpp REQUIRED)
@@ -18,3 +19,12 @@ endif()
 add_library(floatframe_private_dependencies INTERFACE)
 target_link_libraries(floatframe_private_dependencies INTERFACE
   floatframe_yaml fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json)
+
+# MPI is for the module that `floatframe sweep` loads under mpirun; nothing else is linked against it.
+if(FLOATFRAME_MPI)
+  set(MPI_CXX_SKIP_MPICXX ON)  # the C interface is used
+  find_package(MPI COMPONENTS CXX)
+  if(NOT MPI_CXX_FOUND)
+    message(STATUS "MPI was not found: `floatframe sweep` will not run on several processes")
+  endif()
+endif()

@@ -7,6 +7,9 @@ if(TARGET floatframe_v3)
   install(TARGETS floatframe_v3
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/x86-64-v3 NAMELINK_SKIP)
 endif()
+if(TARGET floatframe_mpi)
+  install(TARGETS floatframe_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
 if(TARGET floatframe_program)
   file(RELATIVE_PATH library_from_program
        ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})

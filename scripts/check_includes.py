@@ -22,8 +22,10 @@ ALLOWED = {
     "simulation": {"core", "math", "body", "inertia", "model", "formulation", "integrator"},
     "io": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator", "simulation"},
     "realtime": {"core", "math", "body", "inertia", "model", "formulation", "integrator", "simulation"},
+    "sweep": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator",
+              "simulation", "io"},
     "apps": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator",
-             "simulation", "realtime", "io"},
+             "simulation", "realtime", "io", "sweep"},
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]floatframe/([^/">]+)/')

@@ -11,6 +11,7 @@ packages=(
   g++ cmake ninja-build make pkg-config python3
   libeigen3-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev
+  libopenmpi-dev openmpi-bin
 )
 
 check_only=no

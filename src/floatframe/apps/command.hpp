@@ -21,6 +21,8 @@ void add_check_command(CLI::App& app, Action& action);
 void add_statics_command(CLI::App& app, Action& action);
 void add_realtime_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
+void add_sweep_command(CLI::App& app, Action& action);
+void add_advise_command(CLI::App& app, Action& action);
 
 /// MODEL and --set, as every command that reads a model takes them.
 struct ModelArguments {

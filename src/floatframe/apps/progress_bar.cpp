@@ -17,6 +17,11 @@ ProgressBar::ProgressBar(bool wanted, double total, std::string unit)
 ProgressBar::~ProgressBar() { clear(); }
 
 void ProgressBar::show(double fraction) {
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  show(fraction, fmt::format("{:.4g} of {:.4g} {}", fraction * total_, total_, unit_));
+}
+
+void ProgressBar::show(double fraction, const std::string& text, double before) {
   if (!active_) return;
   constexpr int cells = 40;
   fraction = std::clamp(fraction, 0.0, 1.0);
@@ -24,12 +29,11 @@ void ProgressBar::show(double fraction) {
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
   std::string rest;
   // An estimate of the time to go means nothing at the very start and is of no use in short runs.
-  if (fraction > 0.02 && passed.count() > 1.0) {
-    rest = fmt::format(", {:.0f} s to go", passed.count() * (1.0 - fraction) / fraction);
+  if (fraction - before > 0.02 * (1.0 - before) && passed.count() > 1.0) {
+    rest = fmt::format(", {:.0f} s to go", passed.count() * (1.0 - fraction) / (fraction - before));
   }
-  const std::string line =
-      fmt::format("\r[{}{}] {:.4g} of {:.4g} {}{}\x1b[K", std::string(full, '#'),
-                  std::string(cells - full, '.'), fraction * total_, total_, unit_, rest);
+  const std::string line = fmt::format("\r[{}{}] {}{}\x1b[K", std::string(full, '#'),
+                                       std::string(cells - full, '.'), text, rest);
   std::fwrite(line.data(), 1, line.size(), stderr);
   std::fflush(stderr);
   drawn_ = true;

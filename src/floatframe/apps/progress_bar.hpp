@@ -14,6 +14,9 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   void show(double fraction);
+  /// With a text in place of "3 of 8 s". `before`: the fraction that was there at the start, which
+  /// says nothing about the time to go.
+  void show(double fraction, const std::string& text, double before = 0.0);
   /// Wipes the line, so that what is printed next starts at its beginning.
   void clear();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -72,11 +73,18 @@ std::vector<InputFault> sorted(std::vector<InputFault> faults, const ModelFiles&
 }  // namespace
 
 ModelDescription read_model(const std::string& path,
-                            const std::vector<ParameterOverride>& overrides) {
+                            const std::vector<ParameterOverride>& overrides,
+                            ModelFingerprint* used) {
+  std::optional<FilesRead> record;
+  if (used) record.emplace(used->files);
   Faults faults;
   ModelFiles files(faults);
   ReadModel model;
   const auto root = load_instances(path, overrides, files, faults);
+  if (root && used) {
+    for (const auto& [name, value] : root->scope) used->parameters.push_back(name);
+    fingerprint(*root, *used);
+  }
   if (root && root->root) {
     read_top(*root, path, model);
     every(*root, check_keys);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/io/model_fingerprint.hpp"
 #include "floatframe/model/description.hpp"
 
 namespace floatframe {
@@ -13,7 +14,8 @@ struct ParameterOverride {
 };
 
 /// Throws InputError with every fault found (file:line:column: sentence). `path` may hold subsystem references,
-/// which are read relative to its folder.
-ModelDescription read_model(const std::string& path, const std::vector<ParameterOverride>& overrides = {});
+/// which are read relative to its folder. `used`, if given, is told what was read, as far as the reading came.
+ModelDescription read_model(const std::string& path, const std::vector<ParameterOverride>& overrides = {},
+                            ModelFingerprint* used = nullptr);
 
 }  // namespace floatframe

@@ -12,6 +12,8 @@
 #include <map>
 #include <sstream>
 
+#include "floatframe/core/content_hash.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -225,6 +227,8 @@ bool check_text(const std::string& file, const std::string& text, Faults& faults
   return true;
 }
 
+thread_local std::map<std::string, std::string>* files_read = nullptr;
+
 }  // namespace
 
 YamlDocument parse_yaml(const std::string& file, const std::string& original, Faults& faults) {
@@ -279,7 +283,14 @@ bool read_text_file(const std::string& file, std::string& text, Faults& faults,
   text.assign(static_cast<std::size_t>(size), '\0');
   if (size > 0) in.read(text.data(), static_cast<std::streamsize>(size));
   if (!in) return fail("the file cannot be read");
+  if (files_read) files_read->insert_or_assign(file, content_hash(text));
   return true;
 }
+
+FilesRead::FilesRead(std::map<std::string, std::string>& hashes) : before_(files_read) {
+  files_read = &hashes;
+}
+
+FilesRead::~FilesRead() { files_read = before_; }
 
 }  // namespace floatframe

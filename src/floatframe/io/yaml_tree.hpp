@@ -3,6 +3,7 @@
 // files use is accepted: maps, lists and scalars. Duplicate keys, anchors, aliases, merge keys,
 // tags, several documents, tabs in the indentation, very deep nesting and anything that is not
 // UTF-8 text are faults, so that no file is read differently from what it looks like.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,18 @@ YamlDocument parse_yaml(const std::string& file, const std::string& text, Faults
 /// (or the file itself if `where` is empty) and false.
 bool read_text_file(const std::string& file, std::string& text, Faults& faults,
                     const SourceMark& where, const std::string& subject);
+
+/// While it lives, notes every file that `read_text_file` reads on this thread, with the fingerprint
+/// of its content.
+class FilesRead {
+ public:
+  explicit FilesRead(std::map<std::string, std::string>& hashes);
+  ~FilesRead();
+  FilesRead(const FilesRead&) = delete;
+  FilesRead& operator=(const FilesRead&) = delete;
+
+ private:
+  std::map<std::string, std::string>* before_;
+};
 
 }  // namespace floatframe

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""How much faster a study runs on two threads than on one, with two independent processes as calibration.
+
+    bench/sweep_speedup.py [--program build/floatframe] [--runs 64] [--repeat 3] [--duration S] [--mpi]
+
+Each repetition times, one after the other: all runs on one thread; all runs on two threads; two processes side by
+side with half of the runs each, on one thread (what the machine can give to two programs that share nothing); with
+--mpi all runs on two MPI processes. The ratios are those of the wall times to that of one thread. `processors` is
+the processor time divided by the wall time: below 2 in the parallel columns the machine had other work to do, and the
+ratio says as much about that as about the program. "per processor" is the ratio of processor times, which shows what
+threads cost each other whatever the load: 1 if nothing.
+The tables of all variants are compared byte for byte.
+
+At last one study on two threads is watched from outside (/proc/<pid>/task/*/schedstat): for every thread the time it
+ran, the time it was ready but had no processor, which is the machine's, and the rest, in which it waited for the
+program itself. The estimate for two free processors is the sum of all processor times over the time of the main thread, half of that
+of the two workers (runs are handed out one by one, so that both get the same), and the longest own waiting.
+"""
+import argparse
+import os
+import pathlib
+import resource
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+
+
+def processor_time():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def timed(commands, environment=None):
+    """Wall time and processor time of commands started together."""
+    before, start = processor_time(), time.perf_counter()
+    processes = [subprocess.Popen(command, stdout=subprocess.DEVNULL, env=environment) for command in commands]
+    codes = [process.wait() for process in processes]
+    wall = time.perf_counter() - start
+    if any(codes):
+        sys.exit(f"a study failed: {commands}")
+    return wall, processor_time() - before
+
+
+def watched(command):
+    """Per thread: seconds on a processor, ready without a processor, and alive; sampled every 5 ms."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    start = time.perf_counter()
+    threads = {}
+    while process.poll() is None:
+        for task in pathlib.Path(f"/proc/{process.pid}/task").glob("*"):
+            try:
+                ran, ready, _ = (task / "schedstat").read_text().split()
+            except (OSError, ValueError):  # the thread has just ended
+                continue
+            now = time.perf_counter() - start
+            first = threads.get(task.name, (0, 0, now, now))[2]
+            threads[task.name] = (int(ran) * 1e-9, int(ready) * 1e-9, first, now)
+        time.sleep(0.005)
+    return {name: (ran, ready, last - first) for name, (ran, ready, first, last) in threads.items()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", default=str(ROOT / "build" / "floatframe"))
+    parser.add_argument("--model", default=str(ROOT / "examples" / "iltis" / "iltis.yaml"))
+    parser.add_argument("--runs", type=int, default=64)
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--duration", help="of each run [s]; default: that of the model file")
+    parser.add_argument("--mpi", action="store_true", help="also two MPI processes")
+    arguments = parser.parse_args()
+    program = str(pathlib.Path(arguments.program).resolve())
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+
+    with tempfile.TemporaryDirectory(prefix="floatframe-speedup-") as scratch:
+        folder = pathlib.Path(scratch)
+        speeds = [3.0 + 3.0 * k / (arguments.runs - 1) for k in range(arguments.runs)]
+        # Odd and even runs: both halves take the same time.
+        plans = {"all": speeds, "even": speeds[::2], "odd": speeds[1::2]}
+        for name, values in plans.items():
+            (folder / f"{name}.csv").write_text("speed\n" + "".join(f"{v!r}\n" for v in values))
+
+        def sweep(plan, threads, out, *launcher):
+            command = [*launcher, program, "sweep", arguments.model, "--table", str(folder / f"{plan}.csv"), "--fresh",
+                       "--quiet", "--threads", str(threads), "--out", str(folder / out)]
+            return command + (["--duration", arguments.duration] if arguments.duration else [])
+
+        variants = {"1 thread": [sweep("all", 1, "one")], "2 threads": [sweep("all", 2, "two")],
+                    "2 processes": [sweep("even", 1, "even"), sweep("odd", 1, "odd")]}
+        if arguments.mpi:
+            mpirun = shutil.which("mpirun") or sys.exit("mpirun is not installed")
+            variants["2 MPI processes"] = [sweep("all", 1, "mpi", mpirun, "-n", "2", "--oversubscribe")]
+        times = {name: [] for name in variants}
+        processor_times = {name: [] for name in variants}
+        print(f"{arguments.runs} runs of {pathlib.Path(arguments.model).name}; "
+              + subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip())
+        print(f"{'load':>6}" + "".join(f"  {name + ' [s]':>20}  {'processors':>10}" for name in variants))
+        for _ in range(arguments.repeat):
+            line = f"{os.getloadavg()[0]:6.2f}"
+            for name, commands in variants.items():
+                wall, processor = timed(commands, environment)
+                times[name].append(wall)
+                processor_times[name].append(processor)
+                line += f"  {wall:20.3f}  {processor / wall:10.2f}"
+            print(line, flush=True)
+        tables = {out: (folder / out / "sweep.csv").read_bytes() for out in
+                  ["one", "two"] + (["mpi"] if arguments.mpi else [])}
+        if len(set(tables.values())) != 1:
+            sys.exit("the tables differ")
+        print("tables: the same bytes")
+        for name in list(variants)[1:]:
+            ratios = [a / b for a, b in zip(times["1 thread"], times[name])]
+            print(f"{name:>16}: {min(times['1 thread']) / min(times[name]):.2f} times faster than 1 thread (quickest), "
+                  f"{statistics.median(ratios):.2f} (median of pairs); per processor "
+                  f"{min(processor_times['1 thread']) / min(processor_times[name]):.2f}")
+        threads = watched(variants["2 threads"][0])
+        print("one study on two threads, thread by thread [s]:   ran   ready   waited for the program")
+        for ran, ready, alive in sorted(threads.values(), reverse=True):
+            print(f"{ran:53.3f}  {ready:6.3f}  {max(0.0, alive - ran - ready):8.3f}")
+        workers = sorted(threads.values(), reverse=True)[:2]
+        total = sum(ran for ran, _, _ in threads.values())
+        parallel = sum(ran for ran, _, _ in workers)
+        waited = max(alive - ran - ready for ran, ready, alive in workers)
+        print(f"two free processors: about {total / (total - parallel + 0.5 * parallel + waited):.2f} times faster than 1")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,239 @@
+// floatframe sweep: a parameter study on threads and, under mpirun, on several processes.
+#include <fmt/format.h>
+#include <sched.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/atomic_file.hpp"
+#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/sweep/sweep.hpp"
+
+namespace floatframe {
+namespace {
+
+struct SweepArguments {
+  ModelArguments model;
+  std::vector<std::string> vary, measures;
+  std::string table, out, coordinates, inertia, step, duration;
+  int threads = 0;
+  bool keep_results = false, fresh = false, quiet = false;
+};
+
+/// Processors this process may use, shared with the other processes of the study on this machine.
+int processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
+  if (count <= 0) count = static_cast<int>(std::thread::hardware_concurrency());
+  // Unless the launcher has bound each process to processors of its own.
+  const int all = static_cast<int>(std::thread::hardware_concurrency());
+  if (count == all) count /= ranks_on_this_machine();
+  return std::max(1, count);
+}
+
+/// The first signal asks for a clean end, the second ends at once.
+std::atomic<bool> stop_asked{false};
+std::atomic<int> signal_got{0};
+
+extern "C" void ask_to_stop(int signal) {
+  signal_got.store(signal);
+  stop_asked.store(true);
+}
+
+class SignalsAskToStop {
+ public:
+  SignalsAskToStop() {
+    struct sigaction action {};
+    action.sa_handler = ask_to_stop;
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    sigemptyset(&action.sa_mask);
+    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &action, &before_[k]);
+  }
+  ~SignalsAskToStop() {
+    for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &before_[k], nullptr);
+  }
+  SignalsAskToStop(const SignalsAskToStop&) = delete;
+  SignalsAskToStop& operator=(const SignalsAskToStop&) = delete;
+
+ private:
+  static constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, 3> before_{};
+};
+
+SweepOptions options_from(const SweepArguments& a) {
+  SweepOptions o;
+  o.model = a.model.path;
+  for (const std::string& setting : a.model.settings) {
+    const std::size_t equal = setting.find('=');
+    if (equal == std::string::npos || equal == 0)
+      throw InputError(fmt::format("--set: found '{}', expected NAME=VALUE", setting));
+    o.fixed.push_back({setting.substr(0, equal), setting.substr(equal + 1)});
+  }
+  const auto fix = [&](const char* name, const std::string& value) {
+    if (!value.empty()) o.fixed.push_back({std::string("simulation.") + name, value});
+  };
+  fix("coordinates", a.coordinates);
+  fix("inertia", a.inertia);
+  if (!a.step.empty()) positive_number("--step", a.step);
+  fix("step", a.step);
+  if (!a.duration.empty()) positive_number("--duration", a.duration);
+  fix("duration", a.duration);
+  if (a.vary.empty() == a.table.empty())
+    throw InputError(a.vary.empty() ? "expected --vary or --table: what changes from run to run"
+                                    : "found --vary and --table, expected one of the two");
+  o.plan = a.table.empty() ? grid_plan(a.vary) : table_plan(a.table);
+  for (const std::string& m : a.measures) o.measures.push_back(sweep_measure(m));
+  o.threads = a.threads > 0 ? a.threads : processors();
+  o.keep_results = a.keep_results;
+  o.fresh = a.fresh;
+  o.folder = a.out;
+  if (o.folder.empty()) {
+    const std::string stem = std::filesystem::path(o.model).stem().string();
+    o.folder = (std::filesystem::path("out") / (file_name_from(stem) + "_sweep")).string();
+  }
+  return o;
+}
+
+std::string report_text(const SweepReport& r, double seconds, int threads, int ranks) {
+  std::string where = plural(threads, "thread");
+  if (ranks > 1) where += fmt::format(" in each of {} processes", ranks);
+  const std::size_t now = r.runs - r.before;
+  std::string text =
+      now == 0
+          ? fmt::format("all {} were finished before\n", plural(static_cast<long>(r.runs), "run"))
+          : fmt::format("{} in {:.3g} s on {}{}\n", plural(static_cast<long>(now), "run"), seconds,
+                        where,
+                        r.before > 0 ? fmt::format(", {} were finished before", r.before) : "");
+  text += fmt::format("  table    {}\n  journal  {}\n", r.table, r.journal);
+  return text;
+}
+
+int lead(const SweepArguments& arguments, Ranks* ranks) {
+  const SweepOptions options = options_from(arguments);
+  const auto start = std::chrono::steady_clock::now();
+  SweepReport report;
+  {
+    ProgressBar bar(!arguments.quiet, 1.0, "");
+    auto shown = start - std::chrono::seconds(1);
+    report = run_sweep(options, ranks, stop_asked, [&](const SweepProgress& p) {
+      const auto now = std::chrono::steady_clock::now();
+      if (now - shown < std::chrono::milliseconds(100)) return;
+      shown = now;
+      const auto total = static_cast<double>(std::max<std::size_t>(1, p.total));
+      const bool checking = p.stage == SweepProgress::Stage::checking;
+      bar.show((static_cast<double>(p.done) + p.in_work) / total,
+               fmt::format("{} of {} runs{}", p.done, p.total, checking ? " checked" : ""),
+               static_cast<double>(p.before) / total);
+    });
+  }
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+  if (report.interrupted) {
+    fmt::print(stderr, "floatframe: interrupted: {} of {} finished; the same command continues\n",
+               report.finished, plural(static_cast<long>(report.runs), "run"));
+    return 1;
+  }
+  if (!arguments.quiet)
+    print(report_text(report, passed.count(), options.threads, ranks ? ranks->size() : 1));
+  if (report.failed == 0) return 0;
+  fmt::print(stderr, "floatframe: {} of {} failed, the first is run {}: {}\n", report.failed,
+             plural(static_cast<long>(report.runs), "run"), report.first_failed,
+             report.first_message);
+  return 1;
+}
+
+int sweep(const SweepArguments& arguments) {
+  std::unique_ptr<Ranks> ranks;
+  if (started_on_ranks()) ranks = open_ranks();
+  int code = 0;
+  {
+    const SignalsAskToStop signals;
+    if (ranks && ranks->rank() > 0) {
+      // Process 0 says what is wrong with the arguments.
+      std::optional<SweepOptions> options;
+      try {
+        options = options_from(arguments);
+      } catch (const InputError&) {
+      }
+      serve_sweep(options ? *options : SweepOptions{}, *ranks, stop_asked);
+      return 0;
+    }
+    try {
+      code = lead(arguments, ranks.get());
+    } catch (...) {
+      if (ranks) dismiss_ranks(*ranks);
+      throw;
+    }
+    if (ranks) dismiss_ranks(*ranks);
+  }
+  // The caller sees that a signal ended the program; under a launcher that would be taken for a
+  // crash.
+  if (stop_asked.load() && code != 0 && !ranks) std::raise(signal_got.load());
+  return code;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, Action& action) {
+  auto a = std::make_shared<SweepArguments>();
+  CLI::App* command = app.add_subcommand(
+      "sweep", "Run a model many times with other values; one row of results a run");
+  command->add_option("MODEL", a->model.path, "Model file (YAML)")->required()->type_name("");
+  // One value an occurrence: an option must not swallow the model.
+  const auto repeated = [&](const char* name, std::vector<std::string>& values, const char* type,
+                            const char* text) {
+    command->add_option(name, values, text)
+        ->type_name(type)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+  };
+  repeated("--vary", a->vary, "NAME=VALUES",
+           "What changes: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: all combinations");
+  command
+      ->add_option("--table", a->table,
+                   "Instead: CSV file, names in the first line, then one run a line")
+      ->type_name("FILE");
+  repeated("--set", a->model.settings, "NAME=VALUE", "The same for all runs; may be repeated");
+  repeated("--measure", a->measures, "OUTPUT[:STATISTIC]",
+           "Only these outputs in the table: final, min, time_of_min, max, time_of_max or rms; "
+           "may be repeated; default: all of all");
+  command->add_option("--threads", a->threads, "Runs at a time; default: the processors at hand")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  command->add_option("--coordinates", a->coordinates, "relative or absolute, for all runs")
+      ->check(CLI::IsMember({"relative", "absolute"}))
+      ->type_name("WORD");
+  command->add_option("--inertia", a->inertia, "preprocessing or projection, for all runs")
+      ->check(CLI::IsMember({"preprocessing", "projection"}))
+      ->type_name("WORD");
+  command->add_option("--step", a->step, "Time step of all runs [s]")->type_name("SECONDS");
+  command->add_option("--duration", a->duration, "Time to simulate in all runs [s]")
+      ->type_name("SECONDS");
+  command->add_option("--out", a->out, "Folder for the files; default: out/<file name>_sweep")
+      ->type_name("DIR");
+  command->add_flag("--keep-results", a->keep_results,
+                    "Keep results.csv and summary.json of every run below DIR/runs");
+  command->add_flag("--fresh", a->fresh, "Do not continue the study in DIR: start again");
+  command->add_flag("--quiet", a->quiet, "No progress bar, no summary; faults are still shown");
+  command->footer(
+      "NAME is a parameter of the model file or else a simulation option: coordinates, inertia,\n"
+      "start, step, duration, output_interval, spectral_radius, tolerance, ... (simulation.step "
+      "if\n"
+      "the file has a parameter of that name too).\n"
+      "Files: DIR/sweep.csv, the same to the byte whatever the number of threads and processes;\n"
+      "DIR/sweep.journal, from which an interrupted study continues when the command is repeated.\n"
+      "`mpirun -n 4 floatframe sweep ...` spreads the runs over processes.\n"
+      "Exit codes: 0 completed, 1 a run failed or the study was interrupted, 2 bad input.");
+  command->callback([a, &action] { action = [a] { return sweep(*a); }; });
+}
+
+}  // namespace floatframe

@@ -1,0 +1,58 @@
+#include "floatframe/body/with_modes.hpp"
+
+namespace floatframe {
+namespace {
+
+/// A fixed-size or dynamic matrix with some of its columns.
+template <class M>
+M columns(const M& x, const std::vector<int>& keep) {
+  M out(x.rows(), static_cast<Eigen::Index>(keep.size()));
+  for (std::size_t k = 0; k < keep.size(); ++k)
+    out.col(static_cast<Eigen::Index>(k)) = x.col(keep[k]);
+  return out;
+}
+
+MatX block(const MatX& x, const std::vector<int>& keep) {
+  return columns<MatX>(columns<MatX>(x, keep).transpose(), keep).transpose();
+}
+
+}  // namespace
+
+FlexibleBody with_modes(const FlexibleBody& body, const std::vector<int>& keep) {
+  FlexibleBody out = body;
+  InertiaInvariants& v = out.invariants;
+  v.S = columns(v.S, keep);
+  for (std::size_t i = 0; i < 3; ++i) {
+    v.Si[i] = columns(v.Si[i], keep);
+    for (std::size_t j = 0; j < 3; ++j) v.Sij[i][j] = block(v.Sij[i][j], keep);
+  }
+  out.K = block(body.K, keep);
+  out.D = body.D.size() > 0 ? block(body.D, keep) : body.D;
+  for (ModalNode& node : out.nodes) {
+    node.X = columns(node.X, keep);
+    node.X_theta = columns(node.X_theta, keep);
+  }
+  // The dynamic modes are the last ones, in the order of their frequencies.
+  const auto dynamic = static_cast<int>(body.fixed_interface_frequencies.size());
+  std::vector<double> frequencies;
+  for (const int k : keep)
+    if (k >= body.modes() - dynamic)
+      frequencies.push_back(body.fixed_interface_frequencies[k - (body.modes() - dynamic)]);
+  out.fixed_interface_frequencies =
+      Eigen::Map<VecX>(frequencies.data(), static_cast<Eigen::Index>(frequencies.size()));
+  out.mode_names.clear();
+  for (const int k : keep)
+    if (static_cast<std::size_t>(k) < body.mode_names.size())
+      out.mode_names.push_back(body.mode_names[static_cast<std::size_t>(k)]);
+  if (keep.empty()) {
+    out.projection = nullptr;
+  } else if (body.projection) {
+    auto data = std::make_shared<ProjectionData>(*body.projection);
+    data->X = columns(data->X, keep);
+    if (data->X_theta.size() > 0) data->X_theta = columns(data->X_theta, keep);
+    out.projection = data;
+  }
+  return out;
+}
+
+}  // namespace floatframe

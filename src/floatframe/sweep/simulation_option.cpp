@@ -1,0 +1,91 @@
+#include "floatframe/sweep/simulation_option.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floatframe/io/yaml_value.hpp"
+
+namespace floatframe {
+namespace {
+
+using S = SimulationDescription;
+
+struct NumberOption {
+  const char* name;
+  double S::*field;
+  NumberRule rule;
+};
+
+const std::vector<NumberOption>& number_options() {
+  static const std::vector<NumberOption> options{
+      {"step", &S::step, positive_number("s")},
+      {"duration", &S::duration, non_negative_number("s")},
+      {"output_interval", &S::output_interval, non_negative_number("s")},
+      {"spectral_radius", &S::spectral_radius, NumberRule{"a number from 0 to 1", "", 0.0, 1.0}},
+      {"tolerance", &S::tolerance, positive_number("")},
+      {"min_step", &S::min_step, non_negative_number("s")},
+      {"penalty", &S::penalty, non_negative_number("")},
+      {"position_tolerance", &S::position_tolerance, positive_number("m")},
+      {"velocity_tolerance", &S::velocity_tolerance, positive_number("m/s")}};
+  return options;
+}
+
+std::string found(const std::string& value, const std::string& expected) {
+  return fmt::format("found '{}', expected {}", value, expected);
+}
+
+template <class E>
+std::string choose(E& field, const std::string& value, const char* first, const char* second) {
+  if (value != first && value != second)
+    return found(value, fmt::format("{} or {}", first, second));
+  field = static_cast<E>(value == second ? 1 : 0);
+  return "";
+}
+
+}  // namespace
+
+const std::vector<std::string>& simulation_option_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> n{"coordinates", "inertia", "start", "max_iterations"};
+    for (const NumberOption& o : number_options()) n.emplace_back(o.name);
+    return n;
+  }();
+  return names;
+}
+
+std::string set_simulation_option(SimulationDescription& s, const std::string& name,
+                                  const std::string& value) {
+  if (name == "coordinates") return choose(s.coordinates, value, "relative", "absolute");
+  if (name == "inertia") return choose(s.inertia, value, "preprocessing", "projection");
+  if (name == "start") return choose(s.start, value, "given", "equilibrium");
+  const PlainScalar scalar = classify_plain_scalar(value);
+  const bool is_number = scalar.kind == PlainScalar::Kind::number;
+  if (name == "max_iterations") {
+    if (!is_number || scalar.number < 1 || scalar.number > 1000 ||
+        scalar.number != std::floor(scalar.number))
+      return found(value, "a number of iterations from 1 to 1000");
+    s.max_iterations = static_cast<int>(scalar.number);
+    return "";
+  }
+  for (const NumberOption& o : number_options())
+    if (name == o.name) {
+      if (!is_number || !o.rule.holds(scalar.number)) return found(value, o.rule.expectation());
+      s.*o.field = scalar.number;
+      return "";
+    }
+  return fmt::format("unknown option '{}'", name);
+}
+
+std::string simulation_fault(const SimulationDescription& s) {
+  constexpr double most_steps = 1e9;
+  if (s.duration > most_steps * s.step)
+    return fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} steps",
+                       s.duration, s.step, most_steps);
+  if (s.min_step > s.step)
+    return fmt::format("found a smallest substep of {:g} s, expected at most the step, {:g} s",
+                       s.min_step, s.step);
+  return "";
+}
+
+}  // namespace floatframe

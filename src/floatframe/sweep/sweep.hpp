@@ -1,0 +1,64 @@
+#pragma once
+// A parameter study: many runs of one model file with different values, on threads and, under
+// mpirun, on several processes. Its table depends only on the runs, not on how they were spread or
+// how often the study was interrupted: each run is single-threaded, and rows go through the
+// journal's text.
+//
+// Process 0 checks all runs, hands out run numbers, keeps the journal and writes the table; the
+// others ask it for runs. Its own threads take runs from the same queue.
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "floatframe/sweep/ranks.hpp"
+#include "floatframe/sweep/sweep_case.hpp"
+#include "floatframe/sweep/sweep_plan.hpp"
+#include "floatframe/sweep/sweep_row.hpp"
+
+namespace floatframe {
+
+struct SweepOptions {
+  std::string model;                ///< model file
+  std::vector<SweepSetting> fixed;  ///< for all runs
+  SweepPlan plan;
+  std::vector<SweepMeasure> measures;  ///< empty: all outputs
+  std::string folder;                  ///< sweep.csv, sweep.journal, runs/
+  int threads = 1;                     ///< of this process
+  bool keep_results = false;  ///< results.csv and summary.json of every run below runs/<number>
+  bool fresh = false;         ///< do not continue what is in the folder
+};
+
+struct SweepProgress {
+  enum class Stage { checking, running } stage = Stage::checking;
+  std::size_t done = 0, total = 0;  ///< runs; finished by an earlier call included
+  std::size_t before = 0;           ///< runs finished by an earlier call
+  double in_work = 0.0;             ///< sum of the fractions done of the runs in work
+};
+
+struct SweepReport {
+  std::size_t runs = 0;      ///< of the study
+  std::size_t finished = 0;  ///< of these; fewer only if interrupted
+  std::size_t before = 0;    ///< finished by earlier calls
+  std::size_t failed = 0;
+  std::size_t first_failed = 0;  ///< number from 1, 0: none
+  std::string first_message;
+  bool interrupted = false;
+  std::string table;    ///< path of the table; empty if interrupted
+  std::string journal;  ///< its path
+};
+
+/// Runs the study or what is left of it. `ranks` may be null. `stop`, looked at all the time, ends
+/// it early: runs in work are given up. Throws InputError (nothing was started), OutputError,
+/// RunError.
+SweepReport run_sweep(const SweepOptions& options, Ranks* ranks, const std::atomic<bool>& stop,
+                      const std::function<void(const SweepProgress&)>& progress);
+
+/// The part of a process other than 0: works until process 0 says that it is over.
+void serve_sweep(const SweepOptions& options, Ranks& ranks, const std::atomic<bool>& stop);
+
+/// Tells the other processes that nothing will come: when process 0 ends before `run_sweep`.
+void dismiss_ranks(Ranks& ranks);
+
+}  // namespace floatframe

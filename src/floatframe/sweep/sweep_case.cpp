@@ -1,0 +1,108 @@
+#include "floatframe/sweep/sweep_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "floatframe/core/content_hash.hpp"
+#include "floatframe/io/suggest.hpp"
+#include "floatframe/sweep/simulation_option.hpp"
+
+namespace floatframe {
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The reader knows values from outside as `--set`: here they may come from elsewhere.
+std::vector<InputFault> renamed(std::vector<InputFault> faults,
+                                const std::vector<SweepSetting>& fixed, const std::string& origin) {
+  for (InputFault& fault : faults) {
+    if (fault.message.compare(0, 5, "--set") != 0) continue;
+    bool from_option = false;
+    for (const SweepSetting& s : fixed)
+      from_option = from_option ||
+                    fault.message.compare(0, 6 + s.name.size(), "--set." + s.name) == 0 ||
+                    fault.message.compare(0, 6 + s.name.size(), "--set " + s.name) == 0;
+    if (!from_option) fault.message = origin + fault.message.substr(5);
+  }
+  return faults;
+}
+
+}  // namespace
+
+SweepCaseReader::SweepCaseReader(std::string model, const std::vector<SweepSetting>& fixed,
+                                 const SweepPlan& plan)
+    : model_(std::move(model)), fixed_(fixed), plan_(plan) {
+  // The file may be wrong with its own values and right with those of the study: only its
+  // parameters are asked for here.
+  ModelFingerprint file;
+  try {
+    read_model(model_, {}, &file);
+  } catch (const InputError&) {
+    if (file.model.empty()) throw;
+  }
+  parameters_ = file.parameters;
+  Faults faults;
+  for (const SweepSetting& s : fixed_) fixed_targets_.push_back(target(s.name, "--set", faults));
+  for (const std::string& name : plan_.names) {
+    const std::string& origin = plan_.origins.front();
+    const bool table = origin != "--vary";
+    targets_.push_back(target(name, table ? origin.substr(0, origin.rfind(':')) : origin, faults));
+    for (const SweepSetting& s : fixed_)
+      if (s.name == name) faults.add({}, fmt::format("'{}' is both fixed and varied", name));
+  }
+  faults.throw_if_any();
+}
+
+SweepCaseReader::Target SweepCaseReader::target(const std::string& name, const std::string& subject,
+                                                Faults& faults) const {
+  const std::string prefix = "simulation.";
+  const bool explicit_option = name.compare(0, prefix.size(), prefix) == 0;
+  const std::string option = explicit_option ? name.substr(prefix.size()) : name;
+  if (!explicit_option && contains(parameters_, name)) return {false, name};
+  if (contains(simulation_option_names(), option)) return {true, option};
+  std::vector<std::string> known = parameters_;
+  known.insert(known.end(), simulation_option_names().begin(), simulation_option_names().end());
+  faults.add({}, fmt::format("{}: '{}' is neither a parameter of {} nor a simulation option{}",
+                             subject, name, model_, did_you_mean(option, known)));
+  return {};
+}
+
+void SweepCaseReader::apply(const Target& target, const std::string& value,
+                            const std::string& subject, SimulationDescription& simulation,
+                            SweepCase& out, Faults& faults) const {
+  if (!target.option) return;
+  const std::string fault = set_simulation_option(simulation, target.name, value);
+  if (!fault.empty()) faults.add({}, fmt::format("{}: {}: {}", subject, target.name, fault));
+  out.fingerprint.simulation =
+      ContentHash().add(out.fingerprint.simulation).add(target.name).add(value).text();
+}
+
+SweepCase SweepCaseReader::read(std::size_t run) const {
+  const std::vector<std::string>& values = plan_.runs[run];
+  std::vector<ParameterOverride> overrides;
+  for (std::size_t k = 0; k < fixed_.size(); ++k)
+    if (!fixed_targets_[k].option) overrides.push_back({fixed_[k].name, fixed_[k].value});
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (!targets_[k].option) overrides.push_back({plan_.names[k], values[k]});
+  SweepCase out;
+  try {
+    out.description = read_model(model_, overrides, &out.fingerprint);
+  } catch (const InputError& error) {
+    throw InputError(renamed(error.faults(), fixed_, plan_.origins[run]));
+  }
+  Faults faults;
+  SimulationDescription& simulation = out.description.simulation;
+  for (std::size_t k = 0; k < fixed_.size(); ++k)
+    apply(fixed_targets_[k], fixed_[k].value, "--set", simulation, out, faults);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    apply(targets_[k], values[k], plan_.origins[run], simulation, out, faults);
+  const std::string fault = simulation_fault(simulation);
+  if (!fault.empty()) faults.add({}, fault);
+  faults.throw_if_any();
+  return out;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,53 @@
+#pragma once
+// One run of a study before it is run: the model file read with the run's values.
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model/description.hpp"
+#include "floatframe/sweep/sweep_plan.hpp"
+
+namespace floatframe {
+
+/// A value for all runs or for one: of a parameter of the model file or, if the file has none of
+/// that name (or the name is written "simulation.step"), of a simulation option.
+struct SweepSetting {
+  std::string name, value;
+};
+
+struct SweepCase {
+  ModelDescription description;
+  ModelFingerprint fingerprint;  ///< `simulation` includes the options set by the study
+};
+
+class SweepCaseReader {
+ public:
+  /// Finds out what the names of the plan and of `fixed` stand for. Throws InputError if the model
+  /// file cannot be read at all or a name is unknown. Both references must outlive the reader.
+  SweepCaseReader(std::string model, const std::vector<SweepSetting>& fixed, const SweepPlan& plan);
+
+  /// Reads the model for a run (from 0). May be called by several threads. Throws InputError.
+  SweepCase read(std::size_t run) const;
+
+  const std::string& model() const noexcept { return model_; }
+
+ private:
+  struct Target {
+    bool option = false;  ///< of the simulation, not a parameter
+    std::string name;
+  };
+  Target target(const std::string& name, const std::string& subject, Faults& faults) const;
+  void apply(const Target& target, const std::string& value, const std::string& subject,
+             SimulationDescription& simulation, SweepCase& out, Faults& faults) const;
+
+  std::string model_;
+  const std::vector<SweepSetting>& fixed_;
+  const SweepPlan& plan_;
+  std::vector<std::string> parameters_;
+  std::vector<Target> fixed_targets_, targets_;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,180 @@
+#include "floatframe/sweep/sweep_journal.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "floatframe/core/content_hash.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/atomic_file.hpp"
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string line_of(const Json& json) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return content_hash(text).substr(0, 16) + ' ' + text;
+}
+
+/// Discarded JSON if the line is not whole.
+Json json_of(const std::string& line) {
+  Json nothing(Json::value_t::discarded);
+  if (line.size() < 18 || line[16] != ' ') return nothing;
+  const std::string text = line.substr(17);
+  if (content_hash(text).compare(0, 16, line, 0, 16) != 0) return nothing;
+  return Json::parse(text, nullptr, false);
+}
+
+Json header_of(const SweepIdentity& identity, std::size_t runs) {
+  Json header = {{"floatframe_sweep", 1}, {"runs", runs}};
+  Json same = Json::array();
+  for (const auto& [what, value] : identity) same.push_back({what, value});
+  header["identity"] = same;
+  return header;
+}
+
+OutputError cannot(const std::string& path, int error) {
+  return OutputError(
+      fmt::format("the file '{}' cannot be written: {}", path, std::strerror(error)));
+}
+
+}  // namespace
+
+std::string encode_row(std::size_t run, const SweepRow& row) {
+  Json fields = Json::array();
+  for (const auto& [title, value] : row.fields) fields.push_back({title, value});
+  return line_of({{"run", run + 1},
+                  {"status", row.status},
+                  {"message", row.message},
+                  {"fields", std::move(fields)}});
+}
+
+bool decode_row(const std::string& text, std::size_t& run, SweepRow& row) {
+  const Json json = json_of(text);
+  if (json.is_discarded() || !json.is_object() || !json.contains("run")) return false;
+  try {
+    const auto number = json.at("run").get<std::size_t>();
+    if (number == 0) return false;
+    run = number - 1;
+    row = {json.at("status"), json.at("message"), {}};
+    for (const Json& field : json.at("fields")) row.fields.emplace_back(field.at(0), field.at(1));
+  } catch (const Json::exception&) {
+    return false;
+  }
+  return true;
+}
+
+SweepJournal::SweepJournal(const std::string& path, const SweepIdentity& identity, std::size_t runs,
+                           bool fresh)
+    : path_(path), flushed_(std::chrono::steady_clock::now()) {
+  const std::string header = line_of(header_of(identity, runs));
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (file_ < 0) throw cannot(path, errno);
+  try {
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      throw InputError(fmt::format("'{}' is in use: this study is running already", path));
+    if (fresh) create(header);
+    load(header, identity, runs);
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+}
+
+SweepJournal::~SweepJournal() {
+  if (unflushed_) ::fsync(file_);
+  ::close(file_);
+}
+
+void SweepJournal::create(const std::string& header) {
+  if (::ftruncate(file_, 0) != 0) throw cannot(path_, errno);
+  write(header);
+  flush();
+}
+
+void SweepJournal::load(const std::string& header, const SweepIdentity& identity,
+                        std::size_t runs) {
+  std::string text;
+  {
+    std::ifstream in(path_, std::ios::binary);
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  const std::size_t end_of_header = text.find('\n');
+  if (end_of_header == std::string::npos) {
+    // Empty, or ended while the first line was written: no run can have been lost. A file that is
+    // not a beginning of such a line is somebody else's.
+    if (header.compare(0, text.size(), text) != 0 && json_of(text).is_discarded() &&
+        text.size() > 17)
+      throw InputError(fmt::format("'{}' is not the journal of a study", path_));
+    return create(header);
+  }
+  const Json found = json_of(text.substr(0, end_of_header));
+  if (found.is_discarded() || !found.is_object() || !found.contains("floatframe_sweep"))
+    throw InputError(
+        fmt::format("'{}' is not the journal of a study; give another --out, or --fresh", path_));
+  // Lines: the last one may be torn; what is after the last line break goes.
+  const std::size_t whole = text.rfind('\n') + 1;
+  for (std::size_t from = end_of_header + 1; from < whole;) {
+    const std::size_t to = text.find('\n', from);
+    std::size_t run = 0;
+    SweepRow row;
+    if (decode_row(text.substr(from, to - from), run, row) && run < runs)
+      finished_.insert_or_assign(run, std::move(row));
+    from = to + 1;
+  }
+  if (text.substr(0, end_of_header) != header) {
+    std::string difference = "the runs differ";
+    const Json same = found.value("identity", Json::array());
+    for (std::size_t k = 0; k < identity.size(); ++k) {
+      const Json expected = Json::array({identity[k].first, identity[k].second});
+      if (k >= same.size() || same[k] != expected) {
+        difference = identity[k].first;
+        break;
+      }
+    }
+    throw InputError(fmt::format(
+        "'{}' holds another study ({}); give another --out to keep it, or --fresh to replace it",
+        path_, difference));
+  }
+  if (whole < text.size() && ::ftruncate(file_, static_cast<off_t>(whole)) != 0)
+    throw cannot(path_, errno);
+}
+
+void SweepJournal::write(const std::string& line) {
+  const std::string text = line + '\n';
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t n = ::write(file_, text.data() + done, text.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw cannot(path_, errno);
+    done += static_cast<std::size_t>(n);
+  }
+  unflushed_ = true;
+}
+
+void SweepJournal::add(const std::string& line) {
+  std::size_t run = 0;
+  SweepRow row;
+  if (!decode_row(line, run, row)) throw OutputError("a finished run arrived incomplete");
+  write(line);
+  finished_.insert_or_assign(run, std::move(row));
+  if (std::chrono::steady_clock::now() - flushed_ > std::chrono::milliseconds(500)) flush();
+}
+
+void SweepJournal::flush() {
+  if (!unflushed_) return;
+  if (::fsync(file_) != 0 && errno != EINVAL) throw cannot(path_, errno);
+  unflushed_ = false;
+  flushed_ = std::chrono::steady_clock::now();
+}
+
+}  // namespace floatframe

@@ -1,0 +1,30 @@
+#pragma once
+// Which runs a parameter study consists of: names, and for each run one value a name, as text that
+// the model file's rules for values apply to later.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace floatframe {
+
+struct SweepPlan {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> runs;  ///< one value a name
+  /// Where the values come from, for messages: "--vary" or "runs.csv:3" (one entry a run).
+  std::vector<std::string> origins;
+};
+
+inline constexpr std::size_t most_sweep_runs = 1000000;
+
+/// All combinations of the variations; the last one changes fastest. A variation is
+///   name=lo:hi:n       n values from lo to hi, both included, at equal distances
+///   name=lo:hi:n:log   the same at equal ratios (lo and hi of one sign)
+///   name=a,b,c         the values listed: numbers, true, false or texts
+/// Throws InputError.
+SweepPlan grid_plan(const std::vector<std::string>& variations);
+
+/// One run a row of a CSV file whose first line holds the names. Fields in double quotes may hold
+/// commas; empty lines are left out. Throws InputError with file, line and column.
+SweepPlan table_plan(const std::string& file);
+
+}  // namespace floatframe

@@ -1,0 +1,148 @@
+#include "floatframe/sweep/sweep_row.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/suggest.hpp"
+
+namespace floatframe {
+namespace {
+
+std::string number(double x) { return fmt::format("{:.17g}", x); }
+
+struct Figures {
+  double last = 0, min = 0, time_of_min = 0, max = 0, time_of_max = 0, rms = 0;
+};
+
+Figures figures_of(const ResultTable& table, std::size_t column) {
+  Figures f;
+  double integral = 0.0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double t = table.at(row, 0), x = table.at(row, column);
+    if (row == 0 || x < f.min) f.min = x, f.time_of_min = t;
+    if (row == 0 || x > f.max) f.max = x, f.time_of_max = t;
+    if (row > 0) {
+      const double before = table.at(row - 1, column);
+      integral += 0.5 * (t - table.at(row - 1, 0)) * (before * before + x * x);
+    }
+    f.last = x;
+  }
+  const double span = table.rows() > 1 ? table.at(table.rows() - 1, 0) - table.at(0, 0) : 0.0;
+  f.rms = span > 0.0 ? std::sqrt(integral / span) : std::abs(f.last);
+  return f;
+}
+
+bool wanted(const std::vector<SweepMeasure>& measures, const std::string& output,
+            const std::string& statistic) {
+  if (measures.empty()) return true;
+  return std::any_of(measures.begin(), measures.end(), [&](const SweepMeasure& m) {
+    return m.output == output && (m.statistic.empty() || m.statistic == statistic);
+  });
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += (c == '\n' || c == '\r') ? ' ' : c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+SweepMeasure sweep_measure(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  SweepMeasure m{text.substr(0, colon), ""};
+  if (colon != std::string::npos) m.statistic = text.substr(colon + 1);
+  const bool known = colon == std::string::npos ||
+                     std::find(sweep_statistics.begin(), sweep_statistics.end(), m.statistic) !=
+                         sweep_statistics.end();
+  if (!known || m.output.empty())
+    throw InputError(
+        fmt::format("--measure: found '{}', expected the name of an output, or name:statistic with "
+                    "{}{}",
+                    text, fmt::join(sweep_statistics, ", "),
+                    known ? "" : did_you_mean(m.statistic, sweep_statistics)));
+  return m;
+}
+
+SweepRow sweep_row(const RunResult& result, const std::vector<SweepMeasure>& measures) {
+  const RunSummary& s = result.summary;
+  SweepRow row{s.status, s.message, {}};
+  const auto add = [&](std::string title, std::string value) {
+    row.fields.emplace_back(std::move(title), std::move(value));
+  };
+  add("time reached [s]", number(s.duration));
+  add("steps", std::to_string(s.steps));
+  add("substeps", std::to_string(s.substeps));
+  add("iterations", std::to_string(s.iterations));
+  add("factorizations", std::to_string(s.factorizations));
+  add("max position violation [m]", number(s.max_position_violation));
+  add("max velocity violation [m/s]", number(s.max_velocity_violation));
+  const EnergySummary& e = s.energy;
+  add("kinetic start [J]", number(e.kinetic_start));
+  add("potential start [J]", number(e.potential_start));
+  add("elastic start [J]", number(e.elastic_start));
+  add("total start [J]", number(e.total_start));
+  add("kinetic end [J]", number(e.kinetic_end));
+  add("potential end [J]", number(e.potential_end));
+  add("elastic end [J]", number(e.elastic_end));
+  add("total end [J]", number(e.total_end));
+  for (std::size_t c = 1; c < result.table.columns.size(); ++c) {
+    const Column& column = result.table.columns[c];
+    if (result.table.rows() == 0) continue;
+    const Figures f = figures_of(result.table, c);
+    const std::string unit = column.unit.empty() ? "" : " [" + column.unit + "]";
+    const auto add_figure = [&](const char* statistic, const char* words, double value,
+                                const std::string& its_unit) {
+      if (wanted(measures, column.name, statistic))
+        add(column.name + " " + words + its_unit, number(value));
+    };
+    add_figure("final", "final", f.last, unit);
+    add_figure("min", "min", f.min, unit);
+    add_figure("time_of_min", "time of min", f.time_of_min, " [s]");
+    add_figure("max", "max", f.max, unit);
+    add_figure("time_of_max", "time of max", f.time_of_max, " [s]");
+    add_figure("rms", "rms", f.rms, unit);
+  }
+  return row;
+}
+
+SweepRow failed_row(const std::string& message) { return {"failed", message, {}}; }
+
+std::string sweep_csv(const std::vector<std::string>& names,
+                      const std::vector<std::vector<std::string>>& values,
+                      const std::vector<SweepRow>& rows) {
+  std::vector<std::string> titles;
+  std::map<std::string, std::size_t> column;
+  for (const SweepRow& row : rows)
+    for (const auto& [title, value] : row.fields)
+      if (column.emplace(title, titles.size()).second) titles.push_back(title);
+  std::string text = "run";
+  for (const std::string& name : names) text += ',' + csv_field(name);
+  text += ",status,message";
+  for (const std::string& title : titles) text += ',' + csv_field(title);
+  text += '\n';
+  std::vector<const std::string*> cells(titles.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    text += std::to_string(r + 1);
+    for (const std::string& value : values[r]) text += ',' + csv_field(value);
+    text += ',' + csv_field(rows[r].status) + ',' + csv_field(rows[r].message);
+    std::fill(cells.begin(), cells.end(), nullptr);
+    for (const auto& [title, value] : rows[r].fields) cells[column.at(title)] = &value;
+    for (const std::string* cell : cells) {
+      text += ',';
+      if (cell) text += *cell;
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace floatframe

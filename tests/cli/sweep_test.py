@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+"""`floatframe sweep` from outside: threads, processes under mpirun, kills, interrupts, messages, files."""
+import csv
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BINARY = os.environ.get("FLOATFRAME_BINARY") or (
+    sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else "build/floatframe")
+BINARY = str(pathlib.Path(BINARY).resolve())
+EXAMPLES = pathlib.Path(os.environ.get("FLOATFRAME_EXAMPLES") or
+                        pathlib.Path(__file__).resolve().parents[2] / "examples")
+CRANK = EXAMPLES / "slider_crank" / "slider_crank.yaml"
+MPIRUN = shutil.which("mpirun")
+MODULE = pathlib.Path(BINARY).parent / "lib" / "libfloatframe_mpi.so"
+
+# Twelve runs: a parameter, one that changes a flexible body, a simulation option.
+GRID = ("--vary", "rate=40:60:3", "--vary", "ne_rod=8,4", "--vary", "inertia=preprocessing,projection",
+        "--duration", "0.02")
+# Forty runs of some length.
+LONG = ("--vary", "rate=40:60:40", "--duration", "0.1")
+
+
+class Sweep(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="floatframe-sweep-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def sweep(self, code, *arguments, launcher=(), environment=None):
+        done = subprocess.run([*launcher, BINARY, "sweep", *map(str, arguments)], cwd=self.folder, timeout=200,
+                              capture_output=True, text=True, check=False, env=environment)
+        self.assertEqual(done.returncode, code, done.stderr + done.stdout)
+        return done
+
+    def start(self, *arguments):
+        return subprocess.Popen([BINARY, "sweep", *map(str, arguments)], cwd=self.folder,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def table(self, folder):
+        return (self.folder / folder / "sweep.csv").read_bytes()
+
+    def rows(self, folder):
+        with open(self.folder / folder / "sweep.csv", newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def journal(self, folder):
+        path = self.folder / folder / "sweep.journal"
+        return path.read_text(encoding="utf-8").splitlines() if path.exists() else []
+
+    def wait_for_runs(self, process, folder, count):
+        """Until the journal holds `count` finished runs."""
+        end = time.monotonic() + 120
+        while len(self.journal(folder)) < count + 1:
+            self.assertIsNone(process.poll(), "the study was over too early")
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.002)
+
+    def launcher(self, ranks):
+        """mpirun and an environment that lets it work in a container."""
+        if not MPIRUN or not MODULE.exists():
+            self.skipTest("mpirun is not installed or the program was built without MPI")
+        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                           OMPI_MCA_rmaps_base_oversubscribe="1")
+        # OpenMPI keeps memory until the end; with a sanitizer that is not ours to judge.
+        environment["ASAN_OPTIONS"] = environment.get("ASAN_OPTIONS", "") + ":detect_leaks=0"
+        return {"launcher": (MPIRUN, "-n", str(ranks), "--oversubscribe"), "environment": environment}
+
+
+class Spreading(Sweep):
+    def test_same_bytes_on_one_thread_two_threads_and_two_processes(self):
+        self.sweep(0, CRANK, *GRID, "--threads", 1, "--out", "one")
+        self.sweep(0, CRANK, *GRID, "--threads", 2, "--out", "two")
+        self.assertEqual(self.table("one"), self.table("two"))
+        rows = self.rows("one")
+        self.assertEqual(len(rows), 12)
+        self.assertEqual([row["run"] for row in rows], [str(k + 1) for k in range(12)])
+        self.assertEqual([row["ne_rod"] for row in rows[:4]], ["8", "8", "4", "4"])
+        self.assertEqual({row["status"] for row in rows}, {"completed"})
+        # The values reach the runs: another speed, another mesh, another inertia method.
+        final = [row["rod_middle.y final [m]"] for row in rows]
+        self.assertEqual(len(set(final)), 12)
+        for title in rows[0]:
+            for word in ("cpu", "real time", "seconds"):
+                self.assertNotIn(word, title)
+        done = self.sweep(0, CRANK, *GRID, "--threads", 1, "--out", "ranks", **self.launcher(2))
+        self.assertEqual(self.table("one"), self.table("ranks"))
+        self.assertIn("12 runs in", done.stdout)
+        self.assertIn("1 thread in each of 2 processes", done.stdout)
+        self.assertEqual(done.stdout.count("12 runs in"), 1)
+
+    def test_rows_are_those_of_single_runs(self):
+        self.sweep(0, CRANK, *GRID, "--out", "study", "--keep-results")
+        subprocess.run([BINARY, "run", CRANK, "--set", "rate=50", "--set", "ne_rod=4", "--inertia", "projection",
+                        "--duration", "0.02", "--out", "single", "--quiet"], cwd=self.folder, check=True)
+        row = self.rows("study")[7]
+        self.assertEqual((row["rate"], row["ne_rod"], row["inertia"]), ("50", "4", "projection"))
+        kept = (self.folder / "study/runs/08/results.csv").read_bytes()
+        self.assertEqual(kept, (self.folder / "single/results.csv").read_bytes())
+        with open(self.folder / "single/results.csv", newline="", encoding="utf-8") as file:
+            slider = [float(r["slider.x [m]"]) for r in csv.DictReader(file)]
+        self.assertEqual(float(row["slider.x final [m]"]), slider[-1])
+        self.assertEqual(float(row["slider.x min [m]"]), min(slider))
+        self.assertEqual(float(row["slider.x max [m]"]), max(slider))
+
+    def test_a_process_that_dies_ends_the_study_and_it_continues(self):
+        options = self.launcher(2)
+        process = subprocess.Popen([*options["launcher"], BINARY, "sweep", CRANK, *LONG, "--threads", "1", "--out",
+                                    "out"], cwd=self.folder, env=options["environment"], text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.wait_for_runs(process, "out", 4)
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        os.kill(int(children[-1]), signal.SIGKILL)
+        _, errors = process.communicate(timeout=60)
+        self.assertNotEqual(process.returncode, 0)
+        self.assertTrue(errors)
+        finished = len(self.journal("out")) - 1
+        self.assertLess(finished, 40)
+        done = self.sweep(0, CRANK, *LONG, "--threads", 2, "--out", "out")
+        self.assertRegex(done.stdout, r"\d+ were finished before")
+        self.sweep(0, CRANK, *LONG, "--threads", 2, "--out", "whole", "--quiet")
+        self.assertEqual(self.table("out"), self.table("whole"))
+
+    def test_bad_input_under_mpirun_is_said_once(self):
+        done = self.sweep(2, CRANK, "--vary", "rat=1,2", **self.launcher(2))
+        self.assertEqual(done.stderr.count("neither a parameter of"), 1, done.stderr)
+
+    def test_help_under_the_launchers_environment_needs_no_mpi(self):
+        done = subprocess.run([BINARY, "sweep", "--help"], env=dict(os.environ, OMPI_COMM_WORLD_SIZE="2"),
+                              capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.returncode, 0)
+
+
+class Continuing(Sweep):
+    def test_killed_study_repeats_no_finished_run(self):
+        process = self.start(CRANK, *LONG, "--threads", 2, "--out", "out", "--keep-results")
+        self.wait_for_runs(process, "out", 5)
+        process.kill()
+        process.communicate(timeout=60)
+        before = self.journal("out")
+        self.assertLess(len(before), 41)
+        self.assertFalse((self.folder / "out/sweep.csv").exists())
+        kept = {p: p.stat().st_mtime_ns for p in (self.folder / "out/runs").glob("*/results.csv")}
+        done = self.sweep(0, CRANK, *LONG, "--threads", 2, "--out", "out", "--keep-results")
+        after = self.journal("out")
+        # What was in the journal stays, and every run is in it once.
+        whole = before if before[-1] == after[len(before) - 1] else before[:-1]
+        self.assertEqual(after[:len(whole)], whole)
+        self.assertEqual(sorted(int(line.split('"run":')[1].split(",")[0]) for line in after[1:]), list(range(1, 41)))
+        self.assertIn(f"{41 - len(whole)} runs in", done.stdout)
+        finished = {int(line.split('"run":')[1].split(",")[0]) for line in whole[1:]}
+        for path, time_written in kept.items():
+            if int(path.parent.name) in finished:
+                self.assertEqual(path.stat().st_mtime_ns, time_written, "a finished run was repeated")
+        self.sweep(0, CRANK, *LONG, "--threads", 1, "--out", "whole")
+        self.assertEqual(self.table("out"), self.table("whole"))
+        # Nothing to do any more.
+        done = self.sweep(0, CRANK, *LONG, "--out", "out", "--keep-results")
+        self.assertIn("all 40 runs were finished before", done.stdout)
+        self.assertEqual(self.journal("out"), after)
+
+    def test_interrupt_ends_at_once_and_says_how_to_go_on(self):
+        process = self.start(CRANK, "--vary", "rate=40:60:40", "--duration", "20", "--threads", 2, "--out", "out")
+        end = time.monotonic() + 60
+        while not self.journal("out") and time.monotonic() < end:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertRegex(errors, r"floatframe: interrupted: \d+ of 40 runs finished; the same command continues\n")
+        self.assertFalse((self.folder / "out/sweep.csv").exists())
+
+    def test_another_study_is_refused(self):
+        self.sweep(0, CRANK, *GRID, "--out", "out")
+        before = self.table("out")
+        for arguments, reason in (
+                ((CRANK, "--vary", "rate=40:60:3", "--duration", "0.02"), "the varied parameters or their values differ"),
+                ((CRANK, *GRID[:-1], "0.03"), "the values that are the same for all runs differ"),
+                ((CRANK, *GRID, "--measure", "slider.x"), "the outputs measured differ"),
+                ((CRANK, *GRID, "--keep-results"), "one keeps the results of its runs, the other does not")):
+            done = self.sweep(2, *arguments, "--out", "out")
+            self.assertEqual(done.stderr, f"floatframe: 'out/sweep.journal' holds another study ({reason}); "
+                                          "give another --out to keep it, or --fresh to replace it\n")
+            self.assertEqual(done.stdout, "")
+        self.assertEqual(self.table("out"), before)
+        self.sweep(0, CRANK, *GRID[:-1], "0.03", "--out", "out", "--fresh")
+        self.assertNotEqual(self.table("out"), before)
+
+
+class Input(Sweep):
+    def test_table_file(self):
+        (self.folder / "runs.csv").write_text("rate,inertia\n40,projection\n45.5,preprocessing\n")
+        self.sweep(0, CRANK, "--table", "runs.csv", "--duration", "0.01", "--out", "out", "--measure", "slider.x:max",
+                   "--quiet")
+        rows = self.rows("out")
+        self.assertEqual([(r["rate"], r["inertia"]) for r in rows], [("40", "projection"), ("45.5", "preprocessing")])
+        self.assertIn("slider.x max [m]", rows[0])
+        self.assertNotIn("slider.x min [m]", rows[0])
+        (self.folder / "runs.csv").write_text("rate,inertia\n40,projection\n45.5,guess\n")
+        done = self.sweep(2, CRANK, "--table", "runs.csv", "--out", "other")
+        self.assertEqual(done.stderr,
+                         "floatframe: runs.csv:3: inertia: found 'guess', expected preprocessing or projection\n")
+        self.assertFalse((self.folder / "other").exists())
+
+    def test_bad_options_exit_2_with_one_line(self):
+        for arguments, message in (
+                ((CRANK,), "expected --vary or --table: what changes from run to run"),
+                ((CRANK, "--vary", "rate=1,2", "--table", "x.csv"), "found --vary and --table, expected one of the two"),
+                ((CRANK, "--vary", "rate"), "--vary rate: expected NAME=LO:HI:N"),
+                ((CRANK, "--vary", "rate=1:2:0"), "found '0', expected a number of values from 2 to 1000000"),
+                ((CRANK, "--vary", "raet=1,2"), "nor a simulation option, did you mean 'rate'?"),
+                ((CRANK, "--vary", "rate=1,2", "--threads", "0"), "--threads"),
+                ((CRANK, "--vary", "rate=1,2", "--set", "l_rod"), "--set: found 'l_rod', expected NAME=VALUE"),
+                ((CRANK, "--vary", "rate=1,2", "--step", "-1"), "--step: found '-1', expected a positive number [s]"),
+                ((CRANK, "--vary", "rate=1,2", "--measure", "slider.x:mean"), "--measure: found 'slider.x:mean'"),
+                (("nowhere.yaml", "--vary", "rate=1,2"), "nowhere.yaml: the file does not exist"),
+                ((CRANK, "--table", "nowhere.csv"), "nowhere.csv: the file does not exist")):
+            with self.subTest(arguments=arguments):
+                done = self.sweep(2, *arguments)
+                self.assertIn(message, done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                self.assertEqual(done.stdout, "")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_failed_runs_exit_1_with_the_first_reason(self):
+        # One Newton iteration a step, and no smaller steps.
+        done = self.sweep(1, CRANK, "--vary", "max_iterations=1,20", "--set", "min_step=0.0001", "--duration", "0.005",
+                          "--out", "out")
+        self.assertRegex(done.stderr, r"^floatframe: 1 of 2 runs failed, the first is run 1: ")
+        rows = self.rows("out")
+        self.assertEqual([row["status"] for row in rows], ["failed", "completed"])
+        self.assertTrue(rows[0]["message"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,118 @@
+// Which runs a study consists of.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/sweep/sweep_plan.hpp"
+
+namespace floatframe {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string fault_of(const std::vector<std::string>& variations) {
+  try {
+    grid_plan(variations);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+TEST(GridPlan, LastVariationChangesFastest) {
+  const SweepPlan plan = grid_plan({"a=1:3:3", "b=x, y", "c=true"});
+  EXPECT_EQ(plan.names, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(plan.runs, (Rows{{"1", "x", "true"},
+                             {"1", "y", "true"},
+                             {"2", "x", "true"},
+                             {"2", "y", "true"},
+                             {"3", "x", "true"},
+                             {"3", "y", "true"}}));
+}
+
+TEST(GridPlan, EndsOfRangesAreExactAndValuesReadBack) {
+  const SweepPlan plan = grid_plan({"a=0.1:0.7:7"});
+  ASSERT_EQ(plan.runs.size(), 7u);
+  EXPECT_EQ(plan.runs.front().front(), "0.1");
+  EXPECT_EQ(plan.runs.back().front(), "0.7");
+  for (std::size_t k = 0; k < 7; ++k)
+    EXPECT_EQ(std::stod(plan.runs[k][0]), k == 6 ? 0.7 : 0.1 + (0.7 - 0.1) * (double(k) / 6.0));
+  EXPECT_EQ(grid_plan({"a=3:-1:3"}).runs, (Rows{{"3"}, {"1"}, {"-1"}}));
+}
+
+TEST(GridPlan, LogarithmicRangesHaveEqualRatios) {
+  const SweepPlan plan = grid_plan({"k=1e3:1e6:4:log"});
+  ASSERT_EQ(plan.runs.size(), 4u);
+  double x = 1e3;
+  for (const auto& run : plan.runs) {
+    EXPECT_NEAR(std::stod(run[0]) / x, 1.0, 1e-14);
+    x *= 10.0;
+  }
+  EXPECT_EQ(std::stod(plan.runs.back()[0]), 1e6);
+}
+
+TEST(GridPlan, FaultsAreOneSentence) {
+  for (const auto& [variation, sentence] : std::vector<std::pair<std::string, std::string>>{
+           {"speed", "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C"},
+           {"=1,2", "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C"},
+           {"a=1:2", "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C"},
+           {"a=1:2:3:lin", "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C"},
+           {"a=1:x:3", "found 'x', expected a number"},
+           {"a=nan:1:3", "found 'nan', expected a number"},
+           {"a=1:2:1", "found '1', expected a number of values from 2 to 1000000"},
+           {"a=1:2:2.5", "found '2.5', expected a number of values from 2 to 1000000"},
+           {"a=1:2:1e9", "found '1e9', expected a number of values from 2 to 1000000"},
+           {"a=2:2:3", "both ends are the same, expected different ones"},
+           {"a=-1:2:3:log", "equal ratios need two ends of the same sign, neither of them zero"},
+           {"a=1,,2", "found nothing, expected a value"},
+           {"a=", "found nothing, expected a value"}})
+    EXPECT_EQ(fault_of({variation}), "--vary " + variation + ": " + sentence);
+  EXPECT_EQ(fault_of({"a=1,2", "a=3,4"}), "--vary: 'a' is varied twice");
+  EXPECT_EQ(fault_of({"a=1:2:2000", "b=1:2:2000"}),
+            "--vary: found 4e+06 combinations, expected at most 1000000");
+}
+
+class TablePlan : public testing::Test {
+ protected:
+  std::string write(const std::string& text) {
+    const std::string path = testing::TempDir() + "floatframe_table_plan.csv";
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  std::string fault_of_table(const std::string& text) {
+    const std::string path = write(text);
+    try {
+      table_plan(path);
+    } catch (const InputError& error) {
+      std::string message = error.what();
+      return message.substr(message.find(path) + path.size());
+    }
+    return "no fault";
+  }
+};
+
+TEST_F(TablePlan, OneRunALine) {
+  const SweepPlan plan = table_plan(
+      write("\xEF\xBB\xBFspeed, road ,note\r\n5,flat,\"a, \"\"b\"\"\"\r\n\r\n 6 , bump,c\n"));
+  EXPECT_EQ(plan.names, (std::vector<std::string>{"speed", "road", "note"}));
+  EXPECT_EQ(plan.runs, (Rows{{"5", "flat", "a, \"b\""}, {"6", "bump", "c"}}));
+  EXPECT_EQ(plan.origins[1].substr(plan.origins[1].rfind(':')), ":4");
+}
+
+TEST_F(TablePlan, FaultsNameThePlace) {
+  EXPECT_EQ(fault_of_table(""), ":1:1: expected a line of names and at least one line of values");
+  EXPECT_EQ(fault_of_table("a,b\n"),
+            ":1:1: expected a line of names and at least one line of values");
+  EXPECT_EQ(fault_of_table("a,b\n1,2\n1,2,3\n"),
+            ":3:1: found 3 fields, expected 2: one for each name in the first line");
+  EXPECT_EQ(fault_of_table("a,b\n1, \n"), ":2:4: found nothing, expected a value of 'b'");
+  EXPECT_EQ(fault_of_table("a,b\n1,\"x\n"), ":2:3: a quoted field does not end here");
+  EXPECT_EQ(fault_of_table("a,,b\n1,2,3\n"),
+            ":1:1: found nothing, expected the name of a parameter");
+  EXPECT_EQ(fault_of_table("a,a\n1,2\n"), ":1:1: 'a' is varied twice");
+  EXPECT_THROW(table_plan(testing::TempDir() + "nowhere.csv"), InputError);
+}
+
+}  // namespace
+}  // namespace floatframe
