@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "floatframe/apps/bench_chain.hpp"
 #include "floatframe/apps/command.hpp"
 #include "floatframe/apps/dense_factorization.hpp"
 #include "floatframe/io/model_reader.hpp"
@@ -13,11 +14,6 @@
 
 namespace floatframe {
 namespace {
-
-struct Combination {
-  Coordinates coordinates;
-  InertiaMethod inertia;
-};
 
 constexpr Combination combinations[] = {{Coordinates::absolute, InertiaMethod::projection},
                                         {Coordinates::absolute, InertiaMethod::preprocessing},
