@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "floatframe/apps/bench_stepper.hpp"
+#include "floatframe/apps/chain_model.hpp"
 #include "floatframe/model/description.hpp"
 
 namespace floatframe {
@@ -47,7 +48,7 @@ struct ChainOptions {
   int elements = 20;
   double step = 1e-3, duration = 2.0;  ///< [s]
   double tolerance = 1e-9;             ///< of Newton's method, largest coordinate increment
-  double spectral_radius = 1.0;
+  double spectral_radius = chain_spectral_radius;
   std::vector<Coordinates> coordinates{Coordinates::relative, Coordinates::absolute};
   std::vector<InertiaMethod> inertia{InertiaMethod::preprocessing, InertiaMethod::projection};
   int runs = 5;          ///< timed runs of a row, at least

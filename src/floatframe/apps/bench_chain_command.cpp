@@ -92,7 +92,7 @@ void add_bench_chain(CLI::App& bench, Action& action) {
   text("--tolerance", a->tolerance, "NUMBER",
        "Newton tolerance: largest coordinate increment (default 1e-9)");
   text("--spectral-radius", a->spectral_radius, "NUMBER",
-       "Of the integrator at infinite frequency (default 1: trapezoidal rule)");
+       "Of the integrator at infinite frequency (default 0.9; 1: trapezoidal rule)");
   chain->add_option("--repeat", a->options.runs, "Timed runs of a row, at least (default 5)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");

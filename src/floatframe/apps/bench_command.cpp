@@ -57,6 +57,8 @@ void add_bench_command(CLI::App& app, Action& action) {
   bench->require_subcommand(1);
   add_bench_iltis(*bench, action);
   add_bench_chain(*bench, action);
+  add_bench_scaling(*bench, action);
+  add_bench_step(*bench, action);
 }
 
 }  // namespace floatframe

@@ -9,6 +9,8 @@ namespace floatframe {
 
 void add_bench_iltis(CLI::App& bench, Action& action);
 void add_bench_chain(CLI::App& bench, Action& action);
+void add_bench_scaling(CLI::App& bench, Action& action);
+void add_bench_step(CLI::App& bench, Action& action);
 
 /// The Iltis example: in a build folder beside the examples, in the current folder, or where the
 /// program is installed. Throws InputError if it is not there.

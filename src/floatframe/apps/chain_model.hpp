@@ -23,6 +23,10 @@ ModelDescription chain_model(int links, int modes, int elements);
 /// "end" at x = 0 and x = 1 m and its frame at "start".
 ModelDescription chain_model(int links, const FlexibleBody& link);
 
+/// Spectral radius of the benchmarks. The trapezoidal rule (1) is exact in energy but not stable in
+/// absolute coordinates: the multipliers of stiff links oscillate without damping.
+inline constexpr double chain_spectral_radius = 0.9;
+
 /// The largest number of modes that `elements` beams can give (massless rotations give none).
 int largest_chain_modes(int elements) noexcept;
 
