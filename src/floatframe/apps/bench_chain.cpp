@@ -23,16 +23,6 @@ double median(std::vector<double> values) {
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-/// The largest of 1, 2, 5, 10, 20, ... that is not above n.
-long round_down(long n) {
-  for (long decade = 1;; decade *= 10) {
-    for (const long digit : {1L, 2L, 5L}) {
-      const long next = digit == 5 ? 10 * decade : (digit == 2 ? 5 : 2) * decade;
-      if (next > n) return digit * decade;
-    }
-  }
-}
-
 /// The step that ends at 1 s, or 0 if none does within `steps`.
 long tip_step(double step, long steps) {
   const long k = std::lround(tip_time / step);
@@ -69,7 +59,7 @@ class CheckRun {
       if (spent + static_cast<double>(block) * each > seconds && done_ < steps) {
         // So long a run is cut to a round number of steps, the same on machines of about this
         // speed.
-        done_ = round_down(done_);
+        done_ = round_steps(done_);
         return;
       }
     }
@@ -127,18 +117,27 @@ ChainRow measure(const Model& model, const SimulationDescription& simulation,
   if (check.tip() && model.bodies.size() == 4)
     row.tip_published = (*check.tip() - published_tip_of_four).norm();
   if (check.steps() > 0)
-    row.time = time_steps(*stepper, check.steps(), options.runs, options.seconds);
+    row.time =
+        time_steps(*stepper, check.steps(), options.runs, options.seconds, options.most_runs);
   return row;
 }
 
 }  // namespace
 
-StepTime time_steps(BenchStepper& stepper, long steps, int runs, double seconds) {
+long round_steps(long n) noexcept {
+  for (long decade = 1;; decade *= 10) {
+    for (const long digit : {1L, 2L, 5L}) {
+      const long next = digit == 5 ? 10 * decade : (digit == 2 ? 5 : 2) * decade;
+      if (next > n) return digit * decade;
+    }
+  }
+}
+
+StepTime time_steps(BenchStepper& stepper, long steps, int runs, double seconds, int most_runs) {
   const auto blocks = static_cast<std::size_t>((steps + steps_a_block - 1) / steps_a_block);
   std::vector<std::vector<double>> times(blocks);
   StepTime result;
   double spent = 0.0;
-  constexpr int most_runs = 100;
   while (result.runs < runs || (spent < seconds && result.runs < most_runs)) {
     // A run that takes long is not repeated more than the noise of short ones deserves.
     if (result.runs >= 2 && spent > 2.0 * seconds) break;

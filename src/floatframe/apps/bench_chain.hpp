@@ -27,9 +27,13 @@ struct StepTime {
   StepCounts counts;  ///< of one run
 };
 
+/// The largest of 1, 2, 5, 10, 20, ... that is not above n.
+long round_steps(long n) noexcept;
+
 /// Times `steps` steps from the start in `runs` runs at least, more while they take less than
 /// `seconds` together. Throws RunError with the stepper's words if a step fails.
-StepTime time_steps(BenchStepper& stepper, long steps, int runs, double seconds);
+StepTime time_steps(BenchStepper& stepper, long steps, int runs, double seconds,
+                    int most_runs = 100);
 
 struct ChainRow {
   int links = 0, modes = 0;
@@ -51,7 +55,8 @@ struct ChainOptions {
   double spectral_radius = chain_spectral_radius;
   std::vector<Coordinates> coordinates{Coordinates::relative, Coordinates::absolute};
   std::vector<InertiaMethod> inertia{InertiaMethod::preprocessing, InertiaMethod::projection};
-  int runs = 5;          ///< timed runs of a row, at least
+  int runs = 5;  ///< timed runs of a row, at least
+  int most_runs = 100;
   double seconds = 2.0;  ///< processor time for the timed runs of a row, about
   std::function<void(double)> progress;
 };

@@ -1,7 +1,7 @@
 #include "floatframe/apps/bench_scaling.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "floatframe/apps/chain_model.hpp"
 #include "floatframe/apps/dense_factorization.hpp"
@@ -75,7 +75,11 @@ void measure(const Model& model, const SimulationDescription& simulation,
   const auto stepper = make_bench_stepper(model, simulation);
   row.freedoms = stepper->freedoms();
   try {
-    row.time = time_steps(*stepper, options.steps, options.runs, options.seconds);
+    // Where a step takes long, fewer of them: a run should not take more than 5 times what it may.
+    const double first = time_steps(*stepper, 1, 1, 0.0).least;
+    const double most = std::clamp(5.0 * options.seconds / std::max(first, 1e-9), 1.0, 1e6);
+    row.time = time_steps(*stepper, std::min(options.steps, round_steps(std::lround(most))),
+                          options.runs, options.seconds);
   } catch (const RunError& error) {
     row.failure = error.what();
   }

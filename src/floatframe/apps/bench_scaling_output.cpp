@@ -26,16 +26,16 @@ const char* title(Sweep sweep) {
   return "";
 }
 
-/// What the cost of a row is measured by: the first row of the same sweep and combination; for
-/// links and modes the first with 8 of them, since the smallest ones are mostly overhead.
+/// What the cost of a row is measured by: the row of 20 elements, 4 interface nodes, 8 modes or 8
+/// links of the same combination, or the first one if that is not there.
 const ScalingRow& base_row(const ScalingResult& result, const ScalingRow& row) {
+  const int usual = row.sweep == Sweep::elements ? 20 : row.sweep == Sweep::interface_nodes ? 4 : 8;
   const ScalingRow* base = nullptr;
   for (const ScalingRow& other : result.rows) {
     if (other.sweep != row.sweep || other.combination.coordinates != row.combination.coordinates ||
         other.combination.inertia != row.combination.inertia || !other.failure.empty())
       continue;
-    const bool late = row.sweep == Sweep::modes || row.sweep == Sweep::bodies;
-    if (!base || (late && base->value < 8 && other.value <= 8)) base = &other;
+    if (!base || other.value == usual) base = &other;
   }
   return base ? *base : row;
 }
@@ -112,6 +112,7 @@ std::string scaling_json(const ScalingResult& result) {
                     {"us_per_step_min", 1e6 * row.time.least},
                     {"us_per_step_median", 1e6 * row.time.median},
                     {"iterations_per_step", iterations_a_step(row)},
+                    {"steps", row.time.steps},
                     {"build_s", row.build},
                     {"failure", row.failure.empty() ? Json() : Json(row.failure)}});
   }
