@@ -116,9 +116,13 @@ ChainRow measure(const Model& model, const SimulationDescription& simulation,
   if (check.tip() && reference) row.tip_error = (*check.tip() - *reference).norm();
   if (check.tip() && model.bodies.size() == 4)
     row.tip_published = (*check.tip() - published_tip_of_four).norm();
-  if (check.steps() > 0)
+  if (check.steps() == 0) return row;
+  try {
     row.time =
         time_steps(*stepper, check.steps(), options.runs, options.seconds, options.most_runs);
+  } catch (const RunError& error) {
+    row.failure = error.what();
+  }
   return row;
 }
 
