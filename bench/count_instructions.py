@@ -40,7 +40,8 @@ GROWTH = {
 
 HEAP = re.compile(r"^_*(libc_)?(malloc|calloc|realloc|free|cfree|memalign|posix_memalign|aligned_alloc)$|^_int_"
                   r"(malloc|free|realloc|memalign)$|^operator (new|delete)|^_Zn[wa]|^_Zd[la]|tcache|^malloc_consolidate")
-COPY = re.compile(r"mem(cpy|move|set|pcpy|cmp)")
+COPY = re.compile(r"^_*(mem(cpy|move|pcpy)|w?memcpy)")
+FILL = re.compile(r"^_*memset")
 
 
 def fail(message):
@@ -133,7 +134,7 @@ class Profile:
                     called = value
                 elif equal and key == "calls":
                     if function != COUNTED:
-                        self.calls[called] += int(value.split()[0])
+                        self.calls[(function, called)] += int(value.split()[0])
                     skip = True  # the next line is the cost of the call
                 elif line[:2] == "0x":
                     if skip:
@@ -153,17 +154,20 @@ class Profile:
                         elif int(address, 16) in jumps_at:
                             self.switches += cost
 
-    def heap_calls(self):
-        return sum(n for name, n in self.calls.items() if HEAP.search(name))
-
-    def copy_calls(self):
-        return sum(n for name, n in self.calls.items() if COPY.search(name))
+    def callers(self, pattern):
+        """Who calls functions of this name how often."""
+        found = collections.Counter()
+        for (caller, called), n in self.calls.items():
+            # What the allocator calls inside itself is one call of the allocator.
+            if pattern.search(called) and not HEAP.search(caller):
+                found[caller] += n
+        return found
 
 
 def shorten(function):
     """A function's name without arguments and template arguments."""
     out, depth = "", 0
-    for character in function:
+    for character in function.replace("(anonymous namespace)::", ""):
         depth += character in "<("
         if depth == 0:
             out += character
@@ -198,8 +202,9 @@ def figures(facts, profile):
                           if profile.inlined_eigen[room]},
         "functions": [{"room": room, "function": shorten(name), "per_step": round(n / steps, 1)}
                       for (room, name), n in profile.functions.most_common(12)],
-        "heap_calls": profile.heap_calls(),
-        "memory_copy_calls": profile.copy_calls(),
+        "heap_calls": sum(profile.callers(HEAP).values()),
+        "memory_copy_calls": sum(profile.callers(COPY).values()),
+        "memory_fill_calls": sum(profile.callers(FILL).values()),
         "virtual_calls": sum(profile.indirect.values()),
     }
 
@@ -214,8 +219,8 @@ def show(name, f):
     print("  the largest functions:")
     for entry in f["functions"][:8]:
         print(f"    {entry['per_step']:>10,.0f}  {entry['room']}: {entry['function'][:90]}")
-    print(f"  calls of malloc and free: {f['heap_calls']}, of memcpy, memmove, memset: {f['memory_copy_calls']}, "
-          f"virtual: {f['virtual_calls']}")
+    print(f"  calls in all steps: malloc and free {f['heap_calls']}, memcpy and memmove {f['memory_copy_calls']}, virtual "
+          f"{f['virtual_calls']} (memset {f['memory_fill_calls']})")
 
 
 def main():
@@ -240,8 +245,10 @@ def main():
         facts, profile = count(program, library, what)
         results[name] = figures(facts, profile)
         show(name, results[name])
-        for function, n in profile.indirect.most_common():
-            print(f"    calls through a pointer in {function}: {n}")
+        for what, callers in (("through a pointer", profile.indirect), ("of the heap", profile.callers(HEAP)),
+                              ("of memcpy", profile.callers(COPY)), ("of memset", profile.callers(FILL))):
+            for function, n in callers.most_common(6):
+                print(f"    calls {what} in {shorten(function)}: {n}")
         clean = clean and not (results[name]["heap_calls"] or results[name]["virtual_calls"] or
                                results[name]["memory_copy_calls"])
     if arguments.json:
