@@ -5,7 +5,8 @@ usage: bench/history.py record [--program FILE] [--no-counts] [--no-scaling] [--
        bench/history.py compare [NEW [OLD]] [--program FILE] [--no-counts] [--fail-above RATIO]
        bench/history.py list
 
-record   runs `floatframe bench chain`, `bench iltis`, `bench scaling` and bench/count_instructions.py and writes
+record   runs `floatframe bench chain`, `bench iltis`, `bench scaling`, floatframe_benchmarks (if it is built beside
+         the program) and bench/count_instructions.py and writes
          bench/history/<date>_<commit>.json
 compare  prints new/old for every figure both have. NEW and OLD are recorded files, or parts of their names; without
          them the newest is compared with the one before it. NEW = `run` measures now and writes nothing.
@@ -55,6 +56,15 @@ def measure(program, counts, scaling, growth):
             if done.returncode and not file.exists():
                 fail(f"`floatframe bench {bench}` failed with exit code {done.returncode}")
             run[bench] = json.loads(file.read_text())
+        kernels = program.with_name("floatframe_benchmarks")
+        if scaling and kernels.is_file():
+            print("floatframe_benchmarks ...", file=sys.stderr)
+            done = subprocess.run([str(kernels), "--benchmark_format=json", "--benchmark_min_time=0.05"], cwd=ROOT,
+                                  capture_output=True, text=True, check=False)
+            if done.returncode:
+                fail(f"floatframe_benchmarks failed with exit code {done.returncode}")
+            run["kernels"] = [{"name": b["name"], "us": b["cpu_time"] * {"ns": 1e-3, "us": 1.0, "ms": 1e3}[b["time_unit"]]}
+                              for b in json.loads(done.stdout)["benchmarks"]]
         if counts:
             file = pathlib.Path(folder) / "counts.json"
             command = [str(ROOT / "bench" / "count_instructions.py"), "--json", str(file)]

@@ -11,23 +11,11 @@
 namespace floatframe {
 namespace {
 
-StepOptions step_options(const Model& model, const SimulationDescription& o) {
-  StepOptions s;
-  s.spectral_radius = o.spectral_radius;
-  s.tolerance = o.tolerance;
-  s.max_iterations = o.max_iterations;
-  s.position_tolerance = o.position_tolerance;
-  s.velocity_tolerance = o.velocity_tolerance;
-  s.penalty_mass =
-      o.penalty > 0.0 ? o.penalty * o.step * o.step / 4.0 : default_penalty_mass(model);
-  return s;
-}
-
 template <class F>
 class Stepper final : public BenchStepper {
  public:
   Stepper(const Model& model, const SimulationDescription& options)
-      : model_(model), o_(options), step_options_(step_options(model, options)) {
+      : model_(model), o_(options), step_options_(floatframe::step_options(model, options)) {
     RelativeFormulation tree(model_, o_.inertia);
     const State start = relative_start(tree, o_.start);
     begin();
