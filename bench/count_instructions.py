@@ -8,7 +8,7 @@ callgrind, which counts only inside the function that makes the steps, and adds 
 function. Looks besides for what a step must not do: take memory from the heap, copy memory by library calls, call
 through a pointer (virtual dispatch). Exit code 1 if it does any of these, 2 if a tool is missing.
 
---growth adds chains with other numbers of elements, interface nodes, modes and links.
+--growth adds full Newton iterations of chains with other numbers of elements, interface nodes, modes and links.
 """
 import argparse
 import collections
@@ -27,12 +27,12 @@ COUNTED = "floatframe_counted_steps"
 CASES = {
     "iltis, relative, preprocessing": ["iltis", "--coordinates", "relative"],
     "iltis, absolute, preprocessing": ["iltis", "--coordinates", "absolute"],
-    "chain of 4, relative, preprocessing": ["chain", "--coordinates", "relative"],
-    "chain of 4, absolute, preprocessing": ["chain", "--coordinates", "absolute"],
+    "chain of 4, relative, preprocessing": ["chain", "--coordinates", "relative", "--duration", "1"],
+    "chain of 4, absolute, preprocessing": ["chain", "--coordinates", "absolute", "--duration", "1"],
 }
-SHORT = ["chain", "--duration", "0.1"]
+SHORT = ["chain", "--iterations", "50"]
 GROWTH = {
-    **{f"elements {n}": SHORT + ["--elements", str(n)] for n in (2, 5, 20, 100, 1000, 16700)},
+    **{f"elements {n}": SHORT + ["--elements", str(n)] for n in (3, 20, 100, 1000, 16700)},
     **{f"interface nodes {(n + 1) ** 2}": SHORT + ["--bricks", str(n)] for n in (1, 3, 5)},
     **{f"modes {n}": SHORT + ["--modes", str(n), "--elements", "40"] for n in (4, 8, 16, 32, 64)},
     **{f"links {n}": SHORT + ["--links", str(n)] for n in (1, 2, 4, 8, 16, 32, 64)},
@@ -189,14 +189,16 @@ def count(program, library, arguments):
 
 
 def figures(facts, profile):
-    steps, iterations = facts["steps"], facts["iterations"]
+    # Full iterations instead of steps: each counts as a step of one iteration and one factorisation.
+    full = facts["full_iterations"]
+    steps, iterations = (full, full) if full else (facts["steps"], facts["iterations"])
     per_step = {room: round(n / steps, 1) for room, n in profile.rooms.most_common() if n >= 0.05 * steps}
     return {
         "instructions_per_step": round(profile.total / steps, 1),
         "instructions_per_iteration": round(profile.total / iterations, 1),
         "steps": steps,
         "iterations_per_step": round(iterations / steps, 4),
-        "factorizations_per_step": round(facts["factorizations"] / steps, 4),
+        "factorizations_per_step": 1.0 if full else round(facts["factorizations"] / steps, 4),
         "rooms": per_step,
         "eigen_inlined": {room: round(profile.inlined_eigen[room] / steps, 1) for room in per_step
                           if profile.inlined_eigen[room]},

@@ -87,8 +87,8 @@ class Chain(Bench):
                 (("--links", "1,x"), "--links"),
                 (("--links", "5000"), "--links"),
                 (("--modes", "0"), "--modes"),
-                (("--modes", "8,200"), "--modes: found 200, expected at most 63 with 20 elements a link"),
-                (("--modes", "9", "--elements", "1"), "--modes: found 9, expected at most 6 with 1 element a link"),
+                (("--modes", "8,200"), "--modes: found 200, expected at most 59 with 20 elements a link"),
+                (("--modes", "9", "--elements", "1"), "--modes: found 9, expected at most 2 with 1 element a link"),
                 (("--elements", "0"), "--elements"),
                 (("--step", "0"), "--step: found '0', expected a positive number"),
                 (("--step", "nan"), "--step: found 'nan'"),
@@ -142,6 +142,11 @@ class Step(Bench):
         facts = json.loads((self.folder / "step.json").read_text())
         self.assertEqual((facts["model"], facts["steps"]), ("chain_2", 50))
         self.assertGreaterEqual(facts["iterations"], 50)
+
+    def test_full_iterations(self):
+        self.bench("step", "--iterations", 3, "--json", "step.json")
+        facts = json.loads((self.folder / "step.json").read_text())
+        self.assertEqual((facts["steps"], facts["full_iterations"]), (0, 3))
 
     def test_bricks(self):
         self.assertIn("chain_4", self.bench("step", "--bricks", 1, "--duration", 0.002).stdout)

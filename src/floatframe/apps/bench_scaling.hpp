@@ -24,9 +24,9 @@ struct ScalingRow {
   Combination combination{Coordinates::relative, InertiaMethod::preprocessing};
   int freedoms = 0;  ///< velocities of the formulation
   StepTime time;
-  double build = 0;  ///< [s] finite elements, modes and constant integrals
+  double iteration = 0;  ///< one full Newton iteration at the start [s]
+  double build = 0;      ///< [s] finite elements, modes and constant integrals
   std::string failure;
-  double per_iteration() const noexcept;  ///< [s]
 };
 
 struct ScalingOptions {

@@ -18,7 +18,8 @@
 #include "floatframe/simulation/simulation.hpp"
 
 extern "C" [[gnu::noinline]] bool floatframe_counted_steps(floatframe::BenchStepper* stepper,
-                                                           long steps) noexcept {
+                                                           long steps, long iterations) noexcept {
+  stepper->iterate(iterations);
   return stepper->advance(steps);
 }
 
@@ -29,7 +30,7 @@ struct StepArguments {
   std::string model = "chain", step, duration, tolerance, spectral_radius, coordinates, inertia;
   std::string json_file;
   std::vector<std::string> settings;
-  int links = 4, modes = 8, elements = 20, across = 0;
+  int links = 4, modes = 8, elements = 20, across = 0, iterations = 0;
 };
 
 ModelDescription described(const StepArguments& a) {
@@ -66,8 +67,9 @@ int run_steps(const StepArguments& a) {
   check_json_file(a.json_file);
   const Model model = build_model(description);
   const auto stepper = make_bench_stepper(model, o);
-  const long steps = std::max(1L, std::lround(o.duration / o.step));
-  if (!floatframe_counted_steps(stepper.get(), steps)) throw RunError(stepper->failure());
+  const long steps = a.iterations > 0 ? 0 : std::max(1L, std::lround(o.duration / o.step));
+  if (!floatframe_counted_steps(stepper.get(), steps, a.iterations))
+    throw RunError(stepper->failure());
   const StepCounts c = stepper->counts();
   if (!a.json_file.empty()) {
     const nlohmann::ordered_json json = {{"model", model.name},
@@ -78,9 +80,16 @@ int run_steps(const StepArguments& a) {
                                          {"substeps", c.substeps},
                                          {"iterations", c.iterations},
                                          {"factorizations", c.factorizations},
+                                         {"full_iterations", a.iterations},
                                          {"build", build_description()},
                                          {"cpu", processor_name()}};
     write_file(a.json_file, json.dump(2) + '\n');
+  }
+  if (a.iterations > 0) {
+    print(fmt::format("{}, {} coordinates, inertia terms by {}: {} at the start\n", model.name,
+                      word(o.coordinates), word(o.inertia),
+                      plural(a.iterations, "full iteration")));
+    return 0;
   }
   print(fmt::format("{}, {} coordinates, inertia terms by {}: {} of {:g} ms, {}, {}\n", model.name,
                     word(o.coordinates), word(o.inertia), plural(c.steps, "step"), 1e3 * o.step,
@@ -109,6 +118,10 @@ void add_bench_step(CLI::App& bench, Action& action) {
   number("--links", a->links, 4096, "Links of the chain (default 4)");
   number("--modes", a->modes, 1000, "Modes a link of the chain (default 8)");
   number("--elements", a->elements, 100000, "Elements a link of the chain (default 20)");
+  step->add_option("--iterations", a->iterations,
+                   "Instead of steps, so many full Newton iterations at the start")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
   step->add_option("--bricks", a->across,
                    "Links of N x N x 50 bricks with (N + 1)^2 nodes of each end tied to the joint")
       ->check(CLI::IsMember({1, 3, 5, 7, 9}))

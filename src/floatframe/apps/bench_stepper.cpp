@@ -1,6 +1,8 @@
 #include "floatframe/apps/bench_stepper.hpp"
 
+#include <algorithm>
 #include <ctime>
+#include <limits>
 #include <optional>
 
 #include "floatframe/formulation/absolute.hpp"
@@ -43,6 +45,19 @@ class Stepper final : public BenchStepper {
     return true;
   }
 
+  void iterate(long iterations) noexcept override {
+    const State& state = runner_->state();
+    const double s = 0.25 * o_.step * o_.step;
+    for (long k = 0; k < iterations; ++k) {
+      f_->positions(state.t, state.q);
+      f_->velocities(state.v);
+      f_->dynamics();
+      f_->residual(state.a, state.lambda, step_options_.penalty_mass / s, work_);
+      f_->factorize(1.0, 0.5 * o_.step, s, step_options_.penalty_mass / s);
+      f_->solve(work_);
+    }
+  }
+
   StepCounts counts() const noexcept override {
     return {steps_, runner_->iterations(), runner_->factorizations(), runner_->substeps()};
   }
@@ -71,6 +86,7 @@ class Stepper final : public BenchStepper {
   void begin() {
     runner_.reset();
     f_.emplace(model_, o_.inertia);
+    work_ = VecX::Zero(f_->velocities());
     runner_.emplace(*f_, step_options_, o_.min_step > 0.0 ? o_.min_step : o_.step / 1024.0);
   }
 
@@ -78,6 +94,7 @@ class Stepper final : public BenchStepper {
   const SimulationDescription o_;
   const StepOptions step_options_;
   State start_;
+  VecX work_;
   std::optional<F> f_;
   std::optional<Runner<F>> runner_;
   long steps_ = 0;
@@ -90,6 +107,22 @@ std::unique_ptr<BenchStepper> make_bench_stepper(const Model& model,
   if (options.coordinates == Coordinates::relative)
     return std::make_unique<Stepper<RelativeFormulation>>(model, options);
   return std::make_unique<Stepper<AbsoluteFormulation>>(model, options);
+}
+
+double time_iteration(BenchStepper& stepper, double seconds) {
+  double least = std::numeric_limits<double>::infinity(), spent = 0.0;
+  long repetitions = 1;
+  for (int block = 0; block < 3 || spent < seconds; ++block) {
+    const double before = thread_seconds();
+    stepper.iterate(repetitions);
+    const double time = thread_seconds() - before;
+    spent += time;
+    least = std::min(least, time / static_cast<double>(repetitions));
+    // Blocks of about 0.3 ms: long against the resolution of the clock, short against the time
+    // between disturbances.
+    repetitions = std::clamp(static_cast<long>(3e-4 / std::max(least, 1e-9)), 1L, 1000L);
+  }
+  return least;
 }
 
 double thread_seconds() noexcept {

@@ -28,6 +28,9 @@ class BenchStepper {
   /// Steps of the size of the options. False if one did not converge; nothing more can be done
   /// then.
   virtual bool advance(long steps) noexcept = 0;
+  /// Full Newton iterations at the present state, which stays as it is: kinematics, inertia terms,
+  /// forces, residual, factorisation, solution.
+  virtual void iterate(long iterations) noexcept = 0;
   virtual StepCounts counts() const noexcept = 0;
   /// Velocities of the formulation.
   virtual int freedoms() const noexcept = 0;
@@ -43,6 +46,9 @@ class BenchStepper {
 /// Finds the start of the run. The model must outlive the stepper. Throws InputError, RunError.
 std::unique_ptr<BenchStepper> make_bench_stepper(const Model& model,
                                                  const SimulationDescription& options);
+
+/// Least time of one full Newton iteration [s of processor time], measured for about `seconds`.
+double time_iteration(BenchStepper& stepper, double seconds);
 
 /// Processor time of this thread [s].
 double thread_seconds() noexcept;
