@@ -247,7 +247,8 @@ def instructions(run):
                                                if n >= 0.005 * case["instructions_per_step"]})
          for what, case in shown.items()]))
     text = table(["room"] + list(shown), lines)
-    return text + f"\n\nBuild: {run['instructions']['build']}, with line tables. Calls are those of all steps of a run."
+    return text + (f"\n\nBuild: {run['instructions']['build']}, with line tables. Calls are those of all steps of "
+                   "a run.\n\n![instructions a step by room](figures/instructions.svg)")
 
 
 def kernels(run):
