@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test demo bench asan dev install-packages format check-format clean help
+.PHONY: build test demo bench bench-record bench-compare asan dev install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -11,7 +11,9 @@ help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
-	@echo "make bench         timing of the Iltis and of single kernels"
+	@echo "make bench         timing of a chain of flexible links, the Iltis and single kernels"
+	@echo "make bench-record  all benchmarks, recorded in bench/history; docs/performance.md anew"
+	@echo "make bench-compare measures and prints ratios to the newest recorded run"
 	@echo "make asan          build and test with address and undefined-behaviour sanitizers"
 	@echo "make dev           debug build with assertions: build-dev/floatframe"
 	@echo "make format        format the sources; make check-format only looks"
@@ -37,8 +39,18 @@ demo: build
 
 bench: build
 	cmake --build build --parallel $(JOBS) --target floatframe_benchmarks
+	build/floatframe bench chain --links 1,4,16
 	build/floatframe bench iltis
 	build/floatframe_benchmarks
+
+# Instructions are counted with valgrind, which the other commands do not need.
+bench-record: build
+	cmake --build build --parallel $(JOBS) --target floatframe_benchmarks
+	bench/history.py record --growth
+	bench/make_performance_page.py
+
+bench-compare: build
+	bench/history.py compare run
 
 asan: install-packages
 	cmake --preset asan
@@ -56,4 +68,4 @@ check-format:
 	scripts/format.sh --check
 
 clean:
-	rm -rf build build-dev build-asan
+	rm -rf build build-dev build-asan build-profile

@@ -1,21 +1,20 @@
-// floatframe bench iltis: finds the Iltis model, measures, prints and optionally writes JSON.
+// floatframe bench: what its benchmarks share.
+#include "floatframe/apps/bench_command.hpp"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
-#include "floatframe/apps/bench_iltis.hpp"
-#include "floatframe/apps/command.hpp"
-#include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/io/atomic_file.hpp"
 
 namespace floatframe {
-namespace {
 
 namespace fs = std::filesystem;
 
-/// In a build folder beside the examples, in the current folder, or where the program is installed.
 std::string find_iltis() {
   const fs::path file = fs::path("examples") / "iltis" / "iltis.yaml";
   std::error_code error;
@@ -33,66 +32,33 @@ std::string find_iltis() {
   throw InputError(fmt::format("the Iltis model was not found ({}); give it with --model", tried));
 }
 
-struct BenchArguments {
-  BenchOptions options;
-  std::string step, duration, json_file;
-};
-
-int run_bench(const BenchArguments& arguments) {
-  BenchOptions options = arguments.options;
-  const std::string& json_file = arguments.json_file;
-  if (!arguments.step.empty()) options.step = positive_number("--step", arguments.step);
-  if (!arguments.duration.empty()) {
-    options.duration = positive_number("--duration", arguments.duration);
+double number_within(const std::string& option, const std::string& text, double low, double high) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool complete = end != text.c_str() && *end == '\0';
+  if (!complete || !std::isfinite(value) || !(value > low) || value > high) {
+    throw InputError(fmt::format("{}: found '{}', expected a number above {:g} and up to {:g}",
+                                 option, text, low, high));
   }
-  if (options.model.empty()) options.model = find_iltis();
-  if (!json_file.empty()) {
-    try {
-      check_writable(json_file);
-    } catch (const OutputError& error) {
-      throw InputError(error.what());
-    }
-  }
-  ProgressBar bar(true, 100.0, "%");
-  options.progress = [&bar](double fraction) { bar.show(fraction); };
-  const BenchResult result = bench_iltis(options);
-  bar.clear();
-  if (!json_file.empty()) write_file(json_file, bench_json(result));
-  print(bench_text(result));
-  return 0;
+  return value;
 }
 
-}  // namespace
+void check_json_file(const std::string& path) {
+  if (path.empty()) return;
+  try {
+    check_writable(path);
+  } catch (const OutputError& error) {
+    throw InputError(error.what());
+  }
+}
 
 void add_bench_command(CLI::App& app, Action& action) {
   CLI::App* bench = app.add_subcommand("bench", "Measure processor times on this machine");
   bench->require_subcommand(1);
-  CLI::App* iltis = bench->add_subcommand(
-      "iltis", "The Iltis manoeuvre: Table 1 of the paper beside this machine");
-  auto arguments = std::make_shared<BenchArguments>();
-  iltis->add_option("--json", arguments->json_file, "Write the figures to this file as JSON")
-      ->type_name("FILE");
-  iltis->add_option("--repeat", arguments->options.repeats, "Runs of each combination (default 5)")
-      ->check(CLI::Range(1, 1000))
-      ->type_name("N");
-  iltis
-      ->add_option("--elements", arguments->options.elements,
-                   "Elements a bar, comma-separated (default 5,10,50,100)")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 100000))
-      ->type_name("LIST");
-  iltis
-      ->add_option("--model", arguments->options.model,
-                   "Model file with a parameter ne (default: the example iltis.yaml)")
-      ->type_name("FILE");
-  iltis->add_option("--step", arguments->step, "Time step [s]; default: that of the model file")
-      ->type_name("SECONDS");
-  iltis
-      ->add_option("--duration", arguments->duration,
-                   "Time to simulate [s]; default: that of the model file")
-      ->type_name("SECONDS");
-  iltis->footer("Times are processor seconds of stepping, without input and output.");
-  iltis->callback([arguments, &action] { action = [arguments] { return run_bench(*arguments); }; });
+  add_bench_iltis(*bench, action);
+  add_bench_chain(*bench, action);
+  add_bench_scaling(*bench, action);
+  add_bench_step(*bench, action);
 }
 
 }  // namespace floatframe

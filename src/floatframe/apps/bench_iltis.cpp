@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "floatframe/apps/bench_chain.hpp"
 #include "floatframe/apps/command.hpp"
 #include "floatframe/apps/dense_factorization.hpp"
 #include "floatframe/io/model_reader.hpp"
@@ -14,21 +15,10 @@
 namespace floatframe {
 namespace {
 
-struct Combination {
-  Coordinates coordinates;
-  InertiaMethod inertia;
-};
-
 constexpr Combination combinations[] = {{Coordinates::absolute, InertiaMethod::projection},
                                         {Coordinates::absolute, InertiaMethod::preprocessing},
                                         {Coordinates::relative, InertiaMethod::projection},
                                         {Coordinates::relative, InertiaMethod::preprocessing}};
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 BenchRow measure(const Model& model, SimulationDescription simulation,
                  const Combination& combination, const BenchOptions& options, int elements,
@@ -39,25 +29,27 @@ BenchRow measure(const Model& model, SimulationDescription simulation,
   row.coordinates = combination.coordinates;
   row.inertia = combination.inertia;
   row.elements_per_bar = elements;
+  // One run for what it says about itself, then the same steps with nothing between them.
   RunOptions run_options;
   run_options.record = false;
-  std::vector<double> times;
-  for (int repeat = 0; repeat < options.repeats; ++repeat) {
-    const RunSummary summary = run(model, simulation, run_options).summary;
-    if (summary.status != "completed") {
-      throw RunError(
-          fmt::format("{} coordinates, inertia terms by {}, {} elements a bar: the run failed: {}",
-                      word(row.coordinates), word(row.inertia), elements, summary.message));
-    }
-    times.push_back(summary.cpu);
-    row.steps = summary.steps;
-    row.substeps = summary.substeps;
-    row.iterations = summary.iterations;
-    row.real_time_factor = std::max(row.real_time_factor, summary.real_time_factor);
-    one_done();
+  const RunSummary summary = run(model, simulation, run_options).summary;
+  if (summary.status != "completed") {
+    throw RunError(
+        fmt::format("{} coordinates, inertia terms by {}, {} elements a bar: the run failed: {}",
+                    word(row.coordinates), word(row.inertia), elements, summary.message));
   }
-  row.cpu_min = *std::min_element(times.begin(), times.end());
-  row.cpu_median = median(times);
+  row.steps = summary.steps;
+  row.substeps = summary.substeps;
+  row.iterations = summary.iterations;
+  row.factorizations = summary.factorizations;
+  row.max_position_violation = summary.max_position_violation;
+  row.max_velocity_violation = summary.max_velocity_violation;
+  const auto stepper = make_bench_stepper(model, simulation);
+  const StepTime time = time_steps(*stepper, summary.steps, options.repeats, 0.0);
+  row.cpu_min = time.least * static_cast<double>(time.steps);
+  row.cpu_median = time.median * static_cast<double>(time.steps);
+  row.real_time_factor = row.cpu_min > 0.0 ? summary.duration / row.cpu_min : 0.0;
+  one_done();
   return row;
 }
 
@@ -70,8 +62,7 @@ BenchResult bench_iltis(const BenchOptions& options) {
   };
   BenchResult result;
   result.repeats = options.repeats;
-  const double runs =
-      static_cast<double>(options.elements.size() * std::size(combinations)) * options.repeats;
+  const double runs = static_cast<double>(options.elements.size() * std::size(combinations));
   double runs_done = 0.0;
   const auto one_done = [&] {
     runs_done += 1.0;

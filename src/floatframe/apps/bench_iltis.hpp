@@ -15,9 +15,13 @@ struct BenchRow {
   Coordinates coordinates = Coordinates::relative;
   InertiaMethod inertia = InertiaMethod::preprocessing;
   int elements_per_bar = 0;
-  double cpu_min = 0, cpu_median = 0;  ///< [s] of a whole run, without input and output
-  long steps = 0, iterations = 0, substeps = 0;
-  double real_time_factor = 0;  ///< of the fastest run
+  /// [s] of a whole run, without input and output: of every block of 20 steps the least and the
+  /// median time over the runs, summed over the blocks.
+  double cpu_min = 0, cpu_median = 0;
+  long steps = 0, iterations = 0, factorizations = 0, substeps = 0;
+  double max_position_violation = 0;  ///< after the steps [m]
+  double max_velocity_violation = 0;  ///< after the projections [m/s]
+  double real_time_factor = 0;        ///< at cpu_min
 };
 
 struct BenchBuild {

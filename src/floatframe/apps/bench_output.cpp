@@ -40,6 +40,8 @@ std::optional<double> paper_seconds(const BenchRow& row) {
   }
 }
 
+double a_step(const BenchRow& row) { return static_cast<double>(std::max(row.steps, 1L)); }
+
 std::string combination_name(const BenchRow& row) {
   return fmt::format("{} + {}", row.coordinates == Coordinates::absolute ? "Abs." : "Rel.",
                      row.inertia == InertiaMethod::projection ? "B" : "P");
@@ -80,7 +82,8 @@ std::string table1_text(const BenchResult& result) {
 
 std::string work_text(const BenchResult& result) {
   TextTable table({"", "elements a bar", "steps", "by halving", "Newton iterations",
-                   "us an iteration", "us a step", "LLTs a step"});
+                   "us an iteration", "us a step", "LLTs a step", "positions [m]",
+                   "velocities [m/s]"});
   for (const BenchRow& row : result.rows) {
     const double per_iteration = row.cpu_min / static_cast<double>(std::max(row.iterations, 1L));
     const double per_step = row.cpu_min / static_cast<double>(std::max(row.steps, 1L));
@@ -88,7 +91,9 @@ std::string work_text(const BenchResult& result) {
                std::to_string(row.steps), std::to_string(row.substeps),
                std::to_string(row.iterations), fmt::format("{:.1f}", 1e6 * per_iteration),
                fmt::format("{:.1f}", 1e6 * per_step),
-               fmt::format("{:.2f}", per_step / result.dense_llt)});
+               fmt::format("{:.2f}", per_step / result.dense_llt),
+               fmt::format("{:.1e}", row.max_position_violation),
+               fmt::format("{:.1e}", row.max_velocity_violation)});
   }
   return table.text(2);
 }
@@ -102,7 +107,7 @@ std::string bench_text(const BenchResult& result) {
              "(8 s at 10 ms, machine not stated)\n\n",
              result.duration, 1e3 * result.step, plural(result.repeats, "run") + " each") +
          table1_text(result) +
-         "\n  x real time: of the fastest run. build: once a model, not part of the processor "
+         "\n  x real time: of the minimum. build: once a model, not part of the processor "
          "seconds; preprocessing\n"
          "  is finite elements, modes and constant integrals of all bodies.\n\n" +
          work_text(result) +
@@ -124,7 +129,14 @@ std::string bench_json(const BenchResult& result) {
                     {"cpu_s_min", row.cpu_min},
                     {"cpu_s_median", row.cpu_median},
                     {"steps", row.steps},
-                    {"iterations", row.iterations}});
+                    {"substeps", row.substeps},
+                    {"iterations", row.iterations},
+                    {"factorizations", row.factorizations},
+                    {"us_per_step_min", 1e6 * row.cpu_min / a_step(row)},
+                    {"llt_per_step_min", row.cpu_min / a_step(row) / result.dense_llt},
+                    {"real_time_factor", row.real_time_factor},
+                    {"max_position_violation_m", row.max_position_violation},
+                    {"max_velocity_violation_m_s", row.max_velocity_violation}});
   }
   for (const BenchBuild& build : result.builds) {
     builds.push_back({{"elements_per_bar", build.elements_per_bar},

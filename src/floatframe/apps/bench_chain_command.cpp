@@ -1,0 +1,108 @@
+// floatframe bench chain: options, and exit code 1 if a run of the table failed.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "floatframe/apps/bench_chain.hpp"
+#include "floatframe/apps/bench_command.hpp"
+#include "floatframe/apps/chain_model.hpp"
+#include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/atomic_file.hpp"
+
+namespace floatframe {
+namespace {
+
+struct ChainArguments {
+  ChainOptions options;
+  std::string step, duration, tolerance, spectral_radius, seconds, json_file;
+  std::string coordinates, inertia;
+};
+
+ChainOptions checked(const ChainArguments& a) {
+  ChainOptions o = a.options;
+  if (!a.step.empty()) o.step = positive_number("--step", a.step);
+  if (!a.duration.empty()) o.duration = positive_number("--duration", a.duration);
+  if (!a.seconds.empty()) o.seconds = positive_number("--seconds", a.seconds);
+  if (!a.tolerance.empty()) o.tolerance = number_within("--tolerance", a.tolerance, 0.0, 1.0);
+  if (!a.spectral_radius.empty())
+    o.spectral_radius = number_within("--spectral-radius", a.spectral_radius, 0.0, 1.0);
+  if (!a.coordinates.empty()) o.coordinates = {coordinates_from(a.coordinates)};
+  if (!a.inertia.empty()) o.inertia = {inertia_from(a.inertia)};
+  if (o.duration < o.step)
+    throw InputError(fmt::format("--duration: found {:g} s, expected at least one step of {:g} s",
+                                 o.duration, o.step));
+  if (o.duration / o.step > 1e7)
+    throw InputError(fmt::format(
+        "--step: found {:g} s, expected at most 10 million steps in {:g} s", o.step, o.duration));
+  const int most = largest_chain_modes(o.elements);
+  for (const int modes : o.modes) {
+    if (modes > most)
+      throw InputError(fmt::format("--modes: found {}, expected at most {} with {} a link", modes,
+                                   most, plural(o.elements, "element")));
+  }
+  return o;
+}
+
+int run_chain(const ChainArguments& arguments) {
+  ChainOptions options = checked(arguments);
+  check_json_file(arguments.json_file);
+  ProgressBar bar(true, 100.0, "%");
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  const ChainResult result = bench_chain(options);
+  bar.clear();
+  if (!arguments.json_file.empty()) write_file(arguments.json_file, chain_json(result));
+  print(chain_text(result));
+  const bool failed = std::any_of(result.rows.begin(), result.rows.end(),
+                                  [](const ChainRow& row) { return !row.failure.empty(); });
+  return failed ? 1 : 0;
+}
+
+}  // namespace
+
+void add_bench_chain(CLI::App& bench, Action& action) {
+  CLI::App* chain = bench.add_subcommand(
+      "chain", "Chains of flexible links: time a step, iterations, accuracy, energy");
+  auto a = std::make_shared<ChainArguments>();
+  const auto list = [&](const char* name, std::vector<int>& target, int most, const char* what) {
+    chain->add_option(name, target, what)
+        ->delimiter(',')
+        ->check(CLI::Range(1, most))
+        ->type_name("LIST");
+  };
+  const auto text = [&](const char* name, std::string& target, const char* type, const char* what) {
+    return chain->add_option(name, target, what)->type_name(type);
+  };
+  list("--links", a->options.links, 4096,
+       "Numbers of links, comma-separated (default 1,4,16,64,256)");
+  list("--modes", a->options.modes, 1000,
+       "Modes a link, comma-separated (default 8: six static, two normal)");
+  chain->add_option("--elements", a->options.elements, "Elements a link (default 20)")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
+  text("--step", a->step, "SECONDS", "Time step [s] (default 0.001)");
+  text("--duration", a->duration, "SECONDS", "Time to simulate [s] (default 2)");
+  text("--coordinates", a->coordinates, "", "Only these: relative or absolute")
+      ->check(CLI::IsMember({"relative", "absolute"}))
+      ->type_name("WORD");
+  text("--inertia", a->inertia, "", "Only this method: preprocessing or projection")
+      ->check(CLI::IsMember({"preprocessing", "projection"}))
+      ->type_name("WORD");
+  text("--tolerance", a->tolerance, "NUMBER",
+       "Newton tolerance: largest coordinate increment (default 1e-9)");
+  text("--spectral-radius", a->spectral_radius, "NUMBER",
+       "Of the integrator at infinite frequency (default 0.9; 1: trapezoidal rule)");
+  chain->add_option("--repeat", a->options.runs, "Timed runs of a row, at least (default 5)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  text("--seconds", a->seconds, "SECONDS",
+       "Processor time for the timed runs of a row, about (default 2)");
+  text("--json", a->json_file, "FILE", "Write the figures to this file as JSON");
+  chain->footer(
+      "Links are steel beams of 1 m hung by parallel hinges and released from the horizontal.\n"
+      "Times are processor times of stepping, without input and output.");
+  chain->callback([a, &action] { action = [a] { return run_chain(*a); }; });
+}
+
+}  // namespace floatframe

@@ -1,0 +1,81 @@
+// floatframe bench scaling: options, and exit code 1 if a run of the tables failed.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "floatframe/apps/bench_command.hpp"
+#include "floatframe/apps/bench_scaling.hpp"
+#include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/io/atomic_file.hpp"
+
+namespace floatframe {
+namespace {
+
+struct ScalingArguments {
+  ScalingOptions options;
+  std::vector<std::string> sweeps;
+  std::string step, seconds, coordinates, inertia, json_file;
+};
+
+int run_scaling(const ScalingArguments& a) {
+  ScalingOptions options = a.options;
+  if (!a.step.empty()) options.step = positive_number("--step", a.step);
+  if (!a.seconds.empty()) options.seconds = positive_number("--seconds", a.seconds);
+  if (!a.coordinates.empty()) options.coordinates = {coordinates_from(a.coordinates)};
+  if (!a.inertia.empty()) options.inertia = {inertia_from(a.inertia)};
+  if (!a.sweeps.empty()) {
+    options.sweeps.clear();
+    for (const Sweep sweep : all_sweeps) {
+      if (std::find(a.sweeps.begin(), a.sweeps.end(), word(sweep)) != a.sweeps.end())
+        options.sweeps.push_back(sweep);
+    }
+  }
+  check_json_file(a.json_file);
+  ProgressBar bar(true, 100.0, "%");
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  const ScalingResult result = bench_scaling(options);
+  bar.clear();
+  if (!a.json_file.empty()) write_file(a.json_file, scaling_json(result));
+  print(scaling_text(result));
+  const bool failed = std::any_of(result.rows.begin(), result.rows.end(),
+                                  [](const ScalingRow& row) { return !row.failure.empty(); });
+  return failed ? 1 : 0;
+}
+
+}  // namespace
+
+void add_bench_scaling(CLI::App& bench, Action& action) {
+  CLI::App* scaling = bench.add_subcommand(
+      "scaling", "Cost of a step against elements, interface nodes, modes and bodies");
+  auto a = std::make_shared<ScalingArguments>();
+  std::vector<std::string> words;
+  for (const Sweep sweep : all_sweeps) words.emplace_back(word(sweep));
+  scaling
+      ->add_option("--sweep", a->sweeps,
+                   "Only these: elements, interface-nodes, modes, bodies; comma-separated")
+      ->delimiter(',')
+      ->check(CLI::IsMember(words))
+      ->type_name("LIST");
+  scaling->add_option("--step", a->step, "Time step [s] (default 0.001)")->type_name("SECONDS");
+  scaling->add_option("--steps", a->options.steps, "Steps of a run (default 100)")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
+  scaling->add_option("--coordinates", a->coordinates, "Only these: relative or absolute")
+      ->check(CLI::IsMember({"relative", "absolute"}))
+      ->type_name("WORD");
+  scaling->add_option("--inertia", a->inertia, "preprocessing (default) or projection")
+      ->check(CLI::IsMember({"preprocessing", "projection"}))
+      ->type_name("WORD");
+  scaling->add_option("--repeat", a->options.runs, "Timed runs of a row, at least (default 5)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  scaling
+      ->add_option("--seconds", a->seconds,
+                   "Processor time for the timed runs of a row, about (default 0.5)")
+      ->type_name("SECONDS");
+  scaling->add_option("--json", a->json_file, "Write the figures to this file as JSON")
+      ->type_name("FILE");
+  scaling->footer("Times are processor times of stepping, without input and output.");
+  scaling->callback([a, &action] { action = [a] { return run_scaling(*a); }; });
+}
+
+}  // namespace floatframe

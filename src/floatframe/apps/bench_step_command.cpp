@@ -1,0 +1,148 @@
+// floatframe bench step: makes the steps of a run and nothing else, for tools that watch a program
+// while it steps (callgrind, perf). All steps are made inside one function with a fixed name,
+// floatframe_counted_steps, that a tool can switch its counting on and off by.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "floatframe/apps/bench_command.hpp"
+#include "floatframe/apps/bench_scaling.hpp"
+#include "floatframe/apps/bench_stepper.hpp"
+#include "floatframe/apps/chain_model.hpp"
+#include "floatframe/core/build_info.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/atomic_file.hpp"
+#include "floatframe/io/model_reader.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+extern "C" [[gnu::noinline]] bool floatframe_counted_steps(floatframe::BenchStepper* stepper,
+                                                           long steps, long iterations) noexcept {
+  stepper->iterate(iterations);
+  return stepper->advance(steps);
+}
+
+namespace floatframe {
+namespace {
+
+struct StepArguments {
+  std::string model = "chain", step, duration, tolerance, spectral_radius, coordinates, inertia;
+  std::string json_file;
+  std::vector<std::string> settings;
+  int links = 4, modes = 8, elements = 20, across = 0, iterations = 0;
+};
+
+ModelDescription described(const StepArguments& a) {
+  if (a.model == "chain") {
+    if (a.across > 0) {
+      ModelDescription d = solid_chain(a.links, a.across);
+      d.simulation.spectral_radius = chain_spectral_radius;
+      return d;
+    }
+    const int most = largest_chain_modes(a.elements);
+    if (a.modes > most)
+      throw InputError(fmt::format("--modes: found {}, expected at most {} with {} a link", a.modes,
+                                   most, plural(a.elements, "element")));
+    ModelDescription d = chain_model(a.links, a.modes, a.elements);
+    d.simulation.spectral_radius = chain_spectral_radius;
+    return d;
+  }
+  ModelArguments arguments;
+  arguments.path = a.model == "iltis" ? find_iltis() : a.model;
+  arguments.settings = a.settings;
+  return read_model(arguments);
+}
+
+int run_steps(const StepArguments& a) {
+  ModelDescription description = described(a);
+  SimulationDescription& o = description.simulation;
+  if (!a.step.empty()) o.step = positive_number("--step", a.step);
+  if (!a.duration.empty()) o.duration = positive_number("--duration", a.duration);
+  if (!a.tolerance.empty()) o.tolerance = number_within("--tolerance", a.tolerance, 0.0, 1.0);
+  if (!a.spectral_radius.empty())
+    o.spectral_radius = number_within("--spectral-radius", a.spectral_radius, 0.0, 1.0);
+  if (!a.coordinates.empty()) o.coordinates = coordinates_from(a.coordinates);
+  if (!a.inertia.empty()) o.inertia = inertia_from(a.inertia);
+  check_json_file(a.json_file);
+  const Model model = build_model(description);
+  const auto stepper = make_bench_stepper(model, o);
+  const long steps = a.iterations > 0 ? 0 : std::max(1L, std::lround(o.duration / o.step));
+  if (!floatframe_counted_steps(stepper.get(), steps, a.iterations))
+    throw RunError(stepper->failure());
+  const StepCounts c = stepper->counts();
+  if (!a.json_file.empty()) {
+    const nlohmann::ordered_json json = {{"model", model.name},
+                                         {"coordinates", word(o.coordinates)},
+                                         {"inertia", word(o.inertia)},
+                                         {"step_s", o.step},
+                                         {"steps", c.steps},
+                                         {"substeps", c.substeps},
+                                         {"iterations", c.iterations},
+                                         {"factorizations", c.factorizations},
+                                         {"full_iterations", a.iterations},
+                                         {"build", build_description()},
+                                         {"cpu", processor_name()}};
+    write_file(a.json_file, json.dump(2) + '\n');
+  }
+  if (a.iterations > 0) {
+    print(fmt::format("{}, {} coordinates, inertia terms by {}: {} at the start\n", model.name,
+                      word(o.coordinates), word(o.inertia),
+                      plural(a.iterations, "full iteration")));
+    return 0;
+  }
+  print(fmt::format("{}, {} coordinates, inertia terms by {}: {} of {:g} ms, {}, {}\n", model.name,
+                    word(o.coordinates), word(o.inertia), plural(c.steps, "step"), 1e3 * o.step,
+                    plural(c.iterations, "iteration"), plural(c.factorizations, "factorisation")));
+  return 0;
+}
+
+}  // namespace
+
+void add_bench_step(CLI::App& bench, Action& action) {
+  CLI::App* step = bench.add_subcommand(
+      "step", "Only the steps of a run, to be watched by a profiler or an instruction counter");
+  auto a = std::make_shared<StepArguments>();
+  const auto text = [&](const char* name, std::string& target, const char* type, const char* what) {
+    return step->add_option(name, target, what)->type_name(type);
+  };
+  text("MODEL", a->model, "", "chain (default), iltis or a model file");
+  step->add_option("--set", a->settings, "Change a parameter of the model file; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  const auto number = [&](const char* name, int& target, int most, const char* what) {
+    step->add_option(name, target, what)->check(CLI::Range(1, most))->type_name("N");
+  };
+  number("--links", a->links, 4096, "Links of the chain (default 4)");
+  number("--modes", a->modes, 1000, "Modes a link of the chain (default 8)");
+  number("--elements", a->elements, 100000, "Elements a link of the chain (default 20)");
+  step->add_option("--iterations", a->iterations,
+                   "Instead of steps, so many full Newton iterations at the start")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
+  step->add_option("--bricks", a->across,
+                   "Links of N x N x 50 bricks with (N + 1)^2 nodes of each end tied to the joint")
+      ->check(CLI::IsMember({1, 3, 5, 7, 9}))
+      ->type_name("N");
+  text("--step", a->step, "SECONDS", "Time step [s]; default: that of the model");
+  text("--duration", a->duration, "SECONDS", "Time to simulate [s]; default: that of the model");
+  text("--coordinates", a->coordinates, "", "relative or absolute; default: that of the model")
+      ->check(CLI::IsMember({"relative", "absolute"}))
+      ->type_name("WORD");
+  text("--inertia", a->inertia, "", "preprocessing or projection; default: that of the model")
+      ->check(CLI::IsMember({"preprocessing", "projection"}))
+      ->type_name("WORD");
+  text("--tolerance", a->tolerance, "NUMBER", "Newton tolerance; default: that of the model");
+  text("--spectral-radius", a->spectral_radius, "NUMBER",
+       "Of the integrator at infinite frequency; default: that of the model");
+  text("--json", a->json_file, "FILE", "Write the counts to this file as JSON");
+  step->footer(
+      "All steps are made inside the function floatframe_counted_steps, for instance:\n"
+      "valgrind --tool=callgrind --toggle-collect=floatframe_counted_steps \\\n"
+      "  floatframe bench step chain --duration 0.1");
+  step->callback([a, &action] { action = [a] { return run_steps(*a); }; });
+}
+
+}  // namespace floatframe
