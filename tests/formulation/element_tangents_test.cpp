@@ -65,7 +65,7 @@ Model everything(unsigned seed) {
         model.roads.push_back(x.model.roads.at(0));
         f.radius += 20.0;  // in contact wherever the body is
       }
-      f.input = f.target_input = f.target_rate_input = -1;
+      f.input = f.target.input = f.target_rate.input = -1;
       model.forces.push_back(f);
     }
   return model;

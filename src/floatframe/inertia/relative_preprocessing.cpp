@@ -21,6 +21,15 @@ void add_columns(const double* C, int rows, int n, const double* x, double* out)
   }
 }
 
+/// A row of x filled up with zeros. Whole lanes are stored: a lane loaded right after four single
+/// stores would have to wait for all of them.
+void pad(const double* x, int n, double* row) noexcept {
+  int a = 0;
+  for (; a + 4 <= n; a += 4) lanes(row + a) = lanes(x + a);
+  if (a < n)
+    lanes(row + a) = Lanes{x[a], a + 1 < n ? x[a + 1] : 0.0, a + 2 < n ? x[a + 2] : 0.0, 0.0};
+}
+
 /// a . x over one row.
 double dot(const double* a, const double* x, int stride) noexcept {
   Lanes s = {};
@@ -53,8 +62,8 @@ void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const
   Vec3 m_bar = data.m_u, AS_rate = Vec3::Zero();
   Mat3 P_bar = data.P_u, S_d_rate = Mat3::Zero();
   if (nm > 0) {
-    for (int a = 0; a < nm; ++a) y_row[a] = y[a];
-    for (int a = 0; a < nm; ++a) ydot_row[a] = ydot[a];
+    pad(y, nm, y_row);
+    pad(ydot, nm, ydot_row);
     const double* S = data.by_modes.S.data();
     const double* Si = data.by_modes.Si.data();
     for (int r = 0; r < 9 * nl; r += 4) lanes(S_d + r) = lanes(Si + r);

@@ -20,6 +20,39 @@ inline constexpr double pivot_tolerance = 1e-14;
 /// on.
 inline constexpr int front_stride(int n) noexcept { return (n + 3) & ~3; }
 
+/// The W columns c0, ... from row j0 on: L of the panel, its pivots and their inverses. Returns -1
+/// or the column whose pivot vanished.
+template <int W>
+inline int factorise_panel(double* c0, int j0, int ld, const double* original, double* d,
+                           double* inverse) noexcept {
+  double w[4][W] = {}, l[4][W] = {};  // the triangle: L D and L
+  for (int j = 0; j < W; ++j) {
+    double* cj = c0 + j * ld + j0;
+    for (int i = j; i < 4; ++i) {
+      double x = cj[i];
+      for (int p = 0; p < j; ++p) x -= l[i][p] * w[j][p];
+      w[i][j] = x;
+    }
+    const double pivot = w[j][j];
+    if (!(std::abs(pivot) > pivot_tolerance * std::abs(original[j])) || !std::isfinite(pivot))
+      return j;
+    d[j] = pivot;
+    inverse[j] = 1.0 / pivot;
+    for (int i = j + 1; i < 4; ++i) cj[i] = l[i][j] = w[i][j] * inverse[j];
+  }
+  // Below the triangle, four rows of the panel in registers.
+  for (int i = j0 + 4; i < ld; i += 4) {
+    Lanes x[W];
+    for (int j = 0; j < W; ++j) {
+      x[j] = lanes(c0 + j * ld + i);
+      for (int p = 0; p < j; ++p) x[j] -= w[j][p] * x[p];
+      x[j] *= inverse[j];
+      lanes(c0 + j * ld + i) = x[j];
+    }
+  }
+  return -1;
+}
+
 /// Returns -1, or the first column whose pivot vanished. `original` receives the diagonal before
 /// elimination (size ne). The leading dimension is `front_stride(n)`; rows n and beyond must be
 /// zero, and entries above the diagonal are scratch. The diagonal of eliminated columns receives
@@ -30,23 +63,14 @@ inline int partial_ldlt(double* f, int n, int ne, double* original) noexcept {
   constexpr int width = 4;
   for (int j0 = 0; j0 < ne; j0 += width) {
     const int j1 = std::min(j0 + width, ne);
+    double* c0 = f + j0 * ld;
     double inverse[width] = {}, d[width] = {};
-    for (int j = j0; j < j1; ++j) {  // factorise the panel column by column, left-looking inside it
-      double* cj = f + j * ld;
-      for (int p = j0; p < j; ++p) {
-        const double* cp = f + p * ld;
-        const double w = cp[j] * d[p - j0];
-        for (int i = j0; i < ld; i += 4) lanes(cj + i) -= w * lanes(cp + i);
-      }
-      const double pivot = cj[j];
-      if (!(std::abs(pivot) > pivot_tolerance * std::abs(original[j])) || !std::isfinite(pivot))
-        return j;
-      d[j - j0] = pivot;
-      inverse[j - j0] = 1.0 / pivot;
-      for (int i = j0; i < ld; i += 4) lanes(cj + i) *= inverse[j - j0];
-    }
+    const int failed = j1 - j0 == 4   ? factorise_panel<4>(c0, j0, ld, original + j0, d, inverse)
+                       : j1 - j0 == 3 ? factorise_panel<3>(c0, j0, ld, original + j0, d, inverse)
+                       : j1 - j0 == 2 ? factorise_panel<2>(c0, j0, ld, original + j0, d, inverse)
+                                      : factorise_panel<1>(c0, j0, ld, original + j0, d, inverse);
+    if (failed >= 0) return j0 + failed;
     // Trailing update, two columns at a time with the panel's four.
-    const double* c0 = f + j0 * ld;
     if (j1 - j0 == width) {
       const double* c1 = c0 + ld;
       const double* c2 = c1 + ld;
@@ -102,9 +126,7 @@ inline void partial_forward(const double* f, int n, int ne, double* b) noexcept 
       const double b1 = t[1] - b0 * c[j0 + 1];
       const double b2 = t[2] - b0 * c[j0 + 2] - b1 * c1[j0 + 2];
       const double b3 = t[3] - b0 * c[j0 + 3] - b1 * c1[j0 + 3] - b2 * c2[j0 + 3];
-      t[1] = b1;
-      t[2] = b2;
-      t[3] = b3;
+      lanes(t) = Lanes{b0, b1, b2, b3};
       for (int i = rest; i < ld; i += 4)
         lanes(b + i) -=
             (b0 * lanes(c + i) + b1 * lanes(c1 + i)) + (b2 * lanes(c2 + i) + b3 * lanes(c3 + i));
@@ -138,10 +160,8 @@ inline void partial_backward(const double* f, int n, int ne, double* b) noexcept
       const double x3 = t[3] - sum(s3);
       const double x2 = t[2] - sum(s2) - c2[j0 + 3] * x3;
       const double x1 = t[1] - sum(s1) - c1[j0 + 3] * x3 - c1[j0 + 2] * x2;
-      t[0] -= sum(s0) + c[j0 + 3] * x3 + c[j0 + 2] * x2 + c[j0 + 1] * x1;
-      t[1] = x1;
-      t[2] = x2;
-      t[3] = x3;
+      const double x0 = t[0] - sum(s0) - c[j0 + 3] * x3 - c[j0 + 2] * x2 - c[j0 + 1] * x1;
+      lanes(t) = Lanes{x0, x1, x2, x3};  // read as lanes by the next panel
       continue;
     }
     for (int j = j1; j-- > j0;) {

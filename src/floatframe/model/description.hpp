@@ -292,7 +292,8 @@ struct SimulationDescription {
   Vec3 velocity = Vec3::Zero();  ///< added to the velocity of every free joint at the start [m/s]
   double spectral_radius =
       1.0;  ///< at infinite frequency: 1 = trapezoidal rule, below 1 = generalised-alpha
-  double tolerance = 1e-9;  ///< Newton: largest coordinate increment of the last iteration
+  double tolerance = 1e-9;  ///< Newton: bound of the largest coordinate increment; the error left
+                            ///< is about a hundredth of it
   int max_iterations = 20;
   double min_step = 0.0;             ///< smallest substep [s]; 0: step / 1024
   double penalty = 0.0;              ///< 0: chosen from masses and step
