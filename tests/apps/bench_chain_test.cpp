@@ -92,10 +92,10 @@ TEST(ChainModel, StartsLevelAndUndeformedAtRest) {
 }
 
 TEST(ChainModel, AnyNumberOfModesUpToTheLargest) {
-  for (const int modes : {1, 4, 6, 8, 11})
+  for (const int modes : {1, 4, 6, 8})
     EXPECT_EQ(build_model(chain_model(1, modes, 4)).bodies[0].modes(), modes);
-  EXPECT_EQ(largest_chain_modes(4), 11);
-  EXPECT_THROW(build_model(chain_model(1, 16, 4)), InputError);
+  EXPECT_EQ(largest_chain_modes(4), 8);
+  EXPECT_THROW(build_model(chain_model(1, 10, 4)), InputError);
 }
 
 TEST(BenchChain, TipIsWhereItBelongs) {
@@ -115,8 +115,7 @@ TEST(BenchChain, TipIsWhereItBelongs) {
     EXPECT_EQ(row.failure, "");
     ASSERT_TRUE(row.tip_error.has_value());
     ASSERT_TRUE(row.tip_published.has_value());
-    // Absolute coordinates end their iteration a little earlier at the same tolerance.
-    EXPECT_LT(*row.tip_error, row.combination.coordinates == Coordinates::relative ? 3e-5 : 1e-4);
+    EXPECT_LT(*row.tip_error, 3e-5);
     EXPECT_GT(*row.tip_error, 0.0);
     EXPECT_LT(*row.tip_published, 3e-4);
     EXPECT_LT(row.energy_drift, 1e-3);
@@ -157,7 +156,7 @@ TEST(BenchStepper, StepsAsARunDoes) {
     ASSERT_TRUE(stepper->advance(40));
     const VecX row = stepper->sample();
     for (Eigen::Index c = 0; c < 4; ++c)
-      EXPECT_NEAR(row[c], result.table.at(100, static_cast<std::size_t>(c)), 1e-6);
+      EXPECT_NEAR(row[c], result.table.at(100, static_cast<std::size_t>(c)), 1e-12);
     EXPECT_EQ(stepper->counts().steps, 100);
     stepper->restart();
     EXPECT_EQ(stepper->counts().steps, 0);

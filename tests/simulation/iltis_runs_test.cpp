@@ -90,7 +90,7 @@ TEST(IltisRuns, ConstraintLevelsThroughoutTheManoeuvre) {
 }
 
 TEST(IltisRuns, LeftAndRightStayEqual) {
-  const ModelDescription d = iltis();
+  const ModelDescription d = iltis({{"tolerance", "1e-7"}});
   const Model model = build_model(d);
   for (const Combination& c : combinations) {
     const RunResult r = run(model, with(d.simulation, c, 0.01, 8.0));

@@ -58,7 +58,7 @@ BodyDescription placed_link(int i) {
 
 }  // namespace
 
-int largest_chain_modes(int elements) noexcept { return std::max(1, 3 * elements - 1); }
+int largest_chain_modes(int elements) noexcept { return elements < 3 ? 1 : 2 * elements; }
 
 ModelDescription chain_model(int links, int modes, int elements) {
   ModelDescription d = empty_chain(links);

@@ -27,8 +27,9 @@ ModelDescription chain_model(int links, const FlexibleBody& link);
 /// absolute coordinates: the multipliers of stiff links oscillate without damping.
 inline constexpr double chain_spectral_radius = 0.9;
 
-/// The largest number of modes of `elements` beams that have inertia of their own: the translations
-/// of all nodes less the rigid motions, and the torsion, which has no inertia but does no harm.
+/// A number of modes of `elements` beams that surely have inertia of their own: in the plane of the
+/// swing the free nodes have one translation each, less the rotation about the hinge, for two
+/// static and half of the normal modes; torsion has no inertia but does no harm.
 int largest_chain_modes(int elements) noexcept;
 
 /// Where the tip of four links is at t = 1 s, computed with links of solid elements and another

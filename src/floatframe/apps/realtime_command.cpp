@@ -15,6 +15,7 @@
 #include "floatframe/apps/realtime_output.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/io/atomic_file.hpp"
+#include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -168,6 +169,7 @@ int run_command(const RealTimeArguments& arguments) {
     throw InputError("--json: found without --layout; a run writes JSON with --report FILE");
   ModelDescription description = read_model(arguments.model);
   apply(arguments, description.simulation);
+  check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
   if (arguments.layout) {
     print(arguments.json ? layout_json(model) : layout_text(model));

@@ -1,12 +1,12 @@
 #pragma once
-// A body as the multibody side sees it: invariants, modal stiffness and damping, and the modal rows of its nodes.
-// Deformation of node k: p_BP = p + X y, R = exp(skew(X_theta y)). A rigid body is a body with zero modes.
-// Everything is in the body frame B, SI units. Immutable once built and shared between bodies and threads.
+// A body as the multibody side sees it: invariants, modal stiffness and damping, and the modal rows
+// of its nodes. Deformation of node k: p_BP = p + X y, R = exp(skew(X_theta y)). A rigid body is a
+// body with zero modes. Everything is in the body frame B, SI units. Immutable once built and
+// shared between bodies and threads.
+#include <Eigen/SparseCore>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <Eigen/SparseCore>
 
 #include "floatframe/body/inertia_invariants.hpp"
 
@@ -16,14 +16,16 @@ struct ModalNode {
   std::string name;  ///< empty if the node has no name
   Vec3 p = Vec3::Zero();
   Mat3X X;        ///< 3 x nm, translation of the node per modal amplitude
-  Mat3X X_theta;  ///< 3 x nm, rotation vector of the node per modal amplitude [rad]; zero for solid elements
+  Mat3X X_theta;  ///< 3 x nm, rotation vector of the node per modal amplitude [rad]; zero for solid
+                  ///< elements
 };
 
 /// How the finite-element mass enters the inertia terms.
 enum class MassModel {
-  isoparametric,  ///< three rows a node, scalar mass of linear elements; projection and preprocessing
-  six_dof,        ///< 6 dofs a node, consistent element mass, rotated blocks (12)-(15); projection only
-  hermite         ///< exact integrals of the cubic Hermite beam; preprocessing only
+  isoparametric,  ///< three rows a node, scalar mass of linear elements; projection and
+                  ///< preprocessing
+  six_dof,  ///< 6 dofs a node, consistent element mass, rotated blocks (12)-(15); projection only
+  hermite   ///< exact integrals of the cubic Hermite beam; preprocessing only
 };
 
 /// Data of the projection method (12)-(15). Exactly one of the two groups is filled.
@@ -32,7 +34,8 @@ struct ProjectionData {
   MatX X;   ///< 3n x nm modal translations
   /// isoparametric: scalar mass matrix, n x n, row major, both halves stored.
   Eigen::SparseMatrix<double, Eigen::RowMajor> M_s;
-  /// six_dof: modal rotations 3n x nm and consistent mass, 6n x 6n (ux uy uz rx ry rz a node), body axes.
+  /// six_dof: modal rotations 3n x nm and consistent mass, 6n x 6n (ux uy uz rx ry rz a node), body
+  /// axes.
   MatX X_theta;
   Eigen::SparseMatrix<double, Eigen::RowMajor> M_6;
   bool six_dof() const noexcept { return M_6.rows() > 0; }

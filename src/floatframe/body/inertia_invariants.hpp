@@ -34,7 +34,8 @@ struct InertiaInvariants {
     return v;
   }
 
-  /// Rigid body: mass [kg], centre of mass in the body frame [m], inertia tensor about it in body axes [kg m2].
+  /// Rigid body: mass [kg], centre of mass in the body frame [m], inertia tensor about it in body
+  /// axes [kg m2].
   static InertiaInvariants rigid(double mass, const Vec3& p_BC, const Mat3& J_C) {
     InertiaInvariants v = zero(0);
     v.m = mass;
@@ -45,7 +46,8 @@ struct InertiaInvariants {
 
   /// Centre of mass of the undeformed body [m].
   Vec3 centre_of_mass() const { return m > 0.0 ? Vec3(m_u / m) : Vec3::Zero().eval(); }
-  /// Inertia tensor of the undeformed body about the body-frame origin [kg m2].  J = tr(P) I - P   (21)
+  /// Inertia tensor of the undeformed body about the body-frame origin [kg m2].  J = tr(P) I - P
+  /// (21)
   Mat3 inertia_about_origin() const { return P_u.trace() * Mat3::Identity() - P_u; }
   /// Inertia tensor of the undeformed body about its centre of mass [kg m2].
   Mat3 inertia_about_centre() const {

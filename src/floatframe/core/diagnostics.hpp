@@ -1,6 +1,7 @@
 #pragma once
-// Faults in a user's input. Load-time code collects every fault and throws one InputError; each fault is one
-// sentence that names the entity, what was found and what was expected, with file, line and column if known.
+// Faults in a user's input. Load-time code collects every fault and throws one InputError; each
+// fault is one sentence that names the entity, what was found and what was expected, with file,
+// line and column if known.
 #include <exception>
 #include <map>
 #include <string>
@@ -33,7 +34,8 @@ struct InputFault {
   std::string text() const {
     if (mark.file.empty()) return message;
     if (mark.line == 0) return mark.file + ": " + message;
-    return mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " + message;
+    return mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " +
+           message;
   }
 };
 
@@ -60,7 +62,9 @@ class InputError : public std::exception {
 /// Collects faults; `throw_if_any` ends a loading stage.
 class Faults {
  public:
-  void add(const SourceMark& mark, std::string message) { faults_.push_back({mark, std::move(message)}); }
+  void add(const SourceMark& mark, std::string message) {
+    faults_.push_back({mark, std::move(message)});
+  }
   bool empty() const noexcept { return faults_.empty(); }
   std::size_t size() const noexcept { return faults_.size(); }
   std::vector<InputFault> take() { return std::move(faults_); }

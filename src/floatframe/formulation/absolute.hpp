@@ -47,6 +47,9 @@ class AbsoluteFormulation {
   /// What a renewal must save, in iterations (tuned on the Iltis).
   static constexpr double factorization_cost = 3.0;
 
+  /// As in relative.hpp; here all markers are kept up to date.
+  void stepping(bool) noexcept {}
+
   // -- the integrator's view
   // ---------------------------------------------------------------------------------------
   void positions(double t, const VecX& q) noexcept;

@@ -276,14 +276,26 @@ void RelativeFormulation::build_elements() {
   for (const BodyData& b : bodies_) widest = std::max(widest, static_cast<std::size_t>(6 + b.nm));
   slots_ = VecX::Zero(3 * static_cast<Eigen::Index>(widest));
   // Markers grouped by body; a body's own joint marker is handled with the joint.
-  used_markers_of_body_offset_.assign(bodies_.size() + 1, 0);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    used_markers_of_body_offset_[i] = static_cast<int>(used_markers_.size());
-    for (std::size_t k = 0; k < markers_.size(); ++k)
-      if (markers_[k].body == static_cast<int>(i) && static_cast<int>(k) != bodies_[i].frame_M)
-        used_markers_.push_back(static_cast<int>(k));
+  std::vector<char> needed(markers_.size(), 0);
+  const auto need = [&](int marker) {
+    if (marker >= 0) needed[static_cast<std::size_t>(marker)] = 1;
+  };
+  for (const BodyData& b : bodies_) need(b.frame_F);
+  for (const ConstraintPart& p : parts_) {
+    need(p.a);
+    need(p.b);
   }
-  used_markers_of_body_offset_.back() = static_cast<int>(used_markers_.size());
+  for (const Force& f : model_.forces) {
+    need(f.a);
+    need(f.b);
+  }
+  used_markers_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    for (std::size_t k = 0; k < markers_.size(); ++k)
+      if (markers_[k].body == static_cast<int>(i) && static_cast<int>(k) != bodies_[i].frame_M) {
+        used_markers_[i].all.push_back(static_cast<int>(k));
+        if (needed[k]) used_markers_[i].dynamic.push_back(static_cast<int>(k));
+      }
 }
 
 void RelativeFormulation::start(VecX& q, VecX& v) const {

@@ -65,6 +65,10 @@ class RelativeFormulation {
   /// What a renewal must save, in iterations (tuned on the Iltis; a factorisation takes about 0.7).
   static constexpr double factorization_cost = 2.0;
 
+  /// While a step is made, markers that only outputs look at are left alone; after it they are
+  /// those of the next `positions` and `velocities`.
+  void stepping(bool on) noexcept { stepping_ = on; }
+
   // -- the integrator's view; all noexcept and free of allocation
   // ------------------------------------------------
   void positions(double t, const VecX& q) noexcept;
@@ -251,8 +255,13 @@ class RelativeFormulation {
   std::vector<BodyData> bodies_;
   std::vector<int> order_;  // parents before children
   std::vector<MarkerData> markers_;
-  std::vector<int> used_markers_of_body_offset_,
-      used_markers_;  // markers on each body, except its own frame_M
+  // Markers on each body, except its own frame_M: those that joints, rods and forces use, then
+  // those that only outputs look at.
+  struct UsedMarkers {
+    std::vector<int> dynamic, all;
+  };
+  std::vector<UsedMarkers> used_markers_;
+  bool stepping_ = false;
   std::vector<ConstraintPart> parts_;
   std::vector<int> part_offset_;
   std::vector<ConstraintRow> rows_;

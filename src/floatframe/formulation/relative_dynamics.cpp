@@ -110,6 +110,11 @@ void RelativeFormulation::sum_rows(std::size_t part, const VecX& w, WrenchRow& s
   sum.Ta.setZero();
   sum.Fb.setZero();
   sum.Tb.setZero();
+  if (parts_[part].kind == ConstraintPart::Kind::coincident) {  // unit rows
+    sum.Fb = w.segment<3>(part_offset_[part]);
+    sum.Fa = -sum.Fb;
+    return;
+  }
   for (int r = 0; r < parts_[part].rows(); ++r) {
     const int i = part_offset_[part] + r;
     const WrenchRow& g = rows_[static_cast<std::size_t>(i)].gradient;

@@ -82,9 +82,9 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
         b.S.block<3, 1>(3, b.nj + k) = -M.Jw.col(k);
         b.S.block<3, 1>(0, b.nj + k) = M.Jw.col(k).cross(r_M) - M.Jr.col(k);
       }
-    for (int u = used_markers_of_body_offset_[static_cast<std::size_t>(i)];
-         u < used_markers_of_body_offset_[static_cast<std::size_t>(i) + 1]; ++u) {
-      MarkerData& m = mark(used_markers_[static_cast<std::size_t>(u)]);
+    const UsedMarkers& used = used_markers_[static_cast<std::size_t>(i)];
+    for (const int u : stepping_ ? used.dynamic : used.all) {
+      MarkerData& m = mark(u);
       if (m.local) m.deform(b.y);
       marker_world_position(m);
     }
@@ -135,9 +135,9 @@ void RelativeFormulation::velocities(const VecX& v) noexcept {
         a_M - alpha.cross(r_M) - b.w.cross(b.w.cross(r_M)) - 2.0 * b.w.cross(chi) - chi_dot;
     b.D.tail<3>() = alpha;
     marker_world_velocity(M);
-    for (int u = used_markers_of_body_offset_[static_cast<std::size_t>(i)];
-         u < used_markers_of_body_offset_[static_cast<std::size_t>(i) + 1]; ++u) {
-      MarkerData& m = mark(used_markers_[static_cast<std::size_t>(u)]);
+    const UsedMarkers& used = used_markers_[static_cast<std::size_t>(i)];
+    for (const int u : stepping_ ? used.dynamic : used.all) {
+      MarkerData& m = mark(u);
       if (m.local) m.deform_rate(b.yd);
       marker_world_velocity(m);
     }

@@ -363,9 +363,15 @@ void RelativeFormulation::solve_with(Linearization& linear, VecX& x, const VecX*
         const Element& e = part_elements_[q];
         const double* g = linear.gradients.data() + e.gradient;
         double* out = work + e.first;
+        const double* f = w->data() + part_offset_[q];
+        if (parts_[q].rows() == 3) {
+          for (int j = 0; j < e.width; j += 4)
+            lanes(out + j) += f[0] * lanes(g + j) + f[1] * lanes(g + e.width + j) +
+                              f[2] * lanes(g + 2 * e.width + j);
+          continue;
+        }
         for (int r = 0; r < parts_[q].rows(); ++r, g += e.width) {
-          const double force = (*w)[part_offset_[q] + r];
-          for (int j = 0; j < e.width; j += 4) lanes(out + j) += force * lanes(g + j);
+          for (int j = 0; j < e.width; j += 4) lanes(out + j) += f[r] * lanes(g + j);
         }
       }
     for (std::size_t l = c.bodies.size(); l-- > 0;) {

@@ -79,11 +79,25 @@ class AugmentedLagrangian {
 
   /// One step of size h from `state`, which is replaced only if the step is accepted.
   StepReport step(State& state, double h) noexcept {
+    f_.stepping(true);
+    const StepReport report = advance(state, h);
+    f_.stepping(false);
+    return report;
+  }
+
+  const StepOptions& options() const noexcept { return options_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int newton_slot = 0, projection_slot = 1;
+  /// The projections have no nonlinear terms to disturb: a stiffer penalty saves passes.
+  static constexpr double metric_penalty = 300.0;
+
+  StepReport advance(State& state, double h) noexcept {
     const Scheme k(options_, h);
     StepReport report;
     // Experience from another run must not matter (the caller may round t).
     if (!(std::abs(state.t - continues_at_) < 1e-6 * h)) {
-      rate_of_convergence_ = 1.0;
       reuse_rate_ = 0.1;
     }
     predict(state, k);
@@ -105,14 +119,6 @@ class AugmentedLagrangian {
     state.lambda.swap(lambda_);
     return report;
   }
-
-  const StepOptions& options() const noexcept { return options_; }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr int newton_slot = 0, projection_slot = 1;
-  /// The projections have no nonlinear terms to disturb: a stiffer penalty saves passes.
-  static constexpr double metric_penalty = 30.0;
 
   /// The constants of one step size.
   struct Scheme {
@@ -156,7 +162,7 @@ class AugmentedLagrangian {
   void newton(const State& state, const Scheme& k, StepReport& report) noexcept {
     const bool constrained = f_.constraints() > 0;
     const auto begin = options_.time_budget > 0.0 ? Clock::now() : Clock::time_point{};
-    bool renew = true, measured = false;
+    bool renew = true;
     double increment = 0.0, error = 0.0;
     while (true) {
       f_.retract(state.q, x_, q_);
@@ -230,16 +236,12 @@ class AugmentedLagrangian {
       const double last = increment;
       report.increment = increment = largest(delta_);
       ++report.iterations;
-      // Geometric convergence: the error left is increment * rate / (1 - rate).
-      measured = report.iterations > 1 && last > 0.0;
-      if (measured) rate_of_convergence_ = increment / last;
-      if (measured && !renew) reuse_rate_ = rate_of_convergence_;
-      error = rate_of_convergence_ < 0.5
-                  ? increment * rate_of_convergence_ / (1.0 - rate_of_convergence_)
-                  : increment;
+      // Geometric convergence: the error left is increment * rate / (1 - rate). Only a rate
+      // measured in this very step is trusted: the next step may meet a stop or a contact.
+      const double rate = report.iterations > 1 && last > 0.0 ? increment / last : 1.0;
+      error = rate < 0.5 ? increment * rate / (1.0 - rate) : increment;
+      if (report.iterations > 1 && last > 0.0 && !renew) reuse_rate_ = rate;
     }
-    // A rate that was not measured for a while is trusted less and less.
-    if (!measured) rate_of_convergence_ = std::min(1.0, 1.2 * rate_of_convergence_);
   }
 
   bool good_enough(const StepReport& report, double error) const noexcept {
@@ -309,8 +311,7 @@ class AugmentedLagrangian {
   F& f_;
   StepOptions options_;
   double continues_at_ = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step
-  double rate_of_convergence_ = 1.0;  ///< of the last Newton iteration
-  double reuse_rate_ = 0.1;           ///< of the last one with an old tangent
+  double reuse_rate_ = 0.1;  ///< of the last one with an old tangent
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, rate_, work_, increments_;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// Style sheet of the report. Curve colours are those of Okabe and Ito (2008), which colour-blind readers can tell apart;
-// lighter ones of the same hues on dark ground.
+// Style sheet of the report. Curve colours are those of Okabe and Ito (2008), which colour-blind
+// readers can tell apart; lighter ones of the same hues on dark ground.
 namespace floatframe {
 
 inline constexpr const char* report_style = R"css(

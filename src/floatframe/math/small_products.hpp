@@ -1,6 +1,8 @@
 #pragma once
 // Products with small column-major matrices, most of them twist directions (six rows): too small
 // for a general matrix product to pay its way.
+#include "floatframe/math/lanes.hpp"
+
 namespace floatframe {
 
 /// z += A x, A 6 x n.
@@ -34,10 +36,14 @@ inline void add_product(const double* A, int rows, int columns, const double* x,
   for (; j + 1 < columns; j += 2, A += 2 * rows) {
     const double x0 = x[j], x1 = x[j + 1];
     const double* B = A + rows;
-    for (int i = 0; i < rows; ++i) out[i] += A[i] * x0 + B[i] * x1;
+    int i = 0;
+    for (; i + 4 <= rows; i += 4) lanes(out + i) += x0 * lanes(A + i) + x1 * lanes(B + i);
+    for (; i < rows; ++i) out[i] += A[i] * x0 + B[i] * x1;
   }
-  if (j < columns)
-    for (int i = 0; i < rows; ++i) out[i] += A[i] * x[j];
+  if (j == columns) return;
+  int i = 0;
+  for (; i + 4 <= rows; i += 4) lanes(out + i) += x[j] * lanes(A + i);
+  for (; i < rows; ++i) out[i] += A[i] * x[j];
 }
 
 /// out += A^T f, A 6 x n.

@@ -6,6 +6,7 @@
 
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/io/suggest.hpp"
+#include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/sweep/simulation_option.hpp"
 
 namespace floatframe {
@@ -102,6 +103,7 @@ SweepCase SweepCaseReader::read(std::size_t run) const {
   const std::string fault = simulation_fault(simulation);
   if (!fault.empty()) faults.add({}, fault);
   faults.throw_if_any();
+  check_inertia_method(out.description, simulation.inertia);
   return out;
 }
 
