@@ -14,7 +14,7 @@
 namespace floatframe::test {
 
 inline ModelDescription iltis(const std::vector<ParameterOverride>& overrides = {}) {
-  return read_model(std::string(FLOATFRAME_EXAMPLES) + "/iltis/iltis.yaml", overrides);
+  return read_model(FLOATFRAME_EXAMPLES "/iltis/iltis.yaml", overrides);
 }
 
 inline const StaticsForce& force_of(const StaticsResult& s, const std::string& name) {
