@@ -37,7 +37,8 @@ TEST(GridPlan, EndsOfRangesAreExactAndValuesReadBack) {
   EXPECT_EQ(plan.runs.front().front(), "0.1");
   EXPECT_EQ(plan.runs.back().front(), "0.7");
   for (std::size_t k = 0; k < 7; ++k)
-    EXPECT_EQ(std::stod(plan.runs[k][0]), k == 6 ? 0.7 : 0.1 + (0.7 - 0.1) * (double(k) / 6.0));
+    EXPECT_DOUBLE_EQ(std::stod(plan.runs[k][0]),
+                     k == 6 ? 0.7 : 0.1 + (0.7 - 0.1) * (double(k) / 6.0));
   EXPECT_EQ(grid_plan({"a=3:-1:3"}).runs, (Rows{{"3"}, {"1"}, {"-1"}}));
 }
 
