@@ -32,7 +32,7 @@ CASES = {
 }
 SHORT = ["chain", "--iterations", "50"]
 GROWTH = {
-    **{f"elements {n}": SHORT + ["--elements", str(n)] for n in (3, 20, 100, 1000, 16700)},
+    **{f"elements {n}": SHORT + ["--elements", str(n)] for n in (5, 20, 100, 1000, 16700)},
     **{f"interface nodes {(n + 1) ** 2}": SHORT + ["--bricks", str(n)] for n in (1, 3, 5)},
     **{f"modes {n}": SHORT + ["--modes", str(n), "--elements", "40"] for n in (4, 8, 16, 32, 64)},
     **{f"links {n}": SHORT + ["--links", str(n)] for n in (1, 4, 16, 64, 256)},

@@ -51,7 +51,7 @@ std::vector<std::function<Point()>> points(Sweep sweep) {
   std::vector<std::function<Point()>> list;
   switch (sweep) {
     case Sweep::elements:
-      for (const int n : {3, 5, 20, 100, 1000, 5000, 16700})
+      for (const int n : {5, 20, 100, 1000, 5000, 16700})
         list.push_back([=] { return beam_point(sweep, n, usual_links, usual_modes, n); });
       break;
     case Sweep::interface_nodes:
