@@ -4,6 +4,10 @@ find_package(fmt REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)
+find_package(ZLIB REQUIRED)
+find_path(FLOATFRAME_SPECTRA_INCLUDE Spectra/SymGEigsShiftSolver.h REQUIRED)
+find_path(FLOATFRAME_METIS_INCLUDE metis.h REQUIRED)
+find_library(FLOATFRAME_METIS_LIBRARY metis REQUIRED)
 
 # yaml-cpp calls its target `yaml-cpp` up to 0.7 (Debian 12) and `yaml-cpp::yaml-cpp` from 0.8 (Ubuntu 24.04).
 find_package(yaml-cpp REQUIRED)
@@ -18,7 +22,9 @@ endif()
 # What the library and the tests use inside, never in an installed header.
 add_library(floatframe_private_dependencies INTERFACE)
 target_link_libraries(floatframe_private_dependencies INTERFACE
-  floatframe_yaml fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json)
+  floatframe_yaml fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json ZLIB::ZLIB ${FLOATFRAME_METIS_LIBRARY})
+target_include_directories(floatframe_private_dependencies SYSTEM INTERFACE
+  ${FLOATFRAME_SPECTRA_INCLUDE} ${FLOATFRAME_METIS_INCLUDE})
 
 # MPI is for the module that `floatframe sweep` loads under mpirun; nothing else is linked against it.
 if(FLOATFRAME_MPI)

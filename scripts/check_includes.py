@@ -16,16 +16,18 @@ ALLOWED = {
     "body": {"core", "math", "fe"},
     "reduction": {"core", "math", "fe", "body"},
     "inertia": {"core", "math", "body"},
+    "formats": {"core", "math", "fe", "body", "reduction"},
     "model": {"core", "math", "fe", "reduction", "body", "inertia"},
     "formulation": {"core", "math", "body", "inertia", "model"},
     "integrator": {"core", "math", "body", "inertia", "model", "formulation"},
     "simulation": {"core", "math", "body", "inertia", "model", "formulation", "integrator"},
-    "io": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator", "simulation"},
+    "io": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator", "simulation",
+           "formats"},
     "realtime": {"core", "math", "body", "inertia", "model", "formulation", "integrator", "simulation"},
     "sweep": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator",
-              "simulation", "io"},
+              "simulation", "io", "formats"},
     "apps": {"core", "math", "fe", "reduction", "body", "inertia", "model", "formulation", "integrator",
-             "simulation", "realtime", "io", "sweep"},
+             "simulation", "realtime", "io", "sweep", "formats"},
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]floatframe/([^/">]+)/')

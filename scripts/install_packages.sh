@@ -12,6 +12,7 @@ packages=(
   libeigen3-dev libyaml-cpp-dev libfmt-dev libcli11-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev
   libopenmpi-dev openmpi-bin
+  libspectra-dev libmetis-dev libmumps-seq-dev libopenblas0-pthread zlib1g-dev
 )
 
 check_only=no

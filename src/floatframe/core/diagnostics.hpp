@@ -30,10 +30,11 @@ struct Origin {
 struct InputFault {
   SourceMark mark;
   std::string message;
-  /// "file:line:column: message", or the message alone without a mark.
+  /// "file:line:column: message", with what is known of the mark.
   std::string text() const {
     if (mark.file.empty()) return message;
     if (mark.line == 0) return mark.file + ": " + message;
+    if (mark.column == 0) return mark.file + ":" + std::to_string(mark.line) + ": " + message;
     return mark.file + ":" + std::to_string(mark.line) + ":" + std::to_string(mark.column) + ": " +
            message;
   }

@@ -10,9 +10,10 @@ namespace floatframe {
 
 /// One element's data, gathered.
 struct ElementInput {
-  std::array<Vec3, 8> p;  ///< node positions
+  std::array<Vec3, 20> p;  ///< node positions
   Material material;
   BeamSection section;
+  ShellSection shell;
   Vec3 reference = Vec3::UnitZ();
 };
 

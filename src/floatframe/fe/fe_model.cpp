@@ -44,13 +44,19 @@ int FeModel::find_node(const std::string& name) const noexcept {
 std::string FeModel::node_label(int node) const {
   const std::size_t k = static_cast<std::size_t>(node);
   if (k < node_names.size() && !node_names[k].empty()) return "node '" + node_names[k] + "'";
-  return "node " + std::to_string(node);
+  return "node " + std::to_string(k < node_ids.size() ? node_ids[k] : node);
 }
 
 std::string FeModel::element_label(int element) const {
   const Element& e = elements[static_cast<std::size_t>(element)];
   if (!e.name.empty()) return e.name;
-  return "element " + std::to_string(element) + " (" + element_kernel(e.type).name + ")";
+  return "element " + std::to_string(e.id > 0 ? e.id : element) + " (" +
+         element_kernel(e.type).name + ")";
+}
+
+SourceMark FeModel::mark(const FeSource& source) const {
+  if (source.file < 0 || static_cast<std::size_t>(source.file) >= files.size()) return {};
+  return {files[static_cast<std::size_t>(source.file)], source.line, 0};
 }
 
 void validate(const FeModel& model) {

@@ -1,13 +1,18 @@
 #pragma once
-// A finite-element model of one flexible body: nodes, materials, beam sections, elements and point
-// masses. Plain data in the body frame, SI units. Six degrees of freedom a node (ux uy uz rx ry rz)
-// if there is any beam, else three (ux uy uz). `validate` names every fault; the assembly functions
-// give the sparse matrices.
+// A finite-element model of one flexible body: nodes, materials, sections, elements, point masses,
+// sets, spiders; or nodes and matrices from another program. Plain data in the body frame. SI
+// units, except in what a reader of a file returns: that is in the units of the file until `to_si`
+// (unit_system.hpp). In models made of bars every node has six degrees of freedom (ux uy uz rx ry
+// rz) if there is any beam, else three; `FeSystem` (fe_system.hpp) gives each node what it needs.
+// `validate` names every fault.
 #include <Eigen/SparseCore>
 #include <array>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -38,15 +43,43 @@ struct BeamSection {
   static BeamSection rectangle(double width, double height);
 };
 
-enum class ElementType { beam2, tet4, hex8 };
+/// Node order of the solids is that of Abaqus and VTK: corners first, then the mid-side nodes.
+enum class ElementType {
+  beam2,    ///< 2-node Euler-Bernoulli beam
+  tri3,     ///< 3-node flat shell
+  quad4,    ///< 4-node flat shell
+  tet4,     ///< linear tetrahedron
+  tet10,    ///< quadratic tetrahedron; edges 12 23 13 14 24 34
+  hex8,     ///< trilinear brick, full integration
+  hex8i,    ///< the same with incompatible modes (good in bending)
+  hex8r,    ///< the same, one point, with stabilised hourglass modes
+  hex20,    ///< quadratic brick, 3 x 3 x 3 points; edges 12 23 34 41 56 67 78 85 15 26 37 48
+  hex20r,   ///< the same, stiffness with 2 x 2 x 2 points
+  wedge6,   ///< linear wedge
+  wedge15,  ///< quadratic wedge; edges 12 23 31 45 56 64 14 25 36
+  beam3,    ///< 3-node Timoshenko beam: end, middle, end
+};
+
+/// Where an entity stands in the files of a model: index in FeModel::files, line from 1.
+struct FeSource {
+  int file = -1;
+  int line = 0;
+};
 
 struct Element {
   ElementType type = ElementType::beam2;
-  std::array<int, 8> nodes{};  ///< only the first ones are used, as the type needs
+  std::array<int, 20> nodes{};  ///< only the first ones are used, as the type needs
   int material = 0;
-  int section = 0;                 ///< beams only
+  int section = 0;                 ///< beams: in FeModel::sections; shells: in FeModel::shells
   Vec3 reference = Vec3::UnitZ();  ///< beams: local y lies in the plane of the axis and this vector
   std::string name;                ///< for messages; empty: by its number
+  int id = 0;                      ///< the number in the user's file; 0: none
+  FeSource source;
+};
+
+/// Homogeneous shell about its middle surface.
+struct ShellSection {
+  double thickness = 0.0;  ///< [m]
 };
 
 struct PointMass {
@@ -55,23 +88,92 @@ struct PointMass {
   Mat3 J = Mat3::Zero();  ///< inertia about the node, body axes [kg m2]; needs nodes with rotations
 };
 
+/// Several nodes that move with a reference node, which gets six degrees of freedom.
+struct Spider {
+  enum class Kind {
+    rigid,  ///< RBE2: u_i = u_r + theta_r x (x_i - x_r), in the directions of `mask`
+    mean    ///< RBE3: the reference moves as the weighted least-squares rigid motion of the nodes
+  };
+  Kind kind = Kind::rigid;
+  std::string name;             ///< for messages
+  int reference = -1;           ///< node index
+  std::vector<int> nodes;       ///< node indices
+  std::vector<double> weights;  ///< mean: one a node; empty: all 1
+  unsigned mask = 63u;  ///< bit 0..5 = ux..rz: dofs of the nodes that follow (rigid; nodes without
+                        ///< rotations: bits 3..5 mean nothing)
+  FeSource source;
+};
+
+/// Linear equation sum_k factor_k u(node_k, axis_k) = 0; the first term's dof depends on the
+/// others.
+struct LinearEquation {
+  struct Term {
+    int node = -1, axis = 0;
+    double factor = 0.0;
+  };
+  std::vector<Term> terms;
+  FeSource source;
+};
+
+/// A support in the user's file. Not applied: a hint where the part is held.
+struct Support {
+  int node = -1;
+  unsigned mask = 0;  ///< bit 0..5 = ux..rz
+  FeSource source;
+};
+
+/// A face of an element, counted from 0 in the order of the file format (S1, S2, ... for Abaqus).
+struct ElementFace {
+  int element = -1, face = 0;
+};
+
+/// One degree of freedom: node index, axis 0..5 = ux uy uz rx ry rz.
+struct Dof {
+  int node = -1, axis = 0;
+};
+
+/// Stiffness and mass made by another program, in place of elements.
+struct FeMatrices {
+  SparseMatrix K, M;      ///< symmetric, both halves stored
+  std::vector<Dof> dofs;  ///< of each row
+};
+
 struct FeModel {
-  std::vector<Vec3> positions;          ///< [m]
-  std::vector<std::string> node_names;  ///< same length as positions; empty string: no name
+  std::vector<Vec3> positions;  ///< [m]
+  std::vector<std::string>
+      node_names;  ///< same length as positions, or empty; empty string: no name
   std::vector<Material> materials;
   std::vector<BeamSection> sections;
+  std::vector<ShellSection> shells;
   std::vector<Element> elements;
   std::vector<PointMass> masses;
+
+  // What imported models have besides. Sets keep the order of the file; names as in the file
+  // (Abaqus: upper case).
+  std::vector<int> node_ids;           ///< the user's numbers; empty: index + 1
+  std::vector<FeSource> node_sources;  ///< same length as positions, or empty
+  std::vector<std::string> material_names;
+  std::map<std::string, std::vector<int>> node_sets;
+  std::map<std::string, std::vector<int>> element_sets;
+  std::map<std::string, std::vector<ElementFace>> surfaces;
+  std::vector<Spider> spiders;
+  std::vector<LinearEquation> equations;
+  std::vector<Support> supports;
+  std::optional<FeMatrices> matrices;  ///< if there, `elements` is empty
+  std::vector<std::string> files;      ///< paths as the user would write them
+  std::vector<std::string> notes;      ///< one sentence each, with file:line: what was passed over
 
   int nodes() const noexcept { return static_cast<int>(positions.size()); }
   bool has_beams() const noexcept;
   int dofs_per_node() const noexcept { return has_beams() ? 6 : 3; }
   /// Index of a named node, -1 if there is none.
   int find_node(const std::string& name) const noexcept;
-  /// The node's name, or "node 12".
+  /// The node's name, or "node 12" (its number in the file if there is one).
   std::string node_label(int node) const;
   /// The element's name, or "element 3 (beam2)".
   std::string element_label(int element) const;
+  /// For faults; empty if the model was not read from a file.
+  SourceMark mark(const FeSource& source) const;
 };
 
 /// Throws InputError with every fault: indices out of range, non-physical materials, sections and

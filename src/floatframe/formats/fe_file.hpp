@@ -1,0 +1,41 @@
+#pragma once
+// Finite-element files of other programs. All readers give the same FeModel, in the units of the
+// file. A new format is one file with a reader and one entry in the list of fe_file.cpp. Files may
+// be compressed with gzip (.gz). Faults throw InputError with file:line, all that can be found at
+// once.
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "floatframe/fe/fe_model.hpp"
+
+namespace floatframe {
+
+struct FeReadOptions {
+  /// Formats without material (Gmsh): the material of all elements, in the units of the file.
+  std::optional<Material> material;
+  /// Matrices without coordinates: a deck (any format) or "node,x,y,z" CSV with the nodes.
+  std::filesystem::path nodes;
+  /// Matrix formats: the mass matrix and the dof map, if they cannot be found beside the stiffness.
+  std::filesystem::path mass, dofs;
+};
+
+struct FeFormat {
+  const char* name;                  ///< "abaqus"
+  const char* description;           ///< "Abaqus / CalculiX deck (.inp)"
+  std::vector<std::string> endings;  ///< without .gz: {".inp"}
+  /// Does the beginning of the file (decompressed) look like this format?
+  bool (*recognise)(std::string_view beginning);
+  FeModel (*read)(const std::filesystem::path& file, const FeReadOptions& options);
+};
+
+std::span<const FeFormat> fe_formats();
+
+/// Format by name, or by ending and content if `format` is empty.
+FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& options = {},
+                     const std::string& format = {});
+
+}  // namespace floatframe
