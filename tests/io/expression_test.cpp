@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/io/suggest.hpp"
+#include "floatframe/core/suggest.hpp"
 
 namespace floatframe {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "floatframe/io/suggest.hpp"
+#include "floatframe/core/suggest.hpp"
 
 namespace floatframe {
 namespace {

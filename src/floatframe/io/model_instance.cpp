@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "floatframe/io/suggest.hpp"
+#include "floatframe/core/suggest.hpp"
 
 namespace floatframe {
 namespace {

@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
-#include "floatframe/io/suggest.hpp"
 
 namespace floatframe {
 namespace {

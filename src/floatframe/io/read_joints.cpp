@@ -1,8 +1,8 @@
 // Joints and rods, and the places on bodies that they and the forces use.
 #include <cmath>
 
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
-#include "floatframe/io/suggest.hpp"
 
 namespace floatframe {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/io/suggest.hpp"
+#include "floatframe/core/suggest.hpp"
 
 namespace floatframe {
 

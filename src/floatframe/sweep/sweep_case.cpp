@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "floatframe/core/content_hash.hpp"
-#include "floatframe/io/suggest.hpp"
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/sweep/simulation_option.hpp"
 

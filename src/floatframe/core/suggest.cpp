@@ -1,4 +1,4 @@
-#include "floatframe/io/suggest.hpp"
+#include "floatframe/core/suggest.hpp"
 
 #include <algorithm>
 
