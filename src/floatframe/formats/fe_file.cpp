@@ -1,0 +1,84 @@
+#include "floatframe/formats/fe_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/formats/text_fields.hpp"
+#include "floatframe/formats/text_source.hpp"
+
+namespace floatframe {
+namespace {
+
+/// A reader is one file of this folder and one entry here.
+const std::vector<FeFormat>& formats() {
+  static const std::vector<FeFormat> list;
+  return list;
+}
+
+/// "Abaqus / CalculiX deck (.inp), ...".
+std::string known_formats() {
+  std::string text;
+  for (const FeFormat& f : formats()) {
+    text += fmt::format("{}{} '{}'", text.empty() ? "" : ", ", f.description, f.name);
+  }
+  return text;
+}
+
+bool has_ending(const FeFormat& format, std::string name) {
+  name = lower_case(name);
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  return std::any_of(format.endings.begin(), format.endings.end(),
+                     [&](const std::string& ending) { return name.ends_with(ending); });
+}
+
+const FeFormat& by_name(const std::filesystem::path& file, const std::string& name) {
+  std::vector<std::string> names;
+  for (const FeFormat& f : formats()) {
+    if (same_word(f.name, name)) return f;
+    names.emplace_back(f.name);
+  }
+  throw InputError({file.string()}, fmt::format("there is no format '{}'{}; known are {}", name,
+                                                did_you_mean(name, names), known_formats()));
+}
+
+/// The format whose ending and content fit; else the only one whose content fits; else the only
+/// one whose ending fits, whose reader then says what is wrong.
+const FeFormat& recognised(const std::filesystem::path& file) {
+  const std::string beginning = read_beginning(file, std::size_t{1} << 16);
+  if (beginning.empty()) throw InputError({file.string()}, "the file is empty");
+  std::vector<const FeFormat*> by_ending, by_content, by_both;
+  for (const FeFormat& f : formats()) {
+    const bool ending = has_ending(f, file.filename().string()), content = f.recognise(beginning);
+    if (ending) by_ending.push_back(&f);
+    if (content) by_content.push_back(&f);
+    if (ending && content) by_both.push_back(&f);
+  }
+  for (const auto* found : {&by_both, &by_content, &by_ending}) {
+    if (found->size() == 1) return *found->front();
+    if (found->size() > 1 && found != &by_ending) {
+      std::string names;
+      for (const FeFormat* f : *found) {
+        names += fmt::format("{}'{}'", names.empty() ? "" : " or ", f->name);
+      }
+      throw InputError({file.string()}, "the format is not clear: name it, " + names);
+    }
+  }
+  throw InputError({file.string()},
+                   fmt::format("neither the ending nor the content of the file is known; known "
+                               "are {}",
+                               known_formats()));
+}
+
+}  // namespace
+
+std::span<const FeFormat> fe_formats() { return formats(); }
+
+FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& options,
+                     const std::string& format) {
+  const FeFormat& chosen = format.empty() ? recognised(file) : by_name(file, format);
+  return chosen.read(file, options);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,97 @@
+#pragma once
+// Text files of finite-element programs: read whole (decompressed if they are gzip), given line by
+// line with their place, through includes. Faults are collected with file and line.
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/fe_model.hpp"
+
+namespace floatframe {
+
+/// No file may hold more after decompression: a file of a few kilobytes can be made to fill any
+/// memory.
+inline constexpr std::uint64_t largest_text = std::uint64_t{4} << 30;  ///< [byte]
+/// Above 64 MiB, no file may be compressed better than this; decks and matrices reach 20.
+inline constexpr std::uint64_t largest_compression = 200;
+
+/// Content of a file, decompressed if it is gzip (told by its first bytes, not by its name).
+/// Throws InputError naming the file.
+std::string read_whole_file(const std::filesystem::path& file);
+/// The first `bytes` of the same, for recognition.
+std::string read_beginning(const std::filesystem::path& file, std::size_t bytes);
+/// The same on bytes in memory; `name` is for messages. Bytes that are not gzip stay as they are.
+std::string decompressed(std::string bytes, const std::string& name);
+
+/// Empty if the bytes are text (any 8-bit encoding), else what they are: "the file is binary, not
+/// text: byte 0x00 in line 3".
+std::string not_text(std::string_view bytes);
+
+/// Reads the file behind a path; throws InputError if it cannot.
+using FileLoader = std::function<std::string(const std::filesystem::path&)>;
+
+/// Lines of a text with its includes, and the faults found in it.
+class TextSource {
+ public:
+  /// A file on disk.
+  explicit TextSource(const std::filesystem::path& file);
+  /// A text in memory; without a loader every include is a fault. Throws InputError if the text is
+  /// binary.
+  TextSource(std::string text, std::string name, FileLoader loader = {});
+  TextSource(const TextSource&) = delete;
+  TextSource& operator=(const TextSource&) = delete;
+
+  /// The next line without its end; false after the last line of the first file. Views stay valid
+  /// as long as the source lives.
+  bool next(std::string_view& line);
+  /// The line of the last `next` comes again. Once only.
+  void put_back() noexcept { again_ = true; }
+  /// Place of the last line.
+  FeSource here() const noexcept { return here_; }
+
+  /// Goes on with the first line of another file and comes back after its last. The path (quotes
+  /// are removed, backslashes become slashes) is looked for beside the including file, then beside
+  /// the first file, also with `.gz`. Faults (missing, circular, too deep) are thrown at once.
+  void include(std::string_view path, const FeSource& at);
+
+  SourceMark mark(const FeSource& source) const;
+  /// Collects a fault; throws all of them when there are `most_faults`.
+  void fault(const FeSource& at, std::string message);
+  /// Collects a fault at the last line.
+  void fault(std::string message) { fault(here_, std::move(message)); }
+  [[noreturn]] void stop(const FeSource& at, std::string message);
+  void throw_if_any() { faults_.throw_if_any(); }
+  std::size_t faults() const noexcept { return faults_.size(); }
+  static constexpr std::size_t most_faults = 50;
+
+  /// Names of the files read so far, for FeModel::files.
+  const std::vector<std::string>& files() const noexcept { return names_; }
+
+ private:
+  struct Open {
+    int file = 0;
+    const char* at = nullptr;
+    int line = 0;
+  };
+  int add_file(std::string name, std::string text);
+  void open(int file);
+
+  FileLoader loader_;
+  std::vector<std::string> names_;
+  std::vector<std::unique_ptr<const std::string>> texts_;
+  std::vector<std::string> keys_;  // canonical paths, to find a file again
+  std::vector<Open> stack_;
+  std::uint64_t expanded_ = 0;  // characters put onto the stack
+  std::string_view line_;
+  bool again_ = false;
+  FeSource here_;
+  Faults faults_;
+};
+
+}  // namespace floatframe
