@@ -101,6 +101,9 @@ struct Spider {
   std::vector<double> weights;  ///< mean: one a node; empty: all 1
   unsigned mask = 63u;  ///< bit 0..5 = ux..rz: dofs of the nodes that follow (rigid; nodes without
                         ///< rotations: bits 3..5 mean nothing)
+  /// CalculiX: node whose displacements 1..3 stand for the rotations of the reference in decks and
+  /// exported matrices; else -1. It has no degree of freedom of its own.
+  int rotation_node = -1;
   FeSource source;
 };
 
