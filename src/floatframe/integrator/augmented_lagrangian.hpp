@@ -12,10 +12,10 @@
 // alpha Phi_q)
 //   then q (+)= dx and lambda += alpha (Phi + Phi_q dx), which is alpha Phi(q) but for the
 //   curvature of the constraints.
-// Projections with the same factorised T (increment form of T v = W v* - s Phi_q^T alpha Phi_t with
-// multipliers):
-//   v -= T^-1 s Phi_q^T alpha Phi_dot(v),  a -= T^-1 s Phi_q^T alpha Phi_ddot(a), repeated until
-//   the tolerance.
+// Projections with a metric of their own, factorised once a step with the Jacobian frozen there:
+//   W = M + 0.01 s K,  T_p = W + 300 s Phi_q^T alpha Phi_q
+//   v -= T_p^-1 300 s Phi_q^T alpha Phi_dot(v),  a -= T_p^-1 300 s Phi_q^T alpha Phi_ddot(a),
+//   repeated until the tolerance.
 // Nothing here allocates after construction, throws or prints. The state is untouched unless the
 // step is accepted.
 #include <algorithm>
@@ -240,7 +240,7 @@ class AugmentedLagrangian {
       // measured in this very step is trusted: the next step may meet a stop or a contact.
       const double rate = report.iterations > 1 && last > 0.0 ? increment / last : 1.0;
       error = rate < 0.5 ? increment * rate / (1.0 - rate) : increment;
-      if (report.iterations > 1 && last > 0.0 && !renew) reuse_rate_ = rate;
+      if (report.iterations > 1 && last > 0.0 && !renew) reuse_rate_ = std::min(rate, 1.0);
     }
   }
 

@@ -5,9 +5,6 @@
 #include <iterator>
 
 namespace floatframe {
-namespace {
-
-/// Column names are the user's: those with a comma, a quote or a line break are quoted.
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -17,8 +14,6 @@ std::string csv_field(const std::string& text) {
   }
   return quoted + '"';
 }
-
-}  // namespace
 
 std::string results_csv(const ResultTable& table) {
   fmt::memory_buffer text;

@@ -1,7 +1,8 @@
 // Inputs of the description: external signals that forces refer to by name.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <set>
-#include <sstream>
 
 #include "floatframe/model/model_builder.hpp"
 
@@ -9,11 +10,7 @@ namespace floatframe {
 
 namespace {
 
-std::string number(double x) {
-  std::ostringstream s;
-  s << x;
-  return s.str();
-}
+std::string number(double x) { return fmt::format("{:g}", x); }
 
 }  // namespace
 

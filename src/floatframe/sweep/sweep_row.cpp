@@ -7,6 +7,7 @@
 #include <map>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/results_csv.hpp"
 #include "floatframe/io/suggest.hpp"
 
 namespace floatframe {
@@ -42,16 +43,6 @@ bool wanted(const std::vector<SweepMeasure>& measures, const std::string& output
   return std::any_of(measures.begin(), measures.end(), [&](const SweepMeasure& m) {
     return m.output == output && (m.statistic.empty() || m.statistic == statistic);
   });
-}
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += (c == '\n' || c == '\r') ? ' ' : c;
-  }
-  return quoted + '"';
 }
 
 }  // namespace
