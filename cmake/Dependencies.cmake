@@ -34,3 +34,13 @@ if(FLOATFRAME_MPI)
     message(STATUS "MPI was not found: `floatframe sweep` will not run on several processes")
   endif()
 endif()
+
+# MUMPS (sequential, CeCILL-C) factors large sparse matrices; in a module of its own, too, whose symbols nobody else
+# sees. Without it Eigen does.
+if(FLOATFRAME_MUMPS)
+  find_path(FLOATFRAME_MUMPS_INCLUDE dmumps_c.h)
+  find_library(FLOATFRAME_MUMPS_LIBRARY dmumps_seq)
+  if(NOT FLOATFRAME_MUMPS_INCLUDE OR NOT FLOATFRAME_MUMPS_LIBRARY)
+    message(STATUS "MUMPS was not found: large finite-element parts will be reduced with Eigen, which takes longer")
+  endif()
+endif()

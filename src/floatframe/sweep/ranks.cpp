@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "floatframe/sweep/program_identity.hpp"
+#include "floatframe/core/library_path.hpp"
 
 namespace floatframe {
 namespace {
