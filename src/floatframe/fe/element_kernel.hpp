@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "floatframe/fe/fe_model.hpp"
+#include "floatframe/fe/fe_system.hpp"
 
 namespace floatframe {
 
@@ -15,6 +15,7 @@ struct ElementInput {
   BeamSection section;
   ShellSection shell;
   Vec3 reference = Vec3::UnitZ();
+  Integration integration = Integration::exact;
 };
 
 struct ElementKernel {
@@ -34,7 +35,8 @@ struct ElementKernel {
 
 std::span<const ElementKernel> element_kernels();
 const ElementKernel& element_kernel(ElementType type);
-ElementInput gather(const FeModel& model, const Element& element);
+ElementInput gather(const FeModel& model, const Element& element,
+                    Integration integration = Integration::exact);
 
 /// Local axes of a beam: columns x (from node 1 to node 2), y (in the plane of x and the
 /// reference), z.
@@ -45,6 +47,9 @@ Mat6 elasticity_matrix(const Material& material);
 
 extern const ElementKernel beam2_kernel;
 extern const ElementKernel tet4_kernel;
+extern const ElementKernel tet10_kernel;
 extern const ElementKernel hex8_kernel;
+extern const ElementKernel hex20_kernel;
+extern const ElementKernel hex20r_kernel;
 
 }  // namespace floatframe

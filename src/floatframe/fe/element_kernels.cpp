@@ -3,7 +3,8 @@
 namespace floatframe {
 
 std::span<const ElementKernel> element_kernels() {
-  static const ElementKernel list[] = {beam2_kernel, tet4_kernel, hex8_kernel};
+  static const ElementKernel list[] = {beam2_kernel, tet4_kernel,  tet10_kernel,
+                                       hex8_kernel,  hex20_kernel, hex20r_kernel};
   return list;
 }
 
@@ -14,8 +15,9 @@ const ElementKernel& element_kernel(ElementType type) {
   return element_kernels().front();
 }
 
-ElementInput gather(const FeModel& model, const Element& element) {
+ElementInput gather(const FeModel& model, const Element& element, Integration integration) {
   ElementInput input;
+  input.integration = integration;
   const ElementKernel& kernel = element_kernel(element.type);
   for (int a = 0; a < kernel.nodes; ++a) {
     input.p[static_cast<std::size_t>(a)] =

@@ -23,8 +23,9 @@ enum class Integration {
 struct FeSystem {
   SparseMatrix K, M;       ///< n x n, symmetric, both halves stored
   std::vector<Dof> dofs;   ///< of each row, ordered by node, then axis
-  std::vector<int> first;  ///< row of the node's ux; -1: dependent, or not used. A free node's dofs
-                           ///< follow each other
+  std::vector<int> first;  ///< row of the node's ux; -1: dependent (even in part), or not used. A
+                           ///< free node's dofs follow each other
+  std::vector<int> begin;  ///< rows begin[k] .. begin[k + 1] - 1 are of node k; nodes + 1 long
   /// Translations of all nodes, 3 nodes() x n: u = T q.
   SparseRows T;
   /// Rotations of all nodes, 3 nodes() x n; rows of nodes without rotation are empty.

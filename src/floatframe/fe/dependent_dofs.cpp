@@ -1,0 +1,308 @@
+#include "floatframe/fe/dependent_dofs.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+using Terms = DependentDofs::Terms;
+
+/// Resolves one dependence after the other; what it is made of is expressed at once in the dofs
+/// that are independent so far.
+class Resolver {
+ public:
+  Resolver(const FeModel& model, const DofTable& table, Faults& faults)
+      : model_(model), table_(table), faults_(faults) {
+    out_.dependent.assign(static_cast<std::size_t>(table.size()), 0);
+    out_.terms.resize(static_cast<std::size_t>(table.size()));
+    owner_.assign(static_cast<std::size_t>(table.size()), -1);
+  }
+
+  int begin_owner(std::string name, const FeSource& source) {
+    owners_.emplace_back(std::move(name));
+    mark_ = model_.mark(source);
+    return static_cast<int>(owners_.size()) - 1;
+  }
+
+  /// Terms in dofs that are independent now. What was resolved earlier may hold dofs that have
+  /// become dependent since.
+  Terms reduce(const Terms& terms) const {
+    std::map<int, double> sum;
+    for (const auto& [dof, factor] : terms) {
+      if (!dependent(dof)) {
+        sum[dof] += factor;
+        continue;
+      }
+      for (const auto& [inner, f] : reduce(out_.terms[static_cast<std::size_t>(dof)])) {
+        sum[inner] += factor * f;
+      }
+    }
+    return {sum.begin(), sum.end()};
+  }
+
+  bool dependent(int dof) const { return out_.dependent[static_cast<std::size_t>(dof)] != 0; }
+
+  /// dof = sum of terms.
+  void add(int owner, int node, int axis, const Terms& terms) {
+    const std::size_t dof = static_cast<std::size_t>(table_.index(node, axis));
+    const std::string& name = owners_[static_cast<std::size_t>(owner)];
+    if (out_.dependent[dof] != 0) {
+      if (refused_ != node || refused_owner_ != owner) {
+        faults_.add(mark_, name + ": " + dof_names[axis] + " of " + model_.node_label(node) +
+                               " depends already on " +
+                               owners_[static_cast<std::size_t>(owner_[dof])] +
+                               "; a degree of freedom can depend only once");
+      }
+      refused_ = node;
+      refused_owner_ = owner;
+      return;
+    }
+    Terms reduced = reduce(terms);
+    const auto self = std::find_if(reduced.begin(), reduced.end(),
+                                   [&](const auto& t) { return t.first == static_cast<int>(dof); });
+    if (self != reduced.end()) {
+      faults_.add(mark_, name + ": " + dof_names[axis] + " of " + model_.node_label(node) +
+                             " would depend on itself, by a chain of spiders or equations");
+      return;
+    }
+    out_.dependent[dof] = 1;
+    out_.terms[dof] = std::move(reduced);
+    out_.any = true;
+    owner_[dof] = owner;
+  }
+
+  /// Dofs that the matrices of another program leave out.
+  void fix_missing(const std::vector<Dof>& present) {
+    std::vector<char> there(out_.dependent.size(), 0);
+    const auto place = [&](const Dof& d) {
+      return static_cast<std::size_t>(table_.begin[static_cast<std::size_t>(d.node)] + d.axis);
+    };
+    for (const Dof& d : present) there[place(d)] = 1;
+    for (const Spider& s : model_.spiders) {
+      for (int k = 0; k < 6; ++k) {
+        there[place({s.reference, k})] = 1;
+      }
+    }
+    const int owner = begin_owner("the matrices, which have no row for it", {});
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      if (there[i] != 0) continue;
+      out_.dependent[i] = 1;
+      out_.any = true;
+      owner_[i] = owner;
+    }
+  }
+
+  DependentDofs finish() {
+    for (Terms& terms : out_.terms) {
+      if (!terms.empty()) terms = reduce(terms);
+    }
+    return std::move(out_);
+  }
+
+  const SourceMark& mark() const { return mark_; }
+
+ private:
+  const FeModel& model_;
+  const DofTable& table_;
+  Faults& faults_;
+  DependentDofs out_;
+  std::vector<int> owner_;  ///< of each dependent dof, index into owners_
+  std::vector<std::string> owners_;
+  SourceMark mark_;
+  int refused_ = -1, refused_owner_ = -1;
+};
+
+std::string spider_label(const FeModel& model, const Spider& s) {
+  if (!s.name.empty()) return "spider '" + s.name + "'";
+  return "spider of " + model.node_label(s.reference);
+}
+
+const Vec3& position(const FeModel& model, int node) {
+  return model.positions[static_cast<std::size_t>(node)];
+}
+
+/// u_i = u_r + theta_r x (x_i - x_r), theta_i = theta_r
+void add_rigid(const FeModel& model, const DofTable& table, const Spider& s, Resolver& resolver) {
+  const int owner = resolver.begin_owner(spider_label(model, s), s.source);
+  for (const int node : s.nodes) {
+    if (node == s.reference) continue;
+    const Mat3 S = -skew(position(model, node) - position(model, s.reference));
+    for (int axis = 0; axis < table.count(node); ++axis) {
+      if (((s.mask >> axis) & 1u) == 0) continue;
+      Terms terms;
+      if (axis >= 3) {
+        terms = {{table.index(s.reference, axis), 1.0}};
+      } else {
+        terms = {{table.index(s.reference, axis), 1.0}};
+        for (int k = 0; k < 3; ++k) {
+          if (S(axis, k) != 0.0) terms.emplace_back(table.index(s.reference, 3 + k), S(axis, k));
+        }
+      }
+      resolver.add(owner, node, axis, terms);
+    }
+  }
+}
+
+/// The reference moves as the rigid motion that fits the nodes best:
+///   sum_i w_i A_i^T A_i q_r = sum_i w_i A_i^T u_i,  A_i = [1, -skew(x_i - x_r)].
+/// Solved for six dofs of the nodes, chosen by pivoting.
+void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Resolver& resolver,
+              Faults& faults) {
+  const int owner = resolver.begin_owner(spider_label(model, s), s.source);
+  double size = 0.0;
+  for (const int node : s.nodes) {
+    size = std::max(size, (position(model, node) - position(model, s.reference)).norm());
+  }
+  const auto refuse = [&](const std::string& what) {
+    faults.add(resolver.mark(), spider_label(model, s) + ": " + what);
+  };
+  // Rotations times the size, so that all rows and columns are lengths.
+  Vec6 scale;
+  scale << 1, 1, 1, size, size, size;
+  Mat6 normal = Mat6::Zero();
+  std::map<int, Vec6> columns;  // the averages in independent dofs
+  for (std::size_t i = 0; i < s.nodes.size(); ++i) {
+    const double w = s.weights.empty() ? 1.0 : s.weights[i];
+    Eigen::Matrix<double, 3, 6> A;
+    A << Mat3::Identity(), -skew(position(model, s.nodes[i]) - position(model, s.reference)) / size;
+    normal += w * A.transpose() * A;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const auto& [dof, f] : resolver.reduce({{table.index(s.nodes[i], axis), 1.0}})) {
+        columns.try_emplace(dof, Vec6::Zero()).first->second += w * f * A.row(axis).transpose();
+      }
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(normal);
+  if (s.nodes.size() < 3 || !(size > 0.0) ||
+      !(eigen.eigenvalues()(0) > 1e-9 * eigen.eigenvalues()(5))) {
+    return refuse("its " + std::to_string(s.nodes.size()) +
+                  " nodes lie on a line or in a point and cannot define a rotation");
+  }
+  // Constraint: sum_dof c_dof u_dof = 0 with the averages on one side and q_r on the other.
+  const Mat6 inverse = normal.inverse();
+  for (auto& [dof, c] : columns) c = (inverse * c).eval();
+  for (int k = 0; k < 6; ++k) {
+    for (const auto& [dof, f] : resolver.reduce({{table.index(s.reference, k), 1.0}})) {
+      Vec6& c = columns.try_emplace(dof, Vec6::Zero()).first->second;
+      c(k) -= f * scale(k);
+    }
+  }
+  // Six dofs of the nodes themselves; those of the reference stay.
+  std::vector<Dof> candidates;
+  for (const int node : s.nodes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int dof = table.index(node, axis);
+      if (node != s.reference && !resolver.dependent(dof)) candidates.push_back({node, axis});
+    }
+  }
+  MatX C(6, static_cast<Eigen::Index>(candidates.size()));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    C.col(static_cast<Eigen::Index>(i)) =
+        columns.at(table.index(candidates[i].node, candidates[i].axis));
+  }
+  const Eigen::ColPivHouseholderQR<MatX> qr(C);
+  if (candidates.size() < 6 ||
+      !(std::abs(qr.matrixR()(5, 5)) > 1e-9 * std::abs(qr.matrixR()(0, 0)))) {
+    return refuse(
+        "too many of its nodes depend on other spiders or equations already; a mean spider needs "
+        "at least three free nodes that do not lie on a line");
+  }
+  Mat6 pivots;
+  std::array<Dof, 6> slaves;
+  std::array<int, 6> slave_dofs{};
+  for (int k = 0; k < 6; ++k) {
+    const int column = static_cast<int>(qr.colsPermutation().indices()(k));
+    slaves[static_cast<std::size_t>(k)] = candidates[static_cast<std::size_t>(column)];
+    slave_dofs[static_cast<std::size_t>(k)] = table.index(slaves[static_cast<std::size_t>(k)].node,
+                                                          slaves[static_cast<std::size_t>(k)].axis);
+    pivots.col(k) = C.col(column);
+  }
+  const Mat6 solve = -pivots.inverse();
+  std::array<Terms, 6> terms;
+  for (const auto& [dof, c] : columns) {
+    if (std::find(slave_dofs.begin(), slave_dofs.end(), dof) != slave_dofs.end()) continue;
+    const Vec6 f = solve * c;
+    for (std::size_t k = 0; k < 6; ++k) {
+      if (f(static_cast<int>(k)) != 0.0) terms[k].emplace_back(dof, f(static_cast<int>(k)));
+    }
+  }
+  for (std::size_t k = 0; k < 6; ++k) {
+    resolver.add(owner, slaves[k].node, slaves[k].axis, terms[k]);
+  }
+}
+
+void add_equation(const FeModel& model, const DofTable& table, const LinearEquation& equation,
+                  Resolver& resolver, Faults& faults) {
+  const LinearEquation::Term& first = equation.terms.front();
+  const int owner =
+      resolver.begin_owner("equation for " + model.node_label(first.node), equation.source);
+  Terms terms;
+  for (const LinearEquation::Term& t : equation.terms) {
+    const int dof = table.index(t.node, t.axis);
+    if (dof < 0) {
+      faults.add(resolver.mark(), "equation for " + model.node_label(first.node) + ": " +
+                                      model.node_label(t.node) + " has no degree of freedom " +
+                                      dof_names[t.axis]);
+      return;
+    }
+    if (&t != &first) terms.emplace_back(dof, -t.factor / first.factor);
+  }
+  resolver.add(owner, first.node, first.axis, terms);
+}
+
+}  // namespace
+
+DofTable dof_table(const FeModel& model) {
+  std::vector<int> count(model.positions.size() + 1, 0);
+  const auto need = [&](int node, int dofs) {
+    int& c = count[static_cast<std::size_t>(node) + 1];
+    c = std::max(c, dofs);
+  };
+  if (model.matrices) {
+    for (const Dof& d : model.matrices->dofs) need(d.node, d.axis < 3 ? 3 : 6);
+  }
+  for (const Element& e : model.elements) {
+    const ElementKernel& kernel = element_kernel(e.type);
+    for (int a = 0; a < kernel.nodes; ++a) {
+      need(e.nodes[static_cast<std::size_t>(a)], kernel.dofs_per_node);
+    }
+  }
+  for (const PointMass& m : model.masses) need(m.node, m.J.isZero(0.0) ? 3 : 6);
+  for (const Spider& s : model.spiders) {
+    need(s.reference, 6);
+    for (const int node : s.nodes) need(node, 3);
+  }
+  DofTable table;
+  table.begin = std::move(count);
+  for (std::size_t i = 1; i < table.begin.size(); ++i) table.begin[i] += table.begin[i - 1];
+  return table;
+}
+
+DependentDofs resolve_dependences(const FeModel& model, const DofTable& table) {
+  Faults faults;
+  Resolver resolver(model, table, faults);
+  if (model.matrices) resolver.fix_missing(model.matrices->dofs);
+  for (const LinearEquation& e : model.equations) {
+    add_equation(model, table, e, resolver, faults);
+  }
+  for (const Spider& s : model.spiders) {
+    if (s.kind == Spider::Kind::rigid) add_rigid(model, table, s, resolver);
+  }
+  for (const Spider& s : model.spiders) {
+    if (s.kind == Spider::Kind::mean) add_mean(model, table, s, resolver, faults);
+  }
+  faults.throw_if_any();
+  return resolver.finish();
+}
+
+}  // namespace floatframe

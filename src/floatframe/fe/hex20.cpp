@@ -1,0 +1,76 @@
+// 20-node serendipity brick. Corners as hex8, then the middles of the edges 12 23 34 41 56 67 78 85
+// 15 26 37 48. Stiffness with 3 x 3 x 3 points, reduced: 2 x 2 x 2 (no hourglass modes that survive
+// in a mesh of several elements). Mass with 5 x 5 x 5 points: exact with curved edges.
+#include "floatframe/fe/isoparametric.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr double at[20][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1},
+                              {1, -1, 1},   {1, 1, 1},   {-1, 1, 1}, {0, -1, -1}, {1, 0, -1},
+                              {0, 1, -1},   {-1, 0, -1}, {0, -1, 1}, {1, 0, 1},   {0, 1, 1},
+                              {-1, 0, 1},   {-1, -1, 0}, {1, -1, 0}, {1, 1, 0},   {-1, 1, 0}};
+
+void functions(const Vec3& xi, solid::Shape& N, solid::ShapeGradients& dN) {
+  for (int a = 0; a < 20; ++a) {
+    // Products of 1 + c x along the directions of the corner, 1 - x^2 along the edge.
+    Vec3 f, df;
+    double sum = -2.0;
+    for (int i = 0; i < 3; ++i) {
+      const double c = at[a][i], x = xi(i);
+      f(i) = c == 0.0 ? 1.0 - x * x : 1.0 + c * x;
+      df(i) = c == 0.0 ? -2.0 * x : c;
+      sum += c * x;
+    }
+    const double product = f(0) * f(1) * f(2);
+    const Vec3 gradient(df(0) * f(1) * f(2), f(0) * df(1) * f(2), f(0) * f(1) * df(2));
+    if (a >= 8) {
+      N(a) = 0.25 * product;
+      dN.col(a) = 0.25 * gradient;
+    } else {
+      N(a) = 0.125 * product * sum;
+      dN.col(a) = 0.125 * (gradient * sum + product * Vec3(at[a][0], at[a][1], at[a][2]));
+    }
+  }
+}
+
+const solid::IsoparametricElement& full() {
+  static const solid::IsoparametricElement e = solid::isoparametric(
+      20, &functions, {brick_rule(3), brick_rule(3)}, {brick_rule(5), brick_rule(3)});
+  return e;
+}
+const solid::IsoparametricElement& reduced() {
+  static const solid::IsoparametricElement e = solid::isoparametric(
+      20, &functions, {brick_rule(2), brick_rule(2)}, {brick_rule(5), brick_rule(2)});
+  return e;
+}
+
+using Choice = const solid::IsoparametricElement& (*)();
+
+template <Choice element>
+std::string fault(const ElementInput& in) {
+  return solid::fault(element(), in);
+}
+template <Choice element>
+void stiffness(const ElementInput& in, MatX& out) {
+  solid::stiffness(element(), in, out);
+}
+template <Choice element>
+void scalar_mass(const ElementInput& in, MatX& out) {
+  solid::scalar_mass(element(), in, out);
+}
+template <Choice element>
+void mass(const ElementInput& in, bool, MatX& out) {
+  solid::mass(element(), in, out);
+}
+
+}  // namespace
+
+const ElementKernel hex20_kernel{
+    ElementType::hex20, "hex20",          20,          3,
+    &fault<full>,       &stiffness<full>, &mass<full>, &scalar_mass<full>};
+const ElementKernel hex20r_kernel{
+    ElementType::hex20r,  "hex20r", 20, 3, &fault<reduced>, &stiffness<reduced>, &mass<reduced>,
+    &scalar_mass<reduced>};
+
+}  // namespace floatframe

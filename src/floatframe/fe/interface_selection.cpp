@@ -1,0 +1,322 @@
+#include "floatframe/fe/interface_selection.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+namespace {
+
+const Vec3& position(const FeModel& model, int node) {
+  return model.positions[static_cast<std::size_t>(node)];
+}
+
+std::string lower(std::string s) {
+  for (char& c : s) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return s;
+}
+
+/// By its name, else by the only name that differs in upper and lower case.
+template <class Map>
+const typename Map::mapped_type* find_set(const Map& sets, const std::string& name) {
+  if (const auto it = sets.find(name); it != sets.end()) return &it->second;
+  const typename Map::mapped_type* found = nullptr;
+  for (const auto& [key, value] : sets) {
+    if (lower(key) != lower(name)) continue;
+    if (found) return nullptr;
+    found = &value;
+  }
+  return found;
+}
+
+void ascending(std::vector<int>& nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
+std::vector<int> nodes_of_set(const FeModel& model, const std::string& name) {
+  std::vector<int> nodes;
+  if (const auto* set = find_set(model.node_sets, name)) {
+    // The order of the set, each node once.
+    std::vector<char> seen(model.positions.size(), 0);
+    for (const int node : *set) {
+      if (seen[static_cast<std::size_t>(node)]++ == 0) nodes.push_back(node);
+    }
+  } else if (const auto* elements = find_set(model.element_sets, name)) {
+    for (const int e : *elements) {
+      const Element& element = model.elements[static_cast<std::size_t>(e)];
+      const int count = element_kernel(element.type).nodes;
+      nodes.insert(nodes.end(), element.nodes.begin(), element.nodes.begin() + count);
+    }
+    ascending(nodes);
+  } else if (const auto* surface = find_set(model.surfaces, name)) {
+    for (const ElementFace& f : *surface) {
+      const Element& element = model.elements[static_cast<std::size_t>(f.element)];
+      const FaceNodes& face = element_faces(element.type)[static_cast<std::size_t>(f.face)];
+      for (int i = 0; i < face.count; ++i) {
+        const int a = face.nodes[static_cast<std::size_t>(i)];
+        nodes.push_back(element.nodes[static_cast<std::size_t>(a)]);
+      }
+    }
+    ascending(nodes);
+  } else {
+    std::vector<std::string> known;
+    for (const auto& [key, value] : model.node_sets) known.push_back(key);
+    for (const auto& [key, value] : model.element_sets) known.push_back(key);
+    for (const auto& [key, value] : model.surfaces) known.push_back(key);
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    const std::string hint = did_you_mean(name, known);
+    if (known.empty()) {
+      throw InputError(fmt::format("there is no set '{}'; the model has no sets", name));
+    }
+    std::string list;
+    for (std::size_t i = 0; i < known.size() && i < 12; ++i) {
+      list += (i == 0 ? "'" : ", '") + known[i] + "'";
+    }
+    if (known.size() > 12) list += fmt::format(" and {} more", known.size() - 12);
+    throw InputError(fmt::format("there is no set '{}'{}{}the sets are {}", name, hint,
+                                 hint.empty() ? "; " : " ", list));
+  }
+  if (nodes.empty()) throw InputError(fmt::format("the set '{}' is empty", name));
+  return nodes;
+}
+
+double size_of(const FeModel& model, const std::vector<char>& used) {
+  Eigen::AlignedBox3d box;
+  for (int k = 0; k < model.nodes(); ++k) {
+    if (used[static_cast<std::size_t>(k)] != 0) box.extend(position(model, k));
+  }
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+/// Of the choice's plane, cylinder or sphere; along the axis beyond the length as well.
+double distance(const NodeChoice& c, const Vec3& axis, const Vec3& p) {
+  const Vec3 r = p - c.point;
+  if (c.by == NodeChoice::By::plane) return std::abs(axis.dot(r));
+  if (c.by == NodeChoice::By::cylinder) {
+    const double z = axis.dot(r);
+    const double radial = std::abs((r - z * axis).norm() - c.radius);
+    const double beyond = c.length > 0.0 ? std::max(0.0, std::abs(z) - 0.5 * c.length) : 0.0;
+    return std::max(radial, beyond);
+  }
+  if (c.by == NodeChoice::By::sphere) return std::abs(r.norm() - c.radius);
+  return r.norm();
+}
+
+std::string text(const Vec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v(0), v(1), v(2));
+}
+
+std::string describe(const NodeChoice& c) {
+  switch (c.by) {
+    case NodeChoice::By::plane:
+      return fmt::format("the plane through {} with the normal {}", text(c.point), text(c.axis));
+    case NodeChoice::By::cylinder:
+      return fmt::format("the cylinder of radius {:.6g} m about the axis {} through {}{}", c.radius,
+                         text(c.axis), text(c.point),
+                         c.length > 0.0 ? fmt::format(", {:.6g} m long", c.length) : "");
+    default:
+      return fmt::format("the sphere of radius {:.6g} m about {}", c.radius, text(c.point));
+  }
+}
+
+std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
+  std::vector<char> used(model.positions.size(), 0);
+  const DofTable table = dof_table(model);
+  for (int k = 0; k < model.nodes(); ++k) used[static_cast<std::size_t>(k)] = table.count(k) > 0;
+  const bool round = c.by == NodeChoice::By::cylinder || c.by == NodeChoice::By::sphere;
+  if (round && !(c.radius > 0.0)) {
+    throw InputError(fmt::format("the radius must be positive, not {:.6g}", c.radius));
+  }
+  Vec3 axis = Vec3::Zero();
+  if (c.by == NodeChoice::By::plane || c.by == NodeChoice::By::cylinder) {
+    if (!(c.axis.norm() > 0.0)) throw InputError("the axis has zero length");
+    axis = c.axis.normalized();
+  }
+  const double size = size_of(model, used);
+  const double tolerance = c.tolerance > 0.0 ? c.tolerance : 1e-3 * (round ? c.radius : size);
+  std::vector<int> nodes;
+  int best = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < model.nodes(); ++k) {
+    if (used[static_cast<std::size_t>(k)] == 0) continue;
+    const double d = distance(c, axis, position(model, k));
+    if (d < least) least = d, best = k;
+    if (d <= tolerance) nodes.push_back(k);
+  }
+  if (best < 0) throw InputError("the model has no node that belongs to an element");
+  if (c.by == NodeChoice::By::nearest) return {best};
+  if (nodes.empty()) {
+    throw InputError(
+        fmt::format("no node lies within {:.3g} m of {}; the nearest is {} at {:.3g} m", tolerance,
+                    describe(c), model.node_label(best), least));
+  }
+  return nodes;
+}
+
+/// Smallest width of the cloud of nodes against its largest but one: on a line if tiny.
+bool on_a_line(const FeModel& model, const std::vector<int>& nodes) {
+  Vec3 centre = Vec3::Zero();
+  for (const int node : nodes) centre += position(model, node);
+  centre /= static_cast<double>(nodes.size());
+  Mat3 second = Mat3::Zero();
+  for (const int node : nodes) {
+    const Vec3 r = position(model, node) - centre;
+    second += r * r.transpose();
+  }
+  const Vec3 e = Eigen::SelfAdjointEigenSolver<Mat3>(second, Eigen::EigenvaluesOnly).eigenvalues();
+  return !(e(1) > 1e-10 * e(2));
+}
+
+Vec3 reference_point(const FeModel& model, const NodeChoice& c, const std::vector<int>& nodes) {
+  Eigen::AlignedBox3d box;
+  for (const int node : nodes) box.extend(position(model, node));
+  const Vec3 centre = box.center();
+  if (c.by == NodeChoice::By::sphere) return c.point;
+  if (c.by == NodeChoice::By::plane) {
+    const Vec3 n = c.axis.normalized();
+    return centre - n * n.dot(centre - c.point);
+  }
+  if (c.by == NodeChoice::By::cylinder) {
+    // The middle of the nodes' extent along the axis.
+    const Vec3 a = c.axis.normalized();
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const int node : nodes) {
+      const double z = a.dot(position(model, node) - c.point);
+      low = std::min(low, z);
+      high = std::max(high, z);
+    }
+    return c.point + 0.5 * (low + high) * a;
+  }
+  return centre;
+}
+
+void name_node(FeModel& model, int node, const std::string& name) {
+  model.node_names.resize(model.positions.size());
+  model.node_names[static_cast<std::size_t>(node)] = name;
+}
+
+std::string spider_label(const FeModel& model, const Spider& s) {
+  return s.name.empty() ? "the spider of " + model.node_label(s.reference)
+                        : "spider '" + s.name + "'";
+}
+
+/// A node that has six dofs of its own, or one alone.
+std::optional<int> existing_reference(const FeModel& model, const InterfaceDescription& d,
+                                      const DofTable& table, const std::vector<int>& nodes) {
+  std::vector<int> sorted = nodes;
+  ascending(sorted);
+  for (const Spider& s : model.spiders) {
+    std::vector<int> theirs = s.nodes;
+    ascending(theirs);
+    if (theirs == sorted) return s.reference;
+  }
+  if (nodes.size() != 1) return std::nullopt;
+  if (table.count(nodes[0]) == 3 && (d.mask & 56u) != 0) {
+    throw InputError(fmt::format(
+        "{} belongs to solid elements and has no rotations; an interface of one such node can only "
+        "have ux uy uz",
+        model.node_label(nodes[0])));
+  }
+  return nodes[0];
+}
+
+int add_unnamed(FeModel& model, const InterfaceDescription& d) {
+  const std::vector<int> nodes = choose_nodes(model, d.choice);
+  const DofTable table = dof_table(model);
+  Faults faults;
+  for (const int node : nodes) {
+    if (table.count(node) > 0) continue;
+    faults.add({}, model.node_label(node) + " belongs to no element");
+    break;
+  }
+  faults.throw_if_any();
+  if (const auto node = existing_reference(model, d, table, nodes)) {
+    for (const Spider& s : model.spiders) {
+      if (s.kind == Spider::Kind::rigid && nodes.size() == 1 && s.reference != *node &&
+          std::find(s.nodes.begin(), s.nodes.end(), *node) != s.nodes.end()) {
+        throw InputError(fmt::format("{} belongs to {} and cannot be an interface of its own",
+                                     model.node_label(*node), spider_label(model, s)));
+      }
+    }
+    return *node;
+  }
+  const bool rotations =
+      std::any_of(nodes.begin(), nodes.end(), [&](int node) { return table.count(node) == 6; });
+  if (d.kind == Spider::Kind::mean || !rotations) {
+    if (nodes.size() < 3) {
+      throw InputError(fmt::format(
+          "{} nodes are too few; an interface of solid elements needs three that do not "
+          "lie on a line, or one node with only ux uy uz",
+          nodes.size()));
+    }
+    if (on_a_line(model, nodes)) {
+      throw InputError(
+          fmt::format("its {} nodes lie on a line, about which nothing holds the "
+                      "rotation of the reference point",
+                      nodes.size()));
+    }
+  }
+  for (const Spider& s : model.spiders) {
+    if (d.kind == Spider::Kind::mean && s.kind == Spider::Kind::mean) continue;
+    for (const int node : nodes) {
+      if (std::find(s.nodes.begin(), s.nodes.end(), node) == s.nodes.end()) continue;
+      faults.add({}, model.node_label(node) + " belongs to " + spider_label(model, s) +
+                         " already; a node can follow only one reference");
+      break;
+    }
+  }
+  faults.throw_if_any();
+  Spider spider;
+  spider.kind = d.kind;
+  spider.name = d.name;
+  spider.reference = model.nodes();
+  spider.nodes = nodes;
+  const Vec3 at = d.at.value_or(reference_point(model, d.choice, nodes));
+  if (!at.allFinite()) throw InputError("the reference point is not finite");
+  model.positions.push_back(at);
+  if (!model.node_ids.empty()) {
+    model.node_ids.push_back(*std::max_element(model.node_ids.begin(), model.node_ids.end()) + 1);
+  }
+  if (!model.node_sources.empty()) model.node_sources.emplace_back();
+  model.spiders.push_back(std::move(spider));
+  return model.nodes() - 1;
+}
+
+}  // namespace
+
+std::vector<int> choose_nodes(const FeModel& model, const NodeChoice& choice) {
+  if (choice.by == NodeChoice::By::set) return nodes_of_set(model, choice.set);
+  if (choice.by != NodeChoice::By::node) return nodes_of_shape(model, choice);
+  for (int k = 0; k < model.nodes(); ++k) {
+    const int id = model.node_ids.empty() ? k + 1 : model.node_ids[static_cast<std::size_t>(k)];
+    if (id == choice.number) return {k};
+  }
+  throw InputError(fmt::format("there is no node {}", choice.number));
+}
+
+int add_interface(FeModel& model, const InterfaceDescription& d) {
+  const std::string label = "interface '" + d.name + "': ";
+  try {
+    if (model.find_node(d.name) >= 0) throw InputError("a node has this name already");
+    if ((d.mask & 63u) == 0) throw InputError("it has no degree of freedom");
+    const int node = add_unnamed(model, d);
+    name_node(model, node, d.name);
+    return node;
+  } catch (const InputError& error) {
+    std::vector<InputFault> faults = error.faults();
+    for (InputFault& fault : faults) fault.message = label + fault.message;
+    throw InputError(std::move(faults));
+  }
+}
+
+}  // namespace floatframe

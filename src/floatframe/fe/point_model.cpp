@@ -1,0 +1,153 @@
+#include <algorithm>
+
+#include "floatframe/fe/full_system.hpp"
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+struct NodePair {
+  int node = -1;
+  Mat6 M = Mat6::Zero();
+};
+
+/// Blocks of one column of nodes.
+void blocks_of(const SparseMatrix& M, const DofTable& table, const std::vector<Dof>& dofs,
+               int column, std::vector<NodePair>& blocks) {
+  blocks.clear();
+  for (int c = 0; c < table.count(column); ++c) {
+    std::size_t at = 0;  // rows ascend
+    for (SparseMatrix::InnerIterator it(M, table.index(column, c)); it; ++it) {
+      const Dof& row = dofs[static_cast<std::size_t>(it.row())];
+      while (at < blocks.size() && blocks[at].node < row.node) ++at;
+      if (at == blocks.size() || blocks[at].node != row.node) {
+        blocks.insert(blocks.begin() + static_cast<std::ptrdiff_t>(at), {row.node, Mat6::Zero()});
+      }
+      blocks[at].M(row.axis, c) = it.value();
+    }
+  }
+}
+
+/// Velocities of the points 0 (the node) and 1..3 (at e_k) are v and v + omega x e_k, so masses
+/// m(k, l) between the points of two nodes have
+///   M_tt = mu I,  M_tr = -skew(s_b),  M_rt = skew(s_a),  M_rr = tr(P) I - P^T
+/// with mu = sum m, s_b(l) = sum_k m(k, l), s_a(k) = sum_l m(k, l), P(k, l) = m(k, l).
+struct PointMasses {
+  double mu = 0.0;
+  Vec3 s_a = Vec3::Zero(), s_b = Vec3::Zero();
+  Mat3 P = Mat3::Zero();
+
+  explicit PointMasses(const Mat6& M) {
+    const auto axial = [](const Mat3& A) {
+      return Vec3(0.5 * Vec3(A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1)));
+    };
+    mu = M.topLeftCorner<3, 3>().trace() / 3.0;
+    s_b = -axial(M.topRightCorner<3, 3>());
+    s_a = axial(M.bottomLeftCorner<3, 3>());
+    const Mat3 rotary = M.bottomRightCorner<3, 3>();
+    P = 0.5 * rotary.trace() * Mat3::Identity() - rotary.transpose();
+  }
+
+  /// What of the block is not represented.
+  double deviation(const Mat6& M) const {
+    Mat6 D = M;
+    D.topLeftCorner<3, 3>() -= mu * Mat3::Identity();
+    D.topRightCorner<3, 3>() += skew(s_b);
+    D.bottomLeftCorner<3, 3>() -= skew(s_a);
+    D.bottomRightCorner<3, 3>().setZero();  // exact
+    return D.cwiseAbs().maxCoeff();
+  }
+};
+
+}  // namespace
+
+PointModel point_model(const FeModel& model, const FeSystem& system, Integration integration) {
+  const DofTable table = dof_table(model);
+  const SparseMatrix M = full_mass(model, table, integration);
+  const int nodes = model.nodes();
+  std::vector<Dof> dofs;
+  for (int k = 0; k < nodes; ++k) {
+    for (int axis = 0; axis < table.count(k); ++axis) dofs.push_back({k, axis});
+  }
+  // Nodes whose rotation carries mass get three more points, behind those of the nodes.
+  std::vector<int> extra(static_cast<std::size_t>(nodes), -1);
+  int points = nodes;
+  for (int k = 0; k < nodes; ++k) {
+    bool heavy = false;
+    for (int axis = 3; axis < table.count(k); ++axis) {
+      for (SparseMatrix::InnerIterator it(M, table.index(k, axis)); it; ++it) {
+        heavy = heavy || it.value() != 0.0;
+      }
+    }
+    if (!heavy) continue;
+    extra[static_cast<std::size_t>(k)] = points;
+    points += 3;
+  }
+  PointModel out;
+  out.p.resize(3, points);
+  for (int k = 0; k < nodes; ++k) {
+    const Vec3& p = model.positions[static_cast<std::size_t>(k)];
+    out.p.col(k) = p;
+    const int e = extra[static_cast<std::size_t>(k)];
+    for (int i = 0; i < 3 && e >= 0; ++i) out.p.col(e + i) = p + Vec3::Unit(i);
+  }
+
+  std::vector<Eigen::Triplet<double>> masses;
+  std::vector<NodePair> blocks;
+  double deviation = 0.0, largest = 0.0;
+  for (int b = 0; b < nodes; ++b) {
+    blocks_of(M, table, dofs, b, blocks);
+    for (const NodePair& block : blocks) {
+      const int a = block.node;
+      const PointMasses m(block.M);
+      largest = std::max(largest, block.M.cwiseAbs().maxCoeff());
+      deviation = std::max(deviation, m.deviation(block.M));
+      const int ea = extra[static_cast<std::size_t>(a)], eb = extra[static_cast<std::size_t>(b)];
+      double rest = m.mu;
+      for (int l = 0; l < 3 && eb >= 0; ++l) {
+        const double value = m.s_b(l) - (ea >= 0 ? m.P.col(l).sum() : 0.0);
+        masses.emplace_back(a, eb + l, value);
+        rest -= value;
+      }
+      for (int k = 0; k < 3 && ea >= 0; ++k) {
+        const double value = m.s_a(k) - (eb >= 0 ? m.P.row(k).sum() : 0.0);
+        masses.emplace_back(ea + k, b, value);
+        rest -= value;
+        for (int l = 0; l < 3 && eb >= 0; ++l) {
+          masses.emplace_back(ea + k, eb + l, m.P(k, l));
+          rest -= m.P(k, l);
+        }
+      }
+      masses.emplace_back(a, b, rest);
+    }
+  }
+  out.M_s.resize(points, points);
+  out.M_s.setFromTriplets(masses.begin(), masses.end());
+  out.anisotropy = largest > 0.0 ? deviation / largest : 0.0;
+
+  std::vector<Eigen::Triplet<double>> motion;
+  const auto copy = [&](const SparseRows& from, int row, int to, double factor) {
+    for (SparseRows::InnerIterator it(from, row); it; ++it) {
+      motion.emplace_back(to, static_cast<int>(it.col()), factor * it.value());
+    }
+  };
+  for (int k = 0; k < nodes; ++k) {
+    const int e = extra[static_cast<std::size_t>(k)];
+    for (int i = 0; i < 3; ++i) {
+      copy(system.T, 3 * k + i, 3 * k + i, 1.0);
+      for (int j = 0; j < 3 && e >= 0; ++j) {
+        const int row = 3 * (e + j) + i;
+        copy(system.T, 3 * k + i, row, 1.0);
+        const Mat3 S = -skew(Vec3::Unit(j));  // theta x e_j
+        for (int c = 0; c < 3; ++c) {
+          if (S(i, c) != 0.0) copy(system.T_theta, 3 * k + c, row, S(i, c));
+        }
+      }
+    }
+  }
+  out.T.resize(3 * points, system.size());
+  out.T.setFromTriplets(motion.begin(), motion.end());
+  return out;
+}
+
+}  // namespace floatframe
