@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "floatframe/io/atomic_file.hpp"
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/io/results_csv.hpp"
 #include "floatframe/io/summary_json.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "floatframe/apps/command.hpp"
-#include "floatframe/apps/text_table.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/text_table.hpp"
 #include "floatframe/io/advice_json.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
 

@@ -8,8 +8,8 @@
 #include "floatframe/apps/bench_command.hpp"
 #include "floatframe/apps/chain_model.hpp"
 #include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/atomic_file.hpp"
 
 namespace floatframe {
 namespace {

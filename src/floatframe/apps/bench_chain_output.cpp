@@ -8,8 +8,8 @@
 #include "floatframe/apps/bench_chain.hpp"
 #include "floatframe/apps/chain_model.hpp"
 #include "floatframe/apps/command.hpp"
-#include "floatframe/apps/text_table.hpp"
 #include "floatframe/core/build_info.hpp"
+#include "floatframe/core/text_table.hpp"
 
 namespace floatframe {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/atomic_file.hpp"
 
 namespace floatframe {
 

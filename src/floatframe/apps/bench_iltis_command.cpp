@@ -6,7 +6,7 @@
 #include "floatframe/apps/bench_command.hpp"
 #include "floatframe/apps/bench_iltis.hpp"
 #include "floatframe/apps/progress_bar.hpp"
-#include "floatframe/io/atomic_file.hpp"
+#include "floatframe/core/atomic_file.hpp"
 
 namespace floatframe {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "floatframe/apps/bench_iltis.hpp"
 #include "floatframe/apps/command.hpp"
-#include "floatframe/apps/text_table.hpp"
 #include "floatframe/core/build_info.hpp"
+#include "floatframe/core/text_table.hpp"
 
 namespace floatframe {
 namespace {

@@ -11,9 +11,9 @@
 #include "floatframe/apps/bench_scaling.hpp"
 #include "floatframe/apps/bench_stepper.hpp"
 #include "floatframe/apps/chain_model.hpp"
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/atomic_file.hpp"
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
 

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "floatframe/apps/command.hpp"
-#include "floatframe/apps/text_table.hpp"
+#include "floatframe/core/text_table.hpp"
 #include "floatframe/io/summary_json.hpp"
 #include "floatframe/simulation/simulation.hpp"
 

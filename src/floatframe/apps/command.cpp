@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/atomic_file.hpp"
 #include "floatframe/io/model_reader.hpp"
 
 namespace floatframe {

@@ -13,8 +13,8 @@
 #include "floatframe/apps/command.hpp"
 #include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/apps/realtime_output.hpp"
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/atomic_file.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/simulation/simulation.hpp"
 

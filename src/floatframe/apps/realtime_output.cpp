@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/apps/command.hpp"
-#include "floatframe/apps/text_table.hpp"
 #include "floatframe/core/build_info.hpp"
+#include "floatframe/core/text_table.hpp"
 
 namespace floatframe {
 namespace {

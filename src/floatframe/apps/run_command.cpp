@@ -7,9 +7,9 @@
 
 #include "floatframe/apps/command.hpp"
 #include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/atomic_file.hpp"
 #include "floatframe/io/report_html.hpp"
 #include "floatframe/io/results_csv.hpp"
 #include "floatframe/io/summary_json.hpp"

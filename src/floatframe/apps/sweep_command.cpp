@@ -12,8 +12,8 @@
 
 #include "floatframe/apps/command.hpp"
 #include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/atomic_file.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/sweep.hpp"
 

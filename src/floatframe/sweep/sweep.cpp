@@ -9,9 +9,9 @@
 #include <set>
 #include <thread>
 
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/atomic_file.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/program_identity.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"

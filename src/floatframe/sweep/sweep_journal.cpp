@@ -11,9 +11,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/atomic_file.hpp"
 
 namespace floatframe {
 namespace {

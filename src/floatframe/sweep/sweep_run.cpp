@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/io/atomic_file.hpp"
 #include "floatframe/io/results_csv.hpp"
 #include "floatframe/io/summary_json.hpp"
 #include "floatframe/simulation/simulation.hpp"

@@ -1,5 +1,5 @@
 // Alignment of text tables, the yardstick of the benchmark, and how its figures are shown.
-#include "floatframe/apps/text_table.hpp"
+#include "floatframe/core/text_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "floatframe/apps/text_table.hpp"
+#include "floatframe/core/text_table.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,10 @@
-#include "floatframe/io/atomic_file.hpp"
+#include "floatframe/core/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -34,8 +35,10 @@ std::string cannot(const std::string& kind, const std::string& path, int error) 
   return kind + " '" + path + "' cannot be written: " + std::strerror(error);
 }
 
+/// One of its own for every process and every call: threads may write the same file.
 std::string temporary_name(const std::string& path) {
-  return path + ".part-" + std::to_string(::getpid());
+  static std::atomic<unsigned> calls = 0;
+  return path + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(calls++);
 }
 
 bool is_special(const std::string& path) {
