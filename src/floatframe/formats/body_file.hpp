@@ -4,6 +4,7 @@
 // integers), so numpy.load reads it. SI units. docs/body-file.md names every member.
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Provenance {
   std::string units;                ///< of the FE file
   std::vector<std::pair<std::string, std::string>> options;  ///< as on the command line
   std::string date, version;                                 ///< ISO 8601 UTC; of Floatframe
+  /// Every file that was read, relative to the folder of `source`, and the hash of its content.
+  std::vector<std::pair<std::string, std::string>> files;
 };
 
 struct BodyFile {
@@ -23,9 +26,19 @@ struct BodyFile {
   Provenance provenance;
 };
 
-/// Writes to a temporary name and renames.
+/// Version of the format that is written; newer ones are refused.
+inline constexpr int body_file_version = 1;
+
+/// Writes to a temporary name and renames. Equal contents give equal bytes. Throws OutputError.
 void write_body_file(const std::filesystem::path& file, const BodyFile& content);
-/// Throws InputError naming the member and what is wrong with it.
+/// Throws InputError with every fault: file, member, what was found and what was expected.
 BodyFile read_body_file(const std::filesystem::path& file);
+
+/// The same with the bytes of the file; `name` is for the messages.
+std::string body_file_bytes(const BodyFile& content);
+BodyFile read_body_bytes(std::string_view bytes, const std::string& name);
+
+/// Does a file begin as an archive does?
+bool is_body_file(const std::filesystem::path& file);
 
 }  // namespace floatframe

@@ -1,0 +1,19 @@
+#pragma once
+// The health report of a reduction for people (text tables) and for programs (JSON, SI units, which
+// the keys name). Numbers that are not finite are null in JSON.
+#include <string>
+
+#include "floatframe/reduction/health_report.hpp"
+
+namespace floatframe {
+
+/// Aligned tables; warnings come last. Each line ends with a line break.
+std::string health_text(const HealthReport& report);
+
+/// An object; `indent` blanks a level.
+std::string health_json(const HealthReport& report, int indent = 2);
+/// What `health_json` wrote; unknown keys are passed over, missing ones keep their defaults. Throws
+/// InputError with one sentence, without a place, that names the key.
+HealthReport health_from_json(const std::string& text);
+
+}  // namespace floatframe

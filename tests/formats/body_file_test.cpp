@@ -1,0 +1,355 @@
+// Body files: what is written is read again to the bit; every damage is one sentence.
+#include "floatframe/formats/body_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "floatframe/fe/bar_frame.hpp"
+#include "floatframe/formats/health_text.hpp"
+#include "floatframe/formats/npy.hpp"
+#include "floatframe/formats/zip_store.hpp"
+#include "floatframe/reduction/reduction.hpp"
+
+namespace floatframe {
+namespace {
+
+/// A bracket of three steel bars with everything that a body file can hold.
+BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
+  BarFrame frame;
+  frame.material = {2.1e11, 0.3, 7850.0};
+  frame.points = {{"foot", {0, 0, 0}}, {"knee", {0.3, 0, 0.1}}, {"eye", {0.3, 0.2, 0.25}}};
+  for (const auto& [from, to] : {std::pair{"foot", "knee"}, {"knee", "eye"}}) {
+    Bar bar;
+    bar.name = from;
+    bar.from = from;
+    bar.to = to;
+    bar.elements = 2;
+    bar.section = BeamSection::solid_round(0.02);
+    frame.bars.push_back(bar);
+  }
+  ReductionOptions options;
+  options.clamped = {{"foot", -1, all_dofs}};
+  options.interfaces = {{"eye", -1, all_translations}};
+  options.normal_modes = 2;
+  options.mass_model = mass_model;
+  options.damping_ratio = 0.01;
+  BodyFile out;
+  ReducedPart& part = out.part;
+  const FeModel model = build_bar_frame(frame);
+  part.body = reduce(model, options);
+  part.surface.nodes = {0, 1, 2};
+  part.surface.triangles = {{0, 1, 2}};
+  part.surface.lines = {{0, 1}, {1, 2}};
+  part.surface_positions = Mat3X::Random(3, 3);
+  part.surface_modes = MatX::Random(9, part.body.modes());
+  part.surface_stress = MatX::Random(18, part.body.modes());
+  std::erase_if(part.body.nodes, [](const ModalNode& n) { return n.name.empty(); });
+
+  HealthReport& h = part.health;
+  h.nodes = model.nodes();
+  h.elements = 4;
+  h.dofs = 30;
+  h.modes = part.body.modes();
+  h.from_elements = {1.5, {0.1, 0.2, 0.3}, Mat3::Identity()};
+  h.from_invariants = {1.5, {0.1, 0.2, 0.3 + 1e-15}, Mat3::Identity()};
+  h.volume = 2e-4;
+  h.volume_times_density = 1.57;
+  h.rigid_eigenvalues = Vec6::LinSpaced(6, -1e-12, 1e-12);
+  h.rigid_residual = 3e-16;
+  h.normal_modes = {{"normal 1", 100.0, Vec6::Constant(0.25), true}};
+  h.free_frequencies = {{100.0, 100.25}};
+  h.interfaces = {{"eye", 7, {0.3, 0.2, 0.25}, "rigid", 3.5, 1e-9}};
+  h.static_support = "foot";
+  h.solver = "test";
+  h.seconds = {{"read", 0.5}};
+  h.notes = {"a note"};
+  h.warnings = {"the interface 'eye' has few nodes"};
+  out.provenance = {"bracket.inp",
+                    "0123",
+                    "mm-t-s",
+                    {{"modes", "2"}, {"method", "cb"}},
+                    "2026-01-02T03:04:05Z",
+                    "0.1.0-test",
+                    {{"bracket.inp", "4567"}}};
+  return out;
+}
+
+void expect_equal(const BodyFile& a, const BodyFile& b) {
+  const InertiaInvariants &v = a.part.body.invariants, &w = b.part.body.invariants;
+  EXPECT_EQ(v.m, w.m);
+  EXPECT_EQ(v.m_u, w.m_u);
+  EXPECT_EQ(v.P_u, w.P_u);
+  EXPECT_EQ(v.S, w.S);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(v.Si[i], w.Si[i]);
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(v.Sij[i][j], w.Sij[i][j]);
+  }
+  EXPECT_EQ(a.part.body.K, b.part.body.K);
+  EXPECT_EQ(a.part.body.D, b.part.body.D);
+  EXPECT_EQ(a.part.body.fixed_interface_frequencies, b.part.body.fixed_interface_frequencies);
+  EXPECT_EQ(a.part.body.mode_names, b.part.body.mode_names);
+  EXPECT_EQ(a.part.body.mass_model, b.part.body.mass_model);
+  ASSERT_EQ(a.part.body.nodes.size(), b.part.body.nodes.size());
+  for (std::size_t k = 0; k < a.part.body.nodes.size(); ++k) {
+    const ModalNode &n = a.part.body.nodes[k], &m = b.part.body.nodes[k];
+    EXPECT_EQ(n.name, m.name);
+    EXPECT_EQ(n.p, m.p);
+    EXPECT_EQ(n.X, m.X);
+    EXPECT_EQ(n.X_theta, m.X_theta);
+  }
+  EXPECT_EQ(a.part.surface.nodes, b.part.surface.nodes);
+  EXPECT_EQ(a.part.surface.triangles, b.part.surface.triangles);
+  EXPECT_EQ(a.part.surface.lines, b.part.surface.lines);
+  EXPECT_EQ(a.part.surface_positions, b.part.surface_positions);
+  EXPECT_EQ(a.part.surface_modes, b.part.surface_modes);
+  EXPECT_EQ(a.part.surface_stress, b.part.surface_stress);
+  ASSERT_EQ(!a.part.body.projection, !b.part.body.projection);
+  if (const auto p = a.part.body.projection) {
+    const auto q = b.part.body.projection;
+    EXPECT_EQ(p->p, q->p);
+    EXPECT_EQ(p->X, q->X);
+    EXPECT_EQ(p->X_theta, q->X_theta);
+    EXPECT_EQ(MatX(p->M_s), MatX(q->M_s));
+    EXPECT_EQ(MatX(p->M_6), MatX(q->M_6));
+  }
+  EXPECT_EQ(health_json(a.part.health), health_json(b.part.health));
+  const Provenance &p = a.provenance, &q = b.provenance;
+  EXPECT_EQ(std::tie(p.source, p.source_hash, p.units, p.options, p.date, p.version, p.files),
+            std::tie(q.source, q.source_hash, q.units, q.options, q.date, q.version, q.files));
+}
+
+/// The file with one member replaced (or removed, if `content` is empty).
+std::string with_member(const std::string& bytes, const std::string& name,
+                        const std::string& content) {
+  std::vector<ZipMember> members = read_zip(bytes, "x");
+  std::erase_if(members, [&](const ZipMember& m) { return m.name == name && content.empty(); });
+  for (ZipMember& m : members)
+    if (m.name == name) m.content = content;
+  return zip_archive(members);
+}
+
+std::string member(const std::string& bytes, const std::string& name) {
+  for (const ZipMember& m : read_zip(bytes, "x"))
+    if (m.name == name) return std::string(m.content);
+  return "";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string fault_of(const std::string& bytes) {
+  try {
+    read_body_bytes(bytes, "arm.ffb");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+TEST(BodyFile, RoundTripIsExact) {
+  for (const MassModel model : {MassModel::isoparametric, MassModel::six_dof, MassModel::hermite}) {
+    const BodyFile file = bracket(model);
+    ASSERT_EQ(!file.part.body.projection, model == MassModel::hermite);
+    expect_equal(file, read_body_bytes(body_file_bytes(file), "x"));
+  }
+}
+
+TEST(BodyFile, RigidPartWithoutSurface) {
+  BodyFile file;
+  file.part.body.invariants = InertiaInvariants::rigid(2.0, {0.1, 0.0, 0.0}, Mat3::Identity());
+  file.part.body.K = file.part.body.D = MatX::Zero(0, 0);
+  file.part.surface_positions = Mat3X::Zero(3, 0);
+  expect_equal(file, read_body_bytes(body_file_bytes(file), "x"));
+}
+
+TEST(BodyFile, EqualContentsGiveEqualBytes) {
+  EXPECT_EQ(body_file_bytes(bracket().part.body.nodes.empty() ? BodyFile() : BodyFile()),
+            body_file_bytes(BodyFile()));
+  const BodyFile file = bracket();
+  const std::string bytes = body_file_bytes(file);
+  EXPECT_EQ(bytes, body_file_bytes(file));
+  EXPECT_EQ(bytes, body_file_bytes(read_body_bytes(bytes, "x")));
+}
+
+// Written by format version 1 of the program: files of users stay readable.
+TEST(BodyFile, FileOfVersion1) {
+  const std::filesystem::path path = FLOATFRAME_TEST_DATA "/body_files/bracket_v1.ffb";
+  if (!std::filesystem::exists(path)) write_body_file(path, bracket());
+  const BodyFile file = read_body_file(path);
+  EXPECT_TRUE(is_body_file(path));
+  EXPECT_EQ(file.part.body.modes(), 5);
+  EXPECT_EQ(file.part.body.nodes.size(), 3u);
+  EXPECT_EQ(file.part.body.nodes[2].name, "eye");
+  EXPECT_TRUE(file.part.body.projection);
+  EXPECT_NEAR(file.part.body.invariants.m, bracket().part.body.invariants.m, 1e-14);
+  EXPECT_EQ(file.part.health.warnings.size(), 1u);
+}
+
+TEST(BodyFile, FaultsOfTheArchive) {
+  const std::string good = body_file_bytes(bracket());
+  EXPECT_EQ(fault_of(""), "arm.ffb: this is not a zip archive (it does not begin with PK)");
+  EXPECT_EQ(fault_of("*NODE\n1,0,0,0\n"),
+            "arm.ffb: this is not a zip archive (it does not begin with PK)");
+  EXPECT_EQ(fault_of(good.substr(0, good.size() / 2)),
+            "arm.ffb: the archive has no directory at its end: it is truncated or damaged");
+  EXPECT_EQ(fault_of(zip_archive({{"a.txt", "b"}})),
+            "arm.ffb: this is not a body file (it has no member 'header.json')");
+  EXPECT_EQ(fault_of(zip_archive({{"K.npy", "b"}, {"K.npy", "b"}})),
+            "arm.ffb: member 'K.npy': found twice, expected once");
+  std::string changed = good;
+  const std::size_t at = changed.find("K.npy") + 200;
+  changed[at] = static_cast<char>(changed[at] ^ 1);
+  EXPECT_TRUE(fault_of(changed).starts_with("arm.ffb: member 'K.npy': found the checksum "))
+      << fault_of(changed);
+  EXPECT_TRUE(fault_of(changed).ends_with(": its bytes were changed"));
+  std::string compressed = good;  // of the first directory entry
+  compressed[compressed.find("PK\1\2") + 10] = 8;
+  EXPECT_EQ(fault_of(compressed),
+            "arm.ffb: member 'header.json': is compressed (method 8), expected a stored member");
+}
+
+TEST(BodyFile, FaultsOfTheHeader) {
+  const std::string good = body_file_bytes(bracket());
+  const std::string header = member(good, "header.json");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    return fault_of(with_member(good, "header.json", replaced(header, from, to)));
+  };
+  EXPECT_EQ(with("\"format_version\": 1", "\"format_version\": 2"),
+            "arm.ffb: member 'header.json': found format version 2, this program reads version 1 "
+            "(the file was written by Floatframe 0.1.0-test)");
+  const std::string not_ours =
+      "arm.ffb: this is not a body file (member 'header.json' does not say format 'floatframe "
+      "body')";
+  EXPECT_EQ(with("floatframe body", "something"), not_ours);
+  EXPECT_EQ(with("{", "["), not_ours);
+  EXPECT_EQ(with("\"eye\"", "\"foot\""),
+            "arm.ffb: member 'header.json': found the marker name 'foot', expected names that are "
+            "not empty and differ");
+  EXPECT_EQ(with("isoparametric", "lumped"),
+            "arm.ffb: member 'header.json': found the mass model 'lumped', expected isoparametric, "
+            "six_dof or hermite");
+  EXPECT_EQ(with("\"elements\": 4", "\"elements\": \"4\""),
+            "arm.ffb: member 'header.json': health: found a wrong value of 'elements'");
+}
+
+TEST(BodyFile, FaultsOfTheArrays) {
+  const std::string good = body_file_bytes(bracket());
+  const auto with = [&](const std::string& name, const std::string& content) {
+    return fault_of(with_member(good, name + ".npy", content));
+  };
+  const auto doubles = [](std::vector<std::size_t> shape, double x, double last) {
+    std::size_t n = 1;
+    for (const std::size_t k : shape) n *= k;
+    std::vector<double> values(n, x);
+    values.back() = last;
+    return npy_bytes({shape, values});
+  };
+  EXPECT_EQ(with("S", ""), "arm.ffb: member 'S.npy': is missing");
+  EXPECT_EQ(with("S", doubles({3, 4}, 0, 0)),
+            "arm.ffb: member 'S.npy': found 3 x 4, expected 3 x 5");
+  EXPECT_EQ(with("S", npy_bytes({{3, 5}, std::vector<std::int32_t>(15, 1)})),
+            "arm.ffb: member 'S.npy': found 3 x 5 of integers, expected 3 x 5");
+  EXPECT_EQ(with("K", doubles({5, 5}, 0, std::numeric_limits<double>::quiet_NaN())),
+            "arm.ffb: member 'K.npy': found nan as value 25, expected finite numbers");
+  std::vector<double> skew(25, 0.0);
+  skew[1] = 2.0;
+  EXPECT_EQ(
+      with("K", npy_bytes({{5, 5}, skew})),
+      "arm.ffb: member 'K.npy': found 0 in row 2, column 1 and 2 in row 1, column 2, expected "
+      "a symmetric matrix");
+  EXPECT_EQ(with("S21", doubles({5, 5}, 1.0, 2.0)),
+            "arm.ffb: member 'S21.npy': found another matrix than the transpose of S12, expected "
+            "the same");
+  EXPECT_EQ(with("m", npy_bytes({{}, std::vector<double>{-1.0}})),
+            "arm.ffb: member 'm.npy': found -1, expected a mass >= 0 [kg]");
+  EXPECT_EQ(with("surface_triangles", npy_bytes({{1, 3}, std::vector<std::int32_t>{0, 1, 3}})),
+            "arm.ffb: member 'surface_triangles.npy': found 3 as value 3, expected a number from 0 "
+            "to 2");
+  EXPECT_EQ(with("surface_lines", npy_bytes({{1, 3}, std::vector<std::int32_t>{0, 1, 2}})),
+            "arm.ffb: member 'surface_lines.npy': found 1 x 3, expected rows of 2 integers");
+  EXPECT_EQ(with("projection_M_s_indptr", npy_bytes({{2}, std::vector<std::int64_t>{0, 0}})),
+            "arm.ffb: member 'projection_M_s_indptr.npy': found 1 rows for 13 values in 13 "
+            "columns, expected the 5 rows of a sparse matrix");
+  EXPECT_EQ(with("D", "garbage"),
+            "arm.ffb: member 'D.npy': found no array, expected the .npy format of NumPy");
+  EXPECT_EQ(with("D", replaced(member(good, "D.npy"), "<f8", ">f8")),
+            "arm.ffb: member 'D.npy': found values of the type '>f8', expected <f8, <i4 or <i8 "
+            "(little-endian doubles and integers)");
+  EXPECT_EQ(with("D", replaced(member(good, "D.npy"), "(5, 5)", "(5, 6)")),
+            "arm.ffb: member 'D.npy': found 200 bytes of values, expected 240 for the shape 5 x 6");
+  EXPECT_EQ(with("D", replaced(member(good, "D.npy"), "'shape'", "'shap'")),
+            "arm.ffb: member 'D.npy': found a damaged header, expected descr, fortran_order and "
+            "shape");
+  // Two faults at once.
+  EXPECT_EQ(fault_of(with_member(with_member(good, "P_u.npy", ""), "D.npy", "")),
+            "arm.ffb: member 'P_u.npy': is missing\narm.ffb: member 'D.npy': is missing");
+}
+
+TEST(BodyFile, FilesThatCannotBeRead) {
+  const auto fault = [](const char* path) -> std::string {
+    try {
+      read_body_file(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no fault";
+  };
+  EXPECT_EQ(fault("/nowhere/x.ffb"), "/nowhere/x.ffb: the file does not exist");
+  EXPECT_EQ(fault("/dev/null"), "/dev/null: this is not a regular file");
+}
+
+TEST(BodyFile, NoDamageCrashesTheReader) {
+  const std::string good = body_file_bytes(bracket());
+  for (std::size_t n = 0; n < good.size(); n += 97)
+    EXPECT_NE(fault_of(good.substr(0, n)), "no fault") << n;
+  std::uint32_t seed = 1;
+  for (int k = 0; k < 3000; ++k) {
+    std::string bad = good;
+    seed = 1664525u * seed + 1013904223u;
+    // Half of the changes in the directory, where no checksum watches.
+    const std::size_t range = k % 2 == 0 ? bad.size() : bad.size() / 8;
+    const std::size_t at = bad.size() - 1 - seed % range;
+    bad[at] = static_cast<char>(bad[at] ^ (1 << (seed >> 29)));
+    fault_of(bad);
+  }
+}
+
+TEST(Npy, FortranOrderAndOtherVersions) {
+  const std::string c = npy_bytes({{2, 3}, std::vector<double>{1, 2, 3, 4, 5, 6}});
+  EXPECT_EQ(c.size() % 64, (6 * sizeof(double)) % 64);  // values aligned as by NumPy
+  std::string f =
+      replaced(npy_bytes({{2, 3}, std::vector<double>{1, 4, 2, 5, 3, 6}}), "False,", "True, ");
+  EXPECT_EQ(std::get<0>(read_npy(f).values), std::get<0>(read_npy(c).values));
+  std::string two = c;  // version 2: four bytes for the length of the header
+  two[6] = 2;
+  two.insert(10, std::string(2, '\0'));
+  EXPECT_EQ(std::get<0>(read_npy(two).values), std::get<0>(read_npy(c).values));
+}
+
+TEST(Health, JsonRoundTripAndText) {
+  HealthReport h = bracket().part.health;
+  h.interfaces[0].condition = std::numeric_limits<double>::infinity();
+  const HealthReport again = health_from_json(health_json(h));
+  EXPECT_TRUE(std::isnan(again.interfaces[0].condition));  // null in JSON
+  EXPECT_EQ(health_json(again), health_json(h));
+  const std::string text = health_text(h);
+  for (const char* part :
+       {"mass [kg]", "1.5", "+0.2500", "sum of those kept", "foot", "a note", "static error"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
+  EXPECT_NE(text.find("WARNING: 1 thing to look at\n  ! the interface 'eye' has few nodes\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("  ! "), text.rfind("  ! "));
+  EXPECT_TRUE(text.ends_with("few nodes\n"));  // warnings last
+}
+
+}  // namespace
+}  // namespace floatframe
