@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/formats/read_abaqus.hpp"
 #include "floatframe/formats/text_fields.hpp"
 #include "floatframe/formats/text_source.hpp"
 
@@ -13,7 +14,9 @@ namespace {
 
 /// A reader is one file of this folder and one entry here.
 const std::vector<FeFormat>& formats() {
-  static const std::vector<FeFormat> list;
+  static const std::vector<FeFormat> list{
+      {"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus},
+  };
   return list;
 }
 

@@ -1,0 +1,34 @@
+#pragma once
+// From the content of an Abaqus deck to the model.
+#include "floatframe/formats/abaqus_resolve.hpp"
+#include "floatframe/formats/fe_file.hpp"
+
+namespace floatframe {
+
+/// What both halves of the building use.
+struct AbaqusBuild {
+  const AbaqusContent& content;
+  TextSource& source;
+  AbaqusResolver nodes, elements;
+  std::vector<int> element_index;  ///< of each element of the deck: in the model, -1 if it has none
+  FeModel model;
+
+  AbaqusBuild(const AbaqusContent& c, TextSource& s)
+      : content(c),
+        source(s),
+        nodes(c, s, AbaqusResolver::Of::nodes),
+        elements(c, s, AbaqusResolver::Of::elements) {}
+  /// Nodes of elements of the deck, each once.
+  std::vector<int> nodes_of_elements(const std::vector<int>& list);
+  void note(const FeSource& at, const std::string& text);
+};
+
+// abaqus_build_mesh.cpp
+void build_abaqus_nodes(AbaqusBuild& build);
+void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);
+/// With `only_nodes` element sets become node sets.
+void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
+// abaqus_build_constraints.cpp
+void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes);
+
+}  // namespace floatframe

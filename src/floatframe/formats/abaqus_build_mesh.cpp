@@ -1,0 +1,320 @@
+// Nodes, elements with their sections, masses and sets of an Abaqus deck in the model.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/formats/abaqus_build.hpp"
+#include "floatframe/formats/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+using Family = AbaqusType::Family;
+
+std::string label(const AbaqusElement& e) {
+  return fmt::format("element {} ({})", e.id, e.type->name);
+}
+
+/// Index of each section's element list by element of the deck; -1: none.
+std::vector<int> assign(AbaqusBuild& build, const std::vector<AbaqusSection>& sections) {
+  const AbaqusContent& c = build.content;
+  std::vector<int> section_of(c.elements.size(), -1);
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    const AbaqusSection& section = sections[s];
+    bool told = false;
+    for (const int e : build.elements.resolve(section.elements)) {
+      const AbaqusElement& element = c.elements[static_cast<std::size_t>(e)];
+      int& at = section_of[static_cast<std::size_t>(e)];
+      // Sets of parts hold masses beside the elements of a section.
+      if (element.type->family != section.family &&
+          (element.type->family == Family::mass || element.type->family == Family::rotary ||
+           element.type->family == Family::coupling)) {
+        continue;
+      }
+      std::string fault;
+      if (element.type->family != section.family) {
+        fault = fmt::format("{} names {}, for which it is not supported", section.shown,
+                            label(element));
+      } else if (at >= 0) {
+        const SourceMark first = build.source.mark(sections[static_cast<std::size_t>(at)].at);
+        fault = fmt::format("{} names {}, which has one already ({}:{})", section.shown,
+                            label(element), first.file, first.line);
+      }
+      if (!fault.empty() && !told) {
+        told = true;
+        build.source.fault(section.at, fault);
+      }
+      at = static_cast<int>(s);
+    }
+  }
+  return section_of;
+}
+
+/// Index of the section's material in the model, which gets it if it is not there yet.
+int material_of(AbaqusBuild& build, const AbaqusSection& section) {
+  const AbaqusContent& c = build.content;
+  FeModel& model = build.model;
+  const auto known =
+      std::find(model.material_names.begin(), model.material_names.end(), section.material);
+  if (known != model.material_names.end()) {
+    return static_cast<int>(known - model.material_names.begin());
+  }
+  const auto it = c.materials.find(section.material);
+  Material material;
+  if (it == c.materials.end()) {
+    build.source.fault(section.at, fmt::format("{} names the material {}, which is not there{}",
+                                               section.shown, shown(section.material),
+                                               did_you_mean(section.material, c.material_order)));
+  } else {
+    const AbaqusMaterial& m = it->second;
+    if (!m.young) {
+      build.source.fault(m.at, fmt::format("material {} has no *ELASTIC", shown(section.material)));
+    }
+    if (!m.density) {
+      build.source.fault(m.at, fmt::format("material {} has no *DENSITY", shown(section.material)));
+    }
+    material = {m.young.value_or(0.0), m.poisson.value_or(0.0), m.density.value_or(0.0)};
+  }
+  model.materials.push_back(material);
+  model.material_names.push_back(section.material);
+  return static_cast<int>(model.materials.size()) - 1;
+}
+
+struct Properties {
+  int material = -1, section = 0;
+  Vec3 reference = Vec3::UnitZ();
+};
+
+std::vector<Properties> section_properties(AbaqusBuild& build) {
+  std::vector<Properties> list;
+  FeModel& model = build.model;
+  for (const AbaqusSection& section : build.content.sections) {
+    Properties p;
+    p.material = material_of(build, section);
+    if (section.family == Family::beam) {
+      p.section = static_cast<int>(model.sections.size());
+      model.sections.push_back(section.beam);
+      p.reference = build.content.placement.R * section.n1;
+    } else if (section.family == Family::shell) {
+      p.section = static_cast<int>(model.shells.size());
+      model.shells.push_back({section.thickness});
+    }
+    list.push_back(p);
+  }
+  return list;
+}
+
+/// How many elements of a type there are, and where the first stands.
+struct Count {
+  long number = 0;
+  FeSource at;
+  void add(const FeSource& source) {
+    if (number++ == 0) at = source;
+  }
+};
+
+void build_masses(AbaqusBuild& build) {
+  const AbaqusContent& c = build.content;
+  const std::vector<int> section_of = assign(build, c.masses);
+  for (std::size_t e = 0; e < c.elements.size(); ++e) {
+    const AbaqusElement& element = c.elements[e];
+    const bool rotary = element.type->family == Family::rotary;
+    if (!rotary && element.type->family != Family::mass) continue;
+    if (section_of[e] < 0) {
+      build.source.fault(element.at, fmt::format("{} has no {}", label(element),
+                                                 rotary ? "*ROTARY INERTIA" : "*MASS"));
+      continue;
+    }
+    const AbaqusSection& section = c.masses[static_cast<std::size_t>(section_of[e])];
+    const auto node =
+        c.node_of_label.find(AbaqusContent::label(element.scope, c.element_nodes[element.first]));
+    if (node == c.node_of_label.end()) {
+      build.source.fault(element.at, fmt::format("{}: node {} is not there", label(element),
+                                                 c.element_nodes[element.first]));
+      continue;
+    }
+    const Mat3& R = c.placement.R;
+    build.model.masses.push_back({node->second, section.mass, R * section.J * R.transpose()});
+  }
+}
+
+}  // namespace
+
+void AbaqusBuild::note(const FeSource& at, const std::string& text) {
+  const SourceMark m = source.mark(at);
+  model.notes.push_back(fmt::format("{}:{}: {}", m.file, m.line, text));
+}
+
+std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) {
+  std::vector<int> result;
+  std::vector<char> seen(content.nodes.size(), 0);
+  for (const int e : list) {
+    const AbaqusElement& element = content.elements[static_cast<std::size_t>(e)];
+    for (int k = 0; k < element.type->nodes; ++k) {
+      const auto it = content.node_of_label.find(AbaqusContent::label(
+          element.scope, content.element_nodes[element.first + static_cast<std::size_t>(k)]));
+      if (it == content.node_of_label.end() || seen[static_cast<std::size_t>(it->second)] != 0) {
+        continue;
+      }
+      seen[static_cast<std::size_t>(it->second)] = 1;
+      result.push_back(it->second);
+    }
+  }
+  return result;
+}
+
+void build_abaqus_nodes(AbaqusBuild& build) {
+  const AbaqusContent& c = build.content;
+  FeModel& model = build.model;
+  const AbaqusPlacement& place = c.placement;
+  int free_number = 0;
+  for (const AbaqusNode& node : c.nodes) free_number = std::max(free_number, node.id);
+  model.positions.reserve(c.nodes.size());
+  model.node_ids.reserve(c.nodes.size());
+  model.node_sources.reserve(c.nodes.size());
+  for (const AbaqusNode& node : c.nodes) {
+    const bool in_part = node.scope == AbaqusScope::part;
+    model.positions.push_back(in_part && !c.instance.empty()
+                                  ? Vec3(place.R * (node.p + place.t - place.a) + place.a)
+                                  : node.p);
+    int id = node.id;
+    if (!in_part && c.node_of_label.contains(AbaqusContent::label(AbaqusScope::part, id))) {
+      if (free_number == std::numeric_limits<int>::max()) {
+        build.source.fault(node.at, fmt::format("node {} of the assembly has the number of a node "
+                                                "of the part",
+                                                id));
+      } else {
+        id = ++free_number;
+        build.note(node.at, fmt::format("node {} of the assembly has the number of a node of the "
+                                        "part: it becomes node {}",
+                                        node.id, id));
+      }
+    }
+    model.node_ids.push_back(id);
+    model.node_sources.push_back(node.at);
+  }
+}
+
+void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
+  const AbaqusContent& c = build.content;
+  FeModel& model = build.model;
+  const std::vector<int> section_of = assign(build, c.sections);
+  std::vector<Properties> properties = section_properties(build);
+  const bool mesh_only = c.sections.empty() && c.materials.empty();
+  Properties given;
+  if (mesh_only && options.material) {
+    model.materials.push_back(*options.material);
+    model.material_names.emplace_back();
+    given.material = 0;
+  }
+  std::map<const AbaqusType*, Count> skins, read_as;
+  Count without_section, structural;
+  for (std::size_t e = 0; e < c.elements.size(); ++e) {
+    const AbaqusElement& element = c.elements[e];
+    const AbaqusType& type = *element.type;
+    const int section = section_of[e];
+    const bool skin = (type.family == Family::skin || type.family == Family::shell) && section < 0;
+    if (skin) skins[&type].add(element.at);
+    if (skin || type.family == Family::mass || type.family == Family::rotary ||
+        type.family == Family::coupling) {
+      continue;
+    }
+    structural.add(element.at);
+    const bool material_given = mesh_only && type.family == Family::solid;
+    if (section < 0 && !material_given) {
+      if (without_section.number == 0) {
+        build.source.fault(
+            element.at,
+            fmt::format("{} has no section: no *{} SECTION names a set "
+                        "with it",
+                        label(element), type.family == Family::solid ? "SOLID" : "BEAM"));
+      }
+      without_section.add(element.at);
+      continue;
+    }
+    if (type.remark != nullptr) read_as[&type].add(element.at);
+    const Properties& p = section < 0 ? given : properties[static_cast<std::size_t>(section)];
+    Element result;
+    result.type = type.type;
+    result.material = p.material;
+    result.section = p.section;
+    result.reference = p.reference;
+    result.id = element.id;
+    result.source = element.at;
+    bool sound = true;
+    for (int k = 0; k < type.nodes; ++k) {
+      const int id = c.element_nodes[element.first + static_cast<std::size_t>(k)];
+      const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
+      if (it == c.node_of_label.end()) {
+        build.source.fault(element.at, fmt::format("{}: node {} is not there", label(element), id));
+        sound = false;
+        break;
+      }
+      result.nodes[static_cast<std::size_t>(k)] = it->second;
+    }
+    if (!sound) continue;
+    build.element_index[e] = static_cast<int>(model.elements.size());
+    model.elements.push_back(result);
+  }
+  if (structural.number == 0) {
+    build.source.fault({0, 0}, "the deck has no element with stiffness");
+  }
+  for (const auto& [type, count] : skins) {
+    build.note(count.at, fmt::format("{} elements of type {} have no section: skins of the mesh, "
+                                     "passed over; their element sets are node sets",
+                                     count.number, type->name));
+  }
+  for (const auto& [type, count] : read_as) {
+    build.note(count.at, fmt::format("{} elements of type {} are read {}", count.number, type->name,
+                                     type->remark));
+  }
+  if (mesh_only && !options.material && structural.number > 0) {
+    build.note(structural.at, "the deck has no material");
+  }
+  if (!mesh_only && options.material) {
+    build.note({0, 1}, "the deck has materials of its own; the one given is not used");
+  }
+  build_masses(build);
+}
+
+void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
+  const AbaqusContent& c = build.content;
+  FeModel& model = build.model;
+  const auto name_of = [&](const AbaqusContent::Key& key, const auto& sets) {
+    const std::string& name = c.names[static_cast<std::size_t>(key.second)];
+    const bool twice =
+        key.first == AbaqusScope::part && sets.contains({AbaqusScope::assembly, key.second});
+    return twice ? c.instance + "." + name : name;
+  };
+  for (const auto& [key, set] : c.node_sets) {
+    const std::vector<int>& members = build.nodes.members(key);
+    if (!set.internal) model.node_sets[name_of(key, c.node_sets)] = members;
+  }
+  for (const auto& [key, set] : c.element_sets) {
+    const std::vector<int>& members = build.elements.members(key);
+    if (set.internal) continue;
+    const std::string name = name_of(key, c.element_sets);
+    std::vector<int> list, skins;
+    for (const int e : members) {
+      const int index = build.element_index[static_cast<std::size_t>(e)];
+      const Family family = c.elements[static_cast<std::size_t>(e)].type->family;
+      if (index >= 0) {
+        list.push_back(index);
+      } else if (only_nodes || family == Family::skin || family == Family::shell) {
+        skins.push_back(e);
+      }
+    }
+    if (!skins.empty()) model.node_sets.emplace(name, build.nodes_of_elements(skins));
+    if (!list.empty()) model.element_sets[name] = std::move(list);
+  }
+  for (const auto* resolver : {&build.nodes, &build.elements}) {
+    if (resolver->gaps() == 0) continue;
+    build.note(resolver->first_gap(),
+               fmt::format("{} numbers of GENERATE are not there", resolver->gaps()));
+  }
+}
+
+}  // namespace floatframe

@@ -1,0 +1,272 @@
+// Materials, sections and masses of Abaqus decks.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floatframe/formats/abaqus_content.hpp"
+#include "floatframe/formats/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+using Family = AbaqusType::Family;
+
+/// The material that *ELASTIC and *DENSITY belong to; null and a fault if there is none.
+AbaqusMaterial* present_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                 AbaqusContent& content) {
+  const auto it = content.materials.find(content.material);
+  if (it != content.materials.end()) return &it->second;
+  lines.fault(keyword, "belongs to no *MATERIAL");
+  return nullptr;
+}
+
+/// One line of values; more of them mean a dependence on temperature, which a linear model does not
+/// have.
+bool one_line(AbaqusLines& lines, const AbaqusKeyword& keyword,
+              std::vector<std::string_view>& fields) {
+  if (!lines.next_fields(fields)) {
+    lines.fault(keyword, "has no data line");
+    return false;
+  }
+  std::string_view more;
+  if (lines.next_data(more)) {
+    lines.source().fault(
+        fmt::format("{} depends on temperature or fields (a second line), which is "
+                    "not supported",
+                    keyword.shown));
+    lines.skip_data();
+  }
+  return true;
+}
+
+/// The part that all sections have; false if the section cannot be used.
+bool begin_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
+                   Family family, AbaqusSection& section) {
+  const std::size_t before = lines.source().faults();
+  section.family = family;
+  section.shown = keyword.shown;
+  section.at = keyword.at;
+  const std::string_view elements = lines.required(keyword, "ELSET");
+  section.elements.name = content.intern(abaqus_name(elements));
+  section.elements.scope = content.scope;
+  section.elements.at = keyword.at;
+  if (family == Family::solid || family == Family::shell || family == Family::beam) {
+    section.material = abaqus_name(lines.required(keyword, "MATERIAL"));
+  }
+  if (keyword.has("ORIENTATION")) {
+    lines.fault(keyword, "has the parameter 'ORIENTATION', which is not supported");
+  }
+  if (lines.source().faults() == before) return true;
+  lines.skip_data();
+  return false;
+}
+
+double positive(AbaqusLines& lines, double value, std::string_view what) {
+  if (!(value > 0.0))
+    lines.source().fault(fmt::format("{} is {:g}, expected more than 0", what, value));
+  return value;
+}
+
+BeamSection pipe(AbaqusLines& lines, double radius, double wall) {
+  positive(lines, radius, "outer radius");
+  positive(lines, wall, "thickness of the wall");
+  if (wall > radius) {
+    lines.source().fault(
+        fmt::format("the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall, radius));
+  }
+  return BeamSection::hollow_round(2.0 * radius, 2.0 * (radius - wall));
+}
+
+/// Closed thin-walled box, a along direction 1, b along direction 2; the torsion constant is that
+/// of Bredt, 4 A_m^2 / (closed integral of ds / t).
+BeamSection box(AbaqusLines& lines, double a, double b, const std::array<double, 4>& t) {
+  positive(lines, a, "width of the box");
+  positive(lines, b, "height of the box");
+  for (const double wall : t) positive(lines, wall, "thickness of a wall of the box");
+  if (t[0] != t[2] || t[1] != t[3]) {
+    lines.source().fault(
+        "opposite walls of the box differ, so that its centroid is not at the "
+        "node, which is not supported");
+  }
+  const double inner_a = a - t[0] - t[2], inner_b = b - t[1] - t[3];
+  if (inner_a < 0.0 || inner_b < 0.0) lines.source().fault("the walls of the box overlap");
+  BeamSection s;
+  s.A = a * b - inner_a * inner_b;
+  s.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
+  s.Iz = (b * a * a * a - inner_b * inner_a * inner_a * inner_a) / 12.0;
+  const double mid_a = a - 0.5 * (t[0] + t[2]), mid_b = b - 0.5 * (t[1] + t[3]);
+  s.J = 4.0 * mid_a * mid_a * mid_b * mid_b /
+        (mid_a / t[1] + mid_a / t[3] + mid_b / t[0] + mid_b / t[2]);
+  return s;
+}
+
+}  // namespace
+
+void read_abaqus_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                          AbaqusContent& content) {
+  const std::string name = abaqus_name(lines.required(keyword, "NAME"));
+  content.material = name;
+  const auto [it, added] = content.materials.emplace(name, AbaqusMaterial{});
+  if (!added) {
+    const SourceMark first = lines.source().mark(it->second.at);
+    lines.fault(keyword, fmt::format("names the material {} a second time ({}:{})", shown(name),
+                                     first.file, first.line));
+  } else {
+    it->second.at = keyword.at;
+    content.material_order.push_back(name);
+  }
+  lines.skip_data();
+}
+
+void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  lines.allow_only(keyword, {"TYPE", "MODULI", "DEPENDENCIES"});
+  AbaqusMaterial* const material = present_material(lines, keyword, content);
+  const std::string type = abaqus_name(keyword.value("TYPE"));
+  if (!type.empty() && type != "ISO" && type != "ISOTROPIC") {
+    lines.fault(keyword, fmt::format("has the type {}; only isotropic elasticity is supported",
+                                     shown(keyword.value("TYPE"))));
+    return lines.skip_data();
+  }
+  std::vector<std::string_view> fields;
+  if (!one_line(lines, keyword, fields) || material == nullptr) return;
+  material->young = lines.real(fields[0], "Young's modulus");
+  material->poisson = lines.real_or(fields, 1, 0.0, "Poisson's ratio");
+  if (!(*material->young > 0.0)) {
+    lines.fault(keyword,
+                fmt::format("has Young's modulus {:g}, expected more than 0", *material->young));
+  }
+  if (!(*material->poisson > -1.0 && *material->poisson < 0.5)) {
+    lines.fault(keyword,
+                fmt::format("has Poisson's ratio {:g}, expected more than -1 and less than "
+                            "0.5",
+                            *material->poisson));
+  }
+}
+
+void read_abaqus_density(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  AbaqusMaterial* const material = present_material(lines, keyword, content);
+  std::vector<std::string_view> fields;
+  if (!one_line(lines, keyword, fields) || material == nullptr) return;
+  material->density = lines.real(fields[0], "density");
+  if (!(*material->density >= 0.0)) {
+    lines.fault(keyword, fmt::format("is {:g}, expected no negative density", *material->density));
+  }
+}
+
+void read_abaqus_solid_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                               AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"});
+  if (!begin_section(lines, keyword, content, Family::solid, section)) return;
+  content.sections.push_back(section);
+  lines.skip_data();
+}
+
+void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                               AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET",
+                             "SECTIONINTEGRATION", "TEMPERATURE", "POISSON"});
+  const std::string offset = abaqus_name(keyword.value("OFFSET"));
+  if (!offset.empty() && parse_real(offset).value_or(1.0) != 0.0) {
+    lines.fault(keyword, fmt::format("has the offset {}, which is not supported", shown(offset)));
+  }
+  if (!begin_section(lines, keyword, content, Family::shell, section)) return;
+  std::vector<std::string_view> fields;
+  if (!lines.next_fields(fields)) return lines.fault(keyword, "has no thickness");
+  section.thickness = lines.real(fields[0], "thickness of the shell");
+  positive(lines, section.thickness, "thickness of the shell");
+  content.sections.push_back(section);
+}
+
+void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                              AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "SECTION", "OFFSET1", "OFFSET2",
+                             "TEMPERATURE", "POISSON"});
+  for (const char* offset : {"OFFSET1", "OFFSET2"}) {
+    if (keyword.has(offset) && parse_real(keyword.value(offset)).value_or(1.0) != 0.0) {
+      lines.fault(keyword, fmt::format("has an offset ({}), which is not supported", offset));
+    }
+  }
+  const std::string shape = abaqus_name(lines.required(keyword, "SECTION"));
+  const std::size_t count = shape == "RECT" || shape == "PIPE" ? 2
+                            : shape == "CIRC"                  ? 1
+                            : shape == "BOX"                   ? 6
+                                                               : 0;
+  if (count == 0 && !shape.empty()) {
+    lines.fault(keyword,
+                fmt::format("has the section {}, expected RECT, CIRC, PIPE or BOX", shown(shape)));
+  }
+  if (!begin_section(lines, keyword, content, Family::beam, section) || count == 0) {
+    return lines.skip_data();
+  }
+  std::vector<std::string_view> fields;
+  if (!lines.next_fields(fields) || fields.size() < count) {
+    return lines.fault(keyword, fmt::format("has {} dimensions, expected {}",
+                                            fields.empty() ? 0 : fields.size(), count));
+  }
+  std::array<double, 6> d{};
+  for (std::size_t k = 0; k < count; ++k) {
+    d[k] = lines.real(fields[k], fmt::format("dimension {} of the section", k + 1));
+  }
+  if (shape == "RECT") {
+    section.beam = BeamSection::rectangle(positive(lines, d[0], "width of the section"),
+                                          positive(lines, d[1], "height of the section"));
+  } else if (shape == "CIRC") {
+    section.beam = BeamSection::solid_round(2.0 * positive(lines, d[0], "radius of the section"));
+  } else if (shape == "PIPE") {
+    section.beam = pipe(lines, d[0], d[1]);
+  } else {
+    section.beam = box(lines, d[0], d[1], {d[2], d[3], d[4], d[5]});
+  }
+  if (lines.next_fields(fields)) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      section.n1[static_cast<Eigen::Index>(k)] =
+          lines.real_or(fields, k, 0.0, "direction 1 of the section");
+    }
+    if (!(section.n1.stableNorm() > 0.0))
+      lines.source().fault("direction 1 of the section is zero");
+  }
+  content.sections.push_back(section);
+}
+
+void read_abaqus_mass(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "TYPE", "ALPHA", "COMPOSITE"});
+  const std::string_view type = keyword.value("TYPE");
+  if (!type.empty() && !same_word(type, "ISOTROPIC")) {
+    lines.fault(keyword, fmt::format("has the type {}, expected ISOTROPIC", shown(type)));
+  }
+  if (!begin_section(lines, keyword, content, Family::mass, section)) return;
+  std::vector<std::string_view> fields;
+  if (!one_line(lines, keyword, fields)) return;
+  section.mass = lines.real(fields[0], "mass");
+  if (section.mass < 0.0)
+    lines.fault(keyword, fmt::format("is {:g}, expected no negative mass", section.mass));
+  content.masses.push_back(section);
+}
+
+void read_abaqus_rotary_inertia(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "ORIENTATION", "ALPHA", "COMPOSITE"});
+  if (!begin_section(lines, keyword, content, Family::rotary, section)) return;
+  std::vector<std::string_view> fields;
+  if (!one_line(lines, keyword, fields)) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    section.J(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) =
+        lines.real_or(fields, k, 0.0, "moment of inertia");
+  }
+  for (std::size_t k = 3; k < 6; ++k) {
+    if (lines.real_or(fields, k, 0.0, "product of inertia") != 0.0) {
+      lines.fault(keyword,
+                  "has products of inertia, whose sign is not the same in all programs: "
+                  "not supported");
+      break;
+    }
+  }
+  content.masses.push_back(section);
+}
+
+}  // namespace floatframe
