@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/axis_measure.hpp"
@@ -159,14 +160,26 @@ constexpr ConstraintKind kinds[] = {
 
 std::span<const ConstraintKind> constraint_kinds() noexcept { return kinds; }
 
+namespace {
+
+/// Calls f with the kind's entry as a constant: comparisons and direct calls, no pointer.
+template <class F, std::size_t... I>
+void with_kind(Kind kind, std::index_sequence<I...>, F f) noexcept {
+  ((kind == kinds[I].kind ? f(std::integral_constant<std::size_t, I>{}) : void()), ...);
+}
+
+constexpr std::make_index_sequence<std::size(kinds)> all_kinds;
+
+}  // namespace
+
 void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                          double t, ConstraintRow* rows) noexcept {
-  kinds[static_cast<std::size_t>(part.kind)].evaluate(part, a, b, t, rows);
+  with_kind(part.kind, all_kinds, [&](auto i) { kinds[i].evaluate(part, a, b, t, rows); });
 }
 
 void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
                               const MarkerState& b, const double* lambda, Mat12& K) noexcept {
-  kinds[static_cast<std::size_t>(part.kind)].curvature(part, a, b, lambda, K);
+  with_kind(part.kind, all_kinds, [&](auto i) { kinds[i].curvature(part, a, b, lambda, K); });
 }
 
 }  // namespace floatframe

@@ -6,9 +6,8 @@
 
 namespace floatframe {
 
-namespace {
-
-void evaluate(const ForceInput& in, ForceState& out) noexcept {
+template <>
+void force_of<ForceType::guided_spring>(const ForceInput& in, ForceState& out) noexcept {
   const AxisMeasure m = axis_measure(in.a.R * in.force.axis, in.a, in.b);
   out.length = -m.s;
   out.rate = -m.rate;
@@ -20,7 +19,8 @@ void evaluate(const ForceInput& in, ForceState& out) noexcept {
   out.energy = law_energy(in.force.spring, out.length);
 }
 
-void tangent(const ForceInput& in, ForceTangent& out) noexcept {
+template <>
+void force_tangent_of<ForceType::guided_spring>(const ForceInput& in, ForceTangent& out) noexcept {
   const Vec3 e = in.a.R * in.force.axis;
   const AxisMeasure m = axis_measure(e, in.a, in.b);
   const PiecewisePolynomial::Value s = in.force.spring(-m.s), c = in.force.damper(-m.rate);
@@ -30,6 +30,8 @@ void tangent(const ForceInput& in, ForceTangent& out) noexcept {
   add_axis_curvature(e, in.a, in.b, -(s.f + c.f + in.actuator()), out.K);
   out.C.noalias() = c.df * g * g.transpose();
 }
+
+namespace {
 
 constexpr const char* turning = "the turning of the axis with its body";
 constexpr ForceRegime regimes[] = {
@@ -50,7 +52,12 @@ ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
 
 }  // namespace
 
-const ForceKind guided_spring_kind{
-    ForceType::guided_spring, "guided_spring", true, evaluate, tangent, regimes, example};
+const ForceKind guided_spring_kind{ForceType::guided_spring,
+                                   "guided_spring",
+                                   true,
+                                   force_of<ForceType::guided_spring>,
+                                   force_tangent_of<ForceType::guided_spring>,
+                                   regimes,
+                                   example};
 
 }  // namespace floatframe

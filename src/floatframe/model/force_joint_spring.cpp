@@ -56,7 +56,10 @@ Law law_at(const ForceInput& in, const Measure& m) noexcept {
   return {s.f + c.f - in.actuator(), s.df, c.df, m.s - target};
 }
 
-void evaluate(const ForceInput& in, ForceState& out) noexcept {
+}  // namespace
+
+template <>
+void force_of<ForceType::joint_spring>(const ForceInput& in, ForceState& out) noexcept {
   const Measure m = measure(in);
   out.length = m.s;
   out.rate = m.rate;
@@ -69,7 +72,8 @@ void evaluate(const ForceInput& in, ForceState& out) noexcept {
   out.energy = law_energy(in.force.spring, law.stretch);
 }
 
-void tangent(const ForceInput& in, ForceTangent& out) noexcept {
+template <>
+void force_tangent_of<ForceType::joint_spring>(const ForceInput& in, ForceTangent& out) noexcept {
   const Measure m = measure(in);
   const Law law = law_at(in, m);
   const Vec3 z = in.a.R.col(2);
@@ -94,6 +98,8 @@ void tangent(const ForceInput& in, ForceTangent& out) noexcept {
   out.K.block<3, 3>(pi_a, pi_a) += Z;
   out.K.block<3, 3>(pi_b, pi_a) -= Z;
 }
+
+namespace {
 
 constexpr const char* turning = "the turning of the axis with its body";
 constexpr ForceRegime regimes[] = {
@@ -126,7 +132,12 @@ ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
 
 }  // namespace
 
-const ForceKind joint_spring_kind{
-    ForceType::joint_spring, "joint_spring", true, evaluate, tangent, regimes, example};
+const ForceKind joint_spring_kind{ForceType::joint_spring,
+                                  "joint_spring",
+                                  true,
+                                  force_of<ForceType::joint_spring>,
+                                  force_tangent_of<ForceType::joint_spring>,
+                                  regimes,
+                                  example};
 
 }  // namespace floatframe

@@ -1,7 +1,8 @@
 #pragma once
-// What a kind of force must supply. A new kind is one file force_*.cpp with a ForceKind and one
-// entry in the list of force_kinds.cpp; evaluation, outputs and the generic tests run over the
-// list. `evaluate` and `tangent` belong to the step: noexcept, no allocation.
+// What a kind of force must supply. A new kind is one file force_*.cpp with the functions force_of
+// and force_tangent_of and a ForceKind, and one entry in the list of force_kinds.cpp; evaluation,
+// outputs and the generic tests run over the list. The two functions belong to the step: noexcept,
+// no allocation.
 #include <span>
 
 #include "floatframe/model/constraint_part.hpp"
@@ -50,11 +51,16 @@ struct ForceExample {
   std::vector<double> inputs;
 };
 
+/// Fills `out`, which comes with zeros. The step calls these by name, without a pointer.
+template <ForceType type>
+void force_of(const ForceInput& in, ForceState& out) noexcept;
+template <ForceType type>
+void force_tangent_of(const ForceInput& in, ForceTangent& out) noexcept;
+
 struct ForceKind {
   ForceType type;
   const char* name;
   bool between_markers;  ///< acts on a and b, and on both alike; otherwise on b alone
-  /// Fills `out`, which comes with zeros.
   void (*evaluate)(const ForceInput&, ForceState& out) noexcept;
   void (*tangent)(const ForceInput&, ForceTangent& out) noexcept;
   std::span<const ForceRegime> regimes;

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "floatframe/model/force_kind.hpp"
 
 namespace floatframe {
@@ -8,9 +10,23 @@ constexpr const ForceKind* list[] = {&spring_damper_kind, &guided_spring_kind,
                                      &joint_spring_kind,  &tyre_kind,
                                      &applied_force_kind, &applied_torque_kind};
 
-const ForceKind& kind_of(const Force& force) noexcept {
-  return *list[static_cast<std::size_t>(force.type)];
+/// Calls f<type> of the force's type: a chain of comparisons with direct calls.
+template <std::size_t... I>
+void evaluate_of(std::index_sequence<I...>, const ForceInput& in, ForceState& out) noexcept {
+  ((in.force.type == static_cast<ForceType>(I) ? force_of<static_cast<ForceType>(I)>(in, out)
+                                               : void()),
+   ...);
 }
+
+template <std::size_t... I>
+void tangent_of(std::index_sequence<I...>, const ForceInput& in, ForceTangent& out) noexcept {
+  ((in.force.type == static_cast<ForceType>(I)
+        ? force_tangent_of<static_cast<ForceType>(I)>(in, out)
+        : void()),
+   ...);
+}
+
+using Types = std::make_index_sequence<std::size(list)>;
 
 }  // namespace
 
@@ -27,7 +43,7 @@ void evaluate_force(const Model& model, const Force& force, const MarkerState& a
   out.wrench = {zero, zero, zero, zero};
   out.row_count = 0;
   out.force = out.length = out.rate = out.energy = 0.0;
-  kind_of(force).evaluate({model, force, a, b, origin, t, reference_angle, inputs}, out);
+  evaluate_of(Types{}, {model, force, a, b, origin, t, reference_angle, inputs}, out);
 }
 
 void evaluate_force_tangent(const Model& model, const Force& force, const MarkerState& a,
@@ -36,7 +52,7 @@ void evaluate_force_tangent(const Model& model, const Force& force, const Marker
                             std::span<const double> inputs) noexcept {
   out.K.setZero();
   out.C.setZero();
-  kind_of(force).tangent({model, force, a, b, origin, t, reference_angle, inputs}, out);
+  tangent_of(Types{}, {model, force, a, b, origin, t, reference_angle, inputs}, out);
 }
 
 void add_example_drive(ForceExample& example, ExampleNumbers& numbers) {

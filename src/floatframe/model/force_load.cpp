@@ -10,15 +10,21 @@ Vec3 load(const ForceInput& in, double magnitude) noexcept {
   return magnitude * (in.force.follows ? Vec3(in.b.R * in.force.axis) : in.force.axis);
 }
 
-void evaluate_force(const ForceInput& in, ForceState& out) noexcept {
+}  // namespace
+
+template <>
+void force_of<ForceType::force>(const ForceInput& in, ForceState& out) noexcept {
   out.force = in.magnitude();
   out.wrench.Fb = load(in, out.force);
 }
 
-void evaluate_torque(const ForceInput& in, ForceState& out) noexcept {
+template <>
+void force_of<ForceType::torque>(const ForceInput& in, ForceState& out) noexcept {
   out.force = in.magnitude();
   out.wrench.Tb = load(in, out.force);
 }
+
+namespace {
 
 /// -dF/dpi_b = skew(F)
 Mat3 turning(const ForceInput& in) noexcept {
@@ -26,13 +32,19 @@ Mat3 turning(const ForceInput& in) noexcept {
   return skew(load(in, in.magnitude()));
 }
 
-void tangent_of_force(const ForceInput& in, ForceTangent& out) noexcept {
+}  // namespace
+
+template <>
+void force_tangent_of<ForceType::force>(const ForceInput& in, ForceTangent& out) noexcept {
   out.K.block<3, 3>(part_of::r_b, part_of::pi_b) = turning(in);
 }
 
-void tangent_of_torque(const ForceInput& in, ForceTangent& out) noexcept {
+template <>
+void force_tangent_of<ForceType::torque>(const ForceInput& in, ForceTangent& out) noexcept {
   out.K.block<3, 3>(part_of::pi_b, part_of::pi_b) = turning(in);
 }
+
+namespace {
 
 // The tangent of a following torque is antisymmetric: the rows leave nothing symmetric out.
 constexpr ForceRegime regimes_of_force[] = {
@@ -63,11 +75,19 @@ ForceExample example_of_torque(std::size_t regime, ExampleNumbers& numbers) {
 
 }  // namespace
 
-const ForceKind applied_force_kind{ForceType::force, "force",          false,
-                                   evaluate_force,   tangent_of_force, regimes_of_force,
+const ForceKind applied_force_kind{ForceType::force,
+                                   "force",
+                                   false,
+                                   force_of<ForceType::force>,
+                                   force_tangent_of<ForceType::force>,
+                                   regimes_of_force,
                                    example_of_force};
-const ForceKind applied_torque_kind{ForceType::torque, "torque",          false,
-                                    evaluate_torque,   tangent_of_torque, regimes_of_torque,
+const ForceKind applied_torque_kind{ForceType::torque,
+                                    "torque",
+                                    false,
+                                    force_of<ForceType::torque>,
+                                    force_tangent_of<ForceType::torque>,
+                                    regimes_of_torque,
                                     example_of_torque};
 
 }  // namespace floatframe

@@ -26,7 +26,10 @@ Line line_between(const MarkerState& a, const MarkerState& b) noexcept {
   return {n, length, n.dot(b.v - a.v)};
 }
 
-void evaluate(const ForceInput& in, ForceState& out) noexcept {
+}  // namespace
+
+template <>
+void force_of<ForceType::spring_damper>(const ForceInput& in, ForceState& out) noexcept {
   const auto [n, length, rate] = line_between(in.a, in.b);
   const PiecewisePolynomial::Value s = in.force.spring(length), c = in.force.damper(rate);
   const Vec3 zero = Vec3::Zero();
@@ -48,7 +51,8 @@ void evaluate(const ForceInput& in, ForceState& out) noexcept {
   out.energy = law_energy(in.force.spring, length);
 }
 
-void tangent(const ForceInput& in, ForceTangent& out) noexcept {
+template <>
+void force_tangent_of<ForceType::spring_damper>(const ForceInput& in, ForceTangent& out) noexcept {
   const auto [n, length, rate] = line_between(in.a, in.b);
   const PiecewisePolynomial::Value s = in.force.spring(length), c = in.force.damper(rate);
   const Mat3 along = n * n.transpose();
@@ -67,6 +71,8 @@ void tangent(const ForceInput& in, ForceTangent& out) noexcept {
   spread(K, out.K);
   spread(c.df * along, out.C);
 }
+
+namespace {
 
 constexpr ForceRegime regimes[] = {{.name = "anywhere"},
                                    {.name = "short"},
@@ -88,7 +94,12 @@ ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
 
 }  // namespace
 
-const ForceKind spring_damper_kind{
-    ForceType::spring_damper, "spring_damper", true, evaluate, tangent, regimes, example};
+const ForceKind spring_damper_kind{ForceType::spring_damper,
+                                   "spring_damper",
+                                   true,
+                                   force_of<ForceType::spring_damper>,
+                                   force_tangent_of<ForceType::spring_damper>,
+                                   regimes,
+                                   example};
 
 }  // namespace floatframe

@@ -60,7 +60,10 @@ bool upright(const ForceInput& in, const Contact& c, Wheel& w) noexcept {
   return true;
 }
 
-void evaluate(const ForceInput& in, ForceState& out) noexcept {
+}  // namespace
+
+template <>
+void force_of<ForceType::tyre>(const ForceInput& in, ForceState& out) noexcept {
   const Contact c = contact(in);
   out.length = c.h;
   out.rate = c.rate;
@@ -78,7 +81,8 @@ void evaluate(const ForceInput& in, ForceState& out) noexcept {
   out.wrench.Tb = -w.r_w * w.e_z.cross(out.wrench.Fb);
 }
 
-void tangent(const ForceInput& in, ForceTangent& out) noexcept {
+template <>
+void force_tangent_of<ForceType::tyre>(const ForceInput& in, ForceTangent& out) noexcept {
   using namespace part_of;
   const Contact c = contact(in);
   if (!c.touches) return;
@@ -119,6 +123,8 @@ void tangent(const ForceInput& in, ForceTangent& out) noexcept {
         -arm_change(0.0, Vec3::Unit(k).cross(w.axis), Vec3::Zero()).cross(push);
   }
 }
+
+namespace {
 
 constexpr const char* slope = "that a vertical force changes along a slope";
 constexpr const char* heel = "the torque of a wheel that heels";
@@ -194,6 +200,8 @@ ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
 
 }  // namespace
 
-const ForceKind tyre_kind{ForceType::tyre, "tyre", false, evaluate, tangent, regimes, example};
+const ForceKind tyre_kind{
+    ForceType::tyre, "tyre", false, force_of<ForceType::tyre>, force_tangent_of<ForceType::tyre>,
+    regimes,         example};
 
 }  // namespace floatframe
