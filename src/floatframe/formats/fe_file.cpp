@@ -6,6 +6,7 @@
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/read_abaqus.hpp"
+#include "floatframe/formats/read_gmsh.hpp"
 #include "floatframe/formats/text_fields.hpp"
 #include "floatframe/formats/text_source.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 const std::vector<FeFormat>& formats() {
   static const std::vector<FeFormat> list{
       {"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus},
+      {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh},
   };
   return list;
 }

@@ -1,0 +1,64 @@
+#pragma once
+// Numbers and lines of a .msh file in order, ASCII or binary of either byte order, with their
+// place. A count in the file is believed only if the bytes left can hold so many entries.
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "floatframe/core/diagnostics.hpp"
+
+namespace floatframe {
+
+class GmshStream {
+ public:
+  GmshStream(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
+
+  void set_binary(bool swapped) noexcept {
+    binary_ = true;
+    swapped_ = swapped;
+  }
+  bool binary() const noexcept { return binary_; }
+
+  /// Where a fault is: the line of an ASCII file, the byte (from 0) of a binary one.
+  struct Place {
+    int line = 0;
+    std::size_t byte = 0;
+  };
+  /// Of the next number.
+  Place here();
+  InputFault fault(const Place& at, std::string message) const;
+  [[noreturn]] void stop(const Place& at, std::string message) const;
+  [[noreturn]] void stop(std::string message) { stop(here(), std::move(message)); }
+
+  /// The next line, trimmed, ASCII in all files; false at the end.
+  bool next_line(std::string_view& line);
+  /// To the line "$End<section>" and over it; what comes before it is left out. `begin`: of the
+  /// section.
+  void end_section(const Place& begin, std::string_view section);
+  /// The same when all numbers were read: anything before the end is a fault.
+  void expect_end(std::string_view section);
+
+  int integer(const char* what);
+  std::uint64_t size(const char* what);
+  double real(const char* what);
+  /// Bytes that remain.
+  std::size_t left() const noexcept { return text_.size() - at_; }
+  /// A count of entries of at least so many numbers each.
+  std::uint64_t count(const char* what, std::size_t numbers_each);
+  void check_count(const Place& at, std::uint64_t count, const char* what,
+                   std::size_t numbers_each) const;
+
+ private:
+  void skip_blanks() noexcept;
+  std::string_view token(const char* what);
+  template <class T>
+  T raw(const char* what);
+
+  std::string_view text_;
+  std::string name_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  bool binary_ = false, swapped_ = false;
+};
+
+}  // namespace floatframe
