@@ -7,6 +7,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/read_abaqus.hpp"
 #include "floatframe/formats/read_gmsh.hpp"
+#include "floatframe/formats/read_matrices.hpp"
 #include "floatframe/formats/text_fields.hpp"
 #include "floatframe/formats/text_source.hpp"
 
@@ -18,6 +19,21 @@ const std::vector<FeFormat>& formats() {
   static const std::vector<FeFormat> list{
       {"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus},
       {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh},
+      {"calculix_matrices",
+       "CalculiX matrices (.sti, .mas, .dof)",
+       {".sti", ".mas"},
+       looks_like_calculix_matrix,
+       read_calculix_matrices},
+      {"abaqus_matrices",
+       "Abaqus matrices (.mtx)",
+       {".mtx"},
+       looks_like_abaqus_matrix,
+       read_abaqus_matrices},
+      {"matrix_market",
+       "Matrix Market matrices (.mtx)",
+       {".mtx", ".mm"},
+       looks_like_matrix_market,
+       read_matrix_market},
   };
   return list;
 }
