@@ -36,8 +36,13 @@ std::vector<int> assign(AbaqusBuild& build, const std::vector<AbaqusSection>& se
       }
       std::string fault;
       if (element.type->family != section.family) {
-        fault = fmt::format("{} names {}, for which it is not supported", section.shown,
-                            label(element));
+        fault = element.type->family == Family::skin
+                    ? fmt::format(
+                          "{} names {}; elements of this type are read as skins only, "
+                          "without a section",
+                          section.shown, label(element))
+                    : fmt::format("{} names {}, for which it is not supported", section.shown,
+                                  label(element));
       } else if (at >= 0) {
         const SourceMark first = build.source.mark(sections[static_cast<std::size_t>(at)].at);
         fault = fmt::format("{} names {}, which has one already ({}:{})", section.shown,
@@ -201,7 +206,9 @@ void build_abaqus_nodes(AbaqusBuild& build) {
 void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
+  const std::size_t before = build.source.faults();
   const std::vector<int> section_of = assign(build, c.sections);
+  const bool assigned = build.source.faults() == before;
   std::vector<Properties> properties = section_properties(build);
   const bool mesh_only = c.sections.empty() && c.materials.empty();
   Properties given;
@@ -225,7 +232,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     structural.add(element.at);
     const bool material_given = mesh_only && type.family == Family::solid;
     if (section < 0 && !material_given) {
-      if (without_section.number == 0) {
+      if (without_section.number == 0 && assigned) {
         build.source.fault(
             element.at,
             fmt::format("{} has no section: no *{} SECTION names a set "

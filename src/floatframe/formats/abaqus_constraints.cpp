@@ -16,7 +16,7 @@ unsigned bits(int first, int last) noexcept {
 }
 
 std::string_view reference_node(AbaqusLines& lines, const AbaqusKeyword& keyword) {
-  return lines.required(keyword, "REFNODE");
+  return lines.required(keyword, "REF NODE");
 }
 
 /// A set of nodes or elements by its name, from a parameter.

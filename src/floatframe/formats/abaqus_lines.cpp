@@ -141,7 +141,7 @@ void AbaqusLines::fault(const AbaqusKeyword& keyword, std::string_view text) {
 }
 
 std::string_view AbaqusLines::required(const AbaqusKeyword& keyword, std::string_view parameter) {
-  const std::string_view value = keyword.value(parameter);
+  const std::string_view value = keyword.value(without_blanks(parameter));
   if (value.empty()) fault(keyword, fmt::format("needs the parameter {}", parameter));
   return value;
 }

@@ -40,7 +40,7 @@ class AbaqusLines {
   bool next_fields(std::vector<std::string_view>& fields);
   void skip_data();
 
-  /// The value of a parameter that must be there; a fault and empty if it is not.
+  /// The value of a parameter ("REF NODE") that must be there; a fault and empty if it is not.
   std::string_view required(const AbaqusKeyword& keyword, std::string_view parameter);
   /// A fault for each parameter that is not among those known.
   void allow_only(const AbaqusKeyword& keyword, std::initializer_list<std::string_view> known);

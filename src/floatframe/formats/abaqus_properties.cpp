@@ -128,9 +128,11 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
     return lines.skip_data();
   }
   std::vector<std::string_view> fields;
+  const std::size_t before = lines.source().faults();
   if (!one_line(lines, keyword, fields) || material == nullptr) return;
   material->young = lines.real(fields[0], "Young's modulus");
   material->poisson = lines.real_or(fields, 1, 0.0, "Poisson's ratio");
+  if (lines.source().faults() != before) return;
   if (!(*material->young > 0.0)) {
     lines.fault(keyword,
                 fmt::format("has Young's modulus {:g}, expected more than 0", *material->young));

@@ -115,7 +115,7 @@ SparseMatrix SymmetricEntries::finish(int n, const std::vector<std::string>& lab
     const auto missing = std::find(there.begin(), there.end(), 0);
     if (missing != there.end()) {
       source_.fault(
-          fmt::format("the {} ends without a diagonal entry for {} (nor for {} others): "
+          fmt::format("the {} ends without a diagonal entry for {} and {} more: "
                       "the file is truncated or does not belong to these degrees of "
                       "freedom",
                       what_, labels[static_cast<std::size_t>(missing - there.begin())],
@@ -153,8 +153,8 @@ SymmetricEntries read_triples(TextSource& source, const std::string& what, int n
     double value = 0.0;
     if (!read_matrix_line(source, line, row, column, value)) continue;
     if (row >= n || column >= n) {
-      source.fault(fmt::format("row {}, column {}: {} has {} degrees of freedom", row + 1,
-                               column + 1, map, n));
+      source.fault(fmt::format("row {}, column {} is outside: {} has {} degrees of freedom",
+                               row + 1, column + 1, map, n));
       continue;
     }
     entries.add(row, column, value);

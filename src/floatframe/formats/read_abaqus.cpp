@@ -18,7 +18,7 @@ namespace {
 void skip(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent&) { lines.skip_data(); }
 
 struct Known {
-  const char* name;  ///< without blanks
+  const char* name;
   AbaqusHandler read;
 };
 
@@ -30,23 +30,23 @@ constexpr std::array handlers{
     Known{"ELSET", read_abaqus_element_set},
     Known{"SURFACE", read_abaqus_surface},
     Known{"PART", read_abaqus_part},
-    Known{"ENDPART", read_abaqus_end_part},
+    Known{"END PART", read_abaqus_end_part},
     Known{"ASSEMBLY", read_abaqus_assembly},
-    Known{"ENDASSEMBLY", read_abaqus_assembly},
+    Known{"END ASSEMBLY", read_abaqus_assembly},
     Known{"INSTANCE", read_abaqus_instance},
-    Known{"ENDINSTANCE", read_abaqus_end_instance},
+    Known{"END INSTANCE", read_abaqus_end_instance},
     Known{"MATERIAL", read_abaqus_material},
     Known{"ELASTIC", read_abaqus_elastic},
     Known{"DENSITY", read_abaqus_density},
-    Known{"SOLIDSECTION", read_abaqus_solid_section},
-    Known{"SHELLSECTION", read_abaqus_shell_section},
-    Known{"BEAMSECTION", read_abaqus_beam_section},
+    Known{"SOLID SECTION", read_abaqus_solid_section},
+    Known{"SHELL SECTION", read_abaqus_shell_section},
+    Known{"BEAM SECTION", read_abaqus_beam_section},
     Known{"MASS", read_abaqus_mass},
-    Known{"ROTARYINERTIA", read_abaqus_rotary_inertia},
-    Known{"RIGIDBODY", read_abaqus_rigid_body},
+    Known{"ROTARY INERTIA", read_abaqus_rotary_inertia},
+    Known{"RIGID BODY", read_abaqus_rigid_body},
     Known{"COUPLING", read_abaqus_coupling},
-    Known{"KINEMATICCOUPLING", read_abaqus_kinematic_coupling},
-    Known{"DISTRIBUTINGCOUPLING", read_abaqus_distributing_coupling},
+    Known{"KINEMATIC COUPLING", read_abaqus_kinematic_coupling},
+    Known{"DISTRIBUTING COUPLING", read_abaqus_distributing_coupling},
     Known{"EQUATION", read_abaqus_equation},
     Known{"BOUNDARY", read_abaqus_boundary},
 };
@@ -158,14 +158,16 @@ constexpr std::array harmless{
 
 template <typename List>
 auto find_named(const List& list, const std::string& name) {
-  return std::find_if(list.begin(), list.end(), [&](const auto& k) { return name == k.name; });
+  return std::find_if(list.begin(), list.end(),
+                      [&](const auto& k) { return name == abaqus_name(k.name); });
 }
 
 /// A keyword that is one or two letters away from one that is read.
 std::string nearly(const std::string& name) {
   for (const Known& k : handlers) {
-    const std::size_t letters = std::string_view(k.name).size();
-    if (letters >= 4 && edit_distance(name, k.name) <= (letters >= 8 ? 2 : 1)) return k.name;
+    const std::string known = abaqus_name(k.name);
+    const std::size_t letters = known.size();
+    if (letters >= 4 && edit_distance(name, known) <= (letters >= 8 ? 2 : 1)) return k.name;
   }
   return {};
 }

@@ -61,7 +61,7 @@ SymmetricEntries read_quintuples(TextSource& source, const std::string& what, La
     const std::optional<double> value = parse_real(fields[4]);
     if (sound && !value) source.fault("value: " + not_a_real(fields[4]));
     if (!sound || !value) continue;
-    for (std::size_t k = 0; k < 4; k += 2) {
+    for (std::size_t k = 0; k < 4 && sound; k += 2) {
       if (number[k] < 1) {
         source.stop(source.here(),
                     fmt::format("node {} is internal to Abaqus (Lagrange multipliers of "

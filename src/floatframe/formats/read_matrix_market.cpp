@@ -66,8 +66,8 @@ SymmetricEntries read_entries(TextSource& source, const std::string& what, int n
     double value = 0.0;
     if (!read_matrix_line(source, line, row, column, value)) continue;
     if (row >= n || column >= n) {
-      source.fault(
-          fmt::format("row {}, column {}: the matrix is {} x {}", row + 1, column + 1, n, n));
+      source.fault(fmt::format("row {}, column {} is outside: the matrix is {} x {}", row + 1,
+                               column + 1, n, n));
       continue;
     }
     entries.add(row, column, value);

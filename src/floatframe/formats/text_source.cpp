@@ -205,6 +205,7 @@ void TextSource::open(int file) {
 bool TextSource::next(std::string_view& line) {
   if (again_) {
     again_ = false;
+    std::swap(here_, before_);
     line = line_;
     return true;
   }
@@ -223,6 +224,7 @@ bool TextSource::next(std::string_view& line) {
     if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
     top.at = found != nullptr ? stop + 1 : end;
     ++top.line;
+    before_ = here_;
     here_ = {top.file, top.line};
     line = line_;
     return true;

@@ -50,8 +50,11 @@ class TextSource {
   /// The next line without its end; false after the last line of the first file. Views stay valid
   /// as long as the source lives.
   bool next(std::string_view& line);
-  /// The line of the last `next` comes again. Once only.
-  void put_back() noexcept { again_ = true; }
+  /// The line of the last `next` comes again, once only; `here` is the line before it until then.
+  void put_back() noexcept {
+    again_ = true;
+    std::swap(here_, before_);
+  }
   /// Place of the last line.
   FeSource here() const noexcept { return here_; }
 
@@ -90,7 +93,7 @@ class TextSource {
   std::uint64_t expanded_ = 0;  // characters put onto the stack
   std::string_view line_;
   bool again_ = false;
-  FeSource here_;
+  FeSource here_, before_;
   Faults faults_;
 };
 

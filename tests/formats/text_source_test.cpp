@@ -1,0 +1,144 @@
+// Texts of finite-element programs: numbers, gzip, includes.
+#include "floatframe/formats/text_source.hpp"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <string>
+
+#include "floatframe/formats/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+std::string gzip(const std::string& text) {
+  z_stream z{};
+  deflateInit2(&z, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
+  std::string out(deflateBound(&z, text.size()) + 64, '\0');
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  z.avail_in = static_cast<uInt>(text.size());
+  z.next_out = reinterpret_cast<Bytef*>(out.data());
+  z.avail_out = static_cast<uInt>(out.size());
+  deflate(&z, Z_FINISH);
+  out.resize(out.size() - z.avail_out);
+  deflateEnd(&z);
+  return out;
+}
+
+std::string fault_of(const std::string& bytes) {
+  try {
+    decompressed(bytes, "a.inp.gz");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+TEST(TextFields, RealsOfFortranAndNastran) {
+  EXPECT_EQ(parse_real("1."), 1.0);
+  EXPECT_EQ(parse_real(" .5 "), 0.5);
+  EXPECT_EQ(parse_real("-12"), -12.0);
+  EXPECT_EQ(parse_real("+1.5"), 1.5);
+  EXPECT_EQ(parse_real("1e5"), 1e5);
+  EXPECT_EQ(parse_real("1d5"), 1e5);
+  EXPECT_EQ(parse_real("1.5D+03"), 1500.0);
+  EXPECT_EQ(parse_real("-2.5d-3"), -2.5e-3);
+  EXPECT_EQ(parse_real("3.+5"), 3e5);
+  EXPECT_EQ(parse_real("-1.2-3"), -1.2e-3);
+  EXPECT_EQ(parse_real("7-3"), 7e-3);
+  EXPECT_EQ(parse_real("+.1D+1"), 1.0);
+  EXPECT_EQ(parse_real("1e-400"), 0.0);
+  EXPECT_EQ(parse_real("4.9406564584124654e-324"), 4.9406564584124654e-324);
+  for (const char* text :
+       {"",      " ",     ".",     "+",    "-",        "e5",    "1e",     "1d+",  "1..2",
+        "1.2.3", "nan",   "inf",   "-inf", "infinity", "1e999", "-1d999", "0x10", "1,5",
+        "1 2",   "1+2+3", "1e5-3", "--1",  "+-1",      "1_0",   "1f",     "1e+-5"}) {
+    EXPECT_FALSE(parse_real(text).has_value()) << text;
+  }
+  EXPECT_EQ(not_a_real("1e999"), "'1e999' is too large");
+  EXPECT_EQ(not_a_real("1.+999"), "'1.+999' is too large");
+  EXPECT_EQ(not_a_real("inf"), "'inf' is not a number");
+  EXPECT_EQ(not_a_real(" "), "a number is missing");
+}
+
+TEST(TextFields, WholeNumbers) {
+  EXPECT_EQ(parse_integer(" +12 "), 12);
+  EXPECT_EQ(parse_integer("-3"), -3);
+  EXPECT_EQ(parse_integer("2147483647"), 2147483647);
+  for (const char* text : {"", "2147483648", "1.", "1e3", "+-1", "+", "0x1", "12a"}) {
+    EXPECT_FALSE(parse_integer(text).has_value()) << text;
+  }
+  EXPECT_FALSE(parse_label("0").has_value());
+  EXPECT_FALSE(parse_label("-1").has_value());
+  EXPECT_EQ(not_an_integer("1.5"), "'1.5' is not a whole number");
+  EXPECT_EQ(not_an_integer("-4"), "'-4' is not positive");
+  EXPECT_EQ(not_an_integer("99999999999"), "'99999999999' is too large");
+  EXPECT_EQ(shown(std::string("a\0\x80z", 4)), "'a??z'");
+}
+
+TEST(TextSource, LinesEndingsAndPlaces) {
+  TextSource source(
+      "\xef\xbb\xbf"
+      "one\r\n\ntwo",
+      "a.inp");
+  std::string_view line;
+  ASSERT_TRUE(source.next(line));
+  EXPECT_EQ(line, "one");
+  ASSERT_TRUE(source.next(line));
+  EXPECT_EQ(line, "");
+  ASSERT_TRUE(source.next(line));
+  EXPECT_EQ(line, "two");
+  EXPECT_EQ(source.here().line, 3);
+  source.put_back();
+  EXPECT_EQ(source.here().line, 2);
+  ASSERT_TRUE(source.next(line));
+  EXPECT_EQ(line, "two");
+  EXPECT_EQ(source.here().line, 3);
+  EXPECT_FALSE(source.next(line));
+  EXPECT_EQ(source.mark(source.here()).line, 3);
+}
+
+TEST(TextSource, FaultsHaveAnEnd) {
+  TextSource source("x\n", "a.inp");
+  try {
+    for (int k = 0; k < 1000; ++k) source.fault("again");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.faults().size(), TextSource::most_faults + 1);
+    EXPECT_EQ(error.faults().back().message, "reading ends after 50 faults");
+  }
+}
+
+TEST(Gzip, WholeAndInMembers) {
+  std::string text;
+  for (int k = 0; k < 100000; ++k) text += std::to_string(k) + "\n";
+  EXPECT_EQ(decompressed(gzip(text), "a"), text);
+  EXPECT_EQ(decompressed(gzip(text) + gzip("more\n"), "a"), text + "more\n");
+  EXPECT_EQ(decompressed("no gzip", "a"), "no gzip");
+}
+
+TEST(Gzip, DamagedAndTruncated) {
+  std::string text;
+  for (int k = 0; k < 100000; ++k) text += std::to_string(k * 7919 % 10007) + "\n";
+  const std::string bytes = gzip(text);
+  for (const std::size_t size :
+       {std::size_t{2}, std::size_t{12}, bytes.size() / 2, bytes.size() - 5}) {
+    EXPECT_EQ(fault_of(bytes.substr(0, size)),
+              "a.inp.gz: the gzip data end too early: the file is truncated")
+        << size;
+  }
+  std::string damaged = bytes;
+  damaged[damaged.size() - 6] = static_cast<char>(damaged[damaged.size() - 6] ^ 0x55);
+  EXPECT_EQ(fault_of(damaged), "a.inp.gz: the gzip data are damaged (incorrect data check)");
+}
+
+TEST(Gzip, BombsAreNotRead) {
+  // 70 MiB of zeros in 70 kB.
+  EXPECT_NE(fault_of(gzip(std::string(std::size_t{70} << 20, '0')))
+                .find("is compressed more than 200 times, which no deck is: it is not read"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace floatframe
