@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test demo bench bench-record bench-compare asan dev install-packages format check-format clean help
+.PHONY: build test demo bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -15,6 +15,7 @@ help:
 	@echo "make bench-record  all benchmarks, recorded in bench/history; docs/performance.md anew"
 	@echo "make bench-compare measures and prints ratios to the newest recorded run"
 	@echo "make asan          build and test with address and undefined-behaviour sanitizers"
+	@echo "make fuzz          clang's libFuzzer on each reader of files, FUZZ_SECONDS=600 each"
 	@echo "make dev           debug build with assertions: build-dev/floatframe"
 	@echo "make format        format the sources; make check-format only looks"
 	@echo "make clean         remove the build folders"
@@ -57,6 +58,9 @@ asan: install-packages
 	cmake --build build-asan --parallel $(JOBS)
 	@cd build-asan && $(CTEST)
 
+fuzz: install-packages
+	scripts/fuzz.sh
+
 dev: install-packages
 	cmake --preset dev
 	cmake --build build-dev --parallel $(JOBS)
@@ -68,4 +72,4 @@ check-format:
 	scripts/format.sh --check
 
 clean:
-	rm -rf build build-dev build-asan build-profile
+	rm -rf build build-dev build-asan build-profile build-fuzz

@@ -1,0 +1,104 @@
+#pragma once
+// Every reader as a function on bytes: it gives a model or throws InputError, whatever the bytes
+// are. Nothing is written and no file is read. A new reader is one function and one entry in the
+// list, a folder of seeds corpus/NAME, and its name in CMakeLists.txt.
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/unit_system.hpp"
+#include "floatframe/formats/matrix_model.hpp"
+#include "floatframe/formats/read_abaqus.hpp"
+#include "floatframe/formats/read_gmsh.hpp"
+#include "floatframe/formats/read_matrices.hpp"
+#include "floatframe/formats/sid_file.hpp"
+#include "floatframe/formats/text_source.hpp"
+
+namespace floatframe::fuzz {
+
+inline void use(FeModel model) { to_si(model, *find_unit_system("mm-t-s")); }
+
+/// Texts of several files in one input, divided by lines "====".
+inline std::vector<std::string> parts_of(std::string_view bytes, std::size_t count) {
+  std::vector<std::string> parts;
+  while (parts.size() + 1 < count) {
+    const std::size_t at = bytes.find("\n====\n");
+    parts.emplace_back(bytes.substr(0, at == std::string_view::npos ? at : at + 1));
+    bytes.remove_prefix(at == std::string_view::npos ? bytes.size() : at + 6);
+  }
+  parts.emplace_back(bytes);
+  return parts;
+}
+
+inline void text(std::string_view bytes) {
+  TextSource source(decompressed(std::string(bytes), "fuzz"), "fuzz");
+  std::string_view line;
+  while (source.next(line)) {
+  }
+}
+
+inline void abaqus(std::string_view bytes) {
+  TextSource source(std::string(bytes), "fuzz.inp");
+  use(read_abaqus(source, {}));
+}
+
+/// Stiffness, mass, map, nodes as a deck or a table.
+template <typename Read>
+void matrices(std::string_view bytes, Read read) {
+  const std::vector<std::string> parts = parts_of(bytes, 4);
+  TextSource stiffness(parts[0], "K"), mass(parts[1], "M"), dofs(parts[2], "dofs"),
+      nodes(parts[3], "nodes");
+  FeModel model = looks_like_abaqus(parts[3]) ? read_abaqus(nodes, {}, DeckPart::nodes)
+                                              : read_node_table(nodes);
+  use(read(stiffness, mass, dofs, std::move(model)));
+}
+
+inline void calculix_matrices(std::string_view bytes) {
+  matrices(bytes, [](TextSource& K, TextSource& M, TextSource& dofs, FeModel nodes) {
+    return read_calculix_matrices(K, M, dofs, std::move(nodes));
+  });
+}
+
+inline void abaqus_matrices(std::string_view bytes) {
+  matrices(bytes, [](TextSource& K, TextSource& M, TextSource&, FeModel nodes) {
+    return read_abaqus_matrices(K, M, nullptr, std::move(nodes));
+  });
+}
+
+inline void matrix_market(std::string_view bytes) {
+  matrices(bytes, [](TextSource& K, TextSource& M, TextSource& dofs, FeModel nodes) {
+    return read_matrix_market(K, M, dofs, std::move(nodes));
+  });
+}
+
+inline void gmsh(std::string_view bytes) { use(parse_gmsh(bytes, "fuzz.msh", {})); }
+
+inline void sid(std::string_view bytes) { parse_sid(bytes, "fuzz.sid"); }
+
+struct Reader {
+  const char* name;
+  void (*read)(std::string_view bytes);
+};
+
+inline constexpr Reader readers[] = {
+    {"text", text},
+    {"abaqus", abaqus},
+    {"calculix_matrices", calculix_matrices},
+    {"abaqus_matrices", abaqus_matrices},
+    {"matrix_market", matrix_market},
+    {"gmsh", gmsh},
+    {"sid", sid},
+};
+
+/// Reads and forgets. Everything but an InputError is a fault of the reader.
+inline void run(const Reader& reader, std::string_view bytes) {
+  try {
+    reader.read(bytes);
+  } catch (const InputError&) {
+  }
+}
+
+}  // namespace floatframe::fuzz

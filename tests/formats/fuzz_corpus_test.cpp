@@ -1,0 +1,49 @@
+// Every input that the fuzzers start from or once broke a reader: a model or an InputError, nothing
+// else. `make fuzz` looks for more.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "../../fuzz/readers.hpp"
+
+namespace floatframe {
+namespace {
+
+const std::filesystem::path corpus = FLOATFRAME_TEST_DATA "/../../fuzz/corpus";
+
+TEST(FuzzCorpus, NoReaderBreaks) {
+  for (const fuzz::Reader& reader : fuzz::readers) {
+    int inputs = 0, models = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(corpus / reader.name)) {
+      std::ifstream in(entry.path(), std::ios::binary);
+      const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+      ++inputs;
+      try {
+        reader.read(bytes);
+        ++models;
+      } catch (const InputError& error) {
+        EXPECT_FALSE(error.faults().empty()) << entry.path();
+        EXPECT_FALSE(error.faults().front().message.empty()) << entry.path();
+      } catch (const std::exception& error) {
+        ADD_FAILURE() << entry.path() << ": " << error.what();
+      }
+    }
+    EXPECT_GT(inputs, 0) << reader.name;
+    EXPECT_GT(models, 0) << "no seed of " << reader.name << " is sound";
+  }
+}
+
+TEST(FuzzCorpus, EveryFolderHasAReader) {
+  std::set<std::string> names;
+  for (const fuzz::Reader& reader : fuzz::readers) names.insert(reader.name);
+  for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
+    EXPECT_TRUE(names.contains(entry.path().filename().string())) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace floatframe
