@@ -78,8 +78,8 @@ std::vector<int> nested_dissection(const Eigen::SparseMatrix<double>& A) {
 }
 
 /// s such that diag(s) A diag(s) has diagonal entries of size 1 (where they are not tiny against
-/// their row).
-VecX scaling(const Eigen::SparseMatrix<double>& A) {
+/// their row). `empty`: the first row without entries, -1 if there is none.
+VecX scaling(const Eigen::SparseMatrix<double>& A, int& empty) {
   VecX s(A.cols());
   for (int j = 0; j < A.outerSize(); ++j) {
     double diagonal = 0.0, largest = 0.0;
@@ -90,6 +90,7 @@ VecX scaling(const Eigen::SparseMatrix<double>& A) {
       if (it.row() == j) diagonal = std::abs(it.value());
     }
     const double size = std::max(diagonal, 1e-8 * largest);
+    if (size == 0.0 && empty < 0) empty = j;
     s(j) = size > 0.0 ? 1.0 / std::sqrt(size) : 1.0;
   }
   return s;
@@ -99,6 +100,7 @@ VecX scaling(const Eigen::SparseMatrix<double>& A) {
 
 struct SparseFactors::Implementation {
   VecX scale;
+  int empty = -1;
   std::unique_ptr<SparseEngine> engine;
 };
 
@@ -107,7 +109,7 @@ SparseFactors::SparseFactors(const Eigen::SparseMatrix<double>& A, SparseSolver 
   if (solver == SparseSolver::mumps && !mumps().engine)
     throw std::runtime_error("MUMPS was asked for, but " + mumps().why);
   VecX& s = implementation_->scale;
-  s = scaling(A);
+  s = scaling(A, implementation_->empty);
   Eigen::SparseMatrix<double> lower = A.triangularView<Eigen::Lower>();
   for (int j = 0; j < lower.outerSize(); ++j)
     for (Eigen::SparseMatrix<double>::InnerIterator it(lower, j); it; ++it)
@@ -141,7 +143,9 @@ MatX SparseFactors::solve(const MatX& B) const {
   return s.asDiagonal() * X;
 }
 
-int SparseFactors::singular() const noexcept { return implementation_->engine->singular; }
+int SparseFactors::singular() const noexcept {
+  return implementation_->empty >= 0 ? implementation_->empty : implementation_->engine->singular;
+}
 int SparseFactors::negative_pivots() const noexcept {
   return implementation_->engine->negative_pivots;
 }

@@ -5,9 +5,9 @@
 #include <set>
 #include <sstream>
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/model/build_flexible.hpp"
 #include "floatframe/model/joint_motion.hpp"
-#include "floatframe/model/modal_mass.hpp"
 #include "floatframe/model/model_builder.hpp"
 
 namespace floatframe {

@@ -1,6 +1,5 @@
 // Choice of dofs, check of the body reference, constraint modes and fixed-interface modes.
 #include <Eigen/SVD>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,7 +7,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/so3.hpp"
-#include "floatframe/reduction/eigenmodes.hpp"
+#include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
 namespace floatframe {
@@ -84,21 +83,6 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
   throw InputError("the body reference does not remove the rotation about the direction " +
                    vector_text(turn.normalized()) + " (clamped: " + model.node_label(node) +
                    (count > 1 ? " and others)" : ")"));
-}
-
-SparseMatrix select(const SparseMatrix& A, const std::vector<int>& row_of, int rows,
-                    const std::vector<int>& column_of, int columns) {
-  std::vector<Eigen::Triplet<double>> triplets;
-  for (int j = 0; j < A.outerSize(); ++j) {
-    if (column_of[static_cast<std::size_t>(j)] < 0) continue;
-    for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
-      const int r = row_of[static_cast<std::size_t>(it.row())];
-      if (r >= 0) triplets.emplace_back(r, column_of[static_cast<std::size_t>(j)], it.value());
-    }
-  }
-  SparseMatrix out(rows, columns);
-  out.setFromTriplets(triplets.begin(), triplets.end());
-  return out;
 }
 
 SparseMatrix eigen_mass(const FeModel& model, const ReductionOptions& options) {
@@ -184,77 +168,29 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
   faults.throw_if_any();
   check_reference(model, roles, d);
 
-  std::vector<int> inner_of(static_cast<std::size_t>(total), -1), interface_of(inner_of),
-      dof_of_inner;
+  std::vector<int> zero;
   for (int i = 0; i < total; ++i) {
-    if (roles[static_cast<std::size_t>(i)] != Role::inner) continue;
-    inner_of[static_cast<std::size_t>(i)] = static_cast<int>(dof_of_inner.size());
-    dof_of_inner.push_back(i);
+    const Role role = roles[static_cast<std::size_t>(i)];
+    if (role == Role::clamped || role == Role::inactive) zero.push_back(i);
   }
-  const int ni = static_cast<int>(dof_of_inner.size());
-  const int nb = static_cast<int>(interface_dofs.size());
-  for (int b = 0; b < nb; ++b)
-    interface_of[static_cast<std::size_t>(interface_dofs[static_cast<std::size_t>(b)])] = b;
-  const SparseMatrix Kii = select(K, inner_of, ni, inner_of, ni);
-  const SparseMatrix Kib = select(K, inner_of, ni, interface_of, nb);
-
-  // Loose parts: a pivot that vanishes against its diagonal entry.
-  Eigen::SimplicialLDLT<SparseMatrix> factors;
-  if (ni > 0) {
-    factors.compute(Kii);
-    const VecX pivots = factors.vectorD();
-    const VecX scale = factors.permutationP() * VecX(Kii.diagonal());
-    for (int i = 0; i < ni; ++i) {
-      // The factorisation stops at the first pivot that is exactly zero; those before it are valid.
-      if (pivots(i) > 1e-13 * scale(i)) continue;
-      const int dof =
-          dof_of_inner[static_cast<std::size_t>(factors.permutationPinv().indices()(i))];
-      throw InputError(
-          "the stiffness is singular: " + dof_text(dof / d, dof % d) +
-          " can move without resistance (a part that is not connected, or a mechanism)");
-    }
-  }
-
+  const FixedInterface fixed(K, eigen_mass(model, options), interface_dofs, zero,
+                             [&](int dof) { return dof_text(dof / d, dof % d); });
   int nn = options.normal_modes;
-  const SparseMatrix M = eigen_mass(model, options);
-  const SparseMatrix Mii = select(M, inner_of, ni, inner_of, ni);
   if (options.max_frequency > 0.0) {
-    const int below = count_modes_below(Kii, Mii, 2.0 * std::numbers::pi * options.max_frequency);
+    const int below = fixed.count_below(options.max_frequency);
     nn = options.normal_modes > 0 ? std::min(below, options.normal_modes) : below;
   }
-  if (nn < 0) throw InputError("the number of normal modes must not be negative");
-  if (nn > ni) {
-    throw InputError(std::to_string(nn) + " normal modes are asked for, but only " +
-                     std::to_string(ni) + " degrees of freedom are left inside the interface");
-  }
-  const Eigenmodes normal = lowest_modes(Kii, Mii, nn);
-  if (normal.omega.size() < nn) {
-    throw InputError(std::to_string(nn) +
-                     " normal modes are asked for, but the mass inside the interface allows only " +
-                     std::to_string(normal.omega.size()));
-  }
-
+  const Eigenmodes normal = fixed.normal_modes(nn);
+  const auto nb = static_cast<int>(interface_dofs.size());
   ModeSet set;
-  set.X = MatX::Zero(total, nb + nn);
-  if (nb > 0) {
-    const MatX inner = ni > 0 ? MatX(factors.solve(MatX(-Kib))) : MatX(0, nb);
-    for (int b = 0; b < nb; ++b) {
-      set.X(interface_dofs[static_cast<std::size_t>(b)], b) = 1.0;
-      for (int i = 0; i < ni; ++i)
-        set.X(dof_of_inner[static_cast<std::size_t>(i)], b) = inner(i, b);
-    }
-  }
-  for (int a = 0; a < nn; ++a) {
-    for (int i = 0; i < ni; ++i)
-      set.X(dof_of_inner[static_cast<std::size_t>(i)], nb + a) = normal.shapes(i, a);
-    names.push_back("normal " + std::to_string(a + 1));
-  }
+  set.X.resize(total, nb + nn);
+  set.X.leftCols(nb) = fixed.constraint_modes();
+  set.X.rightCols(nn) = normal.shapes;
+  for (int a = 0; a < nn; ++a) names.push_back("normal " + std::to_string(a + 1));
   // Static and dynamic modes do not couple in the stiffness, dynamic ones not among themselves.
-  const MatX KX = K * set.X.leftCols(nb);
-  MatX Kbb = set.X.leftCols(nb).transpose() * KX;
   set.K = MatX::Zero(nb + nn, nb + nn);
-  set.K.topLeftCorner(nb, nb) = 0.5 * (Kbb + Kbb.transpose());
-  for (int a = 0; a < nn; ++a) set.K(nb + a, nb + a) = normal.omega(a) * normal.omega(a);
+  set.K.topLeftCorner(nb, nb) = fixed.guyan_stiffness(set.X.leftCols(nb));
+  set.K.diagonal().tail(nn) = normal.omega.cwiseAbs2();
   set.frequencies = normal.omega / (2.0 * std::numbers::pi);
   set.names = std::move(names);
   return set;

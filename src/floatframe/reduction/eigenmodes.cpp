@@ -1,7 +1,8 @@
 #include "floatframe/reduction/eigenmodes.hpp"
 
+#include <Spectra/SymGEigsShiftSolver.h>
+
 #include <Eigen/Eigenvalues>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,23 +12,23 @@ namespace {
 
 constexpr Eigen::Index dense_limit = 240;
 
-/// Solves the small problem M z = mu K z; mu descending.
-void solve_dense(const MatX& M, const MatX& K, VecX& mu, MatX& z) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(M, K);
+/// Solves the small problem M z = mu A z; mu descending.
+void solve_dense(const MatX& M, const MatX& A, VecX& mu, MatX& z) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(M, A);
   mu = solver.eigenvalues().reverse();
   z = solver.eigenvectors().rowwise().reverse();
 }
 
-/// Keeps the modes with mass, x^T M x = 1 (x^T K x = 1 on entry), and fixes the signs.
-Eigenmodes finish(const VecX& mu, const MatX& shapes, int count) {
-  Eigenmodes modes;
+/// Keeps the modes with mass, x^T M x = 1 (x^T A x = 1 on entry), and fixes the signs.
+Eigenpairs finish(const VecX& mu, const MatX& shapes, double sigma, int count) {
+  Eigenpairs modes;
   int kept = 0;
   while (kept < count && kept < mu.size() && mu(kept) > 1e-14 * mu(0) && mu(kept) > 0.0) ++kept;
-  modes.omega.resize(kept);
+  modes.lambda.resize(kept);
   modes.shapes.resize(shapes.rows(), kept);
   for (int i = 0; i < kept; ++i) {
-    modes.omega(i) = 1.0 / std::sqrt(mu(i));
-    VecX x = shapes.col(i) * modes.omega(i);
+    modes.lambda(i) = sigma + 1.0 / mu(i);
+    VecX x = shapes.col(i) / std::sqrt(mu(i));
     // The first of the components that are largest but for rounding decides the sign.
     const double limit = (1.0 - 1e-6) * x.cwiseAbs().maxCoeff();
     Eigen::Index k = 0;
@@ -37,79 +38,123 @@ Eigenmodes finish(const VecX& mu, const MatX& shapes, int count) {
   return modes;
 }
 
-Eigenmodes subspace_iteration(const SparseMatrix& K, const SparseMatrix& M, int count) {
-  const Eigen::Index n = K.rows();
-  const Eigen::Index p = std::min<Eigen::Index>(n, 2 * count + 8);
-  const Eigen::SimplicialLDLT<SparseMatrix> factors(K);
-  MatX X(n, p);
-  std::uint64_t random = 88172645463325252ull;  // fixed start: the same modes every time
-  for (Eigen::Index j = 0; j < p; ++j) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      random ^= random << 13, random ^= random >> 7, random ^= random << 17;
-      X(i, j) = static_cast<double>(random >> 11) * 0x1p-53 - 0.5;
-    }
+/// y = a A^-1 x. Scaled so that the largest eigenvalue of A^-1 M is about one: Spectra compares
+/// with fixed bounds.
+class ShiftInvert {
+ public:
+  using Scalar = double;
+  ShiftInvert(const SparseFactors& factors, Eigen::Index n) : factors_(factors), n_(n) {}
+  Eigen::Index rows() const { return n_; }
+  Eigen::Index cols() const { return n_; }
+  void set_shift(double) const {}
+  void perform_op(const double* x, double* y) const {
+    Eigen::Map<VecX>(y, n_) = scale * factors_.solve(Eigen::Map<const VecX>(x, n_));
   }
-  VecX mu, last;
+  double scale = 1.0;
+
+ private:
+  const SparseFactors& factors_;
+  Eigen::Index n_;
+};
+
+class MassProduct {
+ public:
+  using Scalar = double;
+  explicit MassProduct(const SparseMatrix& M) : M_(M) {}
+  Eigen::Index rows() const { return M_.rows(); }
+  Eigen::Index cols() const { return M_.cols(); }
+  void perform_op(const double* x, double* y) const {
+    Eigen::Map<VecX>(y, M_.rows()).noalias() = scale * (M_ * Eigen::Map<const VecX>(x, M_.rows()));
+  }
+  double scale = 1.0;
+
+ private:
+  const SparseMatrix& M_;
+};
+
+VecX fixed_start(Eigen::Index n) {
+  VecX x(n);
+  std::uint64_t random = 88172645463325252ull;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    random ^= random << 13, random ^= random >> 7, random ^= random << 17;
+    x(i) = static_cast<double>(random >> 11) * 0x1p-53 - 0.5;
+  }
+  return x;
+}
+
+Eigenpairs lanczos(const SparseFactors& factors, double sigma, const SparseMatrix& M, int count) {
+  const Eigen::Index n = M.rows();
+  ShiftInvert inverse(factors, n);
+  MassProduct mass(M);
+  const double mean = M.diagonal().sum() / static_cast<double>(n);
+  if (!(mean > 0.0)) return {VecX(), MatX::Zero(n, 0)};
+  mass.scale = 1.0 / mean;
+  VecX x = fixed_start(n), y;
+  for (int step = 0; step < 2; ++step) {
+    y = factors.solve(MatX(mass.scale * (M * x)));
+    const double before = std::sqrt(std::max(x.dot(M * x), 0.0));
+    const double after = std::sqrt(std::max(y.dot(M * y), 0.0));
+    if (!(after > 0.0) || !std::isfinite(after)) return {VecX(), MatX::Zero(n, 0)};
+    inverse.scale = before / after;
+    x = y / after;
+  }
+  const Eigen::Index ncv = std::min<Eigen::Index>(n, std::max(2 * count + 8, 24));
+  Spectra::SymGEigsShiftSolver<ShiftInvert, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(
+      inverse, mass, count, ncv, 0.0);
+  solver.init(x.data());
+  solver.compute(Spectra::SortRule::LargestMagn, 300, 1e-11, Spectra::SortRule::SmallestAlge);
+  const MatX found = solver.eigenvectors();
+  if (found.cols() == 0) return {VecX(), MatX::Zero(n, 0)};
+
+  // A Y = M X, so Y^T A Y = Y^T M X: a product with K would lose the digits of the low modes.
+  const MatX MX = M * found;
+  MatX Y = factors.solve(MX);
+  MatX Ar = Y.transpose() * MX;
+  MatX Mr = Y.transpose() * (M * Y);
+  Ar = 0.5 * (Ar + Ar.transpose()).eval();
+  Mr = 0.5 * (Mr + Mr.transpose()).eval();
+  VecX mu;
   MatX z;
-  int settled = 0;
-  for (int iteration = 0; iteration < 300 && settled < 6; ++iteration) {
-    MatX MX = M * X;
-    MatX Y = factors.solve(MX);
-    // K Y = M X, so Y^T K Y = Y^T M X: a product with K would lose the digits of the low modes.
-    for (Eigen::Index j = 0; j < p; ++j) {
-      const double norm = std::sqrt(std::max(Y.col(j).dot(MX.col(j)), 1e-300));
-      Y.col(j) /= norm;
-      MX.col(j) /= norm;
-    }
-    MatX Kr = Y.transpose() * MX;
-    MatX Mr = Y.transpose() * (M * Y);
-    Kr = 0.5 * (Kr + Kr.transpose()).eval();
-    Mr = 0.5 * (Mr + Mr.transpose()).eval();
-    // Directions that the subspace does not span any more are dropped.
-    const Eigen::SelfAdjointEigenSolver<MatX> basis(Kr);
-    Eigen::Index first = 0;
-    while (first < p - 1 && basis.eigenvalues()(first) < 1e-13 * basis.eigenvalues()(p - 1))
-      ++first;
-    const Eigen::Index rank = p - first;
-    MatX Q = basis.eigenvectors().rightCols(rank);
-    for (Eigen::Index j = 0; j < rank; ++j) Q.col(j) /= std::sqrt(basis.eigenvalues()(first + j));
-    const Eigen::SelfAdjointEigenSolver<MatX> ritz(Q.transpose() * Mr * Q);
-    mu = ritz.eigenvalues().reverse();
-    z = Q * ritz.eigenvectors().rowwise().reverse();
-    X.leftCols(rank) = Y * z;
-    if (rank < p) X.rightCols(p - rank) = Y.leftCols(p - rank);
-    const Eigen::Index used = std::min<Eigen::Index>(count, rank);
-    if (last.size() >= used &&
-        ((mu.head(used) - last.head(used)).array().abs() <= 1e-11 * mu.head(used).array()).all()) {
-      ++settled;
-    } else {
-      settled = 0;
-    }
-    last = mu;
-  }
-  return finish(mu, X.leftCols(mu.size()), count);
+  solve_dense(Mr, Ar, mu, z);
+  Y = Y * z;
+  return finish(mu, Y, sigma, count);
 }
 
 }  // namespace
 
-Eigenmodes lowest_modes(const SparseMatrix& K, const SparseMatrix& M, int count) {
-  if (K.rows() == 0 || count <= 0) return {VecX(), MatX::Zero(K.rows(), 0)};
-  if (K.rows() > dense_limit && 4 * count < K.rows()) return subspace_iteration(K, M, count);
+Eigenpairs lowest_eigenpairs(const SparseMatrix& A, const SparseFactors& factors, double sigma,
+                             const SparseMatrix& M, int count) {
+  const Eigen::Index n = A.rows();
+  if (n == 0 || count <= 0) return {VecX(), MatX::Zero(n, 0)};
+  count = static_cast<int>(std::min<Eigen::Index>(count, n));
+  if (n > dense_limit && (4 * count < n || n > 10 * dense_limit) && count < n)
+    return lanczos(factors, sigma, M, count);
   VecX mu;
   MatX z;
-  solve_dense(MatX(M), MatX(K), mu, z);
-  return finish(mu, z, count);
+  solve_dense(MatX(M), MatX(A), mu, z);
+  return finish(mu, z, sigma, count);
 }
 
-int count_modes_below(const SparseMatrix& K, const SparseMatrix& M, double omega) {
+Eigenmodes lowest_modes(const SparseMatrix& K, const SparseFactors& factors, const SparseMatrix& M,
+                        int count) {
+  Eigenpairs pairs = lowest_eigenpairs(K, factors, 0.0, M, count);
+  return {pairs.lambda.cwiseMax(0.0).cwiseSqrt(), std::move(pairs.shapes)};
+}
+
+Eigenmodes lowest_modes(const SparseMatrix& K, const SparseMatrix& M, int count) {
+  if (K.rows() == 0 || count <= 0) return {VecX(), MatX::Zero(K.rows(), 0)};
+  return lowest_modes(K, SparseFactors(K), M, count);
+}
+
+int count_modes_below(const SparseMatrix& K, const SparseMatrix& M, double omega,
+                      SparseSolver solver) {
   if (K.rows() == 0) return 0;
   if (K.rows() <= dense_limit) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(MatX(M), MatX(K),
-                                                                Eigen::EigenvaluesOnly);
-    return static_cast<int>((solver.eigenvalues().array() * omega * omega > 1.0).count());
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> dense(MatX(M), MatX(K),
+                                                               Eigen::EigenvaluesOnly);
+    return static_cast<int>((dense.eigenvalues().array() * omega * omega > 1.0).count());
   }
-  const Eigen::SimplicialLDLT<SparseMatrix> factors(SparseMatrix(K - omega * omega * M));
-  return static_cast<int>((factors.vectorD().array() < 0.0).count());
+  return SparseFactors(SparseMatrix(K - omega * omega * M), solver).negative_pivots();
 }
 
 }  // namespace floatframe

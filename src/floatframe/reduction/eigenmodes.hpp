@@ -1,7 +1,11 @@
 #pragma once
-// Lowest modes of K x = w^2 M x for sparse symmetric K > 0 and M >= 0 (M may be singular: massless
-// dofs).
+// Lowest modes of K x = w^2 M x for sparse symmetric K and M >= 0 (M may be singular: massless
+// dofs, reduced integration). Small problems are solved densely in the form M x = mu A x with A = K
+// - sigma M > 0; large ones by implicitly restarted Lanczos iteration on A^-1 M (Spectra), then one
+// block step of inverse iteration with a Rayleigh-Ritz projection, which cleans the shapes of
+// massless parts and separates multiple modes. The start is fixed: the same modes every time.
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/math/sparse_factors.hpp"
 
 namespace floatframe {
 
@@ -10,11 +14,23 @@ struct Eigenmodes {
   MatX shapes;  ///< columns, x^T M x = 1, largest component positive
 };
 
-/// The `count` lowest modes; fewer if M has a smaller rank. Small problems: dense, in the form M x
-/// = (1/w^2) K x; large ones: subspace iteration with the sparse factors of K.
+/// The `count` lowest modes, K > 0; fewer if M has a smaller rank.
 Eigenmodes lowest_modes(const SparseMatrix& K, const SparseMatrix& M, int count);
+/// The same with the factors of K given.
+Eigenmodes lowest_modes(const SparseMatrix& K, const SparseFactors& factors, const SparseMatrix& M,
+                        int count);
+
+struct Eigenpairs {
+  VecX lambda;  ///< w^2, ascending; about zero for rigid motions
+  MatX shapes;  ///< as in Eigenmodes
+};
+
+/// The `count` lowest ones; A = K - sigma M with sigma below all of them, and its factors.
+Eigenpairs lowest_eigenpairs(const SparseMatrix& A, const SparseFactors& factors, double sigma,
+                             const SparseMatrix& M, int count);
 
 /// Number of modes with omega below a limit [rad/s] (Sylvester's law of inertia).
-int count_modes_below(const SparseMatrix& K, const SparseMatrix& M, double omega);
+int count_modes_below(const SparseMatrix& K, const SparseMatrix& M, double omega,
+                      SparseSolver solver = SparseSolver::automatic);
 
 }  // namespace floatframe

@@ -1,4 +1,4 @@
-#include "floatframe/model/modal_mass.hpp"
+#include "floatframe/body/modal_mass.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

@@ -1,0 +1,132 @@
+#include "floatframe/reduction/fixed_interface.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "floatframe/core/diagnostics.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Rows and columns of A that have a number.
+SparseMatrix select(const SparseMatrix& A, const std::vector<int>& row_of, std::size_t rows,
+                    const std::vector<int>& columns) {
+  SparseMatrix out(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns.size()));
+  Eigen::Index entries = 0;
+  for (const int j : columns) entries += A.col(j).nonZeros();
+  out.reserve(entries);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    out.startVec(static_cast<Eigen::Index>(c));
+    for (SparseMatrix::InnerIterator it(A, columns[c]); it; ++it) {
+      const int r = row_of[static_cast<std::size_t>(it.row())];
+      if (r >= 0) out.insertBack(r, static_cast<Eigen::Index>(c)) = it.value();
+    }
+  }
+  out.finalize();
+  return out;
+}
+
+}  // namespace
+
+FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
+                               const std::vector<int>& boundary, const std::vector<int>& zero,
+                               const std::function<std::string(int)>& label, SparseSolver solver)
+    : size_(static_cast<int>(K.rows())),
+      solver_(solver),
+      boundary_(boundary),
+      factors_(SparseMatrix(0, 0)) {
+  const auto n = static_cast<std::size_t>(size_);
+  std::vector<int> inner_of(n, 0), boundary_of(n, -1);
+  for (const int row : zero) inner_of[static_cast<std::size_t>(row)] = -1;
+  for (std::size_t b = 0; b < boundary.size(); ++b) {
+    inner_of[static_cast<std::size_t>(boundary[b])] = -1;
+    boundary_of[static_cast<std::size_t>(boundary[b])] = static_cast<int>(b);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (inner_of[i] < 0) continue;
+    inner_of[i] = static_cast<int>(inner_.size());
+    inner_.push_back(static_cast<int>(i));
+  }
+  Kii_ = select(K, inner_of, inner_.size(), inner_);
+  Mii_ = select(M, inner_of, inner_.size(), inner_);
+  Kib_ = select(K, inner_of, inner_.size(), boundary_);
+  // Boundary rows are in the order of `boundary`, which need not ascend.
+  std::vector<Eigen::Triplet<double>> entry;
+  for (std::size_t b = 0; b < boundary.size(); ++b) {
+    for (SparseMatrix::InnerIterator it(K, boundary[b]); it; ++it) {
+      const int r = boundary_of[static_cast<std::size_t>(it.row())];
+      if (r >= 0) entry.emplace_back(r, static_cast<int>(b), it.value());
+    }
+  }
+  Kbb_.resize(static_cast<Eigen::Index>(boundary.size()),
+              static_cast<Eigen::Index>(boundary.size()));
+  Kbb_.setFromTriplets(entry.begin(), entry.end());
+
+  factors_ = SparseFactors(Kii_, solver);
+  const int row = factors_.singular();
+  if (row >= 0 || factors_.negative_pivots() > 0) {
+    if (row < 0)
+      throw InputError("the stiffness is not positive: an element or a matrix has negative energy");
+    throw InputError(fmt::format(
+        "the stiffness is singular: {} can move without resistance (a part that is not connected, "
+        "or a mechanism)",
+        label(inner_[static_cast<std::size_t>(row)])));
+  }
+}
+
+MatX FixedInterface::with_all_rows(const MatX& inner) const {
+  MatX X = MatX::Zero(size_, inner.cols());
+  for (Eigen::Index a = 0; a < inner.cols(); ++a)
+    for (std::size_t i = 0; i < inner_.size(); ++i)
+      X(inner_[i], a) = inner(static_cast<Eigen::Index>(i), a);
+  return X;
+}
+
+MatX FixedInterface::constraint_modes() const {
+  MatX X = with_all_rows(factors_.solve(MatX(-Kib_)));
+  for (std::size_t b = 0; b < boundary_.size(); ++b)
+    X(boundary_[b], static_cast<Eigen::Index>(b)) = 1.0;
+  return X;
+}
+
+MatX FixedInterface::guyan_stiffness(const MatX& X) const {
+  MatX inner(static_cast<Eigen::Index>(inner_.size()), X.cols());
+  for (Eigen::Index a = 0; a < X.cols(); ++a)
+    for (std::size_t i = 0; i < inner_.size(); ++i)
+      inner(static_cast<Eigen::Index>(i), a) = X(inner_[i], a);
+  const MatX K = MatX(Kbb_) + Kib_.transpose() * inner;
+  return 0.5 * (K + K.transpose());
+}
+
+MatX FixedInterface::inner_response(const MatX& forces) const {
+  MatX inner(static_cast<Eigen::Index>(inner_.size()), forces.cols());
+  for (Eigen::Index a = 0; a < forces.cols(); ++a)
+    for (std::size_t i = 0; i < inner_.size(); ++i)
+      inner(static_cast<Eigen::Index>(i), a) = forces(inner_[i], a);
+  return with_all_rows(factors_.solve(inner));
+}
+
+Eigenmodes FixedInterface::normal_modes(int count) const {
+  if (count < 0) throw InputError("the number of normal modes must not be negative");
+  if (count > inner()) {
+    throw InputError(fmt::format(
+        "{} normal modes are asked for, but only {} degrees of freedom are left inside the "
+        "interface",
+        count, inner()));
+  }
+  Eigenmodes modes = lowest_modes(Kii_, factors_, Mii_, count);
+  if (modes.omega.size() < count) {
+    throw InputError(fmt::format(
+        "{} normal modes are asked for, but the mass inside the interface allows only {}", count,
+        modes.omega.size()));
+  }
+  modes.shapes = with_all_rows(modes.shapes);
+  return modes;
+}
+
+int FixedInterface::count_below(double frequency) const {
+  return count_modes_below(Kii_, Mii_, 2.0 * std::numbers::pi * frequency, solver_);
+}
+
+}  // namespace floatframe

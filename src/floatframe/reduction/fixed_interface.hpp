@@ -1,0 +1,51 @@
+#pragma once
+// A structure held at its interface dofs: the part of the Craig-Bampton method that works on
+// matrices. With the dofs split into boundary b, inner i and others that are zero in every mode,
+//   constraint modes            X_i = -K_ii^-1 K_ib        one for each boundary dof
+//   fixed-interface modes       K_ii x = w^2 M_ii x        x^T M_ii x = 1
+//   Guyan stiffness             K_bb - K_bi K_ii^-1 K_ib
+// Load time: allocates and throws InputError.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "floatframe/math/sparse_factors.hpp"
+#include "floatframe/reduction/eigenmodes.hpp"
+
+namespace floatframe {
+
+class FixedInterface {
+ public:
+  /// `boundary`: rows of K; `zero`: further rows that are held in every mode. `label` names a row
+  /// in the message about a singular stiffness.
+  FixedInterface(const SparseMatrix& K, const SparseMatrix& M, const std::vector<int>& boundary,
+                 const std::vector<int>& zero, const std::function<std::string(int)>& label,
+                 SparseSolver solver = SparseSolver::automatic);
+
+  int size() const noexcept { return size_; }
+  int inner() const noexcept { return static_cast<int>(inner_.size()); }
+  const std::string& solver_name() const noexcept { return factors_.name(); }
+
+  /// size x boundary: the constraint modes.
+  MatX constraint_modes() const;
+  /// Guyan stiffness: the stiffness of the constraint modes X, exactly symmetric.
+  MatX guyan_stiffness(const MatX& X) const;
+  /// Response of the inner dofs to forces (size x k; those on other rows do not count).
+  MatX inner_response(const MatX& forces) const;
+
+  /// Shapes with all rows. Throws if there are more asked for than the inner mass allows.
+  Eigenmodes normal_modes(int count) const;
+  /// Number of fixed-interface modes below a frequency [Hz].
+  int count_below(double frequency) const;
+
+ private:
+  MatX with_all_rows(const MatX& inner) const;
+
+  int size_ = 0;
+  SparseSolver solver_;
+  std::vector<int> boundary_, inner_;
+  SparseMatrix Kii_, Mii_, Kib_, Kbb_;
+  SparseFactors factors_;
+};
+
+}  // namespace floatframe
