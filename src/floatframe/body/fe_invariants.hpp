@@ -22,4 +22,13 @@ InertiaInvariants invariants_isoparametric(const FeModel& model, const MatX& X);
 /// X: mode shapes, 6 rows a node (3 if there are no beams).
 InertiaInvariants invariants_hermite(const FeModel& model, const MatX& X, bool section_inertia);
 
+/// Points with a scalar mass: p 3 x N, M_s N x N (symmetric, both halves stored), X 3N x nm
+/// translations. G = Z^T M_s Z with Z = [X_1 X_2 X_3 r_u 1]: one sparse product and one dense one.
+InertiaInvariants invariants_points(const Mat3X& p,
+                                    const Eigen::SparseMatrix<double, Eigen::RowMajor>& M_s,
+                                    const MatX& X);
+
+/// The integrals for the modes X C: exact, without a mesh. C: nm x new modes.
+InertiaInvariants combined(const InertiaInvariants& invariants, const MatX& C);
+
 }  // namespace floatframe

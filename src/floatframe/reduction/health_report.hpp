@@ -49,6 +49,8 @@ struct HealthReport {
   /// |K|.
   std::optional<Vec6> rigid_eigenvalues;
   double rigid_residual = 0.0;
+  /// Condition of M_ff of the raw basis without rigid motions, each direction scaled to one.
+  double modal_mass_condition = 1.0;
   std::vector<ModeHealth> normal_modes;
   std::vector<FrequencyPair> free_frequencies;  ///< elastic, full against reduced
   std::vector<InterfaceHealth> interfaces;

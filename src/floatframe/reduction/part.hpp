@@ -20,8 +20,7 @@ namespace floatframe {
 enum class ModeMethod {
   craig_bampton,  ///< constraint modes of the interfaces + fixed-interface normal modes
   free_free,      ///< free normal modes (+ attachment modes of `residual` markers)
-  craig_chang,    ///< free normal modes + residual-flexibility modes of all interfaces
-  herting         ///< free normal modes + inertia-relief constraint modes of the interfaces
+  craig_chang     ///< free normal modes + residual-flexibility modes of all interfaces
 };
 
 /// What the body frame follows; decides which rigid-body content is removed from the modes.
@@ -50,7 +49,7 @@ struct PartOptions {
   ModeMethod method = ModeMethod::craig_bampton;
   /// Selection of normal modes: by number; all below a frequency [Hz]; until the kept modes reach
   /// this fraction of the effective mass in every direction. Several together: whichever ends
-  /// first.
+  /// first. None of them: 20.
   std::optional<int> modes;
   double max_frequency = 0.0;
   double effective_mass = 0.0;

@@ -5,35 +5,16 @@
 
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/reduction/modal_damping.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
 namespace floatframe {
 namespace {
 
-MatX modal_mass(const InertiaInvariants& v) { return v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2]; }
-
 InertiaInvariants compute_invariants(const FeModel& model, const MatX& X,
                                      const ReductionOptions& options) {
   if (options.mass_model == MassModel::isoparametric) return invariants_isoparametric(model, X);
   return invariants_hermite(model, X, options.section_inertia);
-}
-
-/// D such that every mode of (K, M_ff) has the given ratio. With M x = mu K x, x^T K x = 1, w =
-/// 1/sqrt(mu): D = sum 2 ratio sqrt(mu) (K x)(K x)^T; massless modes (mu = 0) get none.
-MatX modal_damping(const MatX& K, const MatX& M, double ratio) {
-  MatX D = MatX::Zero(K.rows(), K.cols());
-  if (ratio == 0.0 || K.rows() == 0) return D;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(M, K);
-  if (solver.info() != Eigen::Success) {
-    throw InputError("modal damping needs a positive definite modal stiffness");
-  }
-  for (Eigen::Index i = 0; i < K.rows(); ++i) {
-    const double mu = solver.eigenvalues()(i);
-    if (!(mu > 1e-14 * solver.eigenvalues()(K.rows() - 1))) continue;
-    const VecX Kx = K * solver.eigenvectors().col(i);
-    D += 2.0 * ratio * std::sqrt(mu) * Kx * Kx.transpose();
-  }
-  return 0.5 * (D + D.transpose());
 }
 
 /// Replaces the modes by those of (K, M_ff).

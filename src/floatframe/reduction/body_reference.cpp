@@ -1,0 +1,73 @@
+#include "floatframe/reduction/body_reference.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <cmath>
+
+#include "floatframe/body/fe_invariants.hpp"
+#include "floatframe/body/modal_mass.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/reduction/modal_damping.hpp"
+
+namespace floatframe {
+
+MatX momentum_of_modes(const InertiaInvariants& v) {
+  MatX B(6, v.modes());
+  B.topRows(3) = v.S;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    B.row(3 + static_cast<Eigen::Index>(i)) =
+        v.Si[j].row(static_cast<Eigen::Index>(k)) - v.Si[k].row(static_cast<Eigen::Index>(j));
+  }
+  return B;
+}
+
+ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const MatX& B) {
+  const Eigen::Index n = K.rows();
+  ElasticModes result;
+  if (n <= 6) {
+    result.C = MatX::Zero(n, 0);
+    return result;
+  }
+  const MatX M = modal_mass(raw);
+  // Amplitudes of unit kinetic energy; of directions without mass, of unit elastic energy.
+  VecX s(n);
+  const double top = M.diagonal().maxCoeff();
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const double size = M(a, a) > 1e-14 * top ? M(a, a) : K(a, a);
+    s(a) = size > 0.0 ? 1.0 / std::sqrt(size) : 1.0;
+  }
+  MatX conditions = B * s.asDiagonal();
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double norm = conditions.row(i).norm();
+    if (norm > 0.0) conditions.row(i) /= norm;
+  }
+  const Eigen::ColPivHouseholderQR<MatX> qr(conditions.transpose());
+  if (qr.rank() < 6)
+    throw InputError("the body reference does not remove all rigid motions of the part");
+  MatX Q = MatX::Identity(n, n);
+  Q = qr.householderQ() * Q;
+  const MatX null = s.asDiagonal() * Q.rightCols(n - 6);
+
+  MatX Kc = null.transpose() * K * null;
+  MatX Mc = null.transpose() * M * null;
+  Kc = (0.5 * (Kc + Kc.transpose())).eval();
+  Mc = (0.5 * (Mc + Mc.transpose())).eval();
+  const Eigen::SelfAdjointEigenSolver<MatX> mass(Mc, Eigen::EigenvaluesOnly);
+  const VecX& m = mass.eigenvalues();
+  result.condition = m(0) > 0.0 ? m(m.size() - 1) / m(0) : std::numeric_limits<double>::infinity();
+  if (!(m(0) > 1e-13 * m(m.size() - 1))) {
+    throw InputError(
+        "the modes hold a combination that moves no mass: there are more interface degrees of "
+        "freedom and modes than the mesh has ways to move; use fewer, or a finer mesh");
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(Kc, Mc);
+  result.lambda = solver.eigenvalues();
+  if (!(result.lambda(0) > 0.0))
+    throw InputError("a mode has no stiffness: the part is a mechanism, or it is in pieces");
+  result.C = null * solver.eigenvectors();
+  result.mass = relative_modal_mass(combined(raw, result.C), Mat6X::Identity(6, 6));
+  return result;
+}
+
+}  // namespace floatframe

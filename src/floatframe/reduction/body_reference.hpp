@@ -1,0 +1,33 @@
+#pragma once
+// What the body frame follows, and the modes that are left. With a raw basis X that spans the rigid
+// motions, six conditions B on its amplitudes take out six directions:
+//   mean axis   int X dm = 0,  int r_u x X dm = 0
+//   Buckens     int X dV = 0,  int r_u x X dV = 0
+//   node        translation and rotation of the node are zero
+// In the null space C of B the modes are those of (C^T K C, C^T M_ff C): M_ff = I and K diagonal,
+// so that the basis is as well conditioned as can be.
+#include "floatframe/body/inertia_invariants.hpp"
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+/// 6 x nm: int X dm and int r_u x X dm.
+MatX momentum_of_modes(const InertiaInvariants& invariants);
+
+struct ElasticModes {
+  MatX C;                  ///< raw modes x new modes
+  VecX lambda;             ///< w^2 of (K, M_ff) in these directions, ascending
+  double mass = 1.0;       ///< relative modal mass (body/modal_mass.hpp)
+  double condition = 1.0;  ///< of M_ff of the raw directions, each scaled to one
+};
+
+/// K: raw stiffness. Throws InputError if the conditions are not independent on the rigid motions,
+/// if a combination of modes has no mass or no stiffness.
+ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const MatX& B);
+
+/// Elastic eigenvalues w^2 of the body that nothing holds: those of the mean-axis frame.
+inline VecX free_eigenvalues(const MatX& K, const InertiaInvariants& raw) {
+  return elastic_modes(K, raw, momentum_of_modes(raw)).lambda;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,116 @@
+#include "floatframe/reduction/connectivity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/element_faces.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+/// Sets of tied nodes.
+class Pieces {
+ public:
+  explicit Pieces(int nodes) : parent_(static_cast<std::size_t>(nodes)), used_(parent_.size(), 0) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  void use(int node) { used_[static_cast<std::size_t>(node)] = 1; }
+  bool used(int node) const { return used_[static_cast<std::size_t>(node)] != 0; }
+  int root(int node) {
+    auto k = static_cast<std::size_t>(node);
+    while (parent_[k] != static_cast<int>(k)) {
+      parent_[k] = parent_[static_cast<std::size_t>(parent_[k])];
+      k = static_cast<std::size_t>(parent_[k]);
+    }
+    return static_cast<int>(k);
+  }
+  void tie(int a, int b) {
+    use(a);
+    use(b);
+    const int ra = root(a), rb = root(b);
+    if (ra != rb) parent_[static_cast<std::size_t>(std::max(ra, rb))] = std::min(ra, rb);
+  }
+
+ private:
+  std::vector<int> parent_;
+  std::vector<char> used_;
+};
+
+Pieces pieces_of(const FeModel& model) {
+  Pieces pieces(model.nodes());
+  for (const Element& e : model.elements) {
+    for (int a = 0; a < element_nodes(e.type); ++a)
+      pieces.tie(e.nodes[0], e.nodes[static_cast<std::size_t>(a)]);
+  }
+  for (const PointMass& m : model.masses) pieces.use(m.node);
+  for (const Spider& s : model.spiders)
+    for (const int node : s.nodes) pieces.tie(s.reference, node);
+  for (const LinearEquation& e : model.equations)
+    for (const LinearEquation::Term& t : e.terms) pieces.tie(e.terms.front().node, t.node);
+  if (model.matrices) {
+    const FeMatrices& m = *model.matrices;
+    for (int j = 0; j < m.K.outerSize(); ++j) {
+      const int node = m.dofs[static_cast<std::size_t>(j)].node;
+      pieces.use(node);
+      for (SparseMatrix::InnerIterator it(m.K, j); it; ++it)
+        if (it.value() != 0.0) pieces.tie(m.dofs[static_cast<std::size_t>(it.row())].node, node);
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::string list_nodes(const FeModel& model, const std::vector<int>& nodes, std::size_t limit) {
+  std::string text;
+  const std::size_t shown = nodes.size() > limit + 1 ? limit : nodes.size();
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool last = i + 1 == nodes.size();
+    text += (i == 0 ? "" : last ? " and " : ", ") + model.node_label(nodes[i]);
+  }
+  if (shown < nodes.size()) text += fmt::format(" and {} more", nodes.size() - shown);
+  return text;
+}
+
+void check_connected(const FeModel& model) {
+  Pieces pieces = pieces_of(model);
+  std::vector<std::vector<int>> of_root(model.positions.size());
+  for (int k = 0; k < model.nodes(); ++k)
+    if (pieces.used(k)) of_root[static_cast<std::size_t>(pieces.root(k))].push_back(k);
+  std::erase_if(of_root, [](const auto& nodes) { return nodes.empty(); });
+  if (of_root.size() < 2) return;
+  std::stable_sort(of_root.begin(), of_root.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  Faults faults;
+  for (std::size_t i = 1; i < of_root.size() && i < 6; ++i) {
+    faults.add({}, fmt::format("the part is in {} pieces: {} {} not connected with the other {} "
+                               "nodes",
+                               of_root.size(), list_nodes(model, of_root[i]),
+                               of_root[i].size() == 1 ? "is" : "are", of_root[0].size()));
+  }
+  faults.throw_if_any();
+}
+
+std::vector<int> unreferenced_nodes(const FeModel& model) {
+  Pieces pieces = pieces_of(model);
+  for (const Spider& s : model.spiders) {
+    pieces.use(s.reference);
+    if (s.rotation_node >= 0) pieces.use(s.rotation_node);
+  }
+  std::vector<int> nodes;
+  for (int k = 0; k < model.nodes(); ++k)
+    if (!pieces.used(k)) nodes.push_back(k);
+  return nodes;
+}
+
+std::string row_label(const FeModel& model, const FeSystem& system, int row) {
+  const Dof& dof = system.dofs[static_cast<std::size_t>(row)];
+  return model.node_label(dof.node) + " " + dof_names[dof.axis];
+}
+
+}  // namespace floatframe

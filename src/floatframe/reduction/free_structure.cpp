@@ -1,0 +1,127 @@
+#include "floatframe/reduction/free_structure.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "floatframe/core/diagnostics.hpp"
+
+namespace floatframe {
+
+MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& origin) {
+  MatX R = MatX::Zero(system.size(), 6);
+  for (int row = 0; row < system.size(); ++row) {
+    const Dof& dof = system.dofs[static_cast<std::size_t>(row)];
+    if (dof.axis >= 3) {
+      R(row, dof.axis) = 1.0;
+      continue;
+    }
+    const Vec3 p = model.positions[static_cast<std::size_t>(dof.node)] - origin;
+    R(row, dof.axis) = 1.0;
+    for (int k = 0; k < 3; ++k) R(row, 3 + k) = Vec3::Unit(k).cross(p)(dof.axis);
+  }
+  return R;
+}
+
+double elastic_estimate(const FeModel& model, const FeSystem& system, const MatX& R) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : model.positions) box.extend(p);
+  const Vec3 centre = box.center();
+  const double size = std::max(box.diagonal().norm(), 1e-300);
+  // u = e_i r_a r_b; the rotation of a node is half the curl.
+  MatX U = MatX::Zero(system.size(), 18);
+  for (int row = 0; row < system.size(); ++row) {
+    const Dof& dof = system.dofs[static_cast<std::size_t>(row)];
+    const Vec3 r = (model.positions[static_cast<std::size_t>(dof.node)] - centre) / size;
+    int column = 0;
+    for (int a = 0; a < 3; ++a) {
+      for (int b = a; b < 3; ++b) {
+        const Vec3 gradient = (Vec3::Unit(a) * r(b) + Vec3::Unit(b) * r(a)) / size;
+        for (int i = 0; i < 3; ++i, ++column) {
+          if (dof.axis < 3) {
+            U(row, column) = dof.axis == i ? r(a) * r(b) : 0.0;
+          } else {
+            U(row, column) = 0.5 * gradient.cross(Vec3::Unit(i))(dof.axis - 3);
+          }
+        }
+      }
+    }
+  }
+  const MatX MR = system.M * R;
+  const Mat6 M_rr = R.transpose() * MR;
+  U -= R * M_rr.completeOrthogonalDecomposition().solve(MR.transpose() * U);
+  const MatX Kr = U.transpose() * (system.K * U);
+  const MatX Mr = U.transpose() * (system.M * U);
+  // Directions with mass only.
+  const Eigen::SelfAdjointEigenSolver<MatX> mass(0.5 * (Mr + Mr.transpose()));
+  const VecX m = mass.eigenvalues();
+  Eigen::Index first = 0;
+  while (first < m.size() && !(m(first) > 1e-8 * m(m.size() - 1))) ++first;
+  if (first == m.size()) return 0.0;
+  const MatX Q = mass.eigenvectors().rightCols(m.size() - first) *
+                 m.tail(m.size() - first).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatX> ritz(Q.transpose() * Kr * Q, Eigen::EigenvaluesOnly);
+  return std::max(ritz.eigenvalues()(0), 0.0);
+}
+
+FreeStructure::FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX R, double estimate,
+                             SparseSolver solver)
+    : K_(K),
+      M_(M),
+      R_(std::move(R)),
+      MR_(M * R_),
+      M_rr_(R_.transpose() * MR_),
+      sigma_(-estimate),
+      solver_(solver),
+      A_(K - sigma_ * M),
+      factors_(A_, solver) {
+  if (!(estimate > 0.0))
+    throw InputError("the free modes need a part with mass and with elasticity");
+  if (factors_.singular() >= 0)
+    throw InputError("neither the stiffness nor the mass holds some motion of the free part");
+  if (factors_.negative_pivots() > 0)
+    throw InputError("the stiffness or the mass is not positive: an energy is negative");
+}
+
+Eigenpairs FreeStructure::modes(int count) const {
+  return lowest_eigenpairs(A_, factors_, sigma_, M_, count);
+}
+
+MatX FreeStructure::relieved_response(const MatX& forces, const Eigenpairs& elastic) const {
+  const Eigen::LDLT<Mat6> rigid(M_rr_);
+  const auto balance = [&](MatX& f) { f -= MR_ * rigid.solve(R_.transpose() * f); };
+  MatX f = forces;
+  balance(f);
+  // The share of the known modes is x x^T f / w^2; the rest by A u = f + sigma M (...), repeated.
+  MatX modal(f.rows(), f.cols());
+  const MatX& X = elastic.shapes;
+  const MatX MX = M_ * X;
+  modal.noalias() = X * elastic.lambda.cwiseInverse().asDiagonal() * (X.transpose() * f);
+  f -= MX * (X.transpose() * f);
+  const auto clean = [&](MatX& u) {
+    u -= R_ * rigid.solve(MR_.transpose() * u);
+    u -= X * (MX.transpose() * u);
+  };
+  MatX u = factors_.solve(f);
+  clean(u);
+  double last = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < 60; ++step) {
+    // K u = f  <=>  A u = f - sigma M u
+    MatX next = factors_.solve(f - sigma_ * (M_ * u));
+    clean(next);
+    const double change = (next - u).norm();
+    u = std::move(next);
+    if (!(change < 0.9 * last) || change <= 1e-14 * u.norm()) break;
+    last = change;
+  }
+  return u + modal;
+}
+
+int FreeStructure::count_below(double frequency) const {
+  const double omega = 2.0 * std::numbers::pi * frequency;
+  return SparseFactors(SparseMatrix(K_ - omega * omega * M_), solver_).negative_pivots();
+}
+
+}  // namespace floatframe

@@ -1,0 +1,200 @@
+#include "floatframe/reduction/mode_basis.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/reduction/connectivity.hpp"
+#include "floatframe/reduction/mode_selection.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+MatX forces_of(const std::vector<MarkerPlace>& markers, int n, std::vector<std::string>& names) {
+  std::vector<const MarkerPlace*> loaded;
+  for (const MarkerPlace& m : markers)
+    if (m.residual) loaded.push_back(&m);
+  MatX F(n, 3 * static_cast<Eigen::Index>(loaded.size()));
+  for (std::size_t k = 0; k < loaded.size(); ++k) {
+    F.middleCols<3>(3 * static_cast<Eigen::Index>(k)) =
+        MatX(SparseMatrix(loaded[k]->translation.transpose()));
+    for (int axis = 0; axis < 3; ++axis)
+      names.push_back("attachment " + loaded[k]->name + " " + dof_names[axis]);
+  }
+  return F;
+}
+
+/// Independent directions of attachment modes: X with X^T K X = I among them. `full`: the energies
+/// 1/2 f u before the share of other modes was taken out.
+MatX independent(const MatX& X, const MatX& energy, const VecX& full,
+                 std::vector<std::string>& names) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index a = 0; a < X.cols(); ++a)
+    if (energy(a, a) > 1e-8 * std::max(full(a), full.maxCoeff() * 1e-8)) kept.push_back(a);
+  if (kept.empty()) {
+    names.clear();
+    return MatX::Zero(X.rows(), 0);
+  }
+  const auto n = static_cast<Eigen::Index>(kept.size());
+  MatX Y(X.rows(), n), E(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index a = kept[static_cast<std::size_t>(i)];
+    Y.col(i) = X.col(a) / std::sqrt(energy(a, a));
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Eigen::Index b = kept[static_cast<std::size_t>(j)];
+      E(i, j) = 0.5 * (energy(a, b) + energy(b, a)) / std::sqrt(energy(a, a) * energy(b, b));
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<MatX> eigen(E);
+  Eigen::Index first = 0;
+  while (first < n && !(eigen.eigenvalues()(first) > 1e-8)) ++first;
+  names.clear();
+  for (Eigen::Index a = first; a < n; ++a)
+    names.push_back(fmt::format("attachment {}", a - first + 1));
+  return Y * eigen.eigenvectors().rightCols(n - first) *
+         eigen.eigenvalues().tail(n - first).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+void append(ModeBasis& basis, const MatX& X, const MatX& K, const std::vector<std::string>& names) {
+  const Eigen::Index old = basis.X.cols(), added = X.cols();
+  basis.X.conservativeResize(X.rows(), old + added);
+  basis.X.rightCols(added) = X;
+  MatX all = MatX::Zero(old + added, old + added);
+  all.topLeftCorner(old, old) = basis.K;
+  all.bottomRightCorner(added, added) = K;
+  basis.K = all;
+  basis.names.insert(basis.names.end(), names.begin(), names.end());
+}
+
+}  // namespace
+
+void check_options(const PartOptions& options) {
+  Faults faults;
+  const auto add = [&](std::string text) { faults.add({}, std::move(text)); };
+  const bool free = options.method != ModeMethod::craig_bampton;
+  if (options.modes && *options.modes < 0) add("the number of normal modes must not be negative");
+  if (!(options.max_frequency >= 0.0) || !std::isfinite(options.max_frequency))
+    add("the highest frequency must be positive");
+  if (!(options.effective_mass >= 0.0 && options.effective_mass < 1.0))
+    add("the effective mass to be reached must be a fraction between 0 and 1");
+  if (free && options.effective_mass > 0.0)
+    add("free modes have no effective mass; select them by number or by frequency");
+  if (!(options.damping_ratio >= 0.0) || !std::isfinite(options.damping_ratio))
+    add("the modal damping ratio must not be negative");
+  if (options.interfaces.empty() && options.method == ModeMethod::craig_bampton)
+    add("the Craig-Bampton method needs an interface; give one, or take free_free");
+  if (options.interfaces.empty() && options.method == ModeMethod::craig_chang)
+    add("the Craig-Chang method needs an interface; give one, or take free_free");
+  if (options.reference.kind == BodyReference::Kind::node) {
+    const auto it = std::find_if(
+        options.interfaces.begin(), options.interfaces.end(),
+        [&](const InterfaceDescription& d) { return d.name == options.reference.node; });
+    if (it == options.interfaces.end()) {
+      std::string list;
+      for (const InterfaceDescription& d : options.interfaces)
+        list += (list.empty() ? "'" : ", '") + d.name + "'";
+      add(fmt::format("the body reference is the interface '{}', which does not exist; there {}",
+                      options.reference.node, list.empty() ? "are none" : "are " + list));
+    } else if ((it->mask & 63u) != 63u) {
+      add(fmt::format("the body reference needs all six degrees of freedom of the interface '{}'",
+                      it->name));
+    }
+  }
+  faults.throw_if_any();
+}
+
+ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, const MatX& R,
+                              const std::vector<InterfacePlace>& interfaces,
+                              const std::vector<MarkerPlace>& markers, const PartOptions& options,
+                              std::optional<FixedInterface>& fixed) {
+  ModeBasis basis;
+  std::vector<int> boundary;
+  for (const InterfacePlace& place : interfaces) {
+    boundary.insert(boundary.end(), place.rows.begin(), place.rows.end());
+    for (const int axis : place.axes)
+      basis.names.push_back("static " + place.name + " " + dof_names[axis]);
+  }
+  const auto nb = static_cast<Eigen::Index>(boundary.size());
+  fixed.emplace(
+      system.K, system.M, boundary, std::vector<int>{},
+      [&](int row) { return row_label(model, system, row); }, options.solver);
+  basis.solver = fixed->solver_name();
+  basis.X = fixed->constraint_modes();
+  basis.K = fixed->guyan_stiffness(basis.X);
+
+  const Eigenmodes normal = select_fixed_modes(*fixed, system, R, boundary, options, basis.modes);
+  basis.first_normal = static_cast<int>(nb);
+  basis.frequencies = normal.omega / (2.0 * std::numbers::pi);
+  std::vector<std::string> names;
+  for (const ModeHealth& m : basis.modes)
+    if (m.kept) names.push_back(m.name);
+  append(basis, normal.shapes, normal.omega.cwiseAbs2().asDiagonal(), names);
+
+  names.clear();
+  const MatX F = forces_of(markers, system.size(), names);
+  if (F.cols() > 0) {
+    MatX Y = fixed->inner_response(F);
+    const VecX full = (F.transpose() * Y).diagonal();
+    const VecX weight = normal.omega.cwiseAbs2().cwiseInverse();
+    Y -= normal.shapes * weight.asDiagonal() * (normal.shapes.transpose() * F);
+    // (F - M x x^T F)^T Y = F^T Y: what is left is orthogonal to the normal modes.
+    const MatX added = independent(Y, F.transpose() * Y, full, names);
+    append(basis, added, MatX::Identity(added.cols(), added.cols()), names);
+  }
+  basis.rigid = MatX::Zero(basis.X.cols(), 6);
+  for (Eigen::Index b = 0; b < nb; ++b)
+    basis.rigid.row(b) = R.row(boundary[static_cast<std::size_t>(b)]);
+  return basis;
+}
+
+ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R,
+                     const std::vector<InterfacePlace>& interfaces,
+                     const std::vector<MarkerPlace>& markers, const PartOptions& options,
+                     std::optional<FreeStructure>& structure, Eigenpairs& elastic) {
+  structure.emplace(system.K, system.M, R, 0.01 * elastic_estimate(model, system, R),
+                    options.solver);
+  ModeBasis basis;
+  basis.solver = structure->solver_name();
+  elastic = select_free_modes(*structure, system, options, basis.modes);
+  const Eigen::Index count = elastic.lambda.size();
+  basis.X.resize(system.size(), 6 + count);
+  basis.X.leftCols<6>() = R;
+  basis.X.rightCols(count) = elastic.shapes;
+  basis.K = MatX::Zero(6 + count, 6 + count);
+  basis.K.diagonal().tail(count) = elastic.lambda;
+  basis.first_normal = 6;
+  basis.frequencies = elastic.lambda.cwiseSqrt() / (2.0 * std::numbers::pi);
+  for (const char* axis : dof_names) basis.names.push_back(std::string("rigid ") + axis);
+  for (const ModeHealth& m : basis.modes) basis.names.push_back(m.name);
+
+  std::vector<std::string> names;
+  MatX F = forces_of(markers, system.size(), names);
+  if (options.method == ModeMethod::craig_chang) {
+    for (const InterfacePlace& place : interfaces) {
+      const Eigen::Index old = F.cols();
+      F.conservativeResize(system.size(), old + static_cast<Eigen::Index>(place.rows.size()));
+      F.rightCols(static_cast<Eigen::Index>(place.rows.size())).setZero();
+      for (std::size_t k = 0; k < place.rows.size(); ++k)
+        F(place.rows[k], old + static_cast<Eigen::Index>(k)) = 1.0;
+    }
+  }
+  if (F.cols() > 0) {
+    MatX Y = structure->relieved_response(F, elastic);
+    const VecX full = (F.transpose() * Y).diagonal();
+    Y -= elastic.shapes * elastic.lambda.cwiseInverse().asDiagonal() *
+         (elastic.shapes.transpose() * F);
+    const MatX added = independent(Y, F.transpose() * Y, full, names);
+    append(basis, added, MatX::Identity(added.cols(), added.cols()), names);
+  }
+  basis.rigid = MatX::Zero(basis.X.cols(), 6);
+  basis.rigid.topRows<6>().setIdentity();
+  return basis;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,45 @@
+#pragma once
+// The raw basis of a part before its rigid motions are taken out: every displacement of the
+// structure that the reduced body shall know, and its six rigid motions exactly.
+//   Craig-Bampton   [constraint modes, fixed-interface modes, attachment modes]
+//   free-free       [rigid motions, free modes, attachment modes]
+//   Craig-Chang     [rigid motions, free modes, residual-flexibility modes of all interface dofs]
+// Attachment modes are the static response to unit forces at markers, without the share that the
+// normal modes have in it; dependent ones are left out.
+#include <optional>
+
+#include "floatframe/reduction/fixed_interface.hpp"
+#include "floatframe/reduction/free_structure.hpp"
+#include "floatframe/reduction/part_places.hpp"
+
+namespace floatframe {
+
+struct ModeBasis {
+  MatX X;      ///< n x nr
+  MatX K;      ///< X^T K X
+  MatX rigid;  ///< nr x 6: X rigid = R
+  std::vector<std::string> names;
+  int first_normal = 0;           ///< column of the first normal mode
+  VecX frequencies;               ///< [Hz] of the normal modes
+  std::vector<ModeHealth> modes;  ///< of the normal modes
+  std::string solver;
+};
+
+/// Normal modes that are taken if the options name no number and no other limit.
+inline constexpr int default_modes = 20;
+
+/// Faults of the options that need no model: contradictions, negative numbers.
+void check_options(const PartOptions& options);
+
+ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, const MatX& R,
+                              const std::vector<InterfacePlace>& interfaces,
+                              const std::vector<MarkerPlace>& markers, const PartOptions& options,
+                              std::optional<FixedInterface>& fixed);
+
+/// `elastic`: the free elastic modes, for further use.
+ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R,
+                     const std::vector<InterfacePlace>& interfaces,
+                     const std::vector<MarkerPlace>& markers, const PartOptions& options,
+                     std::optional<FreeStructure>& structure, Eigenpairs& elastic);
+
+}  // namespace floatframe

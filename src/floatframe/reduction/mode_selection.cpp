@@ -1,0 +1,111 @@
+#include "floatframe/reduction/mode_selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/reduction/mode_basis.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr const char* direction_names[6] = {"x", "y", "z", "rx", "ry", "rz"};
+constexpr int most_modes = 400;
+
+/// Rigid motions about the centre of mass.
+MatX about_centre(const MatX& R, const SparseMatrix& M) {
+  const Mat6 M_rr = R.transpose() * (M * R);
+  // The static moment m c is in the coupling of translations and rotations.
+  const double m = M_rr.topLeftCorner<3, 3>().trace() / 3.0;
+  const Vec3 c(M_rr(1, 5) / m, M_rr(2, 3) / m, M_rr(0, 4) / m);
+  MatX C = R;
+  for (int k = 0; k < 3; ++k) {
+    // w x (p - c) = w x p - w x c
+    const Vec3 shift = Vec3::Unit(k).cross(c);
+    C.col(3 + k) -= R.leftCols<3>() * shift;
+  }
+  return C;
+}
+
+double hertz(double omega) { return omega / (2.0 * std::numbers::pi); }
+
+}  // namespace
+
+Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
+                              const std::vector<int>& boundary, const PartOptions& options,
+                              std::vector<ModeHealth>& list) {
+  const bool limited = options.max_frequency > 0.0 || options.effective_mass > 0.0;
+  int count = options.modes.value_or(limited ? fixed.inner() : default_modes);
+  if (options.max_frequency > 0.0)
+    count = std::min(count, fixed.count_below(options.max_frequency));
+  const MatX C = about_centre(R, system.M);
+  const MatX MC = system.M * C;
+  const Vec6 total = (C.transpose() * MC).diagonal();
+  // What the inner dofs can reach.
+  MatX inner = C;
+  for (const int row : boundary) inner.row(row).setZero();
+  const Vec6 reachable = (inner.transpose() * (system.M * inner)).diagonal();
+
+  const bool by_mass = options.effective_mass > 0.0;
+  int solved = by_mass ? std::min(count, 20) : count;
+  Eigenmodes modes = fixed.normal_modes(solved);
+  Vec6 sum = Vec6::Zero();
+  int kept = 0;
+  bool reached = false;
+  while (true) {
+    for (; kept < solved && !reached; ++kept) {
+      const Vec6 share = (MC.transpose() * modes.shapes.col(kept)).array().square();
+      ModeHealth m;
+      m.name = fmt::format("normal {}", kept + 1);
+      m.frequency = hertz(modes.omega(kept));
+      for (int k = 0; k < 6; ++k) m.effective_mass(k) = total(k) > 0.0 ? share(k) / total(k) : 0.0;
+      list.push_back(m);
+      sum += share;
+      reached = by_mass && (sum.array() >= options.effective_mass * reachable.array()).all();
+    }
+    if (!by_mass || reached || solved == count) break;
+    if (solved == most_modes) {
+      Eigen::Index worst = 0;
+      (sum.array() / reachable.array()).minCoeff(&worst);
+      throw InputError(fmt::format(
+          "{} fixed-interface modes reach only {:.1f} % of the effective mass in {}, not {:.1f} %; "
+          "ask for less, or for a number of modes",
+          most_modes, 100.0 * sum(worst) / reachable(worst), direction_names[worst],
+          100.0 * options.effective_mass));
+    }
+    solved = std::min({count, 2 * solved, most_modes});
+    modes = fixed.normal_modes(solved);
+  }
+  return {modes.omega.head(kept), modes.shapes.leftCols(kept)};
+}
+
+Eigenpairs select_free_modes(const FreeStructure& structure, const FeSystem& system,
+                             const PartOptions& options, std::vector<ModeHealth>& list) {
+  int count =
+      options.modes.value_or(options.max_frequency > 0.0 ? system.size() - 6 : default_modes);
+  if (options.max_frequency > 0.0)
+    count = std::clamp(structure.count_below(options.max_frequency) - 6, 0, count);
+  if (count > system.size() - 6) {
+    throw InputError(
+        fmt::format("{} normal modes are asked for, but the part has only {} degrees of freedom",
+                    count, system.size()));
+  }
+  const Eigenpairs all = structure.modes(count + 6);
+  if (all.lambda.size() < count + 6) {
+    throw InputError(fmt::format("{} normal modes are asked for, but the mass allows only {}",
+                                 count, std::max<Eigen::Index>(all.lambda.size() - 6, 0)));
+  }
+  Eigenpairs elastic{all.lambda.tail(count), all.shapes.rightCols(count)};
+  for (int a = 0; a < count; ++a) {
+    ModeHealth m;
+    m.name = fmt::format("normal {}", a + 1);
+    m.frequency = hertz(std::sqrt(std::max(elastic.lambda(a), 0.0)));
+    list.push_back(m);
+  }
+  return elastic;
+}
+
+}  // namespace floatframe

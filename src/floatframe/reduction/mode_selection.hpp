@@ -1,0 +1,22 @@
+#pragma once
+// How many normal modes a part keeps: by number, by frequency, by effective mass; the first limit
+// that is met ends the list.
+//   effective mass of a fixed-interface mode in direction r:  (x^T M R_r)^2 / (R_r^T M R_r)
+// R: rigid motions about the centre of mass. The sum over all modes is the share of the mass that
+// does not sit on the interfaces, R_i^T M_ii R_i; a limit means a fraction of that.
+#include "floatframe/reduction/fixed_interface.hpp"
+#include "floatframe/reduction/free_structure.hpp"
+#include "floatframe/reduction/part.hpp"
+
+namespace floatframe {
+
+/// Modes kept; `list` has them with their effective masses. R: about any point.
+Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
+                              const std::vector<int>& boundary, const PartOptions& options,
+                              std::vector<ModeHealth>& list);
+
+/// Elastic modes kept.
+Eigenpairs select_free_modes(const FreeStructure& structure, const FeSystem& system,
+                             const PartOptions& options, std::vector<ModeHealth>& list);
+
+}  // namespace floatframe

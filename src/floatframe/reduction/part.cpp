@@ -1,0 +1,239 @@
+// From a finite-element part to a flexible body, stage by stage.
+#include "floatframe/reduction/part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/body/fe_invariants.hpp"
+#include "floatframe/body/modal_mass.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/reduction/body_reference.hpp"
+#include "floatframe/reduction/connectivity.hpp"
+#include "floatframe/reduction/modal_damping.hpp"
+#include "floatframe/reduction/mode_basis.hpp"
+#include "floatframe/reduction/part_health.hpp"
+#include "floatframe/reduction/static_check.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Free frequencies of the report, at most.
+constexpr int free_modes = 20;
+
+class Stages {
+ public:
+  Stages(const PartOptions& options, HealthReport& health) : options_(options), health_(health) {}
+  void done(const std::string& stage) {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    health_.seconds.emplace_back(stage, seconds);
+    if (options_.progress) options_.progress(stage, seconds);
+  }
+
+ private:
+  const PartOptions& options_;
+  HealthReport& health_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+double hertz(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi); }
+
+/// Columns get the sign that makes their largest component positive.
+void fix_signs(const MatX& X, MatX& C) {
+  for (Eigen::Index a = 0; a < C.cols(); ++a) {
+    const VecX x = X * C.col(a);
+    const double limit = (1.0 - 1e-6) * x.cwiseAbs().maxCoeff();
+    Eigen::Index k = 0;
+    while (std::abs(x(k)) < limit) ++k;
+    if (x(k) < 0.0) C.col(a) = -C.col(a).eval();
+  }
+}
+
+/// The same integrals over the volume: of the model with unit density and without point masses.
+MatX volume_conditions(FeModel model, const ModeBasis& basis, Integration integration) {
+  if (model.matrices) {
+    throw InputError(
+        "the Buckens reference weighs by volume, which a part given by matrices does not have; "
+        "take mean_axis");
+  }
+  for (Material& m : model.materials) m.density = 1.0;
+  model.masses.clear();
+  const FeSystem system = assemble(model, integration);
+  const PointModel points = point_model(model, system, integration);
+  return momentum_of_modes(invariants_points(points.p, points.M_s, points.T * basis.X));
+}
+
+/// Uniform density without point masses: the volume weighs as the mass does.
+bool uniform(const FeModel& model) {
+  if (!model.masses.empty() || model.matrices || model.materials.empty()) return false;
+  const double density = model.materials.front().density;
+  return std::all_of(model.materials.begin(), model.materials.end(),
+                     [&](const Material& m) { return m.density == density; });
+}
+
+MatX reference_conditions(const FeModel& model, const ModeBasis& basis,
+                          const InertiaInvariants& raw,
+                          const std::vector<InterfacePlace>& interfaces,
+                          const PartOptions& options) {
+  switch (options.reference.kind) {
+    case BodyReference::Kind::mean_axis:
+      break;
+    case BodyReference::Kind::buckens:
+      if (!uniform(model)) return volume_conditions(model, basis, options.integration);
+      break;
+    case BodyReference::Kind::node:
+      for (const InterfacePlace& place : interfaces) {
+        if (place.name != options.reference.node) continue;
+        MatX B(6, basis.X.cols());
+        for (Eigen::Index i = 0; i < 6; ++i)
+          B.row(i) = basis.X.row(place.rows[static_cast<std::size_t>(i)]);
+        return B;
+      }
+      break;
+  }
+  return momentum_of_modes(raw);
+}
+
+ModalNode interface_node(const FeModel& model, const FeSystem& system, const InterfacePlace& place,
+                         const MatX& X) {
+  ModalNode node;
+  node.name = place.name;
+  node.p = model.positions[static_cast<std::size_t>(place.node)];
+  node.X = system.T.middleRows(3 * place.node, 3) * X;
+  node.X_theta = system.T_theta.middleRows(3 * place.node, 3) * X;
+  return node;
+}
+
+/// Full model and boundary of the static check.
+struct Statics {
+  MatX stiffness, flexibility;
+};
+
+MatX boundary_flexibility(const FreeStructure& structure, const Eigenpairs& elastic,
+                          const std::vector<InterfacePlace>& interfaces, int n) {
+  std::vector<int> rows;
+  for (const InterfacePlace& place : interfaces)
+    rows.insert(rows.end(), place.rows.begin(), place.rows.end());
+  MatX F = MatX::Zero(n, static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) F(rows[k], static_cast<Eigen::Index>(k)) = 1.0;
+  const MatX u = structure.relieved_response(F, elastic);
+  return u(rows, Eigen::all);
+}
+
+void free_frequencies(const VecX& reduced, const Eigenpairs* full, HealthReport& health) {
+  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(reduced.size(), free_modes); ++k) {
+    FrequencyPair pair;
+    pair.reduced = hertz(reduced(k));
+    if (full && k + 6 < full->lambda.size()) pair.full = hertz(full->lambda(k + 6));
+    health.free_frequencies.push_back(pair);
+  }
+  if (full && full->lambda.size() > 6)
+    health.rigid_eigenvalues = full->lambda.head<6>() / full->lambda(6);
+}
+
+}  // namespace
+
+ReducedPart reduce_part(FeModel model, const PartOptions& options) {
+  ReducedPart part;
+  HealthReport& health = part.health;
+  Stages stages(options, health);
+  check_options(options);
+  validate(model);
+  health.nodes = model.nodes();
+  health.elements = static_cast<int>(model.elements.size());
+  health.notes = model.notes;
+  std::vector<MarkerPlace> markers = place_markers(model, options);
+  std::vector<InterfacePlace> interfaces = place_interfaces(model, options);
+  check_connected(model);
+  stages.done("model");
+
+  const FeSystem system = assemble(model, options.integration);
+  const PointModel points = point_model(model, system, options.integration);
+  find_rows(model, system, interfaces);
+  find_motions(model, system, markers);
+  health.dofs = system.size();
+  const MatX R = rigid_motions(model, system, Vec3::Zero());
+  health.from_elements = mass_properties(system.M, R);
+  if (!(health.from_elements.mass > 0.0))
+    throw InputError("the part has no mass: every density is zero");
+  health.rigid_residual = rigid_residual(model, system);
+  add_volumes(model, options.integration, health);
+  stages.done("assembly");
+
+  std::optional<FixedInterface> fixed;
+  std::optional<FreeStructure> structure;
+  Eigenpairs elastic;
+  const bool held = options.method == ModeMethod::craig_bampton;
+  ModeBasis basis =
+      held ? craig_bampton_basis(model, system, R, interfaces, markers, options, fixed)
+           : free_basis(model, system, R, interfaces, markers, options, structure, elastic);
+  health.solver = basis.solver;
+  health.normal_modes = basis.modes;
+  Statics statics;
+  if (held) {
+    const auto nb = static_cast<Eigen::Index>(basis.first_normal);
+    statics.stiffness = basis.K.topLeftCorner(nb, nb);
+  } else {
+    statics.flexibility = boundary_flexibility(*structure, elastic, interfaces, system.size());
+  }
+  fixed.reset();  // the factors are the largest piece of memory
+  stages.done("modes");
+
+  const InertiaInvariants raw = invariants_points(points.p, points.M_s, points.T * basis.X);
+  const VecX reduced = free_eigenvalues(basis.K, raw);
+  ElasticModes modes =
+      elastic_modes(basis.K, raw, reference_conditions(model, basis, raw, interfaces, options));
+  if (modes.mass < least_modal_mass) {
+    throw InputError(
+        "a combination of the modes moves as a rigid body and has no inertia of its own; use fewer "
+        "modes or a finer mesh");
+  }
+  fix_signs(basis.X, modes.C);
+  health.modal_mass_condition = modes.condition;
+  FlexibleBody& body = part.body;
+  const MatX X = basis.X * modes.C;
+  body.invariants = combined(raw, modes.C);
+  body.K = modes.lambda.asDiagonal();
+  body.D = modal_damping(body.K, modal_mass(body.invariants), options.damping_ratio);
+  body.fixed_interface_frequencies = basis.frequencies;
+  for (Eigen::Index a = 0; a < X.cols(); ++a)
+    body.mode_names.push_back(fmt::format("elastic {}", a + 1));
+  for (const InterfacePlace& place : interfaces)
+    body.nodes.push_back(interface_node(model, system, place, X));
+  for (const MarkerPlace& marker : markers)
+    body.nodes.push_back({marker.name, marker.p, marker.translation * X, marker.rotation * X});
+  if (options.keep_projection) {
+    auto data = std::make_shared<ProjectionData>();
+    data->p = points.p;
+    data->X = points.T * X;
+    data->M_s = points.M_s;
+    body.projection = std::move(data);
+  }
+  health.modes = body.modes();
+  health.from_invariants = mass_properties(body.invariants);
+  stages.done("body");
+
+  for (const InterfacePlace& place : interfaces) health.interfaces.push_back(place.health);
+  check_statics(interfaces, body, statics.stiffness, statics.flexibility, health);
+  if (options.check_free_modes) {
+    if (!structure) {
+      const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system, R);
+      structure.emplace(system.K, system.M, R, 0.3 * first, options.solver);
+    }
+    const int count = static_cast<int>(std::min<Eigen::Index>(reduced.size(), free_modes));
+    const Eigenpairs full = structure->modes(6 + count);
+    free_frequencies(reduced, &full, health);
+    stages.done("free modes of the full model");
+  } else {
+    free_frequencies(reduced, nullptr, health);
+  }
+  add_warnings(model, points, health);
+  return part;
+}
+
+}  // namespace floatframe

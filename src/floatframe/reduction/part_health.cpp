@@ -1,0 +1,159 @@
+#include "floatframe/reduction/part_health.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/reduction/connectivity.hpp"
+
+namespace floatframe {
+
+MassProperties mass_properties(const SparseMatrix& M, const MatX& R) {
+  const Mat6 M_rr = R.transpose() * (M * R);
+  MassProperties p;
+  p.mass = M_rr.topLeftCorner<3, 3>().trace() / 3.0;
+  p.J_origin = 0.5 * (M_rr.bottomRightCorner<3, 3>() + M_rr.bottomRightCorner<3, 3>().transpose());
+  // int e_i . (e_k x r) dm
+  if (p.mass > 0.0) p.centre = Vec3(M_rr(1, 5), M_rr(2, 3), M_rr(0, 4)) / p.mass;
+  return p;
+}
+
+MassProperties mass_properties(const InertiaInvariants& invariants) {
+  return {invariants.m, invariants.centre_of_mass(), invariants.inertia_about_origin()};
+}
+
+void add_volumes(const FeModel& model, Integration integration, HealthReport& health) {
+  MatX mass;
+  for (const Element& element : model.elements) {
+    ElementInput input = gather(model, element, integration);
+    const double density = input.material.density;
+    input.material.density = 1.0;
+    element_kernel(element.type).scalar_mass(input, mass);
+    const double volume = mass.sum();
+    health.volume += volume;
+    health.volume_times_density += density * volume;
+  }
+  for (const PointMass& m : model.masses) health.volume_times_density += m.mass;
+}
+
+double rigid_residual(const FeModel& model, const FeSystem& system) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : model.positions) box.extend(p);
+  MatX R = rigid_motions(model, system, box.center());
+  const double size = 0.5 * box.diagonal().norm();
+  if (size > 0.0) R.rightCols<3>() /= size;
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < system.K.nonZeros(); ++k)
+    largest = std::max(largest, std::abs(system.K.valuePtr()[k]));
+  return largest > 0.0 ? (system.K * R).cwiseAbs().maxCoeff() / largest : 0.0;
+}
+
+namespace {
+
+/// Frequencies that no part of a machine has.
+constexpr double lowest_usual = 0.01, highest_usual = 2e6;
+
+void warn_of_elements(const FeModel& model, HealthReport& health) {
+  std::vector<int> massless;
+  for (int e = 0; e < static_cast<int>(model.elements.size()); ++e) {
+    const int material = model.elements[static_cast<std::size_t>(e)].material;
+    if (model.materials[static_cast<std::size_t>(material)].density == 0.0) massless.push_back(e);
+  }
+  if (!massless.empty()) {
+    health.warnings.push_back(fmt::format("{} of {} elements have zero density, among them {}",
+                                          massless.size(), model.elements.size(),
+                                          model.element_label(massless.front())));
+  }
+}
+
+void warn_of_interfaces(HealthReport& health) {
+  for (const InterfaceHealth& h : health.interfaces) {
+    if (h.kind == "node") continue;
+    if (h.nodes < 6) {
+      health.warnings.push_back(
+          fmt::format("interface '{}' has only {} nodes; loads enter the part at single points",
+                      h.name, h.nodes));
+    }
+    if (h.condition > 30.0) {
+      health.warnings.push_back(fmt::format(
+          "interface '{}': its nodes lie almost on a line (condition {:.0f}); one rotation is "
+          "hardly held",
+          h.name, h.condition));
+    }
+  }
+  for (const InterfaceHealth& h : health.interfaces) {
+    if (h.static_error > 0.01)
+      health.warnings.push_back(fmt::format(
+          "interface '{}' is too stiff in the reduced body: its displacements under unit loads "
+          "are wrong by {:.1f} %",
+          h.name, 100.0 * h.static_error));
+  }
+}
+
+void warn_of_modes(HealthReport& health) {
+  // The modes above the range of interest are never exact: only those that the normal modes cover.
+  double range = 0.0;
+  for (const ModeHealth& m : health.normal_modes)
+    if (m.kept) range = std::max(range, m.frequency);
+  for (std::size_t k = 0; k < health.free_frequencies.size(); ++k) {
+    const FrequencyPair& pair = health.free_frequencies[k];
+    if (pair.full > 0.5 * range && k > 0) break;
+    if (std::abs(pair.relative_error()) <= 0.01) continue;
+    health.warnings.push_back(
+        fmt::format("free mode {} is at {:.1f} Hz instead of {:.1f} Hz in the reduced body "
+                    "({:+.1f} %); more normal modes would help",
+                    k + 1, pair.reduced, pair.full, 100.0 * pair.relative_error()));
+    break;
+  }
+}
+
+}  // namespace
+
+void add_warnings(const FeModel& model, const PointModel& points, HealthReport& health) {
+  std::vector<std::string>& list = health.warnings;
+  const std::string units = unit_guess(model, health.from_elements.mass);
+  if (!units.empty()) list.push_back(units);
+  for (const FrequencyPair& pair : health.free_frequencies) {
+    if (pair.reduced >= lowest_usual && pair.reduced <= highest_usual) break;
+    list.push_back(fmt::format(
+        "the first elastic frequency is {:.3g} Hz, which no usual part has; check the units",
+        pair.reduced));
+    break;
+  }
+  const std::vector<int> lost = unreferenced_nodes(model);
+  if (!lost.empty()) {
+    list.push_back(fmt::format("{} {} used by nothing: {}", lost.size(),
+                               lost.size() == 1 ? "node is" : "nodes are",
+                               list_nodes(model, lost)));
+  }
+  warn_of_elements(model, health);
+  if (health.volume > 0.0 && health.from_elements.mass > 0.0) {
+    const double off = health.volume_times_density / health.from_elements.mass - 1.0;
+    if (std::abs(off) > 1e-3)
+      list.push_back(
+          fmt::format("volume times density is {:+.2f} % off the assembled mass", 100.0 * off));
+  }
+  if (points.anisotropy > 1e-9) {
+    list.push_back(fmt::format(
+        "the mass differs between directions by up to {:.2g} of its largest entry (beams, shells "
+        "or matrices of another program); the inertia integrals take the mean",
+        points.anisotropy));
+  }
+  if (health.rigid_residual > 1e-9) {
+    list.push_back(fmt::format(
+        "rigid motions cause forces of {:.1e} of the largest stiffness: a support, a spring to "
+        "ground or a wrong linear equation is in the model",
+        health.rigid_residual));
+  }
+  if (health.rigid_eigenvalues && health.rigid_eigenvalues->cwiseAbs().maxCoeff() > 1e-6) {
+    list.push_back(fmt::format(
+        "a rigid motion has an eigenvalue of {:.1e} of the first elastic one instead of zero",
+        health.rigid_eigenvalues->cwiseAbs().maxCoeff()));
+  }
+  warn_of_interfaces(health);
+  warn_of_modes(health);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,24 @@
+#pragma once
+// The figures of the health report that come from the full model, and what is suspicious.
+#include "floatframe/reduction/mode_basis.hpp"
+
+namespace floatframe {
+
+/// Mass properties from the assembled mass and the rigid motions about the origin.
+MassProperties mass_properties(const SparseMatrix& M, const MatX& R);
+MassProperties mass_properties(const InertiaInvariants& invariants);
+
+/// Volume, and volume times density with point masses.
+void add_volumes(const FeModel& model, Integration integration, HealthReport& health);
+
+/// Largest |K R| relative to the largest entry of K, rotations about the centre of the part.
+double rigid_residual(const FeModel& model, const FeSystem& system);
+
+/// One sentence for everything that looks wrong, from the figures gathered so far.
+void add_warnings(const FeModel& model, const PointModel& points, HealthReport& health);
+
+/// "the file may be in mm-t-s and not in m-kg-s: then ..."; empty if the numbers are usual or no
+/// unit system makes them so.
+std::string unit_guess(const FeModel& model, double mass);
+
+}  // namespace floatframe

@@ -1,0 +1,192 @@
+#include "floatframe/reduction/part_places.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+const Vec3& position(const FeModel& model, int node) {
+  return model.positions[static_cast<std::size_t>(node)];
+}
+
+Vec3 centre_of(const FeModel& model, const std::vector<int>& nodes) {
+  Vec3 c = Vec3::Zero();
+  for (const int node : nodes) c += position(model, node);
+  return c / static_cast<double>(nodes.size());
+}
+
+/// Largest over smallest singular value of the rigid motions of the nodes, lengths in units of
+/// their radius of gyration about their centre.
+double condition_of(const FeModel& model, const std::vector<int>& nodes) {
+  const Vec3 c = centre_of(model, nodes);
+  double size = 0.0;
+  for (const int node : nodes) size += (position(model, node) - c).squaredNorm();
+  size = std::sqrt(size / static_cast<double>(nodes.size()));
+  if (!(size > 0.0)) return 0.0;
+  Mat6 A = Mat6::Zero();
+  for (const int node : nodes) {
+    Eigen::Matrix<double, 3, 6> motion;
+    motion << Mat3::Identity(), -skew((position(model, node) - c) / size);
+    A += motion.transpose() * motion;
+  }
+  const Vec6 e = Eigen::SelfAdjointEigenSolver<Mat6>(A, Eigen::EigenvaluesOnly).eigenvalues();
+  return e(0) > 0.0 ? std::sqrt(e(5) / e(0)) : std::numeric_limits<double>::infinity();
+}
+
+void append(Faults& faults, const InputError& error) {
+  for (const InputFault& fault : error.faults()) faults.add(fault.mark, fault.message);
+}
+
+}  // namespace
+
+Mat6 rigid_motion_at(const Vec3& p) {
+  Mat6 R = Mat6::Identity();
+  R.topRightCorner<3, 3>() = -skew(p);
+  return R;
+}
+
+std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options) {
+  Faults faults;
+  std::vector<InterfacePlace> places;
+  for (const InterfaceDescription& d : options.interfaces) {
+    if (d.name.empty()) {
+      faults.add({}, "an interface has no name");
+      continue;
+    }
+    try {
+      // Of the model as the user made it: the new reference nodes belong to no set.
+      const std::vector<int> nodes = choose_nodes(model, d.choice);
+      InterfacePlace place;
+      place.name = d.name;
+      place.mask = d.mask;
+      place.node = add_interface(model, d);
+      for (const InterfacePlace& other : places) {
+        if (other.node == place.node)
+          throw InputError(
+              fmt::format("the interfaces '{}' and '{}' are the same node", other.name, d.name));
+      }
+      InterfaceHealth& h = place.health;
+      h.name = d.name;
+      h.nodes = static_cast<int>(nodes.size());
+      h.p = position(model, place.node);
+      h.kind = d.kind == Spider::Kind::rigid ? "rigid" : "mean";
+      if (nodes.size() == 1) {
+        h.kind = "node";
+      } else {
+        h.condition = condition_of(model, nodes);
+      }
+      places.push_back(std::move(place));
+    } catch (const InputError& error) {
+      append(faults, error);
+    }
+  }
+  faults.throw_if_any();
+  return places;
+}
+
+std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& options) {
+  Faults faults;
+  std::vector<MarkerPlace> places;
+  std::set<std::string> names;
+  for (const InterfaceDescription& d : options.interfaces) names.insert(d.name);
+  for (const MarkerDescription& d : options.markers) {
+    const std::string label = "marker '" + d.name + "': ";
+    if (d.name.empty()) faults.add({}, "a marker has no name");
+    if (!names.insert(d.name).second) faults.add({}, label + "the name is given twice");
+    try {
+      MarkerPlace place;
+      place.name = d.name;
+      place.residual = d.residual;
+      place.nodes = choose_nodes(model, d.choice);
+      place.p = d.at.value_or(centre_of(model, place.nodes));
+      if (!place.p.allFinite()) throw InputError("its position is not finite");
+      places.push_back(std::move(place));
+    } catch (const InputError& error) {
+      for (const InputFault& fault : error.faults()) faults.add(fault.mark, label + fault.message);
+    }
+  }
+  faults.throw_if_any();
+  return places;
+}
+
+void find_rows(const FeModel& model, const FeSystem& system,
+               std::vector<InterfacePlace>& interfaces) {
+  Faults faults;
+  int count = 0;
+  for (InterfacePlace& place : interfaces) {
+    place.first = count;
+    for (int axis = 0; axis < 6; ++axis) {
+      if (((place.mask >> axis) & 1u) == 0) continue;
+      const int row = system.row(place.node, axis);
+      if (row < 0) {
+        faults.add({}, fmt::format("interface '{}': {} has no degree of freedom {} of its own",
+                                   place.name, model.node_label(place.node), dof_names[axis]));
+        continue;
+      }
+      place.rows.push_back(row);
+      place.axes.push_back(axis);
+      ++count;
+    }
+  }
+  faults.throw_if_any();
+}
+
+void find_motions(const FeModel& model, const FeSystem& system, std::vector<MarkerPlace>& markers) {
+  const Eigen::Index rows = 3 * static_cast<Eigen::Index>(model.nodes());
+  for (MarkerPlace& marker : markers) {
+    const Vec3 c = centre_of(model, marker.nodes);
+    const double weight = 1.0 / static_cast<double>(marker.nodes.size());
+    const bool single = marker.nodes.size() == 1;
+    // theta = J^+ sum r x u, J = sum (r^2 I - r r^T)
+    Mat3 J = Mat3::Zero();
+    for (const int node : marker.nodes) {
+      const Vec3 r = position(model, node) - c;
+      J += r.squaredNorm() * Mat3::Identity() - r * r.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(J);
+    Mat3 inverse = Mat3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const double e = eigen.eigenvalues()(k);
+      if (!(e > 1e-8 * eigen.eigenvalues()(2))) continue;
+      inverse += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose() / e;
+    }
+    std::vector<Eigen::Triplet<double>> mean, turn;
+    const auto add = [](std::vector<Eigen::Triplet<double>>& to, int node, const Mat3& A) {
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          if (A(i, j) != 0.0) to.emplace_back(i, 3 * node + j, A(i, j));
+    };
+    for (const int node : marker.nodes) {
+      add(mean, node, weight * Mat3::Identity());
+      if (single) {
+        add(turn, node, Mat3::Identity());
+      } else {
+        add(turn, node, inverse * skew(position(model, node) - c));
+      }
+    }
+    SparseRows W(3, rows), V(3, rows);
+    W.setFromTriplets(mean.begin(), mean.end());
+    V.setFromTriplets(turn.begin(), turn.end());
+    marker.rotation = V * (single ? system.T_theta : system.T);
+    SparseRows arm(3, 3);
+    const Mat3 S = -skew(marker.p - c);
+    std::vector<Eigen::Triplet<double>> entries;
+    add(entries, 0, S);
+    arm.setFromTriplets(entries.begin(), entries.end());
+    const SparseRows by_rotation = arm * marker.rotation;
+    marker.translation = W * system.T;
+    marker.translation += by_rotation;
+  }
+}
+
+}  // namespace floatframe
