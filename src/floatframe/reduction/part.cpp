@@ -126,10 +126,12 @@ MatX boundary_flexibility(const FreeStructure& structure, const Eigenpairs& elas
 }
 
 void free_frequencies(const VecX& reduced, const Eigenpairs* full, HealthReport& health) {
-  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(reduced.size(), free_modes); ++k) {
+  const Eigen::Index count =
+      full ? full->lambda.size() - 6 : std::min<Eigen::Index>(reduced.size(), free_modes);
+  for (Eigen::Index k = 0; k < std::min(count, reduced.size()); ++k) {
     FrequencyPair pair;
     pair.reduced = hertz(reduced(k));
-    if (full && k + 6 < full->lambda.size()) pair.full = hertz(full->lambda(k + 6));
+    if (full) pair.full = hertz(full->lambda(k + 6));
     health.free_frequencies.push_back(pair);
   }
   if (full && full->lambda.size() > 6)
@@ -225,7 +227,8 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
       const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system, R);
       structure.emplace(system.K, system.M, R, 0.3 * first, options.solver);
     }
-    const int count = static_cast<int>(std::min<Eigen::Index>(reduced.size(), free_modes));
+    const int count = static_cast<int>(std::min<Eigen::Index>(
+        reduced.size(), std::clamp<Eigen::Index>(basis.frequencies.size(), 10, free_modes)));
     const Eigenpairs full = structure->modes(6 + count);
     free_frequencies(reduced, &full, health);
     stages.done("free modes of the full model");
