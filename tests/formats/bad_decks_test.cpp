@@ -103,6 +103,10 @@ const Case decks[] = {
      "supported"},
     {"no_section",
      "13:", "bad.inp:7: element 1 (C3D4) has no section: no *SOLID SECTION names a set with it"},
+    {"shell_without_section",
+     "+*ELEMENT, TYPE=S3, ELSET=SHELLS\n2, 1, 2, 3\n*SHELL SECTION, ELSET=SHELLS, MATERIAL=STEEL\n"
+     "0.1\n*ELEMENT, TYPE=S3\n3, 2, 3, 4\n",
+     "bad.inp:19: element 3 (S3) has no section: no *SHELL SECTION names a set with it"},
     {"two_sections", "+*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL\n",
      "bad.inp:14: *SOLID SECTION names element 1 (C3D4), which has one already (bad.inp:13)"},
     {"section_of_missing_set", "13: *SOLID SECTION, ELSET=BODDY, MATERIAL=STEEL",

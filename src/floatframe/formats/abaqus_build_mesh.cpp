@@ -217,13 +217,18 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     model.material_names.emplace_back();
     given.material = 0;
   }
+  const bool has_shells =
+      std::any_of(c.sections.begin(), c.sections.end(),
+                  [](const AbaqusSection& s) { return s.family == Family::shell; });
   std::map<const AbaqusType*, Count> skins, read_as;
   Count without_section, structural;
   for (std::size_t e = 0; e < c.elements.size(); ++e) {
     const AbaqusElement& element = c.elements[e];
     const AbaqusType& type = *element.type;
     const int section = section_of[e];
-    const bool skin = (type.family == Family::skin || type.family == Family::shell) && section < 0;
+    // Shells are skins of a solid unless the deck has shells.
+    const bool skin = section < 0 && (type.family == Family::skin ||
+                                      (type.family == Family::shell && !has_shells));
     if (skin) skins[&type].add(element.at);
     if (skin || type.family == Family::mass || type.family == Family::rotary ||
         type.family == Family::coupling) {
@@ -235,9 +240,10 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
       if (without_section.number == 0 && assigned) {
         build.source.fault(
             element.at,
-            fmt::format("{} has no section: no *{} SECTION names a set "
-                        "with it",
-                        label(element), type.family == Family::solid ? "SOLID" : "BEAM"));
+            fmt::format("{} has no section: no *{} SECTION names a set with it", label(element),
+                        type.family == Family::solid   ? "SOLID"
+                        : type.family == Family::shell ? "SHELL"
+                                                       : "BEAM"));
       }
       without_section.add(element.at);
       continue;

@@ -139,8 +139,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
                           (field.front() >= 'A' && field.front() <= 'Z') ||
                           (field.front() >= 'a' && field.front() <= 'z');
       // "1.5", "-3" and "0" are no names.
-      if (item.name >= 0 && !letter && find_abaqus_type(field) == nullptr &&
-          parse_real(field).has_value()) {
+      if (item.name >= 0 && !letter && parse_real(field).has_value()) {
         lines.source().fault(fmt::format("{}: {}", what, not_an_integer(field)));
         continue;
       }

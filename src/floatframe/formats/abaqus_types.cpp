@@ -10,6 +10,8 @@ namespace {
 using Family = AbaqusType::Family;
 
 constexpr const char* hybrid = "without its pressure field";
+constexpr const char* full =
+    "with full integration as in CalculiX (Abaqus takes the change of volume at the centre)";
 constexpr const char* no_shear = "as an Euler-Bernoulli beam, without shear deformation";
 
 constexpr AbaqusType solid(const char* name, int nodes, ElementType type,
@@ -38,7 +40,7 @@ constexpr std::array types{
     solid("C3D10T", 10, ElementType::tet10, "as C3D10"),
     solid("C3D6", 6, ElementType::wedge6),
     solid("C3D15", 15, ElementType::wedge15),
-    solid("C3D8", 8, ElementType::hex8),
+    solid("C3D8", 8, ElementType::hex8, full),
     solid("C3D8H", 8, ElementType::hex8, hybrid),
     solid("C3D8I", 8, ElementType::hex8i),
     solid("C3D8R", 8, ElementType::hex8r),
