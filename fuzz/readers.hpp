@@ -12,8 +12,11 @@
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/formats/matrix_model.hpp"
 #include "floatframe/formats/read_abaqus.hpp"
+#include "floatframe/formats/nastran_cards.hpp"
+#include "floatframe/formats/read_dmig.hpp"
 #include "floatframe/formats/read_gmsh.hpp"
 #include "floatframe/formats/read_matrices.hpp"
+#include "floatframe/formats/read_nastran.hpp"
 #include "floatframe/formats/sid_file.hpp"
 #include "floatframe/formats/text_source.hpp"
 
@@ -76,6 +79,18 @@ inline void matrix_market(std::string_view bytes) {
 
 inline void gmsh(std::string_view bytes) { use(parse_gmsh(bytes, "fuzz.msh", {})); }
 
+inline void nastran(std::string_view bytes) {
+  TextSource source(std::string(bytes), "fuzz.bdf");
+  use(read_nastran(source, has_begin_bulk(bytes), {}));
+}
+
+/// Matrices and nodes.
+inline void dmig(std::string_view bytes) {
+  const std::vector<std::string> parts = parts_of(bytes, 2);
+  TextSource matrices(parts[0], "fuzz.pch"), nodes(parts[1], "fuzz.bdf");
+  use(read_dmig(matrices, nullptr, read_nastran(nodes, false, {}, NastranPart::nodes)));
+}
+
 inline void sid(std::string_view bytes) { parse_sid(bytes, "fuzz.sid"); }
 
 struct Reader {
@@ -90,6 +105,8 @@ inline constexpr Reader readers[] = {
     {"abaqus_matrices", abaqus_matrices},
     {"matrix_market", matrix_market},
     {"gmsh", gmsh},
+    {"nastran", nastran},
+    {"dmig", dmig},
     {"sid", sid},
 };
 

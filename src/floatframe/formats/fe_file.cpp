@@ -6,8 +6,10 @@
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/read_abaqus.hpp"
+#include "floatframe/formats/read_dmig.hpp"
 #include "floatframe/formats/read_gmsh.hpp"
 #include "floatframe/formats/read_matrices.hpp"
+#include "floatframe/formats/read_nastran.hpp"
 #include "floatframe/formats/text_fields.hpp"
 #include "floatframe/formats/text_source.hpp"
 
@@ -19,6 +21,12 @@ const std::vector<FeFormat>& formats() {
   static const std::vector<FeFormat> list{
       {"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus},
       {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh},
+      {"nastran",
+       "Nastran bulk data (.bdf)",
+       {".bdf", ".dat", ".nas", ".fem", ".blk"},
+       looks_like_nastran,
+       read_nastran},
+      {"dmig", "Nastran matrices (DMIG, .pch)", {".pch"}, looks_like_dmig, read_dmig},
       {"calculix_matrices",
        "CalculiX matrices (.sti, .mas, .dof)",
        {".sti", ".mas"},

@@ -46,8 +46,7 @@ bool read_matrix_line(TextSource& source, std::string_view line, int& row, int& 
   return true;
 }
 
-void SymmetricEntries::add(int row, int column, double value) {
-  const FeSource at = source_.here();
+void SymmetricEntries::add(int row, int column, double value, const FeSource& at) {
   file_ = at.file;
   last_ = std::max({last_, row, column});
   if (row <= column) {

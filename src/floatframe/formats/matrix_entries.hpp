@@ -15,7 +15,8 @@ class SymmetricEntries {
   SymmetricEntries(TextSource& source, std::string what)
       : source_(source), what_(std::move(what)) {}
   /// Rows and columns count from 0. The place is the last line of the source.
-  void add(int row, int column, double value);
+  void add(int row, int column, double value) { add(row, column, value, source_.here()); }
+  void add(int row, int column, double value, const FeSource& at);
   std::size_t size() const noexcept { return entries_.size(); }
   /// Largest row or column so far; -1 without entries.
   int last() const noexcept { return last_; }

@@ -8,7 +8,10 @@
 
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/matrix_entries.hpp"
+#include "floatframe/formats/nastran_cards.hpp"
 #include "floatframe/formats/read_abaqus.hpp"
+#include "floatframe/formats/read_dmig.hpp"
+#include "floatframe/formats/read_nastran.hpp"
 #include "floatframe/formats/text_fields.hpp"
 
 namespace floatframe {
@@ -46,7 +49,9 @@ void keep_nodes(FeModel& model) {
       const Element& element = model.elements[static_cast<std::size_t>(e)];
       for (int k = 0; k < element_nodes(element.type); ++k) {
         const int node = element.nodes[static_cast<std::size_t>(k)];
-        if (seen[static_cast<std::size_t>(node)]++ == 0) nodes.push_back(node);
+        char& known = seen[static_cast<std::size_t>(node)];
+        if (known == 0) nodes.push_back(node);
+        known = 1;
       }
     }
     model.node_sets.emplace(name, std::move(nodes));
@@ -141,6 +146,11 @@ FeModel read_nodes(const std::filesystem::path& file) {
   if (looks_like_abaqus(read_beginning(file, std::size_t{1} << 16))) {
     TextSource source(file);
     return read_abaqus(source, {}, DeckPart::nodes);
+  }
+  const std::string beginning = read_beginning(file, std::size_t{1} << 20);
+  if (looks_like_nastran(beginning) || looks_like_dmig(beginning)) {
+    TextSource source(file);
+    return read_nastran(source, has_begin_bulk(beginning), {}, NastranPart::nodes);
   }
   FeModel model = read_fe_file(file);
   keep_nodes(model);

@@ -1,0 +1,45 @@
+#pragma once
+// From the content of Nastran bulk data to the model.
+#include <unordered_map>
+
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/nastran_content.hpp"
+
+namespace floatframe {
+
+/// Axes of a coordinate system in basic coordinates: x = origin + R x_local.
+struct NastranFrame {
+  Mat3 R = Mat3::Identity();
+  Vec3 origin = Vec3::Zero();
+  char kind = 'R';  ///< rectangular, cylindrical, spherical
+};
+
+struct NastranBuild {
+  const NastranContent& content;
+  TextSource& source;
+  FeModel model;
+  std::unordered_map<int, int> node_of;  ///< index of a node number
+  std::vector<char> turned;              ///< nodes whose displacements are in a turned system
+
+  NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
+  /// Index of a node; a fault and -1 if it is not there.
+  int node(int id, const FeSource& at, const std::string& who);
+  /// The system in basic coordinates; a fault (once a system) and basic axes if it is not there.
+  const NastranFrame& frame(int id, const FeSource& at);
+  void note(const FeSource& at, const std::string& text);
+
+ private:
+  NastranFrame made(int id, const FeSource& at);
+  std::map<int, NastranFrame> frames_;
+  std::set<int> open_;  // systems being made, to find circles
+};
+
+// nastran_build.cpp
+void build_nastran_nodes(NastranBuild& build);
+// nastran_build_elements.cpp
+void build_nastran_elements(NastranBuild& build, const FeReadOptions& options);
+// nastran_build_constraints.cpp
+void build_nastran_constraints(NastranBuild& build);
+void build_nastran_supports(NastranBuild& build);
+
+}  // namespace floatframe

@@ -1,0 +1,187 @@
+#include "floatframe/formats/nastran_cards.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "floatframe/formats/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+bool is_begin_bulk(std::string_view line) {
+  return same_word(next_word(line), "BEGIN") && begins_with(next_word(line), "BULK");
+}
+
+/// Continuation marks are compared without the sign that begins them.
+std::string_view without_sign(std::string_view mark) {
+  return !mark.empty() && (mark[0] == '+' || mark[0] == '*') ? mark.substr(1) : mark;
+}
+
+bool is_continuation(std::string_view name) {
+  return name.empty() || name[0] == '+' || name[0] == '*';
+}
+
+}  // namespace
+
+bool has_begin_bulk(std::string_view beginning) {
+  while (!beginning.empty()) {
+    const std::size_t end = std::min(beginning.find('\n'), beginning.size());
+    if (is_begin_bulk(trimmed(beginning.substr(0, end)))) return true;
+    beginning.remove_prefix(std::min(end + 1, beginning.size()));
+  }
+  return false;
+}
+
+NastranCards::NastranCards(TextSource& source, bool has_control) : source_(source) {
+  std::string_view line;
+  while (has_control && source_.next(line)) {
+    if (is_begin_bulk(trimmed(line))) return;
+  }
+}
+
+/// The next line that is neither blank nor a comment, without the comment at its end.
+bool NastranCards::next_text(std::string_view& text) {
+  while (source_.next(text)) {
+    const std::size_t dollar = text.find('$');
+    if (dollar != std::string_view::npos) {
+      comment(text.substr(dollar + 1));
+      text = text.substr(0, dollar);
+    }
+    if (!trimmed(text).empty()) return true;
+  }
+  return false;
+}
+
+/// "$HMNAME PROP 3"bracket" 4" (HyperMesh), "$ FEMAP Property 3 : bracket" (Femap).
+void NastranCards::comment(std::string_view text) {
+  std::string_view rest = text;
+  std::string_view word = next_word(rest);
+  const bool hypermesh = same_word(word, "HMNAME");
+  if (!hypermesh && !same_word(word, "FEMAP")) return;
+  word = next_word(rest);
+  const bool property = begins_with(word, "PROP");
+  if (!property && !begins_with(word, "MAT")) return;
+  const char separator = hypermesh ? '"' : ':';
+  const std::size_t open = rest.find(separator);
+  if (open == std::string_view::npos) return;
+  const auto number = parse_label(trimmed(rest.substr(0, open)));
+  std::string_view name = rest.substr(open + 1);
+  if (hypermesh) name = name.substr(0, name.find('"'));
+  name = trimmed(name);
+  if (number && !name.empty()) {
+    (property ? property_names_ : material_names_).try_emplace(*number, name);
+  }
+}
+
+void NastranCards::split(std::string_view text, Line& line) {
+  line.data.clear();
+  line.mark = {};
+  if (text.find(',') != std::string_view::npos) {
+    std::vector<std::string_view> fields;
+    split_commas(text, fields);
+    line.name = fields[0];
+    line.large = line.name.ends_with('*') || line.name.starts_with('*');
+    const std::size_t width = line.large ? 4 : 8;
+    if (fields.size() > width + 2) {
+      source_.fault(fmt::format("the line has {} fields; a line in free field has at most {}",
+                                fields.size(), width + 2));
+    }
+    for (std::size_t i = 1; i <= width; ++i) {
+      line.data.push_back(i < fields.size() ? fields[i] : std::string_view{});
+    }
+    if (fields.size() > width + 1) line.mark = fields[width + 1];
+    return;
+  }
+  if (text.find('\t') != std::string_view::npos) {
+    std::string wide;
+    for (const char c : text) {
+      if (c == '\t') {
+        wide.append(8 - wide.size() % 8, ' ');
+      } else {
+        wide += c;
+      }
+    }
+    text = expanded_.emplace_back(std::move(wide));
+  }
+  const auto columns = [text](std::size_t from, std::size_t width) {
+    return from < text.size() ? trimmed(text.substr(from, width)) : std::string_view{};
+  };
+  line.name = columns(0, 8);
+  line.large = line.name.ends_with('*') || line.name.starts_with('*');
+  const std::size_t width = line.large ? 16 : 8;
+  for (std::size_t from = 8; from < 72; from += width) line.data.push_back(columns(from, width));
+  line.mark = columns(72, 8);
+}
+
+/// INCLUDE 'file', also over several lines.
+void NastranCards::include(std::string_view text) {
+  const FeSource at = source_.here();
+  std::string path(trimmed(trimmed(text).substr(7)));
+  const char quote = !path.empty() && (path[0] == '\'' || path[0] == '"') ? path[0] : '\0';
+  std::string_view line;
+  while (quote != '\0' && path.find(quote, 1) == std::string::npos) {
+    if (path.size() > 4096 || !source_.next(line)) {
+      source_.stop(at, "the name of the included file has no closing quote");
+    }
+    path += trimmed(line);
+  }
+  if (quote != '\0') path = path.substr(1, path.find(quote, 1) - 1);
+  source_.include(path, at);
+}
+
+bool NastranCards::next(NastranCard& card) {
+  std::string_view text;
+  while (true) {
+    if (!next_text(text)) return false;
+    if (begins_with(trimmed(text), "INCLUDE") && text.find(',') == std::string_view::npos) {
+      include(text);
+      continue;
+    }
+    break;
+  }
+  if (begins_with(text, "ENDDATA")) return false;
+  Line line;
+  split(text, line);
+  if (is_continuation(line.name)) {
+    source_.stop(source_.here(),
+                 fmt::format("found a continuation {}, expected a card", shown(line.name)));
+  }
+  if (line.name[0] == '=') {
+    source_.stop(source_.here(), "repeated cards ('=') are not read; write them out");
+  }
+  card.name = upper_case(line.name);
+  if (card.name.back() == '*') card.name.pop_back();
+  card.name = std::string(trimmed(card.name));
+  card.fields = line.data;
+  card.continuations.clear();
+  card.at = source_.here();
+  std::string_view mark = line.mark;
+  while (next_text(text)) {
+    if (begins_with(trimmed(text), "INCLUDE")) {
+      source_.put_back();
+      break;
+    }
+    split(text, line);
+    if (!is_continuation(line.name)) {
+      source_.put_back();
+      break;
+    }
+    const std::string_view expected = without_sign(mark), found = without_sign(line.name);
+    if (!expected.empty() && !found.empty() && expected != found) {
+      source_.fault(
+          fmt::format("the continuation {} does not follow the card with this mark; the "
+                      "card before ({} in line {}) has {}",
+                      shown(line.name), card.name, card.at.line, shown(mark)));
+    }
+    const std::size_t width = line.large ? 4 : 8;
+    while (card.fields.size() % width != 0) card.fields.emplace_back();
+    card.continuations.emplace_back(card.fields.size(), source_.here());
+    card.fields.insert(card.fields.end(), line.data.begin(), line.data.end());
+    mark = line.mark;
+  }
+  while (!card.fields.empty() && card.fields.back().empty()) card.fields.pop_back();
+  return true;
+}
+
+}  // namespace floatframe

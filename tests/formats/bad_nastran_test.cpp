@@ -1,0 +1,198 @@
+// Faulty decks and matrices of Nastran: each gives the whole sentence with file and line.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/formats/nastran_cards.hpp"
+#include "floatframe/formats/read_dmig.hpp"
+#include "floatframe/formats/read_nastran.hpp"
+
+namespace floatframe::test {
+namespace {
+
+template <class Read>
+std::string fault_of(Read read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+std::string deck_fault(const std::string& text) {
+  return fault_of([&] {
+    TextSource source(text, "arm.bdf");
+    read_nastran(source, has_begin_bulk(text), {});
+  });
+}
+
+struct Fault {
+  const char* from;
+  const char* to;
+  const char* sentence;
+};
+
+const char* const deck =
+    "$ a bar, a tetrahedron and what holds them\n"  // 1
+    "GRID,1,,0.,0.,0.\n"                            // 2
+    "GRID,2,,1.,0.,0.\n"                            // 3
+    "GRID,3,,0.,1.,0.\n"                            // 4
+    "GRID,4,,0.,0.,1.\n"                            // 5
+    "CTETRA,1,1,1,2,3,4\n"                          // 6
+    "CBAR,2,2,1,2,0.,0.,1.\n"                       // 7
+    "PSOLID,1,1\n"                                  // 8
+    "PBAR,2,1,1.-3,1.-7,1.-7,2.-7\n"                // 9
+    "MAT1,1,2.+11,,.3,8000.\n"                      // 10
+    "CONM2,7,2,,1.5\n"                              // 11
+    "RBE2,8,1,123456,3,4\n"                         // 12
+    "SPC1,1,123,1\n"                                // 13
+    "ENDDATA\n";
+
+TEST(BadNastran, Decks) {
+  ASSERT_EQ(deck_fault(deck), "no fault");
+  const Fault faults[] = {
+      {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,44",
+       "arm.bdf:6: CTETRA 1 has node 44, which is not in the file"},
+      {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3", "arm.bdf:6: CTETRA 1: a node is missing"},
+      {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,4,1,2",
+       "arm.bdf:6: CTETRA 1: 2 of its 6 mid-side nodes are given; all or none must be"},
+      {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,x",
+       "arm.bdf:6: CTETRA 1: a node is 'x', expected a whole number from 1"},
+      {"CTETRA,1,1", "CPYRAM,1,1",
+       "arm.bdf:6: CPYRAM is not read and may change stiffness or mass"},
+      {"CTETRA,1,1", "CTETRA,2,1",
+       "arm.bdf:7: CBAR 2: this element number is in the file twice, first in line 6"},
+      {"CTETRA,1,1", "CTETRA,1,2", "arm.bdf:6: CTETRA 1: property 2 is a PBAR, expected a PSOLID"},
+      {"CTETRA,1,1", "CTETRA,1,5", "arm.bdf:6: CTETRA 1: property 5 is not in the file"},
+      {"GRID,2,,1.,0.,0.", "GRID,1,,1.,0.,0.",
+       "arm.bdf:3: node 1 is in the file twice, first in line 2\n"
+       "arm.bdf:6: CTETRA 1 has node 2, which is not in the file\n"
+       "arm.bdf:7: CBAR 2 has node 2, which is not in the file\n"
+       "arm.bdf:11: CONM2 7 has node 2, which is not in the file"},
+      {"GRID,2,,1.,0.,0.", "GRID,2,,1.,0.,0.,,777",
+       "arm.bdf:3: GRID 2: the held components PS are '777', expected some of the digits 1 to 6"},
+      {"GRID,2,,1.,0.,0.", "GRID,2,5,1.,0.,0.",
+       "arm.bdf:3: coordinate system 5 is not in the file"},
+      {"GRID,2,,1.,0.,0.", "CORD2R,6,6,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,2,6,1.,0.,0.",
+       "arm.bdf:3: coordinate system 6 refers to itself through its reference systems, or these "
+       "are "
+       "more than 100 deep"},
+      {"GRID,2,,1.,0.,0.", "CORD2R,6,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,2,6,1.,0.,0.",
+       "arm.bdf:3: coordinate system 6: its points A, B and C are on a line"},
+      {"GRID,2,,1.,0.,0.", "GRID,2,,1.0.0,0.,0.",
+       "arm.bdf:3: GRID 2: a coordinate: '1.0.0' is not a number"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,,8000.",
+       "arm.bdf:10: MAT1 1: one of E, G and NU given, expected two"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,.3",
+       "arm.bdf:10: MAT1 1: RHO is missing; give the density (0.0 if all mass is in point masses)"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT1,3,2.+11,,.3,8000.",
+       "arm.bdf:8: PSOLID: material 1 is not in the file"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT9,1,2.+11,,.3,8000.",
+       "arm.bdf:8: PSOLID: material 1 is a MAT9, only MAT1 is read"},
+      {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,CHAN\n,.1,.1,.1,.1",
+       "arm.bdf:9: PBARL 2: the section 'CHAN' is not read (ROD, TUBE, TUBE2, BAR and BOX are); "
+       "give A, I1, I2 and J with PBAR"},
+      {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2,0.,0.,1.\n,,,0.1",
+       "arm.bdf:8: CBAR 2: an offset of the ends (WA, WB) is '0.1', which is not supported"},
+      {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2",
+       "arm.bdf:7: CBAR 2: the orientation vector is missing"},
+      {"CONM2,7,2,,1.5", "CONM2,7,4,,1.5,.1", "no fault"},
+      {"RBE2,8,1,123456,3,4", "RBE2,8,1,123456", "arm.bdf:12: RBE2 8 has no nodes"},
+      {"RBE2,8,1,123456,3,4", "RBE3,8,,1,123,1.,123,3,4\n,2",
+       "arm.bdf:12: RBE3 8: REFC is '123', only 123456 is read"},
+      {"SPC1,1,123,1", "SPC1,1,123,50,THRU,60", "arm.bdf:13: SPC1: there is no node from 50 to 60"},
+      {"SPC1,1,123,1", "INCLUDE 'none.bdf'",
+       "arm.bdf:13: the include file 'none.bdf' cannot be read here"},
+      {"SPC1,1,123,1", "CELAS1,4,4,1,1,2,1\nCELAS1,5,4,1,2,2,2",
+       "arm.bdf:13: CELAS1 is not read and may change stiffness or mass (2 cards in the file)"},
+  };
+  for (const Fault& fault : faults) {
+    std::string text = deck;
+    const std::size_t at = text.find(fault.from);
+    ASSERT_NE(at, std::string::npos) << fault.from;
+    text.replace(at, std::string(fault.from).size(), fault.to);
+    EXPECT_EQ(deck_fault(text), fault.sentence) << fault.to;
+  }
+}
+
+TEST(BadNastran, Lines) {
+  EXPECT_EQ(deck_fault("+A      1\n"), "arm.bdf:1: found a continuation '+A', expected a card");
+  EXPECT_EQ(deck_fault("GRID    1               0.      0.      0.\n=       *(1)    =\n"),
+            "arm.bdf:2: repeated cards ('=') are not read; write them out");
+  EXPECT_EQ(
+      deck_fault("CTETRA  1       1       1       2       3       4       5       6       +A\n"
+                 "+B      7       8       9       10\n"),
+      "arm.bdf:2: the continuation '+B' does not follow the card with this mark; the card "
+      "before (CTETRA in line 1) has '+A'\narm.bdf: the file has no nodes (GRID)\n"
+      "arm.bdf:1: CTETRA 1 has node 1, which is not in the file");
+  EXPECT_EQ(deck_fault("GRID,1,,0.,0.,0.,,,,,,,,1\n"),
+            "arm.bdf:1: the line has 14 fields; a line in free field has at most 10");
+  EXPECT_EQ(deck_fault("$ nothing\n"), "arm.bdf: the file has no nodes (GRID)");
+  EXPECT_EQ(deck_fault(std::string("GRID,1,,0.\0\1\2", 14)),
+            "arm.bdf: the file is binary, not text: byte 0x00 in line 1");
+}
+
+/// One node with two degrees of freedom.
+const char* const punch =
+    "DMIG    KAAX           0       6       2       0                       2\n"  // 1
+    "DMIG*   KAAX                           1               1\n"                  // 2
+    "*                      1               1 2.000000000D+06\n"                  // 3
+    "DMIG*   KAAX                           1               2\n"                  // 4
+    "*                      1               1-1.000000000D+06\n"                  // 5
+    "*                      1               2 3.000000000D+06\n"                  // 6
+    "DMIG    MAAX           0       6       2       0                       2\n"  // 7
+    "DMIG*   MAAX                           1               1\n"                  // 8
+    "*                      1               1 1.000000000D+00\n"                  // 9
+    "DMIG*   MAAX                           1               2\n"                  // 10
+    "*                      1               2 1.000000000D+00\n";                 // 11
+
+std::string punch_fault(const std::string& text) {
+  return fault_of([&] {
+    TextSource nodes("GRID,1,,0.,0.,0.\n", "arm.bdf"), source(text, "arm.pch");
+    read_dmig(source, nullptr, read_nastran(nodes, false, {}, NastranPart::nodes));
+  });
+}
+
+TEST(BadNastran, Matrices) {
+  ASSERT_EQ(punch_fault(punch), "no fault");
+  const Fault faults[] = {
+      {"KAAX           0       6", "KAAX           0       9",
+       "arm.pch:1: DMIG: IFO is 9, expected 1 (square) or 6 (symmetric)"},
+      {"MAAX           0       6       2", "MAAX           0       6       4",
+       "arm.pch:7: DMIG: TIN is 4, expected 1 or 2 (real)"},
+      {"2 3.000000000D+06", "2 3.0000000z0D+06",
+       "arm.pch:6: DMIG: an entry: '3.0000000z0D+06' is not a number"},
+      {"DMIG*   KAAX                           1               2",
+       "DMIG*   KAAX                        1001               0",
+       "arm.pch:4: row 1001 of matrix KAAX is a scalar point, as reduced models have for their "
+       "modes; write matrices without modal degrees of freedom (no QSET and SPOINT): the reduction "
+       "is made here"},
+      {"*                      1               2 3.000000000D+06\n", "",
+       "arm.pch:10: the stiffness ends without a diagonal entry for 1.2 and 0 more: the file is "
+       "truncated or "
+       "does not belong to these degrees of freedom"},
+      {"DMIG*   MAAX                           1               2",
+       "DMIG*   MAAX                           1               3",
+       "arm.pch:11: degree of freedom 1.3 of MAAX is not in KAAX"},
+      {"*                      1               1-1.000000000D+06",
+       "*                      1               2-1.000000000D+06",
+       "arm.pch:6: the stiffness entry (1.2, 1.2) is there already (line 5)\n"
+       "arm.pch:5: the stiffness entry (1.2, 1.2) on the diagonal is -1e+06, expected no negative "
+       "value"},
+  };
+  for (const Fault& fault : faults) {
+    std::string text = punch;
+    const std::size_t at = text.find(fault.from);
+    ASSERT_NE(at, std::string::npos) << fault.from;
+    text.replace(at, std::string(fault.from).size(), fault.to);
+    EXPECT_EQ(punch_fault(text), fault.sentence) << fault.to;
+  }
+  EXPECT_EQ(
+      punch_fault(std::string(punch).substr(0, std::string(punch).find("DMIG    MAAX"))),
+      "arm.pch: the file has no mass matrix (its matrices: KAAX); expected one whose name begins "
+      "with M; or give the mass file");
+}
+
+}  // namespace
+}  // namespace floatframe::test
