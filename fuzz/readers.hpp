@@ -10,7 +10,9 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/unit_system.hpp"
+#include "floatframe/formats/body_file.hpp"
 #include "floatframe/formats/matrix_model.hpp"
+#include "floatframe/formats/npy.hpp"
 #include "floatframe/formats/read_abaqus.hpp"
 #include "floatframe/formats/nastran_cards.hpp"
 #include "floatframe/formats/read_dmig.hpp"
@@ -19,6 +21,7 @@
 #include "floatframe/formats/read_nastran.hpp"
 #include "floatframe/formats/sid_file.hpp"
 #include "floatframe/formats/text_source.hpp"
+#include "floatframe/formats/zip_store.hpp"
 
 namespace floatframe::fuzz {
 
@@ -93,6 +96,46 @@ inline void dmig(std::string_view bytes) {
 
 inline void sid(std::string_view bytes) { parse_sid(bytes, "fuzz.sid"); }
 
+/// Checksums would keep every change away from the reader: the first line names a member of a sound
+/// file, the rest takes its place. The bytes alone are tried as an archive and as an array too.
+inline void body_file(std::string_view bytes) {
+  static const std::string sound = [] {
+    BodyFile content;
+    FlexibleBody& body = content.part.body;
+    body.invariants = InertiaInvariants::zero(2);
+    body.invariants.m = 1.0;
+    body.K = body.D = MatX::Identity(2, 2);
+    body.fixed_interface_frequencies = VecX::Ones(1);
+    body.mode_names = {"a", "b"};
+    body.nodes = {{"tip", Vec3::Zero(), Mat3X::Zero(3, 2), Mat3X::Zero(3, 2)}};
+    content.part.surface.nodes = {0, 1, 2};
+    content.part.surface.triangles = {{0, 1, 2}};
+    content.part.surface_positions = Mat3X::Zero(3, 3);
+    content.part.surface_modes = MatX::Zero(9, 2);
+    ProjectionData data;
+    data.p = Mat3X::Zero(3, 2);
+    data.X = MatX::Zero(6, 2);
+    data.M_s.resize(2, 2);
+    data.M_s.setIdentity();
+    body.projection = std::make_shared<const ProjectionData>(data);
+    return body_file_bytes(content);
+  }();
+  try {
+    read_zip(bytes, "fuzz.ffb");
+  } catch (const InputError&) {
+  }
+  try {
+    read_npy(bytes);
+  } catch (const InputError&) {
+  }
+  const std::size_t line = bytes.find('\n');
+  if (line == std::string_view::npos) return;
+  std::vector<ZipMember> members = read_zip(sound, "sound.ffb");
+  for (ZipMember& m : members)
+    if (m.name == bytes.substr(0, line)) m.content = bytes.substr(line + 1);
+  read_body_bytes(zip_archive(members), "fuzz.ffb");
+}
+
 struct Reader {
   const char* name;
   void (*read)(std::string_view bytes);
@@ -108,6 +151,7 @@ inline constexpr Reader readers[] = {
     {"nastran", nastran},
     {"dmig", dmig},
     {"sid", sid},
+    {"body_file", body_file},
 };
 
 /// Reads and forgets. Everything but an InputError is a fault of the reader.

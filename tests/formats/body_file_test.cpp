@@ -167,6 +167,12 @@ TEST(BodyFile, RigidPartWithoutSurface) {
   file.part.body.K = file.part.body.D = MatX::Zero(0, 0);
   file.part.surface_positions = Mat3X::Zero(3, 0);
   expect_equal(file, read_body_bytes(body_file_bytes(file), "x"));
+  BodyFile soft = bracket();
+  soft.part.surface = {};
+  soft.part.surface_positions.resize(3, 0);
+  soft.part.surface_modes.resize(0, 0);
+  soft.part.surface_stress.resize(0, 0);
+  EXPECT_EQ(read_body_bytes(body_file_bytes(soft), "x").part.body.modes(), 5);
 }
 
 TEST(BodyFile, EqualContentsGiveEqualBytes) {

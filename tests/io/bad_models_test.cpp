@@ -41,6 +41,34 @@ const Case cases[] = {
      "alias_and_merge.yaml:5:5: merge keys (<<) are not allowed, use parameters or subsystems"
      "\n"
      "alias_and_merge.yaml:5:9: aliases (*name) are not allowed, use parameters"},
+    {"align_away.yaml",
+     "align_away.yaml:6:19: bodies.arm.align.foot: the marker stays 0.009623105 m away from its "
+     "point, expected at most 1e-06 m (align_tolerance)"
+     "\n"
+     "align_away.yaml:6:28: bodies.arm.align.knee: the marker stays 0.012830561 m away from its "
+     "point, expected at most 1e-06 m (align_tolerance)"
+     "\n"
+     "align_away.yaml:6:36: bodies.arm.align.eye: the marker stays 0.022340765 m away from its "
+     "point, expected at most 1e-06 m (align_tolerance)"},
+    {"align_bars.yaml",
+     "align_bars.yaml:10:12: bodies.arm.align: found with bars, which are in place already, "
+     "expected a part from a file"},
+    {"align_few.yaml",
+     "align_few.yaml:6:12: bodies.arm.align: found 2 markers, expected at least three that do not "
+     "lie on a line"},
+    {"align_line.yaml",
+     "align_line.yaml:6:12: bodies.arm.align: found points on a line, expected at least three that "
+     "do not lie on a line"},
+    {"align_rigid.yaml",
+     "align_rigid.yaml:6:12: bodies.arm.align: found on a rigid body, expected a part with "
+     "markers"},
+    {"align_unknown.yaml",
+     "align_unknown.yaml:7:12: bodies.arm.align: found with 'position', expected one of them"
+     "\n"
+     "align_unknown.yaml:7:22: bodies.arm.align.kne: the part has no marker 'kne', did you mean "
+     "'knee'?"
+     "\n"
+     "align_unknown.yaml:7:35: bodies.arm.align.eye: unknown point 'f'"},
     {"amplitudes.yaml",
      "amplitudes.yaml:12:21: initial.amplitudes.arm: found a list of 2, expected a list of 1 "
      "amplitudes, one a mode"},
@@ -208,6 +236,83 @@ const Case cases[] = {
      "another"},
     {"parameter_name.yaml",
      "parameter_name.yaml:2:14: parameters.sqrt: the name is used by the expression language"},
+    {"part_damaged.yaml",
+     "part_damaged.yaml:3:19: bodies.arm.flexible: parts/not_a_body.ffb: this is not a zip archive "
+     "(it does not begin with PK)"
+     "\n"
+     "part_damaged.yaml:4:19: bodies.leg.flexible: nowhere.ffb: the file does not exist"},
+    {"part_interfaces.yaml",
+     "part_interfaces.yaml:8:9: bodies.arm.flexible.interfaces.a: found 2 ways to choose nodes, "
+     "expected one of set, node, nearest, plane, cylinder, sphere"
+     "\n"
+     "part_interfaces.yaml:9:9: bodies.arm.flexible.interfaces.b: found 0 ways to choose nodes, "
+     "expected one of set, node, nearest, plane, cylinder, sphere"
+     "\n"
+     "part_interfaces.yaml:10:48: bodies.arm.flexible.interfaces.c.cylinder.axis: found a vector "
+     "of length zero, expected a direction"
+     "\n"
+     "part_interfaces.yaml:10:67: bodies.arm.flexible.interfaces.c.cylinder.radius: found -1, "
+     "expected a positive number"
+     "\n"
+     "part_interfaces.yaml:11:27: bodies.arm.flexible.interfaces.d.type: found 'stiff', expected "
+     "rigid or mean"
+     "\n"
+     "part_interfaces.yaml:11:40: bodies.arm.flexible.interfaces.d.dofs: found 'xyz', expected all "
+     "or a list of x, y, z, rx, ry, rz"
+     "\n"
+     "part_interfaces.yaml:12:13: bodies.arm.flexible.interfaces.e.sphere: missing key 'radius'"
+     "\n"
+     "part_interfaces.yaml:12:29: bodies.arm.flexible.interfaces.e.sphere.point: found a list of "
+     "2, expected a list of three numbers [x, y, z]"
+     "\n"
+     "part_interfaces.yaml:14:12: bodies.arm.flexible.markers.a: found the name twice in "
+     "interfaces and markers, expected once"},
+    {"part_not_at_a_marker.yaml",
+     "part_not_at_a_marker.yaml:6:42: joints.pin.at: found the point [0.6, 0, 0.2] on the flexible "
+     "body 'arm', expected one of its nodes; the nearest is at [0.3, 0, 0.1]"},
+    {"part_options.yaml",
+     "part_options.yaml:7:15: bodies.arm.flexible.method: found 'craig', expected craig_bampton, "
+     "free_free or craig_chang, did you mean 'craig_chang'?"
+     "\n"
+     "part_options.yaml:8:20: bodies.arm.flexible.integration: found 'gauss', expected exact or ccx"
+     "\n"
+     "part_options.yaml:9:25: bodies.arm.flexible.reference.node: unknown interface 'BAL', did you "
+     "mean 'BALL'?"
+     "\n"
+     "part_options.yaml:10:16: bodies.arm.flexible.damping: found 2, expected a fraction of "
+     "critical damping from 0 to 1"
+     "\n"
+     "part_options.yaml:11:23: bodies.arm.flexible.effective_mass: found 1.5, expected a number "
+     "above 0 and up to 1"
+     "\n"
+     "part_options.yaml:12:14: bodies.arm.flexible.modes: found -1, expected a number of modes (a "
+     "whole number from 0 to 10000)"
+     "\n"
+     "part_options.yaml:13:7: bodies.arm.flexible: unknown key 'fmx', did you mean 'fmax'?"},
+    {"part_rigid_uses.yaml",
+     "part_rigid_uses.yaml:5:24: initial.amplitudes.arm: found a body that is switched to rigid "
+     "(flexible: false) and has no modal amplitudes, expected a flexible one"
+     "\n"
+     "part_rigid_uses.yaml:7:27: outputs.bend.modal_amplitude: found a body that is switched to "
+     "rigid (flexible: false) and has no modal amplitudes, expected a flexible one"
+     "\n"
+     "part_rigid_uses.yaml:8:37: outputs.tip.position.node: the body 'arm' has no node 'eyes', did "
+     "you mean 'eye'?"},
+    {"part_switch_alone.yaml",
+     "part_switch_alone.yaml:4:19: bodies.arm.flexible: found ${flex} = false without 'part', "
+     "expected a part: bars, a finite-element file or the name of a body file"},
+    {"part_twice.yaml",
+     "part_twice.yaml:5:15: bodies.arm.flexible: found '../body_files/bracket_v1.ffb' beside "
+     "'part', expected true or false (or one of the two keys)"
+     "\n"
+     "part_twice.yaml:8:15: bodies.leg.flexible: found a list of 1 beside 'part', expected true or "
+     "false (or one of the two keys)"},
+    {"part_units.yaml",
+     "part_units.yaml:3:9: bodies.arm.flexible: missing key 'units'"
+     "\n"
+     "part_units.yaml:4:48: bodies.leg.flexible.units: unknown unit system 'mm-t-ss', did you mean "
+     "'mm-t-s'?; known are m-kg-s, si, mm-t-s, mm-kg-ms, mm-kg-s, mm-g-ms, cm-g-s, in-lbf-s, "
+     "ft-slug-s, or any <length>-<mass>-<time>"},
     {"poisson.yaml",
      "poisson.yaml:6:40: bodies.arm.flexible.material.poisson: found 0.5, expected a number above "
      "-1 and below 0.5"},

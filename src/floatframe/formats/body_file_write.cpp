@@ -114,7 +114,9 @@ std::string body_file_bytes(const BodyFile& content) {
   add("surface_triangles", array_of(surface.triangles));
   add("surface_lines", array_of(surface.lines));
   add("surface_positions", array_of(part.surface_positions.transpose()));
-  add("surface_modes", grouped_array(part.surface_modes, 3));
+  add("surface_modes",
+      grouped_array(part.surface_modes.size() > 0 ? part.surface_modes : MatX(MatX::Zero(0, nm)),
+                    3));
   if (part.surface_stress.size() > 0) add("surface_stress", grouped_array(part.surface_stress, 6));
   if (body.projection) {
     const ProjectionData& data = *body.projection;

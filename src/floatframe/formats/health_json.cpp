@@ -60,6 +60,7 @@ void fields(IO& io, HealthReport& r) {
   io("volume_times_density_kg", r.volume_times_density);
   io("rigid_eigenvalues", r.rigid_eigenvalues);
   io("rigid_residual", r.rigid_residual);
+  io("modal_mass_condition", r.modal_mass_condition);
   io("normal_modes", r.normal_modes);
   io("free_frequencies", r.free_frequencies);
   io("interfaces", r.interfaces);

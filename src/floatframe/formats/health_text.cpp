@@ -49,8 +49,10 @@ std::string rigid_text(const HealthReport& r) {
     for (int k = 0; k < 6; ++k) text += fmt::format(" {:.1e}", (*r.rigid_eigenvalues)[k]);
     text += '\n';
   }
-  return text +
-         fmt::format("  largest force of a rigid motion, |K R| / |K|: {:.1e}\n", r.rigid_residual);
+  return text + fmt::format(
+                    "  largest force of a rigid motion, |K R| / |K|: {:.1e}\n"
+                    "  condition of the modal mass, each mode scaled: {:.1e}\n",
+                    r.rigid_residual, r.modal_mass_condition);
 }
 
 std::string interfaces_text(const HealthReport& r) {

@@ -73,13 +73,14 @@ std::vector<InputFault> sorted(std::vector<InputFault> faults, const ModelFiles&
 }  // namespace
 
 ModelDescription read_model(const std::string& path,
-                            const std::vector<ParameterOverride>& overrides,
-                            ModelFingerprint* used) {
+                            const std::vector<ParameterOverride>& overrides, ModelFingerprint* used,
+                            const ReadOptions& options) {
   std::optional<FilesRead> record;
   if (used) record.emplace(used->files);
   Faults faults;
   ModelFiles files(faults);
   ReadModel model;
+  model.options = options;
   const auto root = load_instances(path, overrides, files, faults);
   if (root && used) {
     for (const auto& [name, value] : root->scope) used->parameters.push_back(name);

@@ -71,6 +71,67 @@ RigidRead read_rigid(const ModelInstance& self, YamlSection s) {
   return r;
 }
 
+/// Which part, and whether it bends.
+struct PartChoice {
+  std::optional<YamlValue> value;  ///< of `part`, or of `flexible` alone
+  bool on = true;                  ///< flexible: true or false beside `part`
+  bool sound = true;
+};
+
+PartChoice read_choice(YamlSection& s) {
+  PartChoice out;
+  out.value = s.get("part");
+  const auto flexible = s.get("flexible");
+  if (!flexible) return out;
+  // A switch is true or false, also as the value of an expression.
+  std::optional<bool> on;
+  const std::size_t before = flexible->context().faults->size();
+  if (flexible->is_scalar())
+    if (const auto v = flexible->parameter())
+      if (const auto* truth = std::get_if<bool>(&*v)) on = *truth;
+  if (flexible->context().faults->size() > before) {
+    out.sound = false;
+    return out;
+  }
+  if (out.value) {
+    if (on)
+      out.on = *on;
+    else
+      flexible->fault("found " + flexible->found() +
+                      " beside 'part', expected true or false (or one of the two keys)");
+  } else if (on) {
+    flexible->fault("found " + flexible->found() +
+                    " without 'part', expected a part: bars, a finite-element file or the name "
+                    "of a body file");
+    out.sound = false;
+  } else {
+    out.value = flexible;
+  }
+  return out;
+}
+
+/// The design pose of a part and, with it, the world places of its nodes.
+void place_part(const ModelInstance& self, YamlSection& s, FlexibleRead& part,
+                const std::optional<Vec3>& position, const std::optional<YamlValue>& align,
+                double tolerance, BodyDescription& body) {
+  if (!part.body) {  // bars are written in the coordinates of the model file
+    if (align && part.sound)
+      align->fault("found with bars, which are in place already, expected a part from a file");
+    body.X_WB.p = position.value_or(part.first_point);
+    return;
+  }
+  body.X_WB.p = position.value_or(Vec3::Zero());
+  if (align) {
+    for (const char* key : {"position", "orientation"})
+      if (s.has(key)) align->fault(std::string("found with '") + key + "', expected one of them");
+    if (const auto X = read_alignment(self, *align, tolerance, *part.body))
+      body.X_WB = *X;
+    else
+      part.sound = false;
+  }
+  for (Vec3& p : part.nodes) p = body.X_WB * p;
+}
+
 void read_body(const ModelInstance& self, const std::string& name, YamlSection& s,
                ReadModel& model) {
   BodyDescription body;
@@ -82,21 +143,23 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
   if (position_value) position = self.read_point(*position_value);
   if (const auto v = s.get("orientation")) body.X_WB.R = read_orientation(*v);
   const auto rigid_value = s.get("rigid");
-  const auto flexible_value = s.get("flexible");
+  const PartChoice part = read_choice(s);
+  const double tolerance = s.number("align_tolerance", positive_number("m"), 1e-6);
+  const auto align = s.get("align");
   std::optional<std::size_t> use;
   if (const auto v = s.get("use")) {
     use = v->word({"rigid", "flexible"});
-    if (use && ((*use == 0 && !rigid_value) || (*use == 1 && !flexible_value)))
+    if (use && ((*use == 0 && !rigid_value) || (*use == 1 && !part.value)))
       v->fault("found " + std::string(*use == 0 ? "rigid" : "flexible") +
                ", but the body has no such group");
-  } else if (rigid_value && flexible_value) {
+  } else if (rigid_value && part.value) {
     s.fault("found both rigid and flexible, expected a key 'use' that says which");
   }
   s.finish({"rigid.mass", "rigid.centre_of_mass", "rigid.inertia", "flexible.material",
             "flexible.bars", "flexible.masses", "flexible.clamped", "flexible.static_modes",
             "flexible.normal_modes", "flexible.mass_model", "flexible.damping"});
-  if (!rigid_value && !flexible_value) {
-    s.fault("missing key 'rigid' or 'flexible'");
+  if (!rigid_value && !part.value) {
+    if (part.sound) s.fault("missing key 'rigid' or 'flexible'");
     known.sound = false;
   }
 
@@ -107,21 +170,26 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
       for (const auto& [key, mark] : group->origin().keys) body.origin.keys.emplace(key, mark);
       rigid = read_rigid(self, *group);
     }
-  if (flexible_value)
-    if (auto group = flexible_value->section("a map with material, bars and modes")) {
-      for (const auto& [key, mark] : group->origin().keys) body.origin.keys.emplace(key, mark);
-      flexible = read_flexible(self, *group);
-    }
-  const bool take_flexible = flexible_value && (!rigid_value || (use && *use == 1));
-  known.flexible = take_flexible;
-  if (take_flexible && flexible) {
-    body.X_WB.p = position.value_or(flexible->first_point);
+  if (part.value) {
+    if (part.value->is_map())
+      for (const auto& [key, mark] : YamlSection(*part.value).origin().keys)
+        body.origin.keys.emplace(key, mark);
+    flexible = read_part(self, model, body.name, *part.value);
+  }
+  const bool take_part = part.value && (!rigid_value || (use && *use == 1));
+  if (take_part) {
+    known.flexible = part.on;
+    body.rigid = !part.on;
+    place_part(self, s, *flexible, position, align, tolerance, body);
     known.sound = flexible->sound;
     known.nodes = std::move(flexible->nodes);
     known.named_nodes = std::move(flexible->named_nodes);
     known.modes = flexible->modes;
-    body.kind = std::move(flexible->description);
-  } else if (!take_flexible && rigid) {
+    if (flexible->body)
+      body.kind = std::move(*flexible->body);
+    else
+      body.kind = std::move(flexible->description);
+  } else if (rigid) {
     const Vec3 centre = rigid->centre.value_or(position.value_or(Vec3::Zero()));
     if (!rigid->centre && !position_value && rigid_value && !rigid_value->node().entries.empty() &&
         !s.has("position")) {
@@ -130,6 +198,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
         given = given || e.key == "centre_of_mass";
       if (!given) s.fault("found neither position nor rigid.centre_of_mass, expected at least one");
     }
+    if (align) align->fault("found on a rigid body, expected a part with markers");
     body.X_WB.p = position.value_or(centre);
     rigid->description.p_BC = body.X_WB.R.transpose() * (centre - body.X_WB.p);
     body.kind = rigid->description;

@@ -1,5 +1,5 @@
-// The `flexible` group of a body: bars, sections, reference, modes; with the checks that need the
-// geometry.
+// The group of a flexible body made of bars: material, masses, reference, modes; with the checks
+// that need the geometry.
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -15,12 +15,6 @@ namespace {
 
 const std::vector<std::string> dof_names{"x", "y", "z", "rx", "ry", "rz"};
 
-struct BarGeometry {
-  Vec3 from = Vec3::Zero(), to = Vec3::Zero();
-  int elements = 1;
-  bool sound = false;
-};
-
 class FlexibleReader {
  public:
   FlexibleReader(const ModelInstance& self, YamlSection& section)
@@ -28,13 +22,7 @@ class FlexibleReader {
 
   FlexibleRead read() {
     material();
-    if (const auto bars = section_.require("bars")) {
-      const auto list = bars->named("a map of names to bars");
-      if (bars->is_map() && list.empty()) bars->fault("found no bars, expected at least one");
-      for (const auto& [name, value] : list) bar(name, value);
-    }
-    out_.sound = sound_ && !geometry_.empty();
-    if (out_.sound) connectivity();
+    read_bars(self_, section_, out_);
     masses();
     modes();
     section_.finish();
@@ -56,225 +44,12 @@ class FlexibleReader {
     m->finish();
   }
 
-  SectionDescription cross_section(const YamlValue& value) {
-    const SectionDescription absent = SolidRound{1.0};
-    auto s = value.section("a map with round, tube, rectangle, or area, Iy, Iz, J");
-    if (!s) return absent;
-    SectionDescription result = absent;
-    int forms = 0;
-    if (const auto v = s->get("round")) {
-      ++forms;
-      result = SolidRound{v->number(positive_number("m")).value_or(1.0)};
-    }
-    if (const auto v = s->get("tube")) {
-      ++forms;
-      const auto d = v->numbers(2, 2, positive_number("m"), "outer and inner diameter [D, d] [m]");
-      if (d && (*d)[1] >= (*d)[0])
-        v->fault("found the inner diameter " + number_text((*d)[1]) +
-                 ", expected less than the outer one, " + number_text((*d)[0]) + " [m]");
-      else if (d)
-        result = HollowRound{(*d)[0], (*d)[1]};
-    }
-    if (const auto v = s->get("rectangle")) {
-      ++forms;
-      const auto d = v->numbers(2, 2, positive_number("m"), "width and height [w, h] [m]");
-      if (d) result = Rectangle{(*d)[0], (*d)[1]};
-    }
-    const bool explicit_form = s->has("area") || s->has("Iy") || s->has("Iz") || s->has("J");
-    if (explicit_form) {
-      ++forms;
-      SectionConstants c;
-      c.A = s->required_number("area", positive_number("m2"), 1.0);
-      c.Iy = s->required_number("Iy", positive_number("m4"), 1.0);
-      c.Iz = s->required_number("Iz", positive_number("m4"), 1.0);
-      c.J = s->required_number("J", positive_number("m4"), 1.0);
-      result = c;
-    } else {
-      for (const char* k : {"area", "Iy", "Iz", "J"}) s->get(k);
-    }
-    s->finish();
-    if (forms != 1)
-      s->fault("found " + std::to_string(forms) +
-               " sections, expected one of round, tube, rectangle, or area, Iy, Iz, J");
-    return result;
-  }
-
-  /// A point name of this file.
-  std::optional<std::string> point_name(const YamlValue& value) {
-    const auto name = value.text("the name of a point");
-    if (!name) return std::nullopt;
-    const auto p = self_.points.find(*name);
-    if (p == self_.points.end()) {
-      std::vector<std::string> known;
-      for (const auto& [key, unused] : self_.points) known.push_back(key);
-      value.fault("unknown point '" + *name + "'" + did_you_mean(*name, known));
-      return std::nullopt;
-    }
-    if (!p->second.allFinite()) return std::nullopt;
-    f().points.emplace(*name, p->second);
-    return name;
-  }
-
-  std::size_t node_at(const std::string& name, const Vec3& p) {
-    const auto it = out_.named_nodes.find(name);
-    if (it != out_.named_nodes.end()) return it->second;
-    out_.nodes.push_back(p);
-    return out_.named_nodes.emplace(name, out_.nodes.size() - 1).first->second;
-  }
-
-  void bar(const std::string& name, const YamlValue& value) {
-    auto s = value.section("a bar with from, to, elements, section");
-    if (!s) {
-      sound_ = false;
-      return;
-    }
-    BarDescription b;
-    BarGeometry g;
-    b.name = name;
-    b.origin = s->origin();
-    std::size_t start = 0;
-    bool good = true;
-    const auto elements = s->require("elements");
-    b.elements = elements ? elements->integer(1, 100000, "a number of elements").value_or(1) : 1;
-    const auto from = s->require("from");
-    if (from && from->is_map()) {
-      good = branch(*from, b, g, start);
-    } else {
-      const auto p = from ? point_name(*from) : std::nullopt;
-      good = p.has_value();
-      if (p) {
-        b.from = *p;
-        g.from = f().points.at(*p);
-        start = node_at(*p, g.from);
-        graph(start);
-      }
-    }
-    const auto to = s->require("to");
-    const auto q = to ? point_name(*to) : std::nullopt;
-    good = good && q;
-    if (q) b.to = *q, g.to = f().points.at(*q);
-    if (const auto v = s->require("section")) b.section = cross_section(*v);
-    const auto reference = s->get("reference");
-    const auto direction = reference ? read_direction(*reference) : std::nullopt;
-    s->finish();
-    if (good) {
-      const Vec3 axis = g.to - g.from;
-      if (!(axis.norm() > 1e-9)) {
-        s->fault("found length " + number_text(axis.norm()) +
-                 ", expected a bar of positive length [m]");
-        good = false;
-      } else {
-        const auto parallel = [&](const Vec3& r) {
-          return r.cross(axis).norm() <= 1e-3 * r.norm() * axis.norm();
-        };
-        b.reference = direction.value_or(parallel(Vec3::UnitZ()) ? Vec3::UnitX() : Vec3::UnitZ());
-        if (direction && parallel(*direction))
-          reference->fault("found a direction parallel to the bar, expected another");
-      }
-    }
-    g.elements = b.elements;
-    g.sound = good;
-    if (good) {
-      const std::size_t before = out_.nodes.size();
-      for (int k = 1; k < b.elements; ++k) {
-        out_.nodes.push_back(g.from + (g.to - g.from) * k / b.elements);
-        graph(out_.nodes.size() - 1);
-      }
-      const std::size_t end = node_at(b.to, g.to);
-      graph(end);
-      inner_[name] = before;
-      starts_[name] = start;
-      unite(start, end);
-      for (int k = 1; k < b.elements; ++k) unite(start, before + static_cast<std::size_t>(k) - 1);
-      if (f().bars.empty()) out_.first_point = g.from;
-      links_.emplace_back(start, value);
-    } else {
-      sound_ = false;
-    }
-    geometry_[name] = g;
-    f().bars.push_back(std::move(b));
-  }
-
-  /// from: {bar: name, at: fraction}
-  bool branch(const YamlValue& value, BarDescription& b, BarGeometry& g, std::size_t& start) {
-    auto s = value.section();
-    const auto bar_value = s->require("bar");
-    const auto at_value = s->require("at");
-    s->finish();
-    const auto name = bar_value ? bar_value->text("the name of an earlier bar") : std::nullopt;
-    const NumberRule share{"a number from 0 to 1", "", 0.0, 1.0};
-    const double at = at_value ? at_value->number(share).value_or(-1.0) : -1.0;
-    if (!name) return false;
-    const auto it = geometry_.find(*name);
-    if (it == geometry_.end()) {
-      std::vector<std::string> known;
-      for (const auto& [key, unused] : geometry_) known.push_back(key);
-      bar_value->fault("unknown bar '" + *name + "'" + did_you_mean(*name, known) +
-                       " (bars are known after they are written)");
-      return false;
-    }
-    if (at < 0.0 || !it->second.sound) return false;
-    const BarGeometry& other = it->second;
-    const double position = at * other.elements;
-    const double nearest = std::round(position);
-    if (std::abs(position - nearest) > 1e-6) {
-      const double low = std::floor(position), high = std::ceil(position);
-      at_value->fault("found " + number_text(at) + ", but bar '" + *name + "' has " +
-                      std::to_string(other.elements) +
-                      " elements and no node there; the nearest are at " +
-                      fraction(low, other.elements) + " and " + fraction(high, other.elements));
-      return false;
-    }
-    b.from_bar = *name;
-    b.from_fraction = at;
-    g.from = other.from + (other.to - other.from) * (nearest / other.elements);
-    const int k = static_cast<int>(nearest);
-    start = k == 0                ? starts_[*name]
-            : k == other.elements ? end_of(*name)
-                                  : inner_[*name] + static_cast<std::size_t>(k) - 1;
-    return true;
-  }
-
-  std::size_t end_of(const std::string& bar_name) {
-    for (const BarDescription& b : f().bars)
-      if (b.name == bar_name) return out_.named_nodes.at(b.to);
-    return 0;
-  }
-
-  static std::string fraction(double k, int n) {
-    return number_text(k) + "/" + std::to_string(n) + " = " +
-           number_text(std::round(k / n * 1e6) / 1e6);
-  }
-
-  // Which nodes hang together.
-  void graph(std::size_t node) {
-    while (parent_.size() <= node) parent_.push_back(parent_.size());
-  }
-  std::size_t leader(std::size_t n) {
-    while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
-    return n;
-  }
-  void unite(std::size_t a, std::size_t b) {
-    graph(std::max(a, b));
-    parent_[leader(a)] = leader(b);
-  }
-  void connectivity() {
-    for (const auto& [node, value] : links_)
-      if (leader(node) != leader(links_.front().first)) {
-        value.context().faults->add(value.entity_mark(),
-                                    value.path() + ": the bar is not connected to '" +
-                                        f().bars.front().name +
-                                        "', expected all bars of a body to hang together");
-        return;
-      }
-  }
-
   /// A node of this body by the name of its point.
   std::optional<std::string> node_name(const YamlValue& value) {
     const auto name = value.text("the name of an end point of a bar");
     if (!name) return std::nullopt;
     if (out_.named_nodes.count(*name)) return name;
-    if (!sound_) return std::nullopt;
+    if (!out_.sound) return std::nullopt;
     std::vector<std::string> known;
     for (const auto& [key, unused] : out_.named_nodes) known.push_back(key);
     value.fault("found '" + *name + "', expected an end point of a bar of this body" +
@@ -402,7 +177,7 @@ class FlexibleReader {
       f().normal_modes = n.value_or(0);
       const auto rows = static_cast<int>(out_.nodes.size()) *
                         (f().mass_model == MassModel::isoparametric ? 3 : 6);
-      if (n && sound_ && *n > rows)
+      if (n && out_.sound && *n > rows)
         normal->fault("found " + std::to_string(*n) + " modes, expected at most " +
                       std::to_string(rows) + ", the number of degrees of freedom with mass");
     }
@@ -455,10 +230,7 @@ class FlexibleReader {
   void read_basis(const YamlValue& value) {
     const auto name = value.text("the name of a CSV file");
     if (!name) return;
-    const std::string& own = self_.document->file;
-    const std::size_t slash = own.find_last_of('/');
-    const std::string file =
-        (*name)[0] == '/' || slash == std::string::npos ? *name : own.substr(0, slash + 1) + *name;
+    const std::string file = beside(self_, *name);
     std::string text;
     if (!read_text_file(file, text, *value.context().faults, value.mark(), value.path())) return;
     std::vector<std::vector<double>> rows;
@@ -489,7 +261,7 @@ class FlexibleReader {
                         std::to_string(rows.front().size()) + " as in the first row");
       rows.push_back(std::move(row));
     }
-    if (sound_ && rows.size() != 6 * out_.nodes.size()) {
+    if (out_.sound && rows.size() != 6 * out_.nodes.size()) {
       value.fault("'" + file + "' has " + std::to_string(rows.size()) +
                   " rows, expected 6 for each of the " + std::to_string(out_.nodes.size()) +
                   " nodes");
@@ -508,11 +280,6 @@ class FlexibleReader {
   const ModelInstance& self_;
   YamlSection& section_;
   FlexibleRead out_;
-  bool sound_ = true;
-  std::map<std::string, BarGeometry> geometry_;
-  std::map<std::string, std::size_t> inner_, starts_;  // first inner node, start node of a bar
-  std::vector<std::size_t> parent_;
-  std::vector<std::pair<std::size_t, YamlValue>> links_;  // start node of each bar
   std::set<std::pair<std::string, unsigned>> taken_;
 };
 

@@ -58,13 +58,16 @@ std::vector<double> start_values(YamlSection& s, const char* key, JointType type
   return v->numbers(n, n, any_number(""), what.c_str()).value_or(std::vector<double>{});
 }
 
-/// A node named for one side of a joint.
-void joint_node(const ModelInstance& self, const ReadModel& model, YamlSection& s, const char* key,
-                AttachmentDescription& side) {
+/// A node named for one side of a joint; its design point in coordinates of this file.
+std::optional<Vec3> joint_node(const ModelInstance& self, const ReadModel& model, YamlSection& s,
+                               const char* key, AttachmentDescription& side) {
   const auto v = s.get(key);
-  if (!v) return;
-  const auto name = v->text("the name of a node");
-  if (name && check_named_node(self, model, side.body, *name, *v)) side.node = *name;
+  const auto name = v ? v->text("the name of a node") : std::nullopt;
+  if (!name || !check_named_node(self, model, side.body, *name, *v)) return std::nullopt;
+  side.node = *name;
+  const KnownBody& body = model.bodies.at(side.body);
+  const Placement& w = self.world;
+  return w.P * (body.nodes[body.named_nodes.at(*name)] - w.t);
 }
 
 void read_joint(const ModelInstance& self, const std::string& name, YamlSection& s,
@@ -87,8 +90,8 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   j.parent.body = parent.value_or(ground_name);
   j.child.body = child.value_or(ground_name);
   j.parent.origin = j.child.origin = j.origin;
-  joint_node(self, model, s, "parent_node", j.parent);
-  joint_node(self, model, s, "child_node", j.child);
+  const auto of_parent = joint_node(self, model, s, "parent_node", j.parent);
+  const auto of_child = joint_node(self, model, s, "child_node", j.child);
   const auto at = s.get("at");
   std::optional<Vec3> point;
   if (at) {
@@ -100,14 +103,17 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
           self.world;  // back to the coordinates of this file: P is its own inverse
       point = w.P * (it->second.origin - w.t);
     }
-  } else if (!(j.parent.node && j.child.node) && type < unknown) {
+  } else if (of_parent || of_child) {
+    point = of_parent ? of_parent : of_child;
+  } else if (!s.has("parent_node") && !s.has("child_node") && type < unknown) {
     s.fault("missing key 'at'");
   }
   j.parent.point = j.child.point = point.value_or(Vec3::Zero());
-  if (point && at) {
+  if (const auto place = at ? at : s.get(of_parent ? "parent_node" : "child_node");
+      point && place) {
     bool good = true;
-    if (parent && !j.parent.node) good = check_node(self, model, *parent, *point, *at);
-    if (good && child && !j.child.node) check_node(self, model, *child, *point, *at);
+    if (parent && !j.parent.node) good = check_node(self, model, *parent, *point, *place);
+    if (good && child && !j.child.node) check_node(self, model, *child, *point, *place);
   }
   if (type >= unknown) {
     for (const char* key : {"axis", "axis_2", "position", "velocity", "motion", "cut"}) s.get(key);
@@ -201,7 +207,7 @@ bool check_named_node(const ModelInstance& self, const ReadModel& model, const s
     return false;
   }
   if (!it->second.sound) return false;
-  if (!it->second.flexible) {
+  if (!it->second.flexible && it->second.named_nodes.empty()) {
     value.fault("found a node on the rigid body '" + self.written(body) +
                 "', expected a flexible body");
     return false;
@@ -209,8 +215,8 @@ bool check_named_node(const ModelInstance& self, const ReadModel& model, const s
   if (it->second.named_nodes.count(node)) return true;
   std::vector<std::string> known;
   for (const auto& [name, unused] : it->second.named_nodes) known.push_back(name);
-  value.fault("the flexible body '" + self.written(body) + "' has no node '" + node + "'" +
-              did_you_mean(node, known));
+  value.fault("the " + std::string(it->second.flexible ? "flexible body '" : "body '") +
+              self.written(body) + "' has no node '" + node + "'" + did_you_mean(node, known));
   return false;
 }
 

@@ -189,7 +189,10 @@ class OutputReader {
     const auto it = model_.bodies.find(*body);
     if (it == model_.bodies.end() || !it->second.sound) return;
     if (!it->second.flexible) {
-      what.fault("found a rigid body, expected a flexible one");
+      what.fault(it->second.named_nodes.empty()
+                     ? "found a rigid body, expected a flexible one"
+                     : "found a body that is switched to rigid (flexible: false) and has no modal "
+                       "amplitudes, expected a flexible one");
       return;
     }
     const auto k =
@@ -218,7 +221,11 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
     if (!it->second.sound) continue;
     if (!it->second.flexible) {
       self.context.faults->add(v.entity_mark(),
-                               v.path() + ": found a rigid body, expected a flexible one");
+                               v.path() + (it->second.named_nodes.empty()
+                                               ? ": found a rigid body, expected a flexible one"
+                                               : ": found a body that is switched to rigid "
+                                                 "(flexible: false) and has no modal amplitudes, "
+                                                 "expected a flexible one"));
       continue;
     }
     const int n = it->second.modes;
@@ -262,7 +269,7 @@ void read_outputs(const ModelInstance& self, ReadModel& model) {
 
 void default_outputs(ReadModel& model) {
   for (const BodyDescription& b : model.description.bodies) {
-    if (!std::holds_alternative<RigidDescription>(b.kind)) continue;
+    if (!b.rigid && !std::holds_alternative<RigidDescription>(b.kind)) continue;
     for (int k = 0; k < 3; ++k) {
       OutputDescription o;
       o.name = b.name + "." + "xyz"[k];

@@ -12,12 +12,14 @@
 
 namespace floatframe {
 
+struct PartJob;
+
 /// What joints, forces and outputs need to know of a body that has been read.
 struct KnownBody {
   Vec3 origin = Vec3::Zero();  ///< of the body frame, world [m]
-  bool flexible = false;
-  bool sound = true;        ///< its nodes are known (no fault in its bars)
-  std::vector<Vec3> nodes;  ///< world design positions [m]
+  bool flexible = false;       ///< has modes; a rigid part has none and keeps its named nodes
+  bool sound = true;           ///< its nodes are known (no fault in its bars or its file)
+  std::vector<Vec3> nodes;     ///< world design positions [m]
   std::map<std::string, std::size_t> named_nodes;
   int modes = 0;  ///< -1: decided by a frequency limit
 };
@@ -27,6 +29,7 @@ struct ReadModel {
   std::map<std::string, KnownBody> bodies;         ///< by full name
   std::map<std::string, JointType> joints;         ///< by full name
   std::map<std::string, std::string> force_types;  ///< by full name
+  ReadOptions options;
 };
 
 void read_bodies(const ModelInstance& self, ReadModel& model);
@@ -41,17 +44,33 @@ void read_simulation(const ModelInstance& self, ReadModel& model);
 /// x, y, z of every rigid body.
 void default_outputs(ReadModel& model);
 
-/// The flexible group of a body; `position` and the node list are its results besides the
-/// description.
+/// A flexible body as it is described: bars, or a part that is reduced already.
 struct FlexibleRead {
   FlexibleDescription description;
+  std::optional<FlexibleBody> body;  ///< from a file: takes the place of the description
   bool sound = false;
-  Vec3 first_point = Vec3::Zero();
-  std::vector<Vec3> nodes;
+  Vec3 first_point = Vec3::Zero();  ///< of the first bar
+  std::vector<Vec3> nodes;          ///< coordinates of this file; of `body`: of the part
   std::map<std::string, std::size_t> named_nodes;
-  int modes = 0;
+  int modes = 0;  ///< -1: decided by a frequency limit
 };
+/// A group of bars.
 FlexibleRead read_flexible(const ModelInstance& self, YamlSection section);
+/// The key `bars` of such a group: bars, points, nodes.
+void read_bars(const ModelInstance& self, YamlSection& section, FlexibleRead& out);
+/// What stands after `flexible` or `part`: a group of bars, a group with a finite-element file, the
+/// name of a body file. `body` is for messages.
+FlexibleRead read_part(const ModelInstance& self, const ReadModel& model, const std::string& body,
+                       const YamlValue& value);
+/// A group with a finite-element file as a job. nullopt and faults if something in it is wrong.
+std::optional<PartJob> read_part_job(const ModelInstance& self, YamlSection section);
+/// align: {marker: point}: the motion of the part that brings its markers to the points of this
+/// file, in the least-squares sense. nullopt and faults at markers that stay away from their
+/// points.
+std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& value,
+                                   double tolerance, const FlexibleBody& part);
+/// `file` as written in a file of the model: relative to the folder of that file.
+std::string beside(const ModelInstance& self, const std::string& file);
 
 /// Entities of a kind that are not switched off, as sections with `when` already asked for.
 std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInstance& self,

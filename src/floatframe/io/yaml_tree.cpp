@@ -283,8 +283,12 @@ bool read_text_file(const std::string& file, std::string& text, Faults& faults,
   text.assign(static_cast<std::size_t>(size), '\0');
   if (size > 0) in.read(text.data(), static_cast<std::streamsize>(size));
   if (!in) return fail("the file cannot be read");
-  if (files_read) files_read->insert_or_assign(file, content_hash(text));
+  note_file_read(file, content_hash(text));
   return true;
+}
+
+void note_file_read(const std::string& file, const std::string& hash) {
+  if (files_read) files_read->insert_or_assign(file, hash);
 }
 
 FilesRead::FilesRead(std::map<std::string, std::string>& hashes) : before_(files_read) {

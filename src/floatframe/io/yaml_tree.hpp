@@ -43,8 +43,11 @@ YamlDocument parse_yaml(const std::string& file, const std::string& text, Faults
 bool read_text_file(const std::string& file, std::string& text, Faults& faults,
                     const SourceMark& where, const std::string& subject);
 
-/// While it lives, notes every file that `read_text_file` reads on this thread, with the
-/// fingerprint of its content.
+/// Notes a file that was read in another way, with the fingerprint of its content (see FilesRead).
+void note_file_read(const std::string& file, const std::string& hash);
+
+/// While it lives, notes every file that is read on this thread, with the fingerprint of its
+/// content.
 class FilesRead {
  public:
   explicit FilesRead(std::map<std::string, std::string>& hashes);

@@ -5,7 +5,9 @@
 #include <set>
 #include <sstream>
 
+#include "floatframe/body/mirrored.hpp"
 #include "floatframe/body/modal_mass.hpp"
+#include "floatframe/body/with_modes.hpp"
 #include "floatframe/model/build_flexible.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
@@ -68,11 +70,13 @@ void ModelBuilder::bodies() {
       data.K = data.D = MatX::Zero(0, 0);
       body.data = std::make_shared<const FlexibleBody>(std::move(data));
     } else if (const auto* given = std::get_if<FlexibleBody>(&b.kind)) {
-      body.data = std::make_shared<const FlexibleBody>(*given);
+      body.data = std::make_shared<const FlexibleBody>(
+          b.mirror == Mat3::Identity() ? *given : mirrored(*given, b.mirror));
     } else {
       body.data = flexible.build(b, faults);
     }
     if (!body.data) body.data = std::make_shared<const FlexibleBody>();
+    if (b.rigid) body.data = std::make_shared<const FlexibleBody>(with_modes(*body.data, {}));
     model.bodies.push_back(std::move(body));
   }
   if (d.bodies.empty()) faults.add({}, "bodies: found none, expected at least one body");

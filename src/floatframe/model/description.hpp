@@ -105,6 +105,9 @@ struct BodyDescription {
   /// p_template_B.
   Mat3 mirror = Mat3::Identity();
   Pose X_WT;  ///< design pose of the template (equals X_WB when not mirrored)
+  /// The modes of a flexible `kind` are held at zero: a rigid body with its mass properties, which
+  /// keeps its nodes.
+  bool rigid = false;
   std::variant<RigidDescription, FlexibleDescription, FlexibleBody> kind;
   Origin origin;
 };

@@ -5,6 +5,13 @@ namespace floatframe {
 void check_inertia_method(const ModelDescription& description, InertiaMethod method) {
   Faults faults;
   for (const BodyDescription& b : description.bodies) {
+    if (b.rigid) continue;
+    const auto* part = std::get_if<FlexibleBody>(&b.kind);
+    if (part && part->modes() > 0 && !part->projection && method == InertiaMethod::projection)
+      faults.add(b.origin.of(b.origin.keys.contains("part") ? "part" : "flexible"),
+                 "bodies." + b.name +
+                     ": the part was reduced without projection data, expected inertia terms by "
+                     "preprocessing (or a reduction with projection: true)");
     const auto* flexible = std::get_if<FlexibleDescription>(&b.kind);
     if (!flexible) continue;
     const SourceMark& mark = b.origin.of("mass_model");

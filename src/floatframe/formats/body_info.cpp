@@ -1,0 +1,154 @@
+#include "floatframe/formats/body_info.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "floatframe/core/text_table.hpp"
+#include "floatframe/formats/health_text.hpp"
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Frequencies of the free modes with the body frame held: K x = w^2 M_ff x [Hz]; empty if the
+/// modal mass is singular.
+std::vector<double> frequencies(const FlexibleBody& body) {
+  const InertiaInvariants& v = body.invariants;
+  const MatX M = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
+  std::vector<double> out;
+  if (M.rows() == 0) return out;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(body.K, M, Eigen::EigenvaluesOnly);
+  if (solver.info() != Eigen::Success) return out;
+  for (const double w2 : solver.eigenvalues())
+    out.push_back(std::sqrt(std::max(0.0, w2)) / (2.0 * std::numbers::pi));
+  return out;
+}
+
+std::string properties_text(const FlexibleBody& body) {
+  const InertiaInvariants& v = body.invariants;
+  const Vec3 c = v.centre_of_mass();
+  const Mat3 J = v.inertia_about_centre();
+  return fmt::format(
+      "  mass             {:.8g} kg\n  centre of mass   {:.6g} {:.6g} {:.6g} m\n"
+      "  inertia about it {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} kg m2 (xx yy zz xy xz yz)\n",
+      v.m, c.x(), c.y(), c.z(), J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2));
+}
+
+std::string tables_text(const FlexibleBody& body) {
+  std::string text;
+  const Eigen::Index dynamic = body.fixed_interface_frequencies.size();
+  if (body.modes() > 0) {
+    const std::vector<double> w = frequencies(body);
+    TextTable modes({"mode", "name", "normal mode [Hz]", "of the body, frame held [Hz]"}, {1});
+    for (int k = 0; k < body.modes(); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const Eigen::Index d = k - (body.modes() - dynamic);
+      modes.add({std::to_string(k + 1), i < body.mode_names.size() ? body.mode_names[i] : "",
+                 d < 0 ? "-" : fmt::format("{:.3f}", body.fixed_interface_frequencies[d]),
+                 i < w.size() ? fmt::format("{:.3f}", w[i]) : "-"});
+    }
+    text += '\n' + modes.text(2);
+  }
+  if (!body.nodes.empty()) {
+    TextTable markers({"marker", "x [m]", "y [m]", "z [m]"});
+    for (const ModalNode& n : body.nodes)
+      markers.add({n.name, fmt::format("{:.6g}", n.p.x()), fmt::format("{:.6g}", n.p.y()),
+                   fmt::format("{:.6g}", n.p.z())});
+    text += '\n' + markers.text(2);
+  }
+  return text;
+}
+
+Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json body_json(const FlexibleBody& body) {
+  const InertiaInvariants& v = body.invariants;
+  const Mat3 J = v.inertia_about_centre();
+  Json modes = Json::array(), markers = Json::array();
+  const Eigen::Index dynamic = body.fixed_interface_frequencies.size();
+  for (int k = 0; k < body.modes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Eigen::Index d = k - (body.modes() - dynamic);
+    modes.push_back({{"name", i < body.mode_names.size() ? body.mode_names[i] : ""},
+                     {"frequency_Hz", d < 0 ? Json() : Json(body.fixed_interface_frequencies[d])}});
+  }
+  for (const ModalNode& n : body.nodes)
+    markers.push_back({{"name", n.name}, {"position_m", vector_json(n.p)}});
+  return {{"mass_kg", v.m},
+          {"centre_of_mass_m", vector_json(v.centre_of_mass())},
+          {"inertia_about_centre_kgm2",
+           {vector_json(J.row(0).transpose()), vector_json(J.row(1).transpose()),
+            vector_json(J.row(2).transpose())}},
+          {"modes", modes},
+          {"frequencies_frame_held_Hz", frequencies(body)},
+          {"markers", markers},
+          {"projection", body.projection != nullptr}};
+}
+
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace
+
+std::string body_info_text(const std::string& file, const BodyFile& content) {
+  const FlexibleBody& body = content.part.body;
+  const Provenance& from = content.provenance;
+  std::string text = fmt::format("{}: body file, {} modes (SI units)\n\n", file, body.modes());
+  text += properties_text(body);
+  text += fmt::format("  surface          {} points, {} triangles, {} lines{}\n",
+                      content.part.surface.nodes.size(), content.part.surface.triangles.size(),
+                      content.part.surface.lines.size(),
+                      content.part.surface_stress.size() > 0 ? ", with stresses" : "");
+  text += fmt::format("  projection data  {}\n", body.projection ? "yes" : "no");
+  text += fmt::format("  made from        {} ({}) by Floatframe {}, {}\n", from.source, from.units,
+                      from.version, from.date);
+  text += fmt::format("  fingerprint      {} of {} file{}\n", from.source_hash, from.files.size(),
+                      from.files.size() == 1 ? "" : "s");
+  for (const auto& [option, value] : from.options)
+    text += fmt::format("  --{} {}\n", option, value);
+  return text + tables_text(body) + "\nHealth report: " + health_text(content.part.health);
+}
+
+std::string body_info_json(const std::string& file, const BodyFile& content) {
+  const Provenance& from = content.provenance;
+  Json json = {{"file", file}, {"kind", "body file"}, {"format_version", body_file_version}};
+  json.update(body_json(content.part.body));
+  Json options = Json::array(), files = Json::array();
+  for (const auto& [option, value] : from.options) options.push_back({option, value});
+  for (const auto& [name, hash] : from.files) files.push_back({{"file", name}, {"hash", hash}});
+  json["provenance"] = {{"source", from.source},
+                        {"source_hash", from.source_hash},
+                        {"units", from.units},
+                        {"options", options},
+                        {"files", files},
+                        {"date", from.date},
+                        {"floatframe", from.version}};
+  json["health"] = Json::parse(health_json(content.part.health));
+  return dump(json);
+}
+
+std::string sid_info_text(const std::string& file, const FlexibleBody& body,
+                          const std::vector<std::string>& notes) {
+  std::string text = fmt::format("{}: SID_FEM, {} modes (SI units)\n\n", file, body.modes()) +
+                     properties_text(body) + tables_text(body);
+  if (!notes.empty()) text += "\nNotes\n";
+  for (const std::string& note : notes) text += "  - " + note + '\n';
+  return text;
+}
+
+std::string sid_info_json(const std::string& file, const FlexibleBody& body,
+                          const std::vector<std::string>& notes) {
+  Json json = {{"file", file}, {"kind", "SID_FEM"}};
+  json.update(body_json(body));
+  json["notes"] = notes;
+  return dump(json);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,47 @@
+#pragma once
+// What is in a finite-element file, before anything is computed with it: for people and as JSON.
+// Numbers are in the units of the file, which nothing in it states.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "floatframe/fe/fe_model.hpp"
+
+namespace floatframe {
+
+struct FeFacts {
+  int nodes = 0;
+  std::vector<std::pair<std::string, int>> elements;  ///< number of each type
+  int point_masses = 0, equations = 0, supports = 0;
+  int matrix_rows = 0;                           ///< of matrices from another program
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box
+  double volume = 0.0;                           ///< of solids, shells and beams that are sound
+  double mass = 0.0;                             ///< volume times density, and point masses
+  std::vector<std::string> bad_elements;         ///< labels of elements that are inverted or flat
+  struct Set {
+    std::string name, kind;  ///< "nodes", "elements", "surface"
+    int size = 0;            ///< nodes, elements, faces
+    int nodes = 0;
+  };
+  std::vector<Set> sets;
+  struct SpiderFacts {
+    std::string name, kind, reference;
+    int nodes = 0;
+  };
+  std::vector<SpiderFacts> spiders;
+  /// Unit systems in which all materials look like those of real parts.
+  std::vector<std::string> likely_units;
+  /// Values of --interface that could be made, without their names.
+  std::vector<std::string> interfaces;
+};
+
+FeFacts fe_facts(const FeModel& model);
+
+/// Unit systems in which every material has 1e8 Pa < E < 2e12 Pa, 50 kg/m3 < density < 25000 kg/m3
+/// and the part measures 1 mm to 50 m.
+std::vector<std::string> likely_units(const FeModel& model);
+
+std::string fe_info_text(const std::string& file, const FeModel& model);
+std::string fe_info_json(const std::string& file, const FeModel& model);
+
+}  // namespace floatframe
