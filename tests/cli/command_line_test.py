@@ -103,7 +103,7 @@ class CommandLine(unittest.TestCase):
 class Help(CommandLine):
     def test_every_command_explains_itself(self):
         for command in ((), ("run",), ("check",), ("statics",), ("bench",), ("bench", "iltis"),
-                        ("sweep",), ("advise",)):
+                        ("sweep",), ("advise",), ("reduce",), ("info",)):
             done = self.expect(0, *command, "--help", out="Usage: floatframe")
             self.assertEqual(done.stderr, "")
 
@@ -119,8 +119,8 @@ class Help(CommandLine):
 class Misuse(CommandLine):
     def test_bad_options_exit_2_with_one_line(self):
         for arguments, message in (
-                ((), "a command is required: run, check, statics, realtime, bench, sweep or advise"),
-                (("fly",), "found the command 'fly', expected run, check, statics, realtime, bench, sweep or advise"),
+                ((), "a command is required: run, check, statics, realtime, bench, sweep, advise, reduce or info"),
+                (("fly",), "found the command 'fly', expected run, check, statics, realtime, bench, sweep, advise, reduce or info"),
                 (("run",), "MODEL is required"),
                 (("run", "pendulum.yaml", "--frobnicate"), "--frobnicate"),
                 (("run", "pendulum.yaml", "--coordinates", "polar"), "polar not in {relative,absolute}"),

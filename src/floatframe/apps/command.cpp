@@ -26,7 +26,7 @@ void add_model_arguments(CLI::App& app, ModelArguments& arguments) {
       ->allow_extra_args(false);
 }
 
-ModelDescription read_model(const ModelArguments& arguments) {
+ModelDescription read_model(const ModelArguments& arguments, bool quiet) {
   std::vector<ParameterOverride> overrides;
   for (const std::string& setting : arguments.settings) {
     const std::size_t equal = setting.find('=');
@@ -35,7 +35,9 @@ ModelDescription read_model(const ModelArguments& arguments) {
     }
     overrides.push_back({setting.substr(0, equal), setting.substr(equal + 1)});
   }
-  return read_model(arguments.path, overrides);
+  ReadOptions options;
+  if (!quiet) options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  return read_model(arguments.path, overrides, nullptr, options);
 }
 
 double positive_number(const std::string& option, const std::string& text) {

@@ -23,6 +23,8 @@ void add_realtime_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
 void add_sweep_command(CLI::App& app, Action& action);
 void add_advise_command(CLI::App& app, Action& action);
+void add_reduce_command(CLI::App& app, Action& action);
+void add_info_command(CLI::App& app, Action& action);
 
 /// MODEL and --set, as every command that reads a model takes them.
 struct ModelArguments {
@@ -31,8 +33,8 @@ struct ModelArguments {
 };
 void add_model_arguments(CLI::App& app, ModelArguments& arguments);
 
-/// Throws InputError.
-ModelDescription read_model(const ModelArguments& arguments);
+/// Parts that are reduced meanwhile are told on standard error, unless `quiet`. Throws InputError.
+ModelDescription read_model(const ModelArguments& arguments, bool quiet = false);
 
 /// The number in an option's text; InputError unless it is finite and positive.
 double positive_number(const std::string& option, const std::string& text);

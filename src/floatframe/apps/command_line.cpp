@@ -65,12 +65,14 @@ int parse_and_act(int argc, char** argv) {
   add_bench_command(app, action);
   add_sweep_command(app, action);
   add_advise_command(app, action);
+  add_reduce_command(app, action);
+  add_info_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     std::string message = error.what();
-    const char* commands = "run, check, statics, realtime, bench, sweep or advise";
+    const char* commands = "run, check, statics, realtime, bench, sweep, advise, reduce or info";
     if (argc <= 1) {
       message = fmt::format("a command is required: {}", commands);
     } else if (app.get_subcommands().empty() && argv[1][0] != '-') {

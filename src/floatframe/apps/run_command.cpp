@@ -144,7 +144,7 @@ std::string files_text(const OutputPaths& paths, const RunArguments& arguments, 
 }
 
 int run_model(const RunArguments& arguments) {
-  ModelDescription description = read_model(arguments.model);
+  ModelDescription description = read_model(arguments.model, arguments.quiet);
   apply(arguments, description.simulation);
   check_inertia_method(description, description.simulation.inertia);
   std::optional<Model> model;

@@ -1,0 +1,83 @@
+// floatframe info: what is in a finite-element file, a body file or a SID_FEM file.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/part_arguments.hpp"
+#include "floatframe/formats/body_info.hpp"
+#include "floatframe/formats/fe_info.hpp"
+#include "floatframe/formats/sid_file.hpp"
+#include "floatframe/formats/text_source.hpp"
+
+namespace floatframe {
+namespace {
+
+struct InfoArguments {
+  std::string file, format, material, nodes, mass, dofs;
+  FeReadOptions read;
+  bool json = false;
+};
+
+/// A SID begins with a number and the block `part`.
+bool is_sid(const std::string& file) {
+  const std::string text = read_beginning(file, 4096);
+  return text.find("part") != std::string::npos && text.find("new modal") != std::string::npos;
+}
+
+int info(InfoArguments a) {
+  std::error_code error;
+  if (!std::filesystem::exists(a.file, error))
+    throw InputError({a.file, 0, 0}, "the file does not exist");
+  if (!std::filesystem::is_regular_file(a.file, error))
+    throw InputError({a.file, 0, 0}, "this is not a regular file");
+  a.read.nodes = a.nodes;
+  a.read.mass = a.mass;
+  a.read.dofs = a.dofs;
+  if (!a.material.empty()) a.read.material = material_argument(a.material);
+  if (a.format.empty() && is_body_file(a.file)) {
+    const BodyFile content = read_body_file(a.file);
+    print(a.json ? body_info_json(a.file, content) : body_info_text(a.file, content));
+  } else if (a.format.empty() && is_sid(a.file)) {
+    const SidBody sid = read_sid(a.file);
+    print(a.json ? sid_info_json(a.file, sid.body, sid.notes)
+                 : sid_info_text(a.file, sid.body, sid.notes));
+  } else {
+    const FeModel model = read_fe_file(a.file, a.read, a.format);
+    print(a.json ? fe_info_json(a.file, model) : fe_info_text(a.file, model));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Action& action) {
+  auto a = std::make_shared<InfoArguments>();
+  CLI::App* command = app.add_subcommand(
+      "info", "Show what is in a finite-element file, a body file or a SID_FEM file");
+  command->add_option("FILE", a->file, "Finite-element file (also .gz), .ffb or SID_FEM")
+      ->required()
+      ->type_name("");
+  command->add_flag("--json", a->json, "JSON on standard output");
+  command->add_option("--format", a->format, "Format of FILE; default: by its content")
+      ->type_name("NAME");
+  command
+      ->add_option("--material", a->material,
+                   "young,poisson,density for files without, their units")
+      ->type_name("E,NU,RHO");
+  command->add_option("--nodes", a->nodes, "File with the nodes of matrices")->type_name("FILE");
+  command->add_option("--mass", a->mass, "Mass matrix, if it is not beside the stiffness")
+      ->type_name("FILE");
+  command->add_option("--dofs", a->dofs, "Dof map of matrices, if not beside them")
+      ->type_name("FILE");
+  command->footer(
+      "Finite-element files: numbers in the units of the file; sets and spiders that could be\n"
+      "interfaces of `floatframe reduce`; what the reader passed over. Body files: SI units, "
+      "where\n"
+      "they came from, modes, markers and the health report.\n"
+      "Exit codes: 0 done, 2 bad input.");
+  command->callback([a, &action] { action = [a] { return info(*a); }; });
+}
+
+}  // namespace floatframe
