@@ -4,6 +4,7 @@ inertia integrals from the projection data: another program, another language, t
 With NumPy the same is `f = numpy.load("bracket_v1.ffb"); f["K"]`, which is tried if it is there."""
 import ast
 import json
+import math
 import os
 import pathlib
 import struct
@@ -71,6 +72,14 @@ class BodyFile(unittest.TestCase):
         for name, found in (("m", [m]), ("m_u", m_u), ("P_u", P_u), ("S", S), ("S2", S2), ("S13", S13)):
             expected = self.arrays[name][1]
             self.close(found, expected, max(map(abs, expected)))
+
+    def test_frequencies_of_the_header(self):
+        (nm, _), K = self.arrays["K"]
+        M = [sum(x) for x in zip(*(self.arrays[name][1] for name in ("S11", "S22", "S33")))]
+        self.assertEqual(len(self.header["modes"]), nm)
+        for k, mode in enumerate(self.header["modes"]):
+            w = math.sqrt(K[k * nm + k] / M[k * nm + k])
+            self.assertAlmostEqual(mode["frequency_Hz"], w / (2 * math.pi), delta=1e-12 * w)
 
     def test_sizes(self):
         nm, markers = len(self.header["modes"]), len(self.header["markers"])

@@ -38,6 +38,9 @@ BodyFile read_body_file(const std::filesystem::path& file);
 std::string body_file_bytes(const BodyFile& content);
 BodyFile read_body_bytes(std::string_view bytes, const std::string& name);
 
+/// Frequency of each mode alone, sqrt(K_kk / M_kk) / 2 pi [Hz]; not finite without mass.
+VecX mode_frequencies(const FlexibleBody& body);
+
 /// Does a file begin as an archive does?
 bool is_body_file(const std::filesystem::path& file);
 

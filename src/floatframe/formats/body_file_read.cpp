@@ -160,13 +160,7 @@ class Reader {
       }
     body().K = arrays_.symmetric("K", nm);
     body().D = arrays_.symmetric("D", nm);
-    const Eigen::Index dynamic = arrays_.length("frequencies");
-    if (dynamic > nm)
-      arrays_.fault(
-          "frequencies",
-          fmt::format("found a list of {}, expected at most {}, one a mode", dynamic, nm));
-    else
-      body().fixed_interface_frequencies = arrays_.list("frequencies", dynamic);
+    body().fixed_interface_frequencies = arrays_.list("frequencies", arrays_.length("frequencies"));
   }
 
   void nodes() {

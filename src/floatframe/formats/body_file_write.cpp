@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/formats/body_arrays.hpp"
@@ -19,14 +21,14 @@ std::string header_of(const BodyFile& content) {
   const Provenance& from = content.provenance;
   Json modes = Json::array(), markers = Json::array(), options = Json::array(),
        files = Json::array();
-  const Eigen::Index dynamic = body.fixed_interface_frequencies.size();
+  const VecX frequencies = mode_frequencies(body);
   for (int k = 0; k < body.modes(); ++k) {
-    const Eigen::Index d = k - (body.modes() - dynamic);
     const auto name = static_cast<std::size_t>(k) < body.mode_names.size()
                           ? body.mode_names[static_cast<std::size_t>(k)]
                           : fmt::format("mode {}", k + 1);
-    modes.push_back({{"name", name},
-                     {"frequency_Hz", d < 0 ? Json() : Json(body.fixed_interface_frequencies[d])}});
+    modes.push_back(
+        {{"name", name},
+         {"frequency_Hz", std::isfinite(frequencies[k]) ? Json(frequencies[k]) : Json()}});
   }
   for (const ModalNode& node : body.nodes) {
     const auto it = std::find_if(health.interfaces.begin(), health.interfaces.end(),
@@ -77,6 +79,16 @@ void add_sparse(const Sparse& m, const std::string& name,
 }
 
 }  // namespace
+
+VecX mode_frequencies(const FlexibleBody& body) {
+  const InertiaInvariants& v = body.invariants;
+  VecX out(body.modes());
+  for (Eigen::Index k = 0; k < out.size(); ++k) {
+    const double m = v.Sij[0][0](k, k) + v.Sij[1][1](k, k) + v.Sij[2][2](k, k);
+    out[k] = std::sqrt(std::max(0.0, body.K(k, k)) / m) / (2.0 * std::numbers::pi);
+  }
+  return out;
+}
 
 std::string body_file_bytes(const BodyFile& content) {
   const ReducedPart& part = content.part;

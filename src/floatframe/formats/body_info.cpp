@@ -42,18 +42,24 @@ std::string properties_text(const FlexibleBody& body) {
 
 std::string tables_text(const FlexibleBody& body) {
   std::string text;
-  const Eigen::Index dynamic = body.fixed_interface_frequencies.size();
   if (body.modes() > 0) {
-    const std::vector<double> w = frequencies(body);
-    TextTable modes({"mode", "name", "normal mode [Hz]", "of the body, frame held [Hz]"}, {1});
+    const std::vector<double> together = frequencies(body);
+    const VecX alone = mode_frequencies(body);
+    TextTable modes({"mode", "name", "alone [Hz]", "together [Hz]"}, {1});
     for (int k = 0; k < body.modes(); ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const Eigen::Index d = k - (body.modes() - dynamic);
       modes.add({std::to_string(k + 1), i < body.mode_names.size() ? body.mode_names[i] : "",
-                 d < 0 ? "-" : fmt::format("{:.3f}", body.fixed_interface_frequencies[d]),
-                 i < w.size() ? fmt::format("{:.3f}", w[i]) : "-"});
+                 std::isfinite(alone[k]) ? fmt::format("{:.3f}", alone[k]) : "-",
+                 i < together.size() ? fmt::format("{:.3f}", together[i]) : "-"});
     }
-    text += '\n' + modes.text(2);
+    text += '\n' + modes.text(2) +
+            "  alone: this mode by itself; together: ascending eigenfrequencies of (K, M_ff), with "
+            "the body frame held\n";
+  }
+  if (body.fixed_interface_frequencies.size() > 0) {
+    text += "  normal modes [Hz]:";
+    for (const double f : body.fixed_interface_frequencies) text += fmt::format(" {:.3f}", f);
+    text += '\n';
   }
   if (!body.nodes.empty()) {
     TextTable markers({"marker", "x [m]", "y [m]", "z [m]"});
@@ -71,13 +77,14 @@ Json body_json(const FlexibleBody& body) {
   const InertiaInvariants& v = body.invariants;
   const Mat3 J = v.inertia_about_centre();
   Json modes = Json::array(), markers = Json::array();
-  const Eigen::Index dynamic = body.fixed_interface_frequencies.size();
+  const VecX alone = mode_frequencies(body);
   for (int k = 0; k < body.modes(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const Eigen::Index d = k - (body.modes() - dynamic);
     modes.push_back({{"name", i < body.mode_names.size() ? body.mode_names[i] : ""},
-                     {"frequency_Hz", d < 0 ? Json() : Json(body.fixed_interface_frequencies[d])}});
+                     {"frequency_Hz", std::isfinite(alone[k]) ? Json(alone[k]) : Json()}});
   }
+  Json normal = Json::array();
+  for (const double f : body.fixed_interface_frequencies) normal.push_back(f);
   for (const ModalNode& n : body.nodes)
     markers.push_back({{"name", n.name}, {"position_m", vector_json(n.p)}});
   return {{"mass_kg", v.m},
@@ -87,6 +94,7 @@ Json body_json(const FlexibleBody& body) {
             vector_json(J.row(2).transpose())}},
           {"modes", modes},
           {"frequencies_frame_held_Hz", frequencies(body)},
+          {"normal_mode_frequencies_Hz", normal},
           {"markers", markers},
           {"projection", body.projection != nullptr}};
 }
@@ -112,7 +120,7 @@ std::string body_info_text(const std::string& file, const BodyFile& content) {
   text += fmt::format("  fingerprint      {} of {} file{}\n", from.source_hash, from.files.size(),
                       from.files.size() == 1 ? "" : "s");
   for (const auto& [option, value] : from.options)
-    text += fmt::format("  --{} {}\n", option, value);
+    text += fmt::format("  --{}{}\n", option, value == "true" ? "" : " " + value);
   return text + tables_text(body) + "\nHealth report: " + health_text(content.part.health);
 }
 
