@@ -52,11 +52,19 @@ double corner_share(const FaceNodes& face) noexcept {
   return face.corners == 3 ? 1.0 / 19.0 : 3.0 / 76.0;
 }
 
+/// Part and assembly may each have a surface of the name.
+std::string surface_name(const AbaqusContent& c, const AbaqusContent::Key& key) {
+  const std::string& name = c.names[static_cast<std::size_t>(key.second)];
+  const bool twice =
+      key.first == AbaqusScope::part && c.surfaces.contains({AbaqusScope::assembly, key.second});
+  return twice ? c.instance + "." + name : name;
+}
+
 void build_surfaces(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
   for (const auto& [key, surface] : c.surfaces) {
-    const std::string& name = c.names[static_cast<std::size_t>(key.second)];
+    const std::string name = surface_name(c, key);
     if (surface.of_nodes) {
       std::vector<int> nodes;
       for (const AbaqusSurface::Item& item : surface.items) {
@@ -94,11 +102,13 @@ void build_surfaces(AbaqusBuild& build) {
 void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list) {
   const AbaqusContent& c = build.content;
   const AbaqusSurface* surface = nullptr;
+  std::string name = c.names[static_cast<std::size_t>(spider.surface)];
   for (const AbaqusScope scope : {spider.surface_scope, AbaqusScope::assembly, AbaqusScope::part}) {
     const auto it = c.surfaces.find({scope, spider.surface});
-    if (surface == nullptr && it != c.surfaces.end()) surface = &it->second;
+    if (surface != nullptr || it == c.surfaces.end()) continue;
+    surface = &it->second;
+    name = surface_name(c, it->first);
   }
-  const std::string& name = c.names[static_cast<std::size_t>(spider.surface)];
   if (surface == nullptr) {
     std::vector<std::string> known;
     for (const auto& [key, s] : c.surfaces) {

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/io/results_csv.hpp"
-#include "floatframe/io/suggest.hpp"
 
 namespace floatframe {
 namespace {
