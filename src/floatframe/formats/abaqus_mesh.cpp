@@ -249,9 +249,8 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
           lines.source().mark(content.elements[static_cast<std::size_t>(it->second)].at);
       lines.source().fault(
           at, fmt::format("element {} is there already ({}:{})", *id, first.file, first.line));
-      sound = false;
+      continue;
     }
-    if (!sound) continue;
     content.elements.push_back(element);
     if (set != nullptr) set->items.push_back(number(*id, content.scope, at));
   }
