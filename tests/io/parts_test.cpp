@@ -7,6 +7,7 @@
 #include "floatframe/formats/body_file.hpp"
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model/model.hpp"
 
 namespace floatframe {
@@ -205,9 +206,45 @@ TEST_F(Parts, MirroredInASubsystem) {
 }
 
 TEST_F(Parts, ProjectionNeedsItsData) {
-  const Model m = model("bodies: {arm: {part: bracket.ffb}}\n");
-  ASSERT_TRUE(m.bodies[0].data->projection);
-  EXPECT_EQ(m.bodies[0].data->projection->nodes(), 5);
+  const std::string text = "bodies: {arm: {part: bracket.ffb}}\n";
+  ASSERT_TRUE(model(text).bodies[0].data->projection);
+  EXPECT_EQ(model(text).bodies[0].data->projection->nodes(), 5);
+  BodyFile without = bracket_;
+  without.part.body.projection = nullptr;
+  write_body_file(folder_ / "bracket.ffb", without);
+  std::ofstream(folder_ / "model.yaml") << "floatframe: 1\n" << text;
+  const ModelDescription d = read_model((folder_ / "model.yaml").string());
+  EXPECT_NO_THROW(check_inertia_method(d, InertiaMethod::preprocessing));
+  try {
+    check_inertia_method(d, InertiaMethod::projection);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).substr((folder_ / "model.yaml").string().size()),
+              ":2:22: bodies.arm: the part was reduced without projection data, expected inertia "
+              "terms by preprocessing (or a reduction with projection: true)");
+  }
+}
+
+TEST_F(Parts, WarningsOfItsReportAreTold) {
+  std::ofstream(folder_ / "model.yaml") << "floatframe: 1\nbodies: {arm: {part: bracket.ffb}}\n";
+  std::vector<std::string> lines;
+  read_model((folder_ / "model.yaml").string(), {}, nullptr,
+             {[&](const std::string& line) { lines.push_back(line); }});
+  EXPECT_EQ(lines, (std::vector<std::string>{"bodies.arm: the health report of '" +
+                                             (folder_ / "bracket.ffb").string() +
+                                             "' has 1 warning (floatframe info shows it)"}));
+}
+
+TEST_F(Parts, StandardInputDataIsAPartToo) {
+  std::filesystem::copy_file(FLOATFRAME_TEST_DATA "/fe/classical.SID_FEM", folder_ / "a.SID_FEM",
+                             std::filesystem::copy_options::overwrite_existing);
+  const std::string text =
+      "parameters: {flex: true}\nbodies: {arm: {part: a.SID_FEM, flexible: \"${flex}\"}}\n";
+  EXPECT_GT(model(text).bodies[0].modes(), 0);
+  EXPECT_FALSE(model(text).bodies[0].data->nodes.empty());
+  const Model rigid = model(text, {{"flex", "false"}});
+  EXPECT_EQ(rigid.bodies[0].modes(), 0);
+  EXPECT_EQ(rigid.bodies[0].data->invariants.m, model(text).bodies[0].data->invariants.m);
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ void sets(const FeModel& model, FeFacts& out) {
   const auto add = [&](const std::string& name, const char* kind, std::size_t size,
                        const std::set<int>& nodes) {
     out.sets.push_back({name, kind, static_cast<int>(size), static_cast<int>(nodes.size())});
-    // A set of everything is not a place.
-    if (nodes.size() >= 3 && static_cast<int>(nodes.size()) < model.nodes())
+    // A set of everything is not a place, two nodes leave a rotation open.
+    if (!nodes.empty() && nodes.size() != 2 && static_cast<int>(nodes.size()) < model.nodes())
       out.interfaces.push_back("set:" + name);
   };
   for (const auto& [name, nodes] : model.node_sets)
@@ -95,7 +95,7 @@ std::vector<std::string> likely_units(const FeModel& model) {
   for (const Vec3& p : model.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
   for (const std::string& name : unit_system_names()) {
     const auto units = find_unit_system(name);
-    if (!units) continue;
+    if (!units || name == "si") continue;  // another name of m-kg-s
     const double size = (high - low).norm() * units->length;
     bool likely = size > 1e-3 && size < 50.0;
     for (const Material& m : model.materials) {

@@ -1,6 +1,7 @@
 #include "floatframe/io/part_cache.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -55,17 +56,7 @@ std::optional<BodyFile> fresh(const fs::path& file, const PartJob& job) {
   }
 }
 
-bool can_hold_files(const fs::path& folder) {
-  std::error_code error;
-  const bool existed = fs::exists(folder, error);
-  try {
-    make_output_folder(folder.string());
-  } catch (const OutputError&) {
-    return false;
-  }
-  if (!existed) fs::remove(folder, error);  // made when there is something to keep
-  return true;
-}
+bool can_be_written(const fs::path& folder) { return ::access(folder.c_str(), W_OK | X_OK) == 0; }
 
 }  // namespace
 
@@ -73,7 +64,8 @@ fs::path part_cache_folder(const fs::path& folder) {
   if (const char* given = std::getenv("FLOATFRAME_CACHE"))
     return std::string(given) == "off" ? fs::path() : fs::path(given);
   const fs::path beside = folder / ".floatframe-cache";
-  if (can_hold_files(beside)) return beside;
+  std::error_code error;
+  if (can_be_written(fs::exists(beside, error) ? beside : folder)) return beside;
   const char* xdg = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
   if (xdg && *xdg) return fs::path(xdg) / "floatframe";

@@ -41,6 +41,11 @@ FlexibleRead from_body_file(const ModelInstance& self, const ReadModel& model,
     if (is_body_file(file) || std::filesystem::path(file).extension() == ".ffb") {
       BodyFile content = read_body_file(file);
       note_file_read(file, file_hash(file));
+      const std::size_t warnings = content.part.health.warnings.size();
+      if (warnings > 0 && model.options.say)
+        model.options.say(who + ": the health report of '" + file + "' has " +
+                          std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings") +
+                          " (floatframe info shows it)");
       return known_part(std::move(content.part.body));
     }
     SidBody sid = read_sid(file);
