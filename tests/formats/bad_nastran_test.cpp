@@ -102,6 +102,7 @@ TEST(BadNastran, Decks) {
       {"RBE2,8,1,123456,3,4", "RBE3,8,,1,123,1.,123,3,4\n,2",
        "arm.bdf:12: RBE3 8: REFC is '123', only 123456 is read"},
       {"SPC1,1,123,1", "SPC1,1,123,50,THRU,60", "arm.bdf:13: SPC1: there is no node from 50 to 60"},
+      {"SPC1,1,123,1", "SET3,5,GRID,1,9", "arm.bdf:13: set 5 has node 9, which is not in the file"},
       {"SPC1,1,123,1", "INCLUDE 'none.bdf'",
        "arm.bdf:13: the include file 'none.bdf' cannot be read here"},
       {"SPC1,1,123,1", "CELAS1,4,4,1,1,2,1\nCELAS1,5,4,1,2,2,2",

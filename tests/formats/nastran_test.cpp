@@ -174,6 +174,25 @@ TEST(Nastran, SmallLargeAndFreeField) {
             "deck.bdf: cards that change neither stiffness nor mass are passed over: EIGRL, PARAM");
 }
 
+TEST(Nastran, SetsOfPreprocessors) {
+  const FeModel m = bulk(
+      "$HMSET        5        1 \"BORE\" 17\n"
+      "SET     5       GRID    LIST\n"
+      "+       3       1       THRU    2\n"
+      "SET     6       ELEM    LIST\n"
+      "+       11\n"
+      "SET1,7,4,1,4\nSET1,8,11\nSET3,9,GRID,2,4\nSET,10,PROP,LIST\n,7\n" +
+      std::string(small_field).substr(std::string(small_field).find("$HMNAME")));
+  EXPECT_EQ(m.node_sets.at("BORE"), (std::vector<int>{2, 0, 1}));
+  EXPECT_EQ(m.element_sets.at("SET 6"), std::vector<int>{0});
+  EXPECT_EQ(m.node_sets.at("SET 7"), (std::vector<int>{3, 0}));
+  EXPECT_EQ(m.node_sets.count("SET 8"), 0u);  // 11 is no node
+  EXPECT_EQ(m.node_sets.at("SET 9"), (std::vector<int>{1, 3}));
+  EXPECT_EQ(m.notes[0],
+            "deck.bdf: cards that change neither stiffness nor mass are passed over: EIGRL, PARAM, "
+            "SET of other things");
+}
+
 TEST(Nastran, CoordinateSystems) {
   // System 2 in system 1 (turned about z by 90 degrees, moved to (1, 0, 0)), cylindrical.
   const FeModel m = bulk(

@@ -1,6 +1,8 @@
 #pragma once
 // From the content of Nastran bulk data to the model.
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/nastran_content.hpp"
@@ -41,5 +43,18 @@ void build_nastran_elements(NastranBuild& build, const FeReadOptions& options);
 // nastran_build_constraints.cpp
 void build_nastran_constraints(NastranBuild& build);
 void build_nastran_supports(NastranBuild& build);
+// nastran_build_sets.cpp
+void build_nastran_sets(NastranBuild& build, bool only_nodes);
+
+/// Numbers with their index, to look up ranges.
+class NastranNumbers {
+ public:
+  explicit NastranNumbers(std::vector<std::pair<int, int>> number_and_index);
+  /// Appends the indices from `first` to `last`; false if there are none.
+  bool append(int first, int last, std::vector<int>& indices) const;
+
+ private:
+  std::vector<std::pair<int, int>> sorted_;
+};
 
 }  // namespace floatframe

@@ -175,25 +175,18 @@ class ConstraintBuilder {
 void build_nastran_constraints(NastranBuild& build) { ConstraintBuilder(build).build(); }
 
 void build_nastran_supports(NastranBuild& build) {
-  std::vector<std::pair<int, int>> sorted;  // number, index
+  const NastranNumbers numbers({build.node_of.begin(), build.node_of.end()});
+  std::vector<int> nodes;
   for (const NastranSupport& s : build.content.supports) {
+    nodes.clear();
     if (s.first == s.last) {
       const int node = build.node(s.first, s.at, "a support (SPC)");
-      if (node >= 0) build.model.supports.push_back({node, s.mask, s.at});
-      continue;
-    }
-    if (sorted.empty()) {
-      sorted.assign(build.node_of.begin(), build.node_of.end());
-      std::sort(sorted.begin(), sorted.end());
-    }
-    auto it = std::lower_bound(sorted.begin(), sorted.end(), std::pair{s.first, -1});
-    if (s.last < s.first || it == sorted.end() || it->first > s.last) {
+      if (node >= 0) nodes.push_back(node);
+    } else if (!numbers.append(s.first, s.last, nodes)) {
       build.source.fault(s.at,
                          fmt::format("SPC1: there is no node from {} to {}", s.first, s.last));
     }
-    for (; it != sorted.end() && it->first <= s.last; ++it) {
-      build.model.supports.push_back({it->second, s.mask, s.at});
-    }
+    for (const int node : nodes) build.model.supports.push_back({node, s.mask, s.at});
   }
 }
 

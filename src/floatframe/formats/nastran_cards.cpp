@@ -53,25 +53,27 @@ bool NastranCards::next_text(std::string_view& text) {
   return false;
 }
 
-/// "$HMNAME PROP 3"bracket" 4" (HyperMesh), "$ FEMAP Property 3 : bracket" (Femap).
+/// "$HMNAME PROP 3"bracket" 4" and "$HMSET 5 1 "bores"" (HyperMesh), "$ FEMAP Property 3 :
+/// bracket".
 void NastranCards::comment(std::string_view text) {
   std::string_view rest = text;
-  std::string_view word = next_word(rest);
-  const bool hypermesh = same_word(word, "HMNAME");
-  if (!hypermesh && !same_word(word, "FEMAP")) return;
-  word = next_word(rest);
-  const bool property = begins_with(word, "PROP");
-  if (!property && !begins_with(word, "MAT")) return;
-  const char separator = hypermesh ? '"' : ':';
-  const std::size_t open = rest.find(separator);
-  if (open == std::string_view::npos) return;
-  const auto number = parse_label(trimmed(rest.substr(0, open)));
-  std::string_view name = rest.substr(open + 1);
+  const std::string_view first = next_word(rest);
+  const bool set = same_word(first, "HMSET"), hypermesh = set || same_word(first, "HMNAME");
+  if (!hypermesh && !same_word(first, "FEMAP")) return;
+  std::map<int, std::string>* names = &set_names_;
+  if (!set) {
+    const std::string_view kind = next_word(rest);
+    names = begins_with(kind, "PROP")  ? &property_names_
+            : begins_with(kind, "MAT") ? &material_names_
+                                       : nullptr;
+  }
+  const std::size_t open = rest.find(hypermesh ? '"' : ':');
+  if (names == nullptr || open == std::string_view::npos) return;
+  std::string_view before = rest.substr(0, open), name = rest.substr(open + 1);
+  const auto number = parse_label(next_word(before));
   if (hypermesh) name = name.substr(0, name.find('"'));
   name = trimmed(name);
-  if (number && !name.empty()) {
-    (property ? property_names_ : material_names_).try_emplace(*number, name);
-  }
+  if (number && !name.empty()) names->try_emplace(*number, name);
 }
 
 void NastranCards::split(std::string_view text, Line& line) {

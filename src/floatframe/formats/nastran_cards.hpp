@@ -44,6 +44,7 @@ class NastranCards {
   /// Names that pre-processors leave in comments, by number.
   const std::map<int, std::string>& property_names() const { return property_names_; }
   const std::map<int, std::string>& material_names() const { return material_names_; }
+  const std::map<int, std::string>& set_names() const { return set_names_; }
 
  private:
   struct Line {
@@ -59,8 +60,11 @@ class NastranCards {
 
   TextSource& source_;
   std::deque<std::string> expanded_;  // lines that had tabs
-  std::map<int, std::string> property_names_, material_names_;
+  std::map<int, std::string> property_names_, material_names_, set_names_;
 };
+
+/// Does a card change neither stiffness nor mass nor geometry (loads, methods, tables, ...)?
+bool is_harmless_nastran_card(const std::string& name);
 
 /// Is there a line BEGIN BULK in the beginning of a file?
 bool has_begin_bulk(std::string_view beginning);

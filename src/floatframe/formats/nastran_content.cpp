@@ -11,24 +11,6 @@
 namespace floatframe {
 namespace {
 
-/// Cards that change neither stiffness nor mass nor geometry; '*' stands for any end.
-const char* const harmless[] = {
-    "PLOTEL*", "EIG*",   "FORCE*", "MOMENT*", "PLOAD*", "GRAV",    "RFORCE",  "ACCEL*",  "LOAD*",
-    "TEMP*",   "SPCADD", "SPCD",   "SPCOFF*", "ASET*",  "BSET*",   "BNDFIX*", "BNDFRE*", "CSET*",
-    "QSET*",   "USET*",  "OMIT*",  "SUPORT*", "SUPAX",  "SET1",    "SET3",    "TABLE*",  "TABD*",
-    "DAREA",   "DELAY",  "DPHASE", "FREQ*",   "RLOAD*", "TLOAD*",  "TSTEP*",  "NLPARM",  "NLPCI",
-    "DCON*",   "DRESP*", "DES*",   "DV*",     "DOPT*",  "DTABLE*", "DLINK",   "DEQATN",  "TIC",
-    "CORD1*",  "MAT2",   "MAT3",   "MAT4",    "MAT5",   "MAT8",    "MAT9",    "MAT10*",  "MATS1",
-    "MATT*",   "MATG",   "MDLPRM", "ECHO*",   "SPOINT", "MPCADD",  "RANDPS",  "RCROSS",  "DLOAD",
-    "LSEQ",    "SEQGP",  "GROUP"};
-
-bool is_harmless(const std::string& name) {
-  return std::any_of(std::begin(harmless), std::end(harmless), [&name](std::string_view known) {
-    return known.ends_with('*') ? name.starts_with(known.substr(0, known.size() - 1))
-                                : name == known;
-  });
-}
-
 class ContentReader {
  public:
   ContentReader(TextSource& source, bool only_nodes) : source_(source), only_nodes_(only_nodes) {}
@@ -43,6 +25,7 @@ class ContentReader {
     finish();
     c_.property_names = cards.property_names();
     c_.material_names = cards.material_names();
+    c_.set_names = cards.set_names();
     return std::move(c_);
   }
 
@@ -72,11 +55,12 @@ class ContentReader {
         {"RBE2", &ContentReader::rbe2},       {"RBE3", &ContentReader::rbe3},
         {"RBAR", &ContentReader::rbar},       {"MPC", &ContentReader::mpc},
         {"SPC", &ContentReader::spc},         {"SPC1", &ContentReader::spc1},
-        {"PARAM", &ContentReader::parameter},
+        {"PARAM", &ContentReader::parameter}, {"SET", &ContentReader::set},
+        {"SET1", &ContentReader::set},        {"SET3", &ContentReader::set},
     };
     const std::string& name = f.name();
     if (only_nodes_ && name != "GRID" && name != "GRDSET" && !name.starts_with("CORD") &&
-        !name.starts_with("SPC")) {
+        !name.starts_with("SPC") && !name.starts_with("SET")) {
       return;
     }
     if (const auto it = handlers.find(name); it != handlers.end()) {
@@ -90,7 +74,7 @@ class ContentReader {
       if (!fresh && id > 0) twice(f, it->second.at);
       return;
     }
-    if (!is_harmless(name)) {
+    if (!is_harmless_nastran_card(name)) {
       unknown_[name].add(f.at());
       return;
     }
@@ -360,6 +344,31 @@ class ContentReader {
       }
       c_.supports.push_back({first, last, mask, f.at()});
     }
+  }
+
+  void set(F& f) {
+    NastranSet s;
+    s.at = f.at();
+    s.id = f.label(0, "the number of the set");
+    s.strict = f.name() != "SET1";
+    s.elements = same_word(f.text(1), "ELEM");
+    const bool nodes = f.name() == "SET1" || same_word(f.text(1), "GRID");
+    const bool list = f.name() != "SET" || same_word(f.text(2), "LIST");
+    if ((!nodes && !s.elements) || !list) {
+      passed_[f.name() + " of other things"].add(f.at());
+      return;
+    }
+    for (std::size_t i = f.name() == "SET" ? 8 : f.name() == "SET3" ? 2 : 1; i < f.size(); ++i) {
+      if (f.blank(i) || same_word(f.text(i), "SKIN")) continue;
+      const int first = f.label(i, "a member");
+      int last = first;
+      if (same_word(f.text(i + 1), "THRU")) {
+        last = f.label(i + 2, "the last member");
+        i += 2;
+      }
+      s.ranges.emplace_back(first, last);
+    }
+    c_.sets.push_back(std::move(s));
   }
 
   void parameter(F& f) {

@@ -90,6 +90,15 @@ struct NastranSupport {
   FeSource at;
 };
 
+/// SET (OptiStruct), SET1, SET3: numbers and ranges of nodes or elements.
+struct NastranSet {
+  int id = 0;
+  bool elements = false;
+  bool strict = true;  ///< SET1 may mean other things: it is a set only if all its nodes are there
+  std::vector<std::pair<int, int>> ranges;
+  FeSource at;
+};
+
 struct NastranContent {
   std::vector<NastranGrid> grids;
   std::map<int, NastranSystem> systems;
@@ -101,8 +110,9 @@ struct NastranContent {
   std::vector<NastranSpider> spiders;
   std::vector<NastranEquation> equations;
   std::vector<NastranSupport> supports;
+  std::vector<NastranSet> sets;
   double mass_factor = 1.0;  ///< PARAM,WTMASS
-  std::map<int, std::string> property_names, material_names;
+  std::map<int, std::string> property_names, material_names, set_names;
   std::vector<std::string> notes;
 };
 

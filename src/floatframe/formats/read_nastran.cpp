@@ -46,6 +46,7 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
     }
   }
   build_nastran_supports(build);
+  build_nastran_sets(build, part == NastranPart::nodes);
   source.throw_if_any();
   build.model.files = source.files();
   for (const std::string& note : content.notes) {

@@ -3,8 +3,8 @@
 // bars, point masses, rigid and averaging elements, multi-point constraints, supports;
 // docs/fe-files.md lists the cards. A card that may change stiffness or mass and is not read is a
 // fault; others are listed in the notes. WTMASS is applied. A file without properties and materials
-// is a mesh: surfaces in it are skins that make node sets. Sets are "PID 3"; names of properties
-// that pre-processors leave in comments are sets as well.
+// is a mesh: surfaces in it are skins that make node sets. Sets are "PID 3" and
+// "SET 5"; names that pre-processors leave in comments take their place or come beside them.
 #include <string_view>
 
 #include "floatframe/formats/fe_file.hpp"
