@@ -10,6 +10,7 @@
 #include "floatframe/fe/bar_frame.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/quadrature.hpp"
 #include "floatframe/reduction/eigenmodes.hpp"
 #include "support/random_body.hpp"
 #include "support/reference_json.hpp"
@@ -17,31 +18,43 @@
 namespace floatframe::test {
 namespace {
 
+bool brick(const ElementKernel& kernel) { return kernel.nodes == 8 || kernel.nodes == 20; }
+bool wedge(const ElementKernel& kernel) { return kernel.nodes == 6 || kernel.nodes == 15; }
+bool solid(const ElementKernel& kernel) { return kernel.dofs_per_node == 3; }
+
+/// Corners moved at random, straight edges.
 ElementInput distorted(const ElementKernel& kernel, Random& random) {
   const Vec3 hex[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   const Vec3 tet[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Vec3 prism[6] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  const Vec3 bar[3] = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}};
   ElementInput in;
   const Mat3 R = random.rotation();
-  const bool brick = kernel.nodes == 8 || kernel.nodes == 20;
-  const int corners = brick ? 8 : std::min(kernel.nodes, 4);
+  const Vec3* p = tet;
+  int corners = 4;
+  if (brick(kernel)) p = hex, corners = 8;
+  if (wedge(kernel)) p = prism, corners = 6;
+  if (kernel.type == ElementType::quad4) p = hex;
+  if (is_beam(kernel.type)) p = kernel.nodes == 3 ? bar : tet;
+  corners = std::min(kernel.nodes, corners);
   for (int a = 0; a < corners; ++a) {
-    const Vec3 p = brick ? hex[a] : tet[a];
-    in.p[static_cast<std::size_t>(a)] = R * (p + random.vec3(0.12)) + Vec3(1, 2, 3);
+    in.p[static_cast<std::size_t>(a)] = R * (p[a] + random.vec3(0.12)) + Vec3(1, 2, 3);
   }
-  // Straight edges.
   for (const FaceNodes& face : element_faces(kernel.type)) {
     for (int i = face.corners; i < face.count; ++i) {
       const int from = i - face.corners, to = (from + 1) % face.corners;
-      const auto p = [&](int k) {
+      const auto at = [&](int k) {
         return in.p[static_cast<std::size_t>(face.nodes[static_cast<std::size_t>(k)])];
       };
       in.p[static_cast<std::size_t>(face.nodes[static_cast<std::size_t>(i)])] =
-          0.5 * (p(from) + p(to));
+          0.5 * (at(from) + at(to));
     }
   }
+  if (kernel.type == ElementType::beam3) in.p[1] = 0.5 * (in.p[0] + in.p[2]);
   in.material = {2e11, 0.3, 7500.0};
   in.section = {1e-3, 2e-7, 5e-7, 4e-7};
+  in.shell.thickness = 0.02;
   in.reference = random.vec3();
   return in;
 }
@@ -58,17 +71,33 @@ MatX rigid_motions(const ElementInput& in, const ElementKernel& kernel) {
   return R;
 }
 
+double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  return (b - a).dot((c - a).cross(d - a)) / 6.0;
+}
+
 double volume(const ElementInput& in, const ElementKernel& kernel) {
-  if (kernel.type == ElementType::beam2) return in.section.A * (in.p[1] - in.p[0]).norm();
-  if (kernel.type == ElementType::tet4 || kernel.type == ElementType::tet10) {
-    return (in.p[1] - in.p[0]).dot((in.p[2] - in.p[0]).cross(in.p[3] - in.p[0])) / 6.0;
+  const auto area = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return 0.5 * (in.p[j] - in.p[i]).cross(in.p[k] - in.p[i]).norm();
+  };
+  if (is_beam(kernel.type)) {
+    return in.section.A * (in.p[kernel.nodes == 3 ? 2 : 1] - in.p[0]).norm();
   }
+  if (kernel.type == ElementType::tri3) return in.shell.thickness * area(0, 1, 2);
+  if (kernel.type == ElementType::quad4) {  // the mean of the two divisions
+    return in.shell.thickness * 0.5 *
+           (area(0, 1, 2) + area(0, 2, 3) + area(0, 1, 3) + area(1, 2, 3));
+  }
+  if (!brick(kernel) && !wedge(kernel)) return tetrahedron(in.p[0], in.p[1], in.p[2], in.p[3]);
   // Divergence theorem with bilinear faces: each face as the mean of its two triangulations.
-  const int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                           {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
   double sum = 0.0;
-  for (const auto& f : faces) {
-    const auto p = [&](int i) { return in.p[static_cast<std::size_t>(f[i % 4])]; };
+  for (const FaceNodes& f : element_faces(kernel.type)) {
+    const auto p = [&](int i) {
+      return in.p[static_cast<std::size_t>(f.nodes[static_cast<std::size_t>(i % f.corners)])];
+    };
+    if (f.corners == 3) {
+      sum += p(0).dot(p(1).cross(p(2))) / 6.0;
+      continue;
+    }
     for (int start = 0; start < 2; ++start) {
       sum += 0.5 * p(start).dot(p(start + 1).cross(p(start + 2))) / 6.0;
       sum += 0.5 * p(start).dot(p(start + 2).cross(p(start + 3))) / 6.0;
@@ -90,10 +119,12 @@ TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
       kernel.scalar_mass(in, M_s);
       const MatX R = rigid_motions(in, kernel);
       EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-12 * K.maxCoeff());
-      EXPECT_LT((K * R).cwiseAbs().maxCoeff(), 1e-12 * K.cwiseAbs().maxCoeff());
+      EXPECT_LT((K * R).cwiseAbs().maxCoeff(), 2e-12 * K.cwiseAbs().maxCoeff());
       // 8 points of 6 strains leave a reduced brick six zero-energy modes of its own.
       const int zero = kernel.type == ElementType::hex20r ? 12 : 6;
-      EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatX>(K).eigenvalues()(zero), 1e-9 * K.maxCoeff());
+      const VecX eigenvalues = Eigen::SelfAdjointEigenSolver<MatX>(K).eigenvalues();
+      EXPECT_GT(eigenvalues(zero), 1e-9 * K.maxCoeff());
+      EXPECT_GT(eigenvalues(0), -1e-12 * K.maxCoeff());
       const double mass = 7500.0 * volume(in, kernel);
       EXPECT_NEAR(M_s.sum() / mass, 1.0, 1e-13);
       const MatX rigid = R.transpose() * M * R;
@@ -101,27 +132,133 @@ TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
                 1e-12 * mass);
       EXPECT_LT((M - M.transpose()).cwiseAbs().maxCoeff(), 1e-13 * M.maxCoeff());
       EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatX>(M_s).eigenvalues()(0), 0.0);
+      EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatX>(M).eigenvalues()(0), -1e-14 * M.maxCoeff());
     }
   }
 }
 
+/// Displacements u = G x of the nodes, and the strains.
+VecX linear_field(const ElementInput& in, int nodes, const Mat3& G, Vec6& strain) {
+  VecX u(3 * nodes);
+  for (int a = 0; a < nodes; ++a) u.segment<3>(3 * a) = G * in.p[static_cast<std::size_t>(a)];
+  strain << G(0, 0), G(1, 1), G(2, 2), G(0, 1) + G(1, 0), G(1, 2) + G(2, 1), G(2, 0) + G(0, 2);
+  return u;
+}
+
 TEST(Elements, ConstantStrainIsExact) {
   Random random(2);
-  for (const ElementType type : {ElementType::tet4, ElementType::tet10, ElementType::hex8,
-                                 ElementType::hex20, ElementType::hex20r}) {
-    const ElementKernel& kernel = element_kernel(type);
+  for (const ElementKernel& kernel : element_kernels()) {
+    if (!solid(kernel)) continue;
+    SCOPED_TRACE(kernel.name);
     const ElementInput in = distorted(kernel, random);
-    const Mat3 G = random.matrix(3, 3);  // displacement gradient
-    VecX u(3 * kernel.nodes);
-    for (int a = 0; a < kernel.nodes; ++a)
-      u.segment<3>(3 * a) = G * in.p[static_cast<std::size_t>(a)];
     Vec6 strain;
-    strain << G(0, 0), G(1, 1), G(2, 2), G(0, 1) + G(1, 0), G(1, 2) + G(2, 1), G(2, 0) + G(0, 2);
-    MatX K;
+    const VecX u = linear_field(in, kernel.nodes, random.matrix(3, 3), strain);
+    MatX K, B;
     kernel.stiffness(in, K);
-    // 2 x 2 x 2 points do not integrate det J of a distorted brick exactly, but nearly.
     const double energy = strain.dot(elasticity_matrix(in.material) * strain) * volume(in, kernel);
     EXPECT_NEAR(u.dot(K * u) / energy, 1.0, 1e-12);
+    kernel.nodal_strains(in, B);
+    for (int a = 0; a < kernel.nodes; ++a) {
+      EXPECT_LT((B.middleRows<6>(6 * a) * u - strain).norm(), 1e-11 * strain.norm()) << a;
+    }
+  }
+}
+
+// Patch test: eight elements of a kind round a node in the middle, which is moved; the surface
+// follows a linear field. The node in the middle must be in equilibrium.
+TEST(Elements, PatchTestOfBricks) {
+  Random random(12);
+  for (const ElementType type : {ElementType::hex8, ElementType::hex8i, ElementType::hex8r}) {
+    FeModel model;
+    model.materials = {{2e11, 0.3, 7500.0}};
+    for (int k = 0; k < 27; ++k) {
+      model.positions.push_back(Vec3(k % 3, k / 3 % 3, k / 9) + random.vec3(0.15));
+    }
+    for (int k = 0; k < 8; ++k) {
+      const int n = k % 2 + k / 2 % 2 * 3 + k / 4 * 9;
+      Element e;
+      e.type = type;
+      e.nodes = {n, n + 1, n + 4, n + 3, n + 9, n + 10, n + 13, n + 12};
+      model.elements.push_back(e);
+    }
+    validate(model);
+    const FeSystem system = assemble(model);
+    const Mat3 G = random.matrix(3, 3);
+    VecX u(81);
+    for (int k = 0; k < 27; ++k) {
+      u.segment<3>(3 * k) = G * model.positions[static_cast<std::size_t>(k)];
+    }
+    const VecX f = system.K * u;
+    EXPECT_LT(f.segment<3>(39).norm(), 1e-12 * f.norm()) << element_kernel(type).name;
+    EXPECT_GT(f.segment<3>(0).norm(), 1e-3 * f.norm());
+  }
+}
+
+struct FacePoint {
+  Vec3 p = Vec3::Zero(), dx = Vec3::Zero(), dy = Vec3::Zero();
+};
+
+/// Quadratic triangle or 8-node serendipity quadrilateral, from their textbook shape functions.
+Vec3 face_position(const ElementInput& in, const FaceNodes& f, double x, double y) {
+  double N[8];
+  if (f.corners == 3) {
+    const double z = 1 - x - y;
+    N[0] = z * (2 * z - 1), N[1] = x * (2 * x - 1), N[2] = y * (2 * y - 1);
+    N[3] = 4 * z * x, N[4] = 4 * x * y, N[5] = 4 * y * z;
+  } else {
+    const double cx[4] = {-1, 1, 1, -1}, cy[4] = {-1, -1, 1, 1};
+    for (int i = 0; i < 4; ++i) {
+      N[i] = 0.25 * (1 + cx[i] * x) * (1 + cy[i] * y) * (cx[i] * x + cy[i] * y - 1);
+    }
+    N[4] = 0.5 * (1 - x * x) * (1 - y), N[6] = 0.5 * (1 - x * x) * (1 + y);
+    N[5] = 0.5 * (1 + x) * (1 - y * y), N[7] = 0.5 * (1 - x) * (1 - y * y);
+  }
+  Vec3 p = Vec3::Zero();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(f.count); ++i) {
+    p += N[i] * in.p[static_cast<std::size_t>(f.nodes[i])];
+  }
+  return p;
+}
+
+FacePoint on_face(const ElementInput& in, const FaceNodes& f, double x, double y) {
+  // Richardson's difference is exact for polynomials of degree 4.
+  const auto derivative = [](const auto& g) {
+    const double h = 0.25;
+    return Vec3((8.0 * (g(h) - g(-h)) - (g(2 * h) - g(-2 * h))) / (12.0 * h));
+  };
+  return {face_position(in, f, x, y),
+          derivative([&](double h) { return face_position(in, f, x + h, y); }),
+          derivative([&](double h) { return face_position(in, f, x, y + h); })};
+}
+
+/// Mass of a curved element against a rule of many points on the parent domain.
+TEST(Elements, MassOfCurvedElementsIsExact) {
+  Random random(5);
+  for (const ElementKernel& kernel : element_kernels()) {
+    if (!solid(kernel) || kernel.nodes < 10) continue;
+    SCOPED_TRACE(kernel.name);
+    ElementInput in = distorted(kernel, random);
+    for (int a = brick(kernel) ? 8 : wedge(kernel) ? 6 : 4; a < kernel.nodes; ++a) {
+      in.p[static_cast<std::size_t>(a)] += random.vec3(0.02);
+    }
+    ASSERT_EQ(kernel.fault(in), "");
+    MatX M;
+    kernel.scalar_mass(in, M);
+    // Divergence theorem on the curved faces: int x n_x dA with 12 x 12 points a face.
+    double sum = 0.0;
+    const LineRule line = gauss_jacobi(12, 0);
+    QuadratureRule square;
+    for (int i = 0; i < 144; ++i) {
+      square.push_back({Vec3(2 * line.u(i % 12) - 1, 2 * line.u(i / 12) - 1, 0),
+                        4 * line.weight(i % 12) * line.weight(i / 12)});
+    }
+    for (const FaceNodes& f : element_faces(kernel.type)) {
+      for (const QuadraturePoint& q : f.corners == 3 ? triangle_rule(12) : square) {
+        const FacePoint point = on_face(in, f, q.xi(0), q.xi(1));
+        sum += q.weight * point.p(0) * point.dx.cross(point.dy)(0);
+      }
+    }
+    EXPECT_NEAR(M.sum() / 7500.0 / sum, 1.0, 1e-12);
   }
 }
 

@@ -55,25 +55,17 @@ class Resolver {
   /// dof = sum of terms.
   void add(int owner, int node, int axis, const Terms& terms) {
     const std::size_t dof = static_cast<std::size_t>(table_.index(node, axis));
-    const std::string& name = owners_[static_cast<std::size_t>(owner)];
     if (out_.dependent[dof] != 0) {
-      if (refused_ != node || refused_owner_ != owner) {
-        faults_.add(mark_, name + ": " + dof_names[axis] + " of " + model_.node_label(node) +
-                               " depends already on " +
-                               owners_[static_cast<std::size_t>(owner_[dof])] +
-                               "; a degree of freedom can depend only once");
-      }
-      refused_ = node;
-      refused_owner_ = owner;
-      return;
+      return refuse(owner, node, axis,
+                    " depends already on " + owners_[static_cast<std::size_t>(owner_[dof])] +
+                        "; a degree of freedom can depend only once");
     }
     Terms reduced = reduce(terms);
     const auto self = std::find_if(reduced.begin(), reduced.end(),
                                    [&](const auto& t) { return t.first == static_cast<int>(dof); });
     if (self != reduced.end()) {
-      faults_.add(mark_, name + ": " + dof_names[axis] + " of " + model_.node_label(node) +
-                             " would depend on itself, by a chain of spiders or equations");
-      return;
+      return refuse(owner, node, axis,
+                    " would depend on itself, by a chain of spiders or equations");
     }
     out_.dependent[dof] = 1;
     out_.terms[dof] = std::move(reduced);
@@ -112,6 +104,16 @@ class Resolver {
   const SourceMark& mark() const { return mark_; }
 
  private:
+  /// Once for a node, not for each of its dofs.
+  void refuse(int owner, int node, int axis, const std::string& what) {
+    if (refused_ != node || refused_owner_ != owner) {
+      faults_.add(mark_, owners_[static_cast<std::size_t>(owner)] + ": " + dof_names[axis] +
+                             " of " + model_.node_label(node) + what);
+    }
+    refused_ = node;
+    refused_owner_ = owner;
+  }
+
   const FeModel& model_;
   const DofTable& table_;
   Faults& faults_;

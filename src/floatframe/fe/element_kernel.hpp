@@ -31,7 +31,14 @@ struct ElementKernel {
   void (*mass)(const ElementInput&, bool section_inertia, MatX&);
   /// int N^T N dm of the linear shape functions.
   void (*scalar_mass)(const ElementInput&, MatX&);
+  /// Strains (xx, yy, zz, xy, yz, zx; engineering shear) at the nodes, 6 rows a node, from the
+  /// displacements of the nodes: taken at the points where they are best and carried to the nodes.
+  /// Null for beams and shells.
+  void (*nodal_strains)(const ElementInput&, MatX&) = nullptr;
 };
+
+constexpr bool is_beam(ElementType t) { return t == ElementType::beam2 || t == ElementType::beam3; }
+constexpr bool is_shell(ElementType t) { return t == ElementType::tri3 || t == ElementType::quad4; }
 
 std::span<const ElementKernel> element_kernels();
 const ElementKernel& element_kernel(ElementType type);
@@ -46,10 +53,17 @@ Mat3 beam_axes(const ElementInput& input);
 Mat6 elasticity_matrix(const Material& material);
 
 extern const ElementKernel beam2_kernel;
+extern const ElementKernel beam3_kernel;
+extern const ElementKernel tri3_kernel;
+extern const ElementKernel quad4_kernel;
 extern const ElementKernel tet4_kernel;
 extern const ElementKernel tet10_kernel;
 extern const ElementKernel hex8_kernel;
+extern const ElementKernel hex8i_kernel;
+extern const ElementKernel hex8r_kernel;
 extern const ElementKernel hex20_kernel;
 extern const ElementKernel hex20r_kernel;
+extern const ElementKernel wedge6_kernel;
+extern const ElementKernel wedge15_kernel;
 
 }  // namespace floatframe

@@ -3,8 +3,10 @@
 namespace floatframe {
 
 std::span<const ElementKernel> element_kernels() {
-  static const ElementKernel list[] = {beam2_kernel, tet4_kernel,  tet10_kernel,
-                                       hex8_kernel,  hex20_kernel, hex20r_kernel};
+  static const ElementKernel list[] = {beam2_kernel,  beam3_kernel, tri3_kernel,   quad4_kernel,
+                                       tet4_kernel,   tet10_kernel, hex8_kernel,   hex8i_kernel,
+                                       hex8r_kernel,  hex20_kernel, hex20r_kernel, wedge6_kernel,
+                                       wedge15_kernel};
   return list;
 }
 
@@ -24,9 +26,9 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
         model.positions[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(a)])];
   }
   input.material = model.materials[static_cast<std::size_t>(element.material)];
-  if (element.type == ElementType::beam2) {
-    input.section = model.sections[static_cast<std::size_t>(element.section)];
-  }
+  const std::size_t section = static_cast<std::size_t>(element.section);
+  if (is_beam(element.type)) input.section = model.sections[section];
+  if (is_shell(element.type)) input.shell = model.shells[section];
   input.reference = element.reference;
   return input;
 }

@@ -1,6 +1,5 @@
 #include "floatframe/fe/fe_model.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,7 +32,7 @@ BeamSection BeamSection::rectangle(double width, double height) {
 
 bool FeModel::has_beams() const noexcept {
   return std::any_of(elements.begin(), elements.end(),
-                     [](const Element& e) { return e.type == ElementType::beam2; });
+                     [](const Element& e) { return element_kernel(e.type).dofs_per_node == 6; });
 }
 
 int FeModel::find_node(const std::string& name) const noexcept {
@@ -57,88 +56,6 @@ std::string FeModel::element_label(int element) const {
 SourceMark FeModel::mark(const FeSource& source) const {
   if (source.file < 0 || static_cast<std::size_t>(source.file) >= files.size()) return {};
   return {files[static_cast<std::size_t>(source.file)], source.line, 0};
-}
-
-void validate(const FeModel& model) {
-  Faults faults;
-  const auto add = [&](const std::string& text) { faults.add({}, text); };
-  if (model.nodes() == 0) add("the finite-element model has no nodes");
-  if (!model.node_names.empty() && model.node_names.size() != model.positions.size()) {
-    add("the finite-element model has " + std::to_string(model.node_names.size()) +
-        " node names for " + std::to_string(model.positions.size()) + " nodes");
-  }
-  for (int k = 0; k < model.nodes(); ++k) {
-    if (!model.positions[static_cast<std::size_t>(k)].allFinite()) {
-      add(model.node_label(k) + " has a position that is not finite");
-    }
-  }
-  for (std::size_t i = 0; i < model.materials.size(); ++i) {
-    const Material& m = model.materials[i];
-    const std::string label = "material " + std::to_string(i);
-    if (!(m.young > 0.0) || !std::isfinite(m.young))
-      add(label + ": Young's modulus must be positive");
-    if (!(m.density >= 0.0) || !std::isfinite(m.density))
-      add(label + ": the density must not be negative");
-    if (!(m.poisson > -1.0 && m.poisson < 0.5)) {
-      add(label + ": Poisson's ratio must lie between -1 and 0.5");
-    }
-  }
-  const auto in_range = [](int i, std::size_t size) {
-    return i >= 0 && static_cast<std::size_t>(i) < size;
-  };
-  const bool sound_so_far = faults.empty();
-  for (int e = 0; e < static_cast<int>(model.elements.size()); ++e) {
-    const Element& element = model.elements[static_cast<std::size_t>(e)];
-    const ElementKernel& kernel = element_kernel(element.type);
-    bool sound = sound_so_far;
-    for (int a = 0; a < kernel.nodes; ++a) {
-      const int node = element.nodes[static_cast<std::size_t>(a)];
-      if (!in_range(node, model.positions.size())) {
-        add(model.element_label(e) + ": node index " + std::to_string(node) +
-            " is out of range 0.." + std::to_string(model.nodes() - 1));
-        sound = false;
-      }
-    }
-    if (!in_range(element.material, model.materials.size())) {
-      add(model.element_label(e) + ": there is no material " + std::to_string(element.material));
-      sound = false;
-    }
-    if (element.type == ElementType::beam2 && !in_range(element.section, model.sections.size())) {
-      add(model.element_label(e) + ": there is no section " + std::to_string(element.section));
-      sound = false;
-    }
-    if (!sound) continue;
-    const std::string fault = kernel.fault(gather(model, element));
-    if (!fault.empty()) add(model.element_label(e) + " " + fault);
-  }
-  for (std::size_t i = 0; i < model.masses.size(); ++i) {
-    const PointMass& m = model.masses[i];
-    const std::string label = "point mass " + std::to_string(i);
-    if (!in_range(m.node, model.positions.size())) {
-      add(label + ": node index " + std::to_string(m.node) + " is out of range");
-      continue;
-    }
-    if (!(m.mass >= 0.0) || !std::isfinite(m.mass)) {
-      add(label + " on " + model.node_label(m.node) + ": the mass must not be negative");
-    }
-    if (!m.J.allFinite() ||
-        (m.J - m.J.transpose()).cwiseAbs().maxCoeff() > 1e-12 * m.J.cwiseAbs().maxCoeff()) {
-      add(label + " on " + model.node_label(m.node) + ": the inertia must be finite and symmetric");
-      continue;
-    }
-    const Mat3 P = 0.5 * m.J.trace() * Mat3::Identity() - m.J;
-    const double least =
-        Eigen::SelfAdjointEigenSolver<Mat3>(P, Eigen::EigenvaluesOnly).eigenvalues()(0);
-    if (least < -1e-12 * m.J.trace()) {
-      add(label + " on " + model.node_label(m.node) +
-          ": the principal moments of inertia break the triangle inequality");
-    }
-    if (m.J.cwiseAbs().maxCoeff() > 0.0 && !model.has_beams()) {
-      add(label + " on " + model.node_label(m.node) +
-          " has rotary inertia, but the nodes of solid elements have no rotations");
-    }
-  }
-  faults.throw_if_any();
 }
 
 namespace {

@@ -3,8 +3,8 @@
 // sets, spiders; or nodes and matrices from another program. Plain data in the body frame. SI
 // units, except in what a reader of a file returns: that is in the units of the file until `to_si`
 // (unit_system.hpp). In models made of bars every node has six degrees of freedom (ux uy uz rx ry
-// rz) if there is any beam, else three; `FeSystem` (fe_system.hpp) gives each node what it needs.
-// `validate` names every fault.
+// rz) if there is any beam or shell, else three; `FeSystem` (fe_system.hpp) gives each node what it
+// needs. `validate` names every fault.
 #include <Eigen/SparseCore>
 #include <array>
 #include <map>
@@ -179,8 +179,9 @@ struct FeModel {
   SourceMark mark(const FeSource& source) const;
 };
 
-/// Throws InputError with every fault: indices out of range, non-physical materials, sections and
-/// masses, degenerate or inverted elements.
+/// Throws InputError with the faults, at most 20 of a kind: indices out of range, non-physical
+/// materials, sections and masses, degenerate or inverted elements, spiders, equations and matrices
+/// that do not make sense. What is only suspicious: model_checks.hpp.
 void validate(const FeModel& model);
 
 /// Stiffness, (dofs_per_node n)^2.

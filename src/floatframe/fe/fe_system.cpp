@@ -1,6 +1,5 @@
 #include "floatframe/fe/fe_system.hpp"
 
-#include "floatframe/fe/block_assembly.hpp"
 #include "floatframe/fe/full_system.hpp"
 
 namespace floatframe {
@@ -51,10 +50,70 @@ SparseRows rows_of_nodes(const SparseRows& T, const DofTable& table, int axis) {
   return out;
 }
 
-/// T^T A T
-SparseMatrix condense(const SparseMatrix& A, const SparseMatrix& T) {
-  const SparseMatrix AT = A * T;
-  return SparseMatrix(T.transpose()) * AT;
+/// Independent and dependent dofs apart: u_f = q, u_d = T_d q.
+struct Split {
+  std::vector<int> free, slave;  ///< place of each dof among its kind, else -1
+  int free_count = 0, slave_count = 0;
+  SparseMatrix T_d;
+};
+
+Split split(const DependentDofs& dependences, const std::vector<int>& row_of, int n) {
+  Split s;
+  s.free = row_of;
+  s.free_count = n;
+  s.slave.assign(row_of.size(), -1);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < row_of.size(); ++i) {
+    if (dependences.dependent[i] == 0) continue;
+    for (const auto& [dof, factor] : dependences.terms[i]) {
+      entries.emplace_back(s.slave_count, row_of[static_cast<std::size_t>(dof)], factor);
+    }
+    s.slave[i] = s.slave_count++;
+  }
+  s.T_d.resize(s.slave_count, n);
+  s.T_d.setFromTriplets(entries.begin(), entries.end());
+  return s;
+}
+
+/// The rows and columns of A with a place, in that order. Places ascend.
+SparseMatrix part(const SparseMatrix& A, const std::vector<int>& row, int rows,
+                  const std::vector<int>& column, int columns) {
+  SparseMatrix out(rows, columns);
+  const auto each = [&](auto&& use) {
+    for (int j = 0; j < A.outerSize(); ++j) {
+      const int c = column[static_cast<std::size_t>(j)];
+      if (c < 0) continue;
+      for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
+        const int r = row[static_cast<std::size_t>(it.row())];
+        if (r >= 0) use(r, c, it.value());
+      }
+    }
+  };
+  Eigen::Index entries = 0;
+  each([&](int, int, double) { ++entries; });
+  out.reserve(entries);
+  int next = 0;
+  each([&](int r, int c, double value) {
+    while (next <= c) out.startVec(next++);
+    out.insertBack(r, c) = value;
+  });
+  while (next < columns) out.startVec(next++);
+  out.finalize();
+  return out;
+}
+
+/// T^T A T = A_ff + A_fd T_d + (A_fd T_d)^T + T_d^T A_dd T_d
+SparseMatrix condense(SparseMatrix A, const Split& s) {
+  const SparseMatrix A_fd = part(A, s.free, s.free_count, s.slave, s.slave_count);
+  const SparseMatrix A_dd = part(A, s.slave, s.slave_count, s.slave, s.slave_count);
+  const SparseMatrix A_ff = part(A, s.free, s.free_count, s.free, s.free_count);
+  A.resize(0, 0);
+  const SparseMatrix mixed = A_fd * s.T_d;
+  const SparseMatrix turned = mixed.transpose();
+  const SparseMatrix right = A_dd * s.T_d;
+  const SparseMatrix inner = SparseMatrix(s.T_d.transpose()) * right;
+  const SparseMatrix added = SparseMatrix(mixed + turned) + inner;
+  return A_ff + added;
 }
 
 }  // namespace
@@ -91,9 +150,9 @@ FeSystem assemble(const FeModel& model, Integration integration) {
   system.K = full_stiffness(model, table, integration);
   system.M = full_mass(model, table, integration);
   if (dependences.any) {
-    const SparseMatrix columns(T);
-    system.K = condense(system.K, columns);
-    system.M = condense(system.M, columns);
+    const Split parts = split(dependences, row_of, system.size());
+    system.K = condense(std::move(system.K), parts);
+    system.M = condense(std::move(system.M), parts);
   }
   return system;
 }

@@ -34,43 +34,28 @@ void functions(const Vec3& xi, solid::Shape& N, solid::ShapeGradients& dN) {
   }
 }
 
+std::vector<Vec3> nodes() {
+  std::vector<Vec3> out;
+  for (const auto& x : at) out.emplace_back(x[0], x[1], x[2]);
+  return out;
+}
+
 const solid::IsoparametricElement& full() {
   static const solid::IsoparametricElement e = solid::isoparametric(
-      20, &functions, {brick_rule(3), brick_rule(3)}, {brick_rule(5), brick_rule(3)});
+      20, &functions, {brick_rule(3), brick_rule(3)}, {brick_rule(5), brick_rule(3)},
+      {brick_rule(2), nodes(), &solid::trilinear});
   return e;
 }
 const solid::IsoparametricElement& reduced() {
   static const solid::IsoparametricElement e = solid::isoparametric(
-      20, &functions, {brick_rule(2), brick_rule(2)}, {brick_rule(5), brick_rule(2)});
+      20, &functions, {brick_rule(2), brick_rule(2)}, {brick_rule(5), brick_rule(2)},
+      {brick_rule(2), nodes(), &solid::trilinear});
   return e;
-}
-
-using Choice = const solid::IsoparametricElement& (*)();
-
-template <Choice element>
-std::string fault(const ElementInput& in) {
-  return solid::fault(element(), in);
-}
-template <Choice element>
-void stiffness(const ElementInput& in, MatX& out) {
-  solid::stiffness(element(), in, out);
-}
-template <Choice element>
-void scalar_mass(const ElementInput& in, MatX& out) {
-  solid::scalar_mass(element(), in, out);
-}
-template <Choice element>
-void mass(const ElementInput& in, bool, MatX& out) {
-  solid::mass(element(), in, out);
 }
 
 }  // namespace
 
-const ElementKernel hex20_kernel{
-    ElementType::hex20, "hex20",          20,          3,
-    &fault<full>,       &stiffness<full>, &mass<full>, &scalar_mass<full>};
-const ElementKernel hex20r_kernel{
-    ElementType::hex20r,  "hex20r", 20, 3, &fault<reduced>, &stiffness<reduced>, &mass<reduced>,
-    &scalar_mass<reduced>};
+const ElementKernel hex20_kernel = solid::kernel<full>(ElementType::hex20, "hex20", 20);
+const ElementKernel hex20r_kernel = solid::kernel<reduced>(ElementType::hex20r, "hex20r", 20);
 
 }  // namespace floatframe

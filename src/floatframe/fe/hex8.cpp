@@ -1,9 +1,16 @@
-// 8-node trilinear brick. Nodes: bottom face 1-4 counter-clockwise seen from above, top face 5-8
-// above them. Stiffness with 2 x 2 x 2 Gauss points; scalar mass with 3 x 3 x 3, which is exact on
-// distorted bricks because N^T N det J has degree 4 in each direction.
+// 8-node bricks. Nodes: bottom face 1-4 counter-clockwise seen from above, top face 5-8 above them.
+//   hex8   trilinear, 2 x 2 x 2 points: too stiff in bending
+//   hex8i  with the incompatible modes 1 - xi^2 of Wilson, gradients with the Jacobian of the
+//   centre
+//          (Taylor, Beresford, Wilson 1976) so that the patch test holds
+//   hex8r  mean gradients (Flanagan, Belytschko 1981), hourglass stiffness from hex8i of the
+//          parallelepiped at the centre: no locking, and no weak modes
+// Mass of all with 3 x 3 x 3 points, which is exact on distorted bricks because N^T N det J has
+// degree 4 in each direction.
 #include <Eigen/LU>
 #include <cmath>
 
+#include "floatframe/fe/isoparametric.hpp"
 #include "floatframe/fe/solid_element.hpp"
 
 namespace floatframe {
@@ -12,74 +19,170 @@ namespace {
 constexpr double corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                  {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
-struct Point {
-  Eigen::Matrix<double, 8, 1> N;
-  Eigen::Matrix<double, 3, 8> dN;  ///< with respect to the local coordinates
-  Mat3 J;                          ///< J(i, j) = dx_j / dxi_i
-};
-
-Point evaluate(const ElementInput& in, double r, double s, double t) {
-  Point q;
-  q.J.setZero();
+void functions(const Vec3& xi, solid::Shape& N, solid::ShapeGradients& dN) {
   for (int a = 0; a < 8; ++a) {
     const double x = corner[a][0], y = corner[a][1], z = corner[a][2];
-    q.N(a) = 0.125 * (1 + x * r) * (1 + y * s) * (1 + z * t);
-    q.dN(0, a) = 0.125 * x * (1 + y * s) * (1 + z * t);
-    q.dN(1, a) = 0.125 * y * (1 + x * r) * (1 + z * t);
-    q.dN(2, a) = 0.125 * z * (1 + x * r) * (1 + y * s);
-    q.J += q.dN.col(a) * in.p[static_cast<std::size_t>(a)].transpose();
+    const double f = 1 + x * xi(0), g = 1 + y * xi(1), h = 1 + z * xi(2);
+    N(a) = 0.125 * f * g * h;
+    dN.col(a) = 0.125 * Vec3(x * g * h, f * y * h, f * g * z);
   }
-  return q;
 }
 
-std::string fault(const ElementInput& in) {
-  double size = 0.0;
-  for (std::size_t a = 1; a < 8; ++a) size = std::max(size, (in.p[a] - in.p[0]).norm());
-  const double limit = 1e-12 * size * size * size;
-  for (const auto& c : corner) {
-    if (!(evaluate(in, c[0], c[1], c[2]).J.determinant() > limit)) {
-      return "is inverted or flat (its Jacobian is not positive at every corner)";
+const solid::IsoparametricElement& element() {
+  static const solid::IsoparametricElement made = [] {
+    QuadratureRule corners;
+    std::vector<Vec3> nodes;
+    for (const auto& c : corner) {
+      nodes.emplace_back(c[0], c[1], c[2]);
+      corners.push_back({nodes.back(), 1.0});
     }
-  }
-  return {};
+    solid::IsoparametricElement e = solid::isoparametric(
+        8, &functions, {brick_rule(2), brick_rule(2)}, {brick_rule(3), brick_rule(2)},
+        {brick_rule(2), nodes, &solid::trilinear});
+    e.check = solid::sample(8, &functions, corners);
+    return e;
+  }();
+  return made;
 }
 
-void stiffness(const ElementInput& in, MatX& out) {
-  const double g = 1.0 / std::sqrt(3.0);
+using Modes = Eigen::Matrix<double, 9, 24>;
+using Gradients8 = Eigen::Matrix<double, 3, 8>;
+using Strain24 = Eigen::Matrix<double, 6, 24>;
+
+Mat3 centre_jacobian(const solid::Positions& P) {
+  Mat3 J = Mat3::Zero();
+  for (int a = 0; a < 8; ++a) {
+    J += 0.125 * P.col(a) * Eigen::RowVector3d(corner[a][0], corner[a][1], corner[a][2]);
+  }
+  return J;
+}
+
+/// Strains of the nine incompatible modes at point q: j0/j J0^-T grad(1 - xi_k^2).
+Eigen::Matrix<double, 6, 9> incompatible_strains(const Mat3& J0, const Vec3& xi, double detJ) {
+  const Mat3 inverse = J0.inverse();
+  solid::ShapeGradients g(3, 3);
+  for (int k = 0; k < 3; ++k) {
+    g.col(k) = (-2.0 * xi(k) * J0.determinant() / detJ) * inverse.row(k).transpose();
+  }
+  return solid::strain_matrix(g);
+}
+
+/// K of hex8i and the amplitudes of the modes from the displacements.
+void incompatible(const ElementInput& in, MatX& K, Modes& amplitudes) {
+  const solid::SampledRule& rule = element().stiffness[0];
+  const solid::Positions P = solid::positions(in, 8);
+  const Mat3 J0 = centre_jacobian(P);
   const Mat6 D = elasticity_matrix(in.material);
-  out = MatX::Zero(24, 24);
-  for (const auto& c : corner) {
-    const Point q = evaluate(in, g * c[0], g * c[1], g * c[2]);
-    const solid::Gradients gradients = q.J.inverse() * q.dN;
-    const solid::Strain B = solid::strain_matrix(gradients);
-    out.noalias() += B.transpose() * D * B * q.J.determinant();
+  Eigen::Matrix<double, 33, 33> all = Eigen::Matrix<double, 33, 33>::Zero();
+  for (int q = 0; q < rule.size(); ++q) {
+    double detJ = 0.0;
+    Eigen::Matrix<double, 6, 33> B;
+    B.leftCols<24>() = solid::strain_matrix(solid::gradients(rule, q, P, detJ));
+    B.rightCols<9>() = incompatible_strains(J0, rule.points[static_cast<std::size_t>(q)], detJ);
+    const Eigen::Matrix<double, 6, 33> DB = (rule.weight(q) * detJ) * (D * B);
+    all.noalias() += B.transpose() * DB;
+  }
+  const MatX modes = all.bottomRightCorner<9, 9>(), load = all.bottomLeftCorner<9, 24>();
+  amplitudes = -modes.ldlt().solve(load);
+  K = all.topLeftCorner<24, 24>() + all.topRightCorner<24, 9>() * amplitudes;
+  K = (0.5 * (K + K.transpose())).eval();
+}
+
+void stiffness_i(const ElementInput& in, MatX& K) {
+  Modes amplitudes;
+  incompatible(in, K, amplitudes);
+}
+
+void nodal_strains_i(const ElementInput& in, MatX& B) {
+  Modes amplitudes;
+  MatX K;
+  incompatible(in, K, amplitudes);
+  solid::nodal_strains(element(), in, B);
+  const solid::SampledRule& rule = element().stress;
+  const solid::Positions P = solid::positions(in, 8);
+  const Mat3 J0 = centre_jacobian(P);
+  for (int q = 0; q < rule.size(); ++q) {
+    double detJ = 0.0;
+    solid::gradients(rule, q, P, detJ);
+    const Eigen::Matrix<double, 6, 24> more =
+        incompatible_strains(J0, rule.points[static_cast<std::size_t>(q)], detJ) * amplitudes;
+    for (int a = 0; a < 8; ++a) B.middleRows<6>(6 * a) += element().to_nodes(a, q) * more;
   }
 }
 
-void scalar_mass(const ElementInput& in, MatX& out) {
-  const double x[3] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)};
-  const double w[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-  out = MatX::Zero(8, 8);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      for (int k = 0; k < 3; ++k) {
-        const Point q = evaluate(in, x[i], x[j], x[k]);
-        out.noalias() +=
-            (in.material.density * w[i] * w[j] * w[k] * q.J.determinant()) * q.N * q.N.transpose();
-      }
+/// Gradients of the shape functions averaged over the volume.
+Gradients8 mean_gradients(const solid::Positions& P, double& volume) {
+  // int dN/dx det J has degree 2 in each direction: 2 x 2 x 2 points are exact.
+  const solid::SampledRule& rule = element().stiffness[0];
+  Gradients8 b = Gradients8::Zero();
+  volume = 0.0;
+  for (int q = 0; q < rule.size(); ++q) {
+    double detJ = 0.0;
+    const solid::ShapeGradients g = solid::gradients(rule, q, P, detJ);
+    b += (rule.weight(q) * detJ) * g;
+    volume += rule.weight(q) * detJ;
+  }
+  b /= volume;
+  return b;
+}
+
+void stiffness_r(const ElementInput& in, MatX& K) {
+  const solid::Positions P = solid::positions(in, 8);
+  double volume = 0.0;
+  const Gradients8 b = mean_gradients(P, volume);
+  const Strain24 B = solid::strain_matrix(b);
+  const Strain24 DB = volume * elasticity_matrix(in.material) * B;
+  K = B.transpose() * DB;
+  // Hourglass vectors without what a linear field has in them: gamma = (h - sum_i (h . x_i) b_i)/8.
+  Eigen::Matrix<double, 8, 4> h;
+  for (int a = 0; a < 8; ++a) {
+    const double x = corner[a][0], y = corner[a][1], z = corner[a][2];
+    h.row(a) << x * y, y * z, z * x, x * y * z;
+  }
+  const Gradients8 X = P;
+  const Eigen::Matrix<double, 3, 4> Xh = X * h;
+  const Eigen::Matrix<double, 8, 4> gamma = 0.125 * (h - b.transpose() * Xh);
+  ElementInput block = in;
+  const Mat3 J0 = centre_jacobian(P);
+  for (int a = 0; a < 8; ++a) {
+    block.p[static_cast<std::size_t>(a)] = J0 * Vec3(corner[a][0], corner[a][1], corner[a][2]);
+  }
+  MatX K_block;
+  stiffness_i(block, K_block);
+  Eigen::Matrix<double, 24, 12> H = Eigen::Matrix<double, 24, 12>::Zero();
+  Eigen::Matrix<double, 12, 24> Gamma = Eigen::Matrix<double, 12, 24>::Zero();
+  for (int a = 0; a < 8; ++a) {
+    for (int m = 0; m < 4; ++m) {
+      H.block<3, 3>(3 * a, 3 * m) = h(a, m) * Mat3::Identity();
+      Gamma.block<3, 3>(3 * m, 3 * a) = gamma(a, m) * Mat3::Identity();
     }
   }
+  const Eigen::Matrix<double, 24, 12> KH = Eigen::Matrix<double, 24, 24>(K_block) * H;
+  const Eigen::Matrix<double, 12, 12> S = H.transpose() * KH;
+  const Eigen::Matrix<double, 12, 24> SG = S * Gamma;
+  K += Gamma.transpose() * SG;
+  K = (0.5 * (K + K.transpose())).eval();
 }
 
-void mass(const ElementInput& in, bool, MatX& out) {
-  MatX scalar;
-  scalar_mass(in, scalar);
-  solid::expand(scalar, out);
+void nodal_strains_r(const ElementInput& in, MatX& out) {
+  double volume = 0.0;
+  const Strain24 B = solid::strain_matrix(mean_gradients(solid::positions(in, 8), volume));
+  out = B.replicate(8, 1);
+}
+
+constexpr ElementKernel with(ElementKernel kernel, void (*stiffness)(const ElementInput&, MatX&),
+                             void (*nodal_strains)(const ElementInput&, MatX&)) {
+  kernel.stiffness = stiffness;
+  kernel.nodal_strains = nodal_strains;
+  return kernel;
 }
 
 }  // namespace
 
-const ElementKernel hex8_kernel{ElementType::hex8, "hex8", 8,           3, &fault,
-                                &stiffness,        &mass,  &scalar_mass};
+const ElementKernel hex8_kernel = solid::kernel<element>(ElementType::hex8, "hex8", 8);
+const ElementKernel hex8i_kernel =
+    with(solid::kernel<element>(ElementType::hex8i, "hex8i", 8), &stiffness_i, &nodal_strains_i);
+const ElementKernel hex8r_kernel =
+    with(solid::kernel<element>(ElementType::hex8r, "hex8r", 8), &stiffness_r, &nodal_strains_r);
 
 }  // namespace floatframe

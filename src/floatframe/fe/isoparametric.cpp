@@ -1,19 +1,12 @@
 #include "floatframe/fe/isoparametric.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "floatframe/fe/solid_element.hpp"
 
 namespace floatframe::solid {
 namespace {
-
-using Positions = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 20>;
-
-Positions positions(const ElementInput& in, int nodes) {
-  Positions P(3, nodes);
-  for (int a = 0; a < nodes; ++a) P.col(a) = in.p[static_cast<std::size_t>(a)];
-  return P;
-}
 
 const SampledRule& select(const std::array<SampledRule, 2>& rules, const ElementInput& in) {
   return rules[in.integration == Integration::exact ? 0 : 1];
@@ -28,6 +21,24 @@ bool positive(const SampledRule& rule, const Positions& P, double limit) {
 }
 
 }  // namespace
+
+Positions positions(const ElementInput& in, int nodes) {
+  Positions P(3, nodes);
+  for (int a = 0; a < nodes; ++a) P.col(a) = in.p[static_cast<std::size_t>(a)];
+  return P;
+}
+
+ShapeGradients gradients(const SampledRule& rule, int q, const Positions& P, double& detJ) {
+  const Mat3 J = P * rule.dN.middleCols<3>(3 * q);  // J(i, j) = dx_i / dxi_j
+  detJ = J.determinant();
+  return J.inverse().transpose() * rule.dN.middleCols<3>(3 * q).transpose();
+}
+
+VecX trilinear(const Vec3& xi) {
+  VecX f(8);
+  f << 1.0, xi, xi(0) * xi(1), xi(1) * xi(2), xi(2) * xi(0), xi.prod();
+  return f;
+}
 
 SampledRule sample(int nodes, ShapeFunctions functions, const QuadratureRule& rule) {
   const int nq = static_cast<int>(rule.size());
@@ -50,14 +61,24 @@ SampledRule sample(int nodes, ShapeFunctions functions, const QuadratureRule& ru
 
 IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
                                    const std::array<QuadratureRule, 2>& stiffness,
-                                   const std::array<QuadratureRule, 2>& mass) {
+                                   const std::array<QuadratureRule, 2>& mass,
+                                   const StressRule& stress) {
   IsoparametricElement element;
   element.nodes = nodes;
-  element.functions = functions;
   for (std::size_t i = 0; i < 2; ++i) {
     element.stiffness[i] = sample(nodes, functions, stiffness[i]);
     element.mass[i] = sample(nodes, functions, mass[i]);
   }
+  element.stress = sample(nodes, functions, stress.points);
+  const int terms = static_cast<int>(stress.functions(Vec3::Zero()).size());
+  MatX at_points(element.stress.size(), terms), at_nodes(nodes, terms);
+  for (int q = 0; q < element.stress.size(); ++q) {
+    at_points.row(q) = stress.functions(stress.points[static_cast<std::size_t>(q)].xi);
+  }
+  for (int a = 0; a < nodes; ++a) {
+    at_nodes.row(a) = stress.functions(stress.nodes[static_cast<std::size_t>(a)]);
+  }
+  element.to_nodes = at_nodes * at_points.completeOrthogonalDecomposition().pseudoInverse();
   return element;
 }
 
@@ -65,6 +86,10 @@ std::string fault(const IsoparametricElement& element, const ElementInput& in) {
   const Positions P = positions(in, element.nodes);
   const double size = (P.colwise() - P.col(0)).colwise().norm().maxCoeff();
   const double limit = 1e-12 * size * size * size;
+  if (element.check.size() > 0) {
+    if (positive(element.check, P, limit)) return {};
+    return "is inverted or flat (its Jacobian is not positive at every corner)";
+  }
   if (!positive(select(element.stiffness, in), P, limit) ||
       !positive(select(element.mass, in), P, limit)) {
     return "is inverted or flat (its Jacobian is not positive at every integration point)";
@@ -79,12 +104,10 @@ void stiffness(const IsoparametricElement& element, const ElementInput& in, MatX
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 60, 27> g(3 * n, nq),
       weighted(3 * n, nq);
   for (int q = 0; q < nq; ++q) {
-    const Mat3 J = P * rule.dN.middleCols<3>(3 * q);  // J(i, j) = dx_i / dxi_j
-    const Mat3 inverse = J.inverse().transpose();
-    for (int a = 0; a < n; ++a) {
-      g.block<3, 1>(3 * a, q).noalias() = inverse * rule.dN.block<1, 3>(a, 3 * q).transpose();
-    }
-    weighted.col(q) = (rule.weight(q) * J.determinant()) * g.col(q);
+    double detJ = 0.0;
+    const ShapeGradients dN = gradients(rule, q, P, detJ);
+    g.col(q) = Eigen::Map<const VecX>(dN.data(), 3 * n);
+    weighted.col(q) = (rule.weight(q) * detJ) * g.col(q);
   }
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 60, 60> H(3 * n, 3 * n);
   H.noalias() = g * weighted.transpose();
@@ -119,6 +142,18 @@ void mass(const IsoparametricElement& element, const ElementInput& in, MatX& out
   MatX scalar;
   scalar_mass(element, in, scalar);
   expand(scalar, out);
+}
+
+void nodal_strains(const IsoparametricElement& element, const ElementInput& in, MatX& B) {
+  const Positions P = positions(in, element.nodes);
+  B = MatX::Zero(6 * element.nodes, 3 * element.nodes);
+  for (int q = 0; q < element.stress.size(); ++q) {
+    double detJ = 0.0;
+    const Strain at_point = strain_matrix(gradients(element.stress, q, P, detJ));
+    for (int a = 0; a < element.nodes; ++a) {
+      B.middleRows<6>(6 * a) += element.to_nodes(a, q) * at_point;
+    }
+  }
 }
 
 }  // namespace floatframe::solid

@@ -26,19 +26,54 @@ struct SampledRule {
 };
 SampledRule sample(int nodes, ShapeFunctions functions, const QuadratureRule& rule);
 
+/// Where strains are taken, and how they are carried to the nodes: a least-squares fit of a few
+/// smooth functions.
+struct StressRule {
+  QuadratureRule points;
+  std::vector<Vec3> nodes;  ///< local coordinates of the nodes
+  VecX (*functions)(const Vec3& xi) = nullptr;
+};
+/// 1, x, y, z, xy, yz, zx, xyz
+VecX trilinear(const Vec3& xi);
+
 struct IsoparametricElement {
   int nodes = 0;
-  ShapeFunctions functions = nullptr;
   /// Indexed by Integration.
   std::array<SampledRule, 2> stiffness, mass;
+  SampledRule stress;
+  MatX to_nodes;      ///< nodes x stress points
+  SampledRule check;  ///< where the Jacobian must be positive; empty: at the integration points
 };
 IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
                                    const std::array<QuadratureRule, 2>& stiffness,
-                                   const std::array<QuadratureRule, 2>& mass);
+                                   const std::array<QuadratureRule, 2>& mass,
+                                   const StressRule& stress);
+
+using Positions = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 20>;
+Positions positions(const ElementInput& in, int nodes);
+
+/// dN/dx of all shape functions at point q, 3 x nodes; `detJ` as well.
+ShapeGradients gradients(const SampledRule& rule, int q, const Positions& P, double& detJ);
 
 std::string fault(const IsoparametricElement& element, const ElementInput& in);
 void stiffness(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 void scalar_mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 void mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
+/// Strains at the nodes (6 rows a node) from the displacements of the nodes.
+void nodal_strains(const IsoparametricElement& element, const ElementInput& in, MatX& B);
+
+/// The entry of the list for an isoparametric element.
+template <const IsoparametricElement& (*element)()>
+constexpr ElementKernel kernel(ElementType type, const char* name, int nodes) {
+  return {type,
+          name,
+          nodes,
+          3,
+          [](const ElementInput& in) { return fault(element(), in); },
+          [](const ElementInput& in, MatX& out) { stiffness(element(), in, out); },
+          [](const ElementInput& in, bool, MatX& out) { mass(element(), in, out); },
+          [](const ElementInput& in, MatX& out) { scalar_mass(element(), in, out); },
+          [](const ElementInput& in, MatX& B) { nodal_strains(element(), in, B); }};
+}
 
 }  // namespace floatframe::solid

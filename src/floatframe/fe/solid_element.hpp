@@ -5,8 +5,8 @@
 
 namespace floatframe::solid {
 
-using Gradients = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 8>;  ///< column a: dN_a/dx
-using Strain = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 24>;
+using Gradients = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 20>;  ///< column a: dN_a/dx
+using Strain = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 60>;
 
 /// Strains (xx, yy, zz, xy, yz, zx), engineering shear.
 inline Strain strain_matrix(const Gradients& g) {

@@ -6,6 +6,8 @@
 namespace floatframe {
 namespace {
 
+constexpr int edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+
 void functions(const Vec3& xi, solid::Shape& N, solid::ShapeGradients& dN) {
   const double L[4] = {1.0 - xi.sum(), xi(0), xi(1), xi(2)};
   const Vec3 dL[4] = {Vec3(-1, -1, -1), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
@@ -13,7 +15,6 @@ void functions(const Vec3& xi, solid::Shape& N, solid::ShapeGradients& dN) {
     N(a) = L[a] * (2.0 * L[a] - 1.0);
     dN.col(a) = (4.0 * L[a] - 1.0) * dL[a];
   }
-  constexpr int edge[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
   for (int e = 0; e < 6; ++e) {
     const int i = edge[e][0], j = edge[e][1];
     N(4 + e) = 4.0 * L[i] * L[j];
@@ -21,21 +22,29 @@ void functions(const Vec3& xi, solid::Shape& N, solid::ShapeGradients& dN) {
   }
 }
 
+/// 1, x, y, z about the centre.
+VecX smooth(const Vec3& xi) {
+  VecX f(4);
+  f << 1.0, xi - Vec3::Constant(0.25);
+  return f;
+}
+
+std::vector<Vec3> nodes() {
+  const Vec3 corner[4] = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  std::vector<Vec3> out(corner, corner + 4);
+  for (const auto& e : edge) out.push_back(0.5 * (corner[e[0]] + corner[e[1]]));
+  return out;
+}
+
 const solid::IsoparametricElement& element() {
-  static const solid::IsoparametricElement e =
-      solid::isoparametric(10, &functions, {tetrahedron_rule_4(), tetrahedron_rule_4()},
-                           {tetrahedron_rule(4), tetrahedron_rule_4()});
+  static const solid::IsoparametricElement e = solid::isoparametric(
+      10, &functions, {tetrahedron_rule_4(), tetrahedron_rule_4()},
+      {tetrahedron_rule(4), tetrahedron_rule_4()}, {tetrahedron_rule_4(), nodes(), &smooth});
   return e;
 }
 
-std::string fault(const ElementInput& in) { return solid::fault(element(), in); }
-void stiffness(const ElementInput& in, MatX& out) { solid::stiffness(element(), in, out); }
-void scalar_mass(const ElementInput& in, MatX& out) { solid::scalar_mass(element(), in, out); }
-void mass(const ElementInput& in, bool, MatX& out) { solid::mass(element(), in, out); }
-
 }  // namespace
 
-const ElementKernel tet10_kernel{ElementType::tet10, "tet10", 10,          3, &fault,
-                                 &stiffness,         &mass,   &scalar_mass};
+const ElementKernel tet10_kernel = solid::kernel<element>(ElementType::tet10, "tet10", 10);
 
 }  // namespace floatframe

@@ -22,20 +22,27 @@ std::string fault(const ElementInput& in) {
   return {};
 }
 
-void stiffness(const ElementInput& in, MatX& out) {
-  const Mat3 J = edges(in);
-  const Mat3 inverse = J.inverse();
+solid::Strain strains(const ElementInput& in) {
+  const Mat3 inverse = edges(in).inverse();
   solid::Gradients g(3, 4);
   for (int i = 0; i < 3; ++i) g.col(i + 1) = inverse.row(i).transpose();
   g.col(0) = -(g.col(1) + g.col(2) + g.col(3));
-  const solid::Strain B = solid::strain_matrix(g);
-  out = B.transpose() * elasticity_matrix(in.material) * B * (J.determinant() / 6.0);
+  return solid::strain_matrix(g);
+}
+
+void stiffness(const ElementInput& in, MatX& out) {
+  const solid::Strain B = strains(in);
+  out = B.transpose() * elasticity_matrix(in.material) * B * (edges(in).determinant() / 6.0);
 }
 
 void scalar_mass(const ElementInput& in, MatX& out) {
   const double m = in.material.density * edges(in).determinant() / 6.0;
-  out = m / 20.0 * (MatX::Ones(4, 4) + MatX::Identity(4, 4));
+  out = in.integration == Integration::ccx  // one point
+            ? MatX(MatX::Constant(4, 4, m / 16.0))
+            : MatX(m / 20.0 * (MatX::Ones(4, 4) + MatX::Identity(4, 4)));
 }
+
+void nodal_strains(const ElementInput& in, MatX& B) { B = strains(in).replicate(4, 1); }
 
 void mass(const ElementInput& in, bool, MatX& out) {
   MatX scalar;
@@ -45,7 +52,7 @@ void mass(const ElementInput& in, bool, MatX& out) {
 
 }  // namespace
 
-const ElementKernel tet4_kernel{ElementType::tet4, "tet4", 4,           3, &fault,
-                                &stiffness,        &mass,  &scalar_mass};
+const ElementKernel tet4_kernel{ElementType::tet4, "tet4",        4, 3, &fault, &stiffness, &mass,
+                                &scalar_mass,      &nodal_strains};
 
 }  // namespace floatframe

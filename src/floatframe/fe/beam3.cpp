@@ -1,0 +1,113 @@
+// 3-node Timoshenko beam: end, middle, end. Displacements and rotations quadratic along the axis,
+// which may be curved; stiffness with 2 points (no shear locking), mass with 4. Strains in the
+// local axes of a point with tangent t: R^T (u' - theta x t) and R^T theta'. Shear areas 5/6 A.
+#include <cmath>
+
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/quadrature.hpp"
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr double shear_factor = 5.0 / 6.0;
+
+struct Station {
+  Vec3 N, dN;       ///< of the three nodes; derivative along the arc
+  Mat3 R;           ///< local axes
+  double ds = 0.0;  ///< weight times the length of the arc
+  double metric = 0.0;
+};
+
+Station station(const ElementInput& in, double x, double weight) {
+  Station s;
+  s.N << 0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0);
+  const Vec3 d(x - 0.5, -2.0 * x, x + 0.5);
+  Vec3 tangent = Vec3::Zero();
+  for (int a = 0; a < 3; ++a) tangent += d(a) * in.p[static_cast<std::size_t>(a)];
+  s.metric = tangent.norm();
+  s.dN = d / s.metric;
+  s.ds = weight * s.metric;
+  tangent /= s.metric;
+  s.R.col(0) = tangent;
+  s.R.col(1) = (in.reference - tangent * tangent.dot(in.reference)).normalized();
+  s.R.col(2) = tangent.cross(s.R.col(1));
+  return s;
+}
+
+template <class Use>
+void integrate(const ElementInput& in, int points, Use&& use) {
+  const LineRule rule = gauss_jacobi(points, 0);
+  for (int q = 0; q < points; ++q) use(station(in, 2.0 * rule.u(q) - 1.0, 2.0 * rule.weight(q)));
+}
+
+std::string fault(const ElementInput& in) {
+  const double length = (in.p[2] - in.p[0]).norm();
+  if (!(length > 1e-9)) return "has zero length";
+  if (!(in.reference.norm() > 0.0)) return "has a reference vector of zero length";
+  for (const double x : {-1.0, 0.0, 1.0}) {
+    const Station s = station(in, x, 1.0);
+    if (!(s.metric > 0.05 * length) || s.R.col(0).dot(in.p[2] - in.p[0]) <= 0.0) {
+      return "has a middle node that is not between its ends";
+    }
+    if (s.R.col(0).cross(in.reference).norm() < 1e-6 * in.reference.norm()) {
+      return "has a reference vector parallel to its axis";
+    }
+  }
+  const BeamSection& s = in.section;
+  if (!(s.A > 0.0) || !(s.Iy > 0.0) || !(s.Iz > 0.0) || !(s.J > 0.0)) {
+    return "has a section whose A, Iy, Iz and J are not all positive";
+  }
+  return {};
+}
+
+void stiffness(const ElementInput& in, MatX& out) {
+  const double E = in.material.young, G = in.material.shear();
+  const BeamSection& sec = in.section;
+  Vec6 c;
+  c << E * sec.A, shear_factor * G * sec.A, shear_factor * G * sec.A, G * sec.J, E * sec.Iy,
+      E * sec.Iz;
+  out = MatX::Zero(18, 18);
+  integrate(in, 2, [&](const Station& s) {
+    Eigen::Matrix<double, 6, 18> B = Eigen::Matrix<double, 6, 18>::Zero();
+    const Mat3 Rt = s.R.transpose();
+    for (int a = 0; a < 3; ++a) {
+      B.block<3, 3>(0, 6 * a) = s.dN(a) * Rt;
+      B.block<3, 3>(0, 6 * a + 3) = s.N(a) * Rt * skew(Vec3(s.R.col(0)));
+      B.block<3, 3>(3, 6 * a + 3) = s.dN(a) * Rt;
+    }
+    out.noalias() += B.transpose() * (s.ds * c).asDiagonal() * B;
+  });
+  out = (0.5 * (out + out.transpose())).eval();
+}
+
+void mass(const ElementInput& in, bool section_inertia, MatX& out) {
+  const double rho = in.material.density;
+  const BeamSection& sec = in.section;
+  const Vec3 turning(sec.Iy + sec.Iz, sec.Iy, sec.Iz);
+  out = MatX::Zero(18, 18);
+  integrate(in, 4, [&](const Station& s) {
+    const Mat3 J = s.R * turning.asDiagonal() * s.R.transpose();
+    for (int a = 0; a < 3; ++a) {
+      for (int b = 0; b < 3; ++b) {
+        const double f = rho * s.ds * s.N(a) * s.N(b);
+        out.block<3, 3>(6 * a, 6 * b).diagonal().array() += f * sec.A;
+        if (section_inertia) out.block<3, 3>(6 * a + 3, 6 * b + 3) += f * J;
+      }
+    }
+  });
+}
+
+void scalar_mass(const ElementInput& in, MatX& out) {
+  out = MatX::Zero(3, 3);
+  integrate(in, 4, [&](const Station& s) {
+    out += (in.material.density * in.section.A * s.ds) * s.N * s.N.transpose();
+  });
+}
+
+}  // namespace
+
+const ElementKernel beam3_kernel{ElementType::beam3, "beam3", 3,           6, &fault,
+                                 &stiffness,         &mass,   &scalar_mass};
+
+}  // namespace floatframe

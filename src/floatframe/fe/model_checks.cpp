@@ -1,0 +1,239 @@
+#include "floatframe/fe/model_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr int named = 5;
+
+/// The three corners next to each corner, so that the edges to them form a right-handed triad.
+using Neighbours = std::array<int, 3>;
+std::span<const Neighbours> neighbours(ElementType type, double& regular) {
+  static constexpr Neighbours tet[] = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
+  static constexpr Neighbours hex[] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                       {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  static constexpr Neighbours wedge[] = {{1, 2, 3}, {2, 0, 4}, {0, 1, 5},
+                                         {5, 4, 0}, {3, 5, 1}, {4, 3, 2}};
+  switch (type) {
+    case ElementType::tet4:
+    case ElementType::tet10:
+      regular = std::sqrt(0.5);
+      return tet;
+    case ElementType::wedge6:
+    case ElementType::wedge15:
+      regular = std::sqrt(0.75);
+      return wedge;
+    case ElementType::beam2:
+    case ElementType::beam3:
+    case ElementType::tri3:
+    case ElementType::quad4:
+      return {};
+    default:
+      regular = 1.0;
+      return hex;
+  }
+}
+
+struct Edge {
+  int a, b, middle;  ///< local nodes; -1: no middle node
+};
+
+std::vector<Edge> edges_of(ElementType type) {
+  std::vector<Edge> edges;
+  for (const FaceNodes& f : element_faces(type)) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(f.corners); ++i) {
+      const int a = f.nodes[i], b = f.nodes[(i + 1) % static_cast<std::size_t>(f.corners)];
+      const int middle =
+          f.count > f.corners ? f.nodes[i + static_cast<std::size_t>(f.corners)] : -1;
+      const bool known = std::any_of(edges.begin(), edges.end(), [&](const Edge& e) {
+        return (e.a == a && e.b == b) || (e.a == b && e.b == a);
+      });
+      if (!known) edges.push_back({a, b, middle});
+    }
+  }
+  return edges;
+}
+
+const std::vector<Edge>& edges(ElementType type) {
+  static const std::vector<std::vector<Edge>> all = [] {
+    std::vector<std::vector<Edge>> made;
+    for (int t = 0; t <= static_cast<int>(ElementType::beam3); ++t) {
+      made.push_back(edges_of(static_cast<ElementType>(t)));
+    }
+    return made;
+  }();
+  return all[static_cast<std::size_t>(type)];
+}
+
+Vec3 at(const FeModel& model, const Element& e, int local) {
+  const int node = e.nodes[static_cast<std::size_t>(local)];
+  return model.positions[static_cast<std::size_t>(node)];
+}
+
+/// Direction of the edge from corner a to b at a.
+Vec3 tangent(const FeModel& model, const Element& e, int a, int b) {
+  for (const Edge& edge : edges(e.type)) {
+    if (!((edge.a == a && edge.b == b) || (edge.a == b && edge.b == a))) continue;
+    if (edge.middle < 0) break;
+    return 4.0 * at(model, e, edge.middle) - 3.0 * at(model, e, a) - at(model, e, b);
+  }
+  return at(model, e, b) - at(model, e, a);
+}
+
+/// "12 elements ...: worst element 4 (tet10) 0.03, ..."
+void warn(const FeModel& model, std::vector<std::pair<double, int>> found, bool large_is_bad,
+          const std::string& what, std::vector<std::string>& out) {
+  if (found.empty()) return;
+  std::sort(found.begin(), found.end());
+  if (large_is_bad) std::reverse(found.begin(), found.end());
+  std::string list;
+  for (std::size_t i = 0; i < found.size() && i < named; ++i) {
+    list += fmt::format("{}{}: {:.3g}", i == 0 ? "" : ", ", model.element_label(found[i].second),
+                        found[i].first);
+  }
+  if (found.size() > named) list += fmt::format(" and {} more", found.size() - named);
+  out.push_back(fmt::format("{} {} {}; worst: {}", found.size(),
+                            found.size() == 1 ? "element has" : "elements have", what, list));
+}
+
+double integral(const FeModel& model, bool density) {
+  double sum = 0.0;
+  MatX scalar;
+  for (const Element& e : model.elements) {
+    ElementInput in = gather(model, e);
+    if (!density) in.material.density = 1.0;
+    element_kernel(e.type).scalar_mass(in, scalar);
+    sum += scalar.sum();
+  }
+  return sum;
+}
+
+void warn_duplicates(const FeModel& model, std::vector<std::string>& out) {
+  std::vector<std::pair<std::array<int, 20>, int>> keys;
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    std::array<int, 20> key;
+    key.fill(-1);
+    const auto& nodes = model.elements[e].nodes;
+    const int count = element_kernel(model.elements[e].type).nodes;
+    std::copy_n(nodes.begin(), count, key.begin());
+    std::sort(key.begin(), key.begin() + count);
+    keys.emplace_back(key, static_cast<int>(e));
+  }
+  std::sort(keys.begin(), keys.end());
+  int count = 0;
+  std::string first;
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    if (keys[i].first != keys[i - 1].first) continue;
+    if (count++ == 0) {
+      first =
+          model.element_label(keys[i - 1].second) + " and " + model.element_label(keys[i].second);
+    }
+  }
+  if (count == 0) return;
+  out.push_back(
+      fmt::format("{} {} on the nodes of another one: mass and stiffness count twice "
+                  "there; first: {}",
+                  count, count == 1 ? "element lies" : "elements lie", first));
+}
+
+}  // namespace
+
+double corner_quality(const FeModel& model, const Element& e) {
+  double regular = 1.0, worst = 1.0;
+  const std::span<const Neighbours> corners = neighbours(e.type, regular);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    Mat3 t;
+    for (int i = 0; i < 3; ++i) {
+      t.col(i) = tangent(model, e, static_cast<int>(c), corners[c][static_cast<std::size_t>(i)]);
+    }
+    const double lengths = t.colwise().norm().prod();
+    worst = std::min(worst, lengths > 0.0 ? t.determinant() / (lengths * regular) : 0.0);
+  }
+  return worst;
+}
+
+double aspect_ratio(const FeModel& model, const Element& e) {
+  double shortest = INFINITY, longest = 0.0;
+  for (const Edge& edge : edges(e.type)) {
+    const double length = (at(model, e, edge.a) - at(model, e, edge.b)).norm();
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+  }
+  return longest > 0.0 ? longest / shortest : 1.0;
+}
+
+std::vector<std::string> shape_warnings(const FeModel& model) {
+  std::vector<std::pair<double, int>> flat, slender;
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    const double quality = corner_quality(model, model.elements[i]);
+    const double aspect = aspect_ratio(model, model.elements[i]);
+    if (quality < 0.1) flat.emplace_back(quality, static_cast<int>(i));
+    if (aspect > 20.0) slender.emplace_back(aspect, static_cast<int>(i));
+  }
+  std::vector<std::string> out;
+  warn(model, std::move(flat), false,
+       "a corner whose Jacobian is below 0.1 of that of the regular shape", out);
+  warn(model, std::move(slender), true, "edges whose longest is more than 20 times the shortest",
+       out);
+  return out;
+}
+
+std::vector<int> unreferenced_nodes(const FeModel& model) {
+  const DofTable table = dof_table(model);
+  std::vector<char> used(model.positions.size(), 0);
+  for (int k = 0; k < model.nodes(); ++k) used[static_cast<std::size_t>(k)] = table.count(k) > 0;
+  for (const Spider& s : model.spiders) {
+    if (s.rotation_node >= 0) used[static_cast<std::size_t>(s.rotation_node)] = 1;
+  }
+  std::vector<int> out;
+  for (int k = 0; k < model.nodes(); ++k) {
+    if (used[static_cast<std::size_t>(k)] == 0) out.push_back(k);
+  }
+  return out;
+}
+
+std::vector<std::string> model_warnings(const FeModel& model) {
+  std::vector<std::string> out = shape_warnings(model);
+  std::vector<int> elements(model.materials.size(), 0);
+  for (const Element& e : model.elements) ++elements[static_cast<std::size_t>(e.material)];
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    if (elements[i] == 0 || model.materials[i].density > 0.0) continue;
+    const bool has_name = i < model.material_names.size() && !model.material_names[i].empty();
+    out.push_back(fmt::format("material {} has no density: {} {} without mass",
+                              has_name ? "'" + model.material_names[i] + "'" : std::to_string(i),
+                              elements[i], elements[i] == 1 ? "element is" : "elements are"));
+  }
+  warn_duplicates(model, out);
+  const std::vector<int> unused = unreferenced_nodes(model);
+  if (!unused.empty()) {
+    std::string list;
+    for (std::size_t i = 0; i < unused.size() && i < named; ++i) {
+      list += (i == 0 ? "" : ", ") + model.node_label(unused[i]);
+    }
+    if (unused.size() > named) list += fmt::format(" and {} more", unused.size() - named);
+    out.push_back(fmt::format("{} {} to no element: {}", unused.size(),
+                              unused.size() == 1 ? "node belongs" : "nodes belong", list));
+  }
+  return out;
+}
+
+double volume(const FeModel& model) { return integral(model, false); }
+
+double volume_times_density(const FeModel& model) {
+  double mass = integral(model, true);
+  for (const PointMass& p : model.masses) mass += p.mass;
+  return mass;
+}
+
+}  // namespace floatframe

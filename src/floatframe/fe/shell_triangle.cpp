@@ -1,0 +1,205 @@
+// Membrane: the optimal triangle with drilling freedoms of Felippa (2003, "A study of optimal
+// membrane triangles with drilling freedoms"), which is exact in plane bending of rectangular
+// patches. Plate: discrete Kirchhoff triangle of Batoz, Bathe and Ho (1980); no transverse shear
+// strain. Mass: linear displacements, rotary inertia of the thickness, none about the normal.
+#include "floatframe/fe/shell_triangle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floatframe {
+namespace {
+
+using Mat9 = Eigen::Matrix<double, 9, 9>;
+using Mat39 = Eigen::Matrix<double, 3, 9>;
+
+/// Corners in the plane of the triangle, origin in corner 1.
+struct Plane {
+  std::array<double, 3> x{}, y{};
+  double area = 0.0;
+  double dx(int i, int j) const { return x[std::size_t(i)] - x[std::size_t(j)]; }
+  double dy(int i, int j) const { return y[std::size_t(i)] - y[std::size_t(j)]; }
+  double square(int i, int j) const { return dx(i, j) * dx(i, j) + dy(i, j) * dy(i, j); }
+};
+
+Plane flatten(const std::array<Vec3, 3>& p, const Mat3& R) {
+  Plane t;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 local = R.transpose() * (p[i] - p[0]);
+    t.x[i] = local(0);
+    t.y[i] = local(1);
+  }
+  t.area = 0.5 * (t.dx(1, 0) * t.dy(2, 0) - t.dx(2, 0) * t.dy(1, 0));
+  return t;
+}
+
+/// Plane stress, without the thickness.
+Mat3 plane_stress(const Material& m) {
+  const double c = m.young / (1.0 - m.poisson * m.poisson);
+  Mat3 D;
+  D << c, c * m.poisson, 0, c * m.poisson, c, 0, 0, 0, m.shear();
+  return D;
+}
+
+/// Dofs (u, v, rz) a node: basic part (constant stress) + 3/4 beta_0 of the higher-order part.
+Mat9 membrane(const Plane& t, const Material& material, double h) {
+  const Mat3 E = plane_stress(material);
+  const double A = t.area;
+  constexpr double alpha = 1.5;
+  Eigen::Matrix<double, 9, 3> L;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double y = t.dy(j, k), x = t.dx(k, j);
+    L.row(3 * i) << y, 0, x;
+    L.row(3 * i + 1) << 0, x, y;
+    L.row(3 * i + 2) << y * (t.dy(i, k) - t.dy(j, i)), x * (t.dx(k, i) - t.dx(i, j)),
+        2.0 * (t.dx(k, i) * t.dy(i, k) - t.dx(i, j) * t.dy(j, i));
+    L.row(3 * i + 2) *= alpha / 6.0;
+  }
+  L *= 0.5 * h;
+  const Mat9 basic = L * E * L.transpose() / (A * h);
+
+  // Deviation of the drilling rotations from the mean rotation of the sides.
+  Mat39 T;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    for (int row = 0; row < 3; ++row) {
+      T(row, 3 * i) = t.dx(k, j);
+      T(row, 3 * i + 1) = t.dy(k, j);
+      T(row, 3 * i + 2) = row == i ? 4.0 * A : 0.0;
+    }
+  }
+  T /= 4.0 * A;
+  // Natural strains along the sides 12, 23, 31.
+  const double l21 = t.square(1, 0), l32 = t.square(2, 1), l13 = t.square(0, 2);
+  Mat3 Te;
+  Te << t.dy(1, 2) * t.dy(0, 2) * l21, t.dy(2, 0) * t.dy(1, 0) * l32, t.dy(0, 1) * t.dy(2, 1) * l13,
+      t.dx(1, 2) * t.dx(0, 2) * l21, t.dx(2, 0) * t.dx(1, 0) * l32, t.dx(0, 1) * t.dx(2, 1) * l13,
+      (t.dy(1, 2) * t.dx(2, 0) + t.dx(2, 1) * t.dy(0, 2)) * l21,
+      (t.dy(2, 0) * t.dx(0, 1) + t.dx(0, 2) * t.dy(1, 0)) * l32,
+      (t.dy(0, 1) * t.dx(1, 2) + t.dx(1, 0) * t.dy(2, 1)) * l13;
+  Te /= 4.0 * A * A;
+  const Mat3 E_natural = Te.transpose() * E * Te;
+  Mat3 Q1, Q2, Q3;
+  Q1 << 1, 2, 1, 0, 1, -1, -1, -1, -2;
+  Q2 << -2, -1, -1, 1, 1, 2, -1, 0, 1;
+  Q3 << 1, -1, 0, -1, -2, -1, 2, 1, 1;
+  const Vec3 sides(1.0 / l21, 1.0 / l32, 1.0 / l13);
+  for (Mat3* Q : {&Q1, &Q2, &Q3}) *Q = (2.0 * A / 3.0) * sides.asDiagonal() * *Q;
+  const Mat3 Q4 = 0.5 * (Q1 + Q2), Q5 = 0.5 * (Q2 + Q3), Q6 = 0.5 * (Q3 + Q1);
+  const Mat3 K_theta = Q4.transpose() * E_natural * Q4 + Q5.transpose() * E_natural * Q5 +
+                       Q6.transpose() * E_natural * Q6;
+  const double nu = material.poisson;
+  const double beta_0 = std::max(0.5 * (1.0 - 4.0 * nu * nu), 0.01);
+  return basic + (0.75 * beta_0 * h * A) * T.transpose() * K_theta * T;
+}
+
+/// Curvatures at a point (xi, eta) of the triangle from (w, rx, ry) of the corners.
+Mat39 curvatures(const Plane& t, double xi, double eta) {
+  // Sides 4, 5, 6 = 23, 31, 12; stored at 0, 1, 2.
+  std::array<double, 3> a{}, b{}, c{}, d{}, e{};
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const std::size_t s = static_cast<std::size_t>(k);
+    const double x = t.dx(i, j), y = t.dy(i, j), l = t.square(i, j);
+    a[s] = -x / l;
+    b[s] = 0.75 * x * y / l;
+    c[s] = (0.25 * x * x - 0.5 * y * y) / l;
+    d[s] = -y / l;
+    e[s] = (0.25 * y * y - 0.5 * x * x) / l;
+  }
+  // Derivatives of the quadratic shape functions with respect to xi and eta.
+  const double L1 = 1.0 - xi - eta;
+  const Vec2 corner[3] = {Vec2::Constant(1.0 - 4.0 * L1), Vec2(4.0 * xi - 1.0, 0.0),
+                          Vec2(0.0, 4.0 * eta - 1.0)};
+  const Vec2 side[3] = {Vec2(4.0 * eta, 4.0 * xi), Vec2(-4.0 * eta, 4.0 * (L1 - eta)),
+                        Vec2(4.0 * (L1 - xi), -4.0 * xi)};
+  const double factor = 1.0 / (2.0 * t.area);
+  const auto ddx = [&](const Vec2& g) { return factor * (t.dy(2, 0) * g(0) + t.dy(0, 1) * g(1)); };
+  const auto ddy = [&](const Vec2& g) { return factor * (t.dx(0, 2) * g(0) + t.dx(1, 0) * g(1)); };
+  Mat39 B;
+  for (int i = 0; i < 3; ++i) {
+    // The side before the corner and the one after it: 5 and 6 for corner 1.
+    const std::size_t p = static_cast<std::size_t>((i + 1) % 3);
+    const std::size_t q = static_cast<std::size_t>((i + 2) % 3);
+    const Vec2 Hx[3] = {1.5 * (a[q] * side[q] - a[p] * side[p]), b[p] * side[p] + b[q] * side[q],
+                        corner[i] - c[p] * side[p] - c[q] * side[q]};
+    const Vec2 Hy[3] = {1.5 * (d[q] * side[q] - d[p] * side[p]),
+                        -corner[i] + e[p] * side[p] + e[q] * side[q], -Hx[1]};
+    for (int k = 0; k < 3; ++k) {
+      B(0, 3 * i + k) = ddx(Hx[k]);
+      B(1, 3 * i + k) = ddy(Hy[k]);
+      B(2, 3 * i + k) = ddy(Hx[k]) + ddx(Hy[k]);
+    }
+  }
+  return B;
+}
+
+/// Dofs (w, rx, ry) a node; the curvatures are linear, so the middles of the sides are exact.
+Mat9 plate(const Plane& t, const Material& material, double h) {
+  const Mat3 D = plane_stress(material) * (h * h * h / 12.0);
+  const Vec2 middle[3] = {Vec2(0.5, 0.0), Vec2(0.5, 0.5), Vec2(0.0, 0.5)};
+  Mat9 K = Mat9::Zero();
+  for (const Vec2& m : middle) {
+    const Mat39 B = curvatures(t, m(0), m(1));
+    K += (t.area / 3.0) * B.transpose() * D * B;
+  }
+  return K;
+}
+
+void to_body_axes(const Mat3& R, Mat18& m) {
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const Mat3 block = m.block<3, 3>(3 * i, 3 * j);
+      m.block<3, 3>(3 * i, 3 * j) = R * block * R.transpose();
+    }
+  }
+}
+
+}  // namespace
+
+Mat3 triangle_axes(const std::array<Vec3, 3>& p) {
+  Mat3 R;
+  R.col(0) = (p[1] - p[0]).normalized();
+  R.col(2) = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+  R.col(1) = R.col(2).cross(R.col(0));
+  return R;
+}
+
+double triangle_area(const std::array<Vec3, 3>& p) {
+  return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
+}
+
+Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& material, double h) {
+  const Mat3 R = triangle_axes(p);
+  const Plane t = flatten(p, R);
+  const Mat9 in_plane = membrane(t, material, h), bending = plate(t, material, h);
+  constexpr int u[9] = {0, 1, 5, 6, 7, 11, 12, 13, 17}, w[9] = {2, 3, 4, 8, 9, 10, 14, 15, 16};
+  Mat18 K = Mat18::Zero();
+  for (int i = 0; i < 9; ++i) {
+    for (int j = 0; j < 9; ++j) {
+      K(u[i], u[j]) = in_plane(i, j);
+      K(w[i], w[j]) = bending(i, j);
+    }
+  }
+  to_body_axes(R, K);
+  return 0.5 * (K + K.transpose());
+}
+
+Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const Material& material, double h,
+                          bool section_inertia) {
+  const Vec3 n = triangle_axes(p).col(2);
+  const double line = material.density * h * triangle_area(p) / 12.0;
+  const Mat3 turning = h * h / 12.0 * (Mat3::Identity() - n * n.transpose());
+  Mat18 M = Mat18::Zero();
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) {
+      const double m = line * (a == b ? 2.0 : 1.0);
+      M.block<3, 3>(6 * a, 6 * b) = m * Mat3::Identity();
+      if (section_inertia) M.block<3, 3>(6 * a + 3, 6 * b + 3) = m * turning;
+    }
+  }
+  return M;
+}
+
+}  // namespace floatframe

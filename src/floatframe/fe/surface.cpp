@@ -1,0 +1,151 @@
+#include "floatframe/fe/surface.hpp"
+
+#include <algorithm>
+
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+namespace {
+
+using Triangle = std::array<int, 3>;
+
+/// A face of a solid; the ascending corners tell whether two elements share it.
+struct Candidate {
+  std::array<int, 4> key;
+  int element, face;
+};
+
+void divide(const Element& element, const FaceNodes& face, std::vector<Triangle>& out) {
+  constexpr Triangle tri3[] = {{0, 1, 2}};
+  constexpr Triangle tri6[] = {{0, 3, 5}, {1, 4, 3}, {2, 5, 4}, {3, 4, 5}};
+  constexpr Triangle quad4[] = {{0, 1, 2}, {0, 2, 3}};
+  constexpr Triangle quad8[] = {{0, 4, 7}, {1, 5, 4}, {2, 6, 5}, {3, 7, 6}, {4, 5, 6}, {4, 6, 7}};
+  std::span<const Triangle> parts = tri3;
+  if (face.count == 6) parts = tri6;
+  if (face.count == 4) parts = quad4;
+  if (face.count == 8) parts = quad8;
+  const auto node = [&](int i) {
+    const int local = face.nodes[static_cast<std::size_t>(i)];
+    return element.nodes[static_cast<std::size_t>(local)];
+  };
+  for (const Triangle& t : parts) out.push_back({node(t[0]), node(t[1]), node(t[2])});
+}
+
+}  // namespace
+
+Surface outer_surface(const FeModel& model) {
+  std::vector<Candidate> candidates;
+  Surface surface;
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const Element& element = model.elements[e];
+    const std::span<const FaceNodes> faces = element_faces(element.type);
+    if (is_beam(element.type)) {
+      const int count = element_kernel(element.type).nodes;
+      for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(count); ++i) {
+        surface.lines.push_back({element.nodes[i], element.nodes[i + 1]});
+      }
+    } else if (is_shell(element.type)) {
+      divide(element, faces[0], surface.triangles);
+    } else {
+      for (std::size_t f = 0; f < faces.size(); ++f) {
+        Candidate c{{-1, -1, -1, -1}, static_cast<int>(e), static_cast<int>(f)};
+        for (std::size_t i = 0; i < static_cast<std::size_t>(faces[f].corners); ++i) {
+          c.key[i] = element.nodes[static_cast<std::size_t>(faces[f].nodes[i])];
+        }
+        std::sort(c.key.begin(), c.key.end());
+        candidates.push_back(c);
+      }
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.key, a.element, a.face) < std::tie(b.key, b.element, b.face);
+  });
+  std::vector<Candidate> outer;
+  for (std::size_t i = 0; i < candidates.size();) {
+    std::size_t end = i + 1;
+    while (end < candidates.size() && candidates[end].key == candidates[i].key) ++end;
+    if (end == i + 1) outer.push_back(candidates[i]);
+    i = end;
+  }
+  std::sort(outer.begin(), outer.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.element, a.face) < std::tie(b.element, b.face);
+  });
+  for (const Candidate& c : outer) {
+    const Element& element = model.elements[static_cast<std::size_t>(c.element)];
+    divide(element, element_faces(element.type)[static_cast<std::size_t>(c.face)],
+           surface.triangles);
+  }
+
+  std::vector<int> place(model.positions.size(), -1);
+  for (const Triangle& t : surface.triangles) {
+    for (const int node : t) place[static_cast<std::size_t>(node)] = 0;
+  }
+  for (const auto& line : surface.lines) {
+    for (const int node : line) place[static_cast<std::size_t>(node)] = 0;
+  }
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    if (place[k] < 0) continue;
+    place[k] = static_cast<int>(surface.nodes.size());
+    surface.nodes.push_back(static_cast<int>(k));
+  }
+  for (Triangle& t : surface.triangles) {
+    for (int& node : t) node = place[static_cast<std::size_t>(node)];
+  }
+  for (auto& line : surface.lines) {
+    for (int& node : line) node = place[static_cast<std::size_t>(node)];
+  }
+  return surface;
+}
+
+MatX surface_stresses(const FeModel& model, const Surface& surface, const MatX& translations) {
+  const Eigen::Index fields = translations.cols();
+  std::vector<int> place(model.positions.size(), -1);
+  for (std::size_t i = 0; i < surface.nodes.size(); ++i) {
+    place[static_cast<std::size_t>(surface.nodes[i])] = static_cast<int>(i);
+  }
+  // Fields as rows, so that what belongs to a node lies together.
+  const MatX u = translations.transpose();
+  MatX sum = MatX::Zero(fields, 6 * static_cast<Eigen::Index>(surface.nodes.size()));
+  std::vector<int> elements(surface.nodes.size(), 0);
+  MatX B, u_element, S, stresses;
+  for (const Element& element : model.elements) {
+    const ElementKernel& kernel = element_kernel(element.type);
+    if (kernel.nodal_strains == nullptr) continue;
+    std::array<int, 20> wanted{};
+    int count = 0;
+    for (int a = 0; a < kernel.nodes; ++a) {
+      const int node = element.nodes[static_cast<std::size_t>(a)];
+      if (place[static_cast<std::size_t>(node)] >= 0) wanted[static_cast<std::size_t>(count++)] = a;
+    }
+    if (count == 0) continue;
+    const ElementInput input = gather(model, element);
+    const Mat6 D = elasticity_matrix(input.material);
+    kernel.nodal_strains(input, B);
+    S.resize(6 * count, 3 * kernel.nodes);
+    for (int i = 0; i < count; ++i) {
+      S.middleRows<6>(6 * i).noalias() =
+          D * B.middleRows<6>(6 * wanted[static_cast<std::size_t>(i)]);
+    }
+    u_element.resize(fields, 3 * kernel.nodes);
+    for (int a = 0; a < kernel.nodes; ++a) {
+      u_element.middleCols<3>(3 * a) =
+          u.middleCols<3>(3 * element.nodes[static_cast<std::size_t>(a)]);
+    }
+    stresses.noalias() = u_element * S.transpose();
+    for (int i = 0; i < count; ++i) {
+      const int a = wanted[static_cast<std::size_t>(i)];
+      const int at = place[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(a)])];
+      sum.middleCols<6>(6 * at) += stresses.middleCols<6>(6 * i);
+      ++elements[static_cast<std::size_t>(at)];
+    }
+  }
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (elements[i] > 1) {
+      sum.middleCols<6>(6 * static_cast<Eigen::Index>(i)) /= static_cast<double>(elements[i]);
+    }
+  }
+  return sum.transpose();
+}
+
+}  // namespace floatframe

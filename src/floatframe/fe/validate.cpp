@@ -1,0 +1,336 @@
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr int most_of_a_kind = 20;
+
+/// Faults, at most 20 of a kind, then their number.
+class LimitedFaults {
+ public:
+  void add(const char* kind, const SourceMark& mark, std::string text) {
+    if (++count_[kind] <= most_of_a_kind) faults_.add(mark, std::move(text));
+  }
+  bool empty() const { return faults_.empty(); }
+  void throw_if_any() {
+    for (const auto& [kind, count] : count_) {
+      if (count > most_of_a_kind) {
+        faults_.add({}, fmt::format("and {} more {}", count - most_of_a_kind, kind));
+      }
+    }
+    faults_.throw_if_any();
+  }
+
+ private:
+  Faults faults_;
+  std::map<std::string, int> count_;
+};
+
+bool in_range(int i, std::size_t size) { return i >= 0 && static_cast<std::size_t>(i) < size; }
+
+void check_nodes(const FeModel& model, LimitedFaults& faults) {
+  if (model.nodes() == 0) faults.add("nodes", {}, "the finite-element model has no nodes");
+  const auto lengths = [&](std::size_t size, const char* what) {
+    if (size == 0 || size == model.positions.size()) return;
+    faults.add(
+        "lists", {},
+        fmt::format("the finite-element model has {} {} for {} nodes", size, what, model.nodes()));
+  };
+  lengths(model.node_names.size(), "node names");
+  lengths(model.node_ids.size(), "node numbers");
+  lengths(model.node_sources.size(), "places of nodes");
+  for (int k = 0; k < model.nodes(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(k);
+    if (model.positions[i].allFinite()) continue;
+    const bool known = i < model.node_sources.size();
+    faults.add("nodes", known ? model.mark(model.node_sources[i]) : SourceMark{},
+               model.node_label(k) + " has a position that is not finite");
+  }
+}
+
+void check_materials(const FeModel& model, LimitedFaults& faults) {
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    const Material& m = model.materials[i];
+    const bool named = i < model.material_names.size() && !model.material_names[i].empty();
+    const std::string label =
+        named ? "material '" + model.material_names[i] + "'" : "material " + std::to_string(i);
+    if (!(m.young > 0.0) || !std::isfinite(m.young)) {
+      faults.add("materials", {}, label + ": Young's modulus must be positive");
+    }
+    if (!(m.density >= 0.0) || !std::isfinite(m.density)) {
+      faults.add("materials", {}, label + ": the density must not be negative");
+    }
+    if (!(m.poisson > -1.0 && m.poisson < 0.5)) {
+      faults.add("materials", {}, label + ": Poisson's ratio must lie between -1 and 0.5");
+    }
+  }
+  if (model.materials.empty() && !model.elements.empty()) {
+    faults.add("materials", {},
+               "the model has no material: give one (Young's modulus, Poisson's ratio, density)");
+  }
+}
+
+void check_elements(const FeModel& model, LimitedFaults& faults) {
+  const bool sound_so_far = faults.empty();
+  for (int e = 0; e < static_cast<int>(model.elements.size()); ++e) {
+    const Element& element = model.elements[static_cast<std::size_t>(e)];
+    const ElementKernel& kernel = element_kernel(element.type);
+    const auto add = [&](const char* kind, const std::string& text) {
+      faults.add(kind, model.mark(element.source), model.element_label(e) + text);
+    };
+    bool sound = sound_so_far;
+    for (int a = 0; a < kernel.nodes; ++a) {
+      const int node = element.nodes[static_cast<std::size_t>(a)];
+      if (!in_range(node, model.positions.size())) {
+        add("node indices",
+            fmt::format(": node index {} is out of range 0..{}", node, model.nodes() - 1));
+        sound = false;
+      }
+    }
+    if (!model.materials.empty() && !in_range(element.material, model.materials.size())) {
+      add("elements without material",
+          element.material < 0 ? " has no material"
+                               : fmt::format(": there is no material {}", element.material));
+      sound = false;
+    }
+    const std::size_t sections = is_beam(element.type)    ? model.sections.size()
+                                 : is_shell(element.type) ? model.shells.size()
+                                                          : 0;
+    if ((is_beam(element.type) || is_shell(element.type)) && !in_range(element.section, sections)) {
+      add("elements without section",
+          element.section < 0
+              ? " has no section"
+              : fmt::format(": there is no {} {}",
+                            is_beam(element.type) ? "section" : "shell section", element.section));
+      sound = false;
+    }
+    if (!sound) continue;
+    bool twice = false;
+    for (int a = 0; a < kernel.nodes && !twice; ++a) {
+      for (int b = 0; b < a && !twice; ++b) {
+        const int node = element.nodes[static_cast<std::size_t>(a)];
+        twice = node == element.nodes[static_cast<std::size_t>(b)];
+        if (twice)
+          add("elements with a repeated node", " names " + model.node_label(node) + " twice");
+      }
+    }
+    if (twice) continue;
+    const std::string fault = kernel.fault(gather(model, element));
+    if (!fault.empty()) add("badly formed elements", " " + fault);
+  }
+}
+
+/// Nodes whose rotations mean something.
+std::vector<char> nodes_with_rotations(const FeModel& model) {
+  std::vector<char> with(model.positions.size(), 0);
+  const auto mark = [&](int node) {
+    if (in_range(node, with.size())) with[static_cast<std::size_t>(node)] = 1;
+  };
+  for (const Element& e : model.elements) {
+    const ElementKernel& kernel = element_kernel(e.type);
+    for (int a = 0; a < kernel.nodes && kernel.dofs_per_node == 6; ++a) {
+      mark(e.nodes[static_cast<std::size_t>(a)]);
+    }
+  }
+  for (const Spider& s : model.spiders) {
+    mark(s.reference);
+    if (s.kind == Spider::Kind::rigid && (s.mask & 56u) == 56u) {
+      for (const int node : s.nodes) mark(node);
+    }
+  }
+  if (model.matrices) {
+    for (const Dof& d : model.matrices->dofs) {
+      if (d.axis >= 3) mark(d.node);
+    }
+  }
+  return with;
+}
+
+void check_masses(const FeModel& model, LimitedFaults& faults) {
+  const std::vector<char> rotations = nodes_with_rotations(model);
+  for (std::size_t i = 0; i < model.masses.size(); ++i) {
+    const PointMass& m = model.masses[i];
+    const std::string label = "point mass " + std::to_string(i);
+    const auto add = [&](const std::string& text) { faults.add("point masses", {}, label + text); };
+    if (!in_range(m.node, model.positions.size())) {
+      add(": node index " + std::to_string(m.node) + " is out of range");
+      continue;
+    }
+    const std::string at = " on " + model.node_label(m.node);
+    if (!(m.mass >= 0.0) || !std::isfinite(m.mass)) add(at + ": the mass must not be negative");
+    if (!m.J.allFinite() ||
+        (m.J - m.J.transpose()).cwiseAbs().maxCoeff() > 1e-12 * m.J.cwiseAbs().maxCoeff()) {
+      add(at + ": the inertia must be finite and symmetric");
+      continue;
+    }
+    const Mat3 P = 0.5 * m.J.trace() * Mat3::Identity() - m.J;
+    const double least =
+        Eigen::SelfAdjointEigenSolver<Mat3>(P, Eigen::EigenvaluesOnly).eigenvalues()(0);
+    if (least < -1e-12 * m.J.trace()) {
+      add(at + ": the principal moments of inertia break the triangle inequality");
+    }
+    if (m.J.cwiseAbs().maxCoeff() > 0.0 && rotations[static_cast<std::size_t>(m.node)] == 0) {
+      add(at + " has rotary inertia, but the nodes of solid elements have no rotations");
+    }
+  }
+}
+
+void check_spiders(const FeModel& model, LimitedFaults& faults) {
+  for (std::size_t i = 0; i < model.spiders.size(); ++i) {
+    const Spider& s = model.spiders[i];
+    const std::string label =
+        s.name.empty() ? "spider " + std::to_string(i) : "spider '" + s.name + "'";
+    const auto add = [&](const std::string& text) {
+      faults.add("spiders", model.mark(s.source), label + text);
+    };
+    if (!in_range(s.reference, model.positions.size())) {
+      add(" has no reference node");
+      continue;
+    }
+    if (s.nodes.empty()) add(" has no nodes");
+    std::set<int> seen;
+    for (const int node : s.nodes) {
+      if (!in_range(node, model.positions.size())) {
+        add(fmt::format(": node index {} is out of range 0..{}", node, model.nodes() - 1));
+        break;
+      }
+      if (seen.insert(node).second) continue;
+      add(" names " + model.node_label(node) + " twice");
+      break;
+    }
+    if (!s.weights.empty() && s.weights.size() != s.nodes.size()) {
+      add(fmt::format(" has {} weights for {} nodes", s.weights.size(), s.nodes.size()));
+    }
+    if (std::any_of(s.weights.begin(), s.weights.end(),
+                    [](double w) { return !(w > 0.0) || !std::isfinite(w); })) {
+      add(" has a weight that is not positive");
+    }
+  }
+}
+
+void check_equations(const FeModel& model, LimitedFaults& faults) {
+  for (std::size_t i = 0; i < model.equations.size(); ++i) {
+    const LinearEquation& equation = model.equations[i];
+    const auto add = [&](const std::string& text) {
+      faults.add("equations", model.mark(equation.source),
+                 "equation " + std::to_string(i + 1) + text);
+    };
+    if (equation.terms.empty()) {
+      add(" has no terms");
+      continue;
+    }
+    bool sound = true;
+    for (const LinearEquation::Term& t : equation.terms) {
+      sound = sound && in_range(t.node, model.positions.size()) && t.axis >= 0 && t.axis < 6 &&
+              std::isfinite(t.factor);
+    }
+    if (!sound) add(" has a term without a node, a direction 1 to 6 or a finite factor");
+    if (equation.terms.front().factor == 0.0) {
+      add(": the factor of its first term must not be zero");
+    }
+  }
+}
+
+void check_sets(const FeModel& model, LimitedFaults& faults) {
+  for (const auto& [name, nodes] : model.node_sets) {
+    if (std::all_of(nodes.begin(), nodes.end(),
+                    [&](int k) { return in_range(k, model.positions.size()); })) {
+      continue;
+    }
+    faults.add("sets", {}, "node set '" + name + "' holds a node that does not exist");
+  }
+  for (const auto& [name, elements] : model.element_sets) {
+    if (std::all_of(elements.begin(), elements.end(),
+                    [&](int e) { return in_range(e, model.elements.size()); })) {
+      continue;
+    }
+    faults.add("sets", {}, "element set '" + name + "' holds an element that does not exist");
+  }
+  for (const auto& [name, faces] : model.surfaces) {
+    for (const ElementFace& f : faces) {
+      if (in_range(f.element, model.elements.size()) &&
+          in_range(
+              f.face,
+              element_faces(model.elements[static_cast<std::size_t>(f.element)].type).size())) {
+        continue;
+      }
+      faults.add("sets", {}, "surface '" + name + "' holds a face that does not exist");
+      break;
+    }
+  }
+}
+
+double asymmetry(const SparseMatrix& A) {
+  const SparseMatrix D = A - SparseMatrix(A.transpose());
+  double largest = 0.0, error = 0.0;
+  for (int k = 0; k < A.outerSize(); ++k) {
+    for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
+      if (!std::isfinite(it.value())) return INFINITY;
+      largest = std::max(largest, std::abs(it.value()));
+    }
+    for (SparseMatrix::InnerIterator it(D, k); it; ++it) {
+      error = std::max(error, std::abs(it.value()));
+    }
+  }
+  return largest > 0.0 ? error / largest : 0.0;
+}
+
+void check_matrices(const FeModel& model, LimitedFaults& faults) {
+  if (!model.matrices) return;
+  const FeMatrices& m = *model.matrices;
+  const auto add = [&](const std::string& text) { faults.add("matrices", {}, text); };
+  if (!model.elements.empty())
+    add("the model has matrices and elements; it can have only one of both");
+  const Eigen::Index n = static_cast<Eigen::Index>(m.dofs.size());
+  if (m.K.rows() != n || m.K.cols() != n || m.M.rows() != n || m.M.cols() != n) {
+    add(fmt::format("K is {} x {} and M is {} x {}, but there are {} degrees of freedom",
+                    m.K.rows(), m.K.cols(), m.M.rows(), m.M.cols(), n));
+    return;
+  }
+  std::set<std::pair<int, int>> seen;
+  for (const Dof& d : m.dofs) {
+    if (!in_range(d.node, model.positions.size()) || d.axis < 0 || d.axis > 5) {
+      add("a row of the matrices belongs to no node of the model");
+      return;
+    }
+    if (seen.insert({d.node, d.axis}).second) continue;
+    add(fmt::format("two rows of the matrices belong to direction {} of {}", d.axis + 1,
+                    model.node_label(d.node)));
+  }
+  for (const auto& [name, A] :
+       {std::pair<const char*, const SparseMatrix&>{"K", m.K}, {"M", m.M}}) {
+    const double error = asymmetry(A);
+    if (error > 1e-9) {
+      add(std::isfinite(error) ? fmt::format("{} is not symmetric: entries differ by {:.1e} of the "
+                                             "largest",
+                                             name, error)
+                               : fmt::format("{} has an entry that is not finite", name));
+    }
+  }
+}
+
+}  // namespace
+
+void validate(const FeModel& model) {
+  LimitedFaults faults;
+  check_nodes(model, faults);
+  check_materials(model, faults);
+  check_elements(model, faults);
+  check_masses(model, faults);
+  check_spiders(model, faults);
+  check_equations(model, faults);
+  check_sets(model, faults);
+  check_matrices(model, faults);
+  faults.throw_if_any();
+}
+
+}  // namespace floatframe

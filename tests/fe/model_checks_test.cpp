@@ -1,0 +1,290 @@
+// Faults and suspicious places of imported models; the surface and the stresses there.
+#include "floatframe/fe/model_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/surface.hpp"
+#include "floatframe/formats/fe_file.hpp"
+#include "support/random_body.hpp"
+
+namespace floatframe::test {
+namespace {
+
+const std::string folder = FLOATFRAME_TEST_DATA "/fe/";
+
+/// n x n x n unit bricks, each divided into two wedges, or five tetrahedra, or left alone; as they
+/// would come from a file: node k of the file is number k + 1, its elements begin in line 11.
+FeModel block(ElementType type, int n) {
+  FeModel model;
+  model.files = {"block.inp"};
+  model.materials = {{2e11, 0.3, 7800}};
+  model.material_names = {"STEEL"};
+  const int m = n + 1;
+  for (int k = 0; k < m * m * m; ++k) {
+    model.positions.emplace_back(k % m, k / m % m, k / m / m);
+    model.node_ids.push_back(k + 1);
+  }
+  for (int c = 0; c < n * n * n; ++c) {
+    const int a = c % n + c / n % n * m + c / n / n * m * m;
+    const int corner[8] = {a,         a + 1,         a + 1 + m,         a + m,
+                           a + m * m, a + 1 + m * m, a + 1 + m + m * m, a + m + m * m};
+    const auto add = [&](std::initializer_list<int> local) {
+      Element e;
+      e.type = type;
+      e.id = static_cast<int>(model.elements.size()) + 1;
+      e.source = {0, 10 + e.id};
+      std::size_t i = 0;
+      for (const int l : local) e.nodes[i++] = corner[l];
+      model.elements.push_back(e);
+    };
+    if (type == ElementType::wedge6) {
+      add({0, 1, 2, 4, 5, 6});
+      add({0, 2, 3, 4, 6, 7});
+    } else if (type == ElementType::tet4) {  // six about the diagonal 0-6: faces of cells match
+      add({0, 1, 2, 6});
+      add({0, 2, 3, 6});
+      add({0, 3, 7, 6});
+      add({0, 7, 4, 6});
+      add({0, 4, 5, 6});
+      add({0, 5, 1, 6});
+    } else {
+      add({0, 1, 2, 3, 4, 5, 6, 7});
+    }
+  }
+  return model;
+}
+
+std::vector<std::string> faults(const FeModel& model) {
+  std::vector<std::string> out;
+  try {
+    validate(model);
+  } catch (const InputError& error) {
+    for (const InputFault& f : error.faults()) out.push_back(f.text());
+  }
+  return out;
+}
+
+TEST(Validation, NamesElementsOfTheFile) {
+  FeModel model = block(ElementType::hex8, 2);
+  EXPECT_TRUE(faults(model).empty());
+  std::swap(model.elements[3].nodes[0], model.elements[3].nodes[4]);
+  model.elements[5].material = 4;
+  model.elements[6].nodes[2] = model.elements[6].nodes[1];
+  model.elements[7].nodes[0] = -3;
+  const std::vector<std::string> f = faults(model);
+  ASSERT_EQ(f.size(), 4u);
+  EXPECT_EQ(f[0],
+            "block.inp:14: element 4 (hex8) is inverted or flat (its Jacobian is not positive at "
+            "every corner)");
+  EXPECT_EQ(f[1], "block.inp:16: element 6 (hex8): there is no material 4");
+  EXPECT_EQ(f[2], "block.inp:17: element 7 (hex8) names node 10 twice");
+  EXPECT_EQ(f[3], "block.inp:18: element 8 (hex8): node index -3 is out of range 0..26");
+}
+
+TEST(Validation, TwentyOfAKind) {
+  FeModel model = block(ElementType::tet4, 2);
+  for (Element& e : model.elements) std::swap(e.nodes[0], e.nodes[1]);
+  const std::vector<std::string> f = faults(model);
+  ASSERT_EQ(f.size(), 21u);
+  EXPECT_EQ(f[0],
+            "block.inp:11: element 1 (tet4) is inverted or flat (its volume is not positive)");
+  EXPECT_EQ(f[20], "and 28 more badly formed elements");
+  model.materials.clear();
+  EXPECT_EQ(faults(model),
+            std::vector<std::string>{"the model has no material: give one (Young's modulus, "
+                                     "Poisson's ratio, density)"});
+}
+
+TEST(Validation, SpidersSetsAndMatrices) {
+  FeModel model = block(ElementType::hex8, 1);
+  Spider s;
+  s.name = "A";
+  s.source = {0, 40};
+  s.reference = 0;
+  s.nodes = {1, 2, 2};
+  s.weights = {1, -1};
+  model.spiders = {s, Spider{}};
+  model.node_sets["BAD"] = {3, 99};
+  model.surfaces["TOP"] = {{0, 6}};
+  model.masses.push_back({3, 1.0, Mat3::Identity()});
+  model.matrices.emplace();
+  EXPECT_EQ(
+      faults(model),
+      (std::vector<std::string>{
+          "point mass 0 on node 4 has rotary inertia, but the nodes of solid elements have no "
+          "rotations",
+          "block.inp:40: spider 'A' names node 3 twice",
+          "block.inp:40: spider 'A' has 2 weights for 3 nodes",
+          "block.inp:40: spider 'A' has a weight that is not positive",
+          "spider 1 has no reference node", "node set 'BAD' holds a node that does not exist",
+          "surface 'TOP' holds a face that does not exist",
+          "the model has matrices and elements; it can have only one of both"}));
+  model = block(ElementType::hex8, 1);
+  model.elements.clear();
+  model.matrices.emplace();
+  model.matrices->K.resize(2, 2);
+  model.matrices->M.resize(2, 2);
+  model.matrices->K.insert(0, 1) = 1.0;
+  model.matrices->dofs = {{0, 0}, {0, 0}};
+  EXPECT_EQ(faults(model),
+            (std::vector<std::string>{"two rows of the matrices belong to direction 1 of node 1",
+                                      "K is not symmetric: entries differ by 1.0e+00 of the "
+                                      "largest"}));
+}
+
+TEST(Warnings, WhatIsSuspicious) {
+  FeModel model = block(ElementType::hex8, 2);
+  EXPECT_TRUE(model_warnings(model).empty());
+  EXPECT_EQ(corner_quality(model, model.elements[0]), 1.0);
+  model.positions.emplace_back(5, 5, 5);
+  model.node_ids.push_back(77);
+  model.materials[0].density = 0.0;
+  model.elements.push_back(model.elements[2]);
+  model.elements.back().id = 50;
+  // The middle node almost in the plane of three of its neighbours.
+  model.positions[13] = Vec3(0.06, 0.06, 0.06);
+  const std::vector<std::string> w = model_warnings(model);
+  ASSERT_EQ(w.size(), 4u);
+  EXPECT_EQ(w[0].substr(0, 94),
+            "9 elements have a corner whose Jacobian is below 0.1 of that of the regular shape; "
+            "worst: element");
+  EXPECT_EQ(w[1], "material 'STEEL' has no density: 9 elements are without mass");
+  EXPECT_EQ(w[2],
+            "1 element lies on the nodes of another one: mass and stiffness count twice there; "
+            "first: element 3 (hex8) and element 50 (hex8)");
+  EXPECT_EQ(w[3], "1 node belongs to no element: node 77");
+  EXPECT_EQ(unreferenced_nodes(model), std::vector<int>{27});
+  // Slender elements.
+  model = block(ElementType::wedge6, 1);
+  for (Vec3& p : model.positions) p(2) *= 30.0;
+  EXPECT_EQ(model_warnings(model),
+            std::vector<std::string>{
+                "2 elements have edges whose longest is more than 20 times the shortest; worst: "
+                "element 2 (wedge6): 30, element 1 (wedge6): 30"});
+}
+
+TEST(Warnings, QualityOfRegularAndCurvedElements) {
+  FeModel model;
+  model.positions = {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)};
+  std::swap(model.positions[1], model.positions[2]);
+  Element e;
+  e.type = ElementType::tet4;
+  e.nodes = {0, 1, 2, 3};
+  const double q = corner_quality(model, e);
+  EXPECT_NEAR(std::abs(q), 1.0, 1e-14);
+  // The A-arm of the data set: minimal Jacobian at Gauss points and corners over the mean is 0.31,
+  // so no element is near to being inverted.
+  const FeModel arm = read_fe_file(folder + "aarm_coarse_free.inp");
+  EXPECT_TRUE(model_warnings(arm).empty());
+  EXPECT_NEAR(volume(arm) / 701265.222794732, 1.0, 2e-6);
+  EXPECT_NEAR(volume_times_density(arm) / 5.504932e-3, 1.0, 2e-6);
+}
+
+double enclosed_volume(const FeModel& model, const Surface& s) {
+  double six = 0.0;
+  for (const auto& t : s.triangles) {
+    const auto p = [&](std::size_t i) {
+      const int node = s.nodes[static_cast<std::size_t>(t[i])];
+      return model.positions[static_cast<std::size_t>(node)];
+    };
+    six += p(0).dot(p(1).cross(p(2)));
+  }
+  return six / 6.0;
+}
+
+TEST(Surfaces, EncloseTheVolumeWithOutwardNormals) {
+  for (const ElementType type : {ElementType::hex8, ElementType::wedge6, ElementType::tet4}) {
+    const FeModel model = block(type, 3);
+    EXPECT_TRUE(faults(model).empty());
+    const Surface s = outer_surface(model);
+    EXPECT_NEAR(enclosed_volume(model, s), 27.0, 1e-12) << element_kernel(type).name;
+    EXPECT_EQ(s.triangles.size(), 6u * 9u * 2u);
+    EXPECT_EQ(s.nodes.size(), 56u);
+  }
+  for (const char* name : {"aarm_coarse", "conrod_coarse", "beam_c3d20"}) {
+    const FeModel model = read_fe_file(folder + name + "_free.inp");
+    const Surface s = outer_surface(model);
+    EXPECT_NEAR(enclosed_volume(model, s) / volume(model), 1.0, 1e-3) << name;
+    // Closed: every edge runs once in each direction.
+    std::set<std::pair<int, int>> edges;
+    for (const auto& t : s.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_TRUE(edges.insert({t[i], t[(i + 1) % 3]}).second);
+      }
+    }
+    for (const auto& [a, b] : edges) EXPECT_TRUE(edges.contains({b, a}));
+  }
+}
+
+TEST(Surfaces, LinesOfBeams) {
+  FeModel model;
+  for (int k = 0; k < 5; ++k) model.positions.emplace_back(k, 0, 0);
+  Element two, three;
+  two.nodes = {1, 2};
+  three.type = ElementType::beam3;
+  three.nodes = {2, 3, 4};
+  model.elements = {two, three};
+  const Surface s = outer_surface(model);
+  EXPECT_EQ(s.nodes, (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(s.lines, (std::vector<std::array<int, 2>>{{0, 1}, {1, 2}, {2, 3}}));
+}
+
+// Pure bending of a brick, u = (x z, 0, -x^2/2) / R with nu = 0: stress xx = E z / R. The quadratic
+// elements and hex8i hold it exactly.
+TEST(Surfaces, StressesOfBending) {
+  for (const char* name : {"beam_c3d20", "beam_c3d20r"}) {
+    FeModel model = read_fe_file(folder + name + "_free.inp");
+    for (Material& m : model.materials) m.poisson = 0.0;
+    const double R = 2.0, E = model.materials[0].young;
+    MatX u(3 * model.nodes(), 2);
+    for (int k = 0; k < model.nodes(); ++k) {
+      const Vec3 p = model.positions[static_cast<std::size_t>(k)];
+      u.block<3, 1>(3 * k, 0) << p(0) * p(2) / R, 0, -0.5 * p(0) * p(0) / R;
+      u.block<3, 1>(3 * k, 1) = Vec3(p(0), 0, 0);
+    }
+    const Surface s = outer_surface(model);
+    const MatX stress = surface_stresses(model, s, u);
+    ASSERT_EQ(stress.rows(), 6 * static_cast<Eigen::Index>(s.nodes.size()));
+    double bending = 0.0, rest = 0.0, tension = 0.0;
+    for (std::size_t i = 0; i < s.nodes.size(); ++i) {
+      const double z = model.positions[static_cast<std::size_t>(s.nodes[i])](2);
+      const Eigen::Index row = 6 * static_cast<Eigen::Index>(i);
+      bending = std::max(bending, std::abs(stress(row, 0) - E * z / R));
+      rest = std::max(rest, stress.block<5, 1>(row + 1, 0).cwiseAbs().maxCoeff());
+      tension = std::max(tension, std::abs(stress(row, 1) - E));
+    }
+    EXPECT_LT(bending, 1e-9 * E * 0.01 / R) << name;
+    EXPECT_LT(rest, 1e-9 * E * 0.01 / R) << name;
+    EXPECT_LT(tension, 1e-9 * E) << name;
+  }
+}
+
+// One brick, bent: hex8 answers with shear that is not there, hex8i and hex8r do not.
+TEST(Solids, BendingOfOneBrick) {
+  const double expected = 1.0 / 12.0;  // E I / L for E = 1, L = 1, nu = 0: energy per angle^2 ...
+  for (const ElementType type : {ElementType::hex8, ElementType::hex8i, ElementType::hex8r}) {
+    FeModel model = block(type, 1);
+    model.materials[0] = {1.0, 0.0, 1.0};
+    // Ends turn by +-1/2 about y: u = (x - 1/2) (z - 1/2); the brick may bow.
+    const FeSystem system = assemble(model);
+    VecX u(24);
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 p = model.positions[static_cast<std::size_t>(k)] - Vec3::Constant(0.5);
+      u.segment<3>(3 * k) = Vec3(p(0) * p(2), 0, 0);
+    }
+    const double energy = u.dot(system.K * u);
+    if (type == ElementType::hex8) {
+      EXPECT_NEAR(energy, expected * 1.5, 1e-12);  // the shear G gamma^2 = 1/2 x^2
+    } else {
+      EXPECT_NEAR(energy, expected, 1e-12) << element_kernel(type).name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace floatframe::test
