@@ -129,7 +129,6 @@ TEST(FeSystem, EqualsCalculixOnDistortedPatches) {
     EXPECT_GT(c.entries, 1000u);
     EXPECT_LT(c.K, 1e-12);
     EXPECT_LT(c.M, 1e-12);
-    std::printf("%s %g %g\n", name, c.K, c.M);
   }
 }
 

@@ -156,6 +156,11 @@ TEST(Interfaces, ReferencePoints) {
   EXPECT_EQ(add_interface(model, d), node);
   EXPECT_EQ(model.spiders.size(), 1u);
   EXPECT_EQ(model.node_names[static_cast<std::size_t>(node)], "OTHER");
+  d.name = "THIRD";
+  d.at = Vec3(0.1, 0.2, 0.31);
+  EXPECT_EQ(refusal(model, d),
+            "interface 'THIRD': spider 'BUSH' ties these nodes to a reference at (0.1, 0.2, 0.3) "
+            "already; the reference point (0.1, 0.2, 0.31) is another one");
 }
 
 TEST(Interfaces, OneNode) {

@@ -83,8 +83,8 @@ std::vector<int> nodes_of_set(const FeModel& model, const std::string& name) {
       list += (i == 0 ? "'" : ", '") + known[i] + "'";
     }
     if (known.size() > 12) list += fmt::format(" and {} more", known.size() - 12);
-    throw InputError(fmt::format("there is no set '{}'{}{}the sets are {}", name, hint,
-                                 hint.empty() ? "; " : " ", list));
+    throw InputError(fmt::format("there is no set '{}'{}{}", name,
+                                 hint.empty() ? "; the sets are " : hint + " The sets are ", list));
   }
   if (nodes.empty()) throw InputError(fmt::format("the set '{}' is empty", name));
   return nodes;
@@ -150,7 +150,7 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
   for (int k = 0; k < model.nodes(); ++k) {
     if (used[static_cast<std::size_t>(k)] == 0) continue;
     const double d = distance(c, axis, position(model, k));
-    if (d < least) least = d, best = k;
+    if (d < (1.0 - 1e-9) * least) least = d, best = k;  // of equal ones the first
     if (d <= tolerance) nodes.push_back(k);
   }
   if (best < 0) throw InputError("the model has no node that belongs to an element");
@@ -200,14 +200,14 @@ Vec3 reference_point(const FeModel& model, const NodeChoice& c, const std::vecto
   return centre;
 }
 
-void name_node(FeModel& model, int node, const std::string& name) {
-  model.node_names.resize(model.positions.size());
-  model.node_names[static_cast<std::size_t>(node)] = name;
-}
-
 std::string spider_label(const FeModel& model, const Spider& s) {
   return s.name.empty() ? "the spider of " + model.node_label(s.reference)
                         : "spider '" + s.name + "'";
+}
+
+void name_node(FeModel& model, int node, const std::string& name) {
+  model.node_names.resize(model.positions.size());
+  model.node_names[static_cast<std::size_t>(node)] = name;
 }
 
 /// A node that has six dofs of its own, or one alone.
@@ -218,7 +218,15 @@ std::optional<int> existing_reference(const FeModel& model, const InterfaceDescr
   for (const Spider& s : model.spiders) {
     std::vector<int> theirs = s.nodes;
     ascending(theirs);
-    if (theirs == sorted) return s.reference;
+    if (theirs != sorted) continue;
+    const Vec3& there = position(model, s.reference);
+    if (d.at && (*d.at - there).norm() > 1e-6 * (1.0 + there.norm())) {
+      throw InputError(
+          fmt::format("{} ties these nodes to a reference at {} already; the reference "
+                      "point {} is another one",
+                      spider_label(model, s), text(there), text(*d.at)));
+    }
+    return s.reference;
   }
   if (nodes.size() != 1) return std::nullopt;
   if (table.count(nodes[0]) == 3 && (d.mask & 56u) != 0) {

@@ -37,17 +37,17 @@ struct InterfaceDescription {
   unsigned mask = 63u;  ///< the dofs of the interface, bit 0..5 = ux..rz
 };
 
-/// Nodes of a choice in ascending order (sets: their own order). Throws InputError if there are
-/// none, naming what was looked for and what there is (sets with did-you-mean; the distance of the
-/// nearest node).
+/// Nodes of a choice in a valid model, in ascending order (sets: their own order). Throws
+/// InputError if there are none, naming what was looked for and what there is (sets with
+/// did-you-mean; the distance of the nearest node).
 std::vector<int> choose_nodes(const FeModel& model, const NodeChoice& choice);
 
 /// Adds a reference node and a spider to the model and returns the index of the reference node,
 /// whose name is the interface's. A choice of one node that has rotations (of a beam, or the
 /// reference of a spider in the deck) is itself the reference; so is the reference of a deck's
-/// spider over the same nodes. One node of a solid: itself, with three dofs (`mask` must say so: at
-/// most bits 0..2). Throws InputError: fewer than three nodes, nodes on a line, a node that belongs
-/// to another spider.
+/// spider over the same nodes, of whatever kind. One node of a solid: itself, with three dofs
+/// (`mask` must say so: at most bits 0..2). Throws InputError: fewer than three nodes, nodes on a
+/// line, a node that belongs to another spider.
 int add_interface(FeModel& model, const InterfaceDescription& interface);
 
 }  // namespace floatframe

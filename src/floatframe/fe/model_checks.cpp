@@ -178,12 +178,12 @@ std::vector<std::string> shape_warnings(const FeModel& model) {
   for (std::size_t i = 0; i < model.elements.size(); ++i) {
     const double quality = corner_quality(model, model.elements[i]);
     const double aspect = aspect_ratio(model, model.elements[i]);
-    if (quality < 0.1) flat.emplace_back(quality, static_cast<int>(i));
+    if (quality < 0.01) flat.emplace_back(quality, static_cast<int>(i));
     if (aspect > 20.0) slender.emplace_back(aspect, static_cast<int>(i));
   }
   std::vector<std::string> out;
   warn(model, std::move(flat), false,
-       "a corner whose Jacobian is below 0.1 of that of the regular shape", out);
+       "a corner whose Jacobian is below 0.01 of that of the regular shape", out);
   warn(model, std::move(slender), true, "edges whose longest is more than 20 times the shortest",
        out);
   return out;

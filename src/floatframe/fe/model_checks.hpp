@@ -15,7 +15,7 @@ double corner_quality(const FeModel& model, const Element& element);
 /// Longest over shortest edge (straight); 1 for beams.
 double aspect_ratio(const FeModel& model, const Element& element);
 
-/// Badly shaped elements, worst first with their numbers: corner quality below 0.1, aspect ratio
+/// Badly shaped elements, worst first with their numbers: corner quality below 0.01, aspect ratio
 /// above 20. At most one sentence of each kind, naming five elements.
 std::vector<std::string> shape_warnings(const FeModel& model);
 
