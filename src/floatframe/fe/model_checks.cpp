@@ -222,8 +222,8 @@ std::vector<std::string> model_warnings(const FeModel& model) {
       list += (i == 0 ? "" : ", ") + model.node_label(unused[i]);
     }
     if (unused.size() > named) list += fmt::format(" and {} more", unused.size() - named);
-    out.push_back(fmt::format("{} {} to no element: {}", unused.size(),
-                              unused.size() == 1 ? "node belongs" : "nodes belong", list));
+    out.push_back(fmt::format("{} {} used by nothing: {}", unused.size(),
+                              unused.size() == 1 ? "node is" : "nodes are", list));
   }
   return out;
 }

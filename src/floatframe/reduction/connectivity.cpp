@@ -96,18 +96,6 @@ void check_connected(const FeModel& model) {
   faults.throw_if_any();
 }
 
-std::vector<int> unreferenced_nodes(const FeModel& model) {
-  Pieces pieces = pieces_of(model);
-  for (const Spider& s : model.spiders) {
-    pieces.use(s.reference);
-    if (s.rotation_node >= 0) pieces.use(s.rotation_node);
-  }
-  std::vector<int> nodes;
-  for (int k = 0; k < model.nodes(); ++k)
-    if (!pieces.used(k)) nodes.push_back(k);
-  return nodes;
-}
-
 std::string row_label(const FeModel& model, const FeSystem& system, int row) {
   const Dof& dof = system.dofs[static_cast<std::size_t>(row)];
   return model.node_label(dof.node) + " " + dof_names[dof.axis];

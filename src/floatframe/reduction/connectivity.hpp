@@ -12,9 +12,6 @@ namespace floatframe {
 /// Throws InputError that names the nodes of the smaller pieces if there are several.
 void check_connected(const FeModel& model);
 
-/// Nodes that no element, mass, spider, equation or matrix uses.
-std::vector<int> unreferenced_nodes(const FeModel& model);
-
 /// "node 12, node 13, node 17 and 4 more".
 std::string list_nodes(const FeModel& model, const std::vector<int>& nodes, std::size_t limit = 8);
 

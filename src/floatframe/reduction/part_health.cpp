@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "floatframe/fe/element_kernel.hpp"
-#include "floatframe/reduction/connectivity.hpp"
+#include "floatframe/fe/model_checks.hpp"
 
 namespace floatframe {
 
@@ -54,19 +54,6 @@ namespace {
 
 /// Frequencies that no part of a machine has.
 constexpr double lowest_usual = 0.01, highest_usual = 2e6;
-
-void warn_of_elements(const FeModel& model, HealthReport& health) {
-  std::vector<int> massless;
-  for (int e = 0; e < static_cast<int>(model.elements.size()); ++e) {
-    const int material = model.elements[static_cast<std::size_t>(e)].material;
-    if (model.materials[static_cast<std::size_t>(material)].density == 0.0) massless.push_back(e);
-  }
-  if (!massless.empty()) {
-    health.warnings.push_back(fmt::format("{} of {} elements have zero density, among them {}",
-                                          massless.size(), model.elements.size(),
-                                          model.element_label(massless.front())));
-  }
-}
 
 void warn_of_interfaces(HealthReport& health) {
   for (const InterfaceHealth& h : health.interfaces) {
@@ -122,13 +109,7 @@ void add_warnings(const FeModel& model, const PointModel& points, HealthReport& 
         pair.reduced));
     break;
   }
-  const std::vector<int> lost = unreferenced_nodes(model);
-  if (!lost.empty()) {
-    list.push_back(fmt::format("{} {} used by nothing: {}", lost.size(),
-                               lost.size() == 1 ? "node is" : "nodes are",
-                               list_nodes(model, lost)));
-  }
-  warn_of_elements(model, health);
+  for (std::string& warning : model_warnings(model)) list.push_back(std::move(warning));
   if (health.volume > 0.0 && health.from_elements.mass > 0.0) {
     const double off = health.volume_times_density / health.from_elements.mass - 1.0;
     if (std::abs(off) > 1e-3)
