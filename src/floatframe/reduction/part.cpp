@@ -11,6 +11,7 @@
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/model_checks.hpp"
 #include "floatframe/reduction/body_reference.hpp"
 #include "floatframe/reduction/connectivity.hpp"
 #include "floatframe/reduction/modal_damping.hpp"
@@ -109,6 +110,21 @@ ModalNode interface_node(const FeModel& model, const FeSystem& system, const Int
   return node;
 }
 
+void add_surface(const FeModel& model, const FeSystem& system, const MatX& X,
+                 const PartOptions& options, ReducedPart& part) {
+  part.surface = outer_surface(model);
+  const auto n = static_cast<Eigen::Index>(part.surface.nodes.size());
+  const MatX U = system.T * X;
+  part.surface_positions.resize(3, n);
+  part.surface_modes.resize(3 * n, X.cols());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const int node = part.surface.nodes[static_cast<std::size_t>(k)];
+    part.surface_positions.col(k) = model.positions[static_cast<std::size_t>(node)];
+    part.surface_modes.middleRows<3>(3 * k) = U.middleRows<3>(3 * node);
+  }
+  if (options.stresses) part.surface_stress = surface_stresses(model, part.surface, U);
+}
+
 /// Full model and boundary of the static check.
 struct Statics {
   MatX stiffness, flexibility;
@@ -164,7 +180,8 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   if (!(health.from_elements.mass > 0.0))
     throw InputError("the part has no mass: every density is zero");
   health.rigid_residual = rigid_residual(model, system);
-  add_volumes(model, options.integration, health);
+  health.volume = volume(model);
+  health.volume_times_density = volume_times_density(model);
   stages.done("assembly");
 
   std::optional<FixedInterface> fixed;
@@ -219,6 +236,9 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   health.modes = body.modes();
   health.from_invariants = mass_properties(body.invariants);
   stages.done("body");
+
+  add_surface(model, system, X, options, part);
+  stages.done("surface");
 
   for (const InterfacePlace& place : interfaces) health.interfaces.push_back(place.health);
   check_statics(interfaces, body, statics.stiffness, statics.flexibility, health);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/model_checks.hpp"
 
 namespace floatframe {
@@ -22,20 +21,6 @@ MassProperties mass_properties(const SparseMatrix& M, const MatX& R) {
 
 MassProperties mass_properties(const InertiaInvariants& invariants) {
   return {invariants.m, invariants.centre_of_mass(), invariants.inertia_about_origin()};
-}
-
-void add_volumes(const FeModel& model, Integration integration, HealthReport& health) {
-  MatX mass;
-  for (const Element& element : model.elements) {
-    ElementInput input = gather(model, element, integration);
-    const double density = input.material.density;
-    input.material.density = 1.0;
-    element_kernel(element.type).scalar_mass(input, mass);
-    const double volume = mass.sum();
-    health.volume += volume;
-    health.volume_times_density += density * volume;
-  }
-  for (const PointMass& m : model.masses) health.volume_times_density += m.mass;
 }
 
 double rigid_residual(const FeModel& model, const FeSystem& system) {
@@ -109,7 +94,7 @@ void add_warnings(const FeModel& model, const PointModel& points, HealthReport& 
         pair.reduced));
     break;
   }
-  for (std::string& warning : model_warnings(model)) list.push_back(std::move(warning));
+  for (std::string& text : model_warnings(model)) list.push_back(std::move(text));
   if (health.volume > 0.0 && health.from_elements.mass > 0.0) {
     const double off = health.volume_times_density / health.from_elements.mass - 1.0;
     if (std::abs(off) > 1e-3)

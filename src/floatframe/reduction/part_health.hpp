@@ -8,9 +8,6 @@ namespace floatframe {
 MassProperties mass_properties(const SparseMatrix& M, const MatX& R);
 MassProperties mass_properties(const InertiaInvariants& invariants);
 
-/// Volume, and volume times density with point masses.
-void add_volumes(const FeModel& model, Integration integration, HealthReport& health);
-
 /// Largest |K R| relative to the largest entry of K, rotations about the centre of the part.
 double rigid_residual(const FeModel& model, const FeSystem& system);
 
