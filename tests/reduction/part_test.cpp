@@ -307,7 +307,7 @@ TEST(PartHealth, MassPropertiesAndWarnings) {
   EXPECT_EQ(stages, (std::vector<std::string>{"model", "assembly", "modes", "body", "surface",
                                               "free modes of the full model"}));
   ASSERT_FALSE(health.warnings.empty());
-  EXPECT_EQ(health.warnings[0], "1 node belongs to no element: node 118");
+  EXPECT_EQ(health.warnings[0], "1 node is used by nothing: node 118");
 
   FeModel wrong = beam();  // mm-t-s taken for m-kg-s
   for (Vec3& p : wrong.positions) p *= 1e3;
