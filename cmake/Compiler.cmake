@@ -19,8 +19,9 @@ target_compile_options(floatframe_compiler INTERFACE
   -fno-math-errno -fno-trapping-math
   $<$<CONFIG:Release>:-O3>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
-  # These two see through inlined Eigen expressions of dynamic size and report what cannot happen.
-  target_compile_options(floatframe_compiler INTERFACE -Wno-maybe-uninitialized -Wno-restrict -Wno-array-bounds)
+  # These see through inlined Eigen expressions of dynamic size and inlined strings and report what cannot happen.
+  target_compile_options(floatframe_compiler INTERFACE
+    -Wno-maybe-uninitialized -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 if(FLOATFRAME_SANITIZE)
   target_compile_options(floatframe_compiler INTERFACE
