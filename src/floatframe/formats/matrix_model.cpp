@@ -66,6 +66,64 @@ void keep_nodes(FeModel& model) {
   model.shells.clear();
 }
 
+/// Leaves nodes out: indices of the others move up; sets without nodes go.
+void remove_nodes(FeModel& model, const std::vector<char>& gone, std::vector<Dof>& dofs) {
+  std::vector<int> index(gone.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < gone.size(); ++k) {
+    if (gone[k] != 0) continue;
+    index[k] = static_cast<int>(kept);
+    model.positions[kept] = model.positions[k];
+    model.node_ids[kept] = model.node_ids[k];
+    if (!model.node_sources.empty()) model.node_sources[kept] = model.node_sources[k];
+    if (!model.node_names.empty()) model.node_names[kept] = model.node_names[k];
+    ++kept;
+  }
+  model.positions.resize(kept);
+  model.node_ids.resize(kept);
+  if (!model.node_sources.empty()) model.node_sources.resize(kept);
+  if (!model.node_names.empty()) model.node_names.resize(kept);
+  const auto place = [&](int node) { return index[static_cast<std::size_t>(node)]; };
+  for (auto it = model.node_sets.begin(); it != model.node_sets.end();) {
+    std::vector<int>& nodes = it->second;
+    std::erase_if(nodes, [&](int node) { return place(node) < 0; });
+    for (int& node : nodes) node = place(node);
+    it = nodes.empty() ? model.node_sets.erase(it) : std::next(it);
+  }
+  std::erase_if(model.supports, [&](const Support& s) { return place(s.node) < 0; });
+  for (Support& s : model.supports) s.node = place(s.node);
+  for (Dof& d : dofs) d.node = place(d.node);
+}
+
+/// Spiders of the deck are in the matrices: the nodes that follow them have no rows, and neither
+/// have the rotation nodes. Notes say so.
+void remove_spiders(FeModel& model, std::vector<Dof>& dofs) {
+  std::vector<char> with_row(model.positions.size(), 0), gone(model.positions.size(), 0);
+  for (const Dof& d : dofs) with_row[static_cast<std::size_t>(d.node)] = 1;
+  for (const Spider& s : model.spiders) {
+    std::vector<int> nodes = s.nodes;
+    if (s.rotation_node >= 0) nodes.push_back(s.rotation_node);
+    int without = 0;
+    for (const int node : nodes) {
+      const std::size_t k = static_cast<std::size_t>(node);
+      if (with_row[k] != 0) continue;
+      gone[k] = 1;
+      if (node != s.rotation_node) ++without;
+    }
+    const std::size_t reference = static_cast<std::size_t>(s.reference);
+    const SourceMark mark = model.mark(s.source);
+    model.notes.push_back(
+        fmt::format("{}:{}: {} is in the matrices already: its {} nodes have no rows{}", mark.file,
+                    mark.line, s.name.empty() ? "the spider" : "spider " + shown(s.name), without,
+                    with_row[reference] != 0
+                        ? fmt::format(", its reference is node {}", model.node_ids[reference])
+                        : ""));
+  }
+  model.spiders.clear();
+  model.equations.clear();
+  remove_nodes(model, gone, dofs);
+}
+
 }  // namespace
 
 std::vector<DofLabel> read_dof_labels(TextSource& source) {
@@ -195,18 +253,7 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
   }
   labels_source.throw_if_any();
   if (K.nonZeros() == 0) labels_source.stop({0, 0}, "the stiffness is zero");
-  for (const Spider& s : model.spiders) {
-    const bool free = seen.contains({s.reference, 0});
-    const SourceMark mark = model.mark(s.source);
-    model.notes.push_back(
-        fmt::format("{}:{}: {} is in the matrices already{}", mark.file, mark.line,
-                    s.name.empty() ? "the spider" : "spider " + shown(s.name),
-                    free ? fmt::format("; its reference is node {}",
-                                       model.node_ids[static_cast<std::size_t>(s.reference)])
-                         : ""));
-  }
-  model.spiders.clear();
-  model.equations.clear();
+  remove_spiders(model, matrices.dofs);
   matrices.K = std::move(K);
   matrices.M = std::move(M);
   model.matrices = std::move(matrices);
