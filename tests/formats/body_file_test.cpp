@@ -166,6 +166,7 @@ TEST(BodyFile, RigidPartWithoutSurface) {
   file.part.body.invariants = InertiaInvariants::rigid(2.0, {0.1, 0.0, 0.0}, Mat3::Identity());
   file.part.body.K = file.part.body.D = MatX::Zero(0, 0);
   file.part.surface_positions = Mat3X::Zero(3, 0);
+  file.part.body.nodes = {{"tip", Vec3::Ones(), Mat3X::Zero(3, 0), Mat3X::Zero(3, 0)}};
   expect_equal(file, read_body_bytes(body_file_bytes(file), "x"));
   BodyFile soft = bracket();
   soft.part.surface = {};

@@ -347,6 +347,8 @@ TEST(SidFile, Faults) {
        "arm.SID_FEM:5: the mass is not positive"},
       {"nrow                  =    6", "nrow = 5",
        "arm.SID_FEM:148: block J: nrow is 5, expected 6"},
+      {"m0( 5, 1)             =-1.72500000000D-01", "nrow = 3",
+       "arm.SID_FEM:157: 'nrow' of block J comes after its entries"},
       {"m0( 2, 1)             = 2.50000000000D-01", "m0( 2, 1) = 2.5D-0x",
        "arm.SID_FEM:137: '2.5D-0x' is not a number"},
       {"m0( 2, 1)             = 2.50000000000D-01", "m0( 4, 1) = 2.5D-01",

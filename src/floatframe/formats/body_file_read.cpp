@@ -172,6 +172,8 @@ class Reader {
     for (Eigen::Index k = 0; k < n; ++k) {
       ModalNode& node = body().nodes[static_cast<std::size_t>(k)];
       node.p = p.row(k).transpose();
+      node.X = node.X_theta = Mat3X::Zero(3, nm);
+      if (nm == 0) continue;
       node.X = X.middleRows<3>(3 * k);
       node.X_theta = X_theta.middleRows<3>(3 * k);
     }

@@ -114,6 +114,7 @@ std::string body_file_bytes(const BodyFile& content) {
   for (Eigen::Index k = 0; k < markers; ++k) {
     const ModalNode& node = body.nodes[static_cast<std::size_t>(k)];
     p.row(k) = node.p.transpose();
+    if (nm == 0) continue;
     X.middleRows<3>(3 * k) = node.X;
     X_theta.middleRows<3>(3 * k) = node.X_theta;
   }

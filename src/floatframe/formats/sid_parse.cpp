@@ -330,6 +330,10 @@ void SidParser::read_block(const std::string& name, SidTaylor& block) {
 }
 
 void SidParser::read_header(const std::string& name, const Item& item, SidTaylor& block) {
+  if (seen0_.size() > 0) {
+    source_.fault(fmt::format("{} of block {} comes after its entries", shown(item.key), name));
+    return;
+  }
   const auto value = parse_integer(item.value);
   if (!value) {
     source_.fault(
