@@ -7,4 +7,8 @@ namespace floatframe {
 /// File of the loaded library (or of the program, if it is linked into one).
 std::string library_path();
 
+/// The module of that name beside the library (the copy for newer processors lies two folders
+/// deeper); empty if there is none.
+std::string module_path(const std::string& name);
+
 }  // namespace floatframe

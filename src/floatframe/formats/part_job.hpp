@@ -22,9 +22,6 @@ struct PartJob {
   PartOptions options;
 };
 
-/// Number of normal modes if nothing selects them.
-inline constexpr int default_modes = 20;
-
 /// Reads the file, converts it to SI units and reduces it. Throws InputError.
 BodyFile reduce_part_file(const PartJob& job);
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <vector>
@@ -27,23 +26,17 @@ struct Module {
 
 Module open_module() {
   Module module;
-  // Beside the library; the copy for newer processors lies two folders deeper.
-  const std::filesystem::path folder = std::filesystem::path(library_path()).parent_path();
-  for (const auto& where : {folder, folder.parent_path().parent_path()}) {
-    const std::filesystem::path file = where / "libfloatframe_mumps.so";
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) continue;
-    // Local: the sequential MUMPS brings stubs with names of MPI functions.
-    void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!handle) {
-      const char* why = ::dlerror();
-      module.why = why ? why : "its module cannot be loaded";
-      continue;
-    }
-    module.engine = reinterpret_cast<MumpsEngineFunction>(::dlsym(handle, mumps_engine_symbol));
-    if (module.engine) return module;
-    module.why = "'" + file.string() + "' is not its module";
+  const std::string file = module_path("libfloatframe_mumps.so");
+  if (file.empty()) return module;
+  // Local: the sequential MUMPS brings stubs with names of MPI functions.
+  void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) {
+    const char* why = ::dlerror();
+    module.why = why ? why : "its module cannot be loaded";
+    return module;
   }
+  module.engine = reinterpret_cast<MumpsEngineFunction>(::dlsym(handle, mumps_engine_symbol));
+  if (!module.engine) module.why = "'" + file + "' is not its module";
   return module;
 }
 

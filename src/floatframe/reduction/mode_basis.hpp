@@ -25,9 +25,6 @@ struct ModeBasis {
   std::string solver;
 };
 
-/// Normal modes that are taken if the options name no number and no other limit.
-inline constexpr int default_modes = 20;
-
 /// Faults of the options that need no model: contradictions, negative numbers.
 void check_options(const PartOptions& options);
 

@@ -43,6 +43,9 @@ struct MarkerDescription {
   bool residual = false;  ///< loads act here: attachment (residual) modes, one a translation
 };
 
+/// Normal modes if the options set no limit at all.
+inline constexpr int default_modes = 20;
+
 struct PartOptions {
   std::vector<InterfaceDescription> interfaces;
   std::vector<MarkerDescription> markers;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <stdexcept>
 
 #include "floatframe/core/library_path.hpp"
@@ -28,27 +27,22 @@ bool started_on_ranks() {
 int ranks_on_this_machine() { return std::max(1, number_in("OMPI_COMM_WORLD_LOCAL_SIZE")); }
 
 std::unique_ptr<Ranks> open_ranks() {
-  // Beside the library; the copy for newer processors lies two folders deeper.
-  const std::filesystem::path folder = std::filesystem::path(library_path()).parent_path();
-  for (const auto& where : {folder, folder.parent_path().parent_path()}) {
-    const std::filesystem::path module = where / "libfloatframe_mpi.so";
-    std::error_code ignored;
-    if (!std::filesystem::exists(module, ignored)) continue;
-    // Global: OpenMPI loads parts of itself that look for its symbols.
-    void* handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
-    if (!handle) {
-      const char* why = ::dlerror();
-      throw std::runtime_error(std::string("the MPI module cannot be loaded: ") +
-                               (why ? why : "no reason given"));
-    }
-    const auto open = reinterpret_cast<OpenRanksFunction>(::dlsym(handle, open_ranks_symbol));
-    if (!open) throw std::runtime_error("'" + module.string() + "' is not the MPI module");
-    return std::unique_ptr<Ranks>(open());
+  const std::string module = module_path("libfloatframe_mpi.so");
+  if (module.empty()) {
+    throw std::runtime_error(
+        "started by mpirun, but this Floatframe was built without MPI (libfloatframe_mpi.so): "
+        "install the packages libopenmpi-dev and openmpi-bin and build again");
   }
-  throw std::runtime_error(
-      "started by mpirun, but this Floatframe was built without MPI (libfloatframe_mpi.so): "
-      "install "
-      "the packages libopenmpi-dev and openmpi-bin and build again");
+  // Global: OpenMPI loads parts of itself that look for its symbols.
+  void* handle = ::dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (!handle) {
+    const char* why = ::dlerror();
+    throw std::runtime_error(std::string("the MPI module cannot be loaded: ") +
+                             (why ? why : "no reason given"));
+  }
+  const auto open = reinterpret_cast<OpenRanksFunction>(::dlsym(handle, open_ranks_symbol));
+  if (!open) throw std::runtime_error("'" + module + "' is not the MPI module");
+  return std::unique_ptr<Ranks>(open());
 }
 
 }  // namespace floatframe
