@@ -152,39 +152,6 @@ TEST(PartInertia, ProjectionEqualsPreprocessing) {
   }
 }
 
-TEST(PartInertia, BeamsAsPointsHaveTheirConsistentMass) {
-  // A bent frame of two-node beams with a point mass that has inertia of its own.
-  FeModel model;
-  model.materials = {steel};
-  model.sections = {BeamSection::rectangle(0.02, 0.05)};
-  model.positions = {{0, 0, 0}, {0.3, 0.1, 0}, {0.4, 0.4, 0.2}, {0.1, 0.5, 0.6}};
-  for (int k = 0; k < 3; ++k) {
-    Element e;
-    e.nodes = {k, k + 1};
-    model.elements.push_back(e);
-  }
-  model.masses.push_back({3, 0.7, Vec3(1e-3, 2e-3, 3e-3).asDiagonal()});
-  const FeSystem system = assemble(model);
-  const PointModel points = point_model(model, system);
-  EXPECT_EQ(points.anisotropy, 0.0);
-  MatX M = MatX::Zero(system.size(), system.size());
-  for (int i = 0; i < 3; ++i) {
-    MatX T(points.p.cols(), system.size());
-    for (Eigen::Index k = 0; k < points.p.cols(); ++k) T.row(k) = points.T.row(3 * k + i);
-    M += T.transpose() * (points.M_s * T);
-  }
-  EXPECT_LT((M - MatX(system.M)).cwiseAbs().maxCoeff(),
-            1e-13 * MatX(system.M).cwiseAbs().maxCoeff());
-  // Rigid motions of the points are those of the part.
-  const MatX R = rigid_motions(model, system, Vec3::Zero());
-  const MatX moved = points.T * R;
-  for (Eigen::Index k = 0; k < points.p.cols(); ++k) {
-    Eigen::Matrix<double, 3, 6> expected;
-    expected << Mat3::Identity(), -skew(points.p.col(k));
-    EXPECT_LT((moved.middleRows<3>(3 * k) - expected).cwiseAbs().maxCoeff(), 1e-12) << k;
-  }
-}
-
 /// Deflection at the marker under a unit load in z there, interface A held.
 double deflection(const FlexibleBody& body, std::size_t marker) {
   const ModalNode &held = body.nodes[0], &at = body.nodes[marker];

@@ -42,9 +42,9 @@ FeSystem assemble(const FeModel& model, Integration integration = Integration::e
 /// the kinetic energy is 1/2 sum_kl M_s(k, l) v_k . v_l. Points are the nodes; a node whose
 /// rotation carries mass (rotary inertia; matrices with rotational dofs) adds three points at p +
 /// e_x, p + e_y, p + e_z that move with it, which represents its static moments and its inertia
-/// exactly. 2-node beams add points of their own, which represent their mass exactly
-/// (beam_points.hpp). For masses that are not isotropic (a matrix whose xx, yy and zz parts differ)
-/// M_s is made of the mean of the three directions, and `anisotropy` says how far off that is.
+/// exactly. For masses that are not isotropic (a matrix whose xx, yy and zz parts differ; Hermite
+/// beams) M_s is made of the mean of the three directions, and `anisotropy` says how far off that
+/// is.
 struct PointModel {
   Mat3X p;                  ///< 3 x N positions
   SparseRows M_s;           ///< N x N

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "floatframe/fe/beam_points.hpp"
 #include "floatframe/fe/full_system.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -60,25 +59,11 @@ struct PointMasses {
   }
 };
 
-std::vector<const Element*> hermite_beams(const FeModel& model) {
-  std::vector<const Element*> beams;
-  for (const Element& e : model.elements)
-    if (e.type == ElementType::beam2) beams.push_back(&e);
-  return beams;
-}
-
-FeModel without_beams(FeModel model) {
-  std::erase_if(model.elements, [](const Element& e) { return e.type == ElementType::beam2; });
-  return model;
-}
-
 }  // namespace
 
 PointModel point_model(const FeModel& model, const FeSystem& system, Integration integration) {
   const DofTable table = dof_table(model);
-  const std::vector<const Element*> beams = hermite_beams(model);
-  const SparseMatrix M = beams.empty() ? full_mass(model, table, integration)
-                                       : full_mass(without_beams(model), table, integration);
+  const SparseMatrix M = full_mass(model, table, integration);
   const int nodes = model.nodes();
   std::vector<Dof> dofs;
   for (int k = 0; k < nodes; ++k) {
@@ -98,8 +83,6 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
     extra[static_cast<std::size_t>(k)] = points;
     points += 3;
   }
-  const int first_beam_point = points;
-  points += 20 * static_cast<int>(beams.size());
   PointModel out;
   out.p.resize(3, points);
   for (int k = 0; k < nodes; ++k) {
@@ -138,31 +121,16 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
       masses.emplace_back(a, b, rest);
     }
   }
+  out.M_s.resize(points, points);
+  out.M_s.setFromTriplets(masses.begin(), masses.end());
+  out.anisotropy = largest > 0.0 ? deviation / largest : 0.0;
+
   std::vector<Eigen::Triplet<double>> motion;
   const auto copy = [&](const SparseRows& from, int row, int to, double factor) {
     for (SparseRows::InnerIterator it(from, row); it; ++it) {
       motion.emplace_back(to, static_cast<int>(it.col()), factor * it.value());
     }
   };
-  int next = first_beam_point;
-  for (const Element* beam : beams) {
-    for (const BeamPoint& point : beam_points(model, *beam)) {
-      out.p.col(next) = point.p;
-      masses.emplace_back(next, next, point.mass);
-      for (int i = 0; i < 3; ++i) {
-        for (int c = 0; c < 12; ++c) {
-          if (point.motion(i, c) == 0.0) continue;
-          const int row = 3 * beam->nodes[static_cast<std::size_t>(c / 6)] + c % 3;
-          copy(c % 6 < 3 ? system.T : system.T_theta, row, 3 * next + i, point.motion(i, c));
-        }
-      }
-      ++next;
-    }
-  }
-  out.M_s.resize(points, points);
-  out.M_s.setFromTriplets(masses.begin(), masses.end());
-  out.anisotropy = largest > 0.0 ? deviation / largest : 0.0;
-
   for (int k = 0; k < nodes; ++k) {
     const int e = extra[static_cast<std::size_t>(k)];
     for (int i = 0; i < 3; ++i) {

@@ -103,8 +103,8 @@ void add_warnings(const FeModel& model, const PointModel& points, HealthReport& 
   }
   if (points.anisotropy > 1e-9) {
     list.push_back(fmt::format(
-        "the mass differs between directions by up to {:.2g} of its largest entry (shells, or "
-        "matrices of another program); the inertia integrals take the mean",
+        "the mass differs between directions by up to {:.2g} of its largest entry (beams, shells "
+        "or matrices of another program); the inertia integrals take the mean",
         points.anisotropy));
   }
   if (health.rigid_residual > 1e-9) {
