@@ -64,6 +64,19 @@ TEST(Tyre, VerticalPushesUpWhateverTheSlope) {
   EXPECT_NEAR(s.force, 1150.0, 1e-9);
 }
 
+// Damping acts on the rate of the height above the road: a wheel that rolls up a slope at constant
+// speed is damped by nothing, one that moves level towards it is pushed.
+TEST(Tyre, DampsTheRateOfTheHeightAboveTheRoad) {
+  MarkerState centre = at(Vec3(2.0, 0.0, 1.9));
+  centre.v = Vec3(4.0, 0.0, 3.0);
+  for (const TyreLaw law : {TyreLaw::vertical, TyreLaw::radial})
+    EXPECT_DOUBLE_EQ(tyre(law, slope, centre, 100.0).force, tyre(law, slope, centre).force);
+  centre.v = Vec3(4.0, 0.0, 0.0);
+  const double spring = tyre(TyreLaw::vertical, slope, centre).force;
+  EXPECT_NEAR(tyre(TyreLaw::vertical, slope, centre, 100.0).force, spring + 300.0, 1e-9);
+  EXPECT_NEAR(tyre(TyreLaw::radial, slope, centre, 100.0).force, 0.8 * (spring + 300.0), 1e-9);
+}
+
 TEST(Tyre, NeverPulls) {
   for (const TyreLaw law : {TyreLaw::vertical, TyreLaw::radial}) {
     ForceState s = tyre(law, slope, at(Vec3(0.0, 0.0, 0.51)));

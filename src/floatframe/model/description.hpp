@@ -136,7 +136,8 @@ struct InputDescription {
   std::string name;
   std::string unit;                 ///< for people and for the layout of packets
   double initial = 0.0;             ///< value until another one comes
-  std::optional<double> low, high;  ///< values outside are refused
+  std::optional<double> low, high;  ///< values outside are refused ...
+  bool clamp = false;               ///< ... or, if true, replaced by the nearer limit
   Origin origin;
 };
 
@@ -161,6 +162,8 @@ struct JointDescription {
   /// then rotation vector [rad] x 3.
   std::vector<double> position;
   std::vector<double> velocity;
+  /// The start values given must not move when loops are closed.
+  bool keep = false;
   std::optional<TimeFunction> motion;  ///< prescribed coordinate of a revolute or prismatic joint
   bool cut = false;                    ///< named as a cut joint of the relative formulation
   Origin origin;
@@ -212,9 +215,10 @@ struct JointSpringDescription {
 
 enum class TyreLaw { vertical, radial };
 
-/// Penalty tyre on a road profile. vertical: F = max(0, k (R - (z_c - z_road(x_c))) - c zdot)
-/// upwards at the centre. radial: F = k (R - (z_c - z_road)) / sqrt(1 + s^2) along the road normal,
-/// s the slope below the centre.
+/// Penalty tyre on a road profile. With h = z_c - z_road(x_c) the height of the wheel centre above
+/// the road below it, hdot its rate (zdot_c - s xdot_c on a road of slope s) and
+/// f = max(0, k (R - h) - c hdot) while h < R: vertical: f upwards at the centre; radial:
+/// f / sqrt(1 + s^2) along the road normal, at the contact point.
 struct TyreDescription {
   AttachmentDescription centre;
   double radius = 0.0;     ///< unloaded [m]
