@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/regular_file.hpp"
 #include "floatframe/formats/body_arrays.hpp"
 #include "floatframe/formats/body_file.hpp"
 #include "floatframe/formats/health_text.hpp"
@@ -227,24 +227,12 @@ BodyFile read_body_bytes(std::string_view bytes, const std::string& name) {
 }
 
 BodyFile read_body_file(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw InputError({file.string(), 0, 0}, "the file does not exist");
-  if (!std::filesystem::is_regular_file(file, error))
-    throw InputError({file.string(), 0, 0}, "this is not a regular file");
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes(static_cast<std::size_t>(std::filesystem::file_size(file, error)), '\0');
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-    throw InputError({file.string(), 0, 0}, "the file cannot be read");
-  return read_body_bytes(bytes, file.string());
+  return read_body_bytes(regular_file(file), file.string());
 }
 
 bool is_body_file(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return false;
-  std::ifstream in(file, std::ios::binary);
-  char beginning[2] = {};
-  return in.read(beginning, 2) && beginning[0] == 'P' && beginning[1] == 'K';
+  std::string beginning;
+  return read_regular_beginning(file, 2, beginning).empty() && beginning == "PK";
 }
 
 }  // namespace floatframe

@@ -5,12 +5,11 @@
 
 #include <chrono>
 #include <ctime>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/content_hash.hpp"
+#include "floatframe/core/regular_file.hpp"
 #include "floatframe/core/suggest.hpp"
 
 namespace floatframe {
@@ -113,11 +112,8 @@ UnitSystem unit_system(const std::string& name) {
 }
 
 std::string file_hash(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return "";
-  std::ifstream in(file, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(in), {}};
-  return in.bad() ? "" : content_hash(content);
+  std::string content;
+  return read_regular_file(file, largest_file_read, content).empty() ? content_hash(content) : "";
 }
 
 std::string date_now() {

@@ -4,12 +4,11 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <system_error>
 
+#include "floatframe/core/regular_file.hpp"
 #include "floatframe/formats/text_fields.hpp"
 
 namespace floatframe {
@@ -94,35 +93,6 @@ std::string inflate_bytes(std::string_view bytes, const std::string& name, std::
   }
 }
 
-std::string read_bytes(const std::filesystem::path& file, std::uint64_t most) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) {
-    throw InputError({file.string()}, "this is a folder, not a file");
-  }
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw InputError({file.string()},
-                     errno == ENOENT
-                         ? "the file does not exist"
-                         : fmt::format("the file cannot be opened ({})", std::strerror(errno)));
-  }
-  std::string bytes;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (!error) {
-    bytes.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
-  }
-  // In pieces: pipes and devices have no size.
-  std::string chunk(std::size_t{1} << 20, '\0');
-  while (in && bytes.size() < most) {
-    in.read(chunk.data(), static_cast<std::streamsize>(
-                              std::min<std::uint64_t>(chunk.size(), most - bytes.size())));
-    bytes.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
-  }
-  if (in.bad()) throw InputError({file.string()}, "the file cannot be read to its end");
-  return bytes;
-}
-
 int line_of(std::string_view text, std::size_t position) {
   return 1 + static_cast<int>(std::count(
                  text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
@@ -136,17 +106,13 @@ std::string decompressed(std::string bytes, const std::string& name) {
 }
 
 std::string read_whole_file(const std::filesystem::path& file) {
-  std::string bytes = read_bytes(file, largest_text + 1);
-  if (bytes.size() > largest_text) {
-    throw InputError({file.string()}, fmt::format("the file is larger than {} GiB, which is not "
-                                                  "read",
-                                                  largest_text >> 30));
-  }
-  return decompressed(std::move(bytes), file.string());
+  return decompressed(regular_file(file, largest_text), file.string());
 }
 
 std::string read_beginning(const std::filesystem::path& file, std::size_t bytes) {
-  std::string beginning = read_bytes(file, bytes);
+  std::string beginning;
+  const std::string why = read_regular_beginning(file, bytes, beginning);
+  if (!why.empty()) throw InputError({file.string()}, why);
   if (!is_gzip(beginning)) return beginning;
   return inflate_bytes(beginning, file.string(), bytes, false);
 }

@@ -7,18 +7,17 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "floatframe/core/content_hash.hpp"
+#include "floatframe/core/regular_file.hpp"
 
 namespace floatframe {
 namespace {
 
 constexpr int deepest_nesting = 50;
-constexpr std::uintmax_t largest_file = 16u << 20u;
+constexpr std::uint64_t largest_file = 16u << 20u;
 
 // Inside `${...}` the characters that would end a plain scalar in a flow list or map are hidden
 // from the YAML parser as control characters (which the text cannot hold), so that `[0, ${a},
@@ -271,18 +270,8 @@ bool read_text_file(const std::string& file, std::string& text, Faults& faults,
       faults.add(where, subject + ": '" + file + "': " + why);
     return false;
   };
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) return fail("the file does not exist");
-  if (std::filesystem::is_directory(status)) return fail("this is a folder, not a file");
-  if (!std::filesystem::is_regular_file(status)) return fail("this is not a regular file");
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) return fail("the file cannot be read");
-  if (size > largest_file) return fail("the file is larger than 16 MB");
-  std::ifstream in(file, std::ios::binary);
-  text.assign(static_cast<std::size_t>(size), '\0');
-  if (size > 0) in.read(text.data(), static_cast<std::streamsize>(size));
-  if (!in) return fail("the file cannot be read");
+  const std::string why = read_regular_file(file, largest_file, text);
+  if (!why.empty()) return fail(why);
   note_file_read(file, content_hash(text));
   return true;
 }
