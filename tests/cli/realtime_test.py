@@ -98,6 +98,10 @@ class RealTime(unittest.TestCase):
             (["cart.yaml", "--output", "udp", "--send", "::1:47101"], "--send: found '::1:47101', expected HOST:PORT"),
             (["cart.yaml", "--input", "udp", "--listen", "127.0.0.1:99999"], "--listen: found '127.0.0.1:99999'"),
             (["cart.yaml", "--output", "udp", "--listen", "[::1]:0"], "expected both IPv4 or both IPv6"),
+            (["cart.yaml", "--input", "udp", "--peer", "127.0.0.1:x"], "--peer: found '127.0.0.1:x', expected HOST or"),
+            (["cart.yaml", "--fallback", "panic"], "--fallback"),
+            (["cart.yaml", "--input-timeout", "-1"], "--input-timeout: found '-1'"),
+            (["cart.yaml", "--log", "nowhere/log.csv"], "--log: 'nowhere/log.csv' cannot be written"),
             (["falling.yaml", "--input", "udp"], "found no inputs in the model 'falling'"),
             (["nobody.yaml"], "nobody.yaml"),
             (["cart.yaml", "--set", "weight=3"], "unknown parameter 'weight'"),
@@ -128,7 +132,8 @@ class RealTime(unittest.TestCase):
         self.assertIn(layout["inputs"]["layout"], done.stdout)
         self.assertEqual([s["name"] for s in layout["outputs"]["signals"]], ["x", "v"])
         self.assertEqual(layout["inputs"]["signals"][0],
-                         {"name": "push", "unit": "N", "offset": 40, "initial": 0.5, "min": -20.0, "max": 20.0})
+                         {"name": "push", "unit": "N", "offset": 40, "initial": 0.5, "min": -20.0, "max": 20.0,
+                          "clamp": False})
         hashed = 0xcbf29ce484222325
         for byte in b"x\tm\nv\tm/s\n":
             hashed = (hashed ^ byte) * 0x100000001b3 % 2**64
@@ -144,7 +149,7 @@ class RealTime(unittest.TestCase):
         self.assertEqual(report["cpu"]["count"], 50)
         self.assertEqual(sum(b[2] for b in report["cpu"]["bins_us"]), 50)
         self.assertEqual(report["wake_up"]["count"], 0)
-        self.assertEqual(report["inputs"]["push"], {"value": 0.5, "refused": 0})
+        self.assertEqual(report["inputs"]["push"], {"value": 0.5, "refused": 0, "clamped": 0})
         self.assertGreater(report["outputs"]["x"], 0.0)
 
     def test_bounded_work(self):
@@ -248,7 +253,7 @@ class RealTime(unittest.TestCase):
         self.assertEqual(packets["mismatched"], 3)
         self.assertGreaterEqual(packets["stale"], 1)
         self.assertEqual(packets["used"], 50)
-        self.assertEqual(report["inputs"]["push"], {"value": 1.0, "refused": 2})
+        self.assertEqual(report["inputs"]["push"], {"value": 1.0, "refused": 2, "clamped": 0})
 
     def test_free_running_in_step_with_the_clock(self):
         link = self.link()
@@ -269,6 +274,101 @@ class RealTime(unittest.TestCase):
         self.assertEqual(report["inputs"]["push"]["value"], 4.0)
         self.assertGreaterEqual(report["packets"]["used"], 1)
         self.assertEqual(report["packets"]["foreign"] + report["packets"]["mismatched"], 0)
+
+    def strangers(self, *options):
+        """A lock-step run that somebody else talks to as well; the report, and the other's address."""
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+            stranger.bind(("127.0.0.1", 0))
+            layout = floatframe_link.read_layout(BINARY, self.folder / "cart.yaml")
+
+            def disturbed(link, outputs):
+                for sequence in (0, outputs["sequence"]):
+                    stranger.sendto(floatframe_link.HEADER.pack(b"FFRT", 1, 1, int(layout["inputs"]["layout"], 16),
+                                                                sequence, 0.0, 1, 0) + struct.pack("<d", 19.0), link.peer)
+                link.send({"push": 1.0})
+            self.lock_step(disturbed, *options)
+            return self.report(), "127.0.0.1:{}".format(stranger.getsockname()[1])
+
+    def test_only_the_partner_is_heard(self):
+        report, stranger = self.strangers()
+        self.assertEqual(report["inputs"]["push"]["value"], 1.0)
+        packets = report["packets"]
+        self.assertEqual(packets["used"], 50)
+        self.assertGreater(packets["of_other_senders"], 0)
+        self.assertEqual(packets["other_senders"], [{"address": stranger, "packets": packets["of_other_senders"]}])
+        self.assertNotEqual(packets["heard"], stranger)
+
+    def test_free_running_hears_nobody_but_the_named_peer(self):
+        port = self.link()  # takes the outputs
+        peer = self.link()
+        process = self.start("cart.yaml", "--input", "udp", "--output", "udp", "--listen", "127.0.0.1:0", "--send",
+                             f"127.0.0.1:{port.address[1]}", "--peer", f"127.0.0.1:{peer.address[1]}", "--duration",
+                             "0.4", "--report", "report.json")
+        last = False
+        while not last:
+            outputs = port.receive(PATIENCE)
+            self.assertIsNotNone(outputs)
+            last = outputs["last"]
+            port.sequence = 0
+            port.send({"push": 9.0})
+            peer.peer, peer.sequence = port.peer, 0
+            peer.send({"push": 4.0})
+        text, errors = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 0, errors)
+        self.assertEqual(self.report()["inputs"]["push"]["value"], 4.0)
+        self.assertIn(f"not heard           127.0.0.1:{port.address[1]} (", text)
+        self.assertIn(f"to 127.0.0.1:{peer.address[1]}, sending to", text)
+
+    def test_send_alone_does_not_listen_to_other_networks(self):
+        # 192.0.2.1 is an address for documents; wherever it leads, the socket is not bound to all interfaces.
+        done = self.floatframe("cart.yaml", "--input", "udp", "--output", "udp", "--send", "192.0.2.1:47101",
+                               "--duration", "0.01", "--no-pace")
+        self.assertNotIn("0.0.0.0", done.stdout + done.stderr)
+        if done.returncode == 2:
+            self.assertIn("--send: found no way to 192.0.2.1:47101", done.stderr)
+        elif "cannot be received" not in done.stderr:
+            self.assertRegex(done.stdout, r"listening at [0-9.]+:47100 to 192\.0\.2\.1:47101")
+
+    def test_clamped_inputs_saturate(self):
+        (self.folder / "cart.yaml").write_text(CART.replace("max: 20}", "max: 20, clamp: true}"))
+        self.lock_step(lambda link, outputs: link.send({"push": 1e6}))
+        self.assertEqual(self.report()["inputs"]["push"], {"value": 20.0, "refused": 0, "clamped": 50})
+
+    def test_a_silent_controller_is_reported_and_the_fallback_acts(self):
+        for fallback, value in (("hold", 4.0), ("initial", 0.5), ("stop", 4.0)):
+            with self.subTest(fallback=fallback):
+                link = self.link()
+                process = self.start("cart.yaml", "--input", "udp", "--output", "udp", "--listen", "127.0.0.1:0",
+                                     "--send", f"127.0.0.1:{link.address[1]}", "--duration", "0.8", "--input-timeout",
+                                     "0.1", "--fallback", fallback, "--report", "report.json")
+                answered = False
+                while not (outputs := link.receive(PATIENCE))["last"]:
+                    if not answered:
+                        link.send({"push": 4.0})
+                        answered = True
+                text, errors = process.communicate(timeout=PATIENCE)
+                report = self.report()
+                self.assertEqual(report["inputs"]["push"]["value"], value)
+                self.assertEqual(report["input_timeouts"], 1)
+                silence = report["silences"][0]
+                self.assertFalse(silence["came_again"])
+                self.assertEqual(process.returncode, 1 if fallback == "stop" else 0, errors)
+                if fallback == "stop":
+                    self.assertRegex(errors, r"the run failed: no inputs came for 0\.1 s after t = 0\.\d* s")
+                    self.assertAlmostEqual(report["time_s"] - silence["from_s"], 0.1, delta=0.003)
+                else:
+                    self.assertEqual(report["time_s"], 0.8)
+                    self.assertRegex(errors, r"no inputs have come since t = 0(\.\d*)? s")
+                self.assertIn("inputs stayed away  1 time for more than 0.1 s", text)
+
+    def test_log(self):
+        rows = self.lock_step(lambda link, outputs: link.send({"push": outputs["sequence"] % 7}), "--log", "log.csv")
+        lines = (self.folder / "log.csv").read_text().splitlines()
+        self.assertEqual(lines[0], "time [s],input.push [N],x [m],v [m/s]")
+        table = [[float(x) for x in line.split(",")] for line in lines[1:]]
+        self.assertEqual([[t, x, v] for t, _, x, v in table], [[r["time"], r["x"], r["v"]] for r in rows])
+        self.assertEqual([row[1] for row in table], [0.5] + [k % 7 for k in range(50)])
+        self.assertEqual(self.report()["log"], {"rows": 51, "lost": 0})
 
     # -- the example
 

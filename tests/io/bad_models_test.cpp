@@ -124,7 +124,10 @@ const Case cases[] = {
      "input_limits.yaml:9:10: inputs.four: unknown key 'inital', did you mean 'initial'?"
      "\n"
      "input_limits.yaml:10:16: inputs.five.unit: found 'N, m', expected a unit of at most 20 "
-     "characters without commas, quotes and brackets"},
+     "characters without commas, quotes and brackets"
+     "\n"
+     "input_limits.yaml:11:25: inputs.six.clamp: found true without limits, expected min, max or "
+     "both beside it"},
     {"input_uses.yaml",
      "input_uses.yaml:11:66: forces.a.magnitude.input: unknown input 'torqe', did you mean "
      "'torque'?"

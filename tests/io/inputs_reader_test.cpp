@@ -26,6 +26,9 @@ TEST(InputsInFiles, EveryKeyArrives) {
   EXPECT_EQ(d.inputs[0].initial, 3.25);
   EXPECT_EQ(d.inputs[0].low, -50.0);
   EXPECT_EQ(d.inputs[0].high, 50.0);
+  EXPECT_FALSE(d.inputs[0].clamp);
+  EXPECT_TRUE(d.inputs[2].clamp);
+  EXPECT_TRUE(build_model(d).inputs[2].clamp);
   EXPECT_EQ(d.inputs[3].unit, "rad/s");
   EXPECT_EQ(d.inputs[3].initial, 0.0);
   EXPECT_FALSE(d.inputs[3].low);

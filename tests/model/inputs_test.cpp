@@ -170,8 +170,8 @@ std::string faults(const ModelDescription& d) {
 
 TEST(BuildInputs, NamesBecomeIndices) {
   ModelDescription d = block_with_load("b");
-  d.inputs.push_back({"a", "", 0.0, {}, {}, {}});
-  d.inputs.push_back({"b", "N", 2.0, -1.0, 3.0, {}});
+  d.inputs.push_back({"a", "", 0.0, {}, {}, false, {}});
+  d.inputs.push_back({"b", "N", 2.0, -1.0, 3.0, false, {}});
   const Model model = build_model(d);
   EXPECT_EQ(model.forces[0].input, 1);
   EXPECT_EQ(model.inputs[1].initial, 2.0);
@@ -182,13 +182,15 @@ TEST(BuildInputs, NamesBecomeIndices) {
 
 TEST(BuildInputs, FaultsAreNamed) {
   ModelDescription d = block_with_load("c");
-  d.inputs.push_back({"a", "", 0.0, {}, {}, {}});
-  d.inputs.push_back({"a", "", 5.0, 0.0, 1.0, {}});
-  d.inputs.push_back({"b", "", 0.0, 1.0, 1.0, {}});
+  d.inputs.push_back({"a", "", 0.0, {}, {}, false, {}});
+  d.inputs.push_back({"a", "", 5.0, 0.0, 1.0, false, {}});
+  d.inputs.push_back({"b", "", 0.0, 1.0, 1.0, false, {}});
+  d.inputs.push_back({"d", "", 0.0, {}, {}, true, {}});
   EXPECT_EQ(faults(d),
             "inputs.a: the name is taken, expected a name used once\n"
             "inputs.a.initial: found 5, expected a number from 0 to 1\n"
             "inputs.b.max: found 1, expected a number above min, 1\n"
+            "inputs.d.clamp: found true without limits, expected min, max or both beside it\n"
             "forces.push.magnitude: found input 'c', expected the name of an input");
 }
 

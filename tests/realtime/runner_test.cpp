@@ -173,26 +173,90 @@ TEST(RealTime, RefusedInputsAreCountedAndKeepTheLastValue) {
   EXPECT_EQ(r.inputs[1], 1.0);
 }
 
-TEST(RealTime, InputsThatStayAwayReturnToTheirInitialValues) {
-  Recorder port;
-  port.answer = [](Recorder&, InputBuffer& inputs) {
+/// Sends inputs at the steps chosen, counted from 1.
+class Sometimes : public Recorder {
+ public:
+  explicit Sometimes(std::function<bool(long)> speaks) : speaks_(std::move(speaks)) {}
+  bool receive(InputBuffer& inputs) noexcept override {
+    if (!speaks_(++received)) return false;
     inputs.accept(std::vector<double>{30.0, 1.0, 0.1, 0.0});
-  };
+    return true;
+  }
+
+ private:
+  std::function<bool(long)> speaks_;
+};
+
+RealTimeOptions four_steps_of_patience(SilenceFallback fallback) {
   RealTimeOptions options = unpaced();
-  options.input_timeout = 0.02;  // four steps
-  class Silent : public Recorder {
-   public:
-    bool receive(InputBuffer& inputs) noexcept override {
-      if (++received == 1) inputs.accept(std::vector<double>{30.0, 1.0, 0.1, 0.0});
-      return received == 1;
-    }
-  } silent;
+  options.input_timeout = 0.02;
+  options.fallback = fallback;
+  return options;
+}
+
+TEST(RealTime, SilentInputsAreHeldOrReturnToTheirInitialValues) {
+  for (const auto fallback : {SilenceFallback::hold, SilenceFallback::initial}) {
+    const RealTimeOptions options = four_steps_of_patience(fallback);
+    Sometimes silent([](long k) { return k == 3; }), alive([](long) { return true; });
+    const RealTimeReport r = run_real_time(model(), simulation(0.1), options, &silent);
+    EXPECT_EQ(r.status, "completed");
+    EXPECT_EQ(r.input_timeouts, 1);
+    EXPECT_EQ(r.silences[0].from, 0.01);
+    EXPECT_NEAR(r.silences[0].to, 0.1, 1e-15);
+    EXPECT_FALSE(r.silences[0].ended);
+    EXPECT_EQ(r.inputs[0], fallback == SilenceFallback::hold ? 30.0 : 3.25);
+    const RealTimeReport spoken = run_real_time(model(), simulation(0.1), options, &alive);
+    EXPECT_EQ(spoken.input_timeouts, 0);
+    EXPECT_EQ(spoken.inputs[0], 30.0);
+  }
+}
+
+TEST(RealTime, EverySilenceHasItsTimes) {
+  Sometimes port([](long k) { return k == 2 || k == 8 || k == 10 || k == 16; });
+  std::atomic<double> since{-1.0};
+  RealTimeOptions options = four_steps_of_patience(SilenceFallback::initial);
+  options.silent_since = &since;
+  const RealTimeReport r = run_real_time(model(), simulation(0.095), options, &port);
+  ASSERT_EQ(r.input_timeouts, 2);
+  EXPECT_NEAR(r.silences[0].from, 0.005, 1e-15);
+  EXPECT_NEAR(r.silences[0].to, 0.035, 1e-15);
+  EXPECT_TRUE(r.silences[0].ended);
+  EXPECT_NEAR(r.silences[1].from, 0.045, 1e-15);
+  EXPECT_NEAR(r.silences[1].to, 0.075, 1e-15);
+  EXPECT_EQ(since, -1.0);
+  EXPECT_EQ(r.inputs[0], 30.0);
+}
+
+TEST(RealTime, MoreSilencesThanAreListedAreCounted) {
+  Sometimes port([](long k) { return k % 5 == 1; });
+  const RealTimeReport r =
+      run_real_time(model(), simulation(0.5), four_steps_of_patience(SilenceFallback::hold), &port);
+  EXPECT_EQ(r.input_timeouts, 20);
+  EXPECT_NEAR(r.silences.back().from, 0.375, 1e-12);
+}
+
+TEST(RealTime, ASilentPartnerStopsTheRunOnlyIfItEverSpoke) {
+  const RealTimeOptions options = four_steps_of_patience(SilenceFallback::stop);
+  Sometimes silent([](long k) { return k == 3; }), mute([](long) { return false; });
   const RealTimeReport r = run_real_time(model(), simulation(0.1), options, &silent);
-  EXPECT_EQ(r.input_timeouts, 1);
-  EXPECT_EQ(r.inputs[0], 3.25);
-  const RealTimeReport alive = run_real_time(model(), simulation(0.1), options, &port);
-  EXPECT_EQ(alive.input_timeouts, 0);
-  EXPECT_EQ(alive.inputs[0], 30.0);
+  EXPECT_EQ(r.status, "failed");
+  EXPECT_EQ(r.message, "no inputs came for 0.02 s after t = 0.01 s");
+  EXPECT_EQ(r.steps, 6);
+  EXPECT_TRUE(silent.ended);
+  const RealTimeReport waiting = run_real_time(model(), simulation(0.1), options, &mute);
+  EXPECT_EQ(waiting.status, "completed");
+  EXPECT_EQ(waiting.input_timeouts, 1);
+  EXPECT_FALSE(waiting.inputs_came);
+}
+
+TEST(RealTime, NobodyWaitsForInputsThatNeverComeThisWay) {
+  class Listener : public Recorder {
+   public:
+    bool gives_inputs() const noexcept override { return false; }
+  } listener;
+  const RealTimeReport r = run_real_time(model(), simulation(0.1),
+                                         four_steps_of_patience(SilenceFallback::stop), &listener);
+  EXPECT_EQ(r.input_timeouts, 0);
 }
 
 TEST(RealTime, OverrunsAreTheProgramsOrTheHosts) {

@@ -26,9 +26,9 @@ Model two_in_one_out() {
   return m;
 }
 
-/// A port and a controller's socket that know each other.
+/// A port and a controller's socket; the port hears the controller only if it is named.
 struct Loop {
-  explicit Loop(bool lock_step = false, double timeout = 0.05)
+  explicit Loop(bool lock_step = false, double timeout = 0.05, bool named = false)
       : controller(parse_udp_address("127.0.0.1:0", "test")), port(model, [&] {
           UdpPortOptions o;
           o.inputs = o.outputs = true;
@@ -36,6 +36,7 @@ struct Loop {
           o.send = controller.local();
           o.lock_step = lock_step;
           o.timeout = timeout;
+          if (named) o.peer = o.send;
           return o;
         }()) {}
 
@@ -47,6 +48,9 @@ struct Loop {
   }
   void tell(const std::vector<std::byte>& bytes) {
     ASSERT_EQ(controller.send(port.local(), bytes), 0);
+  }
+  void tell_from(UdpSocket& other, const std::vector<std::byte>& bytes) {
+    ASSERT_EQ(other.send(port.local(), bytes), 0);
   }
   std::vector<double> values() const { return {inputs.values().begin(), inputs.values().end()}; }
 
@@ -126,6 +130,95 @@ TEST(UdpPort, ForeignMismatchedAndBadValuesAreCountedAndIgnored) {
   EXPECT_EQ(loop.values(), (Values{0.5, 0.0}));
   EXPECT_EQ(loop.inputs.refused(0), 1);
   EXPECT_EQ(loop.inputs.refused(1), 1);
+}
+
+TEST(UdpPort, OnlyThePeerThatBeganIsHeard) {
+  Loop loop;
+  UdpSocket other(parse_udp_address("127.0.0.1:0", "test"));
+  EXPECT_FALSE(loop.port.peer().known());
+  // Nonsense begins no exchange.
+  loop.tell_from(other, {});
+  loop.tell(loop.packet(0, {1, 2}));
+  loop.tell_from(other, loop.packet(0, {3, 4}));
+  loop.tell_from(other, loop.packet(7, {5, 6}));
+  loop.tell_from(other, std::vector<std::byte>(9));
+  EXPECT_TRUE(loop.port.receive(loop.inputs));
+  EXPECT_EQ(loop.values(), (Values{1, 2}));
+  EXPECT_EQ(loop.port.peer().text(), loop.controller.local().text());
+  const UdpCounts c = loop.port.counts();
+  EXPECT_EQ(c.received, 5);
+  EXPECT_EQ(c.foreign, 1);
+  EXPECT_EQ(c.other, 3);
+  ASSERT_EQ(loop.port.other_senders().size(), 1u);
+  EXPECT_EQ(loop.port.other_senders()[0].address.text(), other.local().text());
+  EXPECT_EQ(loop.port.other_senders()[0].packets, 3);
+}
+
+TEST(UdpPort, OnlyThePeerThatIsNamedIsHeard) {
+  for (const bool lock_step : {false, true}) {
+    Loop loop(lock_step, 0.05, true);
+    UdpSocket other(parse_udp_address("127.0.0.1:0", "test"));
+    loop.tell_from(other, loop.packet(0, {3, 4}));
+    EXPECT_EQ(loop.port.wait(), !lock_step);
+    EXPECT_FALSE(loop.port.receive(loop.inputs));
+    loop.tell(loop.packet(0, {1, 2}));
+    EXPECT_TRUE(loop.port.wait());
+    EXPECT_TRUE(loop.port.receive(loop.inputs));
+    EXPECT_EQ(loop.values(), (Values{1, 2}));
+    EXPECT_EQ(loop.port.counts().other, 1);
+  }
+}
+
+TEST(InputFilter, ListsTheFirstOfManyOtherSenders) {
+  UdpAddress peer = parse_udp_address("127.0.0.1:1000", "test");
+  InputFilter filter(1, 17, false, peer);
+  const double value = 2.5;
+  std::vector<std::byte> bytes(packet_size(1));
+  encode_packet({PacketKind::inputs, 17, 0, 0.0, 0}, std::span(&value, 1), bytes);
+  for (int round = 0; round < 2; ++round)
+    for (std::uint16_t port = 2000; port < 2012; ++port) {
+      UdpAddress from = peer;
+      from.set_port(port);
+      filter.take(bytes, bytes.size(), from);
+    }
+  EXPECT_FALSE(filter.fresh());
+  EXPECT_EQ(filter.counts().other, 24);
+  EXPECT_EQ(filter.others().size(), InputFilter::most_senders);
+  EXPECT_EQ(filter.others().back().packets, 2);
+  filter.take(bytes, bytes.size(), peer);
+  EXPECT_TRUE(filter.fresh());
+  EXPECT_EQ(filter.hand_over()[0], 2.5);
+}
+
+TEST(InputFilter, APeerWithoutAPortMaySendFromAny) {
+  InputFilter filter(0, 17, false, parse_udp_peer("127.0.0.1", "test"));
+  std::vector<std::byte> bytes(packet_size(0));
+  encode_packet({PacketKind::inputs, 17, 0, 0.0, 0}, {}, bytes);
+  filter.take(bytes, bytes.size(), parse_udp_address("127.0.0.2:5", "test"));
+  EXPECT_FALSE(filter.fresh());
+  filter.take(bytes, bytes.size(), parse_udp_address("127.0.0.1:6", "test"));
+  // As a socket of both kinds shows the same host.
+  filter.take(bytes, bytes.size(), parse_udp_address("[::ffff:127.0.0.1]:7", "test"));
+  EXPECT_EQ(filter.counts().other, 1);
+  EXPECT_EQ(filter.counts().superseded, 1);
+  EXPECT_TRUE(filter.fresh());
+}
+
+TEST(InputBuffer, ClampsWhereItIsAskedTo) {
+  Model model = two_in_one_out();
+  model.inputs[0].clamp = true;
+  InputBuffer inputs(model);
+  const auto accept = [&](double a) {
+    inputs.accept(Values{a, 1.0});
+    return inputs.values()[0];
+  };
+  EXPECT_EQ(accept(11.0), 10.0);
+  EXPECT_EQ(accept(-1e300), -10.0);
+  EXPECT_EQ(accept(3.0), 3.0);
+  EXPECT_EQ(accept(std::numeric_limits<double>::quiet_NaN()), 3.0);
+  EXPECT_EQ(accept(std::numeric_limits<double>::infinity()), 3.0);
+  EXPECT_EQ(inputs.clamped(0), 2);
+  EXPECT_EQ(inputs.refused(0), 2);
 }
 
 TEST(UdpPort, SendsOutputs) {
@@ -214,6 +307,19 @@ TEST(UdpAddress, IsReadAndShown) {
                     "', expected HOST:PORT, for example 127.0.0.1:47100");
     }
   }
+}
+
+TEST(UdpAddress, APeerMayBeAHostAlone) {
+  EXPECT_EQ(parse_udp_peer("127.0.0.1", "--peer").text(), "127.0.0.1");
+  EXPECT_EQ(parse_udp_peer("[::1]", "--peer").text(), "[::1]");
+  EXPECT_EQ(parse_udp_peer("127.0.0.1:80", "--peer").text(), "127.0.0.1:80");
+  for (const char* bad : {"", ":80", "127.0.0.1:", "127.0.0.1:x", "::1", "[]:1"})
+    EXPECT_THROW(parse_udp_peer(bad, "--peer"), InputError) << bad;
+}
+
+TEST(UdpAddress, TheWayToThisMachineStaysInside) {
+  EXPECT_EQ(local_address_towards(parse_udp_address("127.0.0.1:47101", "t"), "t").text(),
+            "127.0.0.1");
 }
 
 TEST(UdpSocket, SaysWhenThePortIsTaken) {

@@ -4,18 +4,17 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cmath>
-#include <condition_variable>
 #include <csignal>
+#include <cstring>
 #include <memory>
-#include <mutex>
-#include <thread>
 
 #include "floatframe/apps/command.hpp"
-#include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/apps/realtime_output.hpp"
+#include "floatframe/apps/realtime_progress.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/realtime/signal_log.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -23,12 +22,16 @@ namespace {
 
 struct RealTimeArguments {
   ModelArguments model;
-  std::string coordinates, inertia, step, duration, budget, max_lag, timeout, input_timeout, report;
-  std::string input = "none", output = "none", listen, send = "127.0.0.1:47101";
+  std::string coordinates, inertia, step, duration, budget, max_lag, timeout, input_timeout, report,
+      log;
+  std::string input = "none", output = "none", listen, send, peer, fallback = "hold";
   int iterations = 0, priority = 0;
   bool endless = false, lock_step = false, no_pace = false, lock_memory = false, strict = false;
   bool layout = false, json = false, quiet = false;
 };
+
+constexpr const char* default_send = "127.0.0.1:47101";
+constexpr std::uint16_t default_input_port = 47100;
 
 std::atomic<bool> stop_wanted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -55,40 +58,6 @@ class StopOnSignal {
  private:
   struct sigaction interrupt_before_ {};
   struct sigaction terminate_before_ {};
-};
-
-/// Shows how far the run is, once a second, from a thread of its own: the stepping thread only
-/// writes one number.
-class ProgressThread {
- public:
-  ProgressThread(bool wanted, double duration) {
-    if (!wanted) return;
-    thread_ = std::thread([this, duration] {
-      ProgressBar bar(true, duration, "s");
-      std::unique_lock lock(mutex_);
-      while (!ended_.wait_for(lock, std::chrono::seconds(1), [this] { return end_; }))
-        bar.show(time.load(std::memory_order_relaxed) / duration);
-    });
-  }
-  ~ProgressThread() {
-    if (!thread_.joinable()) return;
-    {
-      const std::lock_guard lock(mutex_);
-      end_ = true;
-    }
-    ended_.notify_one();
-    thread_.join();
-  }
-  ProgressThread(const ProgressThread&) = delete;
-  ProgressThread& operator=(const ProgressThread&) = delete;
-
-  std::atomic<double> time{0.0};
-
- private:
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  bool end_ = false;
-  std::thread thread_;
 };
 
 double zero_or_more(const std::string& option, const std::string& text) {
@@ -120,12 +89,25 @@ RealTimeOptions options_from(const RealTimeArguments& arguments) {
     options.time_budget = positive_number("--budget", arguments.budget);
   if (!arguments.max_lag.empty()) options.max_lag = zero_or_more("--max-lag", arguments.max_lag);
   if (!arguments.input_timeout.empty())
-    options.input_timeout = positive_number("--input-timeout", arguments.input_timeout);
+    options.input_timeout = zero_or_more("--input-timeout", arguments.input_timeout);
+  options.fallback = arguments.fallback == "initial" ? SilenceFallback::initial
+                     : arguments.fallback == "stop"  ? SilenceFallback::stop
+                                                     : SilenceFallback::hold;
   options.priority = arguments.priority;
   options.lock_memory = arguments.lock_memory;
   options.strict = arguments.strict;
   options.stop = &stop_wanted;
   return options;
+}
+
+/// Only the address of this machine that the partner reaches: other networks are not listened to.
+UdpAddress listen_address(const RealTimeArguments& arguments, const UdpPortOptions& options) {
+  if (!arguments.listen.empty()) return parse_udp_address(arguments.listen, "--listen");
+  UdpAddress address = options.outputs        ? local_address_towards(options.send, "--send")
+                       : options.peer.known() ? local_address_towards(options.peer, "--peer")
+                                              : parse_udp_address("127.0.0.1:0", "--listen");
+  address.set_port(options.inputs ? default_input_port : 0);
+  return address;
 }
 
 std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Model& model) {
@@ -141,26 +123,29 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
   if (options.inputs && model.inputs.empty())
     throw InputError(fmt::format(
         "--input udp: found no inputs in the model '{}', expected a section 'inputs'", model.name));
-  options.send = parse_udp_address(arguments.send, "--send");
-  // Whoever sends to this machine only hears this machine only.
-  const bool ipv6 = options.outputs && options.send.family() == AF_INET6;
-  const bool near = !options.outputs || options.send.loopback();
-  const std::string host = near ? (ipv6 ? "[::1]" : "127.0.0.1") : (ipv6 ? "[::]" : "0.0.0.0");
-  const std::string listen =
-      !arguments.listen.empty() ? arguments.listen : host + (options.inputs ? ":47100" : ":0");
-  options.listen = parse_udp_address(listen, "--listen");
+  options.send =
+      parse_udp_address(arguments.send.empty() ? default_send : arguments.send, "--send");
+  // Heard is whom a name is given of; of those that are not named, who sends first.
+  if (!arguments.peer.empty())
+    options.peer = parse_udp_peer(arguments.peer, "--peer");
+  else if (options.outputs && !arguments.send.empty())
+    options.peer = options.send;
+  options.listen = listen_address(arguments, options);
   if (options.outputs && options.listen.family() != options.send.family())
     throw InputError(
-        fmt::format("--listen: found {} beside --send {}, expected both IPv4 or both IPv6", listen,
-                    arguments.send));
+        fmt::format("--listen: found {} beside --send {}, expected both IPv4 or both IPv6",
+                    options.listen.text(), options.send.text()));
   return std::make_unique<UdpPort>(model, options);
 }
 
 std::string port_line(const RealTimeArguments& arguments, const UdpPort& port) {
   std::string text;
-  if (arguments.input == "udp") text += fmt::format("listening at {}", port.local().text());
+  if (arguments.input == "udp")
+    text += fmt::format("listening at {} to {}", port.local().text(),
+                        port.peer().known() ? port.peer().text() : "whoever sends first");
   if (arguments.output == "udp")
-    text += fmt::format("{}sending to {}", text.empty() ? "" : ", ", arguments.send);
+    text += fmt::format("{}sending to {}", text.empty() ? "" : ", ",
+                        arguments.send.empty() ? default_send : arguments.send);
   return text + "\n";
 }
 
@@ -187,19 +172,35 @@ int run_command(const RealTimeArguments& arguments) {
   const std::unique_ptr<UdpPort> port = open_port(arguments, model);
   if (port && !arguments.quiet) print(port_line(arguments, *port));
 
+  std::unique_ptr<SignalLog> log;
+  if (!arguments.log.empty()) {
+    try {
+      log = std::make_unique<SignalLog>(model, arguments.log, arguments.no_pace);
+    } catch (const OutputError& error) {
+      throw InputError(fmt::format("--log: {}", error.what()));
+    }
+    options.log = log.get();
+  }
   RealTimeReport report;
   {
-    ProgressThread progress(!arguments.quiet && !arguments.endless,
-                            description.simulation.duration);
+    RealTimeProgress progress(!arguments.quiet,
+                              arguments.endless ? 0.0 : description.simulation.duration,
+                              options.fallback);
     options.progress = &progress.time;
+    options.silent_since = &progress.silent_since;
     report = run_real_time(model, description.simulation, options, port.get());
   }
+  if (log) log->finish();
   if (!arguments.report.empty())
-    write_file(arguments.report, realtime_json(report, model, port.get()));
-  if (!arguments.quiet) print(realtime_text(report, model, port.get()));
-  if (report.status != "failed") return 0;
-  fmt::print(stderr, "floatframe: the run failed: {}\n", report.message);
-  return 1;
+    write_file(arguments.report, realtime_json(report, options, model, port.get()));
+  if (!arguments.quiet) print(realtime_text(report, options, model, port.get()));
+  if (report.status == "failed")
+    fmt::print(stderr, "floatframe: the run failed: {}\n", report.message);
+  const bool log_failed = log && log->error() != 0;
+  if (log_failed)
+    fmt::print(stderr, "floatframe: '{}' is incomplete: {}\n", arguments.log,
+               std::strerror(log->error()));
+  return report.status == "failed" || log_failed ? 1 : 0;
 }
 
 void add_options(CLI::App& command, RealTimeArguments& a) {
@@ -219,15 +220,27 @@ void add_options(CLI::App& command, RealTimeArguments& a) {
   command.add_flag("--endless", a.endless, "Run until Ctrl-C instead");
   words("--input", a.input, {"udp", "none"}, "Where inputs come from: udp or none (default)");
   words("--output", a.output, {"udp", "none"}, "Where outputs go to: udp or none (default)");
-  command.add_option("--listen", a.listen, "Where inputs come in; default: 127.0.0.1:47100")
+  command
+      .add_option("--listen", a.listen,
+                  "Where inputs come in; default: port 47100 of the address that the partner sees")
       ->type_name("HOST:PORT");
-  command.add_option("--send", a.send, "Where outputs go to; default: 127.0.0.1:47101")
+  command
+      .add_option("--send", a.send,
+                  "Where outputs go to, and the only one whose inputs are heard; default: "
+                  "127.0.0.1:47101")
       ->type_name("HOST:PORT");
+  command
+      .add_option("--peer", a.peer,
+                  "The only one whose inputs are heard; default: --send if it is given, else who "
+                  "sends first")
+      ->type_name("HOST[:PORT]");
   command.add_flag("--lockstep", a.lock_step,
                    "Wait before each step for the inputs that answer the last outputs");
   seconds("--timeout", a.timeout, "Longest wait of --lockstep; default: 5");
   seconds("--input-timeout", a.input_timeout,
-          "Inputs return to their initial values if none come for so long; default: never");
+          "Inputs that stay away for so long are reported; default: 1; 0: never");
+  words("--fallback", a.fallback, {"hold", "initial", "stop"},
+        "What then happens to them: hold the last values (default), initial values, or stop");
   command
       .add_option("--iterations", a.iterations,
                   "Fixed number of Newton iterations a step; default: to convergence")
@@ -244,6 +257,8 @@ void add_options(CLI::App& command, RealTimeArguments& a) {
                    "Fail if the priority or the locked memory is not granted");
   command.add_flag("--no-pace", a.no_pace, "As fast as possible, without the wall clock");
   command.add_option("--report", a.report, "Write figures and histograms to this file as JSON")
+      ->type_name("FILE");
+  command.add_option("--log", a.log, "Write inputs and outputs of every step to this CSV file")
       ->type_name("FILE");
   command.add_flag("--layout", a.layout, "Print names and order of the values in the packets only");
   command.add_flag("--json", a.json, "With --layout: as JSON");

@@ -10,6 +10,7 @@
 #include "floatframe/apps/command.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/text_table.hpp"
+#include "floatframe/realtime/signal_log.hpp"
 
 namespace floatframe {
 namespace {
@@ -97,28 +98,107 @@ std::string iterations_text(const RealTimeReport& r) {
   return table.empty() ? "" : "\nprocessor time by Newton iterations of the step\n" + table.text(2);
 }
 
-std::string port_text(const RealTimeReport& r, const Model& model, const UdpPort& port) {
-  const UdpCounts& c = port.counts();
+std::string silence_text(const RealTimeReport& r, SilenceFallback fallback, double timeout) {
+  if (r.input_timeouts == 0) return "";
+  if (!r.inputs_came) return "  no inputs ever came\n";
+  std::string text = fmt::format(
+      "  inputs stayed away  {} for more than {:g} s ({}):", plural(r.input_timeouts, "time"),
+      timeout,
+      fallback == SilenceFallback::hold      ? "last values held"
+      : fallback == SilenceFallback::initial ? "back to the initial values"
+                                             : "the run stops");
+  const auto listed = std::min(static_cast<std::size_t>(r.input_timeouts), r.silences.size());
+  for (std::size_t k = 0; k < listed; ++k) {
+    const Silence& s = r.silences[k];
+    text += fmt::format("{} after t = {:.6g} s {}", k == 0 ? "" : ",", s.from,
+                        s.ended ? fmt::format("for {:.3g} s", s.to - s.from) : "to the end");
+  }
+  return text + (static_cast<long>(listed) < r.input_timeouts ? ", ...\n" : "\n");
+}
+
+std::string senders_text(const UdpPort& port) {
   std::string text;
-  if (!model.inputs.empty() || c.received > 0)
+  if (port.gives_inputs())
+    text += fmt::format("  heard               {}\n",
+                        port.peer().known() ? port.peer().text() : "nobody");
+  long listed = 0;
+  for (const OtherSender& o : port.other_senders()) {
+    text += fmt::format("{}{} ({})", listed == 0 ? "  not heard           " : ", ",
+                        o.address.text(), plural(o.packets, "packet"));
+    listed += o.packets;
+  }
+  const long others = port.counts().other;
+  if (others > listed) text += fmt::format(" and others ({})", plural(others - listed, "packet"));
+  return listed == 0 ? text : text + "; --peer says who is\n";
+}
+
+std::string port_text(const RealTimeReport& r, const RealTimeOptions& options, const Model& model,
+                      const UdpPort& port) {
+  const UdpCounts c = port.counts();
+  std::string text;
+  if (port.gives_inputs())
     text += fmt::format(
         "  inputs              {} received, {} used, {} overtaken by newer ones, {} stale, {} of "
-        "another layout, {} foreign\n",
-        plural(c.received, "packet"), c.used, c.superseded, c.stale, c.mismatched, c.foreign);
+        "another layout, {} foreign, {} of other senders\n",
+        plural(c.received, "packet"), c.used, c.superseded, c.stale, c.mismatched, c.foreign,
+        c.other);
+  text += senders_text(port);
   if (port.wants_outputs())
     text += fmt::format("  outputs             {} sent, {} repeated, {} failed{}\n",
                         plural(c.sent, "packet"), c.repeated, c.send_errors,
                         port.send_error() != 0
                             ? fmt::format(" (the last: {})", std::strerror(port.send_error()))
                             : "");
-  for (std::size_t i = 0; i < r.refused_inputs.size(); ++i)
+  for (std::size_t i = 0; i < r.refused_inputs.size(); ++i) {
+    const Input& input = model.inputs[i];
     if (r.refused_inputs[i] > 0)
-      text += fmt::format("  input '{}'  {} refused: not finite or not from {:g} to {:g}\n",
-                          model.inputs[i].name, plural(r.refused_inputs[i], "value"),
-                          model.inputs[i].low, model.inputs[i].high);
-  if (r.input_timeouts > 0)
-    text += fmt::format("  inputs stayed away  {}\n", plural(r.input_timeouts, "time"));
-  return text;
+      text += fmt::format(
+          "  input '{}'  {} refused: not finite{}\n", input.name,
+          plural(r.refused_inputs[i], "value"),
+          input.clamp ? "" : fmt::format(" or not from {:g} to {:g}", input.low, input.high));
+    if (r.clamped_inputs[i] > 0)
+      text += fmt::format("  input '{}'  {} clamped to {:g} ... {:g}\n", input.name,
+                          plural(r.clamped_inputs[i], "value"), input.low, input.high);
+  }
+  return text + silence_text(r, options.fallback, options.input_timeout);
+}
+
+std::string log_text(const RealTimeOptions& options) {
+  if (options.log == nullptr) return "";
+  const SignalLog& log = *options.log;
+  std::string text = fmt::format("  log                 {}", plural(log.rows(), "row"));
+  if (log.lost() > 0) text += fmt::format(", {} lost", log.lost());
+  return text + "\n";
+}
+
+Json packets_json(const UdpPort& port) {
+  const UdpCounts c = port.counts();
+  Json others = Json::array();
+  for (const OtherSender& o : port.other_senders())
+    others.push_back({{"address", o.address.text()}, {"packets", o.packets}});
+  return {{"received", c.received},
+          {"used", c.used},
+          {"superseded", c.superseded},
+          {"stale", c.stale},
+          {"mismatched", c.mismatched},
+          {"foreign", c.foreign},
+          {"of_other_senders", c.other},
+          {"sent", c.sent},
+          {"repeated", c.repeated},
+          {"send_errors", c.send_errors},
+          {"largest_age_steps", c.largest_age},
+          {"heard", port.peer().known() ? Json(port.peer().text()) : Json(nullptr)},
+          {"other_senders", others}};
+}
+
+Json silences_json(const RealTimeReport& r) {
+  Json list = Json::array();
+  const auto listed = std::min(static_cast<std::size_t>(r.input_timeouts), r.silences.size());
+  for (std::size_t k = 0; k < listed; ++k)
+    list.push_back({{"from_s", r.silences[k].from},
+                    {"to_s", r.silences[k].to},
+                    {"came_again", r.silences[k].ended}});
+  return list;
 }
 
 }  // namespace
@@ -153,7 +233,8 @@ std::string layout_json(const Model& model) {
                                  {"offset", packet_size(i)},
                                  {"initial", x.initial},
                                  {"min", limit_json(x.low)},
-                                 {"max", limit_json(x.high)}});
+                                 {"max", limit_json(x.high)},
+                                 {"clamp", x.clamp}});
   }
   for (std::size_t i = 0; i < out.signals.size(); ++i)
     outputs["signals"].push_back(
@@ -161,7 +242,8 @@ std::string layout_json(const Model& model) {
   return dump({{"model", model.name}, {"inputs", inputs}, {"outputs", outputs}});
 }
 
-std::string realtime_text(const RealTimeReport& r, const Model& model, const UdpPort* port) {
+std::string realtime_text(const RealTimeReport& r, const RealTimeOptions& options,
+                          const Model& model, const UdpPort* port) {
   std::string text = fmt::format(
       "{}: {:g} s {}, {:.3f} s of wall clock\n"
       "  {} coordinates, inertia terms by {}, step {:g} s\n"
@@ -191,7 +273,8 @@ std::string realtime_text(const RealTimeReport& r, const Model& model, const Udp
       text += fmt::format("  virtual machine     {} taken by its host, of all processors\n",
                           duration_text(r.stolen));
   }
-  if (port != nullptr) text += port_text(r, model, *port);
+  if (port != nullptr) text += port_text(r, options, model, *port);
+  text += log_text(options);
   for (const std::string& refusal : r.refusals) text += "  note: " + refusal + "\n";
   if (r.cpu.count() > 0)
     text += "\nprocessor time a step, number of steps (bars: logarithm)\n" + histogram_text(r.cpu);
@@ -201,7 +284,8 @@ std::string realtime_text(const RealTimeReport& r, const Model& model, const Udp
   return text;
 }
 
-std::string realtime_json(const RealTimeReport& r, const Model& model, const UdpPort* port) {
+std::string realtime_json(const RealTimeReport& r, const RealTimeOptions& options,
+                          const Model& model, const UdpPort* port) {
   Json json = {{"status", r.status},
                {"message", r.message},
                {"model", r.model},
@@ -235,19 +319,9 @@ std::string realtime_json(const RealTimeReport& r, const Model& model, const Udp
                {"cpu", histogram_json(r.cpu)},
                {"wall_clock", histogram_json(r.elapsed)},
                {"wake_up", histogram_json(r.wake)}};
-  if (port != nullptr) {
-    const UdpCounts& c = port->counts();
-    json["packets"] = {{"received", c.received},
-                       {"used", c.used},
-                       {"superseded", c.superseded},
-                       {"stale", c.stale},
-                       {"mismatched", c.mismatched},
-                       {"foreign", c.foreign},
-                       {"sent", c.sent},
-                       {"repeated", c.repeated},
-                       {"send_errors", c.send_errors},
-                       {"largest_age_steps", c.largest_age}};
-  }
+  if (port != nullptr) json["packets"] = packets_json(*port);
+  if (options.log != nullptr)
+    json["log"] = {{"rows", options.log->rows()}, {"lost", options.log->lost()}};
   json["by_iterations"] = Json::array();
   for (std::size_t k = 0; k < r.by_iterations.size(); ++k) {
     const StepsOfWork& work = r.by_iterations[k];
@@ -259,9 +333,11 @@ std::string realtime_json(const RealTimeReport& r, const Model& model, const Udp
            {"cpu_max_us", 1e6 * work.cpu_max}});
   }
   json["input_timeouts"] = r.input_timeouts;
+  json["silences"] = silences_json(r);
   Json inputs = Json::object(), outputs = Json::object();
   for (std::size_t i = 0; i < r.inputs.size(); ++i)
-    inputs[model.inputs[i].name] = {{"value", r.inputs[i]}, {"refused", r.refused_inputs[i]}};
+    inputs[model.inputs[i].name] = {
+        {"value", r.inputs[i]}, {"refused", r.refused_inputs[i]}, {"clamped", r.clamped_inputs[i]}};
   for (std::size_t i = 0; i < r.outputs.size(); ++i) outputs[model.outputs[i].name] = r.outputs[i];
   json["inputs"] = inputs;
   json["outputs"] = outputs;

@@ -12,8 +12,10 @@ namespace floatframe {
 std::string layout_text(const Model& model);
 std::string layout_json(const Model& model);
 
-/// `port` may be null.
-std::string realtime_text(const RealTimeReport& report, const Model& model, const UdpPort* port);
-std::string realtime_json(const RealTimeReport& report, const Model& model, const UdpPort* port);
+/// `options`: those of the run; its log is finished. `port` may be null.
+std::string realtime_text(const RealTimeReport& report, const RealTimeOptions& options,
+                          const Model& model, const UdpPort* port);
+std::string realtime_json(const RealTimeReport& report, const RealTimeOptions& options,
+                          const Model& model, const UdpPort* port);
 
 }  // namespace floatframe

@@ -24,7 +24,12 @@ void read_inputs(const ModelInstance& self, ReadModel& model) {
     i.initial = s.number("initial", any_number(unit), 0.0);
     if (const auto v = s.get("min")) i.low = v->number(any_number(unit));
     if (const auto v = s.get("max")) i.high = v->number(any_number(unit));
+    i.clamp = s.boolean("clamp", false);
     s.finish();
+    if (i.clamp && !i.low && !i.high) {
+      s.get("clamp")->fault("found true without limits, expected min, max or both beside it");
+      continue;
+    }
     if (i.low && i.high && !(*i.low < *i.high)) {
       s.get("max")->fault("found " + number_text(*i.high) + ", expected a number above min, " +
                           number_text(*i.low));

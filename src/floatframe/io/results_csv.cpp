@@ -4,16 +4,9 @@
 
 #include <iterator>
 
+#include "floatframe/core/csv_field.hpp"
+
 namespace floatframe {
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += (c == '\n' || c == '\r') ? ' ' : c;
-  }
-  return quoted + '"';
-}
 
 std::string results_csv(const ResultTable& table) {
   fmt::memory_buffer text;
@@ -21,9 +14,7 @@ std::string results_csv(const ResultTable& table) {
   const std::size_t columns = table.columns.size();
   for (std::size_t c = 0; c < columns; ++c) {
     const Column& column = table.columns[c];
-    const std::string title =
-        column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit);
-    fmt::format_to(out, "{}{}", c == 0 ? "" : ",", csv_field(title));
+    fmt::format_to(out, "{}{}", c == 0 ? "" : ",", csv_title(column.name, column.unit));
   }
   if (columns > 0) text.push_back('\n');
   for (std::size_t row = 0; row < table.rows(); ++row) {

@@ -10,8 +10,4 @@ namespace floatframe {
 
 std::string results_csv(const ResultTable& table);
 
-/// A text as one field: quoted if it holds a comma, a quote or a line break (which becomes a
-/// blank).
-std::string csv_field(const std::string& text);
-
 }  // namespace floatframe

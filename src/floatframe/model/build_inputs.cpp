@@ -24,6 +24,7 @@ void ModelBuilder::inputs() {
     input.name = i.name;
     input.unit = i.unit;
     input.initial = i.initial;
+    input.clamp = i.clamp;
     if (i.low) input.low = *i.low;
     if (i.high) input.high = *i.high;
     if (!(input.low < input.high))
@@ -33,6 +34,9 @@ void ModelBuilder::inputs() {
       faults.add(i.origin.of("initial"), who + ".initial: found " + number(i.initial) +
                                              ", expected a number from " + number(input.low) +
                                              " to " + number(input.high));
+    if (i.clamp && !i.low && !i.high)
+      faults.add(i.origin.of("clamp"),
+                 who + ".clamp: found true without limits, expected min, max or both beside it");
     model.inputs.push_back(std::move(input));
   }
 }

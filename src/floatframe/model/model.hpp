@@ -92,6 +92,7 @@ struct Input {
   double initial = 0.0;
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
+  bool clamp = false;  ///< a value outside is replaced by the nearer limit, not refused
 };
 
 struct Output {

@@ -1,7 +1,9 @@
 #pragma once
-// The values of a model's inputs in one run. A value that is not finite or outside of its input's
-// limits is refused: the last good one stays, and the refusal is counted by input. Nothing here
+// The values of a model's inputs in one run. A value that is not finite is refused, and so is one
+// outside of its input's limits, unless the input is to be clamped: then the nearer limit takes its
+// place. Of a refused value the last valid one stays. Both are counted by input. Nothing here
 // allocates after construction.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -14,7 +16,7 @@ namespace floatframe {
 class InputBuffer {
  public:
   explicit InputBuffer(const Model& model)
-      : inputs_(model.inputs), refused_(model.inputs.size(), 0) {
+      : inputs_(model.inputs), refused_(model.inputs.size(), 0), clamped_(model.inputs.size(), 0) {
     for (const Input& input : inputs_) values_.push_back(input.initial);
   }
 
@@ -25,10 +27,14 @@ class InputBuffer {
   void accept(std::span<const double> wanted) noexcept {
     for (std::size_t i = 0; i < values_.size() && i < wanted.size(); ++i) {
       const double x = wanted[i];
-      if (std::isfinite(x) && x >= inputs_[i].low && x <= inputs_[i].high)
-        values_[i] = x;
-      else
+      const Input& input = inputs_[i];
+      const bool inside = x >= input.low && x <= input.high;
+      if (!std::isfinite(x) || (!inside && !input.clamp)) {
         ++refused_[i];
+        continue;
+      }
+      if (!inside) ++clamped_[i];
+      values_[i] = std::clamp(x, input.low, input.high);
     }
   }
 
@@ -39,11 +45,13 @@ class InputBuffer {
 
   /// Refused values of an input so far.
   long refused(std::size_t input) const noexcept { return refused_[input]; }
+  /// Values of an input that were replaced by a limit so far.
+  long clamped(std::size_t input) const noexcept { return clamped_[input]; }
 
  private:
   const std::vector<Input>& inputs_;
   std::vector<double> values_;
-  std::vector<long> refused_;
+  std::vector<long> refused_, clamped_;
 };
 
 }  // namespace floatframe

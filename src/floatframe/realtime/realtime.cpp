@@ -69,6 +69,11 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
       report.message =
           fmt::format("no inputs came in answer to the outputs at t = {:.9g} s", runner.state().t);
       break;
+    case End::silent:
+      report.status = "failed";
+      report.message = fmt::format("no inputs came for {:g} s after t = {:.9g} s",
+                                   options.input_timeout, report.silences.front().from);
+      break;
   }
   const std::span<const double> row = runner.sample();
   report.outputs.assign(row.begin() + 1, row.end());
@@ -76,6 +81,8 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
   report.inputs.assign(inputs.values().begin(), inputs.values().end());
   for (std::size_t i = 0; i < inputs.size(); ++i)
     report.refused_inputs.push_back(inputs.refused(i));
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    report.clamped_inputs.push_back(inputs.clamped(i));
 }
 
 }  // namespace

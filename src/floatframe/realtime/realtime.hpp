@@ -11,6 +11,7 @@
 // time then stays behind the wall clock by the sum of all slips.
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,15 @@
 
 namespace floatframe {
 
+class SignalLog;
+
+/// What happens when inputs have stayed away for `RealTimeOptions::input_timeout`.
+enum class SilenceFallback {
+  hold,     ///< the last values stay
+  initial,  ///< the initial values return until inputs come again
+  stop      ///< the run ends as failed; only after inputs have come once
+};
+
 struct RealTimeOptions {
   bool paced = true;     ///< false: as fast as possible
   bool endless = false;  ///< until `stop`; else for the duration of the simulation description
@@ -29,12 +39,18 @@ struct RealTimeOptions {
   int fixed_iterations = 0;
   double time_budget = 0.0;  ///< > 0: no Newton iteration begins later in a step [s of wall clock]
   double max_lag = 0.1;      ///< [s]; 0: never catch up
-  double input_timeout = 0.0;  ///< > 0: initial values return if no inputs come for so long [s]
-  int priority = 0;            ///< 1 to 99: SCHED_FIFO
+  /// Inputs that stay away for so long are reported, and `fallback` acts [s of model time]; 0:
+  /// never.
+  double input_timeout = 1.0;
+  SilenceFallback fallback = SilenceFallback::hold;
+  int priority = 0;  ///< 1 to 99: SCHED_FIFO
   bool lock_memory = false;
   bool strict = false;  ///< RunError if priority or locked memory is not granted
   const std::atomic<bool>* stop = nullptr;  ///< ends the run after the present step
   std::atomic<double>* progress = nullptr;  ///< model time [s], for another thread to look at
+  /// Model time since when inputs have stayed away [s], negative while they come; likewise.
+  std::atomic<double>* silent_since = nullptr;
+  SignalLog* log = nullptr;  ///< takes inputs and outputs of every step
 };
 
 struct StepsOfWork {
@@ -42,7 +58,16 @@ struct StepsOfWork {
   double cpu_sum = 0.0, cpu_max = 0.0;  ///< processor time [s]
 };
 
+/// Inputs that stayed away for longer than `input_timeout`.
+struct Silence {
+  double from = 0.0;   ///< model time of the step that took the last ones; 0: none ever came [s]
+  double to = 0.0;     ///< model time of the step that took the next ones, or of the end [s]
+  bool ended = false;  ///< they came again
+};
+
 struct RealTimeReport {
+  static constexpr std::size_t most_silences = 16;
+
   std::string model, coordinates, inertia;
   double step = 0.0;
   double time = 0.0;  ///< model time reached [s]
@@ -70,9 +95,12 @@ struct RealTimeReport {
   long preemptions = 0, page_faults = 0;  ///< of the stepping thread
 
   double max_position_violation = 0.0, max_velocity_violation = 0.0;
-  long input_timeouts = 0;
-  std::vector<double> inputs, outputs;  ///< values at the end
-  std::vector<long> refused_inputs;     ///< values refused, by input
+  long input_timeouts = 0;                        ///< how often inputs stayed away
+  std::array<Silence, most_silences> silences{};  ///< the first of them
+  bool inputs_came = false;                       ///< at least once
+  std::vector<double> inputs, outputs;            ///< values at the end
+  std::vector<long> refused_inputs;               ///< values refused, by input
+  std::vector<long> clamped_inputs;               ///< values replaced by a limit, by input
 };
 
 /// Runs until the duration is over, `stop` is set or a step fails (`status`). `port` may be null.

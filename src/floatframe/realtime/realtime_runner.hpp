@@ -8,7 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include "floatframe/realtime/input_watch.hpp"
 #include "floatframe/realtime/realtime.hpp"
+#include "floatframe/realtime/signal_log.hpp"
 #include "floatframe/simulation/runner.hpp"
 
 namespace floatframe {
@@ -40,7 +42,7 @@ class RealTimeRunner {
     return row_;
   }
 
-  enum class End { completed, stopped, failed, no_inputs };
+  enum class End { completed, stopped, failed, no_inputs, silent };
 
   End run() noexcept {
     const rusage before = usage();
@@ -76,10 +78,8 @@ class RealTimeRunner {
     const double h = 1e9 * step_;
     const auto period = static_cast<Nanoseconds>(h);
     const auto max_lag = static_cast<Nanoseconds>(1e9 * options_.max_lag);
-    const long patience = options_.input_timeout > 0.0
-                              ? std::max(1L, std::lround(options_.input_timeout / step_))
-                              : std::numeric_limits<long>::max();
-    long without_inputs = 0;
+    InputWatch watch(options_, step_,
+                     port_ != nullptr && port_->gives_inputs() && inputs_.size() > 0, report_);
     f_.set_inputs(inputs_.values());
     send(0, steps == 0);
     const Nanoseconds start = wall_clock();
@@ -115,12 +115,17 @@ class RealTimeRunner {
       }
       const Nanoseconds wall_begin = wall_clock(), cpu_begin = thread_cpu_clock();
       if (port_ != nullptr && port_->receive(inputs_)) {
-        without_inputs = 0;
+        watch.came(runner_.state().t);
         f_.set_inputs(inputs_.values());
-      } else if (++without_inputs == patience) {
-        ++report_.input_timeouts;
-        inputs_.reset();
-        f_.set_inputs(inputs_.values());
+      } else if (watch.missed()) {
+        if (options_.fallback == SilenceFallback::stop && report_.inputs_came) {
+          end = End::silent;
+          break;
+        }
+        if (options_.fallback == SilenceFallback::initial) {
+          inputs_.reset();
+          f_.set_inputs(inputs_.values());
+        }
       }
       // Steps of one and the same size; only the last may be a part of one.
       const bool part = k + 1 == steps && static_cast<double>(steps) * step_ > duration_;
@@ -144,6 +149,7 @@ class RealTimeRunner {
       }
     }
     report_.wall = 1e-9 * static_cast<double>(wall_clock() - start);
+    watch.finish(runner_.state().t);
     if (end != End::completed) send(static_cast<std::uint64_t>(report_.steps), true);
     return end;
   }
@@ -167,10 +173,17 @@ class RealTimeRunner {
       ++report_.host_overruns;
   }
 
+  /// Outputs to the port and, once for each state, inputs and outputs to the log.
   void send(std::uint64_t step, bool last) noexcept {
-    if (port_ == nullptr || !port_->wants_outputs()) return;
+    const bool wanted = port_ != nullptr && port_->wants_outputs();
+    const bool logged = options_.log != nullptr && step == next_logged_;
+    if (!wanted && !logged) return;
     runner_.sample(row_.data());
-    port_->send(step, row_[0], std::span<const double>(row_).subspan(1), last);
+    const std::span<const double> outputs = std::span<const double>(row_).subspan(1);
+    if (wanted) port_->send(step, row_[0], outputs, last);
+    if (!logged) return;
+    options_.log->push(row_[0], inputs_.values(), outputs);
+    ++next_logged_;
   }
 
   F& f_;
@@ -181,6 +194,7 @@ class RealTimeRunner {
   InputBuffer inputs_;
   std::vector<double> row_;
   RealTimeReport& report_;
+  std::uint64_t next_logged_ = 0;
 };
 
 }  // namespace floatframe

@@ -26,6 +26,9 @@ class SignalPort {
 
   /// False: nobody wants outputs, so that they need not be computed.
   virtual bool wants_outputs() const noexcept { return true; }
+
+  /// False: inputs never come this way, so that nobody waits for them.
+  virtual bool gives_inputs() const noexcept { return true; }
 };
 
 }  // namespace floatframe

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/realtime/clocks.hpp"
@@ -16,52 +17,37 @@ constexpr int most_packets = 256;
 }  // namespace
 
 UdpPort::UdpPort(const Model& model, const UdpPortOptions& options)
-    : options_(options), socket_(options.listen) {
-  const SignalLayout inputs = input_layout(model), outputs = output_layout(model);
-  for (const auto* layout : {&inputs, &outputs})
-    if (layout->signals.size() > largest_count)
-      throw InputError(fmt::format("the model has {} {}, a UDP packet carries at most {}",
-                                   layout->signals.size(), layout == &inputs ? "inputs" : "outputs",
-                                   largest_count));
-  input_hash_ = inputs.hash();
-  output_hash_ = outputs.hash();
-  scratch_.resize(inputs.signals.size());
-  newest_.resize(inputs.signals.size());
-  incoming_.resize(packet_size(inputs.signals.size()));
-  outgoing_.resize(packet_size(outputs.signals.size()));
+    : options_(options),
+      socket_(options.listen),
+      filter_(model.inputs.size(), input_layout(model).hash(), options.lock_step, options.peer),
+      output_hash_(output_layout(model).hash()) {
+  const std::size_t inputs = model.inputs.size(), outputs = model.outputs.size();
+  for (const auto& [count, what] : {std::pair(inputs, "inputs"), std::pair(outputs, "outputs")})
+    if (count > largest_count)
+      throw InputError(fmt::format("the model has {} {}, a UDP packet carries at most {}", count,
+                                   what, largest_count));
+  incoming_.resize(packet_size(inputs));
+  outgoing_.resize(packet_size(outputs));
+}
+
+UdpCounts UdpPort::counts() const noexcept {
+  UdpCounts counts;
+  static_cast<InputCounts&>(counts) = filter_.counts();
+  counts.sent = sent_;
+  counts.send_errors = send_errors_;
+  counts.repeated = repeated_;
+  return counts;
 }
 
 bool UdpPort::drain() noexcept {
+  UdpAddress from;
   for (int k = 0; k < most_packets; ++k) {
-    const long n = socket_.receive(incoming_);
+    const long n = socket_.receive(incoming_, from);
     if (n < 0) break;
-    ++counts_.received;
     const auto length = static_cast<std::size_t>(n);
-    PacketHeader header;
-    // A packet longer than expected was cut: its header still tells whether it is one of ours.
-    PacketFault fault =
-        decode_packet(std::span(incoming_).first(std::min(length, incoming_.size())),
-                      PacketKind::inputs, input_hash_, header, scratch_);
-    if (fault == PacketFault::none && length > incoming_.size()) fault = PacketFault::layout;
-    if (fault == PacketFault::foreign) {
-      ++counts_.foreign;
-    } else if (fault == PacketFault::layout) {
-      ++counts_.mismatched;
-    } else if (options_.lock_step ? header.sequence != last_sent_
-                                  : header.sequence != 0 && header.sequence < newest_sequence_) {
-      ++counts_.stale;
-    } else {
-      if (fresh_) ++counts_.superseded;
-      newest_.swap(scratch_);
-      if (header.sequence != 0) {
-        newest_sequence_ = std::min(header.sequence, last_sent_);
-        counts_.largest_age =
-            std::max(counts_.largest_age, static_cast<long>(last_sent_ - newest_sequence_));
-      }
-      fresh_ = true;
-    }
+    filter_.take(std::span(incoming_).first(std::min(length, incoming_.size())), length, from);
   }
-  return fresh_;
+  return filter_.fresh();
 }
 
 bool UdpPort::wait() noexcept {
@@ -75,7 +61,7 @@ bool UdpPort::wait() noexcept {
     if (now >= until) return false;
     if (now >= resend) {
       transmit();
-      ++counts_.repeated;
+      ++repeated_;
       resend = now + resend_after;
     }
     socket_.wait(1e-9 * static_cast<double>(std::min(resend, until) - now) + 1e-3);
@@ -84,10 +70,8 @@ bool UdpPort::wait() noexcept {
 }
 
 bool UdpPort::receive(InputBuffer& inputs) noexcept {
-  if (!options_.inputs || !(options_.lock_step ? fresh_ : drain())) return false;
-  inputs.accept(newest_);
-  fresh_ = false;
-  ++counts_.used;
+  if (!options_.inputs || !(options_.lock_step ? filter_.fresh() : drain())) return false;
+  inputs.accept(filter_.hand_over());
   return true;
 }
 
@@ -100,13 +84,13 @@ void UdpPort::send(std::uint64_t step, double time, std::span<const double> outp
   header.time = time;
   header.flags = last ? last_packet_flag : 0;
   encode_packet(header, outputs, outgoing_);
-  last_sent_ = step;
+  filter_.outputs_sent(step);
   transmit();
 }
 
 void UdpPort::transmit() noexcept {
   const int fault = socket_.send(options_.send, outgoing_);
-  ++(fault == 0 ? counts_.sent : counts_.send_errors);
+  ++(fault == 0 ? sent_ : send_errors_);
   if (fault != 0) send_error_ = fault;
 }
 

@@ -6,12 +6,12 @@
 // waits. In lock step the model waits before each step for the inputs that answer its last outputs,
 // and sends these again every 0.1 s: either side may be started first, no packet is lost for good,
 // and a run with a deterministic controller gives the same results each time.
-#include <array>
+//
+// Which packets are inputs, and of whom, is decided by input_filter.hpp.
 #include <atomic>
-#include <memory>
-#include <optional>
 #include <vector>
 
+#include "floatframe/realtime/input_filter.hpp"
 #include "floatframe/realtime/packet.hpp"
 #include "floatframe/realtime/signal_port.hpp"
 #include "floatframe/realtime/udp_socket.hpp"
@@ -22,21 +22,17 @@ struct UdpPortOptions {
   bool inputs = false, outputs = false;
   UdpAddress listen;  ///< where inputs come in
   UdpAddress send;    ///< where outputs go to
+  /// The only one who is heard; port 0: whatever the port. Without an address: the sender of the
+  /// first valid packet.
+  UdpAddress peer;
   bool lock_step = false;
   double timeout = 5.0;  ///< lock step: longest wait for the inputs of a step [s]
   const std::atomic<bool>* stop = nullptr;  ///< ends a wait
 };
 
-/// What came and went; every packet that came is in one of the five numbers below `received`.
-struct UdpCounts {
-  long received = 0;
-  long used = 0;        ///< handed over
-  long superseded = 0;  ///< good, but a newer one came before the step
-  long stale = 0;       ///< answers older outputs than one that was used before
-  long foreign = 0;     ///< not a packet of inputs in this protocol and version
-  long mismatched = 0;  ///< another layout: hash, count or length
+/// What came, and what went.
+struct UdpCounts : InputCounts {
   long sent = 0, send_errors = 0, repeated = 0;
-  long largest_age = 0;  ///< steps between the outputs and the inputs that answer them
 };
 
 class UdpPort final : public SignalPort {
@@ -49,14 +45,19 @@ class UdpPort final : public SignalPort {
   void send(std::uint64_t step, double time, std::span<const double> outputs,
             bool last) noexcept override;
   bool wants_outputs() const noexcept override { return options_.outputs; }
+  bool gives_inputs() const noexcept override { return options_.inputs; }
 
-  const UdpCounts& counts() const noexcept { return counts_; }
+  UdpCounts counts() const noexcept;
+  /// Who is heard; without an address if nobody was named and nobody has been heard yet.
+  const UdpAddress& peer() const noexcept { return filter_.peer(); }
+  /// Who else has sent something, the first of them.
+  std::span<const OtherSender> other_senders() const noexcept { return filter_.others(); }
   UdpAddress local() const { return socket_.local(); }
   /// The system's error of the last packet that could not be sent; 0: none.
   int send_error() const noexcept { return send_error_; }
 
  private:
-  /// Reads all packets that are there; true if `newest_` holds good inputs.
+  /// Reads all packets that are there; true if there are inputs to use.
   bool drain() noexcept;
   bool stopped() const noexcept {
     return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed);
@@ -65,13 +66,11 @@ class UdpPort final : public SignalPort {
 
   UdpPortOptions options_;
   UdpSocket socket_;
-  std::uint64_t input_hash_ = 0, output_hash_ = 0;
-  std::vector<double> scratch_, newest_;
-  bool fresh_ = false;  ///< `newest_` has not been handed over yet
-  std::uint64_t newest_sequence_ = 0, last_sent_ = 0;
+  InputFilter filter_;
+  std::uint64_t output_hash_ = 0;
   std::vector<std::byte> incoming_, outgoing_;
   int send_error_ = 0;
-  UdpCounts counts_;
+  long sent_ = 0, send_errors_ = 0, repeated_ = 0;
 };
 
 }  // namespace floatframe

@@ -1,28 +1,12 @@
 #pragma once
 // A non-blocking UDP socket, IPv4 or IPv6. Making one may throw and allocate; sending and receiving
 // never do.
-#include <netinet/in.h>
-#include <sys/socket.h>
-
 #include <cstddef>
 #include <span>
-#include <string>
+
+#include "floatframe/realtime/udp_address.hpp"
 
 namespace floatframe {
-
-/// An address with a port, as the system wants it.
-struct UdpAddress {
-  sockaddr_storage storage{};
-  socklen_t size = 0;
-  int family() const noexcept { return storage.ss_family; }
-  /// "127.0.0.1:47100", "[::1]:47100"
-  std::string text() const;
-  bool loopback() const noexcept;
-};
-
-/// "host:port", "[IPv6 address]:port". `option` names it in messages. Throws InputError if it is
-/// not of that form, or the host is unknown.
-UdpAddress parse_udp_address(const std::string& text, const std::string& option);
 
 class UdpSocket {
  public:
@@ -36,7 +20,8 @@ class UdpSocket {
   UdpAddress local() const;
 
   /// Length of the next packet, even if it is longer than `out`, which then holds its beginning;
-  /// -1: there is none.
+  /// -1: there is none. `from`: who sent it.
+  long receive(std::span<std::byte> out, UdpAddress& from) noexcept;
   long receive(std::span<std::byte> out) noexcept;
 
   /// 0, or the system's error number.

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
+#include "floatframe/core/csv_field.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/io/results_csv.hpp"
 
 namespace floatframe {
 namespace {

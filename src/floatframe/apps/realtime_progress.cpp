@@ -1,0 +1,53 @@
+#include "floatframe/apps/realtime_progress.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "floatframe/apps/progress_bar.hpp"
+
+namespace floatframe {
+
+RealTimeProgress::RealTimeProgress(bool wanted, double duration, SilenceFallback fallback)
+    : fallback_(fallback) {
+  if (wanted) thread_ = std::thread([this, duration] { loop(duration); });
+}
+
+RealTimeProgress::~RealTimeProgress() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+  }
+  ended_.notify_one();
+  thread_.join();
+}
+
+void RealTimeProgress::loop(double duration) {
+  ProgressBar bar(duration > 0.0, duration, "s");
+  std::unique_lock lock(mutex_);
+  for (int tick = 1;
+       !ended_.wait_for(lock, std::chrono::milliseconds(100), [this] { return end_; }); ++tick) {
+    if (silent_since.load(std::memory_order_relaxed) != shown_) {
+      bar.clear();
+      report_silence();
+    }
+    if (duration > 0.0 && tick % 10 == 0) bar.show(time.load(std::memory_order_relaxed) / duration);
+  }
+}
+
+void RealTimeProgress::report_silence() {
+  const double since = silent_since.load(std::memory_order_relaxed);
+  if (since >= 0.0)
+    fmt::print(stderr, "floatframe: no inputs have come since t = {:.6g} s; {}\n", since,
+               fallback_ == SilenceFallback::hold      ? "the last values are held"
+               : fallback_ == SilenceFallback::initial ? "the initial values are used"
+                                                       : "the run stops if they ever came");
+  else
+    fmt::print(stderr, "floatframe: inputs come again at t = {:.6g} s\n",
+               time.load(std::memory_order_relaxed));
+  shown_ = since;
+}
+
+}  // namespace floatframe

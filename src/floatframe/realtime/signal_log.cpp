@@ -1,0 +1,122 @@
+#include "floatframe/realtime/signal_log.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <iterator>
+
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/csv_field.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Memory of the ring: seconds of a fast model, whatever the disk does meanwhile.
+constexpr std::size_t ring_numbers = 1 << 20;
+constexpr std::size_t fewest_rows = 64;
+
+std::string header(const Model& model) {
+  std::string text = csv_title("time", "s");
+  for (const Input& input : model.inputs)
+    text += ',' + csv_title("input." + input.name, input.unit);
+  for (const Output& output : model.outputs) text += ',' + csv_title(output.name, output.unit);
+  return text + '\n';
+}
+
+}  // namespace
+
+SignalLog::SignalLog(const Model& model, const std::string& path, bool wait)
+    : wait_(wait),
+      width_(1 + model.inputs.size() + model.outputs.size()),
+      capacity_(std::max(fewest_rows, ring_numbers / width_)),
+      ring_(capacity_ * width_, 0.0) {
+  // A pipe that nobody reads is an error, not a wait without end.
+  descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
+  if (descriptor_ < 0)
+    throw OutputError(fmt::format("'{}' cannot be written: {}", path, std::strerror(errno)));
+  fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK);
+  text_ = header(model);
+  thread_ = std::thread([this] { loop(); });
+}
+
+SignalLog::~SignalLog() { finish(); }
+
+void SignalLog::push(double time, std::span<const double> inputs,
+                     std::span<const double> outputs) noexcept {
+  const std::size_t row = written_.load(std::memory_order_relaxed);
+  while (row - read_.load(std::memory_order_acquire) == capacity_) {
+    if (!wait_ || broken_.load(std::memory_order_relaxed)) {
+      lost_.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    usleep(200);
+  }
+  double* at = ring_.data() + row % capacity_ * width_;
+  *at++ = time;
+  at = std::copy(inputs.begin(), inputs.end(), at);
+  std::copy(outputs.begin(), outputs.end(), at);
+  written_.store(row + 1, std::memory_order_release);
+}
+
+void SignalLog::finish() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+  }
+  ended_.notify_one();
+  thread_.join();
+  if (close(descriptor_) != 0 && error_ == 0) error_ = errno;
+}
+
+void SignalLog::loop() {
+  // A reader that goes away is an error of `write`, not the end of the program.
+  sigset_t pipe;
+  sigemptyset(&pipe);
+  sigaddset(&pipe, SIGPIPE);
+  pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
+  std::unique_lock lock(mutex_);
+  bool last = false;
+  while (!last) {
+    last = ended_.wait_for(lock, std::chrono::milliseconds(50), [this] { return end_; });
+    drain();
+  }
+}
+
+void SignalLog::drain() {
+  const std::size_t end = written_.load(std::memory_order_acquire);
+  std::size_t row = read_.load(std::memory_order_relaxed);
+  const auto put = [this] {
+    for (std::size_t done = 0; done < text_.size() && error_ == 0;) {
+      const ssize_t n = write(descriptor_, text_.data() + done, text_.size() - done);
+      if (n >= 0)
+        done += static_cast<std::size_t>(n);
+      else if (errno != EINTR)
+        error_ = errno;
+    }
+    if (error_ != 0) broken_.store(true, std::memory_order_relaxed);
+    text_.clear();
+  };
+  for (; row < end; ++row) {
+    if (error_ == 0) {
+      const double* x = ring_.data() + row % capacity_ * width_;
+      for (std::size_t c = 0; c < width_; ++c)
+        fmt::format_to(std::back_inserter(text_), "{}{:.17g}", c == 0 ? "" : ",", x[c]);
+      text_ += '\n';
+      ++rows_;
+      if (text_.size() > (1 << 16)) put();
+    } else {
+      lost_.fetch_add(1, std::memory_order_relaxed);
+    }
+    read_.store(row + 1, std::memory_order_release);
+  }
+  if (!text_.empty()) put();
+}
+
+}  // namespace floatframe
