@@ -1,0 +1,67 @@
+// Random mechanisms in both formulations: what is judged stands in support/mechanism_check.hpp.
+//   FLOATFRAME_MECHANISMS=1000   how many, 50 by default
+//   FLOATFRAME_FIRST_SEED=1      their first seed
+//   FLOATFRAME_LIST=1            prints a line for each
+//   FLOATFRAME_SHRINK=1          prints the smallest mechanism with each violation
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "support/mechanism_check.hpp"
+
+namespace floatframe::test {
+namespace {
+
+int number(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::atoi(text) : otherwise;
+}
+
+TEST(RandomMechanisms, BothFormulationsAgreeToSecondOrder) {
+  const int count = number("FLOATFRAME_MECHANISMS", 50);
+  const auto first = static_cast<unsigned>(number("FLOATFRAME_FIRST_SEED", 1));
+  const bool shrink = number("FLOATFRAME_SHRINK", 0) != 0, list = number("FLOATFRAME_LIST", 0) != 0;
+  std::map<std::string, std::map<Verdict, int>> table;
+  std::string violations;
+  for (unsigned seed = first; seed < first + static_cast<unsigned>(count); ++seed) {
+    const Mechanism m = random_mechanism(seed);
+    const Judgement j = judge(m);
+    for (const char* row : {m.family, "all"}) ++table[row][j.verdict];
+    const std::string what =
+        fmt::format("seed {} {} ({}): {}, first step {:.3g} s, differences {:.3g} {}", seed,
+                    m.family, summary_of(m.description), word(j.verdict), j.step,
+                    fmt::join(j.differences, ", "), j.reason);
+    if (list) {
+      fmt::print("{}\n", what);
+      std::fflush(stdout);
+    }
+    if (!is_violation(j.verdict)) continue;
+    ADD_FAILURE() << what;
+    violations += fmt::format(" {}", seed);
+    if (!shrink) continue;
+    const Mechanism small = shrunk(m, j.verdict);
+    fmt::print("{}{}\n", text_of(small.description), judge(small).reason);
+  }
+  for (const auto& [family, verdicts] : table)
+    for (const auto& [verdict, models] : verdicts)
+      fmt::print("[ figure ] {} {} {}\n", family, word(verdict), models);
+  if (!violations.empty()) fmt::print("violations: seeds{}\n", violations);
+  // Most of what is drawn must run, or the test would say little.
+  const auto& all = table["all"];
+  const auto runs = [&](Verdict v) { return all.contains(v) ? all.at(v) : 0; };
+  if (count >= 50) {
+    EXPECT_GT(runs(Verdict::equal) + runs(Verdict::second_order) + runs(Verdict::finer),
+              7 * count / 10);
+  }
+}
+
+TEST(RandomMechanisms, TheSameSeedGivesTheSameMechanism) {
+  for (unsigned seed = 1; seed <= 20; ++seed)
+    EXPECT_EQ(text_of(random_mechanism(seed).description),
+              text_of(random_mechanism(seed).description));
+}
+
+}  // namespace
+}  // namespace floatframe::test

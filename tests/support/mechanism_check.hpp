@@ -1,0 +1,57 @@
+#pragma once
+// What must hold of every mechanism, judged by runs of 0.2 s in both formulations.
+//
+// First step: at most 1 ms and at most a tenth of the shortest time constant at the start
+// (fastest_rate); the same rule for all. Difference d(h): the largest over all positions of points,
+// joint coordinates and modal amplitudes at the instants of the first step.
+//   equal          d < 1e-8 at some step
+//   second_order   d(h)/d(h/2) is 3 to 5 at the first step ...
+//   finer          ... or at one of the next two halvings: the first step was not small enough
+//   kinked         a run passed a kink of a law (a stop, a table of straight lines, a tyre that
+//                  lifts off or meets an edge): the error of that one step depends on where in the
+//                  step it lies, so d need only fall, by 2 a halving in the mean, to the last step
+//   refused        both refuse the model, with a sentence
+//   stopped        both run and stop before the end at all steps, with a sentence
+//   massless       refused or stopped for a freedom without mass by one of them at least: the two
+//                  look for it in different ways
+// Everything else is a violation.
+#include <string>
+#include <vector>
+
+#include "support/random_mechanism.hpp"
+
+namespace floatframe::test {
+
+enum class Verdict {
+  equal,
+  second_order,
+  finer,
+  kinked,
+  refused,
+  stopped,
+  massless,
+  split,           ///< runs in one formulation, is refused or stops in the other
+  no_reason,       ///< refused without a sentence, or by an exception of another kind
+  not_finite,      ///< an output that is no number
+  wrong_order,     ///< the difference of the formulations does not fall as it must
+  energy,          ///< a conservative model whose energy error does not fall with the step
+  not_repeatable,  ///< the same run twice, other bits
+};
+constexpr bool is_violation(Verdict v) { return v >= Verdict::split; }
+const char* word(Verdict v);
+
+struct Judgement {
+  Verdict verdict = Verdict::equal;
+  std::string reason;               ///< sentences of the refusal or figures of the violation
+  double step = 0.0;                ///< the first one [s]
+  std::vector<double> differences;  ///< at h, h/2, ...
+  bool kinked = false;
+  bool conservative = false;
+};
+
+Judgement judge(const Mechanism& mechanism);
+
+/// The same violation with as little as possible: what is not needed for it is taken away.
+Mechanism shrunk(const Mechanism& mechanism, Verdict verdict);
+
+}  // namespace floatframe::test
