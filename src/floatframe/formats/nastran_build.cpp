@@ -33,6 +33,16 @@ int NastranBuild::node(int id, const FeSource& at, const std::string& who) {
   return -1;
 }
 
+void NastranBuild::spend(std::size_t members, const FeSource& at) {
+  spent_ += members;
+  const std::uint64_t most = 10'000'000 + 100 * (content.grids.size() + content.elements.size());
+  if (spent_ > most) {
+    source.stop(at, fmt::format("the sets and supports have more than {} members in all, too many "
+                                "for a file of {} nodes and {} elements",
+                                most, content.grids.size(), content.elements.size()));
+  }
+}
+
 void NastranBuild::note(const FeSource& at, const std::string& text) {
   model.notes.push_back(InputFault{source.mark(at), text}.text());
 }

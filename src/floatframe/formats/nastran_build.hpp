@@ -1,5 +1,6 @@
 #pragma once
 // From the content of Nastran bulk data to the model.
+#include <cstdint>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -29,8 +30,12 @@ struct NastranBuild {
   /// The system in basic coordinates; a fault (once a system) and basic axes if it is not there.
   const NastranFrame& frame(int id, const FeSource& at);
   void note(const FeSource& at, const std::string& text);
+  /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if
+  /// there are too many in all.
+  void spend(std::size_t members, const FeSource& at);
 
  private:
+  std::uint64_t spent_ = 0;
   NastranFrame made(int id, const FeSource& at);
   std::map<int, NastranFrame> frames_;
   std::set<int> open_;  // systems being made, to find circles

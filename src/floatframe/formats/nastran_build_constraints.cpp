@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <set>
 
 #include "floatframe/formats/nastran_build.hpp"
 
@@ -30,6 +32,7 @@ class ConstraintBuilder {
   }
 
   void build() {
+    for (const int id : b_.model.node_ids) largest_id_ = std::max(largest_id_, id);
     for (const NastranSpider& s : b_.content.spiders) spider(s);
     for (const NastranMass& m : b_.content.masses) mass(m);
     equations();
@@ -68,6 +71,12 @@ class ConstraintBuilder {
       const int node = b_.node(id, s.at, who);
       if (node < 0) return;
       turned(node, s.kind == Spider::Kind::mean ? all_six : s.mask, s.at, who);
+      if (s.weighs_rotations && rotates_[index(node)] != 0) {
+        b_.source.fault(s.at, fmt::format("{}: node {} has rotations, whose weights (components "
+                                          "456) are not supported; give 123",
+                                          who, id));
+        return;
+      }
       spider.nodes.push_back(node);
       if (s.kind == Spider::Kind::rigid) {
         if ((s.mask >> 3) != 0) rotates_[index(node)] = 1;
@@ -121,8 +130,10 @@ class ConstraintBuilder {
     FeModel& model = b_.model;
     const int fresh = model.nodes();
     model.positions.push_back(p);
-    largest_id_ =
-        std::max(largest_id_, *std::max_element(model.node_ids.begin(), model.node_ids.end()));
+    if (largest_id_ == std::numeric_limits<int>::max()) {
+      b_.source.stop(at, fmt::format("{} needs a node of its own, but there is no number above {}",
+                                     who, largest_id_));
+    }
     model.node_ids.push_back(++largest_id_);
     model.node_sources.push_back(at);
     b_.turned.push_back(0);
@@ -142,10 +153,38 @@ class ConstraintBuilder {
     return fresh;
   }
 
+  /// The sets that the case control selects, with those that MPCADD joins.
+  std::set<int> selected_sets() {
+    std::set<int> sets;
+    const auto& selected = b_.content.control.mpc;
+    for (const auto& [id, at] : selected) {
+      if (id != selected.front().first) {
+        b_.source.fault(at, fmt::format("the case control selects MPC sets {} and {}; only one can "
+                                        "be read, remove the other",
+                                        selected.front().first, id));
+        return sets;
+      }
+      const auto added = b_.content.added_mpc_sets.find(id);
+      if (added == b_.content.added_mpc_sets.end()) {
+        sets.insert(id);
+      } else {
+        sets.insert(added->second.begin(), added->second.end());
+      }
+    }
+    return sets;
+  }
+
   void equations() {
-    int set = 0;
+    const bool by_control = b_.content.control.there;
+    const std::set<int> selected = by_control ? selected_sets() : std::set<int>{};
+    int set = 0, passed_over = 0;
+    FeSource first;
     for (const NastranEquation& e : b_.content.equations) {
-      if (set != 0 && e.set != set) {
+      if (by_control && !selected.contains(e.set)) {
+        if (passed_over++ == 0) first = e.at;
+        continue;
+      }
+      if (!by_control && set != 0 && e.set != set) {
         b_.source.fault(e.at, fmt::format("the file has MPC sets {} and {}; only one can be read, "
                                           "remove the other",
                                           set, e.set));
@@ -161,6 +200,16 @@ class ConstraintBuilder {
         equation.terms.push_back({node, term.component, term.factor});
       }
       b_.model.equations.push_back(std::move(equation));
+    }
+    if (passed_over > 0) {
+      b_.note(first, fmt::format("{} MPC equations are in sets that the case control does not "
+                                 "select: they are not applied",
+                                 passed_over));
+    }
+    if (by_control && !selected.empty() && b_.model.equations.empty() && b_.source.faults() == 0) {
+      b_.source.fault(b_.content.control.mpc.front().second,
+                      fmt::format("the case control selects MPC set {}, which is not in the file",
+                                  b_.content.control.mpc.front().first));
     }
   }
 
@@ -186,6 +235,7 @@ void build_nastran_supports(NastranBuild& build) {
       build.source.fault(s.at,
                          fmt::format("SPC1: there is no node from {} to {}", s.first, s.last));
     }
+    build.spend(nodes.size(), s.at);
     for (const int node : nodes) build.model.supports.push_back({node, s.mask, s.at});
   }
 }

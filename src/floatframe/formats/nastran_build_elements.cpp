@@ -144,8 +144,26 @@ class ElementBuilder {
 
   int section(int id, const NastranProperty& p) {
     const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
-    if (fresh) b_.model.sections.push_back(p.section);
+    if (!fresh) return it->second;
+    b_.model.sections.push_back(p.section);
+    b_.model.sections.back().J *= own_shear(p.material);
+    if (p.shear_factors && shears_++ == 0) first_shear_ = p.at;
     return it->second;
+  }
+
+  /// G of a material over that of its E and NU: bars twist by the G of the card, whatever E and NU
+  /// are, and nothing else of a bar without shear deformation depends on it.
+  double own_shear(int id) {
+    const auto it = c_.materials.find(id);
+    if (it == c_.materials.end()) return 1.0;
+    const NastranMaterial& m = it->second;
+    if (!m.young || !m.shear || !m.poisson) return 1.0;
+    if (!(*m.shear > 0.0)) {
+      b_.source.fault(
+          m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 for bars", id, *m.shear));
+      return 1.0;
+    }
+    return *m.shear * 2.0 * (1.0 + *m.poisson) / *m.young;
   }
 
   int shell(int id, const NastranProperty& p) {
@@ -208,10 +226,13 @@ class ElementBuilder {
     } else {
       b_.source.fault(m.at, fmt::format("MAT1 {}: G is not positive", id));
     }
-    if (given == 3 && std::abs(result.shear() - *m.shear) > 0.01 * std::abs(*m.shear)) {
-      b_.note(m.at, fmt::format("MAT1 {}: G is {:.6g}, E and NU give {:.6g}, which is used", id,
-                                *m.shear, result.shear()));
+    if (given == 3 && std::abs(result.shear() - *m.shear) > 0.01 * std::abs(*m.shear) &&
+        inconsistent_.insert(id).second) {
+      b_.note(m.at, fmt::format("MAT1 {}: G is {:.6g}, but E and NU give {:.6g}: bars twist by G, "
+                                "shells and solids have E and NU, as in Nastran",
+                                id, *m.shear, result.shear()));
     }
+    result.young *= c_.stiffness_factor;
     return result;
   }
 
@@ -239,15 +260,20 @@ class ElementBuilder {
       b_.note(first_beam_,
               fmt::format("{} CBEAM elements are read without shear deformation", beams_));
     }
+    if (shears_ > 0) {
+      b_.note(first_shear_, fmt::format("{} PBAR have shear factors (K1, K2): their bars are read "
+                                        "without shear deformation",
+                                        shears_));
+    }
   }
 
   NastranBuild& b_;
   const NastranContent& c_;
   const FeReadOptions& options_;
   bool mesh_only_ = false;
-  int skins_ = 0, beams_ = 0;
-  FeSource first_skin_, first_beam_;
-  std::set<int> missing_;
+  int skins_ = 0, beams_ = 0, shears_ = 0;
+  FeSource first_skin_, first_beam_, first_shear_;
+  std::set<int> missing_, inconsistent_;
   std::map<std::string, std::set<int>> members_;
   std::map<int, int> sections_, shells_;
   std::map<std::pair<int, double>, int> materials_;

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <unordered_set>
 
 #include "floatframe/formats/nastran_build.hpp"
 
@@ -26,13 +28,17 @@ void build_nastran_sets(NastranBuild& build, bool only_nodes) {
     list.emplace_back(build.model.elements[e].id, static_cast<int>(e));
   }
   const NastranNumbers elements(std::move(list));
+  std::map<std::pair<bool, std::string>, std::unordered_set<int>> members_of;
   for (const NastranSet& set : c.sets) {
     if (set.elements && only_nodes) continue;
     const char* const what = set.elements ? "element" : "node";
     std::vector<int> members;
     bool complete = true;
     for (const auto& [first, last] : set.ranges) {
-      if ((set.elements ? elements : nodes).append(first, last, members)) continue;
+      const std::size_t before = members.size();
+      const bool found = (set.elements ? elements : nodes).append(first, last, members);
+      build.spend(members.size() - before, set.at);
+      if (found) continue;
       complete = false;
       if (!set.strict || first == 0) continue;
       build.source.fault(
@@ -48,7 +54,8 @@ void build_nastran_sets(NastranBuild& build, bool only_nodes) {
         name == c.set_names.end() ? fmt::format("SET {}", set.id) : name->second;
     // Each member once, in the order of the file; several cards of one set add up.
     std::vector<int>& known = sets[key];
-    std::set<int> there(known.begin(), known.end());
+    std::unordered_set<int>& there = members_of[{set.elements, key}];
+    if (there.empty()) there.insert(known.begin(), known.end());
     for (const int m : members) {
       if (there.insert(m).second) known.push_back(m);
     }

@@ -9,9 +9,23 @@
 namespace floatframe {
 namespace {
 
-bool is_begin_bulk(std::string_view line) {
-  return same_word(next_word(line), "BEGIN") && begins_with(next_word(line), "BULK");
+constexpr std::size_t most_commands = 1000;
+
+/// BEGIN BULK, BEGIN SUPER=3, ...
+bool is_begin(std::string_view line) {
+  return same_word(next_word(line), "BEGIN") && !next_word(line).empty();
 }
+
+/// BEGIN BULK of the model itself, not of a superelement or of an auxiliary model.
+bool is_begin_bulk(std::string_view line) {
+  if (!same_word(next_word(line), "BEGIN")) return false;
+  const std::string_view second = next_word(line);
+  return same_word(second, "BULK") && trimmed(line).empty();
+}
+
+constexpr const char* one_model =
+    "{} begins the bulk data of a superelement or of another model, which is not read: write one "
+    "model with one BEGIN BULK";
 
 /// Continuation marks are compared without the sign that begins them.
 std::string_view without_sign(std::string_view mark) {
@@ -27,16 +41,58 @@ bool is_continuation(std::string_view name) {
 bool has_begin_bulk(std::string_view beginning) {
   while (!beginning.empty()) {
     const std::size_t end = std::min(beginning.find('\n'), beginning.size());
-    if (is_begin_bulk(trimmed(beginning.substr(0, end)))) return true;
+    if (is_begin(trimmed(beginning.substr(0, end)))) return true;
     beginning.remove_prefix(std::min(end + 1, beginning.size()));
   }
   return false;
 }
 
 NastranCards::NastranCards(TextSource& source, bool has_control) : source_(source) {
+  if (has_control) read_control();
+}
+
+void NastranCards::read_control() {
+  control_.there = true;
   std::string_view line;
-  while (has_control && source_.next(line)) {
-    if (is_begin_bulk(trimmed(line))) return;
+  while (source_.next(line)) {
+    line = trimmed(line.substr(0, line.find('$')));
+    if (is_begin_bulk(line)) return;
+    if (is_begin(line)) source_.stop(source_.here(), fmt::format(one_model, shown(line)));
+    std::string_view rest = line;
+    if (same_word(next_word(rest), "INCLUDE")) {
+      include(line);
+    } else {
+      command(line);
+    }
+  }
+}
+
+void NastranCards::command(std::string_view line) {
+  const std::size_t end = std::min(line.find_first_of("=(, \t"), line.size());
+  const std::string_view word = line.substr(0, end);
+  if (same_word(word, "PARAM") && cards_of_control_.size() < most_commands) {
+    NastranCard card;
+    card.name = "PARAM";
+    split_commas(line, card.fields);
+    card.fields.erase(card.fields.begin());
+    card.at = source_.here();
+    cards_of_control_.push_back(std::move(card));
+    return;
+  }
+  const std::size_t equals = line.find('=');
+  if (equals == std::string_view::npos) return;
+  const std::string_view value = trimmed(line.substr(equals + 1));
+  if (same_word(word, "MPC")) {
+    const auto id = parse_label(value);
+    if (id && control_.mpc.size() < most_commands) control_.mpc.emplace_back(*id, source_.here());
+    return;
+  }
+  for (const char* known : {"K2GG", "M2GG", "K2PP", "M2PP", "A2GG", "NSM", "MFLUID"}) {
+    if (!same_word(word, known) || same_word(value, "NONE")) continue;
+    if (control_.additions.size() < most_commands) {
+      control_.additions.emplace_back(fmt::format("{} = {}", known, value.substr(0, 40)),
+                                      source_.here());
+    }
   }
 }
 
@@ -96,8 +152,9 @@ void NastranCards::split(std::string_view text, Line& line) {
     return;
   }
   if (text.find('\t') != std::string_view::npos) {
-    std::string wide;
+    std::string wide;  // up to the last column that counts
     for (const char c : text) {
+      if (wide.size() >= 80) break;
       if (c == '\t') {
         wide.append(8 - wide.size() % 8, ' ');
       } else {
@@ -133,6 +190,12 @@ void NastranCards::include(std::string_view text) {
 }
 
 bool NastranCards::next(NastranCard& card) {
+  if (!cards_of_control_.empty()) {
+    card = std::move(cards_of_control_.front());
+    cards_of_control_.pop_front();
+    return true;
+  }
+  expanded_.clear();
   std::string_view text;
   while (true) {
     if (!next_text(text)) return false;
@@ -143,6 +206,7 @@ bool NastranCards::next(NastranCard& card) {
     break;
   }
   if (begins_with(text, "ENDDATA")) return false;
+  if (is_begin(text)) source_.stop(source_.here(), fmt::format(one_model, shown(trimmed(text))));
   Line line;
   split(text, line);
   if (is_continuation(line.name)) {

@@ -1,7 +1,8 @@
 #pragma once
 // Cards of Nastran bulk data from lines in small field (8 columns), large field (16) or free field
 // (commas), with their continuations and includes. A continuation follows its card; if both carry
-// marks, these must agree. Executive and case control before BEGIN BULK are passed over.
+// marks, these must agree. Of executive and case control before BEGIN BULK only what changes the
+// part is kept: PARAM entries come as cards, matrices and sets that are selected are in `control`.
 #include <algorithm>
 #include <deque>
 #include <iterator>
@@ -33,6 +34,14 @@ struct NastranCard {
   }
 };
 
+/// What the case control selects.
+struct NastranControl {
+  bool there = false;  ///< there is a case control
+  std::vector<std::pair<int, FeSource>> mpc;
+  /// Commands that add stiffness or mass: "K2GG = STIF".
+  std::vector<std::pair<std::string, FeSource>> additions;
+};
+
 class NastranCards {
  public:
   /// `has_control`: there is a BEGIN BULK to look for.
@@ -41,6 +50,7 @@ class NastranCards {
   /// The next card; false at ENDDATA or at the end of the file.
   bool next(NastranCard& card);
 
+  const NastranControl& control() const { return control_; }
   /// Names that pre-processors leave in comments, by number.
   const std::map<int, std::string>& property_names() const { return property_names_; }
   const std::map<int, std::string>& material_names() const { return material_names_; }
@@ -57,16 +67,20 @@ class NastranCards {
   void comment(std::string_view text);
   void split(std::string_view text, Line& line);
   void include(std::string_view text);
+  void read_control();
+  void command(std::string_view line);
 
   TextSource& source_;
-  std::deque<std::string> expanded_;  // lines that had tabs
+  NastranControl control_;
+  std::deque<NastranCard> cards_of_control_;
+  std::deque<std::string> expanded_;  // lines of the card that had tabs
   std::map<int, std::string> property_names_, material_names_, set_names_;
 };
 
 /// Does a card change neither stiffness nor mass nor geometry (loads, methods, tables, ...)?
 bool is_harmless_nastran_card(const std::string& name);
 
-/// Is there a line BEGIN BULK in the beginning of a file?
+/// Is there a line BEGIN BULK (or SUPER, ...) in the beginning of a file?
 bool has_begin_bulk(std::string_view beginning);
 
 }  // namespace floatframe

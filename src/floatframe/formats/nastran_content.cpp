@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "floatframe/formats/nastran_fields.hpp"
 #include "floatframe/formats/text_fields.hpp"
@@ -17,6 +18,7 @@ class ContentReader {
 
   NastranContent read(bool has_control) {
     NastranCards cards(source_, has_control);
+    c_.control = cards.control();
     NastranCard card;
     while (cards.next(card)) {
       NastranFields fields(source_, card);
@@ -43,20 +45,21 @@ class ContentReader {
 
   void one(F& f) {
     static const std::map<std::string, Handler> handlers = {
-        {"GRID", &ContentReader::grid},       {"GRDSET", &ContentReader::grid_default},
-        {"CORD2R", &ContentReader::system},   {"CORD2C", &ContentReader::system},
-        {"CORD2S", &ContentReader::system},   {"CTETRA", &ContentReader::solid},
-        {"CHEXA", &ContentReader::solid},     {"CPENTA", &ContentReader::solid},
-        {"CTRIA3", &ContentReader::surface},  {"CQUAD4", &ContentReader::surface},
-        {"CTRIA6", &ContentReader::surface},  {"CQUAD8", &ContentReader::surface},
-        {"CTRIAR", &ContentReader::surface},  {"CQUADR", &ContentReader::surface},
-        {"CBAR", &ContentReader::bar},        {"CBEAM", &ContentReader::bar},
-        {"MAT1", &ContentReader::material},   {"CONM2", &ContentReader::mass},
-        {"RBE2", &ContentReader::rbe2},       {"RBE3", &ContentReader::rbe3},
-        {"RBAR", &ContentReader::rbar},       {"MPC", &ContentReader::mpc},
-        {"SPC", &ContentReader::spc},         {"SPC1", &ContentReader::spc1},
-        {"PARAM", &ContentReader::parameter}, {"SET", &ContentReader::set},
-        {"SET1", &ContentReader::set},        {"SET3", &ContentReader::set},
+        {"GRID", &ContentReader::grid},      {"GRDSET", &ContentReader::grid_default},
+        {"CORD2R", &ContentReader::system},  {"CORD2C", &ContentReader::system},
+        {"CORD2S", &ContentReader::system},  {"CTETRA", &ContentReader::solid},
+        {"CHEXA", &ContentReader::solid},    {"CPENTA", &ContentReader::solid},
+        {"CTRIA3", &ContentReader::surface}, {"CQUAD4", &ContentReader::surface},
+        {"CTRIA6", &ContentReader::surface}, {"CQUAD8", &ContentReader::surface},
+        {"CTRIAR", &ContentReader::surface}, {"CQUADR", &ContentReader::surface},
+        {"CBAR", &ContentReader::bar},       {"CBEAM", &ContentReader::bar},
+        {"MAT1", &ContentReader::material},  {"CONM2", &ContentReader::mass},
+        {"RBE2", &ContentReader::rbe2},      {"RBE3", &ContentReader::rbe3},
+        {"RBAR", &ContentReader::rbar},      {"MPC", &ContentReader::mpc},
+        {"MPCADD", &ContentReader::mpc_add}, {"SPC", &ContentReader::spc},
+        {"SPC1", &ContentReader::spc1},      {"PARAM", &ContentReader::parameter},
+        {"SET", &ContentReader::set},        {"SET1", &ContentReader::set},
+        {"SET3", &ContentReader::set},
     };
     const std::string& name = f.name();
     if (only_nodes_ && name != "GRID" && name != "GRDSET" && !name.starts_with("CORD") &&
@@ -74,8 +77,10 @@ class ContentReader {
       if (!fresh && id > 0) twice(f, it->second.at);
       return;
     }
-    if (!is_harmless_nastran_card(name)) {
+    const bool units = name == "DTI" && same_word(f.text(0), "UNITS");
+    if (!units && !is_harmless_nastran_card(name)) {
       unknown_[name].add(f.at());
+      if (unknown_.size() > TextSource::most_faults) finish();  // throws
       return;
     }
     if (name.starts_with("CORD1")) {
@@ -83,7 +88,12 @@ class ContentReader {
     } else if (name.starts_with("MAT") && !name.starts_with("MATT")) {
       if (const auto id = parse_label(f.text(0))) c_.other_materials[*id] = name;
     }
-    passed_[name].add(f.at());
+    pass(name, f.at());
+  }
+
+  void pass(const std::string& name, const FeSource& at) {
+    const bool known = passed_.contains(name);
+    if (known || passed_.size() < most_passed) passed_[known ? name : name.substr(0, 40)].add(at);
   }
 
   void twice(F& f, const FeSource& first) {
@@ -273,6 +283,7 @@ class ContentReader {
       if (is_real(f.text(i))) {
         weight = f.real(i, "a weight");
         const unsigned mask = f.components(++i, "the components of a weight");
+        s.weighs_rotations = s.weighs_rotations || mask == 63u;
         if (mask != 7u && mask != 63u) {
           f.fault(
               fmt::format("the components of a weight are {}, only 123 is read", shown(f.text(i))));
@@ -324,6 +335,13 @@ class ContentReader {
     c_.equations.push_back(std::move(e));
   }
 
+  void mpc_add(F& f) {
+    std::vector<int>& sets = c_.added_mpc_sets[f.label(0, "the set")];
+    for (std::size_t i = 1; i < f.size(); ++i) {
+      if (!f.blank(i)) sets.push_back(f.label(i, "a set"));
+    }
+  }
+
   void spc(F& f) {
     for (std::size_t i = 1; i < 7; i += 3) {
       if (f.blank(i)) continue;
@@ -355,7 +373,7 @@ class ContentReader {
     const bool nodes = f.name() == "SET1" || same_word(f.text(1), "GRID");
     const bool list = f.name() != "SET" || same_word(f.text(2), "LIST");
     if ((!nodes && !s.elements) || !list) {
-      passed_[f.name() + " of other things"].add(f.at());
+      pass(f.name() + " of other things", f.at());
       return;
     }
     for (std::size_t i = f.name() == "SET" ? 8 : f.name() == "SET3" ? 2 : 1; i < f.size(); ++i) {
@@ -372,12 +390,33 @@ class ContentReader {
   }
 
   void parameter(F& f) {
-    if (same_word(f.text(0), "WTMASS")) {
-      c_.mass_factor = f.real(1, "WTMASS");
-      if (c_.mass_factor <= 0.0) f.fault("WTMASS is not positive");
-    } else {
-      passed_["PARAM"].add(f.at());
+    const std::string name = upper_case(f.text(0)).substr(0, 40);
+    switch (nastran_parameter(name)) {
+      case NastranParameter::mass_factor:
+        c_.mass_factor *= factor(f, name);
+        break;
+      case NastranParameter::stiffness_factor:
+        c_.stiffness_factor *= factor(f, name);
+        break;
+      case NastranParameter::harmless:
+        pass("PARAM", f.at());
+        break;
+      case NastranParameter::unknown:
+        unknown_["PARAM " + name].add(f.at());
+        if (unknown_.size() > TextSource::most_faults) finish();  // throws
     }
+  }
+
+  /// A positive factor; the last entry of a name counts.
+  double factor(F& f, const std::string& name) {
+    const double value = f.real(1, name.c_str());
+    if (!(value > 0.0)) {
+      f.fault(fmt::format("{} is {}, expected more than 0", name, shown(f.text(1))));
+      return 1.0;
+    }
+    f.must_be_zero(2, "an imaginary part");
+    double& last = factors_.try_emplace(name, 1.0).first->second;
+    return value / std::exchange(last, value);
   }
 
   void finish() {
@@ -387,12 +426,24 @@ class ContentReader {
       const unsigned held = g.held.value_or(default_.held.value_or(0u));
       if (held != 0) c_.supports.push_back({g.id, g.id, held, g.at});
     }
+    if (!only_nodes_) {
+      for (const auto& [command, at] : c_.control.additions) {
+        source_.fault(at, fmt::format("the case control has {}, which adds stiffness or mass and "
+                                      "is not read",
+                                      command));
+      }
+    }
     for (const auto& [name, passed] : unknown_) {
       source_.fault(
           passed.at,
           fmt::format(
-              "{} is not read and may change stiffness or mass{}", name,
+              "{} is not read and may change stiffness or mass{}", name.substr(0, 40),
               passed.number > 1 ? fmt::format(" ({} cards in the file)", passed.number) : ""));
+    }
+    for (const auto& [name, value] : factors_) {
+      if (name == "WTMASS" || value == 1.0) continue;
+      c_.notes.push_back(fmt::format("PARAM {}: the {} of the part is multiplied by {:g}", name,
+                                     name == "CK1" ? "stiffness" : "mass", value));
     }
     std::string list;
     for (const auto& [name, passed] : passed_) {
@@ -408,7 +459,9 @@ class ContentReader {
   bool only_nodes_;
   NastranContent c_;
   NastranGrid default_;
+  static constexpr std::size_t most_passed = 300;
   std::map<std::string, Passed> passed_, unknown_;
+  std::map<std::string, double> factors_;
 };
 
 }  // namespace

@@ -53,6 +53,7 @@ struct NastranProperty {
   double thickness = 0.0;         ///< PSHELL
   BeamSection section;            ///< PBAR, PBARL, PBEAM, PBEAML
   double nonstructural = 0.0;     ///< mass over length or area
+  bool shear_factors = false;     ///< PBAR: K1 or K2 make it flexible in shear
   FeSource at;
 };
 
@@ -71,6 +72,7 @@ struct NastranSpider {
   unsigned mask = 63u;
   std::vector<int> nodes;
   std::vector<double> weights;
+  bool weighs_rotations = false;  ///< RBE3: components 456 of the nodes have weights
   FeSource at;
 };
 
@@ -111,7 +113,10 @@ struct NastranContent {
   std::vector<NastranEquation> equations;
   std::vector<NastranSupport> supports;
   std::vector<NastranSet> sets;
-  double mass_factor = 1.0;  ///< PARAM,WTMASS
+  std::map<int, std::vector<int>> added_mpc_sets;  ///< MPCADD
+  NastranControl control;
+  double mass_factor = 1.0;       ///< PARAM,WTMASS times PARAM,CM1
+  double stiffness_factor = 1.0;  ///< PARAM,CK1
   std::map<int, std::string> property_names, material_names, set_names;
   std::vector<std::string> notes;
 };
@@ -119,6 +124,15 @@ struct NastranContent {
 /// Faults are collected in the source. With `only_nodes` all but nodes, coordinate systems and
 /// supports is passed over.
 NastranContent read_nastran_content(TextSource& source, bool has_control, bool only_nodes);
+
+/// What a PARAM entry does to the part.
+enum class NastranParameter {
+  unknown,
+  harmless,
+  mass_factor,      ///< WTMASS, CM1
+  stiffness_factor  ///< CK1
+};
+NastranParameter nastran_parameter(const std::string& name);
 
 class NastranFields;
 /// PSOLID, PSHELL, PBAR, PBARL, PBEAM, PBEAML; false if the card is none of them.

@@ -34,6 +34,15 @@ void pshell(NastranFields& f, NastranProperty& p) {
   if (std::abs(f.real(4, "12I/T**3", 1.0) - 1.0) > 1e-6) {
     f.fault("12I/T**3 is not 1: only homogeneous shells are supported");
   }
+  if (!f.blank(5)) {
+    if (f.label(5, "MID3") != p.material) {
+      f.fault("MID3 is not MID1: only homogeneous shells are supported");
+    }
+    if (std::abs(f.real(6, "TS/T", 5.0 / 6.0) - 5.0 / 6.0) > 1e-3) {
+      f.fault(fmt::format("TS/T is {}, expected 0.833333: only homogeneous shells are supported",
+                          shown(f.text(6))));
+    }
+  }
   p.nonstructural = f.real(7, "the nonstructural mass", 0.0);
   if (!f.blank(10)) f.fault("MID4 is given: only homogeneous shells are supported");
 }
@@ -54,6 +63,7 @@ void pbar(NastranFields& f, NastranProperty& p) {
       section(f.real(2, "A", 0.0), f.real(3, "I1", 0.0), f.real(4, "I2", 0.0), f.real(5, "J", 0.0));
   p.nonstructural = f.real(6, "the nonstructural mass", 0.0);
   f.must_be_zero(18, "I12");
+  p.shear_factors = f.real(16, "K1", 0.0) != 0.0 || f.real(17, "K2", 0.0) != 0.0;
 }
 
 /// The sections of PBARL and PBEAML that a beam without warping has, by the dimensions of Nastran.
@@ -80,6 +90,10 @@ void named_section(NastranFields& f, NastranProperty& p) {
   }
   p.nonstructural = f.real(8 + count, "the nonstructural mass", 0.0);
   if (f.size() > 9 + count) f.fault("a tapered beam is not supported");
+  if ((type == "TUBE" || type == "TUBE2") && d[1] > d[0]) {
+    f.fault(fmt::format("the {} of the {} is more than its outer radius",
+                        type == "TUBE" ? "inner radius" : "wall", type));
+  }
   if (type == "ROD") {
     p.section = BeamSection::solid_round(2.0 * d[0]);
   } else if (type == "TUBE") {

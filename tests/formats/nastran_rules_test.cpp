@@ -1,0 +1,154 @@
+// What of a Nastran file changes the part: parameters, case control, a shear modulus of its own,
+// superelements. Nothing of it is passed over.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/formats/nastran_cards.hpp"
+#include "floatframe/formats/read_nastran.hpp"
+
+namespace floatframe {
+namespace {
+
+FeModel deck(const std::string& text) {
+  TextSource source(text, "arm.bdf");
+  return read_nastran(source, has_begin_bulk(text), {});
+}
+
+std::string fault(const std::string& text) {
+  try {
+    deck(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+const std::string bulk =
+    "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"  // 1 to 4
+    "CTETRA,1,1,1,2,3,4\nCBAR,2,2,1,2,0.,0.,1.\n"                               // 5, 6
+    "PSOLID,1,1\nPBAR,2,1,1.-3,1.-7,1.-7,2.-7\n"                                // 7, 8
+    "MAT1,1,2.+11,,.25,8000.\n";                                                // 9
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = bulk;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(NastranRules, SuperelementsAreRefused) {
+  const std::string sentence =
+      " begins the bulk data of a superelement or of another model, which is not read: write one "
+      "model with one BEGIN BULK";
+  EXPECT_EQ(fault("SOL 103\nCEND\nBEGIN SUPER=1\n" + bulk + "BEGIN BULK\n" + bulk + "ENDDATA\n"),
+            "arm.bdf:3: 'BEGIN SUPER=1'" + sentence);
+  EXPECT_EQ(fault("SOL 103\nCEND\nBEGIN BULK SUPER=2\n" + bulk),
+            "arm.bdf:3: 'BEGIN BULK SUPER=2'" + sentence);
+  EXPECT_EQ(fault("BEGIN BULK\n" + bulk + "begin super = 3\n" + bulk),
+            "arm.bdf:11: 'begin super = 3'" + sentence);
+  EXPECT_EQ(fault("SOL 103\nCEND\n  BEGIN BULK $ comment\n" + bulk), "no fault");
+}
+
+TEST(NastranRules, FactorsOfMassAndStiffness) {
+  const FeModel plain = deck(bulk), mass = deck(bulk + "PARAM,CM1,2.5\n"),
+                stiffness = deck(bulk + "PARAM*,CK1,.5,0.\n"),
+                both = deck(bulk + "PARAM,WTMASS,.1\nPARAM,CM1,2.\nPARAM,CM1,3.\n");
+  EXPECT_DOUBLE_EQ(mass.materials.at(0).density, 2.5 * plain.materials.at(0).density);
+  EXPECT_EQ(mass.materials.at(0).young, plain.materials.at(0).young);
+  EXPECT_EQ(mass.notes.back(), "arm.bdf: PARAM CM1: the mass of the part is multiplied by 2.5");
+  EXPECT_DOUBLE_EQ(stiffness.materials.at(0).young, 0.5 * plain.materials.at(0).young);
+  EXPECT_EQ(stiffness.materials.at(0).poisson, plain.materials.at(0).poisson);
+  EXPECT_EQ(stiffness.materials.at(0).density, plain.materials.at(0).density);
+  EXPECT_NEAR(both.materials.at(0).density, 0.3 * plain.materials.at(0).density, 1e-12);
+  EXPECT_EQ(fault(bulk + "PARAM,CM1,0.\n"), "arm.bdf:10: PARAM: CM1 is '0.', expected more than 0");
+  EXPECT_EQ(fault(bulk + "PARAM,CK1,1.,.1\n"),
+            "arm.bdf:10: PARAM: an imaginary part is '.1', which is not supported");
+}
+
+TEST(NastranRules, ParametersOfTheCaseControlCount) {
+  const FeModel plain = deck(bulk);
+  const FeModel model =
+      deck("SOL 103\nCEND\nTITLE = PARAM\nPARAM,WTMASS,.5\nparam, post, -1\nBEGIN BULK\n" + bulk);
+  EXPECT_DOUBLE_EQ(model.materials.at(0).density, 0.5 * plain.materials.at(0).density);
+}
+
+TEST(NastranRules, UnknownParametersStop) {
+  EXPECT_EQ(fault(bulk + "PARAM,STIFFER,2.\n"),
+            "arm.bdf:10: PARAM STIFFER is not read and may change stiffness or mass");
+  for (const char* name :
+       {"POST",  "AUTOSPC", "GRDPNT",   "PRGPST", "MAXRATIO", "BAILOUT", "COUPMASS",
+        "K6ROT", "SNORM",   "OGEOM",    "RESVEC", "CM2",      "CK2",     "CB1",
+        "G",     "W3",      "USETSTR1", "lgdisp", "EXTOUT",   "CHECKEL"}) {
+    EXPECT_EQ(fault(bulk + "PARAM," + name + ",1\n"), "no fault") << name;
+  }
+  EXPECT_EQ(fault(bulk + "MATT1,1,7\n"),
+            "arm.bdf:10: MATT1 is not read and may change stiffness or mass");
+  EXPECT_EQ(fault(bulk + "DTI,UNITS,1,KG,N,M,S\n"), "no fault");
+}
+
+TEST(NastranRules, MatricesAndMassOfTheCaseControlStop) {
+  EXPECT_EQ(fault("SOL 103\nCEND\nK2GG = STIFF\nM2GG(X)=HEAVY\nNSM = 3\nBEGIN BULK\n" + bulk),
+            "arm.bdf:3: the case control has K2GG = STIFF, which adds stiffness or mass and is not "
+            "read\n"
+            "arm.bdf:4: the case control has M2GG = HEAVY, which adds stiffness or mass and is not "
+            "read\n"
+            "arm.bdf:5: the case control has NSM = 3, which adds stiffness or mass and is not "
+            "read");
+}
+
+TEST(NastranRules, BarsTwistByTheirOwnShearModulus) {
+  const double J = 2e-7, from_E = 2e11 / 2.5;
+  EXPECT_DOUBLE_EQ(deck(bulk).sections.at(0).J, J);
+  const FeModel model = deck(with("MAT1,1,2.+11,,.25", "MAT1,1,2.+11,2.+10,.25"));
+  const Material& m = model.materials.at(0);
+  EXPECT_DOUBLE_EQ(m.shear(), from_E);  // of the tetrahedron
+  EXPECT_DOUBLE_EQ(m.shear() * model.sections.at(0).J, 2e10 * J);
+  EXPECT_EQ(model.notes.at(0),
+            "arm.bdf:9: MAT1 1: G is 2e+10, but E and NU give 8e+10: bars twist by G, shells and "
+            "solids have E and NU, as in Nastran");
+  EXPECT_EQ(fault(with("MAT1,1,2.+11,,.25", "MAT1,1,2.+11,0.,.25")),
+            "arm.bdf:9: MAT1 1: G is 0, expected more than 0 for bars");
+}
+
+const std::string equations = "MPC,8,1,1,1.,2,1,-.5\nMPC,9,1,2,1.,2,2,-1.\n";
+
+TEST(NastranRules, TheCaseControlSelectsEquations) {
+  const std::string control = "SOL 103\nCEND\n", begin = "BEGIN BULK\n";
+  const FeModel model = deck(control + "MPC = 9\n" + begin + bulk + equations);
+  ASSERT_EQ(model.equations.size(), 1u);
+  EXPECT_EQ(model.equations[0].terms[0].axis, 1);
+  EXPECT_EQ(
+      deck(control + "MPC=5\n" + begin + bulk + equations + "MPCADD,5,8,9\n").equations.size(), 2u);
+  const FeModel none = deck(control + begin + bulk + equations);
+  EXPECT_TRUE(none.equations.empty());
+  EXPECT_EQ(none.notes.at(0),
+            "arm.bdf:13: 2 MPC equations are in sets that the case control does not select: they "
+            "are not applied");
+  EXPECT_EQ(fault(control + "MPC = 3\n" + begin + bulk + equations),
+            "arm.bdf:3: the case control selects MPC set 3, which is not in the file");
+  EXPECT_EQ(fault(control + "MPC = 8\nSUBCASE 2\nMPC = 9\n" + begin + bulk + equations),
+            "arm.bdf:5: the case control selects MPC sets 8 and 9; only one can be read, remove "
+            "the other");
+}
+
+TEST(NastranRules, SectionsThatAreNotWhatTheyLook) {
+  EXPECT_EQ(fault(bulk + "MAT1,2,1.+9,,.3,8000.\nCTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,2\n"),
+            "arm.bdf:12: PSHELL 3: MID3 is not MID1: only homogeneous shells are supported");
+  EXPECT_EQ(fault(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.4\n"),
+            "arm.bdf:11: PSHELL 3: TS/T is '.4', expected 0.833333: only homogeneous shells are "
+            "supported");
+  EXPECT_EQ(fault(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.833333\n"), "no fault");
+  EXPECT_EQ(fault(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,TUBE2\n,.01,.015")),
+            "arm.bdf:8: PBARL 2: the wall of the TUBE2 is more than its outer radius");
+  const FeModel bar =
+      deck(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBAR,2,1,1.-3,1.-7,1.-7,2.-7\n,\n,.5,.5"));
+  EXPECT_EQ(bar.notes.at(0),
+            "arm.bdf:8: 1 PBAR have shear factors (K1, K2): their bars are read without shear "
+            "deformation");
+  EXPECT_EQ(fault(bulk + "GRID,9,,.5,0.,0.\nRBE3,8,,9,123456,1.,123456,1,2,\n,3\n"),
+            "arm.bdf:11: RBE3 8: node 1 has rotations, whose weights (components 456) are not "
+            "supported; give 123");
+}
+
+}  // namespace
+}  // namespace floatframe
