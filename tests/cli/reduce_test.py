@@ -145,6 +145,30 @@ class Reduce(unittest.TestCase):
         done = self.expect(0, "check", "block.yaml", FLOATFRAME_CACHE="off", err="not kept")
         self.assertIn("  arm               17", done.stdout)
 
+    def test_the_dialect_of_a_deck(self):
+        nodes = "".join(f"{k}, {k}.\n" for k in range(1, 10))
+        elements = "".join(f"{k}, {2 * k - 1}, {2 * k}, {2 * k + 1}\n" for k in range(1, 5))
+        (self.folder / "rod.inp").write_text(
+            f"*NODE\n{nodes}*ELEMENT, TYPE=B32, ELSET=ROD\n{elements}*MATERIAL, NAME=S\n*ELASTIC\n2.1e11, 0.3\n"
+            "*DENSITY\n7850.\n*BEAM SECTION, ELSET=ROD, MATERIAL=S, SECTION=CIRC\n0.1\n")
+        self.expect(2, "info", "rod.inp", err="rod.inp:21: *BEAM SECTION, SECTION=CIRC: 0.1 is a radius in Abaqus and a "
+                                              "diameter in CalculiX")
+        mass = {d: json.loads(self.expect(0, "info", "rod.inp", "--dialect", d, "--json").stdout)["mass"]
+                for d in ("abaqus", "calculix")}
+        self.assertAlmostEqual(mass["abaqus"], 4.0 * mass["calculix"], delta=1e-6 * mass["abaqus"])
+        self.expect(0, "reduce", "rod.inp", "--units", "si", "--dialect", "calculix", "--interface", "A=node:1", "--modes",
+                    "2", "--quiet", "-o", "rod.ffb")
+        self.expect(2, "info", DECKS / "bricks.msh", "--dialect", "abaqus", err="the dialect 'abaqus' is given, but the "
+                                                                               "file is no deck")
+        block = ("    part: {{file: rod.inp, units: si, interfaces: {{A: {{node: 1}}}}, modes: 2, free_check: false{0}}}\n")
+        model = ("floatframe: 1\nbodies:\n  rod:\n{0}joints: {{pin: {{type: revolute, child: rod, child_node: A, axis: y}}}}\n"
+                 "simulation: {{step: 0.01, duration: 0.01}}\n")
+        for option, code in (("", 2), (", dialect: calculix", 0), (", dialect: abaqus", 0), (", dialect: nastran", 2)):
+            (self.folder / "rod.yaml").write_text(model.format(block.format(option)))
+            self.expect(code, "check", "rod.yaml", FLOATFRAME_CACHE=str(self.folder / "rods"))
+        # Each dialect has a reduced body of its own.
+        self.assertEqual(len(list((self.folder / "rods").glob("*.ffb"))), 2)
+
     def test_mistakes_are_told_and_nothing_is_left(self):
         before = sorted(p.name for p in self.folder.iterdir() if p.suffix == ".ffb")
         self.expect(2, "reduce", DECK, err="--units is missing")

@@ -15,7 +15,7 @@ namespace floatframe {
 namespace {
 
 struct InfoArguments {
-  std::string file, format, material, nodes, mass, dofs;
+  std::string file, format, dialect, material, nodes, mass, dofs;
   FeReadOptions read;
   bool json = false;
 };
@@ -35,6 +35,7 @@ int info(InfoArguments a) {
   a.read.nodes = a.nodes;
   a.read.mass = a.mass;
   a.read.dofs = a.dofs;
+  a.read.dialect = deck_dialect(a.dialect).value_or(DeckDialect::by_content);
   if (!a.material.empty()) a.read.material = material_argument(a.material);
   if (a.format.empty() && is_body_file(a.file)) {
     const BodyFile content = read_body_file(a.file);
@@ -62,6 +63,11 @@ void add_info_command(CLI::App& app, Action& action) {
   command->add_flag("--json", a->json, "JSON on standard output");
   command->add_option("--format", a->format, "Format of FILE; default: by its content")
       ->type_name("NAME");
+  command
+      ->add_option("--dialect", a->dialect,
+                   "Whose deck FILE is, abaqus or calculix; default: by its content")
+      ->check(CLI::IsMember({"abaqus", "calculix"}))
+      ->type_name("WORD");
   command
       ->add_option("--material", a->material,
                    "young,poisson,density for files without, their units")

@@ -18,7 +18,7 @@ struct ReduceArguments {
   PartJob job;
   std::string part, units, method = "craig_bampton", reference = "mean_axis", integration = "exact",
                            solver = "auto", material, out, report, sid, modes;
-  std::string fmax, effective_mass, damping, nodes, mass, dofs;
+  std::string fmax, effective_mass, damping, nodes, mass, dofs, dialect;
   std::vector<std::string> interfaces, markers;
   bool no_free_check = false, no_stress = false, quiet = false;
 };
@@ -54,6 +54,7 @@ PartJob job_of(const ReduceArguments& a) {
   job.read.nodes = a.nodes;
   job.read.mass = a.mass;
   job.read.dofs = a.dofs;
+  job.read.dialect = deck_dialect(a.dialect).value_or(DeckDialect::by_content);
   if (!a.material.empty()) job.read.material = material_argument(a.material);
   if (job.units.empty()) units_are_missing(job);
   unit_system(job.units);
@@ -143,6 +144,10 @@ void add_files(CLI::App& app, ReduceArguments& a) {
       ->type_name("UNITS");
   app.add_option("--format", a.job.format, "Format of PART; default: by its content")
       ->type_name("NAME");
+  app.add_option("--dialect", a.dialect,
+                 "Whose deck PART is, abaqus or calculix; default: by its content")
+      ->check(CLI::IsMember({"abaqus", "calculix"}))
+      ->type_name("WORD");
   app.add_option("--material", a.material,
                  "young,poisson,density for files without, in their units")
       ->type_name("E,NU,RHO");

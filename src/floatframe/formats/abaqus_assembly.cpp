@@ -34,6 +34,7 @@ void read_abaqus_assembly(AbaqusLines& lines, const AbaqusKeyword&, AbaqusConten
 
 void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
                           AbaqusContent& content) {
+  lines.allow_only(keyword, {"NAME", "PART"});
   const std::string name = abaqus_name(lines.required(keyword, "NAME"));
   const std::string part = abaqus_name(lines.required(keyword, "PART"));
   if (!content.instance.empty()) {

@@ -12,15 +12,21 @@ struct AbaqusBuild {
   AbaqusResolver nodes, elements;
   std::vector<int> element_index;  ///< of each element of the deck: in the model, -1 if it has none
   FeModel model;
+  DialectClues clues;  ///< of the deck, and of what its sections are used for
 
   AbaqusBuild(const AbaqusContent& c, TextSource& s)
       : content(c),
         source(s),
         nodes(c, s, AbaqusResolver::Of::nodes),
-        elements(c, s, AbaqusResolver::Of::elements) {}
+        elements(c, s, AbaqusResolver::Of::elements),
+        clues(c.clues) {}
   /// Nodes of elements of the deck, each once.
   std::vector<int> nodes_of_elements(const std::vector<int>& list);
   void note(const FeSource& at, const std::string& text);
+
+ private:
+  std::vector<int> list_of_node_;  // the last list of nodes_of_elements that got it
+  int node_list_ = 0;
 };
 
 // abaqus_build_mesh.cpp

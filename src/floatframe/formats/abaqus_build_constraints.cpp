@@ -12,12 +12,22 @@
 namespace floatframe {
 namespace {
 
-/// Collects nodes, each once, with the sum of their weights.
+/// Collects nodes, each once, with the sum of their weights; used again for the next spider.
 class NodeList {
  public:
   explicit NodeList(std::size_t count) : place_(count, -1) {}
+  void clear() {
+    for (const std::vector<int>* list : {&nodes, &excluded_}) {
+      for (const int node : *list) place_[static_cast<std::size_t>(node)] = -1;
+    }
+    nodes.clear();
+    weights.clear();
+    excluded_.clear();
+  }
   void exclude(int node) {
-    if (node >= 0) place_[static_cast<std::size_t>(node)] = -2;
+    if (node < 0) return;
+    place_[static_cast<std::size_t>(node)] = -2;
+    excluded_.push_back(node);
   }
   void add(int node, double weight) {
     int& place = place_[static_cast<std::size_t>(node)];
@@ -33,7 +43,7 @@ class NodeList {
   std::vector<double> weights;
 
  private:
-  std::vector<int> place_;
+  std::vector<int> place_, excluded_;
 };
 
 double face_area(const FeModel& model, const Element& element, const FaceNodes& face) {
@@ -112,6 +122,7 @@ void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list)
   if (surface == nullptr) {
     std::vector<std::string> known;
     for (const auto& [key, s] : c.surfaces) {
+      if (known.size() == 10'000) break;
       known.push_back(c.names[static_cast<std::size_t>(key.second)]);
     }
     build.source.fault(spider.at, fmt::format("surface {} is not there{}", shown(name),
@@ -137,7 +148,7 @@ void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list)
   }
 }
 
-void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes) {
+void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, NodeList& list) {
   const AbaqusContent& c = build.content;
   Spider spider;
   spider.kind = raw.kind;
@@ -168,7 +179,7 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes) 
     spider.rotation_node = build.nodes.one(*raw.rotation, "rotation node");
     if (spider.rotation_node == spider.reference) spider.rotation_node = -1;
   }
-  NodeList list(c.nodes.size());
+  list.clear();
   list.exclude(spider.reference);
   list.exclude(spider.rotation_node);
   for (std::size_t k = 0; k < raw.nodes.size(); ++k) {
@@ -186,8 +197,8 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes) 
     build.source.fault(raw.at, "the rigid body or coupling has no nodes beside its reference");
     return;
   }
-  spider.nodes = std::move(list.nodes);
-  if (spider.kind == Spider::Kind::mean) spider.weights = std::move(list.weights);
+  spider.nodes = list.nodes;
+  if (spider.kind == Spider::Kind::mean) spider.weights = list.weights;
   build.model.spiders.push_back(std::move(spider));
 }
 
@@ -223,6 +234,7 @@ void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap&
       return;
     }
   }
+  build.nodes.spend(nodes.front().size() * raw.terms.size(), raw.at);
   for (std::size_t k = 0; k < nodes.front().size(); ++k) {
     LinearEquation equation;
     equation.source = raw.at;
@@ -243,7 +255,8 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
     build_surfaces(build);
     build.source.throw_if_any();
   }
-  for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes);
+  NodeList list(c.nodes.size());
+  for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes, list);
   const DofMap dofs(build.model);
   for (const AbaqusEquation& equation : c.equations) build_equation(build, equation, dofs);
   for (const AbaqusSupport& support : c.supports) {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <unordered_map>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/fe/element_faces.hpp"
@@ -13,6 +13,8 @@ namespace floatframe {
 namespace {
 
 using Family = AbaqusType::Family;
+
+constexpr int most_notes = 20;  // of a kind
 
 std::string label(const AbaqusElement& e) {
   return fmt::format("element {} ({})", e.id, e.type->name);
@@ -59,14 +61,13 @@ std::vector<int> assign(AbaqusBuild& build, const std::vector<AbaqusSection>& se
 }
 
 /// Index of the section's material in the model, which gets it if it is not there yet.
-int material_of(AbaqusBuild& build, const AbaqusSection& section) {
+int material_of(AbaqusBuild& build, const AbaqusSection& section,
+                std::unordered_map<std::string, int>& index) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
-  const auto known =
-      std::find(model.material_names.begin(), model.material_names.end(), section.material);
-  if (known != model.material_names.end()) {
-    return static_cast<int>(known - model.material_names.begin());
-  }
+  const auto [place, fresh] =
+      index.emplace(section.material, static_cast<int>(model.materials.size()));
+  if (!fresh) return place->second;
   const auto it = c.materials.find(section.material);
   Material material;
   if (it == c.materials.end()) {
@@ -85,7 +86,65 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section) {
   }
   model.materials.push_back(material);
   model.material_names.push_back(section.material);
-  return static_cast<int>(model.materials.size()) - 1;
+  return place->second;
+}
+
+/// The section of CIRC with one number: a radius in Abaqus, a diameter in CalculiX.
+BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
+  const DialectClues& clues = build.clues;
+  DeckDialect dialect = build.content.dialect;
+  if (dialect == DeckDialect::by_content &&
+      clues.abaqus.has_value() != clues.calculix.has_value()) {
+    dialect = clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
+    const DialectClues::Clue& clue = clues.abaqus ? *clues.abaqus : *clues.calculix;
+    const SourceMark mark = build.source.mark(clue.at);
+    build.note(section.at, fmt::format("{}, SECTION=CIRC: {:g} is the {}, as in {} ({} in {}:{})",
+                                       section.shown, section.round,
+                                       dialect == DeckDialect::abaqus ? "radius" : "diameter",
+                                       program_of(dialect), clue.what, mark.file, mark.line));
+  }
+  if (dialect == DeckDialect::by_content) {
+    build.source.fault(
+        section.at,
+        fmt::format("{}, SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and "
+                    "{}: give --dialect abaqus or --dialect calculix (in a model file 'dialect:')",
+                    section.shown, section.round,
+                    clues.abaqus ? fmt::format("the deck has things of both ({}, {})",
+                                               clues.abaqus->what, clues.calculix->what)
+                                 : "nothing in the deck tells whose it is"));
+  }
+  return BeamSection::solid_round(section.round * (dialect == DeckDialect::abaqus ? 2.0 : 1.0));
+}
+
+/// Numbers of a section that only CalculiX takes, in a deck of Abaqus.
+void check_form(AbaqusBuild& build, const AbaqusSection& section) {
+  const DialectClues& clues = build.clues;
+  if (!section.calculix_form || !clues.abaqus || build.content.dialect == DeckDialect::calculix) {
+    return;
+  }
+  const SourceMark mark = build.source.mark(clues.abaqus->at);
+  build.source.fault(
+      section.at,
+      fmt::format("{}, SECTION={} has dimensions as in CalculiX, but the deck has {} ({}:{}), "
+                  "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
+                  section.shown, section.shape, clues.abaqus->what, mark.file, mark.line));
+}
+
+/// Elements with a section that CalculiX does not take for them.
+void look_at_beams(const AbaqusBuild& build, const std::vector<int>& section_of,
+                   DialectClues& clues) {
+  const AbaqusContent& c = build.content;
+  for (std::size_t e = 0; e < c.elements.size() && !clues.abaqus; ++e) {
+    if (section_of[e] < 0) continue;
+    const AbaqusSection& section = c.sections[static_cast<std::size_t>(section_of[e])];
+    const std::string_view type = c.elements[e].type->name;
+    if (section.family != Family::beam || section.shape == "RECT" || type == "B32R" ||
+        (section.shape == "CIRC" && type == "B32")) {
+      continue;
+    }
+    clues.add(DeckDialect::abaqus, fmt::format("SECTION={} for {}", section.shape, type),
+              section.at);
+  }
 }
 
 struct Properties {
@@ -95,13 +154,15 @@ struct Properties {
 
 std::vector<Properties> section_properties(AbaqusBuild& build) {
   std::vector<Properties> list;
+  std::unordered_map<std::string, int> material_index;
   FeModel& model = build.model;
   for (const AbaqusSection& section : build.content.sections) {
     Properties p;
-    p.material = material_of(build, section);
+    p.material = material_of(build, section, material_index);
     if (section.family == Family::beam) {
       p.section = static_cast<int>(model.sections.size());
-      model.sections.push_back(section.beam);
+      check_form(build, section);
+      model.sections.push_back(section.round > 0.0 ? round_section(build, section) : section.beam);
       p.reference = build.content.placement.R * section.n1;
     } else if (section.family == Family::shell) {
       p.section = static_cast<int>(model.shells.size());
@@ -155,16 +216,17 @@ void AbaqusBuild::note(const FeSource& at, const std::string& text) {
 
 std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) {
   std::vector<int> result;
-  std::vector<char> seen(content.nodes.size(), 0);
+  list_of_node_.resize(content.nodes.size(), 0);
+  ++node_list_;
   for (const int e : list) {
     const AbaqusElement& element = content.elements[static_cast<std::size_t>(e)];
     for (int k = 0; k < element.type->nodes; ++k) {
       const auto it = content.node_of_label.find(AbaqusContent::label(
           element.scope, content.element_nodes[element.first + static_cast<std::size_t>(k)]));
-      if (it == content.node_of_label.end() || seen[static_cast<std::size_t>(it->second)] != 0) {
-        continue;
-      }
-      seen[static_cast<std::size_t>(it->second)] = 1;
+      if (it == content.node_of_label.end()) continue;
+      int& last = list_of_node_[static_cast<std::size_t>(it->second)];
+      if (last == node_list_) continue;
+      last = node_list_;
       result.push_back(it->second);
     }
   }
@@ -175,7 +237,7 @@ void build_abaqus_nodes(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
   const AbaqusPlacement& place = c.placement;
-  int free_number = 0;
+  int free_number = 0, renumbered = 0;
   for (const AbaqusNode& node : c.nodes) free_number = std::max(free_number, node.id);
   model.positions.reserve(c.nodes.size());
   model.node_ids.reserve(c.nodes.size());
@@ -193,13 +255,21 @@ void build_abaqus_nodes(AbaqusBuild& build) {
                                                 id));
       } else {
         id = ++free_number;
-        build.note(node.at, fmt::format("node {} of the assembly has the number of a node of the "
-                                        "part: it becomes node {}",
-                                        node.id, id));
+        if (++renumbered <= most_notes) {
+          build.note(node.at, fmt::format("node {} of the assembly has the number of a node of the "
+                                          "part: it becomes node {}",
+                                          node.id, id));
+        }
       }
     }
     model.node_ids.push_back(id);
     model.node_sources.push_back(node.at);
+  }
+  if (renumbered > most_notes) {
+    build.note({0, 0},
+               fmt::format("{} more nodes of the assembly have numbers of nodes of the part "
+                           "and become others",
+                           renumbered - most_notes));
   }
 }
 
@@ -209,6 +279,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   const std::size_t before = build.source.faults();
   const std::vector<int> section_of = assign(build, c.sections);
   const bool assigned = build.source.faults() == before;
+  look_at_beams(build, section_of, build.clues);
   std::vector<Properties> properties = section_properties(build);
   const bool mesh_only = c.sections.empty() && c.materials.empty();
   Properties given;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/formats/abaqus_dialect.hpp"
 #include "floatframe/formats/abaqus_lines.hpp"
 
 namespace floatframe {
@@ -94,6 +95,9 @@ struct AbaqusSection {
   std::string material;
   double thickness = 0.0;
   BeamSection beam;
+  std::string shape;           ///< of beams: "CIRC"
+  double round = 0.0;          ///< of CIRC with one number: that number, whose meaning is not told
+  bool calculix_form = false;  ///< fewer or more numbers than Abaqus takes
   Vec3 n1 = -Vec3::UnitZ();
   double mass = 0.0;  ///< of *MASS
   Mat3 J = Mat3::Zero();
@@ -154,6 +158,10 @@ struct AbaqusContent {
   std::vector<AbaqusEquation> equations;
   std::vector<AbaqusSupport> supports;
   std::vector<std::string> notes;
+  DeckDialect dialect = DeckDialect::by_content;  ///< as the user says
+  DialectClues clues;
+  /// Only nodes, sets and spiders are wanted: matrices hold what the rest would change.
+  bool only_nodes = false;
 
   // Where reading is.
   AbaqusScope scope = AbaqusScope::part;
@@ -192,9 +200,16 @@ void read_abaqus_elastic(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_density(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_solid_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_shell_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_beam_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_surface_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_mass(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_rotary_inertia(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+/// What all sections have; false if the section cannot be used.
+bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
+                          AbaqusType::Family family, AbaqusSection& section);
+/// The value; a fault at the last line if it is not positive.
+double positive_number(AbaqusLines& lines, double value, std::string_view what);
+// abaqus_beam_section.cpp
+void read_abaqus_beam_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_constraints.cpp
 void read_abaqus_rigid_body(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);

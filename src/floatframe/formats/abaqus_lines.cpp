@@ -10,6 +10,8 @@ namespace floatframe {
 namespace {
 
 constexpr int most_continuations = 100;
+// With its continuations; Abaqus reads 256 of a line.
+constexpr std::size_t longest_keyword_line = 65536;
 
 bool is_comment(std::string_view line) noexcept { return line.starts_with("**"); }
 
@@ -62,9 +64,9 @@ bool AbaqusLines::next_line(std::string_view& line) {
   while (source_.next(line)) {
     line = trimmed(line);
     if (line.empty() || is_comment(line)) continue;
-    if (line.front() != '*' || without_blanks(line.substr(1, line.find(',') - 1)) != "INCLUDE") {
-      return true;
-    }
+    if (line.front() != '*') return true;
+    const std::string_view name = line.substr(1, 40);
+    if (without_blanks(name.substr(0, name.find(','))) != "INCLUDE") return true;
     AbaqusKeyword keyword;
     parse_keyword(line, keyword);
     if (keyword.value("INPUT").empty()) {
@@ -78,6 +80,12 @@ bool AbaqusLines::next_line(std::string_view& line) {
 void AbaqusLines::parse_keyword(std::string_view line, AbaqusKeyword& keyword) {
   keyword = AbaqusKeyword{};
   keyword.at = source_.here();
+  const auto limit = [&](std::size_t length) {
+    if (length <= longest_keyword_line) return;
+    source_.stop(keyword.at, fmt::format("the keyword line {} has more than {} characters",
+                                         shown(line), longest_keyword_line));
+  };
+  limit(line.size());
   std::string whole(line);
   for (int k = 0; whole.back() == ',' && k < most_continuations; ++k) {
     std::string_view more;
@@ -88,6 +96,7 @@ void AbaqusLines::parse_keyword(std::string_view line, AbaqusKeyword& keyword) {
       source_.put_back();
       break;
     }
+    limit(whole.size() + more.size());
     whole += more;
   }
   const std::vector<std::string_view> parts = split_outside_quotes(whole);

@@ -208,6 +208,7 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                      did_you_mean(type_name, abaqus_type_names())));
     return lines.skip_data();
   }
+  content.clues.look_at_type(type->name, keyword.at);
   AbaqusSet* const set = set_of_parameter(content.element_sets, keyword, "ELSET", content);
   lines.take_input(keyword);
   std::vector<std::string_view> fields;

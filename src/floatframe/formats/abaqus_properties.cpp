@@ -39,9 +39,10 @@ bool one_line(AbaqusLines& lines, const AbaqusKeyword& keyword,
   return true;
 }
 
-/// The part that all sections have; false if the section cannot be used.
-bool begin_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
-                   Family family, AbaqusSection& section) {
+}  // namespace
+
+bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
+                          Family family, AbaqusSection& section) {
   const std::size_t before = lines.source().faults();
   section.family = family;
   section.shown = keyword.shown;
@@ -61,46 +62,11 @@ bool begin_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusConte
   return false;
 }
 
-double positive(AbaqusLines& lines, double value, std::string_view what) {
+double positive_number(AbaqusLines& lines, double value, std::string_view what) {
   if (!(value > 0.0))
     lines.source().fault(fmt::format("{} is {:g}, expected more than 0", what, value));
   return value;
 }
-
-BeamSection pipe(AbaqusLines& lines, double radius, double wall) {
-  positive(lines, radius, "outer radius");
-  positive(lines, wall, "thickness of the wall");
-  if (wall > radius) {
-    lines.source().fault(
-        fmt::format("the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall, radius));
-  }
-  return BeamSection::hollow_round(2.0 * radius, 2.0 * (radius - wall));
-}
-
-/// Closed thin-walled box, a along direction 1, b along direction 2; the torsion constant is that
-/// of Bredt, 4 A_m^2 / (closed integral of ds / t).
-BeamSection box(AbaqusLines& lines, double a, double b, const std::array<double, 4>& t) {
-  positive(lines, a, "width of the box");
-  positive(lines, b, "height of the box");
-  for (const double wall : t) positive(lines, wall, "thickness of a wall of the box");
-  if (t[0] != t[2] || t[1] != t[3]) {
-    lines.source().fault(
-        "opposite walls of the box differ, so that its centroid is not at the "
-        "node, which is not supported");
-  }
-  const double inner_a = a - t[0] - t[2], inner_b = b - t[1] - t[3];
-  if (inner_a < 0.0 || inner_b < 0.0) lines.source().fault("the walls of the box overlap");
-  BeamSection s;
-  s.A = a * b - inner_a * inner_b;
-  s.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
-  s.Iz = (b * a * a * a - inner_b * inner_a * inner_a * inner_a) / 12.0;
-  const double mid_a = a - 0.5 * (t[0] + t[2]), mid_b = b - 0.5 * (t[1] + t[3]);
-  s.J = 4.0 * mid_a * mid_a * mid_b * mid_b /
-        (mid_a / t[1] + mid_a / t[3] + mid_b / t[0] + mid_b / t[2]);
-  return s;
-}
-
-}  // namespace
 
 void read_abaqus_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
                           AbaqusContent& content) {
@@ -130,6 +96,10 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   std::vector<std::string_view> fields;
   const std::size_t before = lines.source().faults();
   if (!one_line(lines, keyword, fields) || material == nullptr) return;
+  if (material->young) {
+    lines.fault(keyword, "is given a second time for its material");
+    return;
+  }
   material->young = lines.real(fields[0], "Young's modulus");
   material->poisson = lines.real_or(fields, 1, 0.0, "Poisson's ratio");
   if (lines.source().faults() != before) return;
@@ -146,9 +116,14 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
 }
 
 void read_abaqus_density(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  lines.allow_only(keyword, {"DEPENDENCIES"});
   AbaqusMaterial* const material = present_material(lines, keyword, content);
   std::vector<std::string_view> fields;
   if (!one_line(lines, keyword, fields) || material == nullptr) return;
+  if (material->density) {
+    lines.fault(keyword, "is given a second time for its material");
+    return;
+  }
   material->density = lines.real(fields[0], "density");
   if (!(*material->density >= 0.0)) {
     lines.fault(keyword, fmt::format("is {:g}, expected no negative density", *material->density));
@@ -159,7 +134,7 @@ void read_abaqus_solid_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                AbaqusContent& content) {
   AbaqusSection section;
   lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"});
-  if (!begin_section(lines, keyword, content, Family::solid, section)) return;
+  if (!begin_abaqus_section(lines, keyword, content, Family::solid, section)) return;
   content.sections.push_back(section);
   lines.skip_data();
 }
@@ -173,64 +148,36 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (!offset.empty() && parse_real(offset).value_or(1.0) != 0.0) {
     lines.fault(keyword, fmt::format("has the offset {}, which is not supported", shown(offset)));
   }
-  if (!begin_section(lines, keyword, content, Family::shell, section)) return;
+  if (!begin_abaqus_section(lines, keyword, content, Family::shell, section)) return;
   std::vector<std::string_view> fields;
   if (!lines.next_fields(fields)) return lines.fault(keyword, "has no thickness");
   section.thickness = lines.real(fields[0], "thickness of the shell");
-  positive(lines, section.thickness, "thickness of the shell");
+  positive_number(lines, section.thickness, "thickness of the shell");
+  std::string_view more;
+  if (lines.next_data(more)) {
+    lines.source().fault("*SHELL SECTION has a second line, which is not supported");
+    lines.skip_data();
+  }
   content.sections.push_back(section);
 }
 
-void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                              AbaqusContent& content) {
-  AbaqusSection section;
-  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "SECTION", "OFFSET1", "OFFSET2",
-                             "TEMPERATURE", "POISSON"});
-  for (const char* offset : {"OFFSET1", "OFFSET2"}) {
-    if (keyword.has(offset) && parse_real(keyword.value(offset)).value_or(1.0) != 0.0) {
-      lines.fault(keyword, fmt::format("has an offset ({}), which is not supported", offset));
-    }
-  }
-  const std::string shape = abaqus_name(lines.required(keyword, "SECTION"));
-  const std::size_t count = shape == "RECT" || shape == "PIPE" ? 2
-                            : shape == "CIRC"                  ? 1
-                            : shape == "BOX"                   ? 6
-                                                               : 0;
-  if (count == 0 && !shape.empty()) {
-    lines.fault(keyword,
-                fmt::format("has the section {}, expected RECT, CIRC, PIPE or BOX", shown(shape)));
-  }
-  if (!begin_section(lines, keyword, content, Family::beam, section) || count == 0) {
-    return lines.skip_data();
-  }
-  std::vector<std::string_view> fields;
-  if (!lines.next_fields(fields) || fields.size() < count) {
-    return lines.fault(keyword, fmt::format("has {} dimensions, expected {}",
-                                            fields.empty() ? 0 : fields.size(), count));
-  }
-  std::array<double, 6> d{};
-  for (std::size_t k = 0; k < count; ++k) {
-    d[k] = lines.real(fields[k], fmt::format("dimension {} of the section", k + 1));
-  }
-  if (shape == "RECT") {
-    section.beam = BeamSection::rectangle(positive(lines, d[0], "width of the section"),
-                                          positive(lines, d[1], "height of the section"));
-  } else if (shape == "CIRC") {
-    section.beam = BeamSection::solid_round(2.0 * positive(lines, d[0], "radius of the section"));
-  } else if (shape == "PIPE") {
-    section.beam = pipe(lines, d[0], d[1]);
+/// Surface elements carry mass only if the section gives them some.
+void read_abaqus_surface_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                 AbaqusContent& content) {
+  const std::string_view density = keyword.value("DENSITY");
+  if (keyword.has("DENSITY") && parse_real(density).value_or(1.0) != 0.0) {
+    lines.fault(keyword, fmt::format("has the density {}: the mass of surface elements is not "
+                                     "read, use *MASS or shells",
+                                     shown(density)));
   } else {
-    section.beam = box(lines, d[0], d[1], {d[2], d[3], d[4], d[5]});
+    const SourceMark mark = lines.source().mark(keyword.at);
+    const std::string elements = abaqus_name(keyword.value("ELSET"));
+    content.notes.push_back(
+        fmt::format("{}:{}: *SURFACE SECTION of {} is passed over: it has no "
+                    "mass",
+                    mark.file, mark.line, shown(elements)));
   }
-  if (lines.next_fields(fields)) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      section.n1[static_cast<Eigen::Index>(k)] =
-          lines.real_or(fields, k, 0.0, "direction 1 of the section");
-    }
-    if (!(section.n1.stableNorm() > 0.0))
-      lines.source().fault("direction 1 of the section is zero");
-  }
-  content.sections.push_back(section);
+  lines.skip_data();
 }
 
 void read_abaqus_mass(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
@@ -240,7 +187,7 @@ void read_abaqus_mass(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCo
   if (!type.empty() && !same_word(type, "ISOTROPIC")) {
     lines.fault(keyword, fmt::format("has the type {}, expected ISOTROPIC", shown(type)));
   }
-  if (!begin_section(lines, keyword, content, Family::mass, section)) return;
+  if (!begin_abaqus_section(lines, keyword, content, Family::mass, section)) return;
   std::vector<std::string_view> fields;
   if (!one_line(lines, keyword, fields)) return;
   section.mass = lines.real(fields[0], "mass");
@@ -253,7 +200,7 @@ void read_abaqus_rotary_inertia(AbaqusLines& lines, const AbaqusKeyword& keyword
                                 AbaqusContent& content) {
   AbaqusSection section;
   lines.allow_only(keyword, {"ELSET", "ORIENTATION", "ALPHA", "COMPOSITE"});
-  if (!begin_section(lines, keyword, content, Family::rotary, section)) return;
+  if (!begin_abaqus_section(lines, keyword, content, Family::rotary, section)) return;
   std::vector<std::string_view> fields;
   if (!one_line(lines, keyword, fields)) return;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -11,8 +11,10 @@ namespace floatframe {
 namespace {
 
 constexpr int deepest_set = 200;
-// Sets of sets of sets can name the same nodes again and again.
-constexpr std::uint64_t most_work = 500'000'000;
+// Members that are named in all: these, and so many times the nodes or elements of the deck.
+constexpr std::uint64_t work_of_any_deck = 10'000'000, work_of_a_member = 100;
+// A long list of names costs more than the suggestion is worth.
+constexpr std::size_t most_suggestions = 10'000;
 
 }  // namespace
 
@@ -22,7 +24,8 @@ AbaqusResolver::AbaqusResolver(const AbaqusContent& content, TextSource& source,
       sets_(of == Of::nodes ? content.node_sets : content.element_sets),
       index_of_label_(of == Of::nodes ? content.node_of_label : content.element_of_label),
       word_(of == Of::nodes ? "node" : "element"),
-      count_(of == Of::nodes ? content.nodes.size() : content.elements.size()) {
+      list_of_(of == Of::nodes ? content.nodes.size() : content.elements.size(), 0),
+      most_work_(work_of_any_deck + work_of_a_member * list_of_.size()) {
   ascending_.reserve(index_of_label_.size());
   for (const auto& [label, index] : index_of_label_) ascending_.push_back(label);
   std::sort(ascending_.begin(), ascending_.end());
@@ -38,7 +41,7 @@ const AbaqusContent::Key* AbaqusResolver::find_set(const AbaqusReference& refere
 
 void AbaqusResolver::missing(const AbaqusReference& reference) {
   std::string help;
-  if (reference.name >= 0) {
+  if (reference.name >= 0 && sets_.size() <= most_suggestions) {
     std::vector<std::string> known;
     for (const auto& [key, set] : sets_) {
       known.push_back(content_.names[static_cast<std::size_t>(key.second)]);
@@ -49,25 +52,34 @@ void AbaqusResolver::missing(const AbaqusReference& reference) {
                 fmt::format("{} is not there{}", content_.text(reference, word_), help));
 }
 
-void AbaqusResolver::add(int index, std::vector<int>& list, std::vector<char>& seen) const {
-  char& flag = seen[static_cast<std::size_t>(index)];
-  if (flag != 0) return;
-  flag = 1;
+void AbaqusResolver::spend(std::uint64_t count, const FeSource& at) {
+  work_ += count;
+  if (work_ <= most_work_) return;
+  source_.stop(at, fmt::format("the sets of {0}s, and what names them, have more than {1} members "
+                               "in all, too many for a deck of {2} {0}s",
+                               word_, most_work_, list_of_.size()));
+}
+
+void AbaqusResolver::add(int index, std::vector<int>& list) {
+  int& last = list_of_[static_cast<std::size_t>(index)];
+  if (last == list_) return;
+  last = list_;
   list.push_back(index);
 }
 
-void AbaqusResolver::append_range(const AbaqusReference& item, std::vector<int>& list,
-                                  std::vector<char>& seen) {
+void AbaqusResolver::append_range(const AbaqusReference& item, std::vector<int>& list) {
   const std::int64_t first = AbaqusContent::label(item.scope, item.first),
                      last = AbaqusContent::label(item.scope, item.last);
   auto it = std::lower_bound(ascending_.begin(), ascending_.end(), first);
   long found = 0;
+  std::uint64_t looked_at = 0;
   for (; it != ascending_.end() && *it <= last; ++it) {
-    ++work_;
+    ++looked_at;
     if ((*it - first) % item.step != 0) continue;
     ++found;
-    add(index_of_label_.at(*it), list, seen);
+    add(index_of_label_.at(*it), list);
   }
+  spend(looked_at, item.at);
   const long wanted = static_cast<long>((last - first) / item.step) + 1;
   if (found == 0) {
     source_.fault(item.at,
@@ -78,26 +90,18 @@ void AbaqusResolver::append_range(const AbaqusReference& item, std::vector<int>&
   }
 }
 
-void AbaqusResolver::append(const AbaqusReference& item, std::vector<int>& list,
-                            std::vector<char>& seen) {
-  if (++work_ > most_work) source_.stop(item.at, "the sets of sets have too many members");
-  if (item.name < 0 && item.first != item.last) return append_range(item, list, seen);
+void AbaqusResolver::append(const AbaqusReference& item, std::vector<int>& list) {
+  if (item.name < 0 && item.first != item.last) return append_range(item, list);
   if (item.name < 0) {
     const auto it = index_of_label_.find(AbaqusContent::label(item.scope, item.first));
     if (it == index_of_label_.end()) return missing(item);
-    return add(it->second, list, seen);
+    return add(it->second, list);
   }
   const AbaqusContent::Key* const key = find_set(item);
   if (key == nullptr) return missing(item);
-  Members& set = members_[*key];
-  if (set.state == State::busy) {
-    source_.stop(item.at,
-                 fmt::format("{} set {} contains itself", word_,
-                             shown(content_.names[static_cast<std::size_t>(key->second)])));
-  }
-  const std::vector<int>& inner = members(*key, depth_);
-  work_ += inner.size();
-  for (const int index : inner) add(index, list, seen);
+  const std::vector<int>& inner = members_[*key].list;
+  spend(inner.size(), item.at);
+  for (const int index : inner) add(index, list);
 }
 
 const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key) {
@@ -113,15 +117,27 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
   }
   result.state = State::busy;
   const std::size_t before = source_.faults();
-  std::vector<char> seen(count_, 0);
+  // A set that is opened again may name itself.
+  const auto itself = [&](const AbaqusReference& item) {
+    return item.name == key.second && item.scope == key.first;
+  };
+  // The sets in it come first: then one mark a member is enough for all lists.
+  for (const AbaqusReference& item : set.items) {
+    const AbaqusContent::Key* const inner =
+        item.name < 0 || itself(item) ? nullptr : find_set(item);
+    if (inner == nullptr) continue;
+    if (members_[*inner].state == State::busy) {
+      source_.stop(item.at,
+                   fmt::format("{} set {} contains itself", word_,
+                               shown(content_.names[static_cast<std::size_t>(inner->second)])));
+    }
+    members(*inner, depth + 1);
+  }
+  ++list_;
   std::vector<int> list;
   for (const AbaqusReference& item : set.items) {
-    // A set that is opened again may name itself.
-    if (item.name == key.second && item.scope == key.first) continue;
-    depth_ = depth + 1;
-    append(item, list, seen);
+    if (!itself(item)) append(item, list);
   }
-  depth_ = depth;
   if (list.empty() && source_.faults() == before) {
     source_.fault(set.at, fmt::format("{} set {} is empty", word_,
                                       shown(content_.names[static_cast<std::size_t>(key.second)])));
@@ -134,7 +150,11 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
 std::vector<int> AbaqusResolver::resolve(const AbaqusReference& reference) {
   if (reference.name >= 0) {
     const AbaqusContent::Key* const key = find_set(reference);
-    if (key != nullptr) return members(*key);
+    if (key != nullptr) {
+      const std::vector<int>& list = members(*key);
+      spend(list.size(), reference.at);
+      return list;
+    }
     missing(reference);
     return {};
   }

@@ -16,6 +16,8 @@
 namespace floatframe {
 namespace {
 
+constexpr std::size_t most_notes = 500;
+
 /// A reader is one file of this folder and one entry here.
 const std::vector<FeFormat>& formats() {
   static const std::vector<FeFormat> list{
@@ -104,10 +106,40 @@ const FeFormat& recognised(const std::filesystem::path& file) {
 
 std::span<const FeFormat> fe_formats() { return formats(); }
 
+std::optional<DeckDialect> deck_dialect(std::string_view word) {
+  if (word == "abaqus") return DeckDialect::abaqus;
+  if (word == "calculix") return DeckDialect::calculix;
+  return std::nullopt;
+}
+
+const char* word(DeckDialect dialect) noexcept {
+  switch (dialect) {
+    case DeckDialect::abaqus:
+      return "abaqus";
+    case DeckDialect::calculix:
+      return "calculix";
+    case DeckDialect::by_content:
+      break;
+  }
+  return "";
+}
+
 FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& options,
                      const std::string& format) {
   const FeFormat& chosen = format.empty() ? recognised(file) : by_name(file, format);
-  return chosen.read(file, options);
+  if (options.dialect != DeckDialect::by_content && std::string_view(chosen.name) != "abaqus") {
+    throw InputError({file.string()},
+                     fmt::format("the dialect '{}' is given, but the file is no deck of Abaqus or "
+                                 "CalculiX: it is read as '{}'",
+                                 word(options.dialect), chosen.name));
+  }
+  FeModel model = chosen.read(file, options);
+  if (model.notes.size() > most_notes) {
+    const std::size_t more = model.notes.size() - most_notes;
+    model.notes.resize(most_notes);
+    model.notes.push_back(fmt::format("and {} more notes", more));
+  }
+  return model;
 }
 
 }  // namespace floatframe

@@ -14,6 +14,13 @@
 
 namespace floatframe {
 
+/// Whose deck a `.inp` file is, where the two programs read the same words differently.
+enum class DeckDialect {
+  by_content,  ///< told by what only one of them has; a fault where it cannot be told and matters
+  abaqus,
+  calculix
+};
+
 struct FeReadOptions {
   /// Formats without material (Gmsh): the material of all elements, in the units of the file.
   std::optional<Material> material;
@@ -21,7 +28,12 @@ struct FeReadOptions {
   std::filesystem::path nodes;
   /// Matrix formats: the mass matrix and the dof map, if they cannot be found beside the stiffness.
   std::filesystem::path mass, dofs;
+  DeckDialect dialect = DeckDialect::by_content;
 };
+
+/// By its word on the command line and in model files: "abaqus", "calculix".
+std::optional<DeckDialect> deck_dialect(std::string_view word);
+const char* word(DeckDialect dialect) noexcept;
 
 struct FeFormat {
   const char* name;                  ///< "abaqus"

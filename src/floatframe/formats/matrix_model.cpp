@@ -42,16 +42,18 @@ void each_row(TextSource& source, Use use) {
 
 /// Elements stand for nothing beside matrices: their sets become node sets.
 void keep_nodes(FeModel& model) {
+  std::vector<int> list_of(model.positions.size(), 0);  // the last list that got the node
+  int list = 0;
   for (const auto& [name, elements] : model.element_sets) {
     std::vector<int> nodes;
-    std::vector<char> seen(model.positions.size(), 0);
+    ++list;
     for (const int e : elements) {
       const Element& element = model.elements[static_cast<std::size_t>(e)];
       for (int k = 0; k < element_nodes(element.type); ++k) {
         const int node = element.nodes[static_cast<std::size_t>(k)];
-        char& known = seen[static_cast<std::size_t>(node)];
-        if (known == 0) nodes.push_back(node);
-        known = 1;
+        int& last = list_of[static_cast<std::size_t>(node)];
+        if (last != list) nodes.push_back(node);
+        last = list;
       }
     }
     model.node_sets.emplace(name, std::move(nodes));

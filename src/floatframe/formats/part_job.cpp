@@ -130,6 +130,7 @@ Options option_list(const PartJob& job) {
     out.emplace_back(name, value);
   };
   if (!job.format.empty()) add("format", job.format);
+  if (job.read.dialect != DeckDialect::by_content) add("dialect", word(job.read.dialect));
   if (job.read.material)
     add("material", fmt::format("{},{},{}", job.read.material->young, job.read.material->poisson,
                                 job.read.material->density));

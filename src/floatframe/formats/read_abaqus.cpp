@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <set>
+#include <unordered_map>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/abaqus_build.hpp"
 #include "floatframe/formats/abaqus_content.hpp"
+#include "floatframe/formats/abaqus_keywords.hpp"
 #include "floatframe/formats/text_fields.hpp"
 
 namespace floatframe {
@@ -41,6 +42,7 @@ constexpr std::array handlers{
     Known{"SOLID SECTION", read_abaqus_solid_section},
     Known{"SHELL SECTION", read_abaqus_shell_section},
     Known{"BEAM SECTION", read_abaqus_beam_section},
+    Known{"SURFACE SECTION", read_abaqus_surface_section},
     Known{"MASS", read_abaqus_mass},
     Known{"ROTARY INERTIA", read_abaqus_rotary_inertia},
     Known{"RIGID BODY", read_abaqus_rigid_body},
@@ -51,119 +53,9 @@ constexpr std::array handlers{
     Known{"BOUNDARY", read_abaqus_boundary},
 };
 
-/// Keywords that change stiffness, mass or the mesh, with what to do instead.
-struct Refused {
-  const char* name;
-  const char* advice;
-};
-
-constexpr const char* mesh_advice = "write the deck with all nodes and elements";
-constexpr const char* spring_advice =
-    "put springs, dampers and connectors into the multibody model";
-constexpr const char* contact_advice = "contact has no place in a linear part";
-constexpr const char* axes_advice = "write the deck in global directions";
-constexpr const char* material_advice = "only isotropic linear elasticity is read";
-constexpr const char* tie_advice = "join the nodes in the mesher or use *RIGID BODY or *COUPLING";
-
-constexpr std::array refused{
-    Refused{"TIE", tie_advice},
-    Refused{"MPC", "use *RIGID BODY, *COUPLING or *EQUATION"},
-    Refused{"EMBEDDEDELEMENT", tie_advice},
-    Refused{"SHELLTOSOLIDCOUPLING", tie_advice},
-    Refused{"FASTENER", tie_advice},
-    Refused{"SPRING", spring_advice},
-    Refused{"DASHPOT", spring_advice},
-    Refused{"JOINT", spring_advice},
-    Refused{"CONNECTORSECTION", spring_advice},
-    Refused{"CONNECTORBEHAVIOR", spring_advice},
-    Refused{"GAP", spring_advice},
-    Refused{"BUSHING", spring_advice},
-    Refused{"CONTACT", contact_advice},
-    Refused{"CONTACTPAIR", contact_advice},
-    Refused{"CLEARANCE", contact_advice},
-    Refused{"PRETENSIONSECTION", contact_advice},
-    Refused{"ORIENTATION", axes_advice},
-    Refused{"TRANSFORM", axes_advice},
-    Refused{"SYSTEM", axes_advice},
-    Refused{"NORMAL", axes_advice},
-    Refused{"NGEN", mesh_advice},
-    Refused{"NFILL", mesh_advice},
-    Refused{"NCOPY", mesh_advice},
-    Refused{"NMAP", mesh_advice},
-    Refused{"ELGEN", mesh_advice},
-    Refused{"ELCOPY", mesh_advice},
-    Refused{"SYMMETRICMODELGENERATION", mesh_advice},
-    Refused{"IMPERFECTION", mesh_advice},
-    Refused{"PARAMETER", "write the deck with numbers"},
-    Refused{"IMPORT", mesh_advice},
-    Refused{"MODELCHANGE", mesh_advice},
-    Refused{"HYPERELASTIC", material_advice},
-    Refused{"HYPERFOAM", material_advice},
-    Refused{"USERMATERIAL", material_advice},
-    Refused{"VISCOELASTIC", material_advice},
-    Refused{"LAMINATE", material_advice},
-    Refused{"NODALTHICKNESS", "give the thickness in *SHELL SECTION"},
-    Refused{"SHELLGENERALSECTION", "use *SHELL SECTION"},
-    Refused{"BEAMGENERALSECTION", "use *BEAM SECTION"},
-    Refused{"MEMBRANESECTION", "use *SHELL SECTION"},
-    Refused{"FRAMESECTION", "use *BEAM SECTION"},
-    Refused{"COHESIVESECTION", tie_advice},
-    Refused{"GASKETSECTION", tie_advice},
-    Refused{"NONSTRUCTURALMASS", "use *MASS"},
-    Refused{"BEAMADDEDINERTIA", "use *MASS and *ROTARY INERTIA"},
-    Refused{"MASSADJUST", "use *MASS"},
-    Refused{"MATRIXINPUT", "give the matrix files instead of the deck"},
-    Refused{"MATRIXASSEMBLE", "give the matrix files instead of the deck"},
-    Refused{"USERELEMENT", "give the matrices of the part as files"},
-    Refused{"UELPROPERTY", "give the matrices of the part as files"},
-    Refused{"SUBSTRUCTUREPROPERTY", "give the matrices of the part as files"},
-    Refused{"CYCLICSYMMETRYMODEL", mesh_advice},
-    Refused{"PINNEDREBAR", mesh_advice},
-    Refused{"REBARLAYER", "use elements of their own"},
-    Refused{"RELEASE", spring_advice},
-    Refused{"KINEMATIC", "it belongs behind *COUPLING"},
-    Refused{"DISTRIBUTING", "it belongs behind *COUPLING"},
-};
-
-/// Known to change neither stiffness nor mass of a linear part.
-constexpr std::array harmless{
-    "AMPLITUDE",
-    "PREPRINT",
-    "RESTART",
-    "EXPANSION",
-    "CONDUCTIVITY",
-    "SPECIFICHEAT",
-    "PLASTIC",
-    "CYCLICHARDENING",
-    "CREEP",
-    "DAMPING",
-    "INITIALCONDITIONS",
-    "TIMEPOINTS",
-    "FILTER",
-    "PHYSICALCONSTANTS",
-    "SURFACEINTERACTION",
-    "SURFACEBEHAVIOR",
-    "FRICTION",
-    "SECTIONCONTROLS",
-    "DEPVAR",
-    "CONTACTINITIALIZATIONDATA",
-    "VALUESATINFINITY",
-    "TRANSVERSESHEARSTIFFNESS",
-    "DAMAGEINITIATION",
-    "DAMAGEEVOLUTION",
-    "USERDEFINEDFIELD",
-    "DISTRIBUTION",
-    "DISTRIBUTIONTABLE",
-};
-
-template <typename List>
-auto find_named(const List& list, const std::string& name) {
-  return std::find_if(list.begin(), list.end(),
-                      [&](const auto& k) { return name == abaqus_name(k.name); });
-}
-
 /// A keyword that is one or two letters away from one that is read.
 std::string nearly(const std::string& name) {
+  if (name.size() > 40) return {};
   for (const Known& k : handlers) {
     const std::string known = abaqus_name(k.name);
     const std::size_t letters = known.size();
@@ -172,50 +64,101 @@ std::string nearly(const std::string& name) {
   return {};
 }
 
-/// *STEP to *END STEP: loads and results.
-void skip_step(AbaqusLines& lines) {
-  AbaqusKeyword keyword;
-  while (lines.next_keyword(keyword) && keyword.name != "ENDSTEP") {
-  }
+AbaqusHandler handler_of(const std::string& name) {
+  static const std::unordered_map<std::string, AbaqusHandler> map = [] {
+    std::unordered_map<std::string, AbaqusHandler> all;
+    for (const Known& k : handlers) all.emplace(abaqus_name(k.name), k.read);
+    return all;
+  }();
+  const auto it = map.find(name);
+  return it == map.end() ? nullptr : it->second;
 }
 
-void read_content(AbaqusLines& lines, AbaqusContent& content) {
-  std::set<std::string> noted;
-  const auto note = [&](const AbaqusKeyword& keyword, std::string_view text) {
-    if (!noted.insert(keyword.name).second) return;
-    const SourceMark m = lines.source().mark(keyword.at);
-    content.notes.push_back(fmt::format("{}:{}: {} {}", m.file, m.line, keyword.shown, text));
-  };
-  std::string_view first;
-  if (lines.next_data(first)) {
-    lines.source().stop(
-        lines.source().here(),
-        fmt::format("the deck begins with {}, expected a keyword line (*...)", shown(first)));
+/// The keywords of a deck in turn.
+class DeckReader {
+ public:
+  DeckReader(AbaqusLines& lines, AbaqusContent& content) : lines_(lines), content_(content) {}
+
+  void read() {
+    std::string_view first;
+    if (lines_.next_data(first)) {
+      lines_.source().stop(
+          lines_.source().here(),
+          fmt::format("the deck begins with {}, expected a keyword line (*...)", shown(first)));
+    }
+    AbaqusKeyword keyword;
+    while (lines_.next_keyword(keyword)) one(keyword);
   }
-  AbaqusKeyword keyword;
-  while (lines.next_keyword(keyword)) {
-    if (const auto it = find_named(handlers, keyword.name); it != handlers.end()) {
-      it->read(lines, keyword, content);
-    } else if (const auto bad = find_named(refused, keyword.name); bad != refused.end()) {
-      lines.fault(keyword, fmt::format("is not supported: {}", bad->advice));
-      lines.skip_data();
-    } else if (keyword.name == "STEP") {
+
+ private:
+  void one(const AbaqusKeyword& keyword) {
+    content_.clues.look_at(keyword);
+    if (const AbaqusHandler handler = handler_of(keyword.name); handler != nullptr) {
+      return handler(lines_, keyword, content_);
+    }
+    if (keyword.name == "STEP") {
       note(keyword, "and what follows up to *END STEP is passed over");
-      skip_step(lines);
-    } else if (std::find(harmless.begin(), harmless.end(), keyword.name) != harmless.end()) {
+      return step(keyword);
+    }
+    using Use = AbaqusKeywordRule::Use;
+    const AbaqusKeywordRule rule = abaqus_keyword_rule(keyword.name);
+    if (rule.use == Use::harmless) {
       note(keyword, "is passed over");
-      lines.skip_data();
+    } else if (rule.use == Use::refused) {
+      fault(keyword, fmt::format("is not supported: {}", rule.advice));
     } else {
-      const std::string near = nearly(keyword.name);
-      if (!near.empty()) {
-        lines.fault(keyword, fmt::format("is not known, did you mean '*{}'?", near));
-      } else {
-        note(keyword, "is not known and is passed over");
-      }
-      lines.skip_data();
+      unknown(keyword);
+    }
+    lines_.skip_data();
+  }
+
+  /// *STEP to *END STEP: loads and results.
+  void step(const AbaqusKeyword& begin) {
+    AbaqusKeyword keyword;
+    while (lines_.next_keyword(keyword) && keyword.name != "ENDSTEP") {
+      content_.clues.look_at(keyword);
+      // Elements that go change the part; contact pairs and equations that go do not.
+      const bool removes = keyword.name == "MODELCHANGE" &&
+                           abaqus_name(keyword.value("TYPE")) != "CONTACTPAIR" &&
+                           !keyword.has("ACTIVATE");
+      const bool changes =
+          changes_part_in_step(keyword.name) && !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
+      if (content_.only_nodes || (!removes && !changes)) continue;
+      fault(keyword, fmt::format("stands in the *STEP of line {}, but the part must be complete "
+                                 "before the first step",
+                                 begin.at.line));
     }
   }
-}
+
+  /// Each keyword once: there may be millions of them.
+  void fault(const AbaqusKeyword& keyword, const std::string& text) {
+    if (faults_.insert(keyword.name).second) lines_.fault(keyword, text);
+  }
+
+  void unknown(const AbaqusKeyword& keyword) {
+    const std::string near = nearly(keyword.name);
+    if (!near.empty()) {
+      fault(keyword, fmt::format("is not known, did you mean '*{}'?", near));
+    } else if (content_.only_nodes) {
+      if (noted_.size() < most_notes) note(keyword, "is not known and is passed over");
+    } else {
+      fault(keyword,
+            "is not known and may change stiffness, mass or constraints: take it out of the deck "
+            "if it does not");
+    }
+  }
+
+  void note(const AbaqusKeyword& keyword, std::string_view text) {
+    if (!noted_.insert(keyword.name).second) return;
+    const SourceMark m = lines_.source().mark(keyword.at);
+    content_.notes.push_back(fmt::format("{}:{}: {} {}", m.file, m.line, keyword.shown, text));
+  }
+
+  static constexpr std::size_t most_notes = 500;  // the harmless ones are fewer
+  AbaqusLines& lines_;
+  AbaqusContent& content_;
+  std::set<std::string> noted_, faults_;
+};
 
 }  // namespace
 
@@ -235,13 +178,15 @@ bool looks_like_abaqus(std::string_view beginning) {
 
 FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart part) {
   AbaqusContent content;
+  content.dialect = options.dialect;
+  content.only_nodes = part == DeckPart::nodes;
   AbaqusLines lines(source);
-  read_content(lines, content);
+  DeckReader(lines, content).read();
   if (content.nodes.empty() && source.faults() == 0) {
     source.fault({0, 0}, "the deck has no nodes");
   }
   source.throw_if_any();
-  const bool only_nodes = part == DeckPart::nodes;
+  const bool only_nodes = content.only_nodes;
   AbaqusBuild build(content, source);
   build.element_index.assign(content.elements.size(), -1);
   build.model.notes = content.notes;

@@ -209,7 +209,23 @@ class GmshModel {
     return it->second;
   }
 
+  /// A few bytes can put all elements into many groups.
+  void limit_members() {
+    const std::size_t most = 10'000'000 + 100 * (mesh_.nodes.size() + mesh_.elements.size());
+    std::size_t named = 0;
+    for (const GmshElement& e : mesh_.elements) {
+      named += mesh_.group_lists[static_cast<std::size_t>(e.groups)].size() *
+               (e.type->dimension < 3 ? static_cast<std::size_t>(e.type->nodes) : 1);
+      if (named <= most) continue;
+      fault(e.at, fmt::format("the physical groups have more than {} members in all, too many for "
+                              "a mesh of {} nodes and {} elements",
+                              most, mesh_.nodes.size(), mesh_.elements.size()));
+      throw InputError(std::move(faults_));
+    }
+  }
+
   void sets() {
+    limit_members();
     std::map<std::string, std::set<int>> members;  // of the node sets
     std::map<std::string, int> dimension_of;       // of the first group of a name
     std::set<std::pair<int, int>> used;

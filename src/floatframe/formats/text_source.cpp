@@ -15,6 +15,7 @@ namespace floatframe {
 namespace {
 
 constexpr std::size_t deepest_include = 32;
+constexpr std::size_t most_includes = 10000;  // a file that includes another ten times, and so on
 constexpr std::uint64_t compression_matters_from = std::uint64_t{64} << 20;
 
 bool is_gzip(std::string_view bytes) noexcept {
@@ -189,7 +190,7 @@ bool TextSource::next(std::string_view& line) {
     line_ = std::string_view(top.at, static_cast<std::size_t>(stop - top.at));
     if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
     top.at = found != nullptr ? stop + 1 : end;
-    ++top.line;
+    if (top.line < std::numeric_limits<int>::max()) ++top.line;
     before_ = here_;
     here_ = {top.file, top.line};
     line = line_;
@@ -241,14 +242,19 @@ void TextSource::include(std::string_view path, const FeSource& at) {
     }
     stop(at, "circular include: " + chain + names_[static_cast<std::size_t>(stack_[k].file)]);
   }
+  if (++includes_ > most_includes) {
+    stop(at, fmt::format("the files include each other more than {} times", most_includes));
+  }
   if (stack_.size() >= deepest_include) {
     stop(at, fmt::format("includes are nested deeper than {}: {} -> ... -> {} -> {}",
                          deepest_include, names_.front(),
                          names_[static_cast<std::size_t>(stack_.back().file)], file.string()));
   }
-  const auto known = std::find(keys_.begin(), keys_.end(), key);
-  int index = static_cast<int>(known - keys_.begin());
-  if (known == keys_.end()) {
+  const auto known = index_of_key_.find(key);
+  int index = 0;
+  if (known != index_of_key_.end()) {
+    index = known->second;
+  } else {
     try {
       index = add_file(file.string(), loader_(file));
     } catch (const InputError& e) {
@@ -256,6 +262,7 @@ void TextSource::include(std::string_view path, const FeSource& at) {
                            e.faults().front().message));
     }
     keys_.back() = key;
+    index_of_key_.emplace(key, index);
   }
   open(index);
   // A file that includes another twice, which includes another twice, ...

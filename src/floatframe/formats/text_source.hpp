@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -60,7 +61,8 @@ class TextSource {
 
   /// Goes on with the first line of another file and comes back after its last. The path (quotes
   /// are removed, backslashes become slashes) is looked for beside the including file, then beside
-  /// the first file, also with `.gz`. Faults (missing, circular, too deep) are thrown at once.
+  /// the first file, also with `.gz`. Faults (missing, circular, too deep, too many) are thrown at
+  /// once.
   void include(std::string_view path, const FeSource& at);
 
   SourceMark mark(const FeSource& source) const;
@@ -88,9 +90,11 @@ class TextSource {
   FileLoader loader_;
   std::vector<std::string> names_;
   std::vector<std::unique_ptr<const std::string>> texts_;
-  std::vector<std::string> keys_;  // canonical paths, to find a file again
+  std::vector<std::string> keys_;                      // canonical paths
+  std::unordered_map<std::string, int> index_of_key_;  // included files, to find one again
   std::vector<Open> stack_;
   std::uint64_t expanded_ = 0;  // characters put onto the stack
+  std::size_t includes_ = 0;
   std::string_view line_;
   bool again_ = false;
   FeSource here_, before_;

@@ -63,6 +63,9 @@ class JobReader {
         for (const FeFormat& f : fe_formats()) known.emplace_back(f.name);
         if (const auto k = v->word(known)) job_.format = known[*k];
       }
+    if (const auto v = s_.get("dialect"))
+      if (const auto k = v->word({"abaqus", "calculix"}))
+        job_.read.dialect = *k == 0 ? DeckDialect::abaqus : DeckDialect::calculix;
     if (const auto v = s_.get("material"))
       if (auto m = v->section("a map with young, poisson, density")) {
         Material material;
