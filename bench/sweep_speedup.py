@@ -1,20 +1,24 @@
 #!/usr/bin/env python3
-"""How much faster a study runs on two threads than on one, with two independent processes as calibration.
+"""How much faster a study is with two runs at a time than with one, with two independent studies as calibration.
 
     bench/sweep_speedup.py [--program build/floatframe] [--runs 64] [--repeat 3] [--duration S] [--mpi]
+                           [--against PROGRAM]
 
-Each repetition times, one after the other: all runs on one thread; all runs on two threads; two processes side by
-side with half of the runs each, on one thread (what the machine can give to two programs that share nothing); with
---mpi all runs on two MPI processes. The ratios are those of the wall times to that of one thread. `processors` is
-the processor time divided by the wall time: below 2 in the parallel columns the machine had other work to do, and the
-ratio says as much about that as about the program. "per processor" is the ratio of processor times, which shows what
-threads cost each other whatever the load: 1 if nothing.
-The tables of all variants are compared byte for byte.
+Each repetition times, one after the other: all runs one at a time; two at a time; two studies side by side with half
+of the runs each, one at a time (what the machine can give to two programs that share nothing); with --mpi all runs in
+two MPI processes. The ratios are those of the wall times to that of one at a time. `processors` is the processor time
+divided by the wall time: below 2 in the parallel columns the machine had other work to do, and the ratio says as much
+about that as about the program. "per processor" is the ratio of processor times, which shows what workers cost each
+other whatever the load: 1 if nothing. The tables of all variants are compared byte for byte.
 
-At last one study on two threads is watched from outside (/proc/<pid>/task/*/schedstat): for every thread the time it
-ran, the time it was ready but had no processor, which is the machine's, and the rest, in which it waited for the
-program itself. The estimate for two free processors is the sum of all processor times over the time of the main thread, half of that
-of the two workers (runs are handed out one by one, so that both get the same), and the longest own waiting.
+--against times another build of the program beside this one, one run at a time, in turn: what a change costs. With
+--duration 1.3 a run of the Iltis takes about 0.05 s, so that what is done for every run counts.
+
+At last one study with two runs at a time is watched from outside (/proc/<pid>/schedstat): for the program and every
+process that it makes the time it ran, the time it was ready but had no processor, which is the machine's, and the
+rest, in which it waited for another. The estimate for two free processors is the sum of all processor times over the
+time of all but the workers, half of that of the two workers (runs are handed out one by one, so that both get the
+same), and the longest own waiting of a worker.
 """
 import argparse
 import os
@@ -46,22 +50,31 @@ def timed(commands, environment=None):
     return wall, processor_time() - before
 
 
+def descendants(pid):
+    try:
+        children = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    except OSError:  # it has just ended
+        return []
+    return [pid] + [found for child in children for found in descendants(int(child))]
+
+
 def watched(command):
-    """Per thread: seconds on a processor, ready without a processor, and alive; sampled every 5 ms."""
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    """Per process: name, seconds on a processor, ready without a processor, and alive; sampled every 5 ms."""
+    study = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     start = time.perf_counter()
-    threads = {}
-    while process.poll() is None:
-        for task in pathlib.Path(f"/proc/{process.pid}/task").glob("*"):
+    seen = {}
+    while study.poll() is None:
+        for pid in descendants(study.pid):
             try:
-                ran, ready, _ = (task / "schedstat").read_text().split()
-            except (OSError, ValueError):  # the thread has just ended
+                ran, ready, _ = pathlib.Path(f"/proc/{pid}/schedstat").read_text().split()
+                name = pathlib.Path(f"/proc/{pid}/comm").read_text().strip()
+            except (OSError, ValueError):
                 continue
             now = time.perf_counter() - start
-            first = threads.get(task.name, (0, 0, now, now))[2]
-            threads[task.name] = (int(ran) * 1e-9, int(ready) * 1e-9, first, now)
+            first = seen[pid][3] if pid in seen else now
+            seen[pid] = (name, int(ran) * 1e-9, int(ready) * 1e-9, first, now)
         time.sleep(0.005)
-    return {name: (ran, ready, last - first) for name, (ran, ready, first, last) in threads.items()}
+    return [(name, ran, ready, last - first) for name, ran, ready, first, last in seen.values()]
 
 
 def main():
@@ -71,6 +84,7 @@ def main():
     parser.add_argument("--runs", type=int, default=64)
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--duration", help="of each run [s]; default: that of the model file")
+    parser.add_argument("--against", help="another build of the program, to be compared with")
     parser.add_argument("--mpi", action="store_true", help="also two MPI processes")
     arguments = parser.parse_args()
     program = str(pathlib.Path(arguments.program).resolve())
@@ -84,13 +98,15 @@ def main():
         for name, values in plans.items():
             (folder / f"{name}.csv").write_text("speed\n" + "".join(f"{v!r}\n" for v in values))
 
-        def sweep(plan, threads, out, *launcher):
-            command = [*launcher, program, "sweep", arguments.model, "--table", str(folder / f"{plan}.csv"), "--fresh",
+        def sweep(plan, threads, out, *launcher, what=program):
+            command = [*launcher, what, "sweep", arguments.model, "--table", str(folder / f"{plan}.csv"), "--fresh",
                        "--quiet", "--threads", str(threads), "--out", str(folder / out)]
             return command + (["--duration", arguments.duration] if arguments.duration else [])
 
-        variants = {"1 thread": [sweep("all", 1, "one")], "2 threads": [sweep("all", 2, "two")],
-                    "2 processes": [sweep("even", 1, "even"), sweep("odd", 1, "odd")]}
+        variants = {"1 at a time": [sweep("all", 1, "one")], "2 at a time": [sweep("all", 2, "two")],
+                    "2 studies": [sweep("even", 1, "even"), sweep("odd", 1, "odd")]}
+        if arguments.against:
+            variants["the other"] = [sweep("all", 1, "other", what=str(pathlib.Path(arguments.against).resolve()))]
         if arguments.mpi:
             mpirun = shutil.which("mpirun") or sys.exit("mpirun is not installed")
             variants["2 MPI processes"] = [sweep("all", 1, "mpi", mpirun, "-n", "2", "--oversubscribe")]
@@ -108,23 +124,33 @@ def main():
                 line += f"  {wall:20.3f}  {processor / wall:10.2f}"
             print(line, flush=True)
         tables = {out: (folder / out / "sweep.csv").read_bytes() for out in
-                  ["one", "two"] + (["mpi"] if arguments.mpi else [])}
+                  ["one", "two"] + (["mpi"] if arguments.mpi else []) + (["other"] if arguments.against else [])}
         if len(set(tables.values())) != 1:
             sys.exit("the tables differ")
         print("tables: the same bytes")
+        one, one_processor = times["1 at a time"], processor_times["1 at a time"]
+        print(f"a run: {min(one_processor) / arguments.runs:.4f} s of processor time, with reading and building its model")
         for name in list(variants)[1:]:
-            ratios = [a / b for a, b in zip(times["1 thread"], times[name])]
-            print(f"{name:>16}: {min(times['1 thread']) / min(times[name]):.2f} times faster than 1 thread (quickest), "
+            if name == "the other":
+                continue
+            ratios = [a / b for a, b in zip(one, times[name])]
+            print(f"{name:>16}: {min(one) / min(times[name]):.2f} times faster than one at a time (quickest), "
                   f"{statistics.median(ratios):.2f} (median of pairs); per processor "
-                  f"{min(processor_times['1 thread']) / min(processor_times[name]):.2f}")
-        threads = watched(variants["2 threads"][0])
-        print("one study on two threads, thread by thread [s]:   ran   ready   waited for the program")
-        for ran, ready, alive in sorted(threads.values(), reverse=True):
-            print(f"{ran:53.3f}  {ready:6.3f}  {max(0.0, alive - ran - ready):8.3f}")
-        workers = sorted(threads.values(), reverse=True)[:2]
-        total = sum(ran for ran, _, _ in threads.values())
-        parallel = sum(ran for ran, _, _ in workers)
-        waited = max(alive - ran - ready for ran, ready, alive in workers)
+                  f"{min(one_processor) / min(processor_times[name]):.2f}")
+        if arguments.against:
+            other, other_processor = times["the other"], processor_times["the other"]
+            print(f"this program / the other, one at a time: processor time {min(one_processor) / min(other_processor):.3f} "
+                  f"(quickest), {statistics.median(a / b for a, b in zip(one_processor, other_processor)):.3f} (median of "
+                  f"pairs); wall time {min(one) / min(other):.3f}, "
+                  f"{statistics.median(a / b for a, b in zip(one, other)):.3f}")
+        processes = sorted(watched(variants["2 at a time"][0]), key=lambda p: -p[1])
+        print("one study, two runs at a time, process by process [s]:   ran   ready   waited")
+        for name, ran, ready, alive in processes:
+            print(f"{name:>46}  {ran:11.3f}  {ready:6.3f}  {max(0.0, alive - ran - ready):7.3f}")
+        workers = processes[:2]
+        total = sum(ran for _, ran, _, _ in processes)
+        parallel = sum(ran for _, ran, _, _ in workers)
+        waited = max(alive - ran - ready for _, ran, ready, alive in workers)
         print(f"two free processors: about {total / (total - parallel + 0.5 * parallel + waited):.2f} times faster than 1")
 
 

@@ -92,7 +92,7 @@ class Spreading(Sweep):
         done = self.sweep(0, CRANK, *GRID, "--threads", 1, "--out", "ranks", **self.launcher(2))
         self.assertEqual(self.table("one"), self.table("ranks"))
         self.assertIn("12 runs in", done.stdout)
-        self.assertIn("1 thread in each of 2 processes", done.stdout)
+        self.assertIn("1 at a time in each of 2 processes", done.stdout)
         self.assertEqual(done.stdout.count("12 runs in"), 1)
 
     def test_rows_are_those_of_single_runs(self):
@@ -193,6 +193,153 @@ class Continuing(Sweep):
         self.assertNotEqual(self.table("out"), before)
 
 
+# A run that takes memory until its end, which is far away: a row of results each step.
+HOARDER = """
+floatframe: 1
+bodies:
+  rod: {rigid: {mass: 2, centre_of_mass: [0.5, 0, 0], inertia: [0.01, 0.2, 0.2]}}
+joints:
+  hinge: {type: revolute, child: rod, at: [0, 0, 0], axis: y}
+outputs:
+""" + "".join(f"  tip{k}: {{position: {{body: rod, at: [1, 0, {k}]}}, axis: z}}\n" for k in range(400)) + """
+simulation: {step: 0.0001, duration: 0.01}
+"""
+
+
+class Crashing(Sweep):
+    """Runs that end their process, or have to be ended."""
+
+    def workers(self, process):
+        """Workers of a study: children of the processes that watch over them."""
+        def children(pid):
+            try:
+                return pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+            except OSError:
+                return []
+        return [int(worker) for guard in children(process.pid) for worker in children(guard)]
+
+    def run_in_work(self, process, pause=0.5):
+        """The worker of a study of one run at a time, some time after that has begun."""
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            if self.journal("out") and self.workers(process):
+                time.sleep(pause)
+                return self.workers(process)[0]
+            time.sleep(0.01)
+        self.fail("the study does not begin")
+
+    def test_a_run_that_takes_too_long_is_a_row(self):
+        # The second run would take hours.
+        plan = (CRANK, "--vary", "duration=0.01,1000,0.02", "--threads", 2, "--out", "out", "--keep-results")
+        done = self.sweep(1, *plan, "--case-timeout", "3")
+        reason = "stopped after 3 s (--case-timeout)"
+        self.assertEqual(done.stderr, f"floatframe: 1 of 3 runs failed, the first is run 2: {reason}\n")
+        rows = self.rows("out")
+        self.assertEqual([row["status"] for row in rows], ["completed", "failed", "completed"])
+        self.assertEqual(rows[1]["message"], reason)
+        self.assertEqual(rows[1]["steps"], "")
+        self.assertIn(reason, (self.folder / "out/runs/2/summary.json").read_text())
+        self.assertFalse((self.folder / "out/runs/2/results.csv").exists())
+        table, journal = self.table("out"), self.journal("out")
+        self.assertEqual(len(journal), 4)
+        # It is finished, whatever the limit; unless one asks for it.
+        done = self.sweep(1, *plan)
+        self.assertIn("all 3 runs were finished before", done.stdout)
+        self.assertEqual((self.table("out"), self.journal("out")), (table, journal))
+        done = self.sweep(1, *plan, "--case-timeout", "2.5", "--retry-failed")
+        self.assertIn("1 run in", done.stdout)
+        self.assertIn("2 were finished before", done.stdout)
+        self.assertEqual(self.rows("out")[1]["message"], "stopped after 2.5 s (--case-timeout)")
+        self.assertEqual(self.journal("out")[:4], journal)
+
+    def test_a_run_that_needs_too_much_memory_is_a_row(self):
+        (self.folder / "model.yaml").write_text(HOARDER)
+        plan = ("model.yaml", "--vary", "duration=0.01,10000,0.02", "--threads", 2)
+        done = self.sweep(1, *plan, "--out", "out", "--case-memory", "300", "--case-timeout", "200")
+        reason = "needed more than 300 MB (--case-memory)"
+        self.assertEqual(done.stderr, f"floatframe: 1 of 3 runs failed, the first is run 2: {reason}\n")
+        self.assertEqual([row["message"] for row in self.rows("out")], ["", reason, ""])
+
+    def test_reading_and_building_a_model_are_part_of_the_run(self):
+        (self.folder / "model.yaml").write_text(HOARDER.replace("bodies:", """
+parameters: {large: false}
+bodies:
+  arm:
+    when: ${large}
+    part: {file: deck.inp, units: m-kg-s, interfaces: {A: {set: A}}}"""))
+        with open(self.folder / "deck.inp", "w", encoding="utf-8") as deck:
+            deck.write("*NODE\n")
+            deck.writelines(f"{k}, {k}.5, 1.25, -0.125\n" for k in range(1, 2000001))
+        reason = "needed more than 200 MB (--case-memory) while its model was read"
+        for values, messages in (("false,true,false", ["", reason, ""]), ("true,false", [reason, ""])):
+            self.sweep(1, "model.yaml", "--vary", f"large={values}", "--case-memory", "200", "--out", "out", "--fresh",
+                       "--threads", "2")
+            self.assertEqual([row["message"] for row in self.rows("out")], messages)
+
+    def test_a_run_whose_process_is_killed_once_is_tried_again(self):
+        plan = (CRANK, "--vary", "rate=40,60", "--duration", "3", "--threads", "1")
+        process = self.start(*plan, "--out", "out")
+        os.kill(self.run_in_work(process, 0.02), signal.SIGSEGV)
+        _, errors = process.communicate(timeout=200)
+        self.assertEqual((process.returncode, errors), (0, ""))
+        self.sweep(0, *plan, "--out", "undisturbed")
+        self.assertEqual(self.table("out"), self.table("undisturbed"))
+
+    def test_a_run_that_crashes_again_in_a_new_process_is_a_row(self):
+        process = self.start(CRANK, "--vary", "duration=1000,0.01", "--threads", "1", "--out", "out")
+        first = self.run_in_work(process)
+        os.kill(first, signal.SIGSEGV)
+        while self.workers(process) in ([], [first]):
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        os.kill(self.workers(process)[0], signal.SIGSEGV)
+        _, errors = process.communicate(timeout=200)
+        self.assertEqual(process.returncode, 1)
+        reason = "crashed with signal SEGV (segmentation fault)"
+        self.assertEqual(errors, f"floatframe: 1 of 2 runs failed, the first is run 1: {reason}\n")
+        self.assertEqual([row["message"] for row in self.rows("out")], [reason, ""])
+        # The study that crashed continues, and does not crash again.
+        done = self.sweep(1, CRANK, "--vary", "duration=1000,0.01", "--threads", "1", "--out", "out")
+        self.assertIn("all 2 runs were finished before", done.stdout)
+
+    def test_no_worker_outlives_a_killed_study(self):
+        process = self.start(CRANK, "--vary", "duration=1000,2000", "--threads", "2", "--out", "out")
+        self.run_in_work(process)
+        guards = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        everyone = [*map(int, guards), *self.workers(process)]
+        self.assertEqual(len(everyone), 4)
+        process.kill()
+        process.communicate(timeout=60)
+
+        def alive(pid):
+            try:
+                return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] not in "ZX"
+            except OSError:
+                return False
+        end = time.monotonic() + 60
+        while any(map(alive, everyone)):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+
+    def test_signal_to_all_processes_of_the_group_is_an_interrupt(self):
+        process = subprocess.Popen([BINARY, "sweep", CRANK, "--vary", "duration=1000,2000", "--threads", "2", "--out",
+                                    "out"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True)
+        self.run_in_work(process)
+        os.killpg(process.pid, signal.SIGTERM)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGTERM)
+        self.assertEqual(errors, "floatframe: interrupted: 0 of 2 runs finished; the same command continues\n")
+        self.assertEqual(len(self.journal("out")), 1)
+
+    def test_lost_runs_of_other_processes_are_rows_too(self):
+        plan = (CRANK, "--vary", "duration=0.01,1000,2000,0.02", "--case-timeout", "3")
+        self.sweep(1, *plan, "--threads", "2", "--out", "one")
+        self.sweep(1, *plan, "--threads", "1", "--out", "ranks", **self.launcher(2))
+        self.assertEqual(self.table("one"), self.table("ranks"))
+        self.assertEqual([row["status"] for row in self.rows("one")], ["completed", "failed", "failed", "completed"])
+
+
 class Input(Sweep):
     def test_table_file(self):
         (self.folder / "runs.csv").write_text("rate,inertia\n40,projection\n45.5,preprocessing\n")
@@ -219,6 +366,12 @@ class Input(Sweep):
                 ((CRANK, "--vary", "rate=1,2", "--set", "l_rod"), "--set: found 'l_rod', expected NAME=VALUE"),
                 ((CRANK, "--vary", "rate=1,2", "--step", "-1"), "--step: found '-1', expected a positive number [s]"),
                 ((CRANK, "--vary", "rate=1,2", "--measure", "slider.x:mean"), "--measure: found 'slider.x:mean'"),
+                ((CRANK, "--vary", "rate=1,2", "--case-timeout", "0"),
+                 "--case-timeout: found '0', expected a positive number [s]"),
+                ((CRANK, "--vary", "rate=1,2", "--case-memory", "2 GB"),
+                 "--case-memory: found '2 GB', expected a positive number [MB]"),
+                ((CRANK, "--vary", "rate=1:2:1000000", "--vary", "l_rod=1:2:1000000"),
+                 "--vary: found 1e+12 combinations, expected at most 1000000"),
                 (("nowhere.yaml", "--vary", "rate=1,2"), "nowhere.yaml: the file does not exist"),
                 ((CRANK, "--table", "nowhere.csv"), "nowhere.csv: the file does not exist")):
             with self.subTest(arguments=arguments):
@@ -227,6 +380,31 @@ class Input(Sweep):
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
                 self.assertEqual(done.stdout, "")
         self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_hostile_table_files_are_refused(self):
+        os.mkfifo(self.folder / "pipe.csv")
+        with open(self.folder / "huge.csv", "wb") as file:
+            file.truncate(1 << 40)  # a sparse file of a terabyte
+        (self.folder / "zero.csv").write_bytes(b"rate\n40\0\n")
+        (self.folder / "folder.csv").mkdir()
+        for name in ("pipe.csv", "huge.csv", "zero.csv", "folder.csv", "/dev/zero"):
+            with self.subTest(name=name):
+                done = self.sweep(2, CRANK, "--table", name, "--out", "out")
+                self.assertTrue(done.stderr.startswith(name), done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_one_folder_for_one_command_at_a_time(self):
+        plan = (CRANK, "--vary", "duration=1000,2000", "--threads", "1", "--out", "out")
+        process = self.start(*plan)
+        end = time.monotonic() + 60
+        while not self.journal("out") and time.monotonic() < end:
+            time.sleep(0.01)
+        for more in ((), ("--fresh",)):
+            done = self.sweep(2, *plan, *more)
+            self.assertEqual(done.stderr, "floatframe: 'out/sweep.journal' is in use: this study is running already\n")
+        process.terminate()
+        process.communicate(timeout=60)
 
     def test_failed_runs_exit_1_with_the_first_reason(self):
         # One Newton iteration a step, and no smaller steps.

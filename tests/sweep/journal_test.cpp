@@ -1,5 +1,6 @@
 // The journal of a study: what survives, what is refused.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
@@ -24,7 +26,7 @@ class Journal : public testing::Test {
     path_ = testing::TempDir() + "floatframe_journal_" + std::to_string(::getpid());
     std::filesystem::remove(path_);
   }
-  void TearDown() override { std::filesystem::remove(path_); }
+  void TearDown() override { std::filesystem::remove_all(path_); }
   std::string text() const {
     std::ifstream in(path_, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -114,6 +116,88 @@ TEST_F(Journal, SomebodyElsesFileIsLeftAlone) {
   EXPECT_EQ(text(), "time [s],x\n0,1\n");
   set_text("a long line without an end, not ours");
   EXPECT_EQ(refusal(study), "'" + path_ + "' is not the journal of a study");
+}
+
+TEST_F(Journal, ARepeatedRunCountsByItsLastLine) {
+  {
+    SweepJournal journal(path_, study, 10, false);
+    journal.add(encode_row(1, failed_row("crashed")));
+    journal.add(encode_row(2, row("1")));
+  }
+  {
+    SweepJournal journal(path_, study, 10, false);
+    journal.forget_failed();
+    EXPECT_EQ(journal.finished().size(), 1u);
+    EXPECT_TRUE(journal.finished().contains(2));
+  }
+  EXPECT_EQ(finished(), 2u);  // nothing is lost before the run is repeated
+  {
+    SweepJournal journal(path_, study, 10, false);
+    journal.forget_failed();
+    journal.add(encode_row(1, row("2")));
+  }
+  const SweepJournal journal(path_, study, 10, false);
+  EXPECT_EQ(journal.finished().at(1).status, "completed");
+}
+
+// A run whose reading was stopped has files that are not known before it is repeated.
+TEST_F(Journal, FilesMustNotChangeButMayComeToBeKnown) {
+  const auto open = [&](const SweepJournal::Files& files) {
+    try {
+      SweepJournal(path_, study, 10, false, files).add(encode_row(0, row("1")));
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      return what.substr(what.find('('), what.find(')') + 1 - what.find('('));
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(open({{"a", "1"}}), "accepted");
+  EXPECT_EQ(open({{"a", "2"}}), "(the file 'a' has changed)");
+  EXPECT_EQ(open({{"a", "1"}, {"b", "1"}}), "accepted");
+  EXPECT_EQ(open({{"a", "1"}}), "accepted");
+  EXPECT_EQ(open({{"a", "1"}, {"b", "2"}}), "(the file 'b' has changed)");
+  EXPECT_EQ(finished(), 1u);
+}
+
+// Anything may lie at the place of the journal; it is neither waited for nor read without end.
+TEST_F(Journal, WhatIsNotARegularFileIsRefused) {
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_EQ(refusal(study), "'" + path_ + "' is not a regular file; give another --out");
+  std::filesystem::remove(path_);
+  std::filesystem::create_symlink("/dev/zero", path_);
+  EXPECT_EQ(refusal(study), "'" + path_ + "' is not a regular file; give another --out");
+  std::filesystem::remove(path_);
+  std::filesystem::create_directory(path_);
+  EXPECT_THROW(SweepJournal(path_, study, 10, false), OutputError);
+}
+
+// Lines with a right fingerprint and the wrong content.
+TEST_F(Journal, LinesOfAnotherShapeAreNoStudyAndNoRows) {
+  const auto line = [](const std::string& json) {
+    return content_hash(json).substr(0, 16) + ' ' + json + '\n';
+  };
+  const std::string difference =
+      "'" + path_ +
+      "' holds another study (another program); give another --out to keep it, or --fresh to "
+      "replace it";
+  for (const std::string identity : {"3", "\"x\"", "{}", "[]", "[1]", "null"}) {
+    set_text(line("{\"floatframe_sweep\":1,\"runs\":10,\"identity\":" + identity + "}"));
+    EXPECT_EQ(refusal(study), difference) << identity;
+  }
+  set_text(line("{\"floatframe_sweep\":1}"));
+  EXPECT_EQ(refusal(study), difference);
+  SweepJournal(path_, study, 10, true).add(encode_row(0, row("1")));
+  const std::string good = text();
+  for (const std::string json :
+       {"{\"run\":-1,\"status\":\"completed\",\"message\":\"\",\"fields\":[]}",
+        "{\"run\":1.5,\"status\":\"completed\",\"message\":\"\",\"fields\":[]}",
+        "{\"run\":11,\"status\":\"completed\",\"message\":\"\",\"fields\":[]}",
+        "{\"run\":3,\"status\":1,\"message\":\"\",\"fields\":[]}",
+        "{\"run\":3,\"status\":\"completed\",\"message\":\"\",\"fields\":[[1]]}", "[]", "3",
+        "{\"files\":3}", "{\"files\":{\"a\":3}}"})
+    set_text(text() + line(json));
+  set_text(text() + line(std::string(100000, '[')) + '\0' + "\n\n");
+  EXPECT_EQ(finished(), 1u);
 }
 
 TEST_F(Journal, OneProcessAtATime) {

@@ -48,7 +48,7 @@ class Sweep : public testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
   SweepReport run() {
-    return run_sweep(options_, nullptr, stop_, [](const SweepProgress&) {});
+    return run_sweep(options_, stop_, [](const SweepProgress&) {});
   }
   std::string fault() {
     try {
@@ -192,6 +192,26 @@ simulation: {step: 0.01, duration: 1}
   EXPECT_EQ(run().before, 3u);
 }
 
+TEST_F(Sweep, ARunThatTakesTooLongIsARowAndCanBeRepeated) {
+  options_.plan = grid_plan({"duration=0.1,1000000,0.2"});
+  options_.threads = 2;
+  options_.limits.seconds = 2.0;
+  options_.keep_results = true;
+  SweepReport report = run();
+  EXPECT_EQ(report.failed, 1u);
+  EXPECT_EQ(report.first_failed, 2u);
+  EXPECT_EQ(report.first_message, "stopped after 2 s (--case-timeout)");
+  EXPECT_NE(read("out/sweep.csv").find("\n2,1000000,failed,stopped after 2 s (--case-timeout),,"),
+            std::string::npos);
+  EXPECT_NE(read("out/runs/2/summary.json").find("stopped after 2 s"), std::string::npos);
+  options_.limits.seconds = 1.5;  // no part of what the study is
+  EXPECT_EQ(run().before, 3u);
+  options_.retry_failed = true;
+  report = run();
+  EXPECT_EQ(report.before, 2u);
+  EXPECT_EQ(report.first_message, "stopped after 1.5 s (--case-timeout)");
+}
+
 TEST_F(Sweep, BadInputIsRefusedBeforeAnythingIsWritten) {
   options_.plan = grid_plan({"mas=1,2"});
   EXPECT_EQ(fault(), "--vary: 'mas' is neither a parameter of " + options_.model +
@@ -235,7 +255,7 @@ TEST_F(Sweep, ContinuesWhereItWasStopped) {
 TEST_F(Sweep, StoppedAtOnceItFinishesNothingMore) {
   options_.plan = grid_plan({"push=1:2:6"});
   std::atomic<bool> stop{false};
-  const SweepReport report = run_sweep(options_, nullptr, stop, [&](const SweepProgress& p) {
+  const SweepReport report = run_sweep(options_, stop, [&](const SweepProgress& p) {
     if (p.stage == SweepProgress::Stage::running && p.done > 0) stop.store(true);
   });
   EXPECT_TRUE(report.interrupted || report.finished == 6u);

@@ -1,13 +1,19 @@
-// floatframe sweep: a parameter study on threads and, under mpirun, on several processes.
+// floatframe sweep: a parameter study in worker processes, under mpirun on several machines.
 #include <fmt/format.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "floatframe/apps/command.hpp"
@@ -15,7 +21,9 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/sweep/process_memory.hpp"
 #include "floatframe/sweep/sweep.hpp"
+#include "floatframe/sweep/sweep_workers.hpp"
 
 namespace floatframe {
 namespace {
@@ -23,9 +31,9 @@ namespace {
 struct SweepArguments {
   ModelArguments model;
   std::vector<std::string> vary, measures;
-  std::string table, out, coordinates, inertia, step, duration;
+  std::string table, out, coordinates, inertia, step, duration, case_timeout, case_memory;
   int threads = 0;
-  bool keep_results = false, fresh = false, quiet = false;
+  bool keep_results = false, fresh = false, retry_failed = false, quiet = false;
 };
 
 /// Processors this process may use, shared with the other processes of the study on this machine.
@@ -69,6 +77,19 @@ class SignalsAskToStop {
   std::array<struct sigaction, 3> before_{};
 };
 
+/// 0 if not given.
+double megabytes(const std::string& text) {
+  if (text.empty()) return 0.0;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !std::isfinite(value) || !(value > 0.0))
+    throw InputError(
+        fmt::format("--case-memory: found '{}', expected a positive number [MB]", text));
+  if (!(memory_of(::getpid()) > 0.0))
+    throw InputError("--case-memory: /proc does not tell how much memory a process uses");
+  return value;
+}
+
 SweepOptions options_from(const SweepArguments& a) {
   SweepOptions o;
   o.model = a.model.path;
@@ -95,6 +116,9 @@ SweepOptions options_from(const SweepArguments& a) {
   o.threads = a.threads > 0 ? a.threads : processors();
   o.keep_results = a.keep_results;
   o.fresh = a.fresh;
+  o.retry_failed = a.retry_failed;
+  if (!a.case_timeout.empty()) o.limits.seconds = positive_number("--case-timeout", a.case_timeout);
+  o.limits.megabytes = megabytes(a.case_memory);
   o.folder = a.out;
   if (o.folder.empty()) {
     const std::string stem = std::filesystem::path(o.model).stem().string();
@@ -103,28 +127,28 @@ SweepOptions options_from(const SweepArguments& a) {
   return o;
 }
 
-std::string report_text(const SweepReport& r, double seconds, int threads, int ranks) {
-  std::string where = plural(threads, "thread");
+std::string report_text(const SweepReport& r, double seconds, int at_a_time, int ranks) {
+  std::string where = fmt::format("{} at a time", at_a_time);
   if (ranks > 1) where += fmt::format(" in each of {} processes", ranks);
   const std::size_t now = r.runs - r.before;
   std::string text =
       now == 0
           ? fmt::format("all {} were finished before\n", plural(static_cast<long>(r.runs), "run"))
-          : fmt::format("{} in {:.3g} s on {}{}\n", plural(static_cast<long>(now), "run"), seconds,
+          : fmt::format("{} in {:.3g} s, {}{}\n", plural(static_cast<long>(now), "run"), seconds,
                         where,
                         r.before > 0 ? fmt::format(", {} were finished before", r.before) : "");
   text += fmt::format("  table    {}\n  journal  {}\n", r.table, r.journal);
   return text;
 }
 
-int lead(const SweepArguments& arguments, Ranks* ranks) {
-  const SweepOptions options = options_from(arguments);
+int lead(const SweepArguments& arguments, const SweepOptions& options, SweepWorkers& workers,
+         Ranks* ranks) {
   const auto start = std::chrono::steady_clock::now();
   SweepReport report;
   {
     ProgressBar bar(!arguments.quiet, 1.0, "");
     auto shown = start - std::chrono::seconds(1);
-    report = run_sweep(options, ranks, stop_asked, [&](const SweepProgress& p) {
+    report = run_sweep(options, workers, ranks, stop_asked, [&](const SweepProgress& p) {
       const auto now = std::chrono::steady_clock::now();
       if (now - shown < std::chrono::milliseconds(100)) return;
       shown = now;
@@ -151,6 +175,16 @@ int lead(const SweepArguments& arguments, Ranks* ranks) {
 }
 
 int sweep(const SweepArguments& arguments) {
+  // Worker processes first: they are forks, and MPI brings threads and locks with it.
+  std::optional<SweepOptions> options;
+  std::optional<SweepWorkers> workers;
+  std::exception_ptr fault;
+  try {
+    options = options_from(arguments);
+    workers.emplace(*options);
+  } catch (...) {
+    fault = std::current_exception();
+  }
   std::unique_ptr<Ranks> ranks;
   if (started_on_ranks()) ranks = open_ranks();
   int code = 0;
@@ -158,22 +192,20 @@ int sweep(const SweepArguments& arguments) {
     const SignalsAskToStop signals;
     if (ranks && ranks->rank() > 0) {
       // Process 0 says what is wrong with the arguments.
-      std::optional<SweepOptions> options;
-      try {
-        options = options_from(arguments);
-      } catch (const InputError&) {
-      }
-      serve_sweep(options ? *options : SweepOptions{}, *ranks, stop_asked);
+      serve_sweep(options ? *options : SweepOptions{}, workers ? &*workers : nullptr, *ranks,
+                  stop_asked);
       return 0;
     }
     try {
-      code = lead(arguments, ranks.get());
+      if (fault) std::rethrow_exception(fault);
+      code = lead(arguments, *options, *workers, ranks.get());
     } catch (...) {
       if (ranks) dismiss_ranks(*ranks);
       throw;
     }
     if (ranks) dismiss_ranks(*ranks);
   }
+  workers.reset();
   // The caller sees that a signal ended the program; under a launcher that would be taken for a
   // crash.
   if (stop_asked.load() && code != 0 && !ranks) std::raise(signal_got.load());
@@ -206,7 +238,9 @@ void add_sweep_command(CLI::App& app, Action& action) {
   repeated("--measure", a->measures, "OUTPUT[:STATISTIC]",
            "Only these outputs in the table: final, min, time_of_min, max, time_of_max or rms; "
            "may be repeated; default: all of all");
-  command->add_option("--threads", a->threads, "Runs at a time; default: the processors at hand")
+  command
+      ->add_option("--threads", a->threads,
+                   "Runs at a time, each in a process of its own; default: the processors at hand")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   command->add_option("--coordinates", a->coordinates, "relative or absolute, for all runs")
@@ -223,6 +257,15 @@ void add_sweep_command(CLI::App& app, Action& action) {
   command->add_flag("--keep-results", a->keep_results,
                     "Keep results.csv and summary.json of every run below DIR/runs");
   command->add_flag("--fresh", a->fresh, "Do not continue the study in DIR: start again");
+  command->add_flag("--retry-failed", a->retry_failed, "Continue, and repeat the runs that failed");
+  command
+      ->add_option("--case-timeout", a->case_timeout,
+                   "A run that takes longer is stopped and has failed")
+      ->type_name("SECONDS");
+  command
+      ->add_option("--case-memory", a->case_memory,
+                   "A run that needs more memory is stopped and has failed [MB]")
+      ->type_name("MB");
   command->add_flag("--quiet", a->quiet, "No progress bar, no summary; faults are still shown");
   command->footer(
       "NAME is a parameter of the model file or else a simulation option: coordinates, inertia,\n"
@@ -231,6 +274,7 @@ void add_sweep_command(CLI::App& app, Action& action) {
       "the file has a parameter of that name too).\n"
       "Files: DIR/sweep.csv, the same to the byte whatever the number of threads and processes;\n"
       "DIR/sweep.journal, from which an interrupted study continues when the command is repeated.\n"
+      "A run that crashes has its row, \"failed\" and why, and the study goes on.\n"
       "`mpirun -n 4 floatframe sweep ...` spreads the runs over processes.\n"
       "Exit codes: 0 completed, 1 a run failed or the study was interrupted, 2 bad input.");
   command->callback([a, &action] { action = [a] { return sweep(*a); }; });

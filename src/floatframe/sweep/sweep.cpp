@@ -2,24 +2,26 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <filesystem>
-#include <set>
+#include <optional>
 #include <thread>
 
 #include "floatframe/core/atomic_file.hpp"
-#include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/simulation/simulation.hpp"
-#include "floatframe/sweep/program_identity.hpp"
+#include "floatframe/sweep/run_queue.hpp"
+#include "floatframe/sweep/sweep_check.hpp"
+#include "floatframe/sweep/sweep_identity.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
-#include "floatframe/sweep/sweep_run.hpp"
-#include "floatframe/sweep/worker_pool.hpp"
+#include "floatframe/sweep/sweep_workers.hpp"
 
 namespace floatframe {
 namespace {
+
+using What = ServiceRequest::What;
+using Clock = std::chrono::steady_clock;
 
 // Messages between processes: one word, a blank, the rest.
 //   worker -> 0:  hello <study>   the first message; the study as this process understood it
@@ -34,89 +36,24 @@ std::string rest_of(const std::string& text) {
   return blank == std::string::npos ? "" : text.substr(blank + 1);
 }
 
-std::string plan_hash(const SweepPlan& plan) {
-  ContentHash hash;
-  for (const std::string& name : plan.names) hash.add(name);
-  for (const auto& run : plan.runs)
-    for (const std::string& value : run) hash.add(value);
-  return hash.text();
+/// The line of a run whose worker has answered; none if it was given up.
+std::optional<std::string> line_of(const SweepOptions& options,
+                                   const SweepWorkers::Answer& answer) {
+  if (!answer.lost.empty()) return lost_line(options, answer.run, answer.lost);
+  if (answer.kind == ServiceAnswer::Kind::given_up) return std::nullopt;
+  if (!answer.faults.empty()) throw InputError(answer.faults);
+  return answer.text;
 }
 
-/// What all processes must agree upon before they work together; with the content of the files that
-/// the first run reads.
-std::string study_hash(const SweepOptions& o, const SweepRunner& runner) {
-  ContentHash hash;
-  hash.add(program_identity())
-      .add(plan_hash(o.plan))
-      .add(static_cast<std::uint64_t>(o.keep_results));
-  for (const SweepSetting& s : o.fixed) hash.add(s.name).add(s.value);
-  for (const SweepMeasure& m : o.measures) hash.add(m.output).add(m.statistic);
-  return hash.add(runner.files_of_first_run()).text();
-}
-
-SweepIdentity identity_of(const SweepOptions& o, const std::map<std::string, std::string>& files) {
-  SweepIdentity identity{{"made by another build of the program", program_identity()}};
-  std::string fixed, measures;
-  for (const SweepSetting& s : o.fixed) fixed += s.name + '=' + s.value + '\n';
-  for (const SweepMeasure& m : o.measures) measures += m.output + ':' + m.statistic + '\n';
-  identity.emplace_back("the varied parameters or their values differ", plan_hash(o.plan));
-  identity.emplace_back("the values that are the same for all runs differ", fixed);
-  identity.emplace_back("the outputs measured differ", measures);
-  identity.emplace_back("one keeps the results of its runs, the other does not",
-                        o.keep_results ? "yes" : "no");
-  // Names relative to the model file: a folder may be moved or reached by another path.
-  const auto folder = std::filesystem::path(o.model).parent_path();
-  for (const auto& [file, hash] : files) {
-    const std::string relative =
-        folder.empty() ? "" : std::filesystem::path(file).lexically_relative(folder).string();
-    identity.emplace_back(
-        fmt::format("the file '{}' has changed", relative.empty() ? file : relative), hash);
-  }
-  return identity;
-}
-
-/// Checks all runs on all threads; all faults of all runs, each once, in the order of the runs.
-void check_runs(SweepRunner& runner, const SweepOptions& o, const std::atomic<bool>& stop,
-                const std::function<void(const SweepProgress&)>& progress) {
-  const std::size_t count = o.plan.runs.size();
-  std::atomic<std::size_t> next{0};
-  std::vector<std::vector<InputFault>> faults(count);
-  std::exception_ptr other;
-  std::mutex mutex;
-  const auto work = [&](bool first) {
-    for (std::size_t run = next++; run < count && !stop.load(std::memory_order_relaxed);
-         run = next++) {
-      try {
-        runner.keep(run, runner.prepare(run));
-      } catch (const InputError& error) {
-        faults[run] = error.faults();
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!other) other = std::current_exception();
-        return;
-      }
-      if (first) progress({SweepProgress::Stage::checking, run, count, 0, 0.0});
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int k = 1;
-       k < std::min<int>(o.threads, static_cast<int>(std::min<std::size_t>(count, 4096))); ++k)
-    threads.emplace_back(work, false);
-  work(true);
-  for (std::thread& t : threads) t.join();
-  if (other) std::rethrow_exception(other);
-  std::vector<InputFault> all;
-  std::set<std::string> seen;
-  for (const auto& list : faults)
-    for (const InputFault& f : list)
-      if (seen.insert(f.text()).second) all.push_back(f);
-  constexpr std::size_t most_shown = 20;
-  if (all.size() > most_shown) {
-    const std::size_t more = all.size() - most_shown;
-    all.resize(most_shown);
-    all.push_back({{}, fmt::format("and {} more faults of other runs", more)});
-  }
-  if (!all.empty()) throw InputError(std::move(all));
+/// Fingerprint of the files of the first run, as this process sees them; none if stopped.
+std::optional<std::string> first_run_files(const SweepOptions& options, SweepWorkers& workers,
+                                           const std::atomic<bool>& stop) {
+  const auto answer = workers.ask(0, {What::files, 0}, stop);
+  if (!answer) return std::nullopt;
+  if (!answer->lost.empty())
+    throw RunError(fmt::format("{}: reading it {}", options.model, answer->lost));
+  if (!answer->faults.empty()) throw InputError(answer->faults);
+  return answer->text;
 }
 
 /// What earlier calls left in the folder, except the journal.
@@ -137,61 +74,74 @@ void remove_results(const std::string& folder) {
 /// Process 0: hands out runs, takes their lines.
 class Coordinator {
  public:
-  /// `give_up` ends the runs in work; it is set when the study ends before its end.
-  Coordinator(const SweepOptions& options, SweepRunner& runner, SweepJournal& journal, Ranks* ranks,
-              std::atomic<bool>& give_up)
+  Coordinator(const SweepOptions& options, SweepWorkers& workers, const CheckedRuns& checked,
+              SweepJournal& journal, Ranks* ranks)
       : options_(options),
+        workers_(workers),
         journal_(journal),
         ranks_(ranks),
-        give_up_(give_up),
-        study_(ranks ? study_hash(options, runner) : ""),
         credit_(ranks ? static_cast<std::size_t>(ranks->size()) : 0, 0),
-        pool_(options.threads, [&runner](std::size_t run, int, std::atomic<double>& progress) {
-          return runner.line(run, progress);
-        }) {}
-  /// The pool, destroyed after this body, waits for the runs in work: those that are left then are
-  /// of no use.
-  ~Coordinator() { give_up_.store(true); }
-  Coordinator(const Coordinator&) = delete;
-  Coordinator& operator=(const Coordinator&) = delete;
+        queue_(workers.size()) {
+    for (const auto& [run, reason] : checked.lost)
+      if (!journal.finished().contains(run)) journal.add(lost_line(options, run, reason));
+    for (std::size_t run = 0; run < options.plan.runs.size(); ++run)
+      if (!journal.finished().contains(run)) queue_.push(run, checked.worker[run]);
+  }
 
   /// True if all runs are finished, false if it was stopped.
-  bool work(const std::atomic<bool>& stop,
+  bool work(std::size_t before, const std::atomic<bool>& stop,
             const std::function<void(const SweepProgress&)>& progress) {
-    const std::size_t total = options_.plan.runs.size(), before = journal_.finished().size();
-    for (std::size_t run = 0; run < total; ++run)
-      if (!journal_.finished().contains(run)) pool_.push(run);
-    while (journal_.finished().size() < total) {
+    const std::size_t total = options_.plan.runs.size();
+    bool given_up = false;
+    if (ranks_) {
+      const auto files = first_run_files(options_, workers_, stop);
+      given_up = !files;
+      if (files) study_ = study_hash(options_, *files);
+    }
+    while (!given_up && journal_.finished().size() < total) {
+      hand_out();
       // Messages of other processes have to be asked for.
-      const std::chrono::milliseconds patience(ranks_ ? 1 : 50);
-      bool given_up = stop.load();
-      if (given_up) give_up_.store(true);
-      for (WorkerPool::Finished& f : pool_.finished(patience)) {
-        if (!f.fault) {
-          journal_.add(f.line);
-          continue;
-        }
-        try {
-          std::rethrow_exception(f.fault);
-        } catch (const RunGivenUp&) {
-          given_up = true;
-        }
-      }
+      for (const SweepWorkers::Answer& answer :
+           workers_.answers(std::chrono::milliseconds(ranks_ ? 1 : 50)))
+        given_up = !take(answer) || given_up;
       RankMessage message;
       while (ranks_ && ranks_->receive(message)) given_up = !take(message) || given_up;
       progress({SweepProgress::Stage::running, journal_.finished().size(), total, before,
-                pool_.in_work()});
-      if (given_up) {
-        pool_.clear();
-        journal_.flush();
-        return false;
-      }
+                workers_.in_work()});
+      given_up = given_up || stop.load();
     }
+    if (given_up) wind_up();
     journal_.flush();
-    return true;
+    return !given_up;
   }
 
  private:
+  void hand_out() {
+    for (int worker = 0; worker < workers_.size(); ++worker) {
+      if (!workers_.idle(worker)) continue;
+      const auto run = queue_.take(worker);
+      if (!run) return;
+      workers_.give(worker, {What::run, *run});
+    }
+  }
+
+  /// The runs in work are given up, which they notice after some steps; those that do not are ended
+  /// with their workers.
+  void wind_up() {
+    workers_.give_up();
+    const auto end = Clock::now() + std::chrono::seconds(2);
+    while (!workers_.all_idle() && Clock::now() < end)
+      for (const SweepWorkers::Answer& answer : workers_.answers(std::chrono::milliseconds(50)))
+        if (answer.lost.empty()) take(answer);
+  }
+
+  /// False if the run was given up.
+  bool take(const SweepWorkers::Answer& answer) {
+    const auto line = line_of(options_, answer);
+    if (line) journal_.add(*line);
+    return line.has_value();
+  }
+
   /// False if the sender was interrupted.
   bool take(const RankMessage& message) {
     const std::string word = word_of(message.text);
@@ -212,7 +162,7 @@ class Coordinator {
       throw RunError(fmt::format("process {}: {}", message.from, rest_of(message.text)));
     }
     for (; credit > 0; --credit) {
-      const auto run = pool_.take();
+      const auto run = queue_.take();
       if (!run) break;
       ranks_->send(message.from, fmt::format("run {}", *run));
     }
@@ -220,12 +170,12 @@ class Coordinator {
   }
 
   const SweepOptions& options_;
+  SweepWorkers& workers_;
   SweepJournal& journal_;
   Ranks* ranks_;
-  std::atomic<bool>& give_up_;
   std::string study_;
   std::vector<long> credit_;
-  WorkerPool pool_;
+  RunQueue queue_;
 };
 
 SweepReport report_of(const SweepOptions& o, const SweepJournal& journal, std::size_t before) {
@@ -245,21 +195,16 @@ SweepReport report_of(const SweepOptions& o, const SweepJournal& journal, std::s
 
 }  // namespace
 
-SweepReport run_sweep(const SweepOptions& o, Ranks* ranks, const std::atomic<bool>& stop,
+SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks,
+                      const std::atomic<bool>& stop,
                       const std::function<void(const SweepProgress&)>& progress) {
-  std::atomic<bool> give_up{false};
-  SweepRunner runner(o, give_up);
-  check_runs(runner, o, stop, progress);
-  if (stop.load()) {
+  const CheckedRuns checked = check_runs(o, workers, stop, progress);
+  if (checked.stopped) {
     SweepReport report;
     report.runs = o.plan.runs.size();
     report.interrupted = true;
     return report;
   }
-  // A model that cannot be built with the values of the first run is refused before anything is
-  // written; the others may fail one by one.
-  runner.model(0, runner.prepare(0));
-
   try {
     make_output_folder(o.folder);
   } catch (const OutputError& error) {
@@ -267,15 +212,14 @@ SweepReport run_sweep(const SweepOptions& o, Ranks* ranks, const std::atomic<boo
   }
   const std::string journal_path = (std::filesystem::path(o.folder) / "sweep.journal").string();
   const std::string table_path = (std::filesystem::path(o.folder) / "sweep.csv").string();
-  SweepJournal journal(journal_path, identity_of(o, runner.files()), o.plan.runs.size(), o.fresh);
+  SweepJournal journal(journal_path, identity_of(o), o.plan.runs.size(), o.fresh,
+                       relative_to_model(o, workers.files()));
+  if (o.retry_failed) journal.forget_failed();
   const std::size_t before = journal.finished().size();
   if (before == 0) remove_results(o.folder);
 
-  bool complete = false;
-  {
-    Coordinator coordinator(o, runner, journal, ranks, give_up);
-    complete = coordinator.work(stop, progress);
-  }
+  const bool complete =
+      Coordinator(o, workers, checked, journal, ranks).work(before, stop, progress);
   SweepReport report = report_of(o, journal, before);
   report.journal = journal_path;
   report.interrupted = !complete;
@@ -288,47 +232,77 @@ SweepReport run_sweep(const SweepOptions& o, Ranks* ranks, const std::atomic<boo
   return report;
 }
 
+SweepReport run_sweep(const SweepOptions& options, const std::atomic<bool>& stop,
+                      const std::function<void(const SweepProgress&)>& progress) {
+  SweepWorkers workers(options);
+  return run_sweep(options, workers, nullptr, stop, progress);
+}
+
 void dismiss_ranks(Ranks& ranks) {
   for (int k = 1; k < ranks.size(); ++k) ranks.send(k, "stop");
 }
 
-void serve_sweep(const SweepOptions& o, Ranks& ranks, const std::atomic<bool>& stop) {
-  std::atomic<bool> over{false};
-  bool dismissed = false;
-  try {
-    SweepRunner runner(o, over);
-    WorkerPool pool(o.threads, [&](std::size_t run, int, std::atomic<double>& progress) {
-      return runner.line(run, progress);
-    });
-    ranks.send(0, "hello " + study_hash(o, runner));
-    ranks.send(0, fmt::format("want {}", o.threads));
-    bool ahead = false;
-    while (!dismissed) {
-      for (const WorkerPool::Finished& f : pool.finished(std::chrono::milliseconds(1))) {
-        if (over.load()) continue;
-        if (f.fault) {
-          over.store(true);
-          std::rethrow_exception(f.fault);
-        }
-        ranks.send(0, "done " + f.line);
-        // Short runs: a second run a thread lies ready, so that no thread waits for the answer.
-        const bool short_run = !ahead && f.seconds < 0.1;
-        ranks.send(0, fmt::format("want {}", short_run ? 1 + o.threads : 1));
-        ahead = ahead || short_run;
+namespace {
+
+/// A process other than 0: does what it is sent.
+class RankWorker {
+ public:
+  RankWorker(const SweepOptions& options, SweepWorkers& workers, Ranks& ranks)
+      : options_(options), workers_(workers), ranks_(ranks) {}
+
+  /// Until process 0 says that it is over (true), or `stop` (false).
+  bool work(const std::atomic<bool>& stop) {
+    const auto files = first_run_files(options_, workers_, stop);
+    if (!files) return false;
+    ranks_.send(0, "hello " + study_hash(options_, *files));
+    want(workers_.size());
+    while (!stop.load()) {
+      for (int k = 0; k < workers_.size() && !queue_.empty(); ++k) {
+        if (!workers_.idle(k)) continue;
+        workers_.give(k, {What::run, queue_.front()});
+        queue_.pop_front();
       }
-      if (stop.load() && !over.load()) {
-        over.store(true);
-        ranks.send(0, "interrupted");
-      }
+      for (const SweepWorkers::Answer& answer : workers_.answers(std::chrono::milliseconds(1)))
+        take(answer);
       RankMessage message;
-      while (!dismissed && ranks.receive(message)) {
-        dismissed = word_of(message.text) == "stop";
-        if (!dismissed && !over.load()) pool.push(std::stoul(rest_of(message.text)));
+      while (ranks_.receive(message)) {
+        if (word_of(message.text) == "stop") return true;
+        queue_.push_back(std::stoul(rest_of(message.text)));
       }
     }
-    over.store(true);  // gives up what is in work
+    return false;
+  }
+
+ private:
+  void want(int runs) { ranks_.send(0, fmt::format("want {}", runs)); }
+
+  void take(const SweepWorkers::Answer& answer) {
+    const auto line = line_of(options_, answer);
+    if (!line) return;
+    ranks_.send(0, "done " + *line);
+    // Short runs: a second run a worker lies ready, so that none waits for the answer.
+    const bool short_run = !ahead_ && answer.seconds < 0.1;
+    want(short_run ? 1 + workers_.size() : 1);
+    ahead_ = ahead_ || short_run;
+  }
+
+  const SweepOptions& options_;
+  SweepWorkers& workers_;
+  Ranks& ranks_;
+  std::deque<std::size_t> queue_;
+  bool ahead_ = false;
+};
+
+}  // namespace
+
+void serve_sweep(const SweepOptions& options, SweepWorkers* workers, Ranks& ranks,
+                 const std::atomic<bool>& stop) {
+  bool dismissed = false;
+  try {
+    if (workers) dismissed = RankWorker(options, *workers, ranks).work(stop);
+    if (workers && !dismissed) ranks.send(0, "interrupted");
   } catch (const std::exception& error) {
-    if (!dismissed) ranks.send(0, std::string("fault ") + error.what());
+    ranks.send(0, std::string("fault ") + error.what());
   }
   while (!dismissed) {
     RankMessage message;

@@ -1,11 +1,12 @@
 #pragma once
-// A parameter study: many runs of one model file with different values, on threads and, under
-// mpirun, on several processes. Its table depends only on the runs, not on how they were spread or
-// how often the study was interrupted: each run is single-threaded, and rows go through the
-// journal's text.
+// A parameter study: many runs of one model file with different values, in worker processes and,
+// under mpirun, on several machines. Its table depends only on the runs, not on how they were
+// spread or how often the study was interrupted: each run is single-threaded, and rows go through
+// the journal's text.
 //
-// Process 0 checks all runs, hands out run numbers, keeps the journal and writes the table; the
-// others ask it for runs. Its own threads take runs from the same queue.
+// The program itself hands out run numbers, keeps the journal and writes the table; nothing of a
+// run, not even the reading of its model, happens in it, so that a run that crashes is a row.
+// Under mpirun each process has its own workers; process 0 leads, the others ask it for runs.
 #include <atomic>
 #include <cstddef>
 #include <functional>
@@ -16,8 +17,11 @@
 #include "floatframe/sweep/sweep_case.hpp"
 #include "floatframe/sweep/sweep_plan.hpp"
 #include "floatframe/sweep/sweep_row.hpp"
+#include "floatframe/sweep/worker_guard.hpp"
 
 namespace floatframe {
+
+class SweepWorkers;
 
 struct SweepOptions {
   std::string model;                ///< model file
@@ -25,9 +29,11 @@ struct SweepOptions {
   SweepPlan plan;
   std::vector<SweepMeasure> measures;  ///< empty: all outputs
   std::string folder;                  ///< sweep.csv, sweep.journal, runs/
-  int threads = 1;                     ///< of this process
+  int threads = 1;                     ///< runs at a time: worker processes of this one
+  WorkerLimits limits;                 ///< of a run; reading its model and running it one by one
   bool keep_results = false;  ///< results.csv and summary.json of every run below runs/<number>
   bool fresh = false;         ///< do not continue what is in the folder
+  bool retry_failed = false;  ///< repeat the runs that failed, whatever the reason
 };
 
 struct SweepProgress {
@@ -52,11 +58,20 @@ struct SweepReport {
 /// Runs the study or what is left of it. `ranks` may be null. `stop`, looked at all the time, ends
 /// it early: runs in work are given up. Throws InputError (nothing was started), OutputError,
 /// RunError.
-SweepReport run_sweep(const SweepOptions& options, Ranks* ranks, const std::atomic<bool>& stop,
+SweepReport run_sweep(const SweepOptions& options, SweepWorkers& workers, Ranks* ranks,
+                      const std::atomic<bool>& stop,
                       const std::function<void(const SweepProgress&)>& progress);
 
-/// The part of a process other than 0: works until process 0 says that it is over.
-void serve_sweep(const SweepOptions& options, Ranks& ranks, const std::atomic<bool>& stop);
+/// The same with workers of its own. They are forks of the calling program: it should have no other
+/// threads at this moment, or none that hold a lock that a run needs (memory and files of the C
+/// library are safe). They do not run its exit handlers and touch none of its open files.
+SweepReport run_sweep(const SweepOptions& options, const std::atomic<bool>& stop,
+                      const std::function<void(const SweepProgress&)>& progress);
+
+/// The part of a process other than 0: works until process 0 says that it is over. Without workers
+/// it waits for that only.
+void serve_sweep(const SweepOptions& options, SweepWorkers* workers, Ranks& ranks,
+                 const std::atomic<bool>& stop);
 
 /// Tells the other processes that nothing will come: when process 0 ends before `run_sweep`.
 void dismiss_ranks(Ranks& ranks);

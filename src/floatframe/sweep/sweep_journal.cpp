@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -34,17 +35,60 @@ Json json_of(const std::string& line) {
   return Json::parse(text, nullptr, false);
 }
 
-Json header_of(const SweepIdentity& identity, std::size_t runs) {
+Json header_of(const SweepIdentity& identity, std::size_t runs, const SweepJournal::Files& files) {
   Json header = {{"floatframe_sweep", 1}, {"runs", runs}};
   Json same = Json::array();
   for (const auto& [what, value] : identity) same.push_back({what, value});
   header["identity"] = same;
+  header["files"] = files;
   return header;
+}
+
+/// In what a journal with this first line is another study; empty if in nothing.
+std::string difference(const Json& found, const SweepIdentity& identity, std::size_t runs) {
+  const Json wanted = header_of(identity, runs, {});
+  const Json same = found.contains("identity") ? found.at("identity") : Json::array();
+  for (std::size_t k = 0; k < identity.size(); ++k)
+    if (!same.is_array() || k >= same.size() || same[k] != wanted["identity"][k])
+      return identity[k].first;
+  const bool equal = found.contains("runs") && found.at("runs") == wanted["runs"] &&
+                     found.at("floatframe_sweep") == wanted["floatframe_sweep"] &&
+                     same.size() == identity.size();
+  return equal ? "" : "the runs differ";
 }
 
 OutputError cannot(const std::string& path, int error) {
   return OutputError(
       fmt::format("the file '{}' cannot be written: {}", path, std::strerror(error)));
+}
+
+/// The files that a line knows.
+void add_files(const Json& json, SweepJournal::Files& files) {
+  if (!json.contains("files") || !json.at("files").is_object()) return;
+  for (const auto& [file, hash] : json.at("files").items())
+    if (hash.is_string()) files.emplace(file, hash.get<std::string>());
+}
+
+/// False if it is not a row.
+bool row_of(const Json& json, std::size_t& run, SweepRow& row) {
+  if (json.is_discarded() || !json.is_object() || !json.contains("run")) return false;
+  try {
+    if (!json.at("run").is_number_unsigned()) return false;
+    const auto number = json.at("run").get<std::size_t>();
+    if (number == 0) return false;
+    run = number - 1;
+    row = {json.at("status"), json.at("message"), {}};
+    for (const Json& field : json.at("fields")) row.fields.emplace_back(field.at(0), field.at(1));
+  } catch (const Json::exception&) {
+    return false;
+  }
+  return true;
+}
+
+InputError another_study(const std::string& path, const std::string& difference) {
+  return InputError(fmt::format(
+      "'{}' holds another study ({}); give another --out to keep it, or --fresh to replace it",
+      path, difference));
 }
 
 }  // namespace
@@ -59,31 +103,25 @@ std::string encode_row(std::size_t run, const SweepRow& row) {
 }
 
 bool decode_row(const std::string& text, std::size_t& run, SweepRow& row) {
-  const Json json = json_of(text);
-  if (json.is_discarded() || !json.is_object() || !json.contains("run")) return false;
-  try {
-    const auto number = json.at("run").get<std::size_t>();
-    if (number == 0) return false;
-    run = number - 1;
-    row = {json.at("status"), json.at("message"), {}};
-    for (const Json& field : json.at("fields")) row.fields.emplace_back(field.at(0), field.at(1));
-  } catch (const Json::exception&) {
-    return false;
-  }
-  return true;
+  return row_of(json_of(text), run, row);
 }
 
 SweepJournal::SweepJournal(const std::string& path, const SweepIdentity& identity, std::size_t runs,
-                           bool fresh)
+                           bool fresh, const Files& files)
     : path_(path), flushed_(std::chrono::steady_clock::now()) {
-  const std::string header = line_of(header_of(identity, runs));
+  const std::string header = line_of(header_of(identity, runs, files));
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file_ < 0) throw cannot(path, errno);
   try {
+    // A pipe would be waited for, a device read without end.
+    struct stat status {};
+    if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode))
+      throw InputError(fmt::format("'{}' is not a regular file; give another --out", path));
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw InputError(fmt::format("'{}' is in use: this study is running already", path));
     if (fresh) create(header);
     load(header, identity, runs);
+    agree_on_files(files);
   } catch (...) {
     ::close(file_);
     throw;
@@ -115,38 +153,52 @@ void SweepJournal::load(const std::string& header, const SweepIdentity& identity
     if (header.compare(0, text.size(), text) != 0 && json_of(text).is_discarded() &&
         text.size() > 17)
       throw InputError(fmt::format("'{}' is not the journal of a study", path_));
-    return create(header);
+    create(header);
+    return add_files(json_of(header), files_);
   }
   const Json found = json_of(text.substr(0, end_of_header));
   if (found.is_discarded() || !found.is_object() || !found.contains("floatframe_sweep"))
     throw InputError(
         fmt::format("'{}' is not the journal of a study; give another --out, or --fresh", path_));
+  const std::string other = difference(found, identity, runs);
+  if (!other.empty()) throw another_study(path_, other);
+  add_files(found, files_);
   // Lines: the last one may be torn; what is after the last line break goes.
   const std::size_t whole = text.rfind('\n') + 1;
   for (std::size_t from = end_of_header + 1; from < whole;) {
     const std::size_t to = text.find('\n', from);
-    std::size_t run = 0;
-    SweepRow row;
-    if (decode_row(text.substr(from, to - from), run, row) && run < runs)
-      finished_.insert_or_assign(run, std::move(row));
+    load_line(text.substr(from, to - from), runs);
     from = to + 1;
-  }
-  if (text.substr(0, end_of_header) != header) {
-    std::string difference = "the runs differ";
-    const Json same = found.value("identity", Json::array());
-    for (std::size_t k = 0; k < identity.size(); ++k) {
-      const Json expected = Json::array({identity[k].first, identity[k].second});
-      if (k >= same.size() || same[k] != expected) {
-        difference = identity[k].first;
-        break;
-      }
-    }
-    throw InputError(fmt::format(
-        "'{}' holds another study ({}); give another --out to keep it, or --fresh to replace it",
-        path_, difference));
   }
   if (whole < text.size() && ::ftruncate(file_, static_cast<off_t>(whole)) != 0)
     throw cannot(path_, errno);
+}
+
+void SweepJournal::load_line(const std::string& line, std::size_t runs) {
+  const Json json = json_of(line);
+  if (!json.is_object()) return;
+  std::size_t run = 0;
+  SweepRow row;
+  if (row_of(json, run, row) && run < runs) finished_.insert_or_assign(run, std::move(row));
+  add_files(json, files_);
+}
+
+void SweepJournal::agree_on_files(const Files& files) {
+  Json more = Json::object();
+  for (const auto& [file, hash] : files) {
+    const auto known = files_.find(file);
+    if (known == files_.end())
+      more[file] = hash;
+    else if (known->second != hash)
+      throw another_study(path_, fmt::format("the file '{}' has changed", file));
+  }
+  if (more.empty()) return;
+  write(line_of({{"files", std::move(more)}}));
+  flush();
+}
+
+void SweepJournal::forget_failed() {
+  std::erase_if(finished_, [](const auto& run) { return run.second.status != "completed"; });
 }
 
 void SweepJournal::write(const std::string& line) {

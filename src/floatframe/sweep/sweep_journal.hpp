@@ -18,7 +18,8 @@
 namespace floatframe {
 
 /// What must be the same for a study to be continued: (what it is in words, its value), in the
-/// order in which a difference is reported.
+/// order in which a difference is reported. Files, which must not change either, are apart: a run
+/// whose reading was stopped may come to know one later.
 using SweepIdentity = std::vector<std::pair<std::string, std::string>>;
 
 /// A row as one line of text and back. `decode` returns false for anything that is not whole.
@@ -27,11 +28,14 @@ bool decode_row(const std::string& text, std::size_t& run, SweepRow& row);
 
 class SweepJournal {
  public:
+  using Files = std::map<std::string, std::string>;
+
   /// Opens or creates the journal at `path` for a study of `runs` runs and takes it for this
   /// process. Throws InputError if it belongs to another study or another process is at it,
-  /// OutputError if it cannot be written. `fresh`: what is there is given up.
-  SweepJournal(const std::string& path, const SweepIdentity& identity, std::size_t runs,
-               bool fresh);
+  /// OutputError if it cannot be written. `fresh`: what is there is given up. `files`: fingerprints
+  /// of the contents of files by name.
+  SweepJournal(const std::string& path, const SweepIdentity& identity, std::size_t runs, bool fresh,
+               const Files& files = {});
   ~SweepJournal();
   SweepJournal(const SweepJournal&) = delete;
   SweepJournal& operator=(const SweepJournal&) = delete;
@@ -41,12 +45,16 @@ class SweepJournal {
 
   /// Adds a finished run given by its line from `encode_row`. Throws OutputError.
   void add(const std::string& line);
+  /// Takes failed runs as not finished; the line of their repetition counts.
+  void forget_failed();
   /// To the disk.
   void flush();
 
  private:
   void create(const std::string& header);
   void load(const std::string& header, const SweepIdentity& identity, std::size_t runs);
+  void load_line(const std::string& line, std::size_t runs);
+  void agree_on_files(const Files& files);
   void write(const std::string& line);
 
   std::string path_;
@@ -54,6 +62,7 @@ class SweepJournal {
   bool unflushed_ = false;
   std::chrono::steady_clock::time_point flushed_;
   std::map<std::size_t, SweepRow> finished_;
+  Files files_;  ///< known to the journal
 };
 
 }  // namespace floatframe

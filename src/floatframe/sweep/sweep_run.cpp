@@ -24,33 +24,34 @@ std::string first_fault(const InputError& error) {
   return text;
 }
 
-}  // namespace
-
-SweepRunner::SweepRunner(const SweepOptions& options, const std::atomic<bool>& stop)
-    : options_(options),
-      stop_(stop),
-      reader_(options.model, options_.fixed, options_.plan),
-      pool_(static_cast<std::size_t>(8 + 2 * options.threads)),
-      prepared_(options.plan.runs.size()) {}
-
-SweepCase SweepRunner::read(std::size_t run) {
-  SweepCase c = reader_.read(run);
-  const std::lock_guard lock(mutex_);
-  for (const auto& [file, hash] : c.fingerprint.files)
-    if (files_.emplace(file, hash).first->second != hash)
-      throw RunError(fmt::format("'{}' was changed while the study was running", file));
-  return c;
+std::filesystem::path folder_of(const SweepOptions& options, std::size_t run) {
+  const std::size_t digits = std::to_string(options.plan.runs.size()).size();
+  return std::filesystem::path(options.folder) / "runs" / fmt::format("{:0{}}", run + 1, digits);
 }
 
-PreparedRun SweepRunner::prepare(std::size_t run) {
-  const SweepCase c = read(run);
-  for (const SweepMeasure& m : options_.measures) {
-    std::vector<std::string> names;
-    for (const OutputDescription& o : c.description.outputs) names.push_back(o.name);
-    if (std::find(names.begin(), names.end(), m.output) == names.end())
-      throw InputError(fmt::format("--measure: {} has no output '{}'{}", options_.model, m.output,
-                                   did_you_mean(m.output, names)));
-  }
+/// What a process that died while it wrote a file left of it.
+void remove_torn_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> torn;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator it(folder, ignored), end; !ignored && it != end;
+       it.increment(ignored))
+    if (it->path().filename().string().find(".part-") != std::string::npos)
+      torn.push_back(it->path());
+  for (const auto& file : torn) remove_file(file.string());
+}
+
+void keep_files(const std::filesystem::path& folder, const RunResult& result) {
+  make_output_folder(folder.string());
+  remove_torn_files(folder);
+  const std::string table = (folder / "results.csv").string();
+  if (result.table.columns.empty())
+    remove_file(table);
+  else
+    write_file(table, results_csv(result.table));
+  write_file((folder / "summary.json").string(), summary_json(result.summary));
+}
+
+PreparedRun prepared_from(const SweepCase& c) {
   PreparedRun p;
   p.fingerprint.model = c.fingerprint.model;
   p.fingerprint.simulation = c.fingerprint.simulation;
@@ -58,19 +59,41 @@ PreparedRun SweepRunner::prepare(std::size_t run) {
   return p;
 }
 
-void SweepRunner::keep(std::size_t run, PreparedRun prepared) {
-  prepared_[run] = std::move(prepared);
+}  // namespace
+
+SweepRunner::SweepRunner(const SweepOptions& options, const std::atomic<bool>& stop)
+    : options_(options),
+      stop_(stop),
+      reader_(options.model, options_.fixed, options_.plan),
+      pool_(8) {}
+
+SweepCase SweepRunner::read(std::size_t run) {
+  SweepCase c = reader_.read(run);
+  for (const auto& [file, hash] : c.fingerprint.files)
+    if (files_.emplace(file, hash).first->second != hash)
+      throw RunError(fmt::format("'{}' was changed while the study was running", file));
+  return c;
 }
+
+SweepCase SweepRunner::read_checked(std::size_t run) {
+  SweepCase c = read(run);
+  for (const SweepMeasure& m : options_.measures) {
+    std::vector<std::string> names;
+    for (const OutputDescription& o : c.description.outputs) names.push_back(o.name);
+    if (std::find(names.begin(), names.end(), m.output) == names.end())
+      throw InputError(fmt::format("--measure: {} has no output '{}'{}", options_.model, m.output,
+                                   did_you_mean(m.output, names)));
+  }
+  return c;
+}
+
+PreparedRun SweepRunner::prepare(std::size_t run) { return prepared_from(read_checked(run)); }
+
+void SweepRunner::check(std::size_t run) { prepared_.insert_or_assign(run, prepare(run)); }
 
 std::shared_ptr<const Model> SweepRunner::model(std::size_t run, const PreparedRun& prepared) {
   return pool_.get(prepared.fingerprint, prepared.simulation,
                    [&] { return read(run).description; });
-}
-
-std::string SweepRunner::folder_of(std::size_t run) const {
-  const std::size_t digits = std::to_string(options_.plan.runs.size()).size();
-  return (std::filesystem::path(options_.folder) / "runs" / fmt::format("{:0{}}", run + 1, digits))
-      .string();
 }
 
 std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
@@ -78,8 +101,18 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
   RunResult result;
   SweepRow row;
   try {
-    const PreparedRun prepared = prepared_[run] ? *prepared_[run] : prepare(run);
-    const std::shared_ptr<const Model> shared = model(run, prepared);
+    std::shared_ptr<const Model> shared;
+    PreparedRun prepared;
+    if (auto known = prepared_.extract(run); !known.empty()) {
+      prepared = std::move(known.mapped());
+      shared = model(run, prepared);
+    } else {
+      // Checked by another worker: what is read now is enough to build from.
+      SweepCase c = read_checked(run);
+      prepared = prepared_from(c);
+      shared = pool_.get(prepared.fingerprint, prepared.simulation,
+                         [&] { return std::move(c.description); });
+    }
     RunOptions options;
     options.progress = [&](double fraction) {
       if (stop_.load(std::memory_order_relaxed)) throw RunGivenUp{};
@@ -99,18 +132,7 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
     result.summary.status = "failed";
     result.summary.message = row.message;
   }
-  if (options_.keep_results) {
-    const std::string folder = folder_of(run);
-    make_output_folder(folder);
-    const auto path = [&](const char* name) {
-      return (std::filesystem::path(folder) / name).string();
-    };
-    if (result.table.columns.empty())
-      remove_file(path("results.csv"));
-    else
-      write_file(path("results.csv"), results_csv(result.table));
-    write_file(path("summary.json"), summary_json(result.summary));
-  }
+  if (options_.keep_results) keep_files(folder_of(options_, run), result);
   return encode_row(run, row);
 }
 
@@ -120,9 +142,14 @@ std::string SweepRunner::files_of_first_run() const {
   return hash.text();
 }
 
-std::map<std::string, std::string> SweepRunner::files() const {
-  const std::lock_guard lock(mutex_);
-  return files_;
+std::string lost_line(const SweepOptions& options, std::size_t run, const std::string& reason) {
+  if (options.keep_results) {
+    RunResult result;
+    result.summary.status = "failed";
+    result.summary.message = reason;
+    keep_files(folder_of(options, run), result);
+  }
+  return encode_row(run, failed_row(reason));
 }
 
 }  // namespace floatframe

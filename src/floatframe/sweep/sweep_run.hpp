@@ -1,11 +1,11 @@
 #pragma once
-// One run of a study from its number to its line in the journal.
+// One run of a study from its number to its line in the journal; in one thread.
 #include <atomic>
 #include <exception>
 #include <map>
-#include <mutex>
-#include <optional>
+#include <memory>
 #include <string>
+#include <unordered_map>
 
 #include "floatframe/sweep/model_pool.hpp"
 #include "floatframe/sweep/sweep.hpp"
@@ -23,13 +23,13 @@ struct RunGivenUp {};
 
 class SweepRunner {
  public:
+  /// Throws InputError. Both references must outlive the runner.
   SweepRunner(const SweepOptions& options, const std::atomic<bool>& stop);
 
-  /// Reads the model with the values of a run and checks them and the measures. Several threads may
-  /// call it. Throws InputError.
+  /// Reads the model with the values of a run and checks them and the measures. Throws InputError.
   PreparedRun prepare(std::size_t run);
-  /// Keeps what `prepare` found, so that `line` need not read the file again; before any `line`.
-  void keep(std::size_t run, PreparedRun prepared);
+  /// The same, and remembers what it found, so that `line` need not read the file again.
+  void check(std::size_t run);
   /// Runs it; a run that cannot start or fails gives a line that says so. Writes the files of the
   /// run if the study keeps them. Throws RunGivenUp, OutputError, RunError (a file changed
   /// meanwhile).
@@ -38,21 +38,24 @@ class SweepRunner {
   std::shared_ptr<const Model> model(std::size_t run, const PreparedRun& prepared);
 
   /// Files read so far and the fingerprints of their contents.
-  std::map<std::string, std::string> files() const;
+  const std::map<std::string, std::string>& files() const noexcept { return files_; }
   /// Fingerprint of the contents of the files that the first run reads. Throws InputError.
   std::string files_of_first_run() const;
 
  private:
   SweepCase read(std::size_t run);
-  std::string folder_of(std::size_t run) const;
+  SweepCase read_checked(std::size_t run);
 
   const SweepOptions& options_;
   const std::atomic<bool>& stop_;
   SweepCaseReader reader_;
   ModelPool pool_;
-  std::vector<std::optional<PreparedRun>> prepared_;
-  mutable std::mutex mutex_;
+  std::unordered_map<std::size_t, PreparedRun> prepared_;
   std::map<std::string, std::string> files_;
 };
+
+/// The line of a run that was lost with its process, and the files that say so if the study keeps
+/// them. Throws OutputError.
+std::string lost_line(const SweepOptions& options, std::size_t run, const std::string& reason);
 
 }  // namespace floatframe

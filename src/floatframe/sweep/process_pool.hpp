@@ -1,0 +1,76 @@
+#pragma once
+// Worker processes that answer requests, one at a time each, and survive anything a request does:
+// one whose worker crashes, takes too long or too much memory has a reason in place of an answer,
+// and the next request finds a new worker.
+//
+// The processes are forks of this one, made by the constructor: best before the program has loaded
+// MPI or has threads. They end with it, however it ends, or with the thread that made them.
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floatframe/sweep/message_pipe.hpp"
+#include "floatframe/sweep/worker_guard.hpp"
+
+namespace floatframe {
+
+/// What worker processes can see: set to give up what is in work.
+struct SharedFlags {
+  std::atomic<bool> give_up{false};
+};
+
+class ProcessPool {
+ public:
+  struct Answer {
+    int worker = 0;
+    std::string request, text;
+    std::string lost;      ///< why there is no answer; empty: there is one
+    double seconds = 0.0;  ///< how long it took
+  };
+  using Work = std::function<std::string(const std::string& request, WorkerState& state,
+                                         const SharedFlags& flags)>;
+
+  /// Throws RunError if the system refuses more processes.
+  ProcessPool(int workers, const WorkerLimits& limits, const Work& work);
+  /// Ends what is in work at once.
+  ~ProcessPool();
+  ProcessPool(const ProcessPool&) = delete;
+  ProcessPool& operator=(const ProcessPool&) = delete;
+
+  int size() const noexcept { return static_cast<int>(workers_.size()); }
+  bool idle(int worker) const { return workers_[static_cast<std::size_t>(worker)].request.empty(); }
+  bool all_idle() const;
+  /// To an idle worker. Throws RunError if it is not there any more.
+  void give(int worker, const std::string& request);
+  /// What has come since the last call; waits for something, but not longer than `timeout`. Throws
+  /// RunError if workers cannot be started or have been taken away.
+  std::vector<Answer> answers(std::chrono::milliseconds timeout);
+  /// Gives a request and waits for its answer; for a pool at rest. None if `stop` was set first.
+  std::optional<Answer> ask(int worker, const std::string& request, const std::atomic<bool>& stop);
+  /// Sum over the requests in work of the fraction done.
+  double in_work() const;
+  /// Tells the work to give up.
+  void give_up() { flags_->give_up.store(true); }
+
+ private:
+  struct Worker {
+    int socket = -1, process = -1;
+    std::string request;  ///< in work; empty: idle
+    std::chrono::steady_clock::time_point start;
+    MessageReader reader;
+    WorkerState* state = nullptr;
+  };
+  void start(Worker& worker, const WorkerLimits& limits, const Work& work);
+  void end() noexcept;
+
+  void* memory_ = nullptr;  ///< shared with all workers: flags and states
+  std::size_t memory_size_ = 0;
+  SharedFlags* flags_ = nullptr;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,110 @@
+#include "floatframe/sweep/sweep_check.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+namespace {
+
+using What = ServiceRequest::What;
+
+class Checker {
+ public:
+  Checker(const SweepOptions& options, SweepWorkers& workers, const std::atomic<bool>& stop)
+      : options_(options), workers_(workers), stop_(stop) {
+    out_.worker.assign(options.plan.runs.size(), 0);
+  }
+
+  CheckedRuns check(const std::function<void(const SweepProgress&)>& progress) {
+    // The first run alone: a part that it reduces is in the cache when the others need it.
+    if (open() && alone(What::check)) {
+      others(progress);
+      if (!out_.stopped) refuse_faults();
+      if (!out_.stopped && !out_.lost.contains(0)) alone(What::build);
+      refuse_faults();
+    }
+    if (out_.stopped) workers_.give_up();
+    return std::move(out_);
+  }
+
+ private:
+  /// Whatever the runs are, the file and the names must be understood.
+  bool open() {
+    const auto answer = workers_.ask(0, {What::open, 0}, stop_);
+    if (!answer) return !(out_.stopped = true);
+    if (!answer->lost.empty())
+      throw RunError(fmt::format("{}: reading it {}", options_.model, answer->lost));
+    if (!answer->faults.empty()) throw InputError(answer->faults);
+    return true;
+  }
+
+  bool alone(What what) {
+    const auto answer = workers_.ask(0, {what, 0}, stop_);
+    if (!answer) return !(out_.stopped = true);
+    take(*answer, what);
+    return true;
+  }
+
+  void take(const SweepWorkers::Answer& answer, What what = What::check) {
+    ++done_;
+    out_.worker[answer.run] = answer.worker;
+    if (!answer.lost.empty())
+      out_.lost[answer.run] = fmt::format("{} while its model was {}", answer.lost,
+                                          what == What::build ? "built" : "read");
+    if (!answer.faults.empty()) faults_[answer.run] = answer.faults;
+    out_.stopped = out_.stopped || answer.kind == ServiceAnswer::Kind::given_up;
+  }
+
+  void others(const std::function<void(const SweepProgress&)>& progress) {
+    const std::size_t count = options_.plan.runs.size();
+    std::size_t next = 1;
+    while (done_ < count) {
+      if (stop_.load()) {
+        out_.stopped = true;
+        return;
+      }
+      for (int worker = 0; worker < workers_.size() && next < count; ++worker)
+        if (workers_.idle(worker)) workers_.give(worker, {What::check, next++});
+      for (const SweepWorkers::Answer& answer : workers_.answers(std::chrono::milliseconds(50)))
+        take(answer);
+      progress({SweepProgress::Stage::checking, done_, count, 0, 0.0});
+    }
+  }
+
+  void refuse_faults() {
+    std::vector<InputFault> all;
+    std::set<std::string> seen;
+    for (const auto& [run, list] : faults_)
+      for (const InputFault& f : list)
+        if (seen.insert(f.text()).second) all.push_back(f);
+    constexpr std::size_t most_shown = 20;
+    if (all.size() > most_shown) {
+      const std::size_t more = all.size() - most_shown;
+      all.resize(most_shown);
+      all.push_back({{}, fmt::format("and {} more faults of other runs", more)});
+    }
+    if (!all.empty()) throw InputError(std::move(all));
+  }
+
+  const SweepOptions& options_;
+  SweepWorkers& workers_;
+  const std::atomic<bool>& stop_;
+  CheckedRuns out_;
+  std::size_t done_ = 0;
+  std::map<std::size_t, std::vector<InputFault>> faults_;
+};
+
+}  // namespace
+
+CheckedRuns check_runs(const SweepOptions& options, SweepWorkers& workers,
+                       const std::atomic<bool>& stop,
+                       const std::function<void(const SweepProgress&)>& progress) {
+  return Checker(options, workers, stop).check(progress);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,56 @@
+#include "floatframe/sweep/sweep_identity.hpp"
+
+#include <filesystem>
+
+#include "floatframe/core/content_hash.hpp"
+#include "floatframe/sweep/program_identity.hpp"
+
+namespace floatframe {
+namespace {
+
+std::string plan_hash(const SweepPlan& plan) {
+  ContentHash hash;
+  for (const std::string& name : plan.names) hash.add(name);
+  for (const auto& run : plan.runs)
+    for (const std::string& value : run) hash.add(value);
+  return hash.text();
+}
+
+}  // namespace
+
+std::string study_hash(const SweepOptions& o, const std::string& first_run) {
+  ContentHash hash;
+  hash.add(program_identity())
+      .add(plan_hash(o.plan))
+      .add(static_cast<std::uint64_t>(o.keep_results));
+  for (const SweepSetting& s : o.fixed) hash.add(s.name).add(s.value);
+  for (const SweepMeasure& m : o.measures) hash.add(m.output).add(m.statistic);
+  return hash.add(first_run).text();
+}
+
+SweepIdentity identity_of(const SweepOptions& o) {
+  SweepIdentity identity{{"made by another build of the program", program_identity()}};
+  std::string fixed, measures;
+  for (const SweepSetting& s : o.fixed) fixed += s.name + '=' + s.value + '\n';
+  for (const SweepMeasure& m : o.measures) measures += m.output + ':' + m.statistic + '\n';
+  identity.emplace_back("the varied parameters or their values differ", plan_hash(o.plan));
+  identity.emplace_back("the values that are the same for all runs differ", fixed);
+  identity.emplace_back("the outputs measured differ", measures);
+  identity.emplace_back("one keeps the results of its runs, the other does not",
+                        o.keep_results ? "yes" : "no");
+  return identity;
+}
+
+std::map<std::string, std::string> relative_to_model(
+    const SweepOptions& options, const std::map<std::string, std::string>& files) {
+  std::map<std::string, std::string> out;
+  const auto folder = std::filesystem::path(options.model).parent_path();
+  for (const auto& [file, hash] : files) {
+    const std::string relative =
+        folder.empty() ? "" : std::filesystem::path(file).lexically_relative(folder).string();
+    out.emplace(relative.empty() ? file : relative, hash);
+  }
+  return out;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,155 @@
+#include "floatframe/sweep/sweep_service.hpp"
+
+#include <charconv>
+#include <utility>
+
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+namespace floatframe {
+namespace {
+
+// A list of texts: "<length>:<bytes>" for each, so that any byte may be in them.
+void put(std::string& out, const std::string& field) {
+  out += std::to_string(field.size());
+  out += ':';
+  out += field;
+}
+void put(std::string& out, std::size_t number) { put(out, std::to_string(number)); }
+
+class Fields {
+ public:
+  explicit Fields(const std::string& text) : rest_(text) {}
+  bool whole() const noexcept { return whole_ && rest_.empty(); }
+  std::string text() {
+    std::size_t size = 0;
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), size);
+    const auto colon = static_cast<std::size_t>(end - rest_.data());
+    if (error != std::errc() || colon >= rest_.size() || rest_[colon] != ':' ||
+        size > rest_.size() - colon - 1) {
+      whole_ = false;
+      rest_ = {};
+      return "";
+    }
+    std::string field(rest_.substr(colon + 1, size));
+    rest_.remove_prefix(colon + 1 + size);
+    return field;
+  }
+  std::size_t number() {
+    const std::string field = text();
+    std::size_t value = 0;
+    const char* const last = field.data() + field.size();
+    const auto [end, error] = std::from_chars(field.data(), last, value);
+    whole_ = whole_ && error == std::errc() && end == last;
+    return whole_ ? value : 0;
+  }
+  /// Number of groups of texts that follow; each takes two bytes at least.
+  std::size_t count() {
+    const std::size_t n = number();
+    whole_ = whole_ && n <= rest_.size();
+    return whole_ ? n : 0;
+  }
+
+ private:
+  std::string_view rest_;
+  bool whole_ = true;
+};
+
+}  // namespace
+
+std::string encode(const ServiceRequest& request) {
+  std::string text;
+  put(text, static_cast<std::size_t>(request.what));
+  put(text, request.run);
+  return text;
+}
+
+std::string encode(const ServiceAnswer& answer) {
+  std::string text;
+  put(text, static_cast<std::size_t>(answer.kind));
+  put(text, answer.text);
+  put(text, answer.faults.size());
+  for (const InputFault& fault : answer.faults) {
+    put(text, fault.mark.file);
+    put(text, static_cast<std::size_t>(fault.mark.line));
+    put(text, static_cast<std::size_t>(fault.mark.column));
+    put(text, fault.message);
+  }
+  put(text, answer.files.size());
+  for (const auto& [file, hash] : answer.files) {
+    put(text, file);
+    put(text, hash);
+  }
+  return text;
+}
+
+bool decode(const std::string& text, ServiceAnswer& answer) {
+  Fields fields(text);
+  answer = {};
+  const std::size_t kind = fields.number();
+  if (kind > static_cast<std::size_t>(ServiceAnswer::Kind::error)) return false;
+  answer.kind = static_cast<ServiceAnswer::Kind>(kind);
+  answer.text = fields.text();
+  for (std::size_t n = fields.count(); n > 0; --n) {
+    InputFault fault;
+    fault.mark.file = fields.text();
+    fault.mark.line = static_cast<int>(fields.number());
+    fault.mark.column = static_cast<int>(fields.number());
+    fault.message = fields.text();
+    answer.faults.push_back(std::move(fault));
+  }
+  for (std::size_t n = fields.count(); n > 0; --n) {
+    std::string file = fields.text();
+    answer.files[std::move(file)] = fields.text();
+  }
+  return fields.whole();
+}
+
+std::string SweepService::answer(const ServiceRequest& request, WorkerState& state) {
+  using What = ServiceRequest::What;
+  if (!runner_) runner_ = std::make_unique<SweepRunner>(options_, give_up_);
+  switch (request.what) {
+    case What::open:
+      break;
+    case What::check:
+      runner_->check(request.run);
+      break;
+    case What::build:
+      runner_->model(request.run, runner_->prepare(request.run));
+      break;
+    case What::files:
+      return runner_->files_of_first_run();
+    case What::run:
+      return runner_->line(request.run, state.progress);
+  }
+  return "";
+}
+
+std::string SweepService::serve(const std::string& request, WorkerState& state) {
+  Fields fields(request);
+  ServiceRequest asked;
+  asked.what = static_cast<ServiceRequest::What>(fields.number());
+  asked.run = fields.number();
+  ServiceAnswer out;
+  try {
+    out.text = answer(asked, state);
+  } catch (const RunGivenUp&) {
+    out.kind = ServiceAnswer::Kind::given_up;
+  } catch (const InputError& error) {
+    out.kind = ServiceAnswer::Kind::faults;
+    out.faults = error.faults();
+  } catch (const OutputError& error) {
+    out.kind = ServiceAnswer::Kind::error;
+    out.text = error.what();
+  } catch (const RunError& error) {
+    out.kind = ServiceAnswer::Kind::error;
+    out.text = error.what();
+  }
+  if (runner_ && runner_->files().size() > told_.size()) {
+    for (const auto& [file, hash] : runner_->files())
+      if (told_.emplace(file, hash).second) out.files.emplace(file, hash);
+  }
+  return encode(out);
+}
+
+}  // namespace floatframe
