@@ -22,6 +22,7 @@
 #include "floatframe/formats/sid_file.hpp"
 #include "floatframe/formats/text_source.hpp"
 #include "floatframe/formats/zip_store.hpp"
+#include "packets.hpp"
 
 namespace floatframe::fuzz {
 
@@ -152,6 +153,7 @@ inline constexpr Reader readers[] = {
     {"dmig", dmig},
     {"sid", sid},
     {"body_file", body_file},
+    {"udp", udp},
 };
 
 /// Reads and forgets. Everything but an InputError is a fault of the reader.

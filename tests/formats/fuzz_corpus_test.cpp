@@ -7,16 +7,23 @@
 #include <iterator>
 #include <set>
 #include <string>
+#include <vector>
 
-#include "../../fuzz/readers.hpp"
+#include "../../fuzz/models.hpp"
 
 namespace floatframe {
 namespace {
 
 const std::filesystem::path corpus = FLOATFRAME_TEST_DATA "/../../fuzz/corpus";
 
+std::vector<fuzz::Reader> all_readers() {
+  std::vector<fuzz::Reader> all(std::begin(fuzz::readers), std::end(fuzz::readers));
+  all.push_back(fuzz::model_reader);
+  return all;
+}
+
 TEST(FuzzCorpus, NoReaderBreaks) {
-  for (const fuzz::Reader& reader : fuzz::readers) {
+  for (const fuzz::Reader& reader : all_readers()) {
     int inputs = 0, models = 0;
     for (const auto& entry : std::filesystem::directory_iterator(corpus / reader.name)) {
       std::ifstream in(entry.path(), std::ios::binary);
@@ -39,7 +46,7 @@ TEST(FuzzCorpus, NoReaderBreaks) {
 
 TEST(FuzzCorpus, EveryFolderHasAReader) {
   std::set<std::string> names;
-  for (const fuzz::Reader& reader : fuzz::readers) names.insert(reader.name);
+  for (const fuzz::Reader& reader : all_readers()) names.insert(reader.name);
   for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
     EXPECT_TRUE(names.contains(entry.path().filename().string())) << entry.path();
   }
