@@ -105,7 +105,7 @@ bool SymmetricEntries::check(const std::vector<std::string>& labels) {
 SparseMatrix SymmetricEntries::finish(int n, const std::vector<std::string>& labels,
                                       bool whole_diagonal) {
   SparseMatrix full(n, n);
-  if (!check(labels)) return full;
+  if (!check(labels) || n == 0) return full;  // Eigen's compression reads beyond a matrix of size 0
   if (whole_diagonal) {
     std::vector<char> there(static_cast<std::size_t>(n), 0);
     for (const Entry& e : entries_) {

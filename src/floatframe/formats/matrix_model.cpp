@@ -138,7 +138,8 @@ std::vector<DofLabel> read_dof_labels(TextSource& source) {
       fields = {line.substr(0, dot),
                 dot == std::string_view::npos ? std::string_view{} : line.substr(dot + 1)};
     }
-    const std::optional<int> node = parse_label(fields[0]);
+    // A line of commas alone has no field.
+    const std::optional<int> node = fields.empty() ? std::optional<int>{} : parse_label(fields[0]);
     const std::optional<int> direction =
         fields.size() > 1 ? parse_label(fields[1]) : std::optional<int>{};
     if (!node || !direction || fields.size() != 2 || *direction > 6) {

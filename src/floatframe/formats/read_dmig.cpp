@@ -159,6 +159,9 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes) {
     rows.emplace(e.row, 0);
     rows.emplace(e.column, 0);
   }
+  if (rows.empty())
+    stiffness.stop(FeSource{0, 0},
+                   fmt::format("matrix {} has no entries, expected a stiffness", first.name()));
   std::vector<DofLabel> labels;
   for (auto& [row, index] : rows) {
     index = static_cast<int>(labels.size());
