@@ -384,6 +384,24 @@ TEST(PartFaults, EachHasItsSentence) {
       std::string::npos)
       << text;
 
+  // Held on both sides it is a seventh motion without stiffness: the edge moves, the ends turn.
+  for (const ModeMethod method :
+       {ModeMethod::craig_bampton, ModeMethod::free_free, ModeMethod::craig_chang}) {
+    PartOptions held = both_ends(2);
+    held.method = method;
+    const std::string moving = message(hinge, held);
+    EXPECT_TRUE(
+        moving.starts_with("the part is a mechanism: beside the six rigid motions there is one "
+                           "without stiffness, which moves most at node "))
+        << static_cast<int>(method) << moving;
+  }
+  // A node that does not move: the part is held.
+  FeModel held = beam();
+  held.equations.push_back({{{13, 0, 1.0}}, {}});
+  const std::string held_text = message(held, both_ends());
+  EXPECT_TRUE(held_text.starts_with("rigid motions cause forces of ")) << held_text;
+  EXPECT_NE(held_text.find(" of the largest stiffness at node "), std::string::npos) << held_text;
+
   options = both_ends();
   options.interfaces.push_back(bore("A"));
   EXPECT_NE(message(beam(), options).find("interface 'A'"), std::string::npos);

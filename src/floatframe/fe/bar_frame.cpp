@@ -102,7 +102,7 @@ FeModel build_bar_frame(const BarFrame& frame) {
     if (first < 0) continue;
     const Vec3 a = model.positions[static_cast<std::size_t>(first)];
     const Vec3 b = end->second;
-    if (!((b - a).norm() > 1e-9)) {
+    if (!((b - a).norm() > 1e-12 * (a.norm() + b.norm()))) {
       add(label + " has zero length");
       continue;
     }

@@ -40,7 +40,7 @@ void to_body_axes(const Mat3& T, const Mat12& local, MatX& out) {
 std::string fault(const ElementInput& in) {
   const Vec3 d = in.p[1] - in.p[0];
   const double length = d.norm();
-  if (!(length > 1e-9)) return "has zero length";
+  if (!(length > 1e-12 * (in.p[0].norm() + in.p[1].norm()))) return "has zero length";
   const double r = in.reference.norm();
   if (!(r > 0.0)) return "has a reference vector of zero length";
   if (d.cross(in.reference).norm() < 1e-6 * length * r) {

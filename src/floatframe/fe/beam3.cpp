@@ -43,7 +43,7 @@ void integrate(const ElementInput& in, int points, Use&& use) {
 
 std::string fault(const ElementInput& in) {
   const double length = (in.p[2] - in.p[0]).norm();
-  if (!(length > 1e-9)) return "has zero length";
+  if (!(length > 1e-12 * (in.p[0].norm() + in.p[2].norm()))) return "has zero length";
   if (!(in.reference.norm() > 0.0)) return "has a reference vector of zero length";
   for (const double x : {-1.0, 0.0, 1.0}) {
     const Station s = station(in, x, 1.0);

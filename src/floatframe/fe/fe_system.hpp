@@ -41,15 +41,15 @@ FeSystem assemble(const FeModel& model, Integration integration = Integration::e
 /// The model as points with a scalar mass, for the inertia integrals of paper equations (65)-(67):
 /// the kinetic energy is 1/2 sum_kl M_s(k, l) v_k . v_l. Points are the nodes; a node whose
 /// rotation carries mass (rotary inertia; matrices with rotational dofs) adds three points at p +
-/// e_x, p + e_y, p + e_z that move with it, which represents its static moments and its inertia
-/// exactly. For masses that are not isotropic (a matrix whose xx, yy and zz parts differ; Hermite
-/// beams) M_s is made of the mean of the three directions, and `anisotropy` says how far off that
-/// is.
+/// h e_x, p + h e_y, p + h e_z (h: about the size of the part) that move with it, which represents
+/// its static moments and its inertia exactly. For masses that are not isotropic (a matrix whose
+/// xx, yy and zz parts differ; Hermite beams) M_s is made of the mean of the three directions, and
+/// `anisotropy` says how far off that is.
 struct PointModel {
   Mat3X p;                  ///< 3 x N positions
   SparseRows M_s;           ///< N x N
   SparseRows T;             ///< 3N x n: translations of the points from q
-  double anisotropy = 0.0;  ///< largest deviation of an entry, relative to the largest entry of M
+  double anisotropy = 0.0;  ///< largest deviation of a mass, relative to the largest mass
 };
 PointModel point_model(const FeModel& model, const FeSystem& system,
                        Integration integration = Integration::exact);

@@ -98,6 +98,12 @@ double size_of(const FeModel& model, const std::vector<char>& used) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
+double size_of_used(const FeModel& model, const DofTable& table) {
+  std::vector<char> used(model.positions.size(), 0);
+  for (int k = 0; k < model.nodes(); ++k) used[static_cast<std::size_t>(k)] = table.count(k) > 0;
+  return size_of(model, used);
+}
+
 /// Of the choice's plane, cylinder or sphere; along the axis beyond the length as well.
 double distance(const NodeChoice& c, const Vec3& axis, const Vec3& p) {
   const Vec3 r = p - c.point;
@@ -220,7 +226,7 @@ std::optional<int> existing_reference(const FeModel& model, const InterfaceDescr
     ascending(theirs);
     if (theirs != sorted) continue;
     const Vec3& there = position(model, s.reference);
-    if (d.at && (*d.at - there).norm() > 1e-6 * (1.0 + there.norm())) {
+    if (d.at && (*d.at - there).norm() > 1e-6 * (size_of_used(model, table) + there.norm())) {
       throw InputError(
           fmt::format("{} ties these nodes to a reference at {} already; the reference "
                       "point {} is another one",

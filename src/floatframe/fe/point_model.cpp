@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/full_system.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -28,36 +30,48 @@ void blocks_of(const SparseMatrix& M, const DofTable& table, const std::vector<D
   }
 }
 
-/// Velocities of the points 0 (the node) and 1..3 (at e_k) are v and v + omega x e_k, so masses
+/// Velocities of the points 0 (the node) and 1..3 (at h e_k) are v and v + h omega x e_k, so masses
 /// m(k, l) between the points of two nodes have
-///   M_tt = mu I,  M_tr = -skew(s_b),  M_rt = skew(s_a),  M_rr = tr(P) I - P^T
+///   M_tt = mu I,  M_tr = -h skew(s_b),  M_rt = h skew(s_a),  M_rr = h^2 (tr(P) I - P^T)
 /// with mu = sum m, s_b(l) = sum_k m(k, l), s_a(k) = sum_l m(k, l), P(k, l) = m(k, l).
 struct PointMasses {
   double mu = 0.0;
   Vec3 s_a = Vec3::Zero(), s_b = Vec3::Zero();
   Mat3 P = Mat3::Zero();
 
-  explicit PointMasses(const Mat6& M) {
+  PointMasses(const Mat6& M, double h) {
     const auto axial = [](const Mat3& A) {
       return Vec3(0.5 * Vec3(A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1)));
     };
     mu = M.topLeftCorner<3, 3>().trace() / 3.0;
-    s_b = -axial(M.topRightCorner<3, 3>());
-    s_a = axial(M.bottomLeftCorner<3, 3>());
-    const Mat3 rotary = M.bottomRightCorner<3, 3>();
+    s_b = -axial(M.topRightCorner<3, 3>()) / h;
+    s_a = axial(M.bottomLeftCorner<3, 3>()) / h;
+    const Mat3 rotary = M.bottomRightCorner<3, 3>() / (h * h);
     P = 0.5 * rotary.trace() * Mat3::Identity() - rotary.transpose();
   }
 
-  /// What of the block is not represented.
-  double deviation(const Mat6& M) const {
-    Mat6 D = M;
-    D.topLeftCorner<3, 3>() -= mu * Mat3::Identity();
-    D.topRightCorner<3, 3>() += skew(s_b);
-    D.bottomLeftCorner<3, 3>() -= skew(s_a);
-    D.bottomRightCorner<3, 3>().setZero();  // exact
+  /// What of the block is not represented, as a mass: rotations times h.
+  double deviation(const Mat6& M, double h) const {
+    Mat6 D = Mat6::Zero();  // M_rr is exact
+    D.topLeftCorner<3, 3>() = M.topLeftCorner<3, 3>() - mu * Mat3::Identity();
+    D.topRightCorner<3, 3>() = M.topRightCorner<3, 3>() / h + skew(s_b);
+    D.bottomLeftCorner<3, 3>() = M.bottomLeftCorner<3, 3>() / h - skew(s_a);
     return D.cwiseAbs().maxCoeff();
   }
 };
+
+/// Length of the arms that carry rotary inertia: about the size of the part, so that no digits are
+/// lost whatever that is; a power of two, so that a part about 1 m large has arms of 1 m.
+double arm_length(const FeModel& model) {
+  Eigen::AlignedBox3d box;
+  for (const Element& e : model.elements)
+    for (int a = 0; a < element_kernel(e.type).nodes; ++a)
+      box.extend(model.positions[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(a)])]);
+  if (box.isEmpty())
+    for (const Vec3& p : model.positions) box.extend(p);
+  const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  return size > 0.0 ? std::exp2(std::round(std::log2(size))) : 1.0;
+}
 
 }  // namespace
 
@@ -84,12 +98,13 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
     points += 3;
   }
   PointModel out;
+  const double h = arm_length(model);
   out.p.resize(3, points);
   for (int k = 0; k < nodes; ++k) {
     const Vec3& p = model.positions[static_cast<std::size_t>(k)];
     out.p.col(k) = p;
     const int e = extra[static_cast<std::size_t>(k)];
-    for (int i = 0; i < 3 && e >= 0; ++i) out.p.col(e + i) = p + Vec3::Unit(i);
+    for (int i = 0; i < 3 && e >= 0; ++i) out.p.col(e + i) = p + h * Vec3::Unit(i);
   }
 
   std::vector<Eigen::Triplet<double>> masses;
@@ -99,9 +114,9 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
     blocks_of(M, table, dofs, b, blocks);
     for (const NodePair& block : blocks) {
       const int a = block.node;
-      const PointMasses m(block.M);
-      largest = std::max(largest, block.M.cwiseAbs().maxCoeff());
-      deviation = std::max(deviation, m.deviation(block.M));
+      const PointMasses m(block.M, h);
+      largest = std::max(largest, block.M.topLeftCorner<3, 3>().cwiseAbs().maxCoeff());
+      deviation = std::max(deviation, m.deviation(block.M, h));
       const int ea = extra[static_cast<std::size_t>(a)], eb = extra[static_cast<std::size_t>(b)];
       double rest = m.mu;
       for (int l = 0; l < 3 && eb >= 0; ++l) {
@@ -138,7 +153,7 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
       for (int j = 0; j < 3 && e >= 0; ++j) {
         const int row = 3 * (e + j) + i;
         copy(system.T, 3 * k + i, row, 1.0);
-        const Mat3 S = -skew(Vec3::Unit(j));  // theta x e_j
+        const Mat3 S = -h * skew(Vec3::Unit(j));  // theta x h e_j
         for (int c = 0; c < 3; ++c) {
           if (S(i, c) != 0.0) copy(system.T_theta, 3 * k + c, row, S(i, c));
         }

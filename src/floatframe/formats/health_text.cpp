@@ -13,7 +13,10 @@ namespace {
 constexpr std::size_t indent = 2;
 
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : "-"; }
-std::string hertz(double x) { return x > 0.0 ? fmt::format("{:.3f}", x) : "-"; }
+std::string hertz(double x) {
+  if (!(x > 0.0)) return "-";
+  return x < 1.0 ? fmt::format("{:.3g}", x) : fmt::format("{:.3f}", x);
+}
 std::string percent(double x) { return fmt::format("{:.1f}", 100.0 * x); }
 std::string small(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : "-"; }
 

@@ -1,5 +1,7 @@
 #include "floatframe/model/build_flexible.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "floatframe/body/mirrored.hpp"
@@ -66,12 +68,17 @@ std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription
   BarFrame frame;
   frame.material = {f.young, f.poisson, f.density};
   Key key;
+  // About a billionth of the size, a power of two.
+  double size = 0.0;
+  for (const auto& [name, p] : f.points)
+    size = std::max(size, (p - f.points.begin()->second).norm());
+  const double digit = size > 0.0 ? std::exp2(std::round(std::log2(size)) - 30.0) : 1e-9;
+  key.add(digit);
   for (const auto& [name, p] : f.points) {
     frame.points.emplace_back(name, X_TW * p);
     key.add(name);
-    // Equal bodies at other places differ by round-off of their coordinates: compare to a
-    // nanometre.
-    key.add(Vec3((frame.points.back().second * 1e9).array().round().matrix()));
+    // Equal bodies at other places differ by round-off of their coordinates.
+    key.add(Vec3((frame.points.back().second / digit).array().round().matrix()));
   }
   for (double x : {f.young, f.poisson, f.density}) key.add(x);
   for (const BarDescription& b : f.bars) {

@@ -63,9 +63,9 @@ ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const Ma
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(Kc, Mc);
   result.lambda = solver.eigenvalues();
-  if (!(result.lambda(0) > 0.0))
-    throw InputError("a mode has no stiffness: the part is a mechanism, or it is in pieces");
   result.C = null * solver.eigenvectors();
+  const VecX first = result.C.col(0).cwiseAbs();
+  result.stiffness = result.lambda(0) / first.dot(K.cwiseAbs() * first);
   result.mass = relative_modal_mass(combined(raw, result.C), Mat6X::Identity(6, 6));
   return result;
 }

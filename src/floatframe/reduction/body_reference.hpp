@@ -19,15 +19,15 @@ struct ElasticModes {
   VecX lambda;             ///< w^2 of (K, M_ff) in these directions, ascending
   double mass = 1.0;       ///< relative modal mass (body/modal_mass.hpp)
   double condition = 1.0;  ///< of M_ff of the raw directions, each scaled to one
+  /// Strain energy of the first mode against the sum of its parts without their signs,
+  /// c^T K c / |c|^T |K| |c|: rounding if the mode is a mechanism.
+  double stiffness = 1.0;
 };
 
-/// K: raw stiffness. Throws InputError if the conditions are not independent on the rigid motions,
-/// if a combination of modes has no mass or no stiffness.
+/// K: raw stiffness; the raw shapes must be of one size, rotations counted times the size of the
+/// body, or a small mass is taken for none. Throws InputError if the conditions are not independent
+/// on the rigid motions, or if a combination of modes has no mass.
 ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const MatX& B);
-
-/// Elastic eigenvalues w^2 of the body that nothing holds: those of the mean-axis frame.
-inline VecX free_eigenvalues(const MatX& K, const InertiaInvariants& raw) {
-  return elastic_modes(K, raw, momentum_of_modes(raw)).lambda;
-}
+inline constexpr double least_stiffness = 1e-10;
 
 }  // namespace floatframe

@@ -64,8 +64,9 @@ Pieces pieces_of(const FeModel& model) {
   return pieces;
 }
 
-/// "node 12, node 13, node 17 and 4 more".
-std::string list_nodes(const FeModel& model, const std::vector<int>& nodes, std::size_t limit = 8) {
+}  // namespace
+
+std::string list_nodes(const FeModel& model, const std::vector<int>& nodes, std::size_t limit) {
   std::string text;
   const std::size_t shown = nodes.size() > limit + 1 ? limit : nodes.size();
   for (std::size_t i = 0; i < shown; ++i) {
@@ -75,8 +76,6 @@ std::string list_nodes(const FeModel& model, const std::vector<int>& nodes, std:
   if (shown < nodes.size()) text += fmt::format(" and {} more", nodes.size() - shown);
   return text;
 }
-
-}  // namespace
 
 void check_connected(const FeModel& model) {
   Pieces pieces = pieces_of(model);

@@ -12,6 +12,9 @@ namespace floatframe {
 /// Throws InputError that names the nodes of the smaller pieces if there are several.
 void check_connected(const FeModel& model);
 
+/// "node 12, node 13, node 17 and 4 more".
+std::string list_nodes(const FeModel& model, const std::vector<int>& nodes, std::size_t limit = 8);
+
 /// "node 12 ux": a row of a system, for messages.
 std::string row_label(const FeModel& model, const FeSystem& system, int row);
 

@@ -25,7 +25,7 @@ MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& ori
   return R;
 }
 
-double elastic_estimate(const FeModel& model, const FeSystem& system, const MatX& R) {
+double elastic_estimate(const FeModel& model, const FeSystem& system) {
   Eigen::AlignedBox3d box;
   for (const Vec3& p : model.positions) box.extend(p);
   const Vec3 centre = box.center();
@@ -49,6 +49,9 @@ double elastic_estimate(const FeModel& model, const FeSystem& system, const MatX
       }
     }
   }
+  // About the centre and with rotations over the size: digits do not depend on place and scale.
+  MatX R = rigid_motions(model, system, centre);
+  R.rightCols<3>() /= size;
   const MatX MR = system.M * R;
   const Mat6 M_rr = R.transpose() * MR;
   U -= R * M_rr.completeOrthogonalDecomposition().solve(MR.transpose() * U);

@@ -15,7 +15,7 @@ MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& ori
 
 /// A bound of the lowest elastic eigenvalue [rad2/s2] from above: Rayleigh-Ritz with displacements
 /// that are quadratic in the coordinates. 0 if there is no such (no mass).
-double elastic_estimate(const FeModel& model, const FeSystem& system, const MatX& R);
+double elastic_estimate(const FeModel& model, const FeSystem& system);
 
 class FreeStructure {
  public:

@@ -157,8 +157,7 @@ ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R
                      const std::vector<InterfacePlace>& interfaces,
                      const std::vector<MarkerPlace>& markers, const PartOptions& options,
                      std::optional<FreeStructure>& structure, Eigenpairs& elastic) {
-  structure.emplace(system.K, system.M, R, 0.01 * elastic_estimate(model, system, R),
-                    options.solver);
+  structure.emplace(system.K, system.M, R, 0.01 * elastic_estimate(model, system), options.solver);
   ModeBasis basis;
   basis.solver = structure->solver_name();
   elastic = select_free_modes(*structure, system, options, basis.modes);

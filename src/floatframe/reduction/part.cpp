@@ -17,6 +17,7 @@
 #include "floatframe/reduction/modal_damping.hpp"
 #include "floatframe/reduction/mode_basis.hpp"
 #include "floatframe/reduction/part_health.hpp"
+#include "floatframe/reduction/rigid_check.hpp"
 #include "floatframe/reduction/static_check.hpp"
 
 namespace floatframe {
@@ -53,6 +54,20 @@ void fix_signs(const MatX& X, MatX& C) {
     while (std::abs(x(k)) < limit) ++k;
     if (x(k) < 0.0) C.col(a) = -C.col(a).eval();
   }
+}
+
+/// Every shape of the basis gets a largest displacement of 1, rotations counted times the size of
+/// the part: what has mass, and what has none, then shows whatever the units and the size.
+void normalise(const FeSystem& system, double size, ModeBasis& basis) {
+  const VecX lengths = row_lengths(system, size);
+  VecX factor(basis.X.cols());
+  for (Eigen::Index a = 0; a < factor.size(); ++a) {
+    const double largest = lengths.cwiseProduct(basis.X.col(a)).cwiseAbs().maxCoeff();
+    factor(a) = largest > 0.0 ? 1.0 / largest : 1.0;
+  }
+  basis.X *= factor.asDiagonal();
+  basis.K = (factor.asDiagonal() * basis.K * factor.asDiagonal()).eval();
+  basis.rigid = (factor.cwiseInverse().asDiagonal() * basis.rigid).eval();
 }
 
 /// The same integrals over the volume: of the model with unit density and without point masses.
@@ -179,7 +194,7 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   health.from_elements = mass_properties(system.M, R);
   if (!(health.from_elements.mass > 0.0))
     throw InputError("the part has no mass: every density is zero");
-  health.rigid_residual = rigid_residual(model, system);
+  health.rigid_residual = check_rigid_motions(model, system);
   health.volume = volume(model);
   health.volume_times_density = volume_times_density(model);
   stages.done("assembly");
@@ -201,10 +216,16 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
     statics.flexibility = boundary_flexibility(*structure, elastic, interfaces, system.size());
   }
   fixed.reset();  // the factors are the largest piece of memory
+  check_stiffness_of(model, system, elastic.shapes);
+  normalise(system, part_size(model, system), basis);
   stages.done("modes");
 
   const InertiaInvariants raw = invariants_points(points.p, points.M_s, points.T * basis.X);
-  const VecX reduced = free_eigenvalues(basis.K, raw);
+  // Those of the mean-axis frame are those of the body that nothing holds.
+  const ElasticModes free = elastic_modes(basis.K, raw, momentum_of_modes(raw));
+  if (free.lambda.size() > 0 && !(free.stiffness > least_stiffness))
+    throw InputError(mechanism_text(model, system, basis.X * free.C.col(0)));
+  const VecX& reduced = free.lambda;
   ElasticModes modes =
       elastic_modes(basis.K, raw, reference_conditions(model, basis, raw, interfaces, options));
   if (modes.mass < least_modal_mass) {
@@ -244,12 +265,14 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   check_statics(interfaces, body, statics.stiffness, statics.flexibility, health);
   if (options.check_free_modes) {
     if (!structure) {
-      const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system, R);
+      const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system);
       structure.emplace(system.K, system.M, R, 0.3 * first, options.solver);
     }
     const int count = static_cast<int>(std::min<Eigen::Index>(
         reduced.size(), std::clamp<Eigen::Index>(basis.frequencies.size(), 10, free_modes)));
     const Eigenpairs full = structure->modes(6 + count);
+    if (full.shapes.cols() > 6)
+      check_stiffness_of(model, system, full.shapes.rightCols(full.shapes.cols() - 6));
     free_frequencies(reduced, &full, health);
     stages.done("free modes of the full model");
   } else {

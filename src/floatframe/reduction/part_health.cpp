@@ -23,18 +23,6 @@ MassProperties mass_properties(const InertiaInvariants& invariants) {
   return {invariants.m, invariants.centre_of_mass(), invariants.inertia_about_origin()};
 }
 
-double rigid_residual(const FeModel& model, const FeSystem& system) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : model.positions) box.extend(p);
-  MatX R = rigid_motions(model, system, box.center());
-  const double size = 0.5 * box.diagonal().norm();
-  if (size > 0.0) R.rightCols<3>() /= size;
-  double largest = 0.0;
-  for (Eigen::Index k = 0; k < system.K.nonZeros(); ++k)
-    largest = std::max(largest, std::abs(system.K.valuePtr()[k]));
-  return largest > 0.0 ? (system.K * R).cwiseAbs().maxCoeff() / largest : 0.0;
-}
-
 namespace {
 
 /// Frequencies that no part of a machine has.
@@ -74,7 +62,7 @@ void warn_of_modes(HealthReport& health) {
     if (pair.full > 0.5 * range && k > 0) break;
     if (std::abs(pair.relative_error()) <= 0.01) continue;
     health.warnings.push_back(
-        fmt::format("free mode {} is at {:.1f} Hz instead of {:.1f} Hz in the reduced body "
+        fmt::format("free mode {} is at {:.5g} Hz instead of {:.5g} Hz in the reduced body "
                     "({:+.1f} %); more normal modes would help",
                     k + 1, pair.reduced, pair.full, 100.0 * pair.relative_error()));
     break;

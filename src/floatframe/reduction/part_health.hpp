@@ -8,9 +8,6 @@ namespace floatframe {
 MassProperties mass_properties(const SparseMatrix& M, const MatX& R);
 MassProperties mass_properties(const InertiaInvariants& invariants);
 
-/// Largest |K R| relative to the largest entry of K, rotations about the centre of the part.
-double rigid_residual(const FeModel& model, const FeSystem& system);
-
 /// One sentence for everything that looks wrong, from the figures gathered so far.
 void add_warnings(const FeModel& model, const PointModel& points, HealthReport& health);
 

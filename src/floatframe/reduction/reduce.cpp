@@ -20,11 +20,15 @@ InertiaInvariants compute_invariants(const FeModel& model, const MatX& X,
 /// Replaces the modes by those of (K, M_ff).
 void orthonormalise(const FeModel& model, const ReductionOptions& options, ModeSet& set) {
   const MatX M = modal_mass(compute_invariants(model, set.X, options));
-  const Eigen::SelfAdjointEigenSolver<MatX> check(M, Eigen::EigenvaluesOnly);
-  if (M.rows() > 0 && !(check.eigenvalues()(0) > 1e-14 * check.eigenvalues()(M.rows() - 1))) {
+  if (M.rows() == 0) return;
+  // Each mode of unit mass: displacements and rotations are not of one size.
+  const VecX s =
+      M.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<MatX> check(s.asDiagonal() * M * s.asDiagonal(),
+                                                  Eigen::EigenvaluesOnly);
+  if (!(check.eigenvalues()(0) > 1e-14 * check.eigenvalues()(M.rows() - 1))) {
     throw InputError("the modes cannot be orthonormalised: a combination of them has no mass");
   }
-  if (M.rows() == 0) return;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(set.K, M);
   MatX X = set.X * solver.eigenvectors();
   set.K = solver.eigenvalues().asDiagonal();
