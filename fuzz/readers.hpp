@@ -105,6 +105,8 @@ inline void body_file(std::string_view bytes) {
     FlexibleBody& body = content.part.body;
     body.invariants = InertiaInvariants::zero(2);
     body.invariants.m = 1.0;
+    body.invariants.P_u = Mat3::Identity();
+    for (std::size_t i = 0; i < 3; ++i) body.invariants.Sij[i][i] = MatX::Identity(2, 2);
     body.K = body.D = MatX::Identity(2, 2);
     body.fixed_interface_frequencies = VecX::Ones(1);
     body.mode_names = {"a", "b"};
@@ -118,6 +120,7 @@ inline void body_file(std::string_view bytes) {
     data.X = MatX::Zero(6, 2);
     data.M_s.resize(2, 2);
     data.M_s.setIdentity();
+    data.M_s *= 0.5;
     body.projection = std::make_shared<const ProjectionData>(data);
     return body_file_bytes(content);
   }();

@@ -9,6 +9,7 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/fe/bar_frame.hpp"
+#include "floatframe/formats/body_arrays.hpp"
 #include "floatframe/formats/health_text.hpp"
 #include "floatframe/formats/npy.hpp"
 #include "floatframe/formats/zip_store.hpp"
@@ -55,7 +56,8 @@ BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
   h.dofs = 30;
   h.modes = part.body.modes();
   h.from_elements = {1.5, {0.1, 0.2, 0.3}, Mat3::Identity()};
-  h.from_invariants = {1.5, {0.1, 0.2, 0.3 + 1e-15}, Mat3::Identity()};
+  const InertiaInvariants& v = part.body.invariants;
+  h.from_invariants = {v.m, v.centre_of_mass(), v.inertia_about_origin()};
   h.volume = 2e-4;
   h.volume_times_density = 1.57;
   h.rigid_eigenvalues = Vec6::LinSpaced(6, -1e-12, 1e-12);
@@ -272,7 +274,7 @@ TEST(BodyFile, FaultsOfTheArrays) {
             "arm.ffb: member 'S21.npy': found another matrix than the transpose of S12, expected "
             "the same");
   EXPECT_EQ(with("m", npy_bytes({{}, std::vector<double>{-1.0}})),
-            "arm.ffb: member 'm.npy': found -1, expected a mass >= 0 [kg]");
+            "arm.ffb: member 'm.npy': found -1, expected a positive mass [kg]");
   EXPECT_EQ(with("surface_triangles", npy_bytes({{1, 3}, std::vector<std::int32_t>{0, 1, 3}})),
             "arm.ffb: member 'surface_triangles.npy': found 3 as value 3, expected a number from 0 "
             "to 2");
@@ -294,6 +296,60 @@ TEST(BodyFile, FaultsOfTheArrays) {
   // Two faults at once.
   EXPECT_EQ(fault_of(with_member(with_member(good, "P_u.npy", ""), "D.npy", "")),
             "arm.ffb: member 'P_u.npy': is missing\narm.ffb: member 'D.npy': is missing");
+}
+
+/// Arrays of the right shape that no body has, or that are not those of the header.
+TEST(BodyFile, NumbersThatContradictEachOther) {
+  const BodyFile file = bracket();
+  const std::string good = body_file_bytes(file);
+  const InertiaInvariants& v = file.part.body.invariants;
+  const auto with = [&](const std::string& name, const MatX& values) {
+    const bool number = name == "m", list = name == "m_u";
+    const NpyArray array = number ? NpyArray{{}, std::vector<double>{values(0, 0)}}
+                           : list ? list_of(values)
+                                  : array_of(values);
+    return fault_of(with_member(good, name + ".npy", npy_bytes(array)));
+  };
+  const auto number = [](double x) { return MatX::Constant(1, 1, x); };
+  EXPECT_EQ(with("m", number(0.0)),
+            "arm.ffb: member 'm.npy': found 0, expected a positive mass [kg]");
+  const std::string mass = with("m", number(1000.0 * v.m));
+  EXPECT_NE(mass.find("arm.ffb: member 'm.npy': found 1396.4 kg, but the health report says 1.3964 "
+                      "kg"),
+            std::string::npos)
+      << mass;
+  EXPECT_EQ(with("P_u", MatX::Zero(3, 3)),
+            "arm.ffb: member 'P_u.npy': found zeros, expected the second moments of a body with "
+            "1.3964 kg [kg m2]");
+  EXPECT_TRUE(with("P_u", 1.01 * v.P_u)
+                  .starts_with("arm.ffb: member 'P_u.npy': found moments of inertia ("));
+  EXPECT_TRUE(with("m_u", MatX(0.99 * v.m_u))
+                  .starts_with("arm.ffb: member 'S.npy': the integrals m, m_u, P_u, S, S1 to S3"));
+  EXPECT_EQ(with("K", MatX::Zero(5, 5)),
+            "arm.ffb: member 'K.npy': found the stiffness 0 of mode 1, expected a positive number "
+            "(rigid motions are not among the modes)");
+  EXPECT_TRUE(
+      with("K", -file.part.body.K).starts_with("arm.ffb: member 'K.npy': found the stiffness -"));
+  EXPECT_TRUE(
+      with("K", 2.0 * file.part.body.K)
+          .starts_with("arm.ffb: member 'header.json': found 144.452 Hz for mode 1, but K and "
+                       "the modal mass S11 + S22 + S33 give 204.286 Hz"));
+  EXPECT_TRUE(
+      with("S11", -v.Sij[0][0]).starts_with("arm.ffb: member 'S11.npy': found the modal mass -"));
+  EXPECT_TRUE(with("S", 10.0 * v.S)
+                  .starts_with("arm.ffb: member 'S.npy': the integrals m, m_u, P_u, S, S1 to S3"));
+  EXPECT_TRUE(with("D", -file.part.body.D)
+                  .starts_with("arm.ffb: member 'D.npy': found a combination of modes that gains"));
+  const std::string header = member(good, "header.json");
+  const auto with_header = [&](const std::string& from, const std::string& to) {
+    return fault_of(with_member(good, "header.json", replaced(header, from, to)));
+  };
+  EXPECT_EQ(
+      with_header("\"SI (m, kg, s, rad)\"", "\"mm\""),
+      "arm.ffb: member 'header.json': found the units \"mm\", expected \"SI (m, kg, s, rad)\": "
+      "all members are in SI units");
+  EXPECT_EQ(with_header("\"modes\": 5", "\"modes\": 6"),
+            "arm.ffb: member 'header.json': health: found 6 modes, expected the 5 of this file");
 }
 
 TEST(BodyFile, IsWrittenWhole) {

@@ -250,6 +250,46 @@ TEST(SidFile, SelfTests) {
   EXPECT_NEAR(c.J.m0(3, 0), -xy, 1e-14);
 }
 
+/// A moment of inertia below zero about the centre of mass, hidden by the distance of the centre
+/// from the origin.
+TEST(SidFile, InertiaAboutTheCentreOfMass) {
+  Random random(12);
+  Points points = random_points(random, 8, 2);
+  for (Vec3& p : points.p) p += Vec3(3000.0, 4000.0, 0.0);
+  FlexibleBody body = body_of(points, 2);
+  body.K = 1e4 * MatX::Identity(2, 2);
+  const auto fault = [](const SidContent& content) -> std::string {
+    try {
+      sid_body(content, "far.SID_FEM");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no fault";
+  };
+  SidContent c = sid_content(body);
+  EXPECT_EQ(fault(c), "no fault");
+  c.J.line = 7;
+  const double about_centre = body.invariants.inertia_about_centre()(2, 2);
+  c.J.m0(2, 0) -= 3.0 * about_centre;
+  EXPECT_TRUE(fault(c).starts_with("far.SID_FEM:7: block J gives a moment of inertia of -"))
+      << fault(c);
+  c.J.m0(2, 0) += 7.0 * about_centre;
+  EXPECT_NE(fault(c).find("the largest is more than the sum of the others, which no body has"),
+            std::string::npos)
+      << fault(c);
+  c = sid_content(body);
+  c.Me.m0 *= 0.01;
+  EXPECT_NE(fault(c).find("the mass matrix at zero deformation is not positive: scaled to a unit "
+                          "diagonal its smallest eigenvalue is -"),
+            std::string::npos)
+      << fault(c);
+  c = sid_content(body);
+  c.Ke.m0 *= -1.0;
+  EXPECT_NE(fault(c).find("block Ke holds a negative stiffness (-1e+04), expected none below zero"),
+            std::string::npos)
+      << fault(c);
+}
+
 /// tests/data/fe/classical.SID_FEM: four points with two modes in the classical dialect (12 digits,
 /// D exponents, zeros left out, structures 0 to 4, Oe of order 0).
 TEST(SidFile, ClassicalDialect) {
@@ -393,10 +433,10 @@ TEST(SidFile, Faults) {
   std::string wrong = text;
   const std::size_t Me = wrong.find("mass                            = 4");
   wrong.replace(Me, 36, "mass = 0.1");
-  EXPECT_EQ(
-      fault_of(wrong).substr(0, 92),
-      "arm.SID_FEM:206: the mass matrix at zero deformation is not positive: scaled to a unit "
-      "diago");
+  EXPECT_EQ(fault_of(wrong),
+            "arm.SID_FEM:146: block J gives a moment of inertia of -11.5692 about the centre of "
+            "mass (with "
+            "mass and mdCM), expected none below zero");
 }
 
 }  // namespace

@@ -8,13 +8,21 @@
 
 namespace floatframe {
 
-double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free) {
+double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free, const MatX& K) {
   const Eigen::Index nm = v.modes();
   const MatX M_ff = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
   const double top = nm > 0 ? M_ff.diagonal().maxCoeff() : 0.0;
   std::vector<Eigen::Index> massive;
+  // A mode without mass has a frequency of its own that is beyond all others.
+  double lowest = 0.0;
+  if (K.rows() == nm)
+    for (Eigen::Index k = 0; k < nm; ++k)
+      if (K(k, k) > 0.0 && M_ff(k, k) > 0.0 && !(K(k, k) > lowest * M_ff(k, k) && lowest > 0.0))
+        lowest = K(k, k) / M_ff(k, k);
   for (Eigen::Index k = 0; k < nm; ++k)
-    if (M_ff(k, k) > 1e-14 * top) massive.push_back(k);
+    if (M_ff(k, k) > 1e-14 * top ||
+        (lowest > 0.0 && M_ff(k, k) > 0.0 && K(k, k) < 1e14 * lowest * M_ff(k, k)))
+      massive.push_back(k);
   if (massive.empty() || !(v.m > 0.0)) return 1.0;
 
   // Lengths in units of the radius of gyration, so that translations and rotations compare.

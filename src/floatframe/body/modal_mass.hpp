@@ -12,8 +12,11 @@ namespace floatframe {
 /// Smallest eigenvalue of D^-1/2 (M_ff - G M_rr^+ G^T) D^-1/2, D the diagonal of M_ff, over the
 /// modes that have mass; 1 if there are none. Sound bodies have more than 1e-6, singular ones
 /// rounding errors. `free`: the rigid motions the body is free to make, columns (v; w) at the body
-/// origin in body axes; those without inertia (a bar about its axis) are left out.
-double relative_modal_mass(const InertiaInvariants& invariants, const Mat6X& free);
+/// origin in body axes; those without inertia (a bar about its axis) are left out. `K`: modal
+/// stiffness, by which a mode of little mass (a rotation of a small body in rad, beside
+/// displacements in m) is told from one without; may be empty.
+double relative_modal_mass(const InertiaInvariants& invariants, const Mat6X& free,
+                           const MatX& K = MatX());
 
 inline constexpr double least_modal_mass = 1e-9;
 

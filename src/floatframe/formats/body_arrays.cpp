@@ -97,18 +97,6 @@ MatX ArrayReader::matrix(const std::string& name, Eigen::Index rows, Eigen::Inde
   return Eigen::Map<const RowMatrix>(values->data(), rows, columns);
 }
 
-MatX ArrayReader::symmetric(const std::string& name, Eigen::Index n) {
-  const MatX m = matrix(name, n, n);
-  if (n == 0) return m;
-  Eigen::Index i = 0, j = 0;
-  const double largest = (m - m.transpose()).cwiseAbs().maxCoeff(&i, &j);
-  if (largest > 1e-6 * m.cwiseAbs().maxCoeff())
-    fault(name, fmt::format("found {:g} in row {}, column {} and {:g} in row {}, column {}, "
-                            "expected a symmetric matrix",
-                            m(i, j), i + 1, j + 1, m(j, i), j + 1, i + 1));
-  return m;
-}
-
 MatX ArrayReader::grouped(const std::string& name, Eigen::Index points, Eigen::Index group,
                           Eigen::Index columns) {
   const auto values = doubles(name, {size(points), size(group), size(columns)});

@@ -37,7 +37,6 @@ class ArrayReader {
   double number(const std::string& name);
   VecX list(const std::string& name, Eigen::Index size);
   MatX matrix(const std::string& name, Eigen::Index rows, Eigen::Index columns);
-  MatX symmetric(const std::string& name, Eigen::Index size);
   /// points x `group` x columns as a matrix with points * group rows.
   MatX grouped(const std::string& name, Eigen::Index points, Eigen::Index group,
                Eigen::Index columns);

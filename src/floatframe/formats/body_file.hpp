@@ -28,6 +28,7 @@ struct BodyFile {
 
 /// Version of the format that is written; newer ones are refused.
 inline constexpr int body_file_version = 1;
+inline constexpr const char* body_file_units = "SI (m, kg, s, rad)";
 
 /// Writes to a temporary name and renames. Equal contents give equal bytes. Throws OutputError.
 void write_body_file(const std::filesystem::path& file, const BodyFile& content);

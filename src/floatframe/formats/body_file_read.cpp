@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "floatframe/body/check_invariants.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/regular_file.hpp"
 #include "floatframe/formats/body_arrays.hpp"
@@ -58,6 +60,8 @@ class Reader {
     surface();
     if (arrays_.has("projection_p")) projection();
     faults_.throw_if_any();
+    physics();
+    faults_.throw_if_any();
     return std::move(out_);
   }
 
@@ -86,8 +90,17 @@ class Reader {
                       "{} (the file was written by Floatframe {})",
                       version == json.end() ? "none" : version->dump(), body_file_version,
                       text_of(json, "floatframe")));
+    if (const auto units = json.find("units"); units != json.end() && *units != body_file_units)
+      fault(fmt::format("found the units {}, expected \"{}\": all members are in SI units",
+                        units->dump(-1, ' ', false, Json::error_handler_t::replace),
+                        body_file_units));
     if (const auto m = json.find("modes"); m != json.end() && m->is_array())
-      for (const Json& mode : *m) body().mode_names.push_back(text_of(mode, "name"));
+      for (const Json& mode : *m) {
+        body().mode_names.push_back(text_of(mode, "name"));
+        const auto f = mode.is_object() ? mode.find("frequency_Hz") : mode.end();
+        frequencies_.push_back(
+            mode.is_object() && f != mode.end() && f->is_number() ? f->get<double>() : -1.0);
+      }
     else
       fault("found no list of 'modes', expected one entry a mode");
     std::set<std::string> names;
@@ -138,28 +151,17 @@ class Reader {
     const auto nm = static_cast<Eigen::Index>(body().mode_names.size());
     InertiaInvariants& v = body().invariants;
     v.m = arrays_.number("m");
-    if (v.m < 0.0) arrays_.fault("m", fmt::format("found {:g}, expected a mass >= 0 [kg]", v.m));
     v.m_u = arrays_.list("m_u", 3);
-    v.P_u = arrays_.symmetric("P_u", 3);
+    v.P_u = arrays_.matrix("P_u", 3, 3);
     v.S = arrays_.matrix("S", 3, nm);
     for (std::size_t i = 0; i < 3; ++i) v.Si[i] = arrays_.matrix(fmt::format("S{}", i + 1), 3, nm);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
         const std::string name = fmt::format("S{}{}", i + 1, j + 1);
-        v.Sij[i][j] = i == j ? arrays_.symmetric(name, nm) : arrays_.matrix(name, nm, nm);
+        v.Sij[i][j] = arrays_.matrix(name, nm, nm);
       }
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        const MatX& a = v.Sij[i][j];
-        const MatX b = v.Sij[j][i].transpose();
-        if (nm > 0 && (a - b).cwiseAbs().maxCoeff() > 1e-6 * a.cwiseAbs().maxCoeff())
-          arrays_.fault(fmt::format("S{}{}", i + 1, j + 1),
-                        fmt::format("found another matrix than the transpose of S{}{}, expected "
-                                    "the same",
-                                    j + 1, i + 1));
-      }
-    body().K = arrays_.symmetric("K", nm);
-    body().D = arrays_.symmetric("D", nm);
+    body().K = arrays_.matrix("K", nm, nm);
+    body().D = arrays_.matrix("D", nm, nm);
     body().fixed_interface_frequencies = arrays_.list("frequencies", arrays_.length("frequencies"));
   }
 
@@ -213,8 +215,83 @@ class Reader {
     body().projection = data;
   }
 
+  /// What the numbers must satisfy, and whether they are those of the header.
+  void physics() {
+    for (const InvariantFault& f : check_invariants(body(), InvariantSource::integrals))
+      arrays_.fault(f.quantity, f.sentence);
+    if (!faults_.empty()) return;
+    const InertiaInvariants& v = body().invariants;
+    if (const auto& p = body().projection) {
+      double m = 0.0;
+      if (p->six_dof()) {
+        for (Eigen::Index r = 0; r < p->M_6.rows(); r += 6)
+          for (SparseRows::InnerIterator it(p->M_6, r); it; ++it)
+            if (it.col() % 6 == 0) m += it.value();
+      } else {
+        m = p->M_s.sum();
+      }
+      if (!(std::abs(m - v.m) <= same * v.m))
+        arrays_.fault(p->six_dof() ? "projection_M_6_data" : "projection_M_s_data",
+                      fmt::format("found {:g} kg in all, expected the mass of member 'm.npy', {:g} "
+                                  "kg",
+                                  m, v.m));
+    }
+    const VecX own = mode_frequencies(body());
+    for (std::size_t k = 0; k < frequencies_.size(); ++k) {
+      const double f = own(static_cast<Eigen::Index>(k));
+      if (frequencies_[k] < 0.0 || !std::isfinite(f)) continue;
+      if (std::abs(f - frequencies_[k]) <= same * std::max(f, frequencies_[k])) continue;
+      fault(
+          fmt::format("found {:.6g} Hz for mode {}, but K and the modal mass S11 + S22 + S33 give "
+                      "{:.6g} Hz",
+                      frequencies_[k], k + 1, f));
+      break;
+    }
+    health(v);
+  }
+
+  /// The report was made of these integrals.
+  void health(const InertiaInvariants& v) {
+    const HealthReport& h = out_.part.health;
+    const MassProperties& said = h.from_invariants;
+    if (!(said.mass > 0.0)) return;  // no report
+    if (h.modes != v.modes())
+      fault(
+          fmt::format("health: found {} modes, expected the {} of this file", h.modes, v.modes()));
+    if (!(std::abs(v.m - said.mass) <= same * said.mass)) {
+      arrays_.fault("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg", v.m,
+                                     said.mass));
+      return;
+    }
+    const Mat3 J = v.inertia_about_origin();
+    const double length = std::sqrt(J.trace() / v.m);
+    const Vec3 c = v.centre_of_mass();
+    if (!((c - said.centre).norm() <= same * length))
+      arrays_.fault("m_u", fmt::format("found the centre of mass ({:.6g}, {:.6g}, {:.6g}) m, but "
+                                       "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
+                                       c.x(), c.y(), c.z(), said.centre.x(), said.centre.y(),
+                                       said.centre.z()));
+    if (!((J - said.J_origin).norm() <= same * J.norm()))
+      arrays_.fault("P_u", fmt::format("found moments of inertia ({:.6g}, {:.6g}, {:.6g}) kg m2 "
+                                       "about the origin, but the health report says ({:.6g}, "
+                                       "{:.6g}, {:.6g}) kg m2",
+                                       J(0, 0), J(1, 1), J(2, 2), said.J_origin(0, 0),
+                                       said.J_origin(1, 1), said.J_origin(2, 2)));
+    for (const InterfaceHealth& interface : h.interfaces)
+      for (const ModalNode& node : body().nodes)
+        if (node.name == interface.name &&
+            !((node.p - interface.p).norm() <= same * (length + node.p.norm())))
+          arrays_.fault("marker_p", fmt::format("found ({:.6g}, {:.6g}, {:.6g}) m for '{}', but "
+                                                "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
+                                                node.p.x(), node.p.y(), node.p.z(), node.name,
+                                                interface.p.x(), interface.p.y(), interface.p.z()));
+  }
+
+  static constexpr double same = 1e-6;  // numbers that were printed and read again
+
   std::string name_;
   Faults faults_;
+  std::vector<double> frequencies_;  ///< of the header [Hz]; -1: not given
   std::vector<ZipMember> members_;
   ArrayReader arrays_;
   BodyFile out_;

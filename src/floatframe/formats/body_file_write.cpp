@@ -44,7 +44,7 @@ std::string header_of(const BodyFile& content) {
   const Json header = {{"format", "floatframe body"},
                        {"format_version", body_file_version},
                        {"floatframe", from.version},
-                       {"units", "SI (m, kg, s, rad)"},
+                       {"units", body_file_units},
                        {"mass_model", mass_models[static_cast<std::size_t>(body.mass_model)]},
                        {"modes", modes},
                        {"markers", markers},

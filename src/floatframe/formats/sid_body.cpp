@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/formats/sid_content.hpp"
@@ -15,8 +16,9 @@
 namespace floatframe {
 namespace {
 
-constexpr double same = 1e-6;   // numbers of a file have 12 digits
-constexpr double close = 0.05;  // lumped masses of some writers against consistent ones
+constexpr double same = 1e-6;        // numbers of a file have 12 digits
+constexpr double own_digits = 1e-5;  // of a moment of inertia about the centre of mass
+constexpr double close = 0.05;       // lumped masses of some writers against consistent ones
 constexpr int axes_of_Oe[3][2] = {{0, 1}, {1, 2}, {0, 2}};
 constexpr int axes_of_J[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 /// Component c of a cross product: first(c) x second(c).
@@ -41,7 +43,9 @@ class BodyOfSid {
     out_.body.mode_names = c_.mode_names;
     for (const SidFrame& f : c_.frames) add_node(f);
     left_out();
+    if (faults_.empty()) check_inertia(v);
     if (faults_.empty()) check_mass_matrix(v);
+    if (faults_.empty()) check_energy();
     faults_.throw_if_any();
     return std::move(out_);
   }
@@ -274,6 +278,57 @@ class BodyOfSid {
                           "left out: modes are linear",
                           names));
     }
+  }
+
+  /// Moments of inertia about the centre of mass, which a large distance from the origin may hide.
+  void check_inertia(const InertiaInvariants& v) {
+    if (!(v.m > 0.0)) return;
+    const Mat3 J_c = v.inertia_about_centre();
+    const Vec3 moments =
+        Eigen::SelfAdjointEigenSolver<Mat3>(J_c, Eigen::EigenvaluesOnly).eigenvalues();
+    const double size = moments.cwiseAbs().maxCoeff();
+    const double digits = 1e-12 * v.inertia_about_origin().cwiseAbs().maxCoeff();
+    if (moments(0) < -own_digits * size - digits) {
+      faults_.add(
+          mark(c_.J.line),
+          fmt::format("block J gives a moment of inertia of {:.6g} about the centre of mass "
+                      "(with mass and mdCM), expected none below zero",
+                      moments(0)));
+      return;
+    }
+    const double excess = moments(2) - moments(0) - moments(1);
+    if (excess <= own_digits * size + digits) return;
+    const std::string text = fmt::format(
+        "the moments of inertia about the centre of mass are {:.6g}, {:.6g} and {:.6g}: "
+        "the largest is more than the sum of the others, which no body has",
+        moments(0), moments(1), moments(2));
+    if (excess > close * size)
+      faults_.add(mark(c_.J.line), text);
+    else
+      note(c_.J.line, text);
+  }
+
+  /// Stiffness and damping must not give energy.
+  void check_energy() {
+    for (const auto& [block, matrix, what] :
+         {std::tuple{&c_.Ke, &out_.body.K, "stiffness"}, {&c_.De, &out_.body.D, "damping"}}) {
+      if (nq_ == 0) continue;
+      const VecX unit =
+          matrix->diagonal().unaryExpr([](double x) { return x > 0.0 ? 1.0 / std::sqrt(x) : 0.0; });
+      Eigen::Index k = 0;
+      const double least =
+          matrix->diagonal().minCoeff(&k) < 0.0
+              ? (*matrix)(k, k)
+              : Eigen::SelfAdjointEigenSolver<MatX>(unit.asDiagonal() * *matrix * unit.asDiagonal(),
+                                                    Eigen::EigenvaluesOnly)
+                    .eigenvalues()(0);
+      if (least < -same)
+        faults_.add(mark(block->line),
+                    fmt::format("block {} holds a negative {} ({:.3g}), expected none below zero",
+                                block == &c_.Ke ? "Ke" : "De", what, least));
+    }
+    if (nq_ > 0 && out_.body.K.isZero(0.0))
+      note(c_.Ke.line, "the modes have no stiffness: block Ke is missing or zero");
   }
 
   /// The mass matrix at zero deformation, scaled to a unit diagonal, must not be indefinite.

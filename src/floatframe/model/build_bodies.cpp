@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "floatframe/body/check_invariants.hpp"
 #include "floatframe/body/mirrored.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/body/with_modes.hpp"
@@ -70,6 +71,10 @@ void ModelBuilder::bodies() {
       data.K = data.D = MatX::Zero(0, 0);
       body.data = std::make_shared<const FlexibleBody>(std::move(data));
     } else if (const auto* given = std::get_if<FlexibleBody>(&b.kind)) {
+      if (given->modes() > 0)
+        for (const InvariantFault& f : check_invariants(*given, InvariantSource::parameters))
+          faults.add(b.origin.of("flexible"),
+                     "bodies." + b.name + ": " + f.quantity + ": " + f.sentence);
       body.data = std::make_shared<const FlexibleBody>(
           b.mirror == Mat3::Identity() ? *given : mirrored(*given, b.mirror));
     } else {
@@ -93,7 +98,7 @@ void ModelBuilder::modal_masses() {
       if (joint_velocities(j.type) >= free.cols()) continue;
       free = rigid_motions(j, b, marker(j.frame_M));
     }
-    const double own = relative_modal_mass(b.data->invariants, free);
+    const double own = relative_modal_mass(b.data->invariants, free, b.data->K);
     if (own > least_modal_mass) continue;
     std::ostringstream s;
     s << "bodies." << b.name << ": found " << b.modes()

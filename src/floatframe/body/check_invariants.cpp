@@ -1,0 +1,253 @@
+#include "floatframe/body/check_invariants.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr double rounding = 1e-6;          // of numbers written with seven digits
+constexpr double cancelled = 1e-11;        // what is left of P_u when the centre lies far away
+constexpr double least_stiffness = 1e-13;  // K scaled to a unit diagonal
+
+double largest(const MatX& m) { return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 0.0; }
+
+double smallest_eigenvalue(const MatX& m) {
+  if (m.rows() == 0) return 0.0;
+  return Eigen::SelfAdjointEigenSolver<MatX>(m, Eigen::EigenvaluesOnly).eigenvalues()(0);
+}
+
+/// 1 / sqrt of the diagonal; 0 where that is not positive.
+VecX to_unit(const VecX& diagonal) {
+  return diagonal.unaryExpr([](double x) { return x > 0.0 ? 1.0 / std::sqrt(x) : 0.0; });
+}
+
+class Check {
+ public:
+  Check(const FlexibleBody& body, InvariantSource source)
+      : b_(body), v_(body.invariants), nm_(body.modes()), source_(source) {}
+
+  std::vector<InvariantFault> run() {
+    if (!sizes_fit()) return {};
+    if (!finite()) return faults_;
+    mass();
+    second_moments();
+    modal_mass();
+    stiffness();
+    damping();
+    // The whole only if its parts are right: one cause, one sentence.
+    if (faults_.empty()) together();
+    return faults_;
+  }
+
+ private:
+  void add(const std::string& quantity, const std::string& sentence) {
+    faults_.push_back({quantity, sentence});
+  }
+
+  bool sizes_fit() const {
+    bool fit = b_.K.rows() == nm_ && b_.K.cols() == nm_;
+    fit = fit && (b_.D.size() == 0 || (b_.D.rows() == nm_ && b_.D.cols() == nm_));
+    for (std::size_t i = 0; i < 3; ++i) {
+      fit = fit && v_.Si[i].cols() == nm_;
+      for (const MatX& s : v_.Sij[i]) fit = fit && s.rows() == nm_ && s.cols() == nm_;
+    }
+    return fit;
+  }
+
+  bool finite() {
+    const auto look = [&](const std::string& name, const MatX& x) {
+      if (!x.allFinite()) add(name, "found a number that is not finite");
+    };
+    look("m", MatX::Constant(1, 1, v_.m));
+    look("m_u", v_.m_u);
+    look("P_u", v_.P_u);
+    look("S", v_.S);
+    for (std::size_t i = 0; i < 3; ++i) {
+      look(fmt::format("S{}", i + 1), v_.Si[i]);
+      for (std::size_t j = 0; j < 3; ++j) look(fmt::format("S{}{}", i + 1, j + 1), v_.Sij[i][j]);
+    }
+    look("K", b_.K);
+    look("D", b_.D);
+    return faults_.empty();
+  }
+
+  bool symmetric(const std::string& name, const MatX& m, double scale) {
+    if (m.rows() == 0 || largest(m - m.transpose()) <= rounding * scale) return true;
+    Eigen::Index i = 0, j = 0;
+    (m - m.transpose()).cwiseAbs().maxCoeff(&i, &j);
+    add(name, fmt::format("found {:g} in row {}, column {} and {:g} in row {}, column {}, expected "
+                          "a symmetric matrix",
+                          m(i, j), i + 1, j + 1, m(j, i), j + 1, i + 1));
+    return false;
+  }
+
+  void mass() {
+    if (!(v_.m > 0.0)) add("m", fmt::format("found {:g}, expected a positive mass [kg]", v_.m));
+  }
+
+  void second_moments() {
+    if (!symmetric("P_u", v_.P_u, largest(v_.P_u)) || !(v_.m > 0.0)) return;
+    const double all = v_.P_u.trace();
+    if (nm_ > 0 && !(all > 0.0)) {
+      add("P_u",
+          fmt::format("found {}, expected the second moments of a body with {:g} kg [kg m2]",
+                      largest(v_.P_u) == 0.0 ? "zeros" : fmt::format("the trace {:g}", all), v_.m));
+      return;
+    }
+    const Mat3 P_c = v_.P_u - v_.m_u * v_.m_u.transpose() / v_.m;
+    const double least = smallest_eigenvalue(0.5 * (P_c + P_c.transpose()));
+    if (least < -rounding * std::max(P_c.trace(), 0.0) - cancelled * std::abs(all))
+      add("P_u", fmt::format("found second moments about the centre of mass down to {:.4g} kg m2, "
+                             "expected none below zero (P_u, m_u and m must be of one body)",
+                             least));
+  }
+
+  void modal_mass() {
+    if (nm_ == 0) return;
+    M_ff_ = v_.Sij[0][0] + v_.Sij[1][1] + v_.Sij[2][2];
+    double scale = 0.0;
+    for (const auto& row : v_.Sij)
+      for (const MatX& s : row) scale = std::max(scale, largest(s));
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (largest(v_.Sij[i][j] - v_.Sij[j][i].transpose()) > rounding * scale)
+          add(fmt::format("S{}{}", i + 1, j + 1),
+              fmt::format("found another matrix than the transpose of S{}{}, expected the same",
+                          j + 1, i + 1));
+    if (!faults_.empty()) return;
+    const bool integrals = source_ == InvariantSource::integrals;
+    if (integrals && scale == 0.0) {
+      add("S11", "found zeros as in S22 and S33, expected modes that move mass");
+      return;
+    }
+    unit_ = to_unit(M_ff_.diagonal());
+    if (!integrals) {
+      if (symmetric("S11", M_ff_, scale)) positive("S11 + S22 + S33", M_ff_);
+      return;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string name = fmt::format("S{}{}", i + 1, i + 1);
+      if (symmetric(name, v_.Sij[i][i], scale)) positive(name, v_.Sij[i][i]);
+    }
+  }
+
+  /// A share of the modal mass.
+  void positive(const std::string& name, const MatX& share) {
+    for (Eigen::Index k = 0; k < nm_; ++k) {
+      if (!(share(k, k) < -rounding * std::abs(M_ff_(k, k)))) continue;
+      add(name, fmt::format("found the modal mass {:g} of mode {}, expected none below zero",
+                            share(k, k), k + 1));
+      return;
+    }
+    const double least = smallest_eigenvalue(unit_.asDiagonal() * share * unit_.asDiagonal());
+    if (least < -rounding)
+      add(name, fmt::format("found a combination of modes of negative mass ({:.3g} of the modal "
+                            "mass), expected none below zero",
+                            least));
+  }
+
+  void stiffness() {
+    if (nm_ == 0 || !symmetric("K", b_.K, largest(b_.K))) return;
+    const bool integrals = source_ == InvariantSource::integrals;
+    for (Eigen::Index k = 0; k < nm_; ++k) {
+      if (integrals ? b_.K(k, k) > 0.0 : b_.K(k, k) >= 0.0) continue;
+      add("K",
+          fmt::format("found the stiffness {:g} of mode {}, expected {} (rigid motions are "
+                      "not among the modes)",
+                      b_.K(k, k), k + 1, integrals ? "a positive number" : "no negative number"));
+      return;
+    }
+    const VecX unit = to_unit(b_.K.diagonal());
+    const double least = smallest_eigenvalue(unit.asDiagonal() * b_.K * unit.asDiagonal());
+    if (integrals ? !(least > least_stiffness) : least < -rounding)
+      add("K", fmt::format("found a combination of modes {} (smallest eigenvalue {:.3g} with a "
+                           "diagonal of ones), expected a positive definite matrix",
+                           least < -least_stiffness ? "of negative stiffness" : "without stiffness",
+                           least));
+  }
+
+  void damping() {
+    if (b_.D.size() == 0 || !symmetric("D", b_.D, largest(b_.D))) return;
+    const double least = smallest_eigenvalue(0.5 * (b_.D + b_.D.transpose()));
+    if (least < -rounding * largest(b_.D))
+      add("D", fmt::format("found a combination of modes that gains energy (smallest eigenvalue "
+                           "{:.3g} J s), expected none below zero",
+                           least));
+  }
+
+  /// M(0), or all of G.
+  void together() {
+    if (nm_ == 0) return;
+    MatX G;
+    if (source_ == InvariantSource::integrals) {
+      G = MatX::Zero(3 * nm_ + 4, 3 * nm_ + 4);
+      const Eigen::Index r = 3 * nm_, one = 3 * nm_ + 3;
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const auto a = static_cast<std::size_t>(i);
+        for (Eigen::Index j = 0; j < 3; ++j) {
+          const auto b = static_cast<std::size_t>(j);
+          G.block(i * nm_, j * nm_, nm_, nm_) = v_.Sij[a][b];
+          G.block(r + i, j * nm_, 1, nm_) = v_.Si[a].row(j);
+          G.block(j * nm_, r + i, nm_, 1) = v_.Si[a].row(j).transpose();
+        }
+        G.block(one, i * nm_, 1, nm_) = v_.S.row(i);
+        G.block(i * nm_, one, nm_, 1) = v_.S.row(i).transpose();
+      }
+      G.block<3, 3>(r, r) = v_.P_u;
+      G.block<3, 1>(r, one) = v_.m_u;
+      G.block<1, 3>(one, r) = v_.m_u.transpose();
+      G(one, one) = v_.m;
+    } else {
+      G = MatX::Zero(6 + nm_, 6 + nm_);
+      G.topLeftCorner<3, 3>() = v_.m * Mat3::Identity();
+      G.block<3, 3>(0, 3) = -skew(v_.m_u);
+      G.block<3, 3>(3, 0) = skew(v_.m_u);
+      G.block<3, 3>(3, 3) = v_.inertia_about_origin();
+      G.topRightCorner(3, nm_) = v_.S;
+      for (Eigen::Index i = 0; i < 3; ++i) {  // int r x X dm
+        const Eigen::Index j = (i + 1) % 3, k = (i + 2) % 3;
+        G.block(3 + i, 6, 1, nm_) =
+            v_.Si[static_cast<std::size_t>(j)].row(k) - v_.Si[static_cast<std::size_t>(k)].row(j);
+      }
+      G.bottomLeftCorner(nm_, 6) = G.topRightCorner(6, nm_).transpose();
+      G.bottomRightCorner(nm_, nm_) = M_ff_;
+    }
+    const VecX unit = to_unit(G.diagonal());
+    G = (unit.asDiagonal() * G * unit.asDiagonal()).eval();
+    G.diagonal().array() += rounding;
+    if (Eigen::LLT<MatX>(G).info() == Eigen::Success) return;
+    const double least = smallest_eigenvalue(G) - rounding;
+    if (source_ == InvariantSource::integrals)
+      add("S", fmt::format("the integrals m, m_u, P_u, S, S1 to S3 and S11 to S33 contradict each "
+                           "other: no distribution of mass has them (smallest eigenvalue {:.3g} "
+                           "with a diagonal of ones, expected none below zero)",
+                           least));
+    else
+      add("S", fmt::format("the mass matrix at zero deformation is not positive: with a diagonal "
+                           "of ones its smallest eigenvalue is {:.3g}; m, m_u, P_u, S, S1 to S3 "
+                           "and S11 to S33 contradict each other",
+                           least));
+  }
+
+  const FlexibleBody& b_;
+  const InertiaInvariants& v_;
+  Eigen::Index nm_;
+  InvariantSource source_;
+  MatX M_ff_;
+  VecX unit_;
+  std::vector<InvariantFault> faults_;
+};
+
+}  // namespace
+
+std::vector<InvariantFault> check_invariants(const FlexibleBody& body, InvariantSource source) {
+  return Check(body, source).run();
+}
+
+}  // namespace floatframe
