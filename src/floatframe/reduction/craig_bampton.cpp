@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/reduction/bar_chains.hpp"
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
@@ -105,6 +108,30 @@ SparseMatrix eigen_mass(const FeModel& model, const ReductionOptions& options) {
   return M;
 }
 
+/// Static modes, then normal modes.
+template <class Fixed>
+ModeSet mode_set(const Fixed& fixed, int nb, const ReductionOptions& options,
+                 std::vector<std::string> names) {
+  int nn = options.normal_modes;
+  if (options.max_frequency > 0.0) {
+    const int below = fixed.count_below(options.max_frequency);
+    nn = options.normal_modes > 0 ? std::min(below, options.normal_modes) : below;
+  }
+  const Eigenmodes normal = fixed.normal_modes(nn);
+  ModeSet set;
+  set.X.resize(normal.shapes.rows(), nb + nn);
+  set.X.leftCols(nb) = fixed.constraint_modes();
+  set.X.rightCols(nn) = normal.shapes;
+  for (int a = 0; a < nn; ++a) names.push_back("normal " + std::to_string(a + 1));
+  // Static and dynamic modes do not couple in the stiffness, dynamic ones not among themselves.
+  set.K = MatX::Zero(nb + nn, nb + nn);
+  set.K.topLeftCorner(nb, nb) = fixed.guyan_stiffness(set.X.leftCols(nb));
+  set.K.diagonal().tail(nn) = normal.omega.cwiseAbs2();
+  set.frequencies = normal.omega / (2.0 * std::numbers::pi);
+  set.names = std::move(names);
+  return set;
+}
+
 }  // namespace
 
 ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& options) {
@@ -173,26 +200,19 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
     const Role role = roles[static_cast<std::size_t>(i)];
     if (role == Role::clamped || role == Role::inactive) zero.push_back(i);
   }
-  const FixedInterface fixed(K, eigen_mass(model, options), interface_dofs, zero,
-                             [&](int dof) { return dof_text(dof / d, dof % d); });
-  int nn = options.normal_modes;
-  if (options.max_frequency > 0.0) {
-    const int below = fixed.count_below(options.max_frequency);
-    nn = options.normal_modes > 0 ? std::min(below, options.normal_modes) : below;
-  }
-  const Eigenmodes normal = fixed.normal_modes(nn);
-  const auto nb = static_cast<int>(interface_dofs.size());
+  const SparseMatrix M = eigen_mass(model, options);
+  const auto label = [&](int dof) { return dof_text(dof / d, dof % d); };
   ModeSet set;
-  set.X.resize(total, nb + nn);
-  set.X.leftCols(nb) = fixed.constraint_modes();
-  set.X.rightCols(nn) = normal.shapes;
-  for (int a = 0; a < nn; ++a) names.push_back("normal " + std::to_string(a + 1));
-  // Static and dynamic modes do not couple in the stiffness, dynamic ones not among themselves.
-  set.K = MatX::Zero(nb + nn, nb + nn);
-  set.K.topLeftCorner(nb, nb) = fixed.guyan_stiffness(set.X.leftCols(nb));
-  set.K.diagonal().tail(nn) = normal.omega.cwiseAbs2();
-  set.frequencies = normal.omega / (2.0 * std::numbers::pi);
-  set.names = std::move(names);
+  if (const auto chains = BarChains::make(model, K, M, interface_dofs, zero, label)) {
+    set = mode_set(*chains, static_cast<int>(interface_dofs.size()), options, std::move(names));
+  } else {
+    std::optional<FixedInterface> fixed;
+    with_digits_hint(model, [&] { fixed.emplace(K, M, interface_dofs, zero, label); });
+    set = mode_set(*fixed, static_cast<int>(interface_dofs.size()), options, std::move(names));
+  }
+  if (d == 6)
+    check_digits(model, rows_of_nodes(set.X, 0), rows_of_nodes(set.X, 3), set.K.diagonal(),
+                 set.names);
   return set;
 }
 

@@ -38,22 +38,24 @@ Eigenpairs finish(const VecX& mu, const MatX& shapes, double sigma, int count) {
   return modes;
 }
 
+using Solve = std::function<MatX(const MatX&)>;
+
 /// y = a A^-1 x. Scaled so that the largest eigenvalue of A^-1 M is about one: Spectra compares
 /// with fixed bounds.
 class ShiftInvert {
  public:
   using Scalar = double;
-  ShiftInvert(const SparseFactors& factors, Eigen::Index n) : factors_(factors), n_(n) {}
+  ShiftInvert(const Solve& solve, Eigen::Index n) : solve_(solve), n_(n) {}
   Eigen::Index rows() const { return n_; }
   Eigen::Index cols() const { return n_; }
   void set_shift(double) const {}
   void perform_op(const double* x, double* y) const {
-    Eigen::Map<VecX>(y, n_) = scale * factors_.solve(Eigen::Map<const VecX>(x, n_));
+    Eigen::Map<VecX>(y, n_) = scale * solve_(Eigen::Map<const VecX>(x, n_));
   }
   double scale = 1.0;
 
  private:
-  const SparseFactors& factors_;
+  const Solve& solve_;
   Eigen::Index n_;
 };
 
@@ -82,16 +84,16 @@ VecX fixed_start(Eigen::Index n) {
   return x;
 }
 
-Eigenpairs lanczos(const SparseFactors& factors, double sigma, const SparseMatrix& M, int count) {
+Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int count) {
   const Eigen::Index n = M.rows();
-  ShiftInvert inverse(factors, n);
+  ShiftInvert inverse(solve, n);
   MassProduct mass(M);
   const double mean = M.diagonal().sum() / static_cast<double>(n);
   if (!(mean > 0.0)) return {VecX(), MatX::Zero(n, 0)};
   mass.scale = 1.0 / mean;
   VecX x = fixed_start(n), y;
   for (int step = 0; step < 2; ++step) {
-    y = factors.solve(MatX(mass.scale * (M * x)));
+    y = solve(MatX(mass.scale * (M * x)));
     const double before = std::sqrt(std::max(x.dot(M * x), 0.0));
     const double after = std::sqrt(std::max(y.dot(M * y), 0.0));
     if (!(after > 0.0) || !std::isfinite(after)) return {VecX(), MatX::Zero(n, 0)};
@@ -108,7 +110,7 @@ Eigenpairs lanczos(const SparseFactors& factors, double sigma, const SparseMatri
 
   // A Y = M X, so Y^T A Y = Y^T M X: a product with K would lose the digits of the low modes.
   const MatX MX = M * found;
-  MatX Y = factors.solve(MX);
+  MatX Y = solve(MX);
   MatX Ar = Y.transpose() * MX;
   MatX Mr = Y.transpose() * (M * Y);
   Ar = 0.5 * (Ar + Ar.transpose()).eval();
@@ -128,7 +130,7 @@ Eigenpairs lowest_eigenpairs(const SparseMatrix& A, const SparseFactors& factors
   if (n == 0 || count <= 0) return {VecX(), MatX::Zero(n, 0)};
   count = static_cast<int>(std::min<Eigen::Index>(count, n));
   if (n > dense_limit && (4 * count < n || n > 10 * dense_limit) && count < n)
-    return lanczos(factors, sigma, M, count);
+    return lanczos([&](const MatX& b) { return factors.solve(b); }, sigma, M, count);
   VecX mu;
   MatX z;
   solve_dense(MatX(M), MatX(A), mu, z);
@@ -138,6 +140,13 @@ Eigenpairs lowest_eigenpairs(const SparseMatrix& A, const SparseFactors& factors
 Eigenmodes lowest_modes(const SparseMatrix& K, const SparseFactors& factors, const SparseMatrix& M,
                         int count) {
   Eigenpairs pairs = lowest_eigenpairs(K, factors, 0.0, M, count);
+  return {pairs.lambda.cwiseMax(0.0).cwiseSqrt(), std::move(pairs.shapes)};
+}
+
+Eigenmodes lowest_modes(const Solve& solve, const SparseMatrix& M, int count) {
+  if (M.rows() == 0 || count <= 0) return {VecX(), MatX::Zero(M.rows(), 0)};
+  Eigenpairs pairs =
+      lanczos(solve, 0.0, M, static_cast<int>(std::min<Eigen::Index>(count, M.rows() - 1)));
   return {pairs.lambda.cwiseMax(0.0).cwiseSqrt(), std::move(pairs.shapes)};
 }
 

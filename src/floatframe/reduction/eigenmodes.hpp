@@ -4,6 +4,8 @@
 // - sigma M > 0; large ones by implicitly restarted Lanczos iteration on A^-1 M (Spectra), then one
 // block step of inverse iteration with a Rayleigh-Ritz projection, which cleans the shapes of
 // massless parts and separates multiple modes. The start is fixed: the same modes every time.
+#include <functional>
+
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/math/sparse_factors.hpp"
 
@@ -18,6 +20,10 @@ struct Eigenmodes {
 Eigenmodes lowest_modes(const SparseMatrix& K, const SparseMatrix& M, int count);
 /// The same with the factors of K given.
 Eigenmodes lowest_modes(const SparseMatrix& K, const SparseFactors& factors, const SparseMatrix& M,
+                        int count);
+
+/// The same with K^-1 b given by a function, for many dofs and few modes.
+Eigenmodes lowest_modes(const std::function<MatX(const MatX&)>& solve, const SparseMatrix& M,
                         int count);
 
 struct Eigenpairs {

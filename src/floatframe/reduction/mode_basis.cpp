@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/reduction/connectivity.hpp"
 #include "floatframe/reduction/mode_selection.hpp"
 
@@ -121,9 +122,11 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
       basis.names.push_back("static " + place.name + " " + dof_names[axis]);
   }
   const auto nb = static_cast<Eigen::Index>(boundary.size());
-  fixed.emplace(
-      system.K, system.M, boundary, std::vector<int>{},
-      [&](int row) { return row_label(model, system, row); }, options.solver);
+  with_digits_hint(model, [&] {
+    fixed.emplace(
+        system.K, system.M, boundary, std::vector<int>{},
+        [&](int row) { return row_label(model, system, row); }, options.solver);
+  });
   basis.solver = fixed->solver_name();
   basis.X = fixed->constraint_modes();
   basis.K = fixed->guyan_stiffness(basis.X);

@@ -11,7 +11,9 @@
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/model_checks.hpp"
+#include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/reduction/body_reference.hpp"
 #include "floatframe/reduction/connectivity.hpp"
 #include "floatframe/reduction/modal_damping.hpp"
@@ -68,6 +70,20 @@ void normalise(const FeSystem& system, double size, ModeBasis& basis) {
   basis.X *= factor.asDiagonal();
   basis.K = (factor.asDiagonal() * basis.K * factor.asDiagonal()).eval();
   basis.rigid = (factor.cwiseInverse().asDiagonal() * basis.rigid).eval();
+}
+
+/// Very many beams in a row: are there digits left in the normal modes?
+void check_beams(const FeModel& model, const FeSystem& system, const ModeBasis& basis,
+                 Integration integration) {
+  const Eigen::Index first = basis.first_normal, count = basis.frequencies.size();
+  const bool beams = std::any_of(model.elements.begin(), model.elements.end(),
+                                 [](const Element& e) { return is_beam(e.type); });
+  if (count == 0 || !beams) return;
+  const MatX X = basis.X.middleCols(first, count);
+  const std::vector<std::string> names(basis.names.begin() + first,
+                                       basis.names.begin() + first + count);
+  check_digits(model, system.T * X, system.T_theta * X, basis.K.diagonal().segment(first, count),
+               names, integration);
 }
 
 /// The same integrals over the volume: of the model with unit density and without point masses.
@@ -217,6 +233,7 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   }
   fixed.reset();  // the factors are the largest piece of memory
   check_stiffness_of(model, system, elastic.shapes);
+  check_beams(model, system, basis, options.integration);
   normalise(system, part_size(model, system), basis);
   stages.done("modes");
 

@@ -5,6 +5,7 @@
 
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/reduction/modal_damping.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
@@ -51,9 +52,9 @@ ModeSet user_basis(const FeModel& model, const MatX& X) {
   if (!X.allFinite()) throw InputError("the given basis has entries that are not finite");
   ModeSet set;
   set.X = X;
-  const MatX KX = assemble_stiffness(model) * X;
-  const MatX K = X.transpose() * KX;
-  set.K = 0.5 * (K + K.transpose());
+  const bool rotations = model.dofs_per_node() == 6;
+  set.K = rotations ? strain_energy(model, rows_of_nodes(X, 0), rows_of_nodes(X, 3))
+                    : strain_energy(model, X, MatX());
   for (Eigen::Index a = 0; a < X.cols(); ++a) set.names.push_back("given " + std::to_string(a + 1));
   return set;
 }
