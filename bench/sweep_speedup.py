@@ -18,7 +18,7 @@ At last one study with two runs at a time is watched from outside (/proc/<pid>/s
 process that it makes the time it ran, the time it was ready but had no processor, which is the machine's, and the
 rest, in which it waited for another. The estimate for two free processors is the sum of all processor times over the
 time of all but the workers, half of that of the two workers (runs are handed out one by one, so that both get the
-same), and the longest own waiting of a worker.
+same), and the longest waiting of a worker, less the time for which those that it waits for had no processor.
 """
 import argparse
 import os
@@ -150,7 +150,8 @@ def main():
         workers = processes[:2]
         total = sum(ran for _, ran, _, _ in processes)
         parallel = sum(ran for _, ran, _, _ in workers)
-        waited = max(alive - ran - ready for _, ran, ready, alive in workers)
+        kept_waiting = sum(ready for _, _, ready, _ in processes[2:])
+        waited = max(0.0, max(alive - ran - ready for _, ran, ready, alive in workers) - kept_waiting)
         print(f"two free processors: about {total / (total - parallel + 0.5 * parallel + waited):.2f} times faster than 1")
 
 
