@@ -33,3 +33,17 @@ run(${WORK}/build/consumer)
 if(EXISTS ${WORK}/prefix/bin/floatframe)
   run(${WORK}/prefix/bin/floatframe --version)
 endif()
+
+# By hand, without the package: what is compiled with other settings of Eigen must not link, also where the linker
+# drops unused sections; with the settings of the package it links.
+file(GLOB library ${WORK}/prefix/lib*/libfloatframe.so ${WORK}/prefix/lib/*/libfloatframe.so)
+separate_arguments(hand_flags NATIVE_COMMAND "${FLAGS}")
+set(by_hand ${COMPILER} ${hand_flags} -std=c++20 -O2 -I${WORK}/prefix/include -I${EIGEN}
+    ${SOURCE}/without_package/main.cpp ${library} -o ${WORK}/by_hand)
+foreach(flags "" "-ffunction-sections;-fdata-sections;-Wl,--gc-sections")
+  execute_process(COMMAND ${by_hand} ${flags} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(code EQUAL 0 OR NOT output MATCHES "compile_with_the_settings_of_the_CMake_package<16, 16, 131072")
+    message(FATAL_ERROR "without the settings of the package (${flags}): exit code ${code}\n${output}")
+  endif()
+endforeach()
+run(${by_hand} -DEIGEN_MAX_ALIGN_BYTES=32 -DEIGEN_MAX_STATIC_ALIGN_BYTES=32 -DEIGEN_STACK_ALLOCATION_LIMIT=1048576)

@@ -4,6 +4,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#ifndef FLOATFRAME_WITHOUT_ABI_GUARD  // a module that shares no matrices with the library
+#include "floatframe/math/abi_guard.hpp"
+#endif
+
 namespace floatframe {
 
 using Vec2 = Eigen::Vector2d;

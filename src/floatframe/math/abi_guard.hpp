@@ -1,0 +1,33 @@
+#pragma once
+// Programs that are compiled with other settings of Eigen than the library lay out and free its
+// matrices in another way, and corrupt memory. Every file that includes a header of Floatframe asks
+// for a function whose name holds the settings it was compiled with; the library defines the one of
+// its own settings, so that anything else does not link:
+//   undefined reference to `floatframe::abi::compile_with_the_settings_of_the_CMake_package<16, 16,
+//   131072, 3, 4, 0>()'
+// with EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_STACK_ALLOCATION_LIMIT and the
+// version of Eigen, as this file saw them.
+#include <Eigen/Core>
+
+namespace floatframe::abi {
+
+template <int max_align_bytes, int max_static_align_bytes, long stack_allocation_limit,
+          int eigen_world, int eigen_major, int eigen_minor>
+void compile_with_the_settings_of_the_CMake_package() noexcept;
+
+#define FLOATFRAME_ABI_SETTINGS                                                      \
+  EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_STACK_ALLOCATION_LIMIT, \
+      EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION
+
+// In every object file, also an optimised one or one whose unused sections are dropped: one
+// pointer, which nothing reads. A variable of the whole program would not do: of several with
+// different settings the linker takes one.
+#if defined(__has_cpp_attribute) && __has_cpp_attribute(gnu::retain)
+[[gnu::used, gnu::retain]]
+#else
+[[gnu::used]]
+#endif
+static void (*const settings_of_this_file)() noexcept =
+    &compile_with_the_settings_of_the_CMake_package<FLOATFRAME_ABI_SETTINGS>;
+
+}  // namespace floatframe::abi
