@@ -188,10 +188,10 @@ TEST(BuildInputs, FaultsAreNamed) {
   d.inputs.push_back({"d", "", 0.0, {}, {}, true, {}});
   EXPECT_EQ(faults(d),
             "inputs.a: the name is taken, expected a name used once\n"
-            "inputs.a.initial: found 5, expected a number from 0 to 1\n"
+            "inputs.a.initial: found 5, expected a number not above max, 1\n"
             "inputs.b.max: found 1, expected a number above min, 1\n"
             "inputs.d.clamp: found true without limits, expected min, max or both beside it\n"
-            "forces.push.magnitude: found input 'c', expected the name of an input");
+            "forces.push.magnitude.input: unknown input 'c'");
 }
 
 }  // namespace

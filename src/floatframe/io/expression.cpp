@@ -312,13 +312,6 @@ ParameterValue substitute_parameters(std::string_view text, const ParameterScope
   return result;
 }
 
-std::string number_text(double value) {
-  std::array<char, 32> buffer{};
-  const auto r =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value == 0.0 ? 0.0 : value);
-  return std::string(buffer.data(), r.ptr);
-}
-
 std::string value_text(const ParameterValue& value) {
   if (const bool* b = std::get_if<bool>(&value)) return *b ? "true" : "false";
   if (const double* x = std::get_if<double>(&value)) return number_text(*x);
@@ -328,12 +321,6 @@ std::string value_text(const ParameterValue& value) {
 const char* type_name(const ParameterValue& value) {
   constexpr std::array names{"true or false", "a number", "a text"};
   return names[value.index()];
-}
-
-bool is_identifier(std::string_view name, bool hyphen) {
-  if (name.empty() || !is_letter(name[0])) return false;
-  return std::all_of(name.begin(), name.end(),
-                     [&](char c) { return is_letter(c) || is_digit(c) || (hyphen && c == '-'); });
 }
 
 bool is_reserved_name(std::string_view name) {

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <variant>
 
+#include "floatframe/core/number_rule.hpp"
+
 namespace floatframe {
 
 using ParameterValue = std::variant<bool, double, std::string>;
@@ -29,15 +31,11 @@ ParameterValue evaluate_expression(std::string_view text, const ParameterScope& 
 /// value, otherwise the values are inserted as text. Throws ExpressionError.
 ParameterValue substitute_parameters(std::string_view text, const ParameterScope& scope);
 
-/// Number as a user would write it: the shortest digits that read back as the same double.
-std::string number_text(double value);
 /// Value as text: true, false, number_text or the text itself.
 std::string value_text(const ParameterValue& value);
 /// "a number", "true or false", "a text".
 const char* type_name(const ParameterValue& value);
 
-/// Letter or underscore, then letters, digits, underscores; hyphens too if `hyphen`.
-bool is_identifier(std::string_view name, bool hyphen = false);
 /// A name the expression language uses itself (pi, true, and, sqrt, ...).
 bool is_reserved_name(std::string_view name);
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 namespace {
@@ -46,8 +47,9 @@ void read_top(const ModelInstance& self, const std::string& path, ReadModel& mod
   YamlSection root = *self.root;
   if (const auto v = root.get("name"))
     if (const auto name = v->text("the name of the model")) {
-      if (name->find_first_of("/\\\n\r\t") != std::string::npos || *name == "." || *name == "..")
-        v->unexpected("a name without slashes and line breaks");
+      const auto complaint = sentences::model_name(*name);
+      if (complaint)
+        v->fault("found " + v->found() + ", " + *complaint);
       else
         model.description.name = *name;
     }

@@ -5,6 +5,8 @@
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 namespace {
@@ -40,30 +42,28 @@ class BarReader {
     int forms = 0;
     if (const auto v = s->get("round")) {
       ++forms;
-      result = SolidRound{v->number(positive_number("m")).value_or(1.0)};
+      result = SolidRound{v->number(rules::section_length).value_or(1.0)};
     }
     if (const auto v = s->get("tube")) {
       ++forms;
-      const auto d = v->numbers(2, 2, positive_number("m"), "outer and inner diameter [D, d] [m]");
-      if (d && (*d)[1] >= (*d)[0])
-        v->fault("found the inner diameter " + number_text((*d)[1]) +
-                 ", expected less than the outer one, " + number_text((*d)[0]) + " [m]");
-      else if (d)
-        result = HollowRound{(*d)[0], (*d)[1]};
+      const auto d = v->numbers(2, 2, rules::section_length, "outer and inner diameter [D, d] [m]");
+      const auto complaint = d ? sentences::tube((*d)[0], (*d)[1]) : std::nullopt;
+      v->complain(complaint);
+      if (d && !complaint) result = HollowRound{(*d)[0], (*d)[1]};
     }
     if (const auto v = s->get("rectangle")) {
       ++forms;
-      const auto d = v->numbers(2, 2, positive_number("m"), "width and height [w, h] [m]");
+      const auto d = v->numbers(2, 2, rules::section_length, "width and height [w, h] [m]");
       if (d) result = Rectangle{(*d)[0], (*d)[1]};
     }
     const bool explicit_form = s->has("area") || s->has("Iy") || s->has("Iz") || s->has("J");
     if (explicit_form) {
       ++forms;
       SectionConstants c;
-      c.A = s->required_number("area", positive_number("m2"), 1.0);
-      c.Iy = s->required_number("Iy", positive_number("m4"), 1.0);
-      c.Iz = s->required_number("Iz", positive_number("m4"), 1.0);
-      c.J = s->required_number("J", positive_number("m4"), 1.0);
+      c.A = s->required_number("area", rules::section_area, 1.0);
+      c.Iy = s->required_number("Iy", rules::section_moment, 1.0);
+      c.Iz = s->required_number("Iz", rules::section_moment, 1.0);
+      c.J = s->required_number("J", rules::section_moment, 1.0);
       result = c;
     } else {
       for (const char* k : {"area", "Iy", "Iz", "J"}) s->get(k);
@@ -111,7 +111,7 @@ class BarReader {
     std::size_t start = 0;
     bool good = true;
     const auto elements = s->require("elements");
-    b.elements = elements ? elements->integer(1, 100000, "a number of elements").value_or(1) : 1;
+    b.elements = elements ? elements->integer(rules::elements).value_or(1) : 1;
     const auto from = s->require("from");
     if (from && from->is_map()) {
       good = branch(*from, b, g, start);
@@ -135,17 +135,13 @@ class BarReader {
     s->finish();
     if (good) {
       const Vec3 axis = g.to - g.from;
-      if (!(axis.norm() > 1e-9)) {
-        s->fault("found length " + number_text(axis.norm()) +
-                 ", expected a bar of positive length [m]");
+      if (const auto complaint = sentences::bar_length(axis.norm())) {
+        s->fault(*complaint);
         good = false;
       } else {
-        const auto parallel = [&](const Vec3& r) {
-          return r.cross(axis).norm() <= 1e-3 * r.norm() * axis.norm();
-        };
-        b.reference = direction.value_or(parallel(Vec3::UnitZ()) ? Vec3::UnitX() : Vec3::UnitZ());
-        if (direction && parallel(*direction))
-          reference->fault("found a direction parallel to the bar, expected another");
+        b.reference = direction.value_or(
+            sentences::parallel_to_bar(axis, Vec3::UnitZ()) ? Vec3::UnitX() : Vec3::UnitZ());
+        if (direction) reference->complain(sentences::bar_reference(axis, *direction));
       }
     }
     g.elements = b.elements;
@@ -178,8 +174,7 @@ class BarReader {
     const auto at_value = s->require("at");
     s->finish();
     const auto name = bar_value ? bar_value->text("the name of an earlier bar") : std::nullopt;
-    const NumberRule share{"a number from 0 to 1", "", 0.0, 1.0};
-    const double at = at_value ? at_value->number(share).value_or(-1.0) : -1.0;
+    const double at = at_value ? at_value->number(rules::fraction).value_or(-1.0) : -1.0;
     if (!name) return false;
     const auto it = geometry_.find(*name);
     if (it == geometry_.end()) {
@@ -237,10 +232,9 @@ class BarReader {
   void connectivity() {
     for (const auto& [node, value] : links_)
       if (leader(node) != leader(links_.front().first)) {
-        value.context().faults->add(value.entity_mark(),
-                                    value.path() + ": the bar is not connected to '" +
-                                        f().bars.front().name +
-                                        "', expected all bars of a body to hang together");
+        value.context().faults->add(
+            value.entity_mark(),
+            value.path() + ": " + sentences::bar_not_connected(f().bars.front().name));
         return;
       }
   }

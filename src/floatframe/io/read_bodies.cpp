@@ -1,9 +1,10 @@
 // Bodies: position and orientation, rigid data, the choice between rigid and flexible.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "floatframe/io/read_parts.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 namespace {
@@ -46,14 +47,7 @@ Mat3 read_inertia(const YamlValue& value) {
     J(0, 2) = J(2, 0) = (*v)[4];
     J(1, 2) = J(2, 1) = (*v)[5];
   }
-  const Vec3 p = Eigen::SelfAdjointEigenSolver<Mat3>(J, Eigen::EigenvaluesOnly).eigenvalues();
-  const double slack = 1e-9 * p.cwiseAbs().maxCoeff();
-  const auto shown = [&](int i) { return number_text(std::round(p[i] * 1e9) / 1e9); };
-  if (p[0] < -slack)
-    value.fault("found the principal moment " + shown(0) + ", expected none below 0 [kg m2]");
-  else if (p[0] + p[1] < p[2] - slack)
-    value.fault("found the principal moments " + shown(0) + ", " + shown(1) + " and " + shown(2) +
-                ", expected none larger than the sum of the other two [kg m2]");
+  value.complain(sentences::inertia(J));
   return J;
 }
 
@@ -64,7 +58,7 @@ struct RigidRead {
 
 RigidRead read_rigid(const ModelInstance& self, YamlSection s) {
   RigidRead r;
-  r.description.mass = s.required_number("mass", non_negative_number("kg"), 1.0);
+  r.description.mass = s.required_number("mass", rules::mass, 1.0);
   if (const auto v = s.get("centre_of_mass")) r.centre = self.read_point(*v);
   if (const auto v = s.get("inertia")) r.description.J_C = read_inertia(*v);
   s.finish();

@@ -1,7 +1,7 @@
 // The group of a flexible body made of bars: material, masses, reference, modes; with the checks
 // that need the geometry.
-#include <Eigen/QR>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -9,6 +9,8 @@
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 namespace {
@@ -37,10 +39,9 @@ class FlexibleReader {
     if (!value) return;
     auto m = value->section("a map with young, poisson, density");
     if (!m) return;
-    f().young = m->required_number("young", positive_number("Pa"), 1.0);
-    NumberRule poisson{"a number above -1 and below 0.5", "", -1.0, 0.5, true, true};
-    f().poisson = m->required_number("poisson", poisson, 0.3);
-    f().density = m->required_number("density", positive_number("kg/m3"), 1.0);
+    f().young = m->required_number("young", rules::young, 1.0);
+    f().poisson = m->required_number("poisson", rules::poisson, 0.3);
+    f().density = m->required_number("density", rules::density, 1.0);
     m->finish();
   }
 
@@ -67,7 +68,7 @@ class FlexibleReader {
       m.origin = s->origin();
       const auto point = s->require("point");
       const auto name = point ? node_name(*point) : std::nullopt;
-      m.mass = s->required_number("mass", non_negative_number("kg"), 0.0);
+      m.mass = s->required_number("mass", rules::mass, 0.0);
       s->finish();
       if (!name) continue;
       m.node = *name;
@@ -111,9 +112,7 @@ class FlexibleReader {
       if (!name) continue;
       for (unsigned k : bits) {
         const auto [it, fresh] = taken_.insert({*name, k});
-        if (!fresh)
-          item.fault("the direction " + dof_names[k] + " of '" + *name +
-                     "' is named twice in clamped and static_modes, expected once");
+        if (!fresh) item.fault(sentences::dof_twice(*name, k));
         d.node = *name;
         d.mask = 1u << k;
         if (fresh) out.push_back(d);
@@ -124,17 +123,13 @@ class FlexibleReader {
 
   void modes() {
     if (const auto v = section_.get("mass_model"))
-      if (const auto w = v->word({"isoparametric", "six_dof", "hermite"}))
-        f().mass_model = static_cast<MassModel>(*w);
+      if (const auto w = v->word(rules::mass_models)) f().mass_model = static_cast<MassModel>(*w);
     f().orthonormalise = section_.boolean("orthonormal", false);
     f().section_inertia = section_.boolean("section_inertia", false);
-    if (f().section_inertia && f().mass_model == MassModel::isoparametric)
-      section_.get("section_inertia")
-          ->fault(
-              "found true with the isoparametric mass model, expected mass_model six_dof or "
-              "hermite");
-    NumberRule ratio{"a fraction of critical damping from 0 to 1", "", 0.0, 1.0};
-    f().damping_ratio = section_.number("damping", ratio, 0.0);
+    if (const auto v = section_.get("section_inertia"))
+      v->complain(sentences::section_inertia(f().section_inertia,
+                                             f().mass_model == MassModel::isoparametric));
+    f().damping_ratio = section_.number("damping", rules::damping_ratio, 0.0);
     const std::size_t faults_before = self_.context.faults->size();
     f().clamped = dofs("clamped");
     f().interfaces = dofs("static_modes");
@@ -145,15 +140,11 @@ class FlexibleReader {
       if (auto s = analytic->section("a map with dynamic_per_plane")) {
         const auto n = s->require("dynamic_per_plane");
         f().analytic.emplace();
-        f().analytic->dynamic_per_plane =
-            n ? n->integer(0, 50, "a number of shapes").value_or(0) : 0;
+        f().analytic->dynamic_per_plane = n ? n->integer(rules::analytic_shapes).value_or(0) : 0;
         s->finish();
         out_.modes = 2 * (1 + f().analytic->dynamic_per_plane);
       }
-      if (f().bars.size() > 1 || !f().masses.empty())
-        analytic->fault("analytic shapes need one straight bar without masses, found " +
-                        std::to_string(f().bars.size()) + " bars and " +
-                        std::to_string(f().masses.size()) + " masses");
+      analytic->complain(sentences::analytic_shapes(f().bars.size(), f().masses.size()));
     }
     for (const char* key : {"clamped", "static_modes", "normal_modes"}) {
       if (!section_.has(key) || (!analytic && !basis)) continue;
@@ -170,59 +161,31 @@ class FlexibleReader {
     }
     if (normal && normal->is_map()) {
       auto s = normal->section();
-      f().max_frequency = s->required_number("below", positive_number("Hz"), 1.0);
+      f().max_frequency = s->required_number("below", rules::mode_frequency, 1.0);
       s->finish();
     } else if (normal) {
-      const auto n = normal->integer(0, 10000, "a number of modes, or {below: frequency},");
+      const auto n = normal->integer(rules::normal_modes);
       f().normal_modes = n.value_or(0);
-      const auto rows = static_cast<int>(out_.nodes.size()) *
-                        (f().mass_model == MassModel::isoparametric ? 3 : 6);
-      if (n && out_.sound && *n > rows)
-        normal->fault("found " + std::to_string(*n) + " modes, expected at most " +
-                      std::to_string(rows) + ", the number of degrees of freedom with mass");
+      if (n && out_.sound)
+        normal->complain(sentences::more_modes_than_dofs(
+            *n, out_.nodes.size(), f().mass_model == MassModel::isoparametric));
     }
     out_.modes =
         f().max_frequency > 0.0 ? -1 : static_cast<int>(f().interfaces.size()) + f().normal_modes;
     if (out_.modes == 0 && self_.context.faults->size() == faults_before)
-      section_.fault("found no modes, expected static_modes, normal_modes, analytic or basis");
+      section_.fault(sentences::no_modes());
     if (!section_.has("clamped"))
       section_.fault("missing key 'clamped'");
     else if (out_.sound)
       reference_removes_rigid_motion();
   }
 
-  /// The clamped dofs must leave no rigid motion: the rows of rigid motions at these dofs have
-  /// rank 6.
+  /// The clamped dofs must leave no rigid motion.
   void reference_removes_rigid_motion() {
-    Vec3 centre = Vec3::Zero();
-    double size = 0.0;
-    for (const Vec3& p : out_.nodes) centre += p / static_cast<double>(out_.nodes.size());
-    for (const Vec3& p : out_.nodes) size = std::max(size, (p - centre).norm());
-    MatX rows(static_cast<Eigen::Index>(f().clamped.size()), 6);
-    for (std::size_t i = 0; i < f().clamped.size(); ++i) {
-      const Vec3 p = (f().points.at(f().clamped[i].node) - centre) / size;
-      unsigned k = 0;
-      while (!(f().clamped[i].mask & (1u << k))) ++k;
-      Vec6 row = Vec6::Zero();  // row . (translation, rotation) = motion of this dof
-      const Vec3 e = Vec3::Unit(static_cast<Eigen::Index>(k % 3));
-      if (k < 3) {
-        row.head<3>() = e;
-        row.tail<3>() = p.cross(e);
-      } else {
-        row.tail<3>() = e;
-      }
-      rows.row(static_cast<Eigen::Index>(i)) = row.transpose();
-    }
-    Eigen::Index rank = 0;
-    if (rows.rows() > 0) {
-      Eigen::ColPivHouseholderQR<MatX> qr(rows);
-      qr.setThreshold(1e-9);
-      rank = qr.rank();
-    }
-    if (rank < 6)
-      section_.get("clamped")->fault("these degrees of freedom leave " + std::to_string(6 - rank) +
-                                     (rank == 5 ? " rigid motion" : " rigid motions") +
-                                     " of the body free, expected none");
+    std::vector<std::pair<Vec3, unsigned>> clamped;
+    for (const NodeDofs& d : f().clamped)
+      clamped.emplace_back(f().points.at(d.node), static_cast<unsigned>(std::countr_zero(d.mask)));
+    section_.get("clamped")->complain(sentences::body_reference(clamped));
   }
 
   /// A CSV file without header: 6 rows a node (ux uy uz rx ry rz), one column a mode, in the body

@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 namespace {
@@ -86,9 +88,9 @@ void spring_damper(const ModelInstance& self, YamlSection& s, ReadModel& model,
     d.b = *b;
     length = (a->point - b->point).norm();
     if (a->body == b->body)
-      s.fault("found both ends on '" + self.written(a->body) + "', expected two bodies");
-    else if (!(length > 1e-9))
-      s.fault("found both ends at the same point, expected two points apart");
+      s.fault(sentences::both_ends_on(self.written(a->body)));
+    else if (const auto complaint = sentences::spring_ends(a->point, b->point))
+      s.fault(*complaint);
   }
   laws(self, s, length, d.spring, d.damper, d.actuator);
   f.kind = std::move(d);
@@ -105,8 +107,7 @@ void guided_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
     d.reference = *a;
     d.tip = *b;
     length = d.axis.dot(a->point - b->point);
-    if (a->body == b->body)
-      s.fault("found both ends on '" + self.written(a->body) + "', expected two bodies");
+    if (a->body == b->body) s.fault(sentences::both_ends_on(self.written(a->body)));
   }
   laws(self, s, length, d.spring, d.damper, d.actuator);
   f.kind = std::move(d);
@@ -141,7 +142,7 @@ void joint_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
     const auto v = s.get(key);
     if (!v) return;
     out = read_signal(self, *v, unit, table);
-    if (!law) v->fault("found without spring and damper, expected a law that pulls to the target");
+    if (!law) v->fault(sentences::target_without_law());
   };
   target("target", turning ? "rad" : "m", Interpolation::cubic, d.target);
   target("target_rate", turning ? "rad/s" : "m/s", Interpolation::linear, d.target_rate);
@@ -151,11 +152,11 @@ void joint_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
 void tyre(const ModelInstance& self, YamlSection& s, ReadModel& model, ForceDescription& f) {
   TyreDescription d;
   if (const auto a = own_place(self, model, s)) d.centre = *a;
-  d.radius = s.required_number("radius", positive_number("m"), 1.0);
-  d.stiffness = s.required_number("stiffness", positive_number("N/m"), 1.0);
-  d.damping = s.number("damping", non_negative_number("N s/m"), 0.0);
+  d.radius = s.required_number("radius", rules::tyre_radius, 1.0);
+  d.stiffness = s.required_number("stiffness", rules::tyre_stiffness, 1.0);
+  d.damping = s.number("damping", rules::tyre_damping, 0.0);
   if (const auto v = s.get("law"))
-    if (const auto w = v->word({"vertical", "radial"})) d.law = static_cast<TyreLaw>(*w);
+    if (const auto w = v->word(rules::tyre_laws)) d.law = static_cast<TyreLaw>(*w);
   if (const auto v = s.get("axis"))
     if (const auto a = read_direction(*v)) d.axis = a->normalized();
   if (const auto v = s.require("road"))
@@ -242,7 +243,7 @@ void read_roads(const ModelInstance& self, ReadModel& model) {
         if (!b) continue;
         CosineBump bump;
         bump.start = b->required_number("start", any_number("m"), 0.0);
-        bump.length = b->required_number("length", positive_number("m"), 1.0);
+        bump.length = b->required_number("length", rules::bump_length, 1.0);
         bump.height = b->required_number("height", any_number("m"), 0.0);
         b->finish();
         r.bumps.push_back(bump);

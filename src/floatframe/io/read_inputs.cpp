@@ -1,7 +1,6 @@
 // Inputs: numbers that come from outside while a model runs.
-#include <algorithm>
-
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
@@ -12,11 +11,9 @@ void read_inputs(const ModelInstance& self, ReadModel& model) {
     i.origin = s.origin();
     if (const auto v = s.get("unit"))
       if (const auto unit = v->text("a unit, for example N")) {
-        const bool plain = std::all_of(unit->begin(), unit->end(), [](unsigned char c) {
-          return c >= ' ' && c != '"' && c != ',' && c != '[' && c != ']' && c != 127;
-        });
-        if (!plain || unit->size() > 20)
-          v->unexpected("a unit of at most 20 characters without commas, quotes and brackets");
+        const auto complaint = sentences::unit(*unit);
+        if (complaint)
+          v->fault("found " + v->found() + ", " + *complaint);
         else
           i.unit = *unit;
       }
@@ -26,22 +23,17 @@ void read_inputs(const ModelInstance& self, ReadModel& model) {
     if (const auto v = s.get("max")) i.high = v->number(any_number(unit));
     i.clamp = s.boolean("clamp", false);
     s.finish();
-    if (i.clamp && !i.low && !i.high) {
-      s.get("clamp")->fault("found true without limits, expected min, max or both beside it");
+    if (const auto complaint = sentences::clamp_without_limits(i.clamp, i.low, i.high)) {
+      s.get("clamp")->fault(*complaint);
       continue;
     }
-    if (i.low && i.high && !(*i.low < *i.high)) {
-      s.get("max")->fault("found " + number_text(*i.high) + ", expected a number above min, " +
-                          number_text(*i.low));
+    if (const auto complaint = sentences::input_limits(i.low, i.high)) {
+      s.get("max")->fault(*complaint);
       continue;
     }
-    if ((i.low && i.initial < *i.low) || (i.high && i.initial > *i.high)) {
+    if (const auto complaint = sentences::input_initial(i.initial, i.low, i.high)) {
       const auto v = s.get("initial");
-      const std::string found =
-          "found " + number_text(i.initial) + ", expected a number " +
-          (i.low && i.initial < *i.low ? "not below min, " + number_text(*i.low)
-                                       : "not above max, " + number_text(*i.high));
-      v ? v->fault(found) : s.fault("initial: " + found);
+      v ? v->fault(*complaint) : s.fault("initial: " + *complaint);
       continue;
     }
     model.description.inputs.push_back(std::move(i));

@@ -1,14 +1,17 @@
 // Joints and rods, and the places on bodies that they and the forces use.
 #include <cmath>
+#include <span>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 namespace {
 
-const std::vector<std::string> joint_words{"weld",      "revolute",  "prismatic", "cylindrical",
-                                           "universal", "spherical", "free"};
+constexpr std::span joint_words(rules::joint_types);
 
 constexpr double node_tolerance = 1e-6;  // [m], the same as when markers are placed
 
@@ -22,28 +25,10 @@ std::string point_text(const Vec3& p) {
   return text;
 }
 
-std::size_t coordinates(JointType type) {
-  switch (type) {
-    case JointType::weld:
-      return 0;
-    case JointType::revolute:
-    case JointType::prismatic:
-      return 1;
-    case JointType::cylindrical:
-    case JointType::universal:
-      return 2;
-    case JointType::spherical:
-      return 3;
-    case JointType::free:
-      return 6;
-  }
-  return 0;
-}
-
 std::vector<double> start_values(YamlSection& s, const char* key, JointType type) {
   const auto v = s.get(key);
   if (!v) return {};
-  const std::size_t n = coordinates(type);
+  const auto n = static_cast<std::size_t>(joint_velocities(type));
   if (n == 0) {
     v->fault("a weld has no coordinates, expected no such key");
     return {};
@@ -84,9 +69,9 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   const auto child_value = s.require("child");
   const auto child = child_value ? self.reference(EntityKind::body, *child_value) : std::nullopt;
   if (child && *child == ground_name)
-    child_value->fault("found ground, expected a body (the ground may be the parent)");
+    child_value->fault(sentences::ground_as_child());
   else if (parent && child && *parent == *child)
-    child_value->fault("found the same body as the parent, expected another");
+    child_value->fault(sentences::child_is_parent());
   j.parent.body = parent.value_or(ground_name);
   j.child.body = child.value_or(ground_name);
   j.parent.origin = j.child.origin = j.origin;
@@ -131,8 +116,7 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
         const auto second = s.require("axis_2");
         if (const auto b = second ? read_direction(*second) : std::nullopt) {
           j.axis_2 = b->normalized();
-          if (j.axis.cross(j.axis_2).norm() < 1e-6)
-            second->fault("found a direction parallel to 'axis', expected another");
+          second->complain(sentences::second_axis(j.axis, j.axis_2));
         }
       }
     } else if (j.type == JointType::universal) {
@@ -141,7 +125,8 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   }
   const auto unused = [&](const char* key) {
     if (const auto v = s.get(key))
-      v->fault("is not used by a " + joint_words[type] + " joint, expected no such key");
+      v->fault(std::string("is not used by a ") + joint_words[type] +
+               " joint, expected no such key");
   };
   if (!has_axis) unused("axis");
   if (j.type != JointType::universal) unused("axis_2");
@@ -153,9 +138,7 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
       j.motion =
           read_time_function(*v, j.type == JointType::revolute ? "rad" : "m", Interpolation::cubic);
       for (const char* key : {"position", "velocity"})
-        if (s.has(key))
-          s.get(key)->fault(
-              "found with a prescribed motion, which decides it, expected no such key");
+        if (s.has(key)) s.get(key)->fault(sentences::motion_and_start_value());
     }
   j.cut = s.boolean("cut", false);
   s.finish();
@@ -173,11 +156,9 @@ std::optional<Vec3> read_direction(const YamlValue& value) {
     return (*w < 3 ? 1.0 : -1.0) * Vec3::Unit(static_cast<Eigen::Index>(*w % 3));
   }
   const auto v = value.vector("");
-  if (v && !(v->norm() > 1e-12)) {
-    value.fault("found a vector of length zero, expected a direction");
-    return std::nullopt;
-  }
-  return v;
+  const auto complaint = v ? sentences::direction(*v) : std::nullopt;
+  value.complain(complaint);
+  return complaint ? std::nullopt : v;
 }
 
 bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
@@ -277,15 +258,16 @@ void read_rods(const ModelInstance& self, ReadModel& model) {
       if (const auto v = s.require(keys[i]))
         if (auto end = v->section("a place {body, at}"))
           ends[i] = read_attachment(self, model, *end);
-    if (const auto v = s.get("length")) r.length = v->number(positive_number("m"));
+    if (const auto v = s.get("length")) r.length = v->number(rules::rod_length);
     s.finish();
     if (!ends[0] || !ends[1]) continue;
     r.a = *ends[0];
     r.b = *ends[1];
     if (r.a.body == r.b.body)
-      s.fault("found both ends on '" + self.written(r.a.body) + "', expected two bodies");
-    else if (!s.has("length") && !((r.a.point - r.b.point).norm() > 1e-9))
-      s.fault("found length 0, expected two points apart");
+      s.fault(sentences::both_ends_on(self.written(r.a.body)));
+    else if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point);
+             complaint && !s.has("length"))
+      s.fault(*complaint);
     place(r, self.world);
     model.description.rods.push_back(std::move(r));
   }

@@ -2,13 +2,14 @@
 #include <cmath>
 
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 namespace {
 
 std::vector<double> coefficients(const YamlValue& value) {
-  const auto c =
-      value.numbers(1, 20, any_number(""), "a list of 1 to 20 coefficients [c0, c1, ...]");
+  const auto c = value.numbers(1, rules::most_coefficients, any_number(""), rules::coefficients);
   return c.value_or(std::vector<double>{0.0});
 }
 
@@ -42,13 +43,7 @@ PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units
   }
   if (!good) return {};
   const PiecewisePolynomial f(breaks, std::move(pieces));
-  const JumpReport r = largest_jump(f);
-  if (!r.continuous()) {
-    const double x = breaks[r.at];
-    items[r.at].fault("the law jumps from " + number_text(f.piece_value(r.at, x).f) + " to " +
-                      number_text(f.piece_value(r.at + 1, x).f) + " at " + number_text(x) +
-                      ", expected pieces that meet within 1e-6 of the range of the law");
-  }
+  if (const auto jump = sentences::jump(f)) items[jump->first].fault(jump->second);
   return f;
 }
 
@@ -105,7 +100,7 @@ TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation ta
     sine = true;
     if (auto s = v->section("a map with amplitude, frequency, phase")) {
       f.amplitude = s->required_number("amplitude", any_number(unit), 0.0);
-      f.frequency = s->required_number("frequency", positive_number("Hz"), 1.0);
+      f.frequency = s->required_number("frequency", rules::sine_frequency, 1.0);
       f.phase = s->number("phase", any_number("rad"), 0.0);
       s->finish();
     }

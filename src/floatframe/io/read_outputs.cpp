@@ -1,46 +1,42 @@
 // Result columns and initial modal amplitudes.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 namespace {
 
 struct Quantity {
-  const char* key;
   OutputKind kind;
   enum class Of { point, body, joint, mode, force } of;
+  const char* key() const { return rules::quantities[static_cast<std::size_t>(kind)]; }
 };
 constexpr Quantity quantities[] = {
-    {"position", OutputKind::position, Quantity::Of::point},
-    {"velocity", OutputKind::velocity, Quantity::Of::point},
-    {"acceleration", OutputKind::acceleration, Quantity::Of::point},
-    {"rotation", OutputKind::rotation, Quantity::Of::body},
-    {"angular_velocity", OutputKind::angular_velocity, Quantity::Of::body},
-    {"joint_position", OutputKind::joint_position, Quantity::Of::joint},
-    {"joint_velocity", OutputKind::joint_velocity, Quantity::Of::joint},
-    {"modal_amplitude", OutputKind::modal_amplitude, Quantity::Of::mode},
-    {"force", OutputKind::force, Quantity::Of::force},
-    {"length", OutputKind::length, Quantity::Of::force},
-    {"rate", OutputKind::rate, Quantity::Of::force},
+    {OutputKind::position, Quantity::Of::point},
+    {OutputKind::velocity, Quantity::Of::point},
+    {OutputKind::acceleration, Quantity::Of::point},
+    {OutputKind::rotation, Quantity::Of::body},
+    {OutputKind::angular_velocity, Quantity::Of::body},
+    {OutputKind::joint_position, Quantity::Of::joint},
+    {OutputKind::joint_velocity, Quantity::Of::joint},
+    {OutputKind::modal_amplitude, Quantity::Of::mode},
+    {OutputKind::force, Quantity::Of::force},
+    {OutputKind::length, Quantity::Of::force},
+    {OutputKind::rate, Quantity::Of::force},
 };
-
-int joint_coordinates(JointType t) {
-  constexpr int n[] = {0, 1, 1, 2, 2, 3, 6};
-  return n[static_cast<int>(t)];
-}
 
 class OutputReader {
  public:
   OutputReader(const ModelInstance& self, ReadModel& model) : self_(self), model_(model) {}
 
   void read(const std::string& name, const YamlValue& value) {
-    if (name.empty() || name.size() > 200 || name.find_first_of(",\"\n\r[]") != std::string::npos) {
-      value.context().faults->add(value.entity_mark(),
-                                  value.path() +
-                                      ": expected a column name without commas, quotes, "
-                                      "brackets and line breaks");
+    if (const auto complaint = sentences::column_name(name)) {
+      value.context().faults->add(value.entity_mark(), value.path() + ": " + *complaint);
       return;
     }
     auto s = value.section("a quantity, for example {position: body, axis: z}");
@@ -50,7 +46,7 @@ class OutputReader {
     const Quantity* quantity = nullptr;
     int found = 0;
     for (const Quantity& q : quantities)
-      if (s->get(q.key)) ++found, quantity = &q;
+      if (s->get(q.key())) ++found, quantity = &q;
     if (found != 1) {
       for (const char* k : {"axis", "angle", "mode", "coordinate"}) s->get(k);
       s->finish();
@@ -63,7 +59,7 @@ class OutputReader {
     OutputDescription o;
     o.kind = quantity->kind;
     o.origin = s->origin();
-    const YamlValue what = *s->get(quantity->key);
+    const YamlValue what = *s->get(quantity->key());
     switch (quantity->of) {
       case Quantity::Of::point:
         point(name, *s, what, o);
@@ -89,7 +85,7 @@ class OutputReader {
           const bool measured = type == model_.force_types.end() ||
                                 (type->second != "force" && type->second != "torque");
           if (o.kind != OutputKind::force && !measured)
-            what.fault("a " + type->second + " has no " + quantity->key +
+            what.fault("a " + type->second + " has no " + quantity->key() +
                        ", expected another force element");
           add(name, o);
         }
@@ -104,8 +100,7 @@ class OutputReader {
     place(o, self_.world);
     for (const OutputDescription& other : model_.description.outputs)
       if (other.name == o.name) {
-        self_.context.faults->add(o.origin.mark,
-                                  "outputs: the column '" + o.name + "' exists already");
+        self_.context.faults->add(o.origin.mark, "outputs: " + sentences::column_exists(o.name));
         return;
       }
     model_.description.outputs.push_back(std::move(o));
@@ -113,8 +108,7 @@ class OutputReader {
 
   /// One component named by `axis` or `angle`, or all three.
   void components(const std::string& name, YamlSection& s, OutputDescription o, bool angles) {
-    const std::vector<std::string> words = angles ? std::vector<std::string>{"roll", "pitch", "yaw"}
-                                                  : std::vector<std::string>{"x", "y", "z"};
+    const std::span<const char* const> words = angles ? rules::angles : rules::axes;
     if (const auto v = s.get(angles ? "angle" : "axis")) {
       if (const auto w = v->word(words)) {
         o.component = static_cast<int>(*w);
@@ -165,7 +159,7 @@ class OutputReader {
     o.entity = *j;
     const auto it = model_.joints.find(*j);
     if (it == model_.joints.end()) return;
-    const int n = joint_coordinates(it->second);
+    const int n = joint_velocities(it->second);
     if (n == 0) {
       what.fault("found a weld, expected a joint that moves");
       return;

@@ -7,14 +7,6 @@
 
 namespace floatframe {
 
-std::string NumberRule::expectation() const {
-  return std::string(what) + (*unit ? " [" + std::string(unit) + "]" : "");
-}
-
-bool NumberRule::holds(double x) const {
-  return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high);
-}
-
 namespace {
 
 std::string shortened(const std::string& s) {
@@ -139,14 +131,11 @@ std::optional<double> YamlValue::number(const NumberRule& rule) const {
   return s.number;
 }
 
-std::optional<int> YamlValue::integer(int low, int high, const char* what) const {
-  const std::string expected = std::string(what) + " (a whole number from " + std::to_string(low) +
-                               " to " + std::to_string(high) + ")";
-  const Scalar s = scalar(expected);
+std::optional<int> YamlValue::integer(const WholeNumberRule& rule) const {
+  const Scalar s = scalar(rule.expectation());
   if (s.kind == Scalar::Kind::bad) return std::nullopt;
-  if (s.kind != Scalar::Kind::number || std::round(s.number) != s.number || s.number < low ||
-      s.number > high) {
-    unexpected(expected);
+  if (s.kind != Scalar::Kind::number || !rule.holds(s.number)) {
+    unexpected(rule.expectation());
     return std::nullopt;
   }
   return static_cast<int>(s.number);
@@ -172,15 +161,13 @@ std::optional<std::string> YamlValue::text(const char* what) const {
   return s.text;
 }
 
-std::optional<std::size_t> YamlValue::word(const std::vector<std::string>& words) const {
-  std::string expected;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    expected += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+std::optional<std::size_t> YamlValue::word(std::span<const char* const> words) const {
+  const std::string expected = alternatives(words);
   const auto t = text(expected.c_str());
   if (!t) return std::nullopt;
   const auto it = std::find(words.begin(), words.end(), *t);
   if (it != words.end()) return static_cast<std::size_t>(it - words.begin());
-  const std::string hint = did_you_mean(*t, words);
+  const std::string hint = did_you_mean(*t, {words.begin(), words.end()});
   fault("found " + found() + ", expected " + expected + hint);
   return std::nullopt;
 }

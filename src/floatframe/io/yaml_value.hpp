@@ -7,34 +7,17 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "floatframe/core/number_rule.hpp"
 #include "floatframe/io/expression.hpp"
 #include "floatframe/io/yaml_tree.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
-
-/// What a number must be. `what` completes "expected ...", `unit` is appended in brackets.
-struct NumberRule {
-  const char* what = "a number";
-  const char* unit = "";
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;   ///< low itself is excluded
-  bool high_open = false;  ///< high itself is excluded
-  std::string expectation() const;
-  bool holds(double x) const;
-};
-inline NumberRule any_number(const char* unit) { return {"a number", unit}; }
-inline NumberRule positive_number(const char* unit) {
-  NumberRule r{"a positive number", unit, 0.0};
-  r.low_open = true;
-  return r;
-}
-inline NumberRule non_negative_number(const char* unit) { return {"a number >= 0", unit, 0.0}; }
 
 /// What all values of one file share.
 struct ReadContext {
@@ -74,6 +57,9 @@ class YamlValue {
   void fault(const std::string& sentence) const {
     context_->faults->add(mark(), path_ + ": " + sentence);
   }
+  void complain(const std::optional<std::string>& complaint) const {
+    if (complaint) fault(*complaint);
+  }
   /// "found ..., expected `what`".
   void unexpected(const std::string& what) const {
     fault("found " + found() + ", expected " + what);
@@ -83,11 +69,22 @@ class YamlValue {
 
   // Accessors: a fault and nullopt (or an empty list) if the value is not what is asked for.
   std::optional<double> number(const NumberRule& rule) const;
-  std::optional<int> integer(int low, int high, const char* what) const;
+  std::optional<int> integer(int low, int high, const char* what) const {
+    return integer(WholeNumberRule{what, low, high});
+  }
+  std::optional<int> integer(const WholeNumberRule& rule) const;
   std::optional<bool> boolean() const;
   std::optional<std::string> text(const char* what = "a text") const;
   /// One of the words; returns its index.
-  std::optional<std::size_t> word(const std::vector<std::string>& words) const;
+  std::optional<std::size_t> word(std::span<const char* const> words) const;
+  std::optional<std::size_t> word(std::initializer_list<const char*> words) const {
+    return word(std::span<const char* const>(words.begin(), words.size()));
+  }
+  std::optional<std::size_t> word(const std::vector<std::string>& words) const {
+    std::vector<const char*> list;
+    for (const std::string& w : words) list.push_back(w.c_str());
+    return word(std::span<const char* const>(list));
+  }
   /// Any scalar: a parameter value.
   std::optional<ParameterValue> parameter() const;
   std::vector<YamlValue> list(const char* what = "a list") const;

@@ -1,8 +1,6 @@
 // Bodies, rigid and flexible, and what is known of them once their markers are.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <sstream>
 
 #include "floatframe/body/check_invariants.hpp"
@@ -16,25 +14,6 @@
 namespace floatframe {
 
 namespace {
-
-void check_rigid(const BodyDescription& b, const RigidDescription& r, Faults& faults) {
-  const std::string who = "bodies." + b.name;
-  if (!(r.mass >= 0.0) || !std::isfinite(r.mass))
-    faults.add(b.origin.of("mass"),
-               who + ".mass: found " + std::to_string(r.mass) + ", expected a number >= 0 [kg]");
-  if (!r.J_C.allFinite() || !r.p_BC.allFinite()) {
-    faults.add(b.origin.of("inertia"),
-               who + ".inertia: found a value that is not finite, expected numbers");
-    return;
-  }
-  const Vec3 J = Eigen::SelfAdjointEigenSolver<Mat3>(r.J_C).eigenvalues();
-  const double slack = 1e-9 * J.cwiseAbs().maxCoeff();
-  if (J[0] < -slack || J[0] + J[1] < J[2] - slack)
-    faults.add(
-        b.origin.of("inertia"),
-        who + ".inertia: found principal moments " + point_text(J) +
-            ", expected positive ones of which none exceeds the sum of the other two [kg m2]");
-}
 
 /// Twists at the origin of the body, in its axes, that a joint to the ground lets it have.
 Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
@@ -55,17 +34,12 @@ Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
 }  // namespace
 
 void ModelBuilder::bodies() {
-  std::set<std::string> names{ground_name};
   FlexibleBuilder flexible;
   for (const BodyDescription& b : d.bodies) {
     Body body;
     body.name = b.name;
     body.X_WB = b.X_WB;
-    if (!names.insert(b.name).second)
-      faults.add(b.origin.mark,
-                 "bodies." + b.name + ": the name is taken, expected a name used once");
     if (const auto* rigid = std::get_if<RigidDescription>(&b.kind)) {
-      check_rigid(b, *rigid, faults);
       FlexibleBody data;
       data.invariants = InertiaInvariants::rigid(rigid->mass, rigid->p_BC, rigid->J_C);
       data.K = data.D = MatX::Zero(0, 0);
@@ -84,7 +58,6 @@ void ModelBuilder::bodies() {
     if (b.rigid) body.data = std::make_shared<const FlexibleBody>(with_modes(*body.data, {}));
     model.bodies.push_back(std::move(body));
   }
-  if (d.bodies.empty()) faults.add({}, "bodies: found none, expected at least one body");
 }
 
 void ModelBuilder::modal_masses() {
@@ -138,9 +111,6 @@ void ModelBuilder::finish() {
     amplitudes("initial.amplitude_rates", d.amplitude_rates, model.amplitude_rates);
   }
   model.mean_mass = heavy > 0 ? mass / heavy : 1.0;
-  for (const auto& [name, values] : d.amplitudes) body_index(name, {}, "initial.amplitudes");
-  for (const auto& [name, values] : d.amplitude_rates)
-    body_index(name, {}, "initial.amplitude_rates");
 }
 
 }  // namespace floatframe

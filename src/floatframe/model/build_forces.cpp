@@ -1,6 +1,4 @@
 // Force elements of the description: their markers, laws and parameters.
-#include <set>
-
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
 
@@ -18,20 +16,13 @@ struct ForceBuild {
   int marker(const AttachmentDescription& at, bool oriented, const char* key) {
     return builder.add_marker(at, Mat3::Identity(), oriented, origin.of(key), who + "." + key);
   }
-  int input(const SignalDescription& signal, const char* key) {
-    return builder.input_index(signal.input, origin.of(key), who + "." + key);
-  }
+  int input(const SignalDescription& signal) { return builder.input_index(signal.input); }
   void actuate(const std::optional<SignalDescription>& signal) {
     if (!signal) return;
     force.magnitude = *signal;
-    force.input = input(*signal, "actuator");
+    force.input = input(*signal);
     force.driven = true;
   }
-  bool fault(const SourceMark& mark, const std::string& message) {
-    builder.faults.add(mark, who + message);
-    return false;
-  }
-
   bool build(const SpringDamperDescription& d) {
     force.type = ForceType::spring_damper;
     force.a = marker(d.a, false, "from");
@@ -39,17 +30,14 @@ struct ForceBuild {
     force.spring = d.spring;
     force.damper = d.damper;
     actuate(d.actuator);
-    if (force.a < 0 || force.b < 0) return false;
-    if (builder.marker(force.a).body < 0 && builder.marker(force.b).body < 0)
-      return fault(origin.mark, ": found both ends on the ground, expected a body at one end");
-    return true;
+    return force.a >= 0 && force.b >= 0;
   }
 
   bool build(const GuidedSpringDescription& d) {
     force.type = ForceType::guided_spring;
     force.a = marker(d.reference, true, "reference");
     force.b = marker(d.tip, false, "tip");
-    force.axis = d.axis.normalized();
+    force.axis = unit_vector(d.axis);
     force.spring = d.spring;
     force.damper = d.damper;
     actuate(d.actuator);
@@ -61,8 +49,8 @@ struct ForceBuild {
     force.spring = d.spring;
     force.damper = d.damper;
     actuate(d.actuator);
-    if (d.target) force.target = {*d.target, input(*d.target, "target")};
-    if (d.target_rate) force.target_rate = {*d.target_rate, input(*d.target_rate, "target_rate")};
+    if (d.target) force.target = {*d.target, input(*d.target)};
+    if (d.target_rate) force.target_rate = {*d.target_rate, input(*d.target_rate)};
     force.targeted = d.target || d.target_rate;
     force.derived_rate = !d.target_rate;
     for (const Joint& joint : builder.model.joints) {
@@ -70,15 +58,9 @@ struct ForceBuild {
       force.a = joint.frame_F;
       force.b = joint.frame_M;
       force.rotational = joint.type == JointType::revolute;
-      if (joint.type == JointType::revolute || joint.type == JointType::prismatic) return true;
-      return fault(origin.of("joint"), std::string(".joint: found a ") +
-                                           joint_type_name(joint.type) +
-                                           " joint, expected a revolute or prismatic one");
+      return true;
     }
-    // A joint with a fault of its own is missing here too: one sentence about it is enough.
-    if (!builder.faults.empty()) return false;
-    return fault(origin.of("joint"),
-                 ".joint: found '" + d.joint + "', expected the name of a joint");
+    return false;  // the joint has a fault of its own
   }
 
   bool build(const TyreDescription& d) {
@@ -88,11 +70,9 @@ struct ForceBuild {
     force.stiffness = d.stiffness;
     force.damping = d.damping;
     force.law = d.law;
-    force.axis = d.axis.normalized();
+    force.axis = unit_vector(d.axis);
     for (std::size_t k = 0; k < builder.model.roads.size(); ++k)
       if (builder.model.roads[k].name == d.road) force.road = static_cast<int>(k);
-    if (force.road < 0)
-      return fault(origin.of("road"), ".road: found '" + d.road + "', expected the name of a road");
     return force.b >= 0;
   }
 
@@ -101,7 +81,7 @@ struct ForceBuild {
     force.b = marker(d.at, d.torque || d.follows, "at");
     force.axis = d.direction;
     force.magnitude = d.magnitude;
-    force.input = input(d.magnitude, "magnitude");
+    force.input = input(d.magnitude);
     force.follows = d.follows;
     return force.b >= 0;
   }
@@ -110,12 +90,9 @@ struct ForceBuild {
 }  // namespace
 
 void ModelBuilder::forces() {
-  std::set<std::string> names;
   for (const ForceDescription& f : d.forces) {
     ForceBuild b{*this, f.origin, "forces." + f.name, {}};
     b.force.name = f.name;
-    if (!names.insert(f.name).second)
-      b.fault(f.origin.mark, ": the name is taken, expected a name used once");
     if (std::visit([&](const auto& kind) { return b.build(kind); }, f.kind))
       model.forces.push_back(std::move(b.force));
   }

@@ -1,4 +1,6 @@
 #include "floatframe/model/model_builder.hpp"
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model/validate.hpp"
 
 namespace floatframe {
 
@@ -15,16 +17,11 @@ void ModelBuilder::rods() {
     rod.b = add_marker(r.b, Mat3::Identity(), false, r.origin.of("to"), "rods." + r.name + ".to");
     if (rod.a < 0 || rod.b < 0) continue;
     rod.length = r.length ? *r.length : (design_point(rod.b) - design_point(rod.a)).norm();
-    if (!(rod.length > 0.0)) {
-      faults.add(r.origin.mark,
-                 "rods." + r.name + ": found length 0, expected a positive length [m]");
-      continue;
-    }
-    if (marker(rod.a).body == marker(rod.b).body) {
-      faults.add(r.origin.mark,
-                 "rods." + r.name + ": found both ends on one body, expected two bodies");
-      continue;
-    }
+    if (!r.length)  // of two nodes: where they are is known only now
+      if (const auto complaint = sentences::rod_ends(design_point(rod.a), design_point(rod.b))) {
+        faults.add(r.origin.mark, "rods." + r.name + ": " + *complaint);
+        continue;
+      }
     model.rods.push_back(rod);
   }
 }
@@ -39,6 +36,8 @@ Model build_model(const ModelDescription& description) {
   b.model.name = description.name;
   b.model.gravity = description.gravity;
   b.model.simulation = description.simulation;
+  validate(description, b.faults);
+  b.faults.throw_if_any();
   b.bodies();
   b.faults.throw_if_any();
   b.roads();

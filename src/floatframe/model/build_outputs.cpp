@@ -1,6 +1,7 @@
 // Result columns: what they measure and their units.
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
@@ -29,8 +30,9 @@ void ModelBuilder::outputs() {
         if (o.kind == OutputKind::modal_amplitude) {
           const int nm = model.bodies[static_cast<std::size_t>(out.body)].modes();
           if (o.component < 0 || o.component >= nm) {
-            faults.add(o.origin.mark, who + ": found mode " + std::to_string(o.component + 1) +
-                                          ", expected 1 to " + std::to_string(nm));
+            faults.add(
+                o.origin.mark,
+                who + ".mode: " + sentences::number_of("the number of a mode", o.component, nm));
             continue;
           }
           out.unit = "-";
@@ -40,18 +42,8 @@ void ModelBuilder::outputs() {
       case OutputKind::joint_velocity: {
         for (std::size_t k = 0; k < model.joints.size(); ++k)
           if (model.joints[k].name == o.entity) out.joint = static_cast<int>(k);
-        if (out.joint < 0) {
-          faults.add(o.origin.mark,
-                     who + ": found '" + o.entity + "', expected the name of a joint");
-          continue;
-        }
+        if (out.joint < 0) continue;  // it has a fault of its own
         const JointType type = model.joints[static_cast<std::size_t>(out.joint)].type;
-        if (o.component < 0 || o.component >= joint_velocities(type)) {
-          faults.add(o.origin.mark, who + ": found coordinate " + std::to_string(o.component + 1) +
-                                        ", expected 1 to " +
-                                        std::to_string(joint_velocities(type)));
-          continue;
-        }
         const bool metres = type == JointType::prismatic ||
                             ((type == JointType::cylindrical) && o.component == 0) ||
                             (type == JointType::free && o.component < 3);
@@ -64,11 +56,7 @@ void ModelBuilder::outputs() {
       case OutputKind::rate: {
         for (std::size_t k = 0; k < model.forces.size(); ++k)
           if (model.forces[k].name == o.entity) out.force = static_cast<int>(k);
-        if (out.force < 0) {
-          faults.add(o.origin.mark,
-                     who + ": found '" + o.entity + "', expected the name of a force");
-          continue;
-        }
+        if (out.force < 0) continue;  // it has a fault of its own
         const Force& f = model.forces[static_cast<std::size_t>(out.force)];
         if (f.rotational || f.type == ForceType::torque)
           out.unit = o.kind == OutputKind::force    ? "N m"

@@ -8,6 +8,7 @@
 // coordinates of that configuration, so a joint at a point needs no body coordinates; each body has
 // a design pose X_WB.
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -287,7 +288,17 @@ struct OutputDescription {
 
 enum class Coordinates { relative, absolute };
 enum class InertiaMethod { preprocessing, projection };
-enum class Start { given, equilibrium };
+enum class Start { given, equilibrium, state };
+
+/// A body away from where it would start; what hangs on it by joints comes along.
+struct StartOffset {
+  Vec3 translation = Vec3::Zero();  ///< of the origin of its frame, world [m]
+  /// Rotation vector, world [rad]. Without one the body keeps its orientation as far as its joints
+  /// let it.
+  std::optional<Vec3> rotation;
+};
+
+struct SystemState;  // model/system_state.hpp
 
 struct SimulationDescription {
   Coordinates coordinates = Coordinates::relative;
@@ -296,7 +307,11 @@ struct SimulationDescription {
   double duration = 1.0;         ///< [s]
   double output_interval = 0.0;  ///< [s]; 0: every step
   Start start = Start::given;
-  Vec3 velocity = Vec3::Zero();  ///< added to the velocity of every free joint at the start [m/s]
+  std::shared_ptr<const SystemState> state;   ///< where Start::state starts
+  std::map<std::string, StartOffset> offset;  ///< by body, from the equilibrium or the state
+  /// Added to the velocity of every free joint at the start [m/s]; not with Start::state, which
+  /// holds all velocities.
+  Vec3 velocity = Vec3::Zero();
   double spectral_radius =
       1.0;  ///< at infinite frequency: 1 = trapezoidal rule, below 1 = generalised-alpha
   double tolerance = 1e-9;  ///< Newton: bound of the largest coordinate increment; the error left

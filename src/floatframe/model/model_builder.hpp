@@ -1,12 +1,15 @@
 #pragma once
 // The work of build_model in stages that share names, markers and the list of faults; each stage in
 // the file of its subject (build_*.cpp).
+#include <cmath>
 #include <string>
 
 #include "floatframe/model/model.hpp"
 
 namespace floatframe {
 
+/// What is described has been checked by `validate`: faults are left to what shows only when bodies
+/// are reduced.
 struct ModelBuilder {
   static constexpr int ground_index = -1;
   static constexpr int unknown = -2;
@@ -38,12 +41,17 @@ struct ModelBuilder {
   /// marker's orientation matters, so the rotation of the node enters.
   int add_marker(const AttachmentDescription& at, const Mat3& R_design, bool oriented,
                  const SourceMark& mark, const std::string& who);
-  /// Index of an input; -1 for no name, and with a fault for an unknown one.
-  int input_index(const std::string& name, const SourceMark& mark, const std::string& who);
+  /// Index of an input; -1 for no name.
+  int input_index(const std::string& name) const;
   const Marker& marker(int index) const { return model.markers[static_cast<std::size_t>(index)]; }
   /// World place of a marker in the design configuration.
   Vec3 design_point(int marker) const;
 };
+
+/// v / |v|, also where |v|^2 overflows.
+inline Vec3 unit_vector(const Vec3& v) {
+  return std::isfinite(v.squaredNorm()) ? v.normalized() : v.stableNormalized();
+}
 
 /// "[1, 2, 3]"
 std::string point_text(const Vec3& p);

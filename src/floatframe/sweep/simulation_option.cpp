@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "floatframe/io/yaml_value.hpp"
+#include "floatframe/model/rules.hpp"
 
 namespace floatframe {
 namespace {
@@ -19,15 +20,15 @@ struct NumberOption {
 
 const std::vector<NumberOption>& number_options() {
   static const std::vector<NumberOption> options{
-      {"step", &S::step, positive_number("s")},
-      {"duration", &S::duration, non_negative_number("s")},
-      {"output_interval", &S::output_interval, non_negative_number("s")},
-      {"spectral_radius", &S::spectral_radius, NumberRule{"a number from 0 to 1", "", 0.0, 1.0}},
-      {"tolerance", &S::tolerance, positive_number("")},
-      {"min_step", &S::min_step, non_negative_number("s")},
-      {"penalty", &S::penalty, non_negative_number("")},
-      {"position_tolerance", &S::position_tolerance, positive_number("m")},
-      {"velocity_tolerance", &S::velocity_tolerance, positive_number("m/s")}};
+      {"step", &S::step, rules::step},
+      {"duration", &S::duration, rules::duration},
+      {"output_interval", &S::output_interval, rules::output_interval},
+      {"spectral_radius", &S::spectral_radius, rules::spectral_radius},
+      {"tolerance", &S::tolerance, rules::tolerance},
+      {"min_step", &S::min_step, rules::min_step},
+      {"penalty", &S::penalty, rules::penalty},
+      {"position_tolerance", &S::position_tolerance, rules::position_tolerance},
+      {"velocity_tolerance", &S::velocity_tolerance, rules::velocity_tolerance}};
   return options;
 }
 

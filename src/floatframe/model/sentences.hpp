@@ -1,0 +1,62 @@
+#pragma once
+// What descriptions must mean beyond single numbers, each with its one sentence. The reader of
+// model files and `validate` put the path and the place before it. nullopt: nothing is wrong.
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "floatframe/math/piecewise_polynomial.hpp"
+#include "floatframe/math/types.hpp"
+
+namespace floatframe::sentences {
+
+using Complaint = std::optional<std::string>;
+
+// Bodies.
+/// Principal moments below zero, or one larger than the sum of the others.
+Complaint inertia(const Mat3& J);
+Complaint tube(double outer, double inner);
+Complaint bar_length(double length);
+/// Of a bar along `axis`.
+Complaint bar_reference(const Vec3& axis, const Vec3& reference);
+bool parallel_to_bar(const Vec3& axis, const Vec3& direction);
+Complaint section_inertia(bool section_inertia, bool isoparametric);
+Complaint analytic_shapes(std::size_t bars, std::size_t masses);
+Complaint more_modes_than_dofs(int modes, std::size_t nodes, bool isoparametric);
+std::string dof_twice(const std::string& node, unsigned dof);
+std::string no_modes();
+std::string bar_not_connected(const std::string& first_bar);
+/// Places of the clamped degrees of freedom, each with its direction 0..5 = x y z rx ry rz.
+Complaint body_reference(const std::vector<std::pair<Vec3, unsigned>>& clamped);
+
+// Joints, forces, roads.
+Complaint direction(const Vec3& v);
+Complaint second_axis(const Vec3& axis, const Vec3& axis_2);
+std::string ground_as_child();
+std::string child_is_parent();
+std::string both_ends_on(const std::string& body);
+Complaint rod_ends(const Vec3& a, const Vec3& b);
+Complaint spring_ends(const Vec3& a, const Vec3& b);
+std::string target_without_law();
+std::string motion_and_start_value();
+/// The piece from which the law jumps, and the sentence.
+std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f);
+
+// Inputs, outputs, the run.
+Complaint unit(const std::string& unit);
+Complaint clamp_without_limits(bool clamp, const std::optional<double>& low,
+                               const std::optional<double>& high);
+Complaint input_limits(const std::optional<double>& low, const std::optional<double>& high);
+Complaint input_initial(double initial, const std::optional<double>& low,
+                        const std::optional<double>& high);
+/// A component, counted from 0, that is not one of the `n` that a model file counts from 1.
+std::string number_of(const char* what, int component, int n);
+Complaint column_name(const std::string& name);
+std::string column_exists(const std::string& name);
+Complaint model_name(const std::string& name);
+Complaint min_step(double min_step, double step);
+/// More steps than a run can count and keep.
+Complaint steps(double duration, double step);
+
+}  // namespace floatframe::sentences

@@ -1,0 +1,83 @@
+#pragma once
+// What a description means is checked here, whoever wrote it: the reader of model files, whose
+// words and types are right already, or a C++ program, which may hand over anything. Each sentence
+// begins with the path the entity would have in a model file. Nothing after these checks looks at
+// sizes, signs, enumerators or NaN again.
+#include <set>
+#include <string>
+#include <vector>
+
+#include "floatframe/core/number_rule.hpp"
+#include "floatframe/model/description.hpp"
+
+namespace floatframe {
+
+/// All that can be known before bodies are reduced; nodes of flexible bodies and numbers of modes
+/// are left to `build_model`.
+void validate(const ModelDescription& description, Faults& faults);
+/// The group `simulation`.
+void validate(const SimulationDescription& simulation, Faults& faults);
+/// Throws InputError with every fault of the group.
+void require_valid(const SimulationDescription& simulation);
+/// The same, and the number of steps is one that a run can keep.
+void require_valid_run(const SimulationDescription& simulation);
+
+namespace validation {
+
+/// Names that entities refer to.
+struct Names {
+  std::vector<std::string> bodies, joints, forces, roads, inputs;
+};
+
+/// One entity: adds "path.key: sentence" at the key's place, if one is known.
+struct Entity {
+  Faults& faults;
+  const Origin& origin;
+  std::string path;
+
+  void fault(const std::string& key, const std::string& sentence) const;
+  /// "path: sentence"
+  void fault(const std::string& sentence) const;
+  void complain(const std::string& key, const std::optional<std::string>& complaint) const {
+    if (complaint) fault(key, *complaint);
+  }
+  /// Each: true if nothing is wrong.
+  bool number(const std::string& key, double x, const NumberRule& rule) const;
+  bool whole(const std::string& key, int x, const WholeNumberRule& rule) const;
+  template <class Enum, std::size_t n>
+  bool word(const std::string& key, Enum value, const char* const (&words)[n]) const {
+    const auto complaint = word_complaint(static_cast<int>(value), words);
+    complain(key, complaint);
+    return !complaint;
+  }
+  bool vector(const std::string& key, const Vec3& v, const char* unit) const;
+  bool list(const std::string& key, const std::vector<double>& v) const;
+  bool direction(const std::string& key, const Vec3& v) const;
+  bool rotation(const std::string& key, const Mat3& R) const;
+  bool reference(const std::string& key, const char* kind, const std::string& name,
+                 const std::vector<std::string>& known) const;
+  /// A place on a body; the ground too if `ground`.
+  bool place(const std::string& key, const AttachmentDescription& at, const Names& names,
+             bool ground = true) const;
+  bool pieces(const std::string& key, const PiecewisePolynomial& f, bool may_jump = false) const;
+  void function(const std::string& key, const TimeFunction& f) const;
+  void signal(const std::string& key, const SignalDescription& s, const Names& names) const;
+};
+
+/// A name of letters, digits, _ and -, with dots between the names of subsystems; used once.
+void name(const char* kind, const std::string& name, std::set<std::string>& taken,
+          const Entity& entity);
+
+void bodies(const ModelDescription& d, Faults& faults);
+void flexible(const FlexibleDescription& f, const Entity& body);
+void flexible(const FlexibleBody& f, const Entity& body);
+void joints(const ModelDescription& d, const Names& names, Faults& faults);
+void rods(const ModelDescription& d, const Names& names, Faults& faults);
+void forces(const ModelDescription& d, const Names& names, Faults& faults);
+void roads(const ModelDescription& d, Faults& faults);
+void inputs(const ModelDescription& d, Faults& faults);
+void outputs(const ModelDescription& d, const Names& names, Faults& faults);
+void amplitudes(const ModelDescription& d, const Names& names, Faults& faults);
+
+}  // namespace validation
+}  // namespace floatframe

@@ -1,0 +1,110 @@
+// Joints, rods, inputs and outputs.
+
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model/validate.hpp"
+
+namespace floatframe::validation {
+
+namespace {
+
+bool has_axis(JointType type) {
+  return type == JointType::revolute || type == JointType::prismatic ||
+         type == JointType::cylindrical || type == JointType::universal;
+}
+
+void start_values(const Entity& joint, const char* key, const std::vector<double>& given,
+                  JointType type) {
+  const auto n = static_cast<std::size_t>(joint_velocities(type));
+  if (given.empty()) return;
+  if (n == 0) {
+    joint.fault(key, "a weld has no coordinates, expected no such key");
+  } else if (given.size() != n) {
+    joint.fault(key, "found a list of " + std::to_string(given.size()) + ", expected " +
+                         (n == 1 ? std::string("a number")
+                                 : "a list of " + std::to_string(n) + " numbers for a " +
+                                       joint_type_name(type) + " joint"));
+  } else {
+    joint.list(key, given);
+  }
+}
+
+void joint(const JointDescription& j, const Names& names, const Entity& entity) {
+  const bool type = entity.word("type", j.type, rules::joint_types);
+  if (j.parent.body != ground_name)
+    entity.reference("parent", "body", j.parent.body, names.bodies);
+  else if (j.parent.node)
+    entity.fault("parent_node", "found a node on the ground, expected a flexible body");
+  if (j.child.body == ground_name)
+    entity.fault("child", sentences::ground_as_child());
+  else if (entity.reference("child", "body", j.child.body, names.bodies) &&
+           j.child.body == j.parent.body)
+    entity.fault("child", sentences::child_is_parent());
+  if (entity.vector("at", j.parent.point, "m")) entity.vector("at", j.child.point, "m");
+  if (!type) return;
+  if (has_axis(j.type) && entity.direction("axis", j.axis) && j.type == JointType::universal &&
+      entity.direction("axis_2", j.axis_2))
+    entity.complain("axis_2", sentences::second_axis(j.axis, j.axis_2));
+  start_values(entity, "position", j.position, j.type);
+  start_values(entity, "velocity", j.velocity, j.type);
+  if (!j.motion) return;
+  if (j.type != JointType::revolute && j.type != JointType::prismatic) {
+    entity.fault("motion", std::string("is not used by a ") + joint_type_name(j.type) +
+                               " joint, expected no such key");
+    return;
+  }
+  entity.function("motion", *j.motion);
+  if (!j.position.empty()) entity.fault("position", sentences::motion_and_start_value());
+  if (!j.velocity.empty()) entity.fault("velocity", sentences::motion_and_start_value());
+}
+
+}  // namespace
+
+void joints(const ModelDescription& d, const Names& names, Faults& faults) {
+  std::set<std::string> taken;
+  for (const JointDescription& j : d.joints) {
+    const Entity entity{faults, j.origin, "joints." + j.name};
+    name("joints", j.name, taken, entity);
+    joint(j, names, entity);
+  }
+}
+
+void rods(const ModelDescription& d, const Names& names, Faults& faults) {
+  std::set<std::string> taken;
+  for (const RodDescription& r : d.rods) {
+    const Entity entity{faults, r.origin, "rods." + r.name};
+    name("rods", r.name, taken, entity);
+    const bool a = entity.place("from", r.a, names), b = entity.place("to", r.b, names);
+    if (r.length) entity.number("length", *r.length, rules::rod_length);
+    if (!a || !b) continue;
+    if (r.a.body == r.b.body) {
+      entity.fault(sentences::both_ends_on(r.a.body));
+    } else if (!r.length && !r.a.node && !r.b.node) {
+      if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point))
+        entity.fault(*complaint);
+    }
+  }
+}
+
+void inputs(const ModelDescription& d, Faults& faults) {
+  std::set<std::string> taken;
+  for (const InputDescription& i : d.inputs) {
+    const Entity entity{faults, i.origin, "inputs." + i.name};
+    name("inputs", i.name, taken, entity);
+    if (const auto complaint = sentences::unit(i.unit))
+      entity.fault("unit", "found '" + i.unit + "', " + *complaint);
+    const char* unit = i.unit.c_str();
+    bool good = entity.number("initial", i.initial, any_number(unit));
+    if (i.low) good = entity.number("min", *i.low, any_number(unit)) && good;
+    if (i.high) good = entity.number("max", *i.high, any_number(unit)) && good;
+    if (!good) continue;
+    entity.complain("clamp", sentences::clamp_without_limits(i.clamp, i.low, i.high));
+    if (const auto complaint = sentences::input_limits(i.low, i.high))
+      entity.fault("max", *complaint);
+    else
+      entity.complain("initial", sentences::input_initial(i.initial, i.low, i.high));
+  }
+}
+
+}  // namespace floatframe::validation

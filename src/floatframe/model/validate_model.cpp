@@ -1,0 +1,75 @@
+// The order of the checks, and what belongs to no entity.
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model/validate.hpp"
+
+namespace floatframe {
+
+namespace {
+
+template <class Entities>
+std::vector<std::string> names_of(const Entities& entities) {
+  std::vector<std::string> names;
+  for (const auto& e : entities) names.push_back(e.name);
+  return names;
+}
+
+}  // namespace
+
+void validate(const ModelDescription& d, Faults& faults) {
+  const Origin none;
+  const validation::Entity model{faults, none, ""};
+  if (const auto complaint = sentences::model_name(d.name))
+    model.fault("name", "found '" + d.name + "', " + *complaint);
+  model.vector("gravity", d.gravity, "m/s2");
+  const validation::Names names{names_of(d.bodies), names_of(d.joints), names_of(d.forces),
+                                names_of(d.roads), names_of(d.inputs)};
+  validation::bodies(d, faults);
+  validation::joints(d, names, faults);
+  validation::rods(d, names, faults);
+  validation::roads(d, faults);
+  validation::inputs(d, faults);
+  validation::forces(d, names, faults);
+  validation::amplitudes(d, names, faults);
+  validation::outputs(d, names, faults);
+  validate(d.simulation, faults);
+}
+
+void validate(const SimulationDescription& s, Faults& faults) {
+  const Origin none;
+  const validation::Entity group{faults, none, "simulation"};
+  group.word("coordinates", s.coordinates, rules::coordinates);
+  group.word("inertia", s.inertia, rules::inertia_methods);
+  group.word("start", s.start, {"given", "equilibrium", "{state: file}"});
+  if (s.start == Start::state && !s.state)
+    group.fault("start", "found no state, expected the state to start from");
+  for (const auto& [body, offset] : s.offset) {
+    group.vector("start.offset." + body, offset.translation, "m");
+    if (offset.rotation) group.vector("start.offset." + body, *offset.rotation, "rad");
+  }
+  group.vector("velocity", s.velocity, "m/s");
+  const bool step = group.number("step", s.step, rules::step);
+  group.number("duration", s.duration, rules::duration);
+  group.number("output_interval", s.output_interval, rules::output_interval);
+  group.number("spectral_radius", s.spectral_radius, rules::spectral_radius);
+  group.number("tolerance", s.tolerance, rules::tolerance);
+  group.whole("max_iterations", s.max_iterations, rules::max_iterations);
+  if (group.number("min_step", s.min_step, rules::min_step) && step)
+    group.complain("min_step", sentences::min_step(s.min_step, s.step));
+  group.number("penalty", s.penalty, rules::penalty);
+  group.number("position_tolerance", s.position_tolerance, rules::position_tolerance);
+  group.number("velocity_tolerance", s.velocity_tolerance, rules::velocity_tolerance);
+}
+
+void require_valid(const SimulationDescription& s) {
+  Faults faults;
+  validate(s, faults);
+  faults.throw_if_any();
+}
+
+void require_valid_run(const SimulationDescription& s) {
+  require_valid(s);
+  if (const auto complaint = sentences::steps(s.duration, s.step)) throw InputError(*complaint);
+}
+
+}  // namespace floatframe

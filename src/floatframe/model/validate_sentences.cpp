@@ -1,0 +1,225 @@
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/core/number_rule.hpp"
+#include "floatframe/math/piecewise_build.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
+
+namespace floatframe::sentences {
+
+namespace {
+
+constexpr const char* dof_names[] = {"x", "y", "z", "rx", "ry", "rz"};
+
+}  // namespace
+
+Complaint inertia(const Mat3& J) {
+  const Vec3 p = Eigen::SelfAdjointEigenSolver<Mat3>(J, Eigen::EigenvaluesOnly).eigenvalues();
+  const double slack = 1e-9 * p.cwiseAbs().maxCoeff();
+  const auto shown = [&](int i) { return number_text(std::round(p[i] * 1e9) / 1e9); };
+  if (p[0] < -slack)
+    return "found the principal moment " + shown(0) + ", expected none below 0 [kg m2]";
+  if (p[0] + p[1] < p[2] - slack)
+    return "found the principal moments " + shown(0) + ", " + shown(1) + " and " + shown(2) +
+           ", expected none larger than the sum of the other two [kg m2]";
+  return std::nullopt;
+}
+
+Complaint tube(double outer, double inner) {
+  if (inner < outer) return std::nullopt;
+  return "found the inner diameter " + number_text(inner) + ", expected less than the outer one, " +
+         number_text(outer) + " [m]";
+}
+
+Complaint bar_length(double length) {
+  if (length > 1e-9) return std::nullopt;
+  return "found length " + number_text(length) + ", expected a bar of positive length [m]";
+}
+
+bool parallel_to_bar(const Vec3& axis, const Vec3& direction) {
+  return direction.cross(axis).norm() <= 1e-3 * direction.norm() * axis.norm();
+}
+
+Complaint bar_reference(const Vec3& axis, const Vec3& reference) {
+  if (!parallel_to_bar(axis, reference)) return std::nullopt;
+  return "found a direction parallel to the bar, expected another";
+}
+
+Complaint section_inertia(bool section_inertia, bool isoparametric) {
+  if (!section_inertia || !isoparametric) return std::nullopt;
+  return "found true with the isoparametric mass model, expected mass_model six_dof or hermite";
+}
+
+Complaint analytic_shapes(std::size_t bars, std::size_t masses) {
+  if (bars <= 1 && masses == 0) return std::nullopt;
+  return "analytic shapes need one straight bar without masses, found " + std::to_string(bars) +
+         " bars and " + std::to_string(masses) + " masses";
+}
+
+Complaint more_modes_than_dofs(int modes, std::size_t nodes, bool isoparametric) {
+  const auto rows = static_cast<long>(nodes) * (isoparametric ? 3 : 6);
+  if (modes <= rows) return std::nullopt;
+  return "found " + std::to_string(modes) + " modes, expected at most " + std::to_string(rows) +
+         ", the number of degrees of freedom with mass";
+}
+
+std::string dof_twice(const std::string& node, unsigned dof) {
+  return std::string("the direction ") + dof_names[dof] + " of '" + node +
+         "' is named twice in clamped and static_modes, expected once";
+}
+
+std::string no_modes() {
+  return "found no modes, expected static_modes, normal_modes, analytic or basis";
+}
+
+std::string bar_not_connected(const std::string& first_bar) {
+  return "the bar is not connected to '" + first_bar +
+         "', expected all bars of a body to hang together";
+}
+
+Complaint body_reference(const std::vector<std::pair<Vec3, unsigned>>& clamped) {
+  // Rows of the rigid motions at these degrees of freedom, about their middle, in units of their
+  // extent, must have rank 6.
+  Vec3 centre = Vec3::Zero();
+  double size = 0.0;
+  for (const auto& [p, dof] : clamped) centre += p / static_cast<double>(clamped.size());
+  for (const auto& [p, dof] : clamped) size = std::max(size, (p - centre).norm());
+  if (!(size > 0.0)) size = 1.0;
+  MatX rows(static_cast<Eigen::Index>(clamped.size()), 6);
+  for (std::size_t i = 0; i < clamped.size(); ++i) {
+    const Vec3 p = (clamped[i].first - centre) / size;
+    const unsigned k = clamped[i].second;
+    Vec6 row = Vec6::Zero();  // row . (translation, rotation) = motion of this dof
+    const Vec3 e = Vec3::Unit(static_cast<Eigen::Index>(k % 3));
+    if (k < 3) {
+      row.head<3>() = e;
+      row.tail<3>() = p.cross(e);
+    } else {
+      row.tail<3>() = e;
+    }
+    rows.row(static_cast<Eigen::Index>(i)) = row.transpose();
+  }
+  Eigen::Index rank = 0;
+  if (rows.rows() > 0) {
+    Eigen::ColPivHouseholderQR<MatX> qr(rows);
+    qr.setThreshold(1e-9);
+    rank = qr.rank();
+  }
+  if (rank >= 6) return std::nullopt;
+  return "these degrees of freedom leave " + std::to_string(6 - rank) +
+         (rank == 5 ? " rigid motion" : " rigid motions") + " of the body free, expected none";
+}
+
+Complaint direction(const Vec3& v) {
+  if (v.stableNorm() > 0.0) return std::nullopt;
+  return "found a vector of length zero, expected a direction";
+}
+
+Complaint second_axis(const Vec3& axis, const Vec3& axis_2) {
+  if (!(axis.stableNormalized().cross(axis_2.stableNormalized()).norm() < 1e-6))
+    return std::nullopt;
+  return "found a direction parallel to 'axis', expected another";
+}
+
+std::string ground_as_child() {
+  return "found ground, expected a body (the ground may be the parent)";
+}
+std::string child_is_parent() { return "found the same body as the parent, expected another"; }
+
+std::string both_ends_on(const std::string& body) {
+  return "found both ends on '" + body + "', expected two bodies";
+}
+
+Complaint rod_ends(const Vec3& a, const Vec3& b) {
+  if ((a - b).norm() > 1e-9) return std::nullopt;
+  return "found length 0, expected two points apart";
+}
+
+Complaint spring_ends(const Vec3& a, const Vec3& b) {
+  if ((a - b).norm() > 1e-9) return std::nullopt;
+  return "found both ends at the same point, expected two points apart";
+}
+
+std::string target_without_law() {
+  return "found without spring and damper, expected a law that pulls to the target";
+}
+
+std::string motion_and_start_value() {
+  return "found with a prescribed motion, which decides it, expected no such key";
+}
+
+std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f) {
+  const JumpReport r = largest_jump(f);
+  if (r.continuous()) return std::nullopt;
+  const double x = f.breaks()[r.at];
+  return std::make_pair(r.at, "the law jumps from " + number_text(f.piece_value(r.at, x).f) +
+                                  " to " + number_text(f.piece_value(r.at + 1, x).f) + " at " +
+                                  number_text(x) +
+                                  ", expected pieces that meet within 1e-6 of the range of the "
+                                  "law");
+}
+
+Complaint unit(const std::string& unit) {
+  const bool plain = std::all_of(unit.begin(), unit.end(), [](unsigned char c) {
+    return c >= ' ' && c != '"' && c != ',' && c != '[' && c != ']' && c != 127;
+  });
+  if (plain && unit.size() <= 20) return std::nullopt;
+  return "expected a unit of at most 20 characters without commas, quotes and brackets";
+}
+
+Complaint clamp_without_limits(bool clamp, const std::optional<double>& low,
+                               const std::optional<double>& high) {
+  if (!clamp || low || high) return std::nullopt;
+  return "found true without limits, expected min, max or both beside it";
+}
+
+Complaint input_limits(const std::optional<double>& low, const std::optional<double>& high) {
+  if (!low || !high || *low < *high) return std::nullopt;
+  return "found " + number_text(*high) + ", expected a number above min, " + number_text(*low);
+}
+
+Complaint input_initial(double initial, const std::optional<double>& low,
+                        const std::optional<double>& high) {
+  if (!((low && initial < *low) || (high && initial > *high))) return std::nullopt;
+  return "found " + number_text(initial) + ", expected a number " +
+         (low && initial < *low ? "not below min, " + number_text(*low)
+                                : "not above max, " + number_text(*high));
+}
+
+std::string number_of(const char* what, int component, int n) {
+  return "found " + std::to_string(static_cast<long>(component) + 1) + ", expected " +
+         WholeNumberRule{what, 1, n}.expectation();
+}
+
+Complaint column_name(const std::string& name) {
+  if (!name.empty() && name.size() <= 200 && name.find_first_of(",\"\n\r[]") == std::string::npos)
+    return std::nullopt;
+  return "expected a column name without commas, quotes, brackets and line breaks";
+}
+
+std::string column_exists(const std::string& name) {
+  return "the column '" + name + "' exists already";
+}
+
+Complaint model_name(const std::string& name) {
+  if (name.find_first_of("/\\\n\r\t") == std::string::npos && name != "." && name != "..")
+    return std::nullopt;
+  return "expected a name without slashes and line breaks";
+}
+
+Complaint min_step(double min_step, double step) {
+  if (!(min_step > step)) return std::nullopt;
+  return "found " + number_text(min_step) + ", expected at most the step, " + number_text(step) +
+         " [s]";
+}
+
+Complaint steps(double duration, double step) {
+  if (!(duration > rules::most_steps * step)) return std::nullopt;
+  return "a duration of " + number_text(duration) + " s with a step of " + number_text(step) +
+         " s takes more than " + number_text(rules::most_steps) + " steps";
+}
+
+}  // namespace floatframe::sentences

@@ -1,0 +1,119 @@
+// Every field of joints, rods and outputs, one change at a time.
+#include <gtest/gtest.h>
+
+#include "support/valid_description.hpp"
+
+namespace floatframe {
+namespace {
+
+using namespace test;
+
+TEST(Validate, Joints) {
+  check({
+      {[](D& d) {
+         d.joints[1].name = "slide";
+         d.outputs.clear();
+       },
+       "joints.slide: the name is taken, expected a name used once"},
+      {[](D& d) { d.joints[1].type = static_cast<JointType>(7); },
+       "joints.pin.type: found 7, expected weld, revolute, prismatic, cylindrical, universal, "
+       "spherical or free"},
+      {[](D& d) { d.joints[1].parent.body = "blok"; },
+       "joints.pin.parent: unknown body 'blok', did you mean 'block'?"},
+      {[](D& d) { d.joints[1].child.body = "x"; }, "joints.pin.child: unknown body 'x'"},
+      {[](D& d) { d.joints[1].child.body = "ground"; },
+       "joints.pin.child: found ground, expected a body (the ground may be the parent)"},
+      {[](D& d) { d.joints[1].parent.body = "arm"; },
+       "joints.pin.child: found the same body as the parent, expected another"},
+      {[](D& d) { d.joints[1].parent.point.x() = nan; },
+       "joints.pin.at[1]: found nan, expected a number [m] (numbers must be finite)"},
+      {[](D& d) { d.joints[1].axis.setZero(); },
+       "joints.pin.axis: found a vector of length zero, expected a direction"},
+      {[](D& d) { d.joints[1].axis.y() = inf; },
+       "joints.pin.axis[2]: found inf, expected a number (numbers must be finite)"},
+      {[](D& d) { d.joints[1].axis_2 = -2.0 * d.joints[1].axis; },
+       "joints.pin.axis_2: found a direction parallel to 'axis', expected another"},
+      {[](D& d) { d.joints[1].position = {1.0}; },
+       "joints.pin.position: found a list of 1, expected a list of 2 numbers for a universal "
+       "joint"},
+      {[](D& d) {
+         d.joints[1].velocity = {1.0, nan};
+       },
+       "joints.pin.velocity[2]: found nan, expected a number (numbers must be finite)"},
+      {[](D& d) { d.joints[0].position = {1.0}; },
+       "joints.slide.position: found with a prescribed motion, which decides it, expected no such "
+       "key"},
+      {[](D& d) {
+         d.joints[0].motion.reset();
+         d.joints[0].velocity = {1.0, 2.0};
+       },
+       "joints.slide.velocity: found a list of 2, expected a number"},
+      {[](D& d) { d.joints[1].motion.emplace(); },
+       "joints.pin.motion: is not used by a universal joint, expected no such key"},
+      {[](D& d) { d.joints[0].motion->amplitude = 1.0; },
+       "joints.slide.motion.sine.frequency: found 0, expected a positive number [Hz]"},
+      {[](D& d) { d.joints[0].motion->phase = nan; },
+       "joints.slide.motion.sine.phase: found nan, expected a number [rad] (numbers must be "
+       "finite)"},
+      {[](D& d) {
+         d.joints[0].motion->pieces = PiecewisePolynomial::polynomial({0.0, nan});
+       },
+       "joints.slide.motion.polynomial[2]: found nan, expected a number (numbers must be finite)"},
+      {[](D& d) {
+         d.joints[1].type = JointType::weld;
+         d.outputs.clear();
+       },
+       "joints.pin.position: a weld has no coordinates, expected no such key"},
+      {[](D& d) { d.rods[0].length = 0.0; },
+       "rods.rod.length: found 0, expected a positive number [m]"},
+      {[](D& d) { d.rods[0].a.body = "block"; },
+       "rods.rod: found both ends on 'block', expected two bodies"},
+      {[](D& d) {
+         d.rods[0].length.reset();
+         d.rods[0].a.point = d.rods[0].b.point;
+       },
+       "rods.rod: found length 0, expected two points apart"},
+      {[](D& d) { d.rods[0].a.body = "x"; }, "rods.rod.from.body: unknown body 'x'"},
+      {[](D& d) { d.rods[0].a.node = "n0"; },
+       "rods.rod.from.node: found a node on the ground, expected a flexible body"},
+      {[](D& d) { d.rods[0].b.point.z() = nan; },
+       "rods.rod.to.at[3]: found nan, expected a number [m] (numbers must be finite)"},
+  });
+}
+
+TEST(Validate, Outputs) {
+  check({
+      {[](D& d) { d.outputs[0].name = "a,b"; },
+       "outputs.a,b: expected a column name without commas, quotes, brackets and line breaks"},
+      {[](D& d) { d.outputs[1].name = "z"; }, "outputs: the column 'z' exists already"},
+      {[](D& d) { d.outputs[0].kind = static_cast<OutputKind>(99); },
+       "outputs.z: found 99, expected position, velocity, acceleration, rotation, "
+       "angular_velocity, joint_position, joint_velocity, modal_amplitude, force, length or rate"},
+      {[](D& d) { d.outputs[0].component = 7; }, "outputs.z.axis: found 7, expected x, y or z"},
+      {[](D& d) { d.outputs[0].component = -1; }, "outputs.z.axis: found -1, expected x, y or z"},
+      {[](D& d) { d.outputs[1].component = 3; },
+       "outputs.yaw.angle: found 3, expected roll, pitch or yaw"},
+      {[](D& d) { d.outputs[2].component = 2; },
+       "outputs.q.coordinate: found 3, expected the number of a coordinate (a whole number from 1 "
+       "to 2)"},
+      {[](D& d) { d.outputs[2].component = std::numeric_limits<int>::max(); },
+       "outputs.q.coordinate: found 2147483648, expected the number of a coordinate (a whole "
+       "number from 1 to 2)"},
+      {[](D& d) { d.outputs[3].component = 7; },
+       "outputs.y1.mode: found 8, expected the number of a mode (a whole number from 1 to 1)"},
+      {[](D& d) { d.outputs[0].at.body = "x"; }, "outputs.z.position.body: unknown body 'x'"},
+      {[](D& d) { d.outputs[0].at.point.x() = nan; },
+       "outputs.z.position.at[1]: found nan, expected a number [m] (numbers must be finite)"},
+      {[](D& d) { d.outputs[1].at.body = "ground"; },
+       "outputs.yaw.rotation: found ground, expected a body"},
+      {[](D& d) { d.outputs[2].entity = "pins"; },
+       "outputs.q.joint_position: unknown joint 'pins', did you mean 'pin'?"},
+      {[](D& d) { d.outputs[4].entity = "lod"; },
+       "outputs.F.force: unknown force 'lod', did you mean 'load'?"},
+      {[](D& d) { d.outputs[5].entity = "load"; },
+       "outputs.L.length: a force has no length, expected another force element"},
+  });
+}
+
+}  // namespace
+}  // namespace floatframe

@@ -1,0 +1,212 @@
+#pragma once
+// A description that uses every field, and what is said when one of them is changed.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "floatframe/model/model.hpp"
+
+namespace floatframe::test {
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double inf = std::numeric_limits<double>::infinity();
+
+inline PiecewisePolynomial two_pieces(double at, double first, double second) {
+  return {{at}, {{0.0, {0.0, first}}, {at, {second}}}};
+}
+
+inline FlexibleDescription bar_description() {
+  FlexibleDescription f;
+  f.young = 2e11;
+  f.poisson = 0.3;
+  f.density = 7800.0;
+  f.points = {{"a", {0, 0, 0}}, {"b", {1, 0, 0}}, {"c", {1, 0, 1}}};
+  BarDescription bar;
+  bar.name = "one";
+  bar.from = "a";
+  bar.to = "b";
+  bar.elements = 4;
+  bar.section = HollowRound{0.02, 0.01};
+  BarDescription branch;
+  branch.name = "two";
+  branch.from_bar = "one";
+  branch.from_fraction = 0.5;
+  branch.to = "c";
+  branch.elements = 2;
+  branch.section = Rectangle{0.01, 0.02};
+  branch.reference = Vec3::UnitY();
+  f.bars = {bar, branch};
+  f.masses = {{"c", 0.1, {}}};
+  f.clamped = {{"a", 63u, {}}};
+  f.interfaces = {{"b", 6u, {}}};
+  f.normal_modes = 2;
+  return f;
+}
+
+/// One mode, two nodes.
+inline FlexibleBody reduced_body() {
+  FlexibleBody f;
+  f.invariants = InertiaInvariants::zero(1);
+  f.invariants.m = 2.0;
+  f.invariants.P_u.diagonal() << 0.1, 0.1, 0.1;
+  f.invariants.S(0, 0) = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) f.invariants.Sij[i][i](0, 0) = 1.0;
+  f.K = MatX::Constant(1, 1, 100.0);
+  f.D = MatX::Zero(1, 1);
+  auto p = std::make_shared<ProjectionData>();
+  p->p = Mat3X::Zero(3, 2);
+  p->X = MatX::Zero(6, 1);
+  p->M_s.resize(2, 2);
+  p->M_s.insert(0, 0) = 1.0;
+  p->M_s.insert(1, 1) = 1.0;
+  f.projection = p;
+  for (const char* name : {"n0", "n1"}) {
+    ModalNode n;
+    n.name = name;
+    n.X = n.X_theta = Mat3X::Zero(3, 1);
+    f.nodes.push_back(n);
+  }
+  f.nodes[1].p = Vec3(0.5, 0, 0);
+  f.nodes[1].X(0, 0) = 1.0;
+  return f;
+}
+
+/// A description that uses every field.
+inline ModelDescription valid_description() {
+  ModelDescription d;
+  BodyDescription block;
+  block.name = "block";
+  RigidDescription rigid;
+  rigid.mass = 2.0;
+  rigid.J_C = Vec3(0.1, 0.2, 0.25).asDiagonal();
+  block.kind = rigid;
+  block.X_WB.p = block.X_WT.p = Vec3(0, 0, 1);
+  BodyDescription arm;
+  arm.name = "arm";
+  arm.kind = bar_description();
+  BodyDescription part;
+  part.name = "part";
+  part.kind = reduced_body();
+  d.bodies = {block, arm, part};
+
+  const auto at = [](const char* body, const Vec3& p) {
+    AttachmentDescription a;
+    a.body = body;
+    a.point = p;
+    return a;
+  };
+  const auto joint = [&](const char* name, JointType type, const char* child, const Vec3& p) {
+    JointDescription j;
+    j.name = name;
+    j.type = type;
+    j.parent = at("ground", p);
+    j.child = at(child, p);
+    return j;
+  };
+  d.joints = {joint("slide", JointType::prismatic, "block", {0, 0, 1}),
+              joint("pin", JointType::universal, "arm", {0, 0, 0}),
+              joint("ball", JointType::spherical, "part", {0, 0, 0})};
+  d.joints[0].motion.emplace();
+  d.joints[0].motion->pieces = PiecewisePolynomial::polynomial({0.0, 1.0});
+  d.joints[1].position = {0.1, 0.2};
+  d.joints[2].child.node = "n0";
+  RodDescription rod;
+  rod.name = "rod";
+  rod.a = at("ground", {3, 0, 0});
+  rod.b = at("block", {0, 0, 1.5});
+  rod.length = 4.0;
+  d.rods = {rod};
+
+  SpringDamperDescription spring;
+  spring.a = at("ground", {0, 0, 3});
+  spring.b = at("block", {0, 0, 1});
+  spring.spring = two_pieces(1.0, 1000.0, 1000.0);
+  spring.actuator.emplace();
+  spring.actuator->input = "push";
+  GuidedSpringDescription guide;
+  guide.reference = at("block", {0, 0, 1});
+  guide.tip = at("part", {0.5, 0, 0});
+  guide.damper = PiecewisePolynomial::linear(5.0, 0.0);
+  JointSpringDescription motor;
+  motor.joint = "slide";
+  motor.spring = PiecewisePolynomial::linear(5.0, 0.0);
+  motor.target.emplace();
+  TyreDescription tyre;
+  tyre.centre = at("block", {0, 0, 1});
+  tyre.radius = 0.3;
+  tyre.stiffness = 1e5;
+  tyre.road = "track";
+  AppliedLoadDescription load;
+  load.at = at("block", {0, 0, 1});
+  d.forces = {{"spring", spring, {}},
+              {"guide", guide, {}},
+              {"motor", motor, {}},
+              {"tyre", tyre, {}},
+              {"load", load, {}}};
+  RoadDescription road;
+  road.name = "track";
+  road.pieces = PiecewisePolynomial({1.0, 1.0}, {{0.0, {0.0}}, {0.0, {0.1}}, {0.0, {0.2}}});
+  road.bumps = {{5.0, 1.0, 0.1}};
+  d.roads = {road};
+  d.inputs = {{"push", "N", 0.0, -1.0, 1.0, false, {}}};
+
+  const auto output = [&](const char* name, OutputKind kind, const char* body, const char* entity,
+                          int component) {
+    OutputDescription o;
+    o.name = name;
+    o.kind = kind;
+    o.at = at(body, {0, 0, 1});
+    o.entity = entity;
+    o.component = component;
+    return o;
+  };
+  d.outputs = {output("z", OutputKind::position, "block", "", 2),
+               output("yaw", OutputKind::rotation, "block", "", 2),
+               output("q", OutputKind::joint_position, "ground", "pin", 1),
+               output("y1", OutputKind::modal_amplitude, "part", "", 0),
+               output("F", OutputKind::force, "ground", "load", 0),
+               output("L", OutputKind::length, "ground", "spring", 0)};
+  d.amplitudes = {{"part", VecX::Constant(1, 0.01)}};
+  d.amplitude_rates = {{"part", VecX::Constant(1, 0.0)}};
+  return d;
+}
+
+inline std::string faults(const ModelDescription& d) {
+  try {
+    build_model(d);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+template <class T>
+T& kind(ModelDescription& d, std::size_t k) {
+  return std::get<T>(d.forces[k].kind);
+}
+inline RigidDescription& rigid(ModelDescription& d) {
+  return std::get<RigidDescription>(d.bodies[0].kind);
+}
+inline FlexibleDescription& bars(ModelDescription& d) {
+  return std::get<FlexibleDescription>(d.bodies[1].kind);
+}
+inline FlexibleBody& part(ModelDescription& d) { return std::get<FlexibleBody>(d.bodies[2].kind); }
+
+struct Case {
+  std::function<void(ModelDescription&)> change;
+  const char* expected;
+};
+using D = ModelDescription;
+
+inline void check(const std::vector<Case>& cases) {
+  for (const Case& c : cases) {
+    ModelDescription d = valid_description();
+    c.change(d);
+    EXPECT_EQ(faults(d), c.expected);
+  }
+}
+
+}  // namespace floatframe::test
