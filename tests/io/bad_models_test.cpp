@@ -380,6 +380,28 @@ const Case cases[] = {
      "in 'connect'"},
     {"switched_off.yaml",
      "switched_off.yaml:9:33: joints.pin.parent: the body 'other' is switched off by its 'when'"},
+    {"start_both.yaml",
+     "start_both.yaml:5:37: simulation.start.state: found with 'equilibrium', expected one of the "
+     "two"},
+    {"start_offset.yaml",
+     "start_offset.yaml:5:19: simulation.start.offset: found without 'equilibrium: true' or "
+     "'state', expected where to start from"
+     "\n"
+     "start_offset.yaml:5:20: simulation.start.offset.blok: unknown body 'blok', did you mean "
+     "'block'?"
+     "\n"
+     "start_offset.yaml:5:44: simulation.start.offset.block: found a list of 2, expected [x, y, z] "
+     "[m], or [x, y, z, rx, ry, rz] with a rotation vector [m, rad]"
+     "\n"
+     "start_offset.yaml:5:52: simulation.start.offset.ground: found ground, expected a body"
+     "\n"
+     "start_offset.yaml:5:72: simulation.start: unknown key 'ofset'"},
+    {"start_state.yaml",
+     "start_state.yaml:5:18: simulation.start.state: parts/damaged_state.json: this is not a state "
+     "file (damaged, or not JSON)"},
+    {"start_state_missing.yaml",
+     "start_state_missing.yaml:5:18: simulation.start.state: nowhere.json: the file does not "
+     "exist"},
     {"tab.yaml", "tab.yaml:3:1: a tab in the indentation, use spaces"},
     {"table_order.yaml",
      "table_order.yaml:12:38: forces.spring.spring.table[3]: found x = 1 after 2, expected "

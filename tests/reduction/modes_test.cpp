@@ -159,6 +159,33 @@ TEST(AnalyticBar, RootsOfTheFrequencyEquation) {
   EXPECT_NEAR(clamped_pinned_root(3), 10.2101761228, 1e-9);
 }
 
+// What docs/model-file.md promises: by shape, then by plane; the static shape is +1 at the tip,
+// the dynamic ones leave the clamped end on the positive side. Local y lies in the plane of the bar
+// and the reference.
+TEST(AnalyticBar, OrderAndSigns) {
+  BarFrame frame = straight_bar(2.0, 0.030, 40);
+  for (const Vec3& reference : {Vec3(0, 0, 1), Vec3(0.3, 0, -2), Vec3(0, 1, 1)}) {
+    frame.bars[0].reference = reference;
+    const FeModel model = build_bar_frame(frame);
+    const ModeSet set = analytic_bar_modes(model, 2);
+    EXPECT_EQ(set.names, (std::vector<std::string>{"static tip y", "static tip z",
+                                                   "clamped-pinned 1 y", "clamped-pinned 1 z",
+                                                   "clamped-pinned 2 y", "clamped-pinned 2 z"}));
+    const int inner = model.find_node("inner"), tip = model.find_node("outer");
+    const Vec3 along = (model.positions[static_cast<std::size_t>(tip)] -
+                        model.positions[static_cast<std::size_t>(inner)])
+                           .normalized();
+    const Vec3 y = (reference - along * along.dot(reference)).normalized(), z = along.cross(y);
+    for (int a = 0; a < 6; ++a) {
+      const Vec3 plane = a % 2 == 0 ? y : z;
+      const Vec3 moved = a < 2 ? set.X.block<3, 1>(6 * tip, a) : set.X.block<3, 1>(6 * 1, a);
+      EXPECT_NEAR(moved.dot(plane), moved.norm(), 1e-12) << a;
+      if (a < 2) EXPECT_NEAR(moved.norm(), 1.0, 1e-12);
+      EXPECT_GT(moved.norm(), 1e-4) << a;
+    }
+  }
+}
+
 TEST(AnalyticBar, ShapesSatisfyTheEndConditions) {
   const FeModel model = build_bar_frame(straight_bar(2.0, 0.030, 400));
   const ModeSet set = analytic_bar_modes(model, 3);

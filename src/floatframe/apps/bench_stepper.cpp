@@ -9,6 +9,7 @@
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/runner.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
 namespace {
@@ -19,7 +20,7 @@ class Stepper final : public BenchStepper {
   Stepper(const Model& model, const SimulationDescription& options)
       : model_(model), o_(options), step_options_(floatframe::step_options(model, options)) {
     RelativeFormulation tree(model_, o_.inertia);
-    const State start = relative_start(tree, o_.start);
+    const State start = start_state(tree, o_);
     begin();
     if constexpr (std::is_same_v<F, RelativeFormulation>) {
       start_ = start;

@@ -5,7 +5,7 @@
 
 #include "floatframe/apps/command.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/io/summary_json.hpp"
+#include "floatframe/io/check_json.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -50,7 +50,7 @@ int check_model(const ModelArguments& arguments, bool json) {
   const Model model = build_model(description);
   const ModelCounts counts = count(model);
   if (json) {
-    print(counts_json(counts));
+    print(check_json(counts, model));
   } else {
     print(fmt::format("{}: {}, {} ({} cut)\n\n", description.name, bodies_text(counts),
                       plural(counts.joints, "joint"), counts.cut_joints) +

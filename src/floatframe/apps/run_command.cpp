@@ -12,8 +12,10 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/io/report_html.hpp"
 #include "floatframe/io/results_csv.hpp"
+#include "floatframe/io/state_json.hpp"
 #include "floatframe/io/summary_json.hpp"
 #include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -21,7 +23,7 @@ namespace {
 
 struct RunArguments {
   ModelArguments model;
-  std::string coordinates, inertia, step, duration, out;
+  std::string coordinates, inertia, step, duration, out, write_state;
   bool no_report = false, quiet = false;
 };
 
@@ -34,12 +36,7 @@ void apply(const RunArguments& arguments, SimulationDescription& simulation) {
   if (!arguments.duration.empty()) {
     simulation.duration = positive_number("--duration", arguments.duration);
   }
-  constexpr double most_steps = 1e9;
-  if (simulation.duration > most_steps * simulation.step) {
-    throw InputError(
-        fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} steps",
-                    simulation.duration, simulation.step, most_steps));
-  }
+  require_valid_run(simulation);
 }
 
 struct OutputPaths {
@@ -78,6 +75,14 @@ FactTable model_facts(const Model& model) {
   return facts;
 }
 
+std::string start_text(const SimulationDescription& s) {
+  if (s.start == Start::given) return "as given";
+  const std::string from = s.start == Start::equilibrium
+                               ? std::string("static equilibrium")
+                               : fmt::format("state at {:g} s from {}", s.state->time, s.state->file);
+  return from + (s.offset.empty() ? "" : ", with offsets");
+}
+
 FactTable setting_facts(const RunArguments& arguments, const SimulationDescription& s) {
   FactTable facts{"Settings",
                   {{"model file", arguments.model.path},
@@ -85,7 +90,7 @@ FactTable setting_facts(const RunArguments& arguments, const SimulationDescripti
                    {"inertia terms", word(s.inertia)},
                    {"step", fmt::format("{:g} s", s.step)},
                    {"duration asked", fmt::format("{:g} s", s.duration)},
-                   {"start", s.start == Start::equilibrium ? "static equilibrium" : "as given"},
+                   {"start", start_text(s)},
                    {"spectral radius at infinity", fmt::format("{:g}", s.spectral_radius)},
                    {"Newton tolerance", fmt::format("{:g}", s.tolerance)},
                    {"Newton iterations at most", std::to_string(s.max_iterations)}}};
@@ -155,12 +160,14 @@ int run_model(const RunArguments& arguments) {
     fault = error.what();
   }
   const OutputPaths paths = make_output_paths(arguments, description.name);
+  if (!arguments.write_state.empty()) check_writable(arguments.write_state);
 
   Report report;
   if (model) {
     if (!arguments.no_report) report.facts.push_back(model_facts(*model));
     ProgressBar bar(!arguments.quiet, description.simulation.duration, "s");
     RunOptions options;
+    options.keep_state = !arguments.write_state.empty();
     options.progress = [&bar](double fraction) { bar.show(fraction); };
     try {
       report.result = run(*model, description.simulation, options);
@@ -174,10 +181,13 @@ int run_model(const RunArguments& arguments) {
   report.processor = processor_name();
 
   const RunSummary summary = report.result.summary;
+  const bool state = report.result.state && summary.status == "completed";
+  if (state) write_file(arguments.write_state, state_json(*report.result.state));
   const bool has_table = !report.result.table.columns.empty();
   write_outputs(paths, arguments, std::move(report));
   if (!arguments.quiet) {
-    print((has_table ? summary_text(summary) : "") + files_text(paths, arguments, has_table));
+    print((has_table ? summary_text(summary) : "") + files_text(paths, arguments, has_table) +
+          (state ? fmt::format("  state    {}\n", arguments.write_state) : ""));
   }
   if (summary.status == "completed") return 0;
   fmt::print(stderr, "floatframe: the run failed: {}\n", summary.message);
@@ -214,6 +224,10 @@ void add_run_command(CLI::App& app, Action& action) {
       ->type_name("SECONDS");
   command->add_option("--out", arguments->out, "Folder for the files; default: out/<model name>")
       ->type_name("DIR");
+  command
+      ->add_option("--write-state", arguments->write_state,
+                   "Write the state at the end, for start: {state: FILE}")
+      ->type_name("FILE");
   command->add_flag("--no-report", arguments->no_report, "Do not write report.html");
   command->add_flag("--quiet", arguments->quiet,
                     "No progress bar, no summary; faults are still shown");

@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "floatframe/apps/command.hpp"
+#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/text_table.hpp"
+#include "floatframe/io/state_json.hpp"
 #include "floatframe/io/summary_json.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
@@ -71,10 +73,12 @@ std::string amplitudes_text(const StaticsResult& statics) {
   return table.empty() ? "" : "\n" + table.text();
 }
 
-int show_statics(const ModelArguments& arguments, bool json) {
+int show_statics(const ModelArguments& arguments, bool json, const std::string& write_state) {
+  if (!write_state.empty()) check_writable(write_state);
   const ModelDescription description = read_model(arguments);
   const Model model = build_model(description);
   const StaticsResult result = statics(model);
+  if (!write_state.empty()) write_file(write_state, state_json(*result.state));
   if (json) {
     print(statics_json(description.name, result));
     return 0;
@@ -98,9 +102,14 @@ void add_statics_command(CLI::App& app, Action& action) {
       "statics", "Find the static equilibrium; show forces [N], torques [N m] and poses [m, rad]");
   add_model_arguments(*command, *arguments);
   command->add_flag("--json", *json, "JSON on standard output (N, N m, m, rad)");
+  auto state = std::make_shared<std::string>();
+  command
+      ->add_option("--write-state", *state,
+                   "Write the equilibrium as a state, for start: {state: FILE}")
+      ->type_name("FILE");
   command->footer("Exit codes: 0 found, 1 no equilibrium, 2 bad input.");
-  command->callback([arguments, json, &action] {
-    action = [arguments, json] { return show_statics(*arguments, *json); };
+  command->callback([arguments, json, state, &action] {
+    action = [arguments, json, state] { return show_statics(*arguments, *json, *state); };
   });
 }
 

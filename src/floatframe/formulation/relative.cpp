@@ -298,30 +298,30 @@ void RelativeFormulation::build_elements() {
       }
 }
 
-void RelativeFormulation::start(VecX& q, VecX& v) const {
+void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v) const {
   q = VecX::Zero(nq_);
   v = VecX::Zero(nv_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyData& b = bodies_[i];
-    const Joint& joint = model_.joints[static_cast<std::size_t>(b.joint)];
+    const Joint& joint = values.joints[static_cast<std::size_t>(b.joint)];
     double position[6] = {}, velocity[6] = {};
     for (std::size_t k = 0; k < static_cast<std::size_t>(b.nj); ++k) {
       if (k < joint.position.size()) position[k] = joint.position[k];
       if (k < joint.velocity.size()) velocity[k] = joint.velocity[k];
     }
     if (joint.motion && b.nj == 1) {
-      const PiecewisePolynomial::Value f = evaluate(*joint.motion, 0.0);
+      const PiecewisePolynomial::Value f = evaluate(*joint.motion, t);
       position[0] = f.f;
       velocity[0] = f.df;
     }
     if (b.reversed) joint_reverse(b.type, position, velocity);
     joint_configuration(b.type, position, q.data() + b.iq);
     for (int k = 0; k < b.nj; ++k) v[b.iv + k] = velocity[k];
-    if (b.type == JointType::free && b.parent < 0) v.segment<3>(b.iv) += model_.simulation.velocity;
-    if (b.nm > 0 && model_.amplitudes[i].size() == b.nm)
-      q.segment(b.iyq, b.nm) = model_.amplitudes[i];
-    if (b.nm > 0 && model_.amplitude_rates[i].size() == b.nm)
-      v.segment(b.iy, b.nm) = model_.amplitude_rates[i];
+    if (b.type == JointType::free && b.parent < 0) v.segment<3>(b.iv) += values.simulation.velocity;
+    if (b.nm > 0 && values.amplitudes[i].size() == b.nm)
+      q.segment(b.iyq, b.nm) = values.amplitudes[i];
+    if (b.nm > 0 && values.amplitude_rates[i].size() == b.nm)
+      v.segment(b.iy, b.nm) = values.amplitude_rates[i];
   }
 }
 

@@ -58,7 +58,9 @@ class RelativeFormulation {
   const Topology& topology() const noexcept { return topology_; }
 
   /// Start values of the model in these coordinates (before loops are closed).
-  void start(VecX& q, VecX& v) const;
+  void start(VecX& q, VecX& v) const { start(model_, 0.0, q, v); }
+  /// Those of another model that has the same bodies and joints, at time t.
+  void start(const Model& values, double t, VecX& q, VecX& v) const;
   /// Marks the coordinates that the user gave a start value for.
   std::vector<char> given_coordinates() const;
 

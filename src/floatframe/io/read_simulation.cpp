@@ -1,7 +1,72 @@
 // The `simulation` group: how the model is run.
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/io/state_json.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
+namespace {
+
+/// {chassis: [0, 0, 0.05]}: translation [m], or translation and rotation vector [m, rad].
+void read_offset(const ModelInstance& self, const YamlValue& value, SimulationDescription& d) {
+  for (const auto& [name, v] : value.named("a map of bodies to offsets [x, y, z]", true)) {
+    bool off = false;
+    const auto body = self.resolve(EntityKind::body, name, &off);
+    if (!body || *body == ground_name) {
+      self.context.faults->add(v.entity_mark(),
+                               v.path() + ": " +
+                                   (body  ? "found ground, expected a body"
+                                    : off ? "the body '" + name + "' is switched off by its 'when'"
+                                          : "unknown body '" + name + "'" +
+                                                did_you_mean(name, self.known(EntityKind::body))));
+      continue;
+    }
+    const char* what = "[x, y, z] [m], or [x, y, z, rx, ry, rz] with a rotation vector [m, rad]";
+    if (v.is_list() && v.node().items.size() != 3 && v.node().items.size() != 6) {
+      v.unexpected(what);
+      continue;
+    }
+    const auto x = v.numbers(3, 6, any_number(""), what);
+    if (!x) continue;
+    StartOffset offset;
+    offset.translation = Vec3((*x)[0], (*x)[1], (*x)[2]);
+    if (x->size() == 6) offset.rotation = Vec3((*x)[3], (*x)[4], (*x)[5]);
+    d.offset[*body] = offset;
+  }
+}
+
+/// given, equilibrium, {equilibrium: true, offset: ...} or {state: file, offset: ...}
+void read_start(const ModelInstance& self, const YamlValue& value, SimulationDescription& d) {
+  if (!value.is_map()) {
+    if (const auto w = value.word({"given", "equilibrium"})) d.start = static_cast<Start>(*w);
+    return;
+  }
+  auto s = value.section();
+  const auto equilibrium = s->get("equilibrium"), state = s->get("state");
+  const auto offset = s->get("offset");
+  s->finish();
+  if (equilibrium && state) {
+    state->fault("found with 'equilibrium', expected one of the two");
+    return;
+  }
+  const auto on = equilibrium ? equilibrium->boolean() : std::nullopt;
+  if (on) d.start = *on ? Start::equilibrium : Start::given;
+  if (const auto file = state ? state->text("the name of a state file") : std::nullopt) {
+    d.start = Start::state;
+    try {
+      d.state = std::make_shared<const SystemState>(read_state(beside(self, *file)));
+    } catch (const InputError& error) {
+      for (const InputFault& f : error.faults()) state->fault(f.text());
+    }
+  }
+  if (!offset) return;
+  if (!state && !on.value_or(false))
+    offset->fault("found without 'equilibrium: true' or 'state', expected where to start from");
+  read_offset(self, *offset, d);
+}
+
+}  // namespace
 
 void read_simulation(const ModelInstance& self, ReadModel& model) {
   if (!self.root) return;
@@ -13,32 +78,26 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
   YamlSection& s = *section;
   SimulationDescription& d = model.description.simulation;
   if (const auto v = s.get("coordinates"))
-    if (const auto w = v->word({"relative", "absolute"}))
-      d.coordinates = static_cast<Coordinates>(*w);
+    if (const auto w = v->word(rules::coordinates)) d.coordinates = static_cast<Coordinates>(*w);
   if (const auto v = s.get("inertia"))
-    if (const auto w = v->word({"preprocessing", "projection"}))
-      d.inertia = static_cast<InertiaMethod>(*w);
-  if (const auto v = s.get("start"))
-    if (const auto w = v->word({"given", "equilibrium"})) d.start = static_cast<Start>(*w);
+    if (const auto w = v->word(rules::inertia_methods)) d.inertia = static_cast<InertiaMethod>(*w);
+  if (const auto v = s.get("start")) read_start(self, *v, d);
   if (const auto v = s.get("velocity"))
     if (const auto x = v->vector("m/s")) d.velocity = *x;
-  d.step = s.number("step", positive_number("s"), d.step);
-  d.duration = s.number("duration", non_negative_number("s"), d.duration);
-  d.output_interval = s.number("output_interval", non_negative_number("s"), d.output_interval);
-  const NumberRule radius{"a number from 0 to 1", "", 0.0, 1.0};
-  d.spectral_radius = s.number("spectral_radius", radius, d.spectral_radius);
-  d.tolerance = s.number("tolerance", positive_number(""), d.tolerance);
+  d.step = s.number("step", rules::step, d.step);
+  d.duration = s.number("duration", rules::duration, d.duration);
+  d.output_interval = s.number("output_interval", rules::output_interval, d.output_interval);
+  d.spectral_radius = s.number("spectral_radius", rules::spectral_radius, d.spectral_radius);
+  d.tolerance = s.number("tolerance", rules::tolerance, d.tolerance);
   if (const auto v = s.get("max_iterations"))
-    d.max_iterations = v->integer(1, 1000, "a number of iterations").value_or(d.max_iterations);
-  d.min_step = s.number("min_step", non_negative_number("s"), d.min_step);
-  if (d.min_step > d.step)
-    s.get("min_step")
-        ->fault("found " + number_text(d.min_step) + ", expected at most the step, " +
-                number_text(d.step) + " [s]");
-  d.penalty = s.number("penalty", non_negative_number(""), d.penalty);
-  d.position_tolerance = s.number("position_tolerance", positive_number("m"), d.position_tolerance);
+    d.max_iterations = v->integer(rules::max_iterations).value_or(d.max_iterations);
+  d.min_step = s.number("min_step", rules::min_step, d.min_step);
+  if (const auto v = s.get("min_step")) v->complain(sentences::min_step(d.min_step, d.step));
+  d.penalty = s.number("penalty", rules::penalty, d.penalty);
+  d.position_tolerance =
+      s.number("position_tolerance", rules::position_tolerance, d.position_tolerance);
   d.velocity_tolerance =
-      s.number("velocity_tolerance", positive_number("m/s"), d.velocity_tolerance);
+      s.number("velocity_tolerance", rules::velocity_tolerance, d.velocity_tolerance);
   s.finish();
 }
 

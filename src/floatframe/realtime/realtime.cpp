@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model/validate.hpp"
 #include "floatframe/realtime/denormals.hpp"
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/realtime/scheduling.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
 namespace {
@@ -89,6 +91,7 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
 
 RealTimeReport run_real_time(const Model& model, const SimulationDescription& d,
                              const RealTimeOptions& options, SignalPort* port) {
+  require_valid(d);
   RealTimeReport report;
   report.model = model.name;
   report.coordinates = d.coordinates == Coordinates::relative ? "relative" : "absolute";
@@ -96,12 +99,13 @@ RealTimeReport run_real_time(const Model& model, const SimulationDescription& d,
   report.step = d.step;
   report.paced = options.paced;
   RelativeFormulation tree(model, d.inertia);
-  const State start = relative_start(tree, d.start);
+  const State start = start_state(tree, d);
   if (d.coordinates == Coordinates::relative) {
     run_with(tree, start, d, options, port, report);
   } else {
     AbsoluteFormulation f(model, d.inertia);
     State state;
+    state.t = start.t;
     f.start_from(tree, start.q, start.v, state.q, state.v);
     run_with(f, std::move(state), d, options, port, report);
   }

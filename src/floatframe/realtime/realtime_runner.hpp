@@ -73,6 +73,7 @@ class RealTimeRunner {
   }
 
   End loop() noexcept {
+    const double begin = runner_.state().t;
     const long steps = options_.endless ? std::numeric_limits<long>::max()
                                         : std::lround(std::ceil(duration_ / step_ - 1e-9));
     const double h = 1e9 * step_;
@@ -129,7 +130,7 @@ class RealTimeRunner {
       }
       // Steps of one and the same size; only the last may be a part of one.
       const bool part = k + 1 == steps && static_cast<double>(steps) * step_ > duration_;
-      const double to = part ? duration_ : static_cast<double>(k + 1) * step_;
+      const double to = begin + (part ? duration_ : static_cast<double>(k + 1) * step_);
       const long iterations = runner_.iterations();
       const bool good = runner_.advance(part ? duration_ - static_cast<double>(k) * step_ : step_);
       if (good) {

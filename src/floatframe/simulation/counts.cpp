@@ -5,6 +5,7 @@
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
 
@@ -109,6 +110,10 @@ StaticsResult statics(const Model& model) {
     for (int m = 0; m < model.bodies[i].modes(); ++m) b.amplitudes[m] = f.amplitude(state.q, k, m);
     s.bodies.push_back(b);
   }
+  state.v = zero;
+  JointFollower joints(model);
+  s.state = std::make_shared<SystemState>(system_state(f, state, joints));
+  place_bodies(model, model.simulation.inertia, *s.state);
   return s;
 }
 

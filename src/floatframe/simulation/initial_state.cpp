@@ -44,7 +44,7 @@ VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
 
 }  // namespace
 
-void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_positions) {
+void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_positions, double t) {
   if (f.constraints() == 0) return;
   const VecX q_start = q, v_start = v;
   VecX q1 = q;
@@ -54,7 +54,7 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
       const VecX w = mobility(f, stage);
       q = q_start;
       for (int pass = 0; pass < 100; ++pass) {
-        f.positions(0.0, q);
+        f.positions(t, q);
         f.velocities(v);
         violation = largest(f.constraint_values());
         if (violation < 1e-14) break;
@@ -68,7 +68,7 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
       }
       if (violation < 1e-11) break;
     }
-    f.positions(0.0, q);
+    f.positions(t, q);
     f.velocities(v);
     violation = largest(f.constraint_values());
     if (!(violation < 1e-10)) {
@@ -81,7 +81,7 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
   VecX rate(f.constraints());
   double violation = 0.0;
   const auto measure = [&] {
-    f.positions(0.0, q);
+    f.positions(t, q);
     f.velocities(v);
     f.constraint_rates(rate);
     violation = largest(rate);

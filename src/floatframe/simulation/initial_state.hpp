@@ -16,8 +16,8 @@
 
 namespace floatframe {
 
-/// Throws RunError naming the joint or rod that stays open.
-void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool positions);
+/// At time t. Throws RunError naming the joint or rod that stays open.
+void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool positions, double t = 0.0);
 
 struct Equilibrium {
   int iterations = 0;
@@ -28,7 +28,7 @@ struct Equilibrium {
 Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q);
 
 /// Start of a run in relative coordinates: the model's start values with loops closed, or the
-/// equilibrium with the model's start velocities.
+/// equilibrium with the model's start velocities. `start_state` knows states and offsets, too.
 State relative_start(RelativeFormulation& f, Start start);
 
 /// s alpha of the integrator when the user gives no penalty: 1e5 mean body masses.

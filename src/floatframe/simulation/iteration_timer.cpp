@@ -5,12 +5,13 @@
 #include <limits>
 
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
 
 double relative_iteration_seconds(const Model& model, const SimulationDescription& options) {
   RelativeFormulation f(model, options.inertia);
-  State state = relative_start(f, options.start);
+  State state = start_state(f, options);
   const double penalty_mass = default_penalty_mass(model);
   start_accelerations(f, state, penalty_mass);
   const double s = 0.25 * options.step * options.step;

@@ -2,6 +2,7 @@
 // What a run, a check and an equilibrium computation hand to writers: plain data, no dependence on
 // the model.
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
+
+struct SystemState;
 
 struct Column {
   std::string name;  ///< "chassis.z"
@@ -47,6 +50,7 @@ struct RunSummary {
 struct RunResult {
   ResultTable table;
   RunSummary summary;
+  std::shared_ptr<SystemState> state;  ///< at the end, if it was asked for
 };
 
 struct ModelCounts {
@@ -81,6 +85,7 @@ struct StaticsResult {
   std::vector<StaticsForce> forces;
   std::vector<StaticsJoint> joints;
   std::vector<StaticsBody> bodies;
+  std::shared_ptr<SystemState> state;  ///< the equilibrium, at rest
 };
 
 }  // namespace floatframe

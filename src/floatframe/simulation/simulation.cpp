@@ -6,8 +6,10 @@
 #include <ctime>
 
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/runner.hpp"
+#include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
 
@@ -52,10 +54,16 @@ RunResult run_with(F& f, State start, const SimulationDescription& o,
     runner.sample(table.data.data());
     rows = 1;
   }
+  const double begin = runner.state().t;
+  std::optional<JointFollower> joints;
+  if (run_options.keep_state) {
+    joints.emplace(model);
+    system_state(f, runner.state(), *joints);
+  }
   const long report_every = std::max(1L, steps / 100);
   for (long k = 0; k < steps; ++k) {
-    const double from = static_cast<double>(k) * o.step;
-    const double to = std::min(static_cast<double>(k + 1) * o.step, o.duration);
+    const double from = begin + static_cast<double>(k) * o.step;
+    const double to = std::min(begin + static_cast<double>(k + 1) * o.step, begin + o.duration);
     const double before = cpu_seconds();
     // Exactly the step, not a difference of times that varies in its last bits.
     const bool part = to - from < (1.0 - 1e-9) * o.step;
@@ -67,6 +75,7 @@ RunResult run_with(F& f, State start, const SimulationDescription& o,
         runner.sample(table.data.data() + width * rows++);
     }
     s.cpu += cpu_seconds() - before;
+    if (good && joints) joints->follow(f, runner.state());
     if (!good) {
       s.status = "failed";
       s.message = runner.failure();
@@ -76,7 +85,7 @@ RunResult run_with(F& f, State start, const SimulationDescription& o,
       run_options.progress(static_cast<double>(k + 1) / static_cast<double>(steps));
   }
   table.data.resize(rows * width);
-  s.duration = runner.state().t;
+  s.duration = runner.state().t - begin;
   s.substeps = runner.substeps();
   s.iterations = runner.iterations();
   s.factorizations = runner.factorizations();
@@ -87,6 +96,10 @@ RunResult run_with(F& f, State start, const SimulationDescription& o,
   s.energy.elastic_end = runner.elastic_energy();
   s.energy.kinetic_end = runner.kinetic_energy();
   s.energy.total_end = s.energy.kinetic_end + s.energy.potential_end + s.energy.elastic_end;
+  if (joints) {
+    result.state = std::make_shared<SystemState>(system_state(f, runner.state(), *joints));
+    place_bodies(model, o.inertia, *result.state);
+  }
   return result;
 }
 
@@ -118,15 +131,19 @@ State relative_start(RelativeFormulation& f, Start start) {
   return state;
 }
 
-RunResult run(const Model& model, const SimulationDescription& o, const RunOptions& run_options) {
+RunResult run(const Model& given, const SimulationDescription& o, const RunOptions& run_options) {
+  require_valid_run(o);
+  const std::optional<Model> started = started_model(given, o);
+  const Model& model = started ? *started : given;
   if (o.coordinates == Coordinates::relative) {
     RelativeFormulation f(model, o.inertia);
-    return run_with(f, relative_start(f, o.start), o, run_options);
+    return run_with(f, start_state(f, o), o, run_options);
   }
   RelativeFormulation tree(model, o.inertia);
-  const State start = relative_start(tree, o.start);
+  const State start = start_state(tree, o);
   AbsoluteFormulation f(model, o.inertia);
   State state;
+  state.t = start.t;
   f.start_from(tree, start.q, start.v, state.q, state.v);
   return run_with(f, std::move(state), o, run_options);
 }

@@ -30,6 +30,8 @@ struct RunOptions {
   /// Called about every 1 % of the run with the fraction done (0..1); outside the timed part.
   std::function<void(double)> progress;
   bool record = true;
+  /// Keep the state at the end in the result (where a run that fails came to).
+  bool keep_state = false;
 };
 
 /// Runs the model with the options given (those of the model file, changed as the user wishes). A

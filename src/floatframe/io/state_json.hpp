@@ -1,0 +1,14 @@
+#pragma once
+// States of a model as JSON files: written with as many digits as read back to the same numbers.
+#include <string>
+
+#include "floatframe/model/system_state.hpp"
+
+namespace floatframe {
+
+std::string state_json(const SystemState& state);
+
+/// Throws InputError with one sentence if the file is damaged or is no state.
+SystemState read_state(const std::string& path);
+
+}  // namespace floatframe
