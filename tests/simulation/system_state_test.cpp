@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/io/state_json.hpp"
@@ -159,9 +158,10 @@ TEST(SystemState, TwoRunsAreOne) {
           (row == 0 ? at_start : later) = std::max(row == 0 ? at_start : later, difference);
         }
       const bool same = first == second;
-      EXPECT_LT(at_start, same ? 1e-11 : 2e-4);
-      EXPECT_LT(later, same ? 1e-7 : 2e-3);
-      RecordProperty("largest_difference", std::to_string(later));
+      EXPECT_LT(at_start, same ? 1e-11 : 2e-4);  // two formulations: their own difference
+      EXPECT_LT(later, same ? 1e-8 : 2e-4);
+      std::printf("[ figure ] continued_run_difference %.1e at the start, %.1e later\n", at_start,
+                  later);
     }
 }
 
@@ -228,6 +228,7 @@ TEST(SystemState, OffsetsFromTheEquilibrium) {
   SimulationDescription o = model.simulation;
   o.duration = 0.0;
   const ResultTable rest = run(model, o).table;
+  const SystemState::Body level = statics(model).state->bodies[0];
   for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
     o.coordinates = coordinates;
     // The chassis goes up as it is oriented, the wheel on its arm goes with it.
@@ -238,9 +239,13 @@ TEST(SystemState, OffsetsFromTheEquilibrium) {
       EXPECT_NEAR(up.at(0, 1 + c) - rest.at(0, 1 + c), expected[c], 1e-9) << c;
     // Six numbers: turned about the world's x axis.
     o.offset = {{"chassis", {Vec3(0, 0, 0.05), Vec3(0.1, 0, 0)}}};
-    const ResultTable turned = run(model, o).table;
-    EXPECT_NEAR(turned.at(0, 3) - rest.at(0, 3), 0.05, 1e-9);
-    EXPECT_NEAR(turned.at(0, 4) - rest.at(0, 4), 0.1, 1e-9);
+    const SystemState::Body turned = run_keeping(model, o).state->bodies[0];
+    EXPECT_NEAR(turned.position.z() - rest.at(0, 3), 0.05, 1e-9);
+    const auto rotation = [](const Eigen::Vector4d& q) {
+      return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+    };
+    const Mat3 by = rotation(turned.orientation) * rotation(level.orientation).transpose();
+    EXPECT_LT((by - rotation_exp(Vec3(0.1, 0, 0))).cwiseAbs().maxCoeff(), 1e-9);
     // What the joint does not let move is turned about it: the wheel's origin goes on its circle.
     o.offset = {{"wheel", {Vec3(0, 0, 0.05), std::nullopt}},
                 {"chassis", {Vec3::Zero(), Vec3::Zero()}}};
@@ -260,7 +265,7 @@ TEST(SystemState, OffsetsFromAState) {
   o.duration = 0.0;
   o.offset = {{"stone", {Vec3(0, 0.1, 0), std::nullopt}}};
   const ResultTable moved = run(model, o).table;
-  const auto stone = static_cast<std::size_t>(begun.table.columns.size() - 4);
+  const std::size_t stone = begun.table.columns.size() - 3;
   EXPECT_EQ(begun.table.columns[stone].name, "stone.z");
   EXPECT_NEAR(moved.at(0, stone - 1) - begun.table.at(40, stone - 1), 0.1, 1e-9);
   EXPECT_NEAR(moved.at(0, stone), begun.table.at(40, stone), 1e-9);
@@ -268,8 +273,9 @@ TEST(SystemState, OffsetsFromAState) {
   // A driven crank stays where its motion has it.
   o.offset = {{"crank", {Vec3(0, 0.1, 0), std::nullopt}}};
   const std::string text = fault_of([&] { run(model, o); });
-  EXPECT_EQ(text.substr(0, 81),
-            "the offset at the start cannot be: with loops closed body 'crank' stays 0.1 (m or");
+  const std::string expected =
+      "the offset at the start cannot be: with loops closed body 'crank' stays ";
+  EXPECT_EQ(text.substr(0, expected.size()), expected);
 }
 
 TEST(SystemState, OfAnotherModel) {
@@ -306,9 +312,9 @@ TEST(SystemState, OfAnotherModel) {
             "s.json: found a time that is not finite");
   EXPECT_EQ(start([](SystemState& s) { s.bodies[1].amplitudes = VecX::Zero(2); }),
             "s.json: found 2 amplitudes and 0 rates of body 'wheel' in the state, expected 0");
-  EXPECT_EQ(start([](SystemState& s) { s.bodies[0].position.z() += 0.5; }),
-            "s.json: the joints of the state put body 'chassis' 0.5 m, 0 rad, 0 m/s and 0 rad/s "
-            "away from where the state has it, expected no difference");
+  const std::string moved = start([](SystemState& s) { s.bodies[0].position.z() += 0.5; });
+  const std::string expected = "s.json: the joints of the state put body 'chassis' 0.5 m, ";
+  EXPECT_EQ(moved.substr(0, expected.size()), expected);
 }
 
 TEST(SystemState, DamagedFiles) {
