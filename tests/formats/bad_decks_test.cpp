@@ -254,6 +254,10 @@ const Case market[] = {
      "bad_K.mtx:2: the stiffness has 3 entries, expected 4"},
     {"wrong_size", "%%MatrixMarket matrix coordinate real symmetric\n4 4 1\n1 1 2.\n",
      "bad_K.mtx:2: the stiffness is 4 x 4, but bad_dofs.csv has 3 degrees of freedom"},
+    {"entries_without_end",
+     "%%MatrixMarket matrix coordinate real symmetric\n3 3 1000000000000\n1 1 2.\n",
+     "bad_K.mtx:2: the line is not rows, columns and number of entries, whole numbers up to "
+     "2147483647"},
     {"no_banner", "3 3 1\n1 1 2.\n",
      "bad_K.mtx:1: the first line is not '%%MatrixMarket matrix coordinate real symmetric'"},
 };

@@ -47,6 +47,7 @@ TEST(NastranRules, SuperelementsAreRefused) {
   EXPECT_EQ(fault("BEGIN BULK\n" + bulk + "begin super = 3\n" + bulk),
             "arm.bdf:11: 'begin super = 3'" + sentence);
   EXPECT_EQ(fault("SOL 103\nCEND\n  BEGIN BULK $ comment\n" + bulk), "no fault");
+  EXPECT_EQ(fault("BEGIN BULK\n" + bulk + "BEGIN BULK\n"), "arm.bdf:11: 'BEGIN BULK'" + sentence);
 }
 
 TEST(NastranRules, FactorsOfMassAndStiffness) {
@@ -67,8 +68,10 @@ TEST(NastranRules, FactorsOfMassAndStiffness) {
 
 TEST(NastranRules, ParametersOfTheCaseControlCount) {
   const FeModel plain = deck(bulk);
-  const FeModel model =
-      deck("SOL 103\nCEND\nTITLE = PARAM\nPARAM,WTMASS,.5\nparam, post, -1\nBEGIN BULK\n" + bulk);
+  const FeModel model = deck(
+      "PARAM //C,N,ADD $ of an alter\nCEND\nTITLE = PARAM\nPARAM,WTMASS,.5\nparam, post, -1\nBEGIN "
+      "BULK\n" +
+      bulk);
   EXPECT_DOUBLE_EQ(model.materials.at(0).density, 0.5 * plain.materials.at(0).density);
 }
 

@@ -71,9 +71,12 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section,
   const auto it = c.materials.find(section.material);
   Material material;
   if (it == c.materials.end()) {
-    build.source.fault(section.at, fmt::format("{} names the material {}, which is not there{}",
-                                               section.shown, shown(section.material),
-                                               did_you_mean(section.material, c.material_order)));
+    build.source.fault(section.at,
+                       fmt::format("{} names the material {}, which is not there{}", section.shown,
+                                   shown(section.material),
+                                   c.material_order.size() > 10'000
+                                       ? ""
+                                       : did_you_mean(section.material, c.material_order)));
   } else {
     const AbaqusMaterial& m = it->second;
     if (!m.young) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "floatframe/formats/text_fields.hpp"
 
@@ -47,7 +48,8 @@ bool has_begin_bulk(std::string_view beginning) {
   return false;
 }
 
-NastranCards::NastranCards(TextSource& source, bool has_control) : source_(source) {
+NastranCards::NastranCards(TextSource& source, bool has_control)
+    : source_(source), begun_(has_control) {
   if (has_control) read_control();
 }
 
@@ -70,7 +72,9 @@ void NastranCards::read_control() {
 void NastranCards::command(std::string_view line) {
   const std::size_t end = std::min(line.find_first_of("=(, \t"), line.size());
   const std::string_view word = line.substr(0, end);
-  if (same_word(word, "PARAM") && cards_of_control_.size() < most_commands) {
+  // Alters of the executive control have lines PARAM // that are something else.
+  if (same_word(word, "PARAM") && trimmed(line.substr(end)).starts_with(',') &&
+      cards_of_control_.size() < most_commands) {
     NastranCard card;
     card.name = "PARAM";
     split_commas(line, card.fields);
@@ -203,10 +207,13 @@ bool NastranCards::next(NastranCard& card) {
       include(text);
       continue;
     }
+    if (is_begin(text)) {
+      if (is_begin_bulk(trimmed(text)) && !std::exchange(begun_, true)) continue;
+      source_.stop(source_.here(), fmt::format(one_model, shown(trimmed(text))));
+    }
     break;
   }
   if (begins_with(text, "ENDDATA")) return false;
-  if (is_begin(text)) source_.stop(source_.here(), fmt::format(one_model, shown(trimmed(text))));
   Line line;
   split(text, line);
   if (is_continuation(line.name)) {

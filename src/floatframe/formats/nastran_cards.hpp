@@ -71,6 +71,7 @@ class NastranCards {
   void command(std::string_view line);
 
   TextSource& source_;
+  bool begun_ = false;  // BEGIN BULK was there
   NastranControl control_;
   std::deque<NastranCard> cards_of_control_;
   std::deque<std::string> expanded_;  // lines of the card that had tabs

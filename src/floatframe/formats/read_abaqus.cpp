@@ -136,6 +136,7 @@ class DeckReader {
   }
 
   void unknown(const AbaqusKeyword& keyword) {
+    if (faults_.contains(keyword.name) || noted_.contains(keyword.name)) return;
     const std::string near = nearly(keyword.name);
     if (!near.empty()) {
       fault(keyword, fmt::format("is not known, did you mean '*{}'?", near));

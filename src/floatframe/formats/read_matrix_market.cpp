@@ -49,7 +49,9 @@ SymmetricEntries read_entries(TextSource& source, const std::string& what, int n
         return k < fields.size() ? parse_integer(fields[k]) : std::optional<int>{};
       };
       if (fields.size() != 3 || !number(0) || !number(1) || !number(2)) {
-        source.stop(source.here(), "the line is not rows, columns and number of entries");
+        source.stop(source.here(),
+                    "the line is not rows, columns and number of entries, whole "
+                    "numbers up to 2147483647");
       }
       if (*number(0) != n || *number(1) != n) {
         source.stop(source.here(),
