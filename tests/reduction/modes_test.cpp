@@ -180,7 +180,9 @@ TEST(AnalyticBar, OrderAndSigns) {
       const Vec3 plane = a % 2 == 0 ? y : z;
       const Vec3 moved = a < 2 ? set.X.block<3, 1>(6 * tip, a) : set.X.block<3, 1>(6 * 1, a);
       EXPECT_NEAR(moved.dot(plane), moved.norm(), 1e-12) << a;
-      if (a < 2) EXPECT_NEAR(moved.norm(), 1.0, 1e-12);
+      if (a < 2) {
+        EXPECT_NEAR(moved.norm(), 1.0, 1e-12);
+      }
       EXPECT_GT(moved.norm(), 1e-4) << a;
     }
   }
