@@ -84,10 +84,13 @@ TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
             (std::vector<std::string>{"model", "coordinates", "inertia", "step_s", "duration_s",
                                       "steps", "substeps", "iterations", "factorizations", "cpu_s",
                                       "real_time_factor", "max_position_violation",
-                                      "max_velocity_violation", "energy", "status", "message"}));
+                                      "max_velocity_violation", "energy", "warnings", "status",
+                                      "message"}));
   EXPECT_EQ(json["coordinates"], "relative");
   EXPECT_EQ(json["step_s"], 0.01);
   EXPECT_EQ(json["energy"]["end"]["total_J"], 2.5);
+  EXPECT_TRUE(json["energy"]["balance"].is_null());
+  EXPECT_TRUE(json["warnings"].empty());
   EXPECT_EQ(json["status"], "completed");
 }
 

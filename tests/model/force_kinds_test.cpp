@@ -97,6 +97,30 @@ TEST_P(ForceOfKind, MotionTakesEnergyOut) {
   }
 }
 
+// What springs keep, what dampers take and what the wrench does, in the motion at hand and with the
+// targets that move; tyres leave the account to their users.
+TEST_P(ForceOfKind, EnergyRateBelongsToTheEnergy) {
+  if (!regime().regular || GetParam().kind->type == ForceType::tyre) return;
+  for (int k = 0; k < samples; ++k) {
+    const ForceExample x = example();
+    const MarkerPair p{x.a, x.b};
+    const Vec12 v = velocity(p);
+    const VecX rate = derivative(
+        [&](double h) {
+          ForceExample later = x;
+          later.t += h;
+          return VecX::Constant(1, evaluate(later, moved(p, h * v)).energy).eval();
+        },
+        1e-4);
+    const ForceState s = evaluate(x, p);
+    EXPECT_NEAR(s.energy_rate, rate[0], 1e-6 * (1.0 + std::abs(rate[0])));
+    if (!regime().conservative) continue;
+    EXPECT_NEAR(stacked(s.wrench).dot(v), -s.energy_rate - s.damping,
+                1e-11 * (1.0 + std::abs(s.energy_rate) + s.damping));
+    EXPECT_GE(s.damping, 0.0);
+  }
+}
+
 TEST_P(ForceOfKind, LengthAndRateBelongTogether) {
   for (int k = 0; k < samples; ++k) {
     const ForceExample x = example();

@@ -26,7 +26,7 @@ void add_model_arguments(CLI::App& app, ModelArguments& arguments) {
       ->allow_extra_args(false);
 }
 
-ModelDescription read_model(const ModelArguments& arguments, bool quiet) {
+ModelDescription read_model(const ModelArguments& arguments, bool quiet, ModelFingerprint* used) {
   std::vector<ParameterOverride> overrides;
   for (const std::string& setting : arguments.settings) {
     const std::size_t equal = setting.find('=');
@@ -37,7 +37,7 @@ ModelDescription read_model(const ModelArguments& arguments, bool quiet) {
   }
   ReadOptions options;
   if (!quiet) options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
-  return read_model(arguments.path, overrides, nullptr, options);
+  return read_model(arguments.path, overrides, used, options);
 }
 
 double positive_number(const std::string& option, const std::string& text) {

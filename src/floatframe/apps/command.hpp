@@ -14,6 +14,8 @@ class App;
 
 namespace floatframe {
 
+struct ModelFingerprint;
+
 using Action = std::function<int()>;
 
 void add_run_command(CLI::App& app, Action& action);
@@ -33,8 +35,10 @@ struct ModelArguments {
 };
 void add_model_arguments(CLI::App& app, ModelArguments& arguments);
 
-/// Parts that are reduced meanwhile are told on standard error, unless `quiet`. Throws InputError.
-ModelDescription read_model(const ModelArguments& arguments, bool quiet = false);
+/// Parts that are reduced meanwhile are told on standard error, unless `quiet`. `used`, if given,
+/// is told what was read. Throws InputError.
+ModelDescription read_model(const ModelArguments& arguments, bool quiet = false,
+                            ModelFingerprint* used = nullptr);
 
 /// The number in an option's text; InputError unless it is finite and positive.
 double positive_number(const std::string& option, const std::string& text);

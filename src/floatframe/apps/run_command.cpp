@@ -10,6 +10,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/model_fingerprint.hpp"
 #include "floatframe/io/report_html.hpp"
 #include "floatframe/io/results_csv.hpp"
 #include "floatframe/io/state_json.hpp"
@@ -24,7 +25,7 @@ namespace {
 struct RunArguments {
   ModelArguments model;
   std::string coordinates, inertia, step, duration, out, write_state;
-  bool no_report = false, quiet = false;
+  bool no_report = false, quiet = false, strict = false;
 };
 
 void apply(const RunArguments& arguments, SimulationDescription& simulation) {
@@ -37,6 +38,7 @@ void apply(const RunArguments& arguments, SimulationDescription& simulation) {
     simulation.duration = positive_number("--duration", arguments.duration);
   }
   require_valid_run(simulation);
+  check_step(simulation);
 }
 
 struct OutputPaths {
@@ -77,9 +79,10 @@ FactTable model_facts(const Model& model) {
 
 std::string start_text(const SimulationDescription& s) {
   if (s.start == Start::given) return "as given";
-  const std::string from = s.start == Start::equilibrium
-                               ? std::string("static equilibrium")
-                               : fmt::format("state at {:g} s from {}", s.state->time, s.state->file);
+  const std::string from =
+      s.start == Start::equilibrium
+          ? std::string("static equilibrium")
+          : fmt::format("state at {:g} s from {}", s.state->time, s.state->file);
   return from + (s.offset.empty() ? "" : ", with offsets");
 }
 
@@ -112,6 +115,16 @@ RunResult failed_start(const ModelDescription& description, const std::string& m
   return result;
 }
 
+/// A run that left the range of the method counts as failed; its results are complete.
+void make_strict(RunSummary& s) {
+  if (s.status != "completed" || s.warnings.empty()) return;
+  s.status = "failed";
+  s.strict = true;
+  s.message = fmt::format("{} under --strict; the results are complete",
+                          plural(static_cast<long>(s.warnings.size()), "warning counts as an error",
+                                 "warnings count as errors"));
+}
+
 void write_outputs(const OutputPaths& paths, const RunArguments& arguments, Report&& report) {
   // The files of one run belong together: what this run does not write must not stay from an
   // earlier one.
@@ -135,8 +148,8 @@ std::string summary_text(const RunSummary& s) {
       "  {}, {} by halving, {}, {}\n"
       "  largest constraint violation {:.2g} m, {:.2g} m/s\n",
       s.model, s.duration, s.cpu, s.real_time_factor,
-      s.status == "completed" ? "" : ", then it failed", s.coordinates, s.inertia, s.step,
-      plural(s.steps, "step"), s.substeps, plural(s.iterations, "Newton iteration"),
+      s.status == "completed" || s.strict ? "" : ", then it failed", s.coordinates, s.inertia,
+      s.step, plural(s.steps, "step"), s.substeps, plural(s.iterations, "Newton iteration"),
       plural(s.factorizations, "factorization"), s.max_position_violation,
       s.max_velocity_violation);
 }
@@ -149,7 +162,8 @@ std::string files_text(const OutputPaths& paths, const RunArguments& arguments, 
 }
 
 int run_model(const RunArguments& arguments) {
-  ModelDescription description = read_model(arguments.model, arguments.quiet);
+  ModelFingerprint used;
+  ModelDescription description = read_model(arguments.model, arguments.quiet, &used);
   apply(arguments, description.simulation);
   check_inertia_method(description, description.simulation.inertia);
   std::optional<Model> model;
@@ -179,6 +193,10 @@ int run_model(const RunArguments& arguments) {
   report.facts.push_back(setting_facts(arguments, description.simulation));
   report.software = build_description();
   report.processor = processor_name();
+  report.spectral_radius = description.simulation.spectral_radius;
+  report.result.summary.settings = arguments.model.settings;
+  report.result.summary.files = used.files;
+  if (arguments.strict) make_strict(report.result.summary);
 
   const RunSummary summary = report.result.summary;
   const bool state = report.result.state && summary.status == "completed";
@@ -189,9 +207,11 @@ int run_model(const RunArguments& arguments) {
     print((has_table ? summary_text(summary) : "") + files_text(paths, arguments, has_table) +
           (state ? fmt::format("  state    {}\n", arguments.write_state) : ""));
   }
+  for (const std::string& warning : summary.warnings)
+    fmt::print(stderr, "floatframe: warning: {}\n", warning);
   if (summary.status == "completed") return 0;
   fmt::print(stderr, "floatframe: the run failed: {}\n", summary.message);
-  if (has_table) {
+  if (has_table && !summary.strict) {
     fmt::print(stderr,
                "floatframe: the results up to {:.9g} s are kept in {} and marked as partial\n",
                summary.duration, paths.folder);
@@ -229,11 +249,14 @@ void add_run_command(CLI::App& app, Action& action) {
                    "Write the state at the end, for start: {state: FILE}")
       ->type_name("FILE");
   command->add_flag("--no-report", arguments->no_report, "Do not write report.html");
+  command->add_flag("--strict", arguments->strict,
+                    "Warnings count as errors: exit code 1, results are kept");
   command->add_flag("--quiet", arguments->quiet,
-                    "No progress bar, no summary; faults are still shown");
+                    "No progress bar, no summary; faults and warnings are still shown");
   command->footer(
       "Files: results.csv (SI units, radians), report.html, summary.json.\n"
-      "Exit codes: 0 completed, 1 failed (results up to there are kept), 2 bad input.");
+      "Exit codes: 0 completed, 1 failed (results up to there are kept) or, with --strict, with\n"
+      "warnings, 2 bad input.");
   command->callback(
       [arguments, &action] { action = [arguments] { return run_model(*arguments); }; });
 }

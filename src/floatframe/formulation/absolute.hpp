@@ -96,6 +96,14 @@ class AbsoluteFormulation {
   double amplitude(const VecX& q, int i, int mode) const noexcept {
     return q[bodies_[static_cast<std::size_t>(i)].offset + 12 + mode];
   }
+  Vec3 body_velocity(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)].r0_dot; }
+  double amplitude_rate(const VecX& v, int i, int mode) const noexcept {
+    return v[bodies_[static_cast<std::size_t>(i)].offset + 12 + mode];
+  }
+  /// Power that modal damping takes out at these velocities [W].
+  double modal_damping_power(const VecX& v) const noexcept;
+  /// Power of prescribed motions with these multipliers, after `positions` [W].
+  double motion_power(const VecX& lambda) const noexcept;
   double kinetic_energy(const VecX& v) noexcept;
   double gravity_energy(const VecX& q) const noexcept;
   double elastic_energy(const VecX& q) const noexcept;

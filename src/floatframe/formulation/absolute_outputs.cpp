@@ -8,8 +8,8 @@ double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
   double sum = 0.0;
   for (BodyData& b : bodies_) {
     b.inertia.absolute(b.A, b.Adot, b.y.data(), b.yd.data(), b.M, b.Qv);
-    const VecX x = v.segment(b.offset, 12 + b.nm);
-    sum += 0.5 * x.dot(b.M * x);
+    const auto x = v.segment(b.offset, 12 + b.nm);
+    for (Eigen::Index k = 0; k < x.size(); ++k) sum += 0.5 * x[k] * b.M.col(k).dot(x);
   }
   return sum;
 }
@@ -27,9 +27,29 @@ double AbsoluteFormulation::gravity_energy(const VecX&) const noexcept {
 double AbsoluteFormulation::elastic_energy(const VecX& q) const noexcept {
   double sum = 0.0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const VecX y = q.segment(bodies_[i].offset + 12, bodies_[i].nm);
-    if (y.size() > 0) sum += 0.5 * y.dot(model_.bodies[i].data->K * y);
+    const auto y = q.segment(bodies_[i].offset + 12, bodies_[i].nm);
+    const MatX& K = model_.bodies[i].data->K;
+    for (Eigen::Index k = 0; k < y.size(); ++k) sum += 0.5 * y[k] * K.col(k).dot(y);
   }
+  return sum;
+}
+
+double AbsoluteFormulation::modal_damping_power(const VecX& v) const noexcept {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyData& b = bodies_[i];
+    const MatX& D = model_.bodies[i].data->D;
+    const double* rate = v.data() + b.offset + 12;
+    for (int k = 0; k < b.nm; ++k)
+      for (int l = 0; l < b.nm; ++l) sum += rate[k] * D(l, k) * rate[l];
+  }
+  return sum;
+}
+
+double AbsoluteFormulation::motion_power(const VecX& lambda) const noexcept {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    sum += lambda[part_rows_ + static_cast<Eigen::Index>(r)] * rows_[r].phi_t;
   return sum;
 }
 

@@ -124,6 +124,10 @@ class RelativeFormulation {
   Vec3 body_velocity(int body) const noexcept;
   double amplitude(const VecX& q, int body, int mode) const noexcept;
   double amplitude_rate(const VecX& v, int body, int mode) const noexcept;
+  /// Power that modal damping takes out at these velocities [W].
+  double modal_damping_power(const VecX& v) const noexcept;
+  /// Power of prescribed motions with these multipliers, after `positions` [W].
+  double motion_power(const VecX& lambda) const noexcept;
   double kinetic_energy(const VecX& v) noexcept;
   double gravity_energy(const VecX& q) const noexcept;
   double elastic_energy(const VecX& q) const noexcept;

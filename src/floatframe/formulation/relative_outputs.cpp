@@ -61,6 +61,25 @@ double RelativeFormulation::elastic_energy(const VecX& q) const noexcept {
   return sum;
 }
 
+double RelativeFormulation::modal_damping_power(const VecX& v) const noexcept {
+  double sum = 0.0;
+  for (const int i : order_) {
+    const BodyData& b = body(i);
+    const MatX& D = model_.bodies[static_cast<std::size_t>(i)].data->D;
+    const double* rate = v.data() + b.iy;
+    for (int k = 0; k < b.nm; ++k)
+      for (int l = 0; l < b.nm; ++l) sum += rate[k] * D(l, k) * rate[l];
+  }
+  return sum;
+}
+
+double RelativeFormulation::motion_power(const VecX& lambda) const noexcept {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    sum += lambda[static_cast<Eigen::Index>(r)] * rows_[r].phi_t;
+  return sum;
+}
+
 int RelativeFormulation::tree_body_of_joint(int joint) const noexcept {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (bodies_[i].joint == joint) return static_cast<int>(i);

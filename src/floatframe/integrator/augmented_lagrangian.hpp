@@ -74,7 +74,7 @@ class AugmentedLagrangian {
     const int nv = f_.velocities(), nc = f_.constraints();
     q_ = VecX::Zero(f_.configurations());
     x_ = v_ = a_ = a_alg_ = rhs_ = delta_ = v_hat_ = a_hat_ = VecX::Zero(nv);
-    lambda_ = rate_ = work_ = increments_ = VecX::Zero(nc);
+    lambda_ = reactions_ = rate_ = work_ = increments_ = VecX::Zero(nc);
   }
 
   /// One step of size h from `state`, which is replaced only if the step is accepted.
@@ -86,6 +86,10 @@ class AugmentedLagrangian {
   }
 
   const StepOptions& options() const noexcept { return options_; }
+
+  /// Multipliers that go with the projected accelerations of the last accepted step. Those of the
+  /// state belong to the accelerations before their projection, which are off by O(h).
+  const VecX& reactions() const noexcept { return reactions_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -274,10 +278,13 @@ class AugmentedLagrangian {
     f_.constraint_accelerations(a_, rate_);
     const double first = largest(rate_);
     double violation = first;
+    reactions_ = lambda_;
     for (int pass = 0; pass < options_.max_projections; ++pass) {
       if (violation < 1e-6 + 1e-9 * first || (pass > 3 && violation > 0.5 * first)) break;
       correct(a_, metric_penalty * k.penalty);
       violation = largest(rate_);
+      // W times the change of a is -Phi_q^T penalty rate, with the rate that is left.
+      reactions_ += metric_penalty * k.penalty * rate_;
     }
     return true;
   }
@@ -313,7 +320,7 @@ class AugmentedLagrangian {
   double continues_at_ = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step
   double reuse_rate_ = 0.1;  ///< of the last one with an old tangent
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
-  VecX lambda_, rate_, work_, increments_;
+  VecX lambda_, reactions_, rate_, work_, increments_;
 };
 
 }  // namespace floatframe

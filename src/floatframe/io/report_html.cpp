@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -89,7 +90,35 @@ void run_table(fmt::memory_buffer& page, const RunSummary& s) {
   fmt::format_to(out, "</table></section>\n");
 }
 
-void energy_table(fmt::memory_buffer& page, const EnergySummary& e) {
+/// "modal_damping" -> "modal damping"
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+void warning_list(fmt::memory_buffer& page, const std::vector<std::string>& warnings) {
+  if (warnings.empty()) return;
+  auto out = std::back_inserter(page);
+  fmt::format_to(out, "<div class=\"warned\" role=\"note\"><b>{}</b>\n<ul>\n",
+                 warnings.size() == 1 ? "Outside the range of the method"
+                                      : "Outside the range of the method, in several ways");
+  for (const std::string& w : warnings) fmt::format_to(out, "<li>{}</li>\n", html_escape(w));
+  fmt::format_to(out, "</ul></div>\n");
+}
+
+void balance_rows(fmt::memory_buffer& page, const EnergySummary& e, bool damped) {
+  auto out = std::back_inserter(page);
+  const auto row = [&](const std::string& name, double value) {
+    fmt::format_to(out, "<tr><th scope=\"row\">{}</th><td></td><td></td><td>{}</td></tr>\n", name,
+                   number(value));
+  };
+  for (std::size_t k = 0; k < EnergyFlows::size(); ++k)
+    if (e.work.value[k] != 0.0) row("work of " + spaced(energy_flow_names[k]), e.work.value[k]);
+  row(damped ? "remainder: numerical dissipation" : "remainder: error of the integration",
+      e.remainder);
+}
+
+void energy_table(fmt::memory_buffer& page, const EnergySummary& e, bool damped) {
   auto out = std::back_inserter(page);
   const auto row = [&](const char* name, double start, double end) {
     fmt::format_to(out, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
@@ -103,11 +132,11 @@ void energy_table(fmt::memory_buffer& page, const EnergySummary& e) {
   row("potential", e.potential_start, e.potential_end);
   row("elastic", e.elastic_start, e.elastic_end);
   row("total", e.total_start, e.total_end);
+  if (e.balanced) balance_rows(page, e, damped);
   fmt::format_to(out,
-                 "</table></div>\n<p class=\"note\">The change of the total is the work of "
-                 "dampers, prescribed "
-                 "motions, applied loads and moving road contact, and the error of the "
-                 "integration.</p></section>\n");
+                 "</table></div>\n<p class=\"note\">The change of the total is the work of loads, "
+                 "actuators, dampers, tyres, modal damping and prescribed motions, and a "
+                 "remainder.</p></section>\n");
 }
 
 void extremes_table(fmt::memory_buffer& page, const ResultTable& table) {
@@ -158,13 +187,18 @@ std::string report_html(const Report& report) {
                  "{4}</p>\n</header>\n",
                  html_escape(s.model), report_style, html_escape(s.coordinates),
                  html_escape(s.inertia), quantity(s.step, "s"));
-  if (failed) {
+  if (failed && s.strict) {
+    fmt::format_to(
+        out, "<div class=\"failed\" role=\"alert\"><b>This run counts as failed.</b> {}</div>\n",
+        html_escape(s.message));
+  } else if (failed) {
     fmt::format_to(
         out,
         "<div class=\"failed\" role=\"alert\"><b>This run failed: the results are partial.</b> "
         "They end at {}.<br>{}</div>\n",
         quantity(s.duration, "s"), html_escape(s.message));
   }
+  warning_list(page, s.warnings);
   headline(page, s);
   if (has_curves) {
     fmt::format_to(out, "<h2>Curves</h2>\n");
@@ -173,7 +207,7 @@ std::string report_html(const Report& report) {
   }
   fmt::format_to(out, "<div class=\"pair\">\n");
   run_table(page, s);
-  energy_table(page, s.energy);
+  energy_table(page, s.energy, report.spectral_radius < 1.0);
   for (const FactTable& facts : report.facts) fact_table(page, facts);
   fmt::format_to(
       out,

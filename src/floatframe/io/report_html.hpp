@@ -22,6 +22,7 @@ struct Report {
   std::vector<FactTable> facts;  ///< model, settings
   std::string software;          ///< version and build
   std::string processor;
+  double spectral_radius = 1.0;  ///< of the integrator: below 1 it dissipates
 };
 
 /// A failed run gets a banner that names the reason and says that the results are partial.

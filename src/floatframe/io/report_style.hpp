@@ -24,6 +24,9 @@ h3 { font-size: 16px; margin: 0; overflow-wrap: anywhere; }
 .kind { margin: 0 0 4px; color: var(--soft); }
 .failed { margin: 24px 0; padding: 14px 18px; border-left: 5px solid var(--bad); border-radius: 4px;
   background: var(--bad-ground); color: var(--bad); overflow-wrap: anywhere; white-space: pre-line; }
+.warned { margin: 24px 0; padding: 14px 18px; border-left: 5px solid var(--soft); border-radius: 4px;
+  background: var(--panel); overflow-wrap: anywhere; }
+.warned ul { margin: 6px 0 0; padding-left: 20px; }
 .headline { display: grid; grid-template-columns: repeat(auto-fit, minmax(180px, 1fr)); gap: 1px; margin: 28px 0 0;
   background: var(--line); border: 1px solid var(--line); border-radius: 8px; overflow: hidden; }
 .headline div { background: var(--panel); padding: 14px 18px; }

@@ -32,11 +32,35 @@ Json energy(double kinetic, double potential, double elastic, double total) {
           {"total_J", total}};
 }
 
+/// The last value of a parameter is the one that counts.
+Json settings(const std::vector<std::string>& list) {
+  Json json = Json::object();
+  for (const std::string& setting : list) {
+    const std::size_t equal = setting.find('=');
+    json[setting.substr(0, equal)] = setting.substr(equal + 1);
+  }
+  return json;
+}
+
+/// Null for a run that kept none.
+Json balance(const EnergySummary& e) {
+  if (!e.balanced) return nullptr;
+  Json work = Json::object();
+  for (std::size_t k = 0; k < EnergyFlows::size(); ++k)
+    work[std::string(energy_flow_names[k]) + "_J"] = e.work.value[k];
+  work["total_J"] = e.work.total();
+  return {{"work", work},
+          {"remainder_J", e.remainder},
+          {"largest_remainder_J", e.largest_remainder},
+          {"largest_remainder_at_s", e.largest_remainder_at},
+          {"exchanged_J", e.exchanged}};
+}
+
 }  // namespace
 
 std::string summary_json(const RunSummary& s) {
   const EnergySummary& e = s.energy;
-  const Json json = {
+  Json json = {
       {"model", s.model},
       {"coordinates", s.coordinates},
       {"inertia", s.inertia},
@@ -52,9 +76,15 @@ std::string summary_json(const RunSummary& s) {
       {"max_velocity_violation", s.max_velocity_violation},
       {"energy",
        {{"start", energy(e.kinetic_start, e.potential_start, e.elastic_start, e.total_start)},
-        {"end", energy(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end)}}},
+        {"end", energy(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end)},
+        {"balance", balance(e)}}},
+      {"warnings", s.warnings},
       {"status", s.status},
       {"message", s.message}};
+  if (!s.files.empty()) {
+    json["settings"] = settings(s.settings);
+    json["files"] = s.files;
+  }
   return dump(json);
 }
 

@@ -30,6 +30,9 @@ struct ForceState {
   int row_count = 0;
   double force = 0.0, length = 0.0, rate = 0.0;
   double energy = 0.0;  ///< potential energy [J]
+  /// Of springs: rate of the energy in the present motion, with that of targets, and power that the
+  /// damper takes out [W]. Tyres leave both at zero: their energy jumps with the road.
+  double energy_rate = 0.0, damping = 0.0;
 };
 
 /// Derivatives of the wrench (torques in world axes about the marker points) with respect to small

@@ -17,6 +17,8 @@ void force_of<ForceType::guided_spring>(const ForceInput& in, ForceState& out) n
   out.rows[0] = {{-m.g.Fa, -m.g.Ta, -m.g.Fb, Vec3::Zero()}, s.df, c.df};
   out.row_count = 1;
   out.energy = law_energy(in.force.spring, out.length);
+  out.energy_rate = s.f * out.rate;
+  out.damping = c.f * out.rate;
 }
 
 template <>

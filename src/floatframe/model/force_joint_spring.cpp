@@ -39,21 +39,24 @@ Measure measure(const ForceInput& in) noexcept {
 /// f and its slopes; spring and damper pull to the target.
 struct Law {
   double f, f_s, f_rate;
-  double stretch;  ///< s - target
+  double stretch;               ///< s - target
+  double energy_rate, damping;  ///< of the spring and of the damper
 };
 
 Law law_at(const ForceInput& in, const Measure& m) noexcept {
-  double target = 0.0, target_rate = 0.0;
+  double target = 0.0, target_rate = 0.0, moves = 0.0;
   if (in.force.targeted) {
     const PiecewisePolynomial::Value position = evaluate(in.force.target.function, in.t);
     target = position.f + in.input(in.force.target.input);
+    moves = position.df;  // an input is held during a step
     target_rate = in.force.derived_rate ? position.df
                                         : evaluate(in.force.target_rate.function, in.t).f +
                                               in.input(in.force.target_rate.input);
   }
   const PiecewisePolynomial::Value s = in.force.spring(m.s - target);
   const PiecewisePolynomial::Value c = in.force.damper(m.rate - target_rate);
-  return {s.f + c.f - in.actuator(), s.df, c.df, m.s - target};
+  return {s.f + c.f - in.actuator(),   s.df, c.df, m.s - target, s.f * (m.rate - moves),
+          c.f * (m.rate - target_rate)};
 }
 
 }  // namespace
@@ -70,6 +73,8 @@ void force_of<ForceType::joint_spring>(const ForceInput& in, ForceState& out) no
   out.rows[0] = {m.g, law.f_s, law.f_rate};
   out.row_count = 1;
   out.energy = law_energy(in.force.spring, law.stretch);
+  out.energy_rate = law.energy_rate;
+  out.damping = law.damping;
 }
 
 template <>

@@ -42,7 +42,8 @@ void evaluate_force(const Model& model, const Force& force, const MarkerState& a
   const Vec3 zero = Vec3::Zero();
   out.wrench = {zero, zero, zero, zero};
   out.row_count = 0;
-  out.force = out.length = out.rate = out.energy = 0.0;
+  out.force = out.length = out.rate = 0.0;
+  out.energy = out.energy_rate = out.damping = 0.0;
   evaluate_of(Types{}, {model, force, a, b, origin, t, reference_angle, inputs}, out);
 }
 

@@ -49,6 +49,8 @@ void force_of<ForceType::spring_damper>(const ForceInput& in, ForceState& out) n
     out.row_count = 3;
   }
   out.energy = law_energy(in.force.spring, length);
+  out.energy_rate = s.f * rate;
+  out.damping = c.f * rate;
 }
 
 template <>

@@ -92,6 +92,7 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
 RealTimeReport run_real_time(const Model& model, const SimulationDescription& d,
                              const RealTimeOptions& options, SignalPort* port) {
   require_valid(d);
+  if (!options.endless) check_step(d);
   RealTimeReport report;
   report.model = model.name;
   report.coordinates = d.coordinates == Coordinates::relative ? "relative" : "absolute";

@@ -1,7 +1,9 @@
 #pragma once
 // What a run, a check and an equilibrium computation hand to writers: plain data, no dependence on
 // the model.
+#include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,9 +30,39 @@ struct ResultTable {
   }
 };
 
+/// What puts energy into a system or takes it out.
+enum class EnergyFlow : std::size_t {
+  loads,          ///< applied forces and torques
+  actuators,      ///< actuators and moving targets of force elements
+  dampers,        ///< of force elements
+  tyres,          ///< their dampers, and the road that moves under them
+  modal_damping,  ///< of flexible bodies
+  motions         ///< prescribed motions of joints
+};
+inline constexpr std::array<const char*, 6> energy_flow_names{"loads", "actuators",     "dampers",
+                                                              "tyres", "modal_damping", "motions"};
+
+/// Power [W] or work [J] of each, positive into the system.
+struct EnergyFlows {
+  std::array<double, energy_flow_names.size()> value{};
+  double& operator[](EnergyFlow k) noexcept { return value[static_cast<std::size_t>(k)]; }
+  double operator[](EnergyFlow k) const noexcept { return value[static_cast<std::size_t>(k)]; }
+  static constexpr std::size_t size() noexcept { return energy_flow_names.size(); }
+  double total() const noexcept {
+    double sum = 0.0;
+    for (const double x : value) sum += x;
+    return sum;
+  }
+};
+
 struct EnergySummary {  ///< [J]
   double kinetic_start = 0, potential_start = 0, elastic_start = 0, total_start = 0;
   double kinetic_end = 0, potential_end = 0, elastic_end = 0, total_end = 0;
+  bool balanced = false;  ///< the run kept the balance: what follows is valid
+  EnergyFlows work;       ///< over the run
+  double remainder = 0;   ///< change of the total less all work, at the end
+  double largest_remainder = 0, largest_remainder_at = 0;  ///< by magnitude [J], and when [s]
+  double exchanged = 0;                                    ///< what remainders are measured against
 };
 
 struct RunSummary {
@@ -45,6 +77,13 @@ struct RunSummary {
   EnergySummary energy;
   std::string status = "completed";  ///< "completed" or "failed"
   std::string message;               ///< why it failed: time, culprit
+  /// Where the run left the range of the method: one sentence each (docs/range.md).
+  std::vector<std::string> warnings;
+  bool strict = false;  ///< failed only because warnings count as errors: the results are complete
+  /// What the run was made from: parameters set, as NAME=VALUE, and every file read with the hash
+  /// of its content. Empty unless the caller fills them.
+  std::vector<std::string> settings;
+  std::map<std::string, std::string> files;
 };
 
 struct RunResult {

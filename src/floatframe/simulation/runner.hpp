@@ -24,6 +24,8 @@ class Runner {
   }
 
   State& state() noexcept { return state_; }
+  /// Multipliers that go with the accelerations of the last accepted step.
+  const VecX& reactions() const noexcept { return integrator_.reactions(); }
 
   /// Advances by h, in substeps if need be. False: the step did not converge at the smallest
   /// substep.

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <ctime>
+#include <optional>
 
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/run_watch.hpp"
 #include "floatframe/simulation/runner.hpp"
 #include "floatframe/simulation/system_state.hpp"
 
@@ -60,6 +62,11 @@ RunResult run_with(F& f, State start, const SimulationDescription& o,
     joints.emplace(model);
     system_state(f, runner.state(), *joints);
   }
+  std::optional<RunWatch<F>> watch;
+  if (run_options.record && run_options.watch) {
+    watch.emplace(f, o.step, steps / every);
+    watch->start(runner.state());
+  }
   const long report_every = std::max(1L, steps / 100);
   for (long k = 0; k < steps; ++k) {
     const double from = begin + static_cast<double>(k) * o.step;
@@ -68,14 +75,15 @@ RunResult run_with(F& f, State start, const SimulationDescription& o,
     // Exactly the step, not a difference of times that varies in its last bits.
     const bool part = to - from < (1.0 - 1e-9) * o.step;
     const bool good = runner.advance(part ? to - from : o.step);
+    const bool sampled = good && run_options.record && ((k + 1) % every == 0 || k + 1 == steps);
     if (good) {
       runner.state().t = to;
       ++s.steps;
-      if (run_options.record && ((k + 1) % every == 0 || k + 1 == steps))
-        runner.sample(table.data.data() + width * rows++);
+      if (sampled) runner.sample(table.data.data() + width * rows++);
     }
     s.cpu += cpu_seconds() - before;
     if (good && joints) joints->follow(f, runner.state());
+    if (good && watch) watch->step(runner.state(), runner.reactions(), sampled, !part);
     if (!good) {
       s.status = "failed";
       s.message = runner.failure();
@@ -100,10 +108,18 @@ RunResult run_with(F& f, State start, const SimulationDescription& o,
     result.state = std::make_shared<SystemState>(system_state(f, runner.state(), *joints));
     place_bodies(model, o.inertia, *result.state);
   }
+  if (watch) watch->finish(runner.state(), o.spectral_radius, s);
   return result;
 }
 
 }  // namespace
+
+void check_step(const SimulationDescription& o) {
+  if (o.duration > 0.0 && !(o.step <= o.duration * (1.0 + 1e-9)))
+    throw InputError(fmt::format(
+        "the step of {:g} s is longer than the duration of {:g} s: expected at least one step",
+        o.step, o.duration));
+}
 
 double default_penalty_mass(const Model& model) { return 1e5 * model.mean_mass; }
 
@@ -135,6 +151,7 @@ RunResult run(const Model& given, const SimulationDescription& o, const RunOptio
   require_valid_run(o);
   const std::optional<Model> started = started_model(given, o);
   const Model& model = started ? *started : given;
+  check_step(o);
   if (o.coordinates == Coordinates::relative) {
     RelativeFormulation f(model, o.inertia);
     return run_with(f, start_state(f, o), o, run_options);

@@ -26,12 +26,18 @@ ModelCounts count(const Model& model);
 /// Static equilibrium from the design configuration. Throws RunError naming the culprit.
 StaticsResult statics(const Model& model);
 
+/// Throws InputError unless the step and the duration make at least one whole step, or the duration
+/// is zero.
+void check_step(const SimulationDescription& options);
+
 struct RunOptions {
   /// Called about every 1 % of the run with the fraction done (0..1); outside the timed part.
   std::function<void(double)> progress;
   bool record = true;
   /// Keep the state at the end in the result (where a run that fails came to).
   bool keep_state = false;
+  /// Keep the energy balance and say where the run leaves the range of the method (with `record`).
+  bool watch = true;
 };
 
 /// Runs the model with the options given (those of the model file, changed as the user wishes). A

@@ -1,0 +1,133 @@
+#pragma once
+// Energy balance of a run: the change of kinetic, potential and elastic energy against the work of
+// all that puts energy in or takes it out,
+//   remainder(t) = E(t) - E(0) - sum W_k(t),   W_k = int P_k dt,
+// with the powers taken after every accepted step and summed by the trapezoidal rule. Springs,
+// gravity and modal stiffness are part of E; constraints do no work but for prescribed motions,
+// whose power is sum lambda dPhi/dt with the multipliers of the projected accelerations. The energy
+// kept in tyres jumps with the steps of a road and where their dampers let them go; its changes
+// count as work of the tyres, besides that of their forces. What remains is the error of the
+// integration, of order h^2, and with a spectral radius below 1 what the integrator dissipates.
+// Nothing here allocates.
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/model/model.hpp"
+#include "floatframe/simulation/results.hpp"
+
+namespace floatframe {
+
+/// Power of a force element on the markers it acts on [W]; a is ignored by one-point forces.
+inline double wrench_power(const Force& force, const WrenchRow& w, const MarkerState& a,
+                           const MarkerState& b) noexcept {
+  double power = w.Fb.dot(b.v) + w.Tb.dot(b.w);
+  if (force.a >= 0) power += w.Fa.dot(a.v) + w.Ta.dot(a.w);
+  return power;
+}
+
+/// Powers [W], positive into the system, and what the tyres keep [J].
+struct FlowSample {
+  EnergyFlows power;
+  double tyres = 0.0;
+};
+
+/// At the present positions, velocities and forces of a formulation.
+template <class F>
+FlowSample flows(const F& f, const VecX& v, const VecX& reactions) noexcept {
+  FlowSample sample;
+  EnergyFlows& p = sample.power;
+  const Model& model = f.model();
+  for (std::size_t k = 0; k < model.forces.size(); ++k) {
+    const Force& force = model.forces[k];
+    const ForceState& s = f.force(static_cast<int>(k));
+    const MarkerState& b = f.marker(force.b);
+    const MarkerState& a = force.a >= 0 ? f.marker(force.a) : b;
+    // What the wrench does and the spring does not keep or give.
+    const double rest = wrench_power(force, s.wrench, a, b) + s.energy_rate;
+    if (force.type == ForceType::tyre) {
+      p[EnergyFlow::tyres] += rest;
+      sample.tyres += s.energy;
+    } else if (force.type == ForceType::force || force.type == ForceType::torque) {
+      p[EnergyFlow::loads] += rest;
+    } else {
+      p[EnergyFlow::dampers] -= s.damping;
+      if (force.driven || force.targeted) p[EnergyFlow::actuators] += rest + s.damping;
+    }
+  }
+  p[EnergyFlow::modal_damping] = -f.modal_damping_power(v);
+  p[EnergyFlow::motions] = f.motion_power(reactions);
+  return sample;
+}
+
+class EnergyBalance {
+ public:
+  struct Energies {
+    double kinetic = 0.0, potential = 0.0, elastic = 0.0;
+    double total() const noexcept { return kinetic + potential + elastic; }
+  };
+
+  /// `noise`: energy that means nothing [J].
+  void start(double t, const FlowSample& flows, const Energies& e, double noise) noexcept {
+    time_ = t;
+    noise_ = noise;
+    last_ = flows;
+    start_ = e.total();
+    low_ = high_ = e;
+    check(t, e);
+  }
+
+  /// After every step.
+  void advance(double t, const FlowSample& flows) noexcept {
+    const double half = 0.5 * (t - time_);
+    for (std::size_t k = 0; k < EnergyFlows::size(); ++k) {
+      double work = half * (last_.power.value[k] + flows.power.value[k]);
+      if (k == static_cast<std::size_t>(EnergyFlow::tyres)) work += flows.tyres - last_.tyres;
+      work_.value[k] += work;
+      moved_.value[k] += std::abs(work);
+    }
+    time_ = t;
+    last_ = flows;
+  }
+
+  /// The energies at the time of the last `advance`.
+  void check(double t, const Energies& e) noexcept {
+    low_ = {std::min(low_.kinetic, e.kinetic), std::min(low_.potential, e.potential),
+            std::min(low_.elastic, e.elastic)};
+    high_ = {std::max(high_.kinetic, e.kinetic), std::max(high_.potential, e.potential),
+             std::max(high_.elastic, e.elastic)};
+    remainder_ = e.total() - start_ - work_.total();
+    if (std::abs(remainder_) > std::abs(largest_)) {
+      largest_ = remainder_;
+      largest_at_ = t;
+    }
+  }
+
+  /// What the remainder is measured against [J]: the largest of the ranges of the energies and of
+  /// the amounts of work, and at least a millionth of the largest energy and the noise, below which
+  /// the tolerances of the solver show.
+  double exchanged() const noexcept {
+    double most = std::max({high_.kinetic - low_.kinetic, high_.potential - low_.potential,
+                            high_.elastic - low_.elastic});
+    for (const double w : moved_.value) most = std::max(most, w);
+    const double size = std::max({std::abs(high_.kinetic), std::abs(high_.potential),
+                                  std::abs(low_.potential), std::abs(high_.elastic)});
+    return std::max({most, 1e-6 * size, noise_});
+  }
+
+  void write(EnergySummary& out) const noexcept {
+    out.work = work_;
+    out.remainder = remainder_;
+    out.largest_remainder = largest_;
+    out.largest_remainder_at = largest_at_;
+    out.exchanged = exchanged();
+  }
+
+ private:
+  double time_ = 0.0, start_ = 0.0, remainder_ = 0.0, largest_ = 0.0, largest_at_ = 0.0;
+  double noise_ = 0.0;
+  FlowSample last_;
+  EnergyFlows work_, moved_;
+  Energies low_, high_;
+};
+
+}  // namespace floatframe

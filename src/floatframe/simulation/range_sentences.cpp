@@ -1,0 +1,198 @@
+// What the range watch has to say: one sentence a kind of limit, about the body that passed it
+// furthest.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/simulation/range_watch.hpp"
+
+namespace floatframe {
+namespace {
+
+/// The body with the largest value relative to its limit, and how many others passed theirs.
+struct Worst {
+  int body = -1, others = -1;
+  double ratio = 1.0;
+  void offer(int i, double r) {
+    if (!(r > 1.0)) return;
+    ++others;
+    if (r > ratio) {
+      ratio = r;
+      body = i;
+    }
+  }
+  explicit operator bool() const { return body >= 0; }
+};
+
+std::string percent(double x) { return fmt::format("{:.3g} %", 100.0 * x); }
+
+class Writer {
+ public:
+  Writer(const Model& model, const std::vector<BodyRange>& bodies, double step,
+         const RangeLimits& limits)
+      : model_(model), bodies_(bodies), step_(step), limits_(limits) {}
+
+  void displacement(std::vector<std::string>& out) const {
+    const Worst worst = find([&](const BodyRange& b) {
+      return b.size() > 0.0 ? b.displacement().value / (limits_.displacement * b.size()) : 0.0;
+    });
+    if (!worst) return;
+    const BodyRange& b = at(worst);
+    const Largest& x = b.displacement();
+    out.push_back(fmt::format(
+        "{} deforms too far for small deformations: from t = {:.4g} s on by more than {} of its "
+        "size of {:.3g} m, at t = {:.4g} s node {} is {:.3g} m ({}) off its place in the body "
+        "frame; divide it into several bodies",
+        subject(worst), x.first, percent(limits_.displacement), b.size(), x.at, b.node_name(x.node),
+        x.value, percent(x.value / b.size())));
+  }
+
+  void rotation(std::vector<std::string>& out) const {
+    const Worst worst =
+        find([&](const BodyRange& b) { return b.rotation().value / limits_.rotation; });
+    if (!worst) return;
+    const BodyRange& b = at(worst);
+    const Largest& x = b.rotation();
+    out.push_back(fmt::format(
+        "{} bends too far for small rotations: from t = {:.4g} s on by more than {:g} rad, at "
+        "t = {:.4g} s node {} is turned by {:.3g} rad in the body frame; divide it into several "
+        "bodies",
+        subject(worst), x.first, limits_.rotation, x.at, b.node_name(x.node), x.value));
+  }
+
+  void spin(std::vector<std::string>& out) const {
+    const Worst worst = find([&](const BodyRange& b) {
+      return b.lowest_frequency() > 0.0 ? b.spin().value / (limits_.spin * b.lowest_frequency())
+                                        : 0.0;
+    });
+    if (!worst) return;
+    const BodyRange& b = at(worst);
+    const double ratio = b.spin().value / b.lowest_frequency();
+    out.push_back(fmt::format(
+        "{} spins too fast for its stiffness: from t = {:.4g} s on at more than {:g} times its "
+        "lowest frequency of {:.4g} rad/s, at t = {:.4g} s at {:.4g} rad/s; centrifugal tension "
+        "does not stiffen it here, which leaves its frequencies in error by about {} (the square "
+        "of "
+        "the ratio); divide it into several bodies",
+        subject(worst), b.spin().first, limits_.spin, b.lowest_frequency(), b.spin().at,
+        b.spin().value, percent(ratio * ratio)));
+  }
+
+  void turn(std::vector<std::string>& out) const {
+    const Worst worst = find([&](const BodyRange& b) { return b.turn().value / limits_.turn; });
+    if (!worst) return;
+    const Largest& x = at(worst).turn();
+    out.push_back(fmt::format(
+        "{} turns too far in one step of {:g} s: from t = {:.4g} s on by more than {:g} rad, at "
+        "t = {:.4g} s by {:.3g} rad; take a step of at most {:.2g} s",
+        subject(worst), step_, x.first, limits_.turn, x.at, x.value,
+        step_ * limits_.turn / x.value));
+  }
+
+  void phase(const std::vector<std::vector<PhaseMeter>>& meters,
+             std::vector<std::string>& out) const {
+    double all = 0.0, elastic = 0.0;
+    for (const auto& body : meters)
+      for (std::size_t k = 0; k < body.size(); ++k) {
+        all += body[k].energy();
+        if (k >= 2) elastic += body[k].energy();
+      }
+    Worst worst;
+    std::size_t what = 0;
+    for (std::size_t i = 0; i < meters.size(); ++i) {
+      double furthest = 0.0;
+      for (std::size_t k = 0; k < meters[i].size(); ++k) {
+        const PhaseMeter& m = meters[i][k];
+        // Of too few steps nothing can be said; vibrations count among themselves if they count.
+        const bool counts =
+            m.energy() > limits_.share * all ||
+            (k >= 2 && elastic > least_vibration * all && m.energy() > limits_.share * elastic);
+        if (m.count() < least_steps || m.speed() * step_ < least_motion || !counts ||
+            m.phase() <= furthest)
+          continue;
+        furthest = m.phase();
+        if (furthest / limits_.phase > worst.ratio) what = k;
+      }
+      worst.offer(static_cast<int>(i), furthest / limits_.phase);
+    }
+    if (!worst) return;
+    const PhaseMeter& m = meters[static_cast<std::size_t>(worst.body)][what];
+    const std::string motion = what == 0   ? "the motion of "
+                               : what == 1 ? "the turning of "
+                                           : fmt::format("mode {} of ", what - 1);
+    out.push_back(fmt::format(
+        "the step of {:g} s is too long for {}{}: it goes through {:.3g} rad of phase in each "
+        "(limit {:g} rad), {:.2g} steps to a period, and carries {} of the kinetic energy of {}; "
+        "take a step of at most {:.2g} s",
+        step_, motion, subject(worst), m.phase(), limits_.phase, 2.0 * std::numbers::pi / m.phase(),
+        percent(m.energy() / (what >= 2 && elastic > 0.0 ? elastic : all)),
+        what >= 2 ? "all vibrations" : "all oscillations",
+        step_ * std::tan(0.5 * limits_.phase) / std::tan(0.5 * std::min(m.phase(), 3.0))));
+  }
+
+  void balance(const EnergySummary& e, double spectral_radius,
+               std::vector<std::string>& out) const {
+    if (!e.balanced) return;
+    const double x = std::abs(e.largest_remainder), part = x / e.exchanged;
+    // With numerical damping a loss is what was asked for, unless it is much.
+    const bool damped = spectral_radius < 1.0 && e.largest_remainder < 0.0;
+    if (damped && part > limits_.dissipation)
+      out.push_back(fmt::format(
+          "the numerical damping of the integrator (spectral radius {:g}) has taken {:.4g} J out "
+          "of the system by t = {:.4g} s, {} of the {:.4g} J exchanged (limit {}); take a smaller "
+          "step than {:g} s or a spectral radius nearer to 1",
+          spectral_radius, x, e.largest_remainder_at, percent(part), e.exchanged,
+          percent(limits_.dissipation), step_));
+    if (!damped && part > limits_.imbalance)
+      out.push_back(fmt::format(
+          "the energy balance does not close: at t = {:.4g} s the system has {:.4g} J {} than the "
+          "work of all forces and motions explains, {} of the {:.4g} J exchanged (limit {}); take "
+          "a smaller step than {:g} s",
+          e.largest_remainder_at, x, e.largest_remainder > 0.0 ? "more" : "less", percent(part),
+          e.exchanged, percent(limits_.imbalance), step_));
+  }
+
+ private:
+  static constexpr long least_steps = 6;
+  static constexpr double least_vibration = 1e-4;
+
+  template <class Ratio>
+  Worst find(const Ratio& ratio) const {
+    Worst worst;
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      worst.offer(static_cast<int>(i), ratio(bodies_[i]));
+    return worst;
+  }
+  const BodyRange& at(const Worst& worst) const {
+    return bodies_[static_cast<std::size_t>(worst.body)];
+  }
+  std::string subject(const Worst& worst) const {
+    const std::string name =
+        "body '" + model_.bodies[static_cast<std::size_t>(worst.body)].name + "'";
+    if (worst.others == 0) return name;
+    return fmt::format("{} (and {} more)", name, worst.others);
+  }
+
+  const Model& model_;
+  const std::vector<BodyRange>& bodies_;
+  double step_;
+  const RangeLimits& limits_;
+};
+
+}  // namespace
+
+std::vector<std::string> RangeWatch::sentences(const EnergySummary& energy,
+                                               double spectral_radius) const {
+  const Writer writer(model_, bodies_, step_, limits_);
+  std::vector<std::string> out;
+  writer.displacement(out);
+  writer.rotation(out);
+  writer.spin(out);
+  writer.turn(out);
+  writer.phase(meters_, out);
+  writer.balance(energy, spectral_radius, out);
+  return out;
+}
+
+}  // namespace floatframe

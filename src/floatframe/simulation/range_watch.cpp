@@ -1,0 +1,148 @@
+#include "floatframe/simulation/range_watch.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace floatframe {
+namespace {
+
+double largest_column(const Mat3X& X, Eigen::Index k) { return X.col(k).norm(); }
+
+/// Lowest angular frequency of K x = w^2 M x, also with modes without mass: M x = (1/w^2) K x.
+double lowest_frequency_of(const FlexibleBody& body) {
+  const InertiaInvariants& v = body.invariants;
+  if (body.modes() == 0) return 0.0;
+  const MatX M = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(M, body.K, Eigen::EigenvaluesOnly);
+  if (solver.info() != Eigen::Success) return 0.0;
+  const double most = solver.eigenvalues().maxCoeff();
+  return most > 0.0 && std::isfinite(most) ? 1.0 / std::sqrt(most) : 0.0;
+}
+
+/// Second moments of the mass about its centre [kg m2].
+Mat3 central_moments(const InertiaInvariants& v) {
+  const Vec3 c = v.centre_of_mass();
+  return v.P_u - v.m * c * c.transpose();
+}
+
+}  // namespace
+
+BodyRange::BodyRange(const Model& model, int index)
+    : data_(*model.bodies[static_cast<std::size_t>(index)].data) {
+  if (data_.modes() == 0) return;
+  const Mat3 P = central_moments(data_.invariants);
+  if (data_.invariants.m > 0.0 && P.trace() > 0.0) {
+    size_ = 2.0 * std::sqrt(P.trace() / data_.invariants.m);
+    // Spin w pulls with int |w x u|^2 dm = w^T (tr(P) I - P) w.
+    const Mat3 pull = (P.trace() * Mat3::Identity() - P) / P.trace();
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(pull);
+    stretch_ = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+               solver.eigenvectors().transpose();
+  }
+  if (!data_.nodes.empty()) {
+    Vec3 low = data_.nodes.front().p, high = low;
+    for (const ModalNode& n : data_.nodes) {
+      low = low.cwiseMin(n.p);
+      high = high.cwiseMax(n.p);
+    }
+    size_ = std::max(size_, (high - low).norm());
+  }
+  lowest_ = lowest_frequency_of(data_);
+  choose_nodes(model, index);
+}
+
+void BodyRange::choose_nodes(const Model& model, int index) {
+  std::set<int> chosen;
+  for (const Marker& m : model.markers)
+    if (m.body == index && m.node >= 0) chosen.insert(m.node);
+  displaced_ = rotated_ = VecX::Zero(data_.modes());
+  for (Eigen::Index k = 0; k < data_.modes(); ++k) {
+    int moves = -1, turns = -1;
+    for (std::size_t n = 0; n < data_.nodes.size(); ++n) {
+      const double move = largest_column(data_.nodes[n].X, k);
+      const double turn = largest_column(data_.nodes[n].X_theta, k);
+      if (move > displaced_[k]) {
+        displaced_[k] = move;
+        moves = static_cast<int>(n);
+      }
+      if (turn > rotated_[k]) {
+        rotated_[k] = turn;
+        turns = static_cast<int>(n);
+      }
+    }
+    if (moves >= 0) chosen.insert(moves);
+    if (turns >= 0) chosen.insert(turns);
+  }
+  nodes_.assign(chosen.begin(), chosen.end());
+}
+
+std::string BodyRange::node_name(int node) const {
+  if (node < 0) return "";
+  const std::string& name = data_.nodes[static_cast<std::size_t>(node)].name;
+  return name.empty() ? std::to_string(node + 1) : "'" + name + "'";
+}
+
+void BodyRange::observe(double t, double h, const Vec3& w, const double* y,
+                        const RangeLimits& l) noexcept {
+  turn_.offer(h * w.norm(), t, l.turn);
+  const Eigen::Index modes = data_.modes();
+  if (modes == 0) return;
+  if (lowest_ > 0.0) spin_.offer((stretch_ * w).norm(), t, l.spin * lowest_);
+  // The modes together move no node further than each its own: nodes are looked at one by one only
+  // when that could be a new largest value.
+  double move = 0.0, turn = 0.0;
+  for (Eigen::Index k = 0; k < modes; ++k) {
+    move += displaced_[k] * std::abs(y[k]);
+    turn += rotated_[k] * std::abs(y[k]);
+  }
+  if (move <= displacement_.value && turn <= rotation_.value) return;
+  for (const int n : nodes_) {
+    const ModalNode& node = data_.nodes[static_cast<std::size_t>(n)];
+    Vec3 u = Vec3::Zero(), theta = Vec3::Zero();
+    for (Eigen::Index k = 0; k < modes; ++k) {
+      u += y[k] * node.X.col(k);
+      theta += y[k] * node.X_theta.col(k);
+    }
+    if (u.norm() > displacement_.value) displacement_.node = n;
+    if (theta.norm() > rotation_.value) rotation_.node = n;
+    displacement_.offer(u.norm(), t, l.displacement * size_);
+    rotation_.offer(theta.norm(), t, l.rotation);
+  }
+}
+
+double PhaseMeter::energy() const noexcept {
+  return count_ > 0 ? 0.5 * mass_ * spread_ / static_cast<double>(count_) : 0.0;
+}
+
+double PhaseMeter::speed() const noexcept {
+  return count_ > 0 ? std::sqrt(std::max(0.0, spread_) / static_cast<double>(count_)) : 0.0;
+}
+
+double PhaseMeter::phase() const noexcept {
+  if (!(spread_ > 0.0)) return 0.0;
+  return std::acos(std::clamp(1.0 - changes_ / (2.0 * spread_), -1.0, 1.0));
+}
+
+RangeWatch::RangeWatch(const Model& model, double step, const RangeLimits& limits)
+    : model_(model), step_(step), limits_(limits) {
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    bodies_.emplace_back(model, static_cast<int>(i));
+    const InertiaInvariants& v = model.bodies[i].data->invariants;
+    const double turning = v.inertia_about_centre().trace() / 3.0;
+    std::vector<PhaseMeter> meters{PhaseMeter(v.m), PhaseMeter(std::max(0.0, turning))};
+    for (Eigen::Index k = 0; k < v.modes(); ++k)
+      meters.emplace_back(v.Sij[0][0](k, k) + v.Sij[1][1](k, k) + v.Sij[2][2](k, k));
+    meters_.push_back(std::move(meters));
+  }
+}
+
+double RangeWatch::noise() const noexcept {
+  double mass = 0.0;
+  for (const Body& b : model_.bodies) mass += b.data->invariants.m;
+  return 0.5 * mass * least_motion * least_motion / (step_ * step_);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,122 @@
+#pragma once
+// Watches whether a run stays in the range of the method (docs/range.md): small elastic
+// deformations, slow spin, a step that resolves the motion. `observe` functions belong to a run:
+// noexcept, no allocation; what is measured becomes sentences at the end.
+#include <string>
+#include <vector>
+
+#include "floatframe/model/model.hpp"
+#include "floatframe/simulation/results.hpp"
+
+namespace floatframe {
+
+struct RangeLimits {
+  double displacement = 0.1;  ///< elastic displacement over the size of the body
+  double rotation = 0.2;      ///< elastic rotation [rad]
+  double spin = 0.3;          ///< spin across the body over its lowest frequency
+  double turn = 0.5;          ///< of a body in one step [rad]
+  double phase = 1.0;         ///< of an oscillation in one step [rad]
+  double share = 0.05;        ///< of the kinetic energy of all oscillations that counts
+  double imbalance = 0.05;    ///< remainder of the energy balance over the energy exchanged
+  double dissipation = 0.1;   ///< the same of what numerical damping takes out
+};
+
+/// Motion in a step that means nothing: the tolerances of the solver show [m, rad].
+inline constexpr double least_motion = 1e-8;
+
+/// The largest value met, with the time it first passed its limit.
+struct Largest {
+  double value = 0.0, at = 0.0;
+  double first = -1.0;  ///< below zero: the limit was not passed
+  int node = -1;
+  void offer(double x, double t, double limit) noexcept {
+    if (x > limit && first < 0.0) first = t;
+    if (x > value * (1.0 + 1e-9)) {  // a steady value keeps its first time
+      value = x;
+      at = t;
+    }
+  }
+};
+
+/// Deformation, spin and turn of one body.
+class BodyRange {
+ public:
+  explicit BodyRange(const Model& model, int index);
+
+  /// `w`: angular velocity in body axes [rad/s]; `y`: modal amplitudes; h: the step [s].
+  void observe(double t, double h, const Vec3& w, const double* y, const RangeLimits& l) noexcept;
+
+  double size() const noexcept { return size_; }
+  /// Lowest angular frequency with the body frame held [rad/s]; 0: none.
+  double lowest_frequency() const noexcept { return lowest_; }
+  const Largest& displacement() const noexcept { return displacement_; }  ///< [m]
+  const Largest& rotation() const noexcept { return rotation_; }          ///< [rad]
+  const Largest& spin() const noexcept { return spin_; }                  ///< [rad/s]
+  const Largest& turn() const noexcept { return turn_; }                  ///< [rad]
+  std::string node_name(int node) const;
+
+ private:
+  void choose_nodes(const Model& model, int index);
+
+  const FlexibleBody& data_;
+  double size_ = 0.0, lowest_ = 0.0;
+  /// |stretch w| is the spin that pulls at the body: that about a slender body's axis does not.
+  Mat3 stretch_ = Mat3::Zero();
+  std::vector<int> nodes_;    ///< that move or turn most in a mode, and those with markers
+  VecX displaced_, rotated_;  ///< largest motion and rotation of a node in each mode
+  Largest displacement_, rotation_, spin_, turn_;
+};
+
+/// Phase per step of a velocity, from its changes: cos(phase) = 1 - mean |dv|^2 / (2 var v), exact
+/// for one frequency and weighted with the kinetic energy for a mixture.
+class PhaseMeter {
+ public:
+  explicit PhaseMeter(double mass) noexcept : mass_(mass) {}
+  void start(const Vec3& v) noexcept { previous_ = v; }
+  /// After every full step.
+  void observe(const Vec3& v) noexcept {
+    changes_ += (v - previous_).squaredNorm();
+    previous_ = v;
+    ++count_;
+    const Vec3 off = v - mean_;
+    mean_ += off / static_cast<double>(count_);
+    spread_ += off.dot(v - mean_);
+  }
+  /// Mean kinetic energy of what is not uniform motion [J].
+  double energy() const noexcept;
+  double phase() const noexcept;  ///< [rad]
+  double speed() const noexcept;  ///< root mean square of what is not uniform [m/s, rad/s]
+  long count() const noexcept { return count_; }
+
+ private:
+  double mass_, spread_ = 0.0, changes_ = 0.0;
+  long count_ = 0;
+  Vec3 previous_ = Vec3::Zero(), mean_ = Vec3::Zero();
+};
+
+class RangeWatch {
+ public:
+  RangeWatch(const Model& model, double step, const RangeLimits& limits = {});
+
+  std::vector<BodyRange>& bodies() noexcept { return bodies_; }
+  /// Two a body, its motion and its turning, then one a mode.
+  std::vector<PhaseMeter>& meters(int body) noexcept {
+    return meters_[static_cast<std::size_t>(body)];
+  }
+  double step() const noexcept { return step_; }
+  /// Energy of all bodies moving by `least_motion` a step [J].
+  double noise() const noexcept;
+  const RangeLimits& limits() const noexcept { return limits_; }
+
+  /// One sentence for each kind of limit that was passed; the balance is that of the same run.
+  std::vector<std::string> sentences(const EnergySummary& energy, double spectral_radius) const;
+
+ private:
+  const Model& model_;
+  double step_;
+  RangeLimits limits_;
+  std::vector<BodyRange> bodies_;
+  std::vector<std::vector<PhaseMeter>> meters_;
+};
+
+}  // namespace floatframe

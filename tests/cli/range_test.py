@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""`floatframe run` on models outside the range of the method: sentences on the terminal, in summary.json and in the report,
+--strict, steps longer than the run, and what a summary says of its inputs. Set FLOATFRAME_BINARY or give its path."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BINARY = os.environ.get("FLOATFRAME_BINARY") or (
+    sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else "build/floatframe")
+BINARY = str(pathlib.Path(BINARY).resolve())
+MODELS = pathlib.Path(__file__).resolve().parents[1] / "data" / "range"
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
+
+
+class Range(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_model(self, model, *arguments):
+        done = subprocess.run([BINARY, "run", str(model), "--out", str(self.folder / "out"), *arguments], capture_output=True,
+                              text=True, timeout=300, cwd=self.folder)
+        path = self.folder / "out" / "summary.json"
+        self.summary = json.loads(path.read_text()) if path.exists() else None
+        return done
+
+    def test_warnings_are_said_everywhere(self):
+        for coordinates in "relative", "absolute":
+            done = self.run_model(MODELS / "cantilever.yaml", "--coordinates", coordinates, "--quiet")
+            self.assertEqual((done.returncode, done.stdout), (0, ""))
+            warnings = self.summary["warnings"]
+            self.assertEqual(len(warnings), 2)
+            self.assertEqual(done.stderr, "".join(f"floatframe: warning: {w}\n" for w in warnings))
+            self.assertIn("body 'beam' deforms too far for small deformations", warnings[0])
+            self.assertEqual(self.summary["status"], "completed")
+            report = (self.folder / "out" / "report.html").read_text()
+            self.assertLess(report.index("deforms too far for small deformations"), report.index("Newton iterations a step"))
+
+    def test_strict_makes_them_errors(self):
+        done = self.run_model(MODELS / "cantilever.yaml", "--strict", "--quiet")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("floatframe: the run failed: 2 warnings count as errors under --strict; the results are complete", done.stderr)
+        self.assertEqual(self.summary["status"], "failed")
+        self.assertAlmostEqual(self.summary["duration_s"], 0.3)
+        self.assertEqual(len((self.folder / "out" / "results.csv").read_text().splitlines()), 302)
+        report = (self.folder / "out" / "report.html").read_text()
+        self.assertIn("This run counts as failed", report)
+        self.assertNotIn("partial", report)
+
+    def test_strict_says_nothing_of_a_run_in_range(self):
+        done = self.run_model(EXAMPLES / "flexible_pendulum" / "flexible_pendulum.yaml", "--strict", "--quiet", "--no-report")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertEqual(self.summary["warnings"], [])
+
+    def test_balance_is_complete(self):
+        self.assertEqual(self.run_model(MODELS / "springs.yaml", "--no-report").returncode, 0)
+        energy = self.summary["energy"]
+        balance, work = energy["balance"], energy["balance"]["work"]
+        self.assertEqual(set(work), {"loads_J", "actuators_J", "dampers_J", "tyres_J", "modal_damping_J", "motions_J", "total_J"})
+        self.assertAlmostEqual(sum(v for k, v in work.items() if k != "total_J"), work["total_J"], 9)
+        change = energy["end"]["total_J"] - energy["start"]["total_J"]
+        self.assertAlmostEqual(change - work["total_J"], balance["remainder_J"], 9)
+        self.assertGreater(abs(work["total_J"]), 100 * abs(balance["remainder_J"]))
+
+    def test_a_step_longer_than_the_run_is_refused(self):
+        for command in ["run", "--out", "out"], ["realtime", "--no-pace"]:
+            done = subprocess.run([BINARY, command[0], str(MODELS / "pendulum.yaml"), "--step", "1e300", *command[1:]],
+                                  capture_output=True, text=True, timeout=300, cwd=self.folder)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertIn("the step of 1e+300 s is longer than the duration of 20 s", done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_the_summary_says_what_was_read(self):
+        shutil.copy(EXAMPLES / "iltis" / "suspension.yaml", self.folder)
+        shutil.copy(EXAMPLES / "iltis" / "iltis.yaml", self.folder)
+        arguments = ["--set", "flexible=false", "--set", "speed=4", "--set", "speed=6", "--duration", "0.05", "--no-report", "--quiet"]
+        self.assertEqual(self.run_model("iltis.yaml", *arguments).returncode, 0)
+        self.assertEqual(self.summary["settings"], {"flexible": "false", "speed": "6"})
+        before = self.summary["files"]
+        self.assertEqual({pathlib.Path(f).name for f in before}, {"iltis.yaml", "suspension.yaml"})
+        for value in before.values():
+            self.assertRegex(value, "^[0-9a-f]{32}$")
+        with open(self.folder / "suspension.yaml", "a") as file:
+            file.write("# changed\n")
+        self.run_model("iltis.yaml", *arguments)
+        changed = {pathlib.Path(f).name for f in before if before[f] != self.summary["files"][f]}
+        self.assertEqual(changed, {"suspension.yaml"})
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

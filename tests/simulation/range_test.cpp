@@ -1,0 +1,231 @@
+// Runs that leave the range of the method say so, in both formulations; the examples do not; and
+// the watch neither changes a run nor allocates while it goes.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/io/model_reader.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/run_watch.hpp"
+#include "floatframe/simulation/runner.hpp"
+#include "simulation/figures.hpp"
+#include "support/allocation_counter.hpp"
+
+namespace floatframe::test {
+namespace {
+
+#define RANGE(name) FLOATFRAME_TEST_DATA "/range/" name ".yaml"
+#define EXAMPLE(name) FLOATFRAME_EXAMPLES "/" name "/" name ".yaml"
+
+constexpr Coordinates both[] = {Coordinates::relative, Coordinates::absolute};
+
+RunSummary summary_of(const ModelDescription& d, Coordinates coordinates) {
+  SimulationDescription s = d.simulation;
+  s.coordinates = coordinates;
+  return run(build_model(d), s).summary;
+}
+
+RunSummary summary_of(const char* file, const std::vector<ParameterOverride>& set,
+                      Coordinates coordinates) {
+  return summary_of(read_model(file, set), coordinates);
+}
+
+/// The one warning with these words; "" and a failure if there is none.
+std::string warning(const RunSummary& s, const std::string& words) {
+  for (const std::string& w : s.warnings)
+    if (w.find(words) != std::string::npos) return w;
+  ADD_FAILURE() << "no warning '" << words << "' among " << s.warnings.size();
+  return "";
+}
+bool says(const std::string& sentence, const std::string& part) {
+  return sentence.find(part) != std::string::npos;
+}
+
+TEST(Range, BeamBentBeyondItsLength) {
+  for (const Coordinates c : both) {
+    const RunSummary s = summary_of(RANGE("cantilever"), {}, c);
+    EXPECT_EQ(s.status, "completed");
+    const std::string far = warning(s, "deforms too far");
+    EXPECT_TRUE(says(far, "body 'beam'")) << far;
+    EXPECT_TRUE(says(far, "node 'tip' is 7.")) << far;
+    EXPECT_TRUE(says(far, "more than 10 % of its size of 1 m")) << far;
+    EXPECT_TRUE(says(warning(s, "bends too far"), "0.2 rad"));
+    EXPECT_EQ(s.warnings.size(), 2u);
+  }
+}
+
+// Up to a tenth of its length nothing is said: linear and exact deflection differ by 1 %.
+TEST(Range, BeamBentALittle) {
+  for (const Coordinates c : both)
+    EXPECT_TRUE(summary_of(RANGE("cantilever"), {{"load", "3.5"}}, c).warnings.empty());
+  EXPECT_FALSE(
+      summary_of(RANGE("cantilever"), {{"load", "6"}}, Coordinates::relative).warnings.empty());
+}
+
+TEST(Range, PendulumWithAStepOfHalfASecond) {
+  for (const Coordinates c : both) {
+    const RunSummary s = summary_of(RANGE("pendulum"), {}, c);
+    EXPECT_TRUE(says(warning(s, "turns too far in one step of 0.5 s"), "body 'bob'"));
+    EXPECT_TRUE(says(warning(s, "is too long for"), "steps to a period"));
+    EXPECT_TRUE(says(warning(s, "energy balance does not close"), "J exchanged (limit 5 %)"));
+  }
+}
+
+TEST(Range, PendulumWithAStepThatResolvesIt) {
+  for (const Coordinates c : both)
+    EXPECT_TRUE(summary_of(RANGE("pendulum"), {{"step", "0.02"}}, c).warnings.empty());
+}
+
+TEST(Range, BeamThatSpinsNearItsLowestFrequency) {
+  for (const Coordinates c : both) {
+    const RunSummary s = summary_of(RANGE("spinning_beam"), {}, c);
+    const std::string w = warning(s, "spins too fast");
+    EXPECT_TRUE(says(w, "lowest frequency of 31")) << w;
+    EXPECT_TRUE(says(w, "at 25 rad/s")) << w;
+    EXPECT_EQ(s.warnings.size(), 1u);
+    // Beyond it the deflection grows without bound: that is said too.
+    const RunSummary beyond = summary_of(RANGE("spinning_beam"), {{"rate", "35"}}, c);
+    warning(beyond, "spins too fast");
+    warning(beyond, "deforms too far");
+    EXPECT_TRUE(summary_of(RANGE("spinning_beam"), {{"rate", "8"}}, c).warnings.empty());
+  }
+}
+
+// Turning about its own long axis pulls at no bar: the same rate, no warning.
+TEST(Range, ShaftThatTurnsAboutItsOwnAxis) {
+  ModelDescription d = read_model(RANGE("spinning_beam"));
+  d.joints[0].axis = Vec3::UnitX();
+  d.amplitudes.clear();
+  EXPECT_TRUE(summary_of(d, Coordinates::relative).warnings.empty());
+}
+
+// A spring of 25 Hz with 4.0 steps to a period; the trapezoidal rule keeps its energy whatever the
+// step.
+TEST(Range, OscillationThatTheStepDoesNotResolve) {
+  ModelDescription d = read_model(RANGE("springs"), {{"step", "0.01"}});
+  std::erase_if(d.forces, [](const ForceDescription& f) { return f.name != "strut"; });
+  auto& strut = std::get<SpringDamperDescription>(d.forces.at(0).kind);
+  strut.spring = PiecewisePolynomial::polynomial({-0.9 * 74000.0, 74000.0});
+  strut.damper = {};
+  strut.actuator.reset();
+  d.joints[1].velocity = {0.0};
+  for (const Coordinates c : both) {
+    const RunSummary s = summary_of(d, c);
+    const std::string w = warning(s, "is too long for the motion of body 'mass'");
+    EXPECT_TRUE(says(w, "steps to a period")) << w;
+    EXPECT_LT(std::abs(s.energy.remainder), 0.05 * s.energy.exchanged);
+  }
+  d.simulation.step = 0.002;
+  EXPECT_TRUE(summary_of(d, Coordinates::relative).warnings.empty());
+}
+
+TEST(Range, NumericalDampingThatTakesTheVibrationAway) {
+  ModelDescription d = read_model(EXAMPLE("flexible_pendulum"));
+  d.gravity.setZero();
+  d.simulation.step = 0.02;
+  d.simulation.spectral_radius = 0.2;
+  for (const Coordinates c : both)
+    EXPECT_TRUE(says(warning(summary_of(d, c), "numerical damping"), "spectral radius 0.2"));
+}
+
+TEST(Range, ExamplesPrintNothing) {
+  for (const char* file : {EXAMPLE("flexible_pendulum"), EXAMPLE("slider_crank"),
+                           EXAMPLE("active_damper"), EXAMPLE("iltis")})
+    for (const Coordinates c : both) {
+      const RunSummary s = summary_of(file, {}, c);
+      EXPECT_EQ(s.status, "completed");
+      EXPECT_TRUE(s.energy.balanced);
+      EXPECT_TRUE(s.warnings.empty()) << file << ": " << s.warnings.front();
+    }
+}
+
+// A vehicle that rolls on a flat road from its equilibrium: nothing moves but by the tolerances of
+// the solver, and nothing is said of these.
+TEST(Range, NoiseIsNoMotion) {
+  for (const char* speed : {"0", "5"})
+    for (const Coordinates c : both) {
+      const RunSummary s = summary_of(EXAMPLE("iltis"),
+                                      {{"road", "flat"},
+                                       {"speed", speed},
+                                       {"step", "0.002"},
+                                       {"spectral_radius", "1"},
+                                       {"duration", "1"}},
+                                      c);
+      EXPECT_TRUE(s.warnings.empty()) << s.warnings.front();
+    }
+}
+
+TEST(Range, StepLongerThanTheDuration) {
+  ModelDescription d = read_model(RANGE("pendulum"));
+  const Model model = build_model(d);
+  for (const double step : {1e300, 25.0}) {
+    d.simulation.step = step;
+    try {
+      run(model, d.simulation);
+      FAIL() << "completed with a step of " << step;
+    } catch (const InputError& e) {
+      EXPECT_TRUE(says(e.what(), "is longer than the duration of 20 s")) << e.what();
+    }
+  }
+  d.simulation.step = d.simulation.duration;
+  EXPECT_EQ(run(model, d.simulation).summary.steps, 1);
+}
+
+TEST(Range, TheWatchLeavesRunsAsTheyAre) {
+  for (const char* file : {RANGE("driven_arm"), RANGE("springs"), EXAMPLE("iltis")})
+    for (const Coordinates c : both) {
+      ModelDescription d = read_model(file);
+      d.simulation.coordinates = c;
+      d.simulation.duration = 0.5;
+      const Model model = build_model(d);
+      RunOptions without;
+      without.watch = false;
+      const RunResult a = run(model, d.simulation), b = run(model, d.simulation, without);
+      ASSERT_EQ(a.table.data.size(), b.table.data.size());
+      EXPECT_EQ(std::memcmp(a.table.data.data(), b.table.data.data(),
+                            a.table.data.size() * sizeof(double)),
+                0)
+          << file;
+      EXPECT_EQ(a.summary.iterations, b.summary.iterations);
+      EXPECT_FALSE(b.summary.energy.balanced);
+      EXPECT_TRUE(b.summary.warnings.empty());
+    }
+}
+
+template <class F>
+std::size_t allocations(F& f, State state, double step, double penalty) {
+  StepOptions options;
+  options.spectral_radius = f.model().simulation.spectral_radius;
+  options.tolerance = f.model().simulation.tolerance;
+  options.penalty_mass = penalty;
+  Runner<F> runner(f, options, step / 64.0);
+  runner.state() = std::move(state);
+  start_accelerations(f, runner.state(), penalty);
+  RunWatch<F> watch(f, step, 10);
+  EXPECT_TRUE(runner.advance(step));
+  const AllocationScope scope;
+  watch.start(runner.state());
+  for (int k = 0; k < 20; ++k) {
+    runner.advance(step);
+    watch.step(runner.state(), runner.reactions(), k % 2 == 0, true);
+  }
+  return scope.count();
+}
+
+TEST(Range, TheWatchDoesNotAllocateWhileItGoes) {
+  if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
+  const ModelDescription d = read_model(EXAMPLE("iltis"));
+  const Model model = build_model(d);
+  RelativeFormulation f(model, d.simulation.inertia);
+  const State start = relative_start(f, Start::equilibrium);
+  const double penalty = default_penalty_mass(model);
+  AbsoluteFormulation g(model, d.simulation.inertia);
+  State absolute;
+  g.start_from(f, start.q, start.v, absolute.q, absolute.v);
+  EXPECT_EQ(allocations(g, absolute, d.simulation.step, penalty), 0u);
+  EXPECT_EQ(allocations(f, start, d.simulation.step, penalty), 0u);
+}
+
+}  // namespace
+}  // namespace floatframe::test
