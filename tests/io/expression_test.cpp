@@ -68,6 +68,7 @@ TEST(Expression, Faults) {
   EXPECT_EQ(fault("(1 + 2"), "a ')' is missing");
   EXPECT_EQ(fault("1 2"), "unexpected '2'");
   EXPECT_EQ(fault("nee"), "unknown parameter 'nee', did you mean 'ne'?");
+  EXPECT_EQ(fault("and"), "unexpected 'and'");
   EXPECT_EQ(fault("sqr(2)"), "unknown function 'sqr', did you mean 'sqrt'?");
   EXPECT_EQ(fault("sqrt(-1)"), "sqrt of -1 is not defined");
   EXPECT_EQ(fault("log(0)"), "log of 0 is not defined");
@@ -84,6 +85,61 @@ TEST(Expression, Faults) {
   EXPECT_EQ(fault("'open"), "a text is not closed");
   EXPECT_EQ(fault(std::string(100000, '(')), "nested too deeply");
   EXPECT_EQ(fault(std::string(100000, '-')), "nested too deeply");
+}
+
+TEST(Expression, OnlyWhatIsNeededIsComputed) {
+  const ParameterScope zero{{"a", 0.0}, {"on", false}, {"road", std::string("stairs")}};
+  const auto value = [&](const char* text) { return evaluate_expression(text, zero); };
+  const auto complaint = [&](const char* text) {
+    try {
+      evaluate_expression(text, zero);
+    } catch (const ExpressionError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(std::get<double>(value("if(a == 0, 1, 1 / a)")), 1.0);
+  EXPECT_EQ(std::get<double>(value("if(a != 0, 1 / a, sqrt(4))")), 2.0);
+  EXPECT_EQ(std::get<double>(value("if(true, 1, if(true, sqrt(-1), 10 ^ 999) + log(a))")), 1.0);
+  EXPECT_EQ(std::get<double>(value("if(a == 0, 1, if(1 / a > 2, 'x', 3) + 1)")), 1.0);
+  EXPECT_FALSE(std::get<bool>(value("a != 0 and 1 / a > 2")));
+  EXPECT_TRUE(std::get<bool>(value("a == 0 or 1 / a > 2")));
+  EXPECT_TRUE(std::get<bool>(value("on and 1 / a > 2 or a == 0 or log(a) > 1")));
+  EXPECT_FALSE(std::get<bool>(value("not (a == 0 or 1 / a > 2)")));
+  EXPECT_TRUE(std::get<bool>(value("if(on and 1 / a > 0, false, true)")));
+  EXPECT_EQ(complaint("if(a == 1, 1, 1 / a)"), "division by zero");
+  EXPECT_EQ(complaint("a == 0 and 1 / a > 2"), "division by zero");
+  EXPECT_EQ(complaint("on or 1 / a > 2"), "division by zero");
+  EXPECT_EQ(complaint("if(a == 0, 1, 1 / b)"), "unknown parameter 'b'");
+  EXPECT_EQ(complaint("if(a == 0, 1, 1 / )"), "unexpected ')'");
+  EXPECT_EQ(complaint("if(a == 0, 1, (1 / a)"), "a ')' is missing");
+  EXPECT_EQ(complaint("if(a == 0, 1, road + 1)"), "'+' needs numbers, found 'stairs'");
+  EXPECT_EQ(complaint("if(a == 0, 1, sqrt(1, 2))"), "sqrt takes 1 argument, found 2");
+  EXPECT_EQ(complaint("if(a == 0, 1, sqr(4))"), "unknown function 'sqr', did you mean 'sqrt'?");
+  EXPECT_EQ(complaint("if(a == 0, 1, not (1 / a))"), "'not' needs true or false, found a number");
+  EXPECT_EQ(complaint("if(a == 0, 1, 1 / a == 'x')"), "cannot compare a number with a text");
+  EXPECT_EQ(complaint("if(a == 0, 1)"), "if takes 3 arguments, found 2");
+  EXPECT_EQ(complaint("if(a, 1, 2)"), "'if' needs true or false, found 0");
+  EXPECT_EQ(complaint("on and 3"), "'and' needs true or false, found 3");
+  EXPECT_EQ(complaint("a == 0 or road"), "'or' needs true or false, found 'stairs'");
+}
+
+TEST(Expression, Constants) {
+  EXPECT_DOUBLE_EQ(number("30 * deg"), std::numbers::pi / 6);
+  EXPECT_DOUBLE_EQ(number("90 * km_h"), 25.0);
+  EXPECT_DOUBLE_EQ(number("60 * rpm"), 2 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(number("18 * inch"), 0.4572);
+  EXPECT_DOUBLE_EQ(number("250 * mm"), 0.25);
+  EXPECT_DOUBLE_EQ(number("3 * g0"), 29.41995);
+  // A parameter of the user goes first.
+  EXPECT_EQ(std::get<double>(evaluate_expression("2 * mm", {{"mm", 7.0}})), 14.0);
+  EXPECT_EQ(fault("dge"), "unknown parameter 'dge', did you mean 'deg'?");
+}
+
+TEST(Expression, LongTextsAreRefused) {
+  const ParameterScope long_one{{"a", std::string(10000, 'x')}};
+  EXPECT_EQ(std::get<std::string>(substitute_parameters("${a}-${5}", long_one)).size(), 10002u);
+  EXPECT_THROW(substitute_parameters("${a}${a}", long_one), ExpressionError);
 }
 
 TEST(Expression, Substitution) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "floatframe/core/suggest.hpp"
@@ -16,6 +16,16 @@ constexpr std::array function_names{"sqrt", "sin",   "cos",  "tan",   "asin", "a
                                     "atan", "atan2", "exp",  "log",   "abs",  "min",
                                     "max",  "floor", "ceil", "round", "if"};
 constexpr std::array word_names{"pi", "true", "false", "and", "or", "not"};
+/// In SI units. Those without a reserved name are hidden by a parameter of the same name.
+constexpr std::array<std::pair<std::string_view, double>, 7> constants{{
+    {"pi", std::numbers::pi},
+    {"deg", std::numbers::pi / 180.0},
+    {"mm", 1e-3},
+    {"km_h", 1.0 / 3.6},
+    {"rpm", std::numbers::pi / 30.0},
+    {"inch", 0.0254},
+    {"g0", 9.80665},
+}};
 constexpr int deepest_nesting = 100;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -28,18 +38,28 @@ std::string in_quotes(std::string_view s) {
   return t;
 }
 
-/// Recursive descent; one function a level of precedence.
+/// What a part of an expression is. In a branch that is not needed nothing is computed: of its
+/// parts only the types are known, or, where even those depend on values, nothing.
+struct Operand {
+  ParameterValue value;
+  bool computed = true;
+  bool typed = true;
+};
+
+/// Recursive descent; one function a level of precedence. Everything is read and checked: syntax,
+/// names, numbers of arguments, types; `needed_` says whether it is computed too.
 class Parser {
  public:
-  Parser(std::string_view text, const ParameterScope& scope) : text_(text), scope_(scope) {}
+  Parser(std::string_view text, const ParameterScope& scope, bool suggest)
+      : text_(text), scope_(scope), suggest_(suggest) {}
 
   ParameterValue whole() {
     skip_blanks();
     if (at_ == text_.size()) throw ExpressionError("the expression is empty");
-    ParameterValue v = disjunction();
+    Operand v = disjunction();
     skip_blanks();
     if (at_ != text_.size()) throw ExpressionError("unexpected " + here());
-    return v;
+    return std::move(v.value);
   }
 
  private:
@@ -50,119 +70,149 @@ class Parser {
     ~Deeper() { --depth; }
     int& depth;
   };
+  struct OnlyIf {  // while it lives, what is read is needed only if the condition holds
+    OnlyIf(bool& n, bool condition) : needed(n), before(n) { needed = needed && condition; }
+    ~OnlyIf() { needed = before; }
+    OnlyIf(const OnlyIf&) = delete;
+    OnlyIf& operator=(const OnlyIf&) = delete;
+    bool& needed;
+    bool before;
+  };
 
-  ParameterValue disjunction() {
-    ParameterValue v = conjunction();
+  Operand truth(bool x) const { return {x, needed_, true}; }
+  /// A number that `compute` gives, if it is needed.
+  template <class Compute>
+  Operand result(Compute compute) const {
+    if (!needed_) return {1.0, false, true};
+    const double x = compute();
+    if (!std::isfinite(x)) throw ExpressionError("the result is not a finite number");
+    return {x, true, true};
+  }
+
+  Operand disjunction() {
+    Operand v = conjunction();
     while (word("or")) {
-      const bool a = boolean(v, "or"), b = boolean(conjunction(), "or");
-      v = a || b;
+      const bool a = boolean(v, "or");
+      const OnlyIf other(needed_, !a);
+      v = truth(boolean(conjunction(), "or") || a);
     }
     return v;
   }
-  ParameterValue conjunction() {
-    ParameterValue v = negation();
+  Operand conjunction() {
+    Operand v = negation();
     while (word("and")) {
-      const bool a = boolean(v, "and"), b = boolean(negation(), "and");
-      v = a && b;
+      const bool a = boolean(v, "and");
+      const OnlyIf other(needed_, a);
+      v = truth(boolean(negation(), "and") && a);
     }
     return v;
   }
-  ParameterValue negation() {
+  Operand negation() {
     const Deeper deeper(depth_);
-    if (word("not")) return !boolean(negation(), "not");
+    if (word("not")) return truth(!boolean(negation(), "not"));
     return comparison();
   }
-  ParameterValue comparison() {
-    ParameterValue a = sum();
+  Operand comparison() {
+    const Operand a = sum();
     for (const char* op : {"==", "!=", "<=", ">=", "<", ">"}) {
       if (!symbol(op)) continue;
-      const ParameterValue b = sum();
+      const Operand b = sum();
       const std::string o = op;
-      if (a.index() != b.index())
-        throw ExpressionError("cannot compare " + std::string(type_name(a)) + " with " +
-                              type_name(b));
-      if (o == "==") return a == b;
-      if (o == "!=") return a != b;
+      if (a.typed && b.typed && a.value.index() != b.value.index())
+        throw ExpressionError("cannot compare " + std::string(type_name(a.value)) + " with " +
+                              type_name(b.value));
+      if (o == "==") return truth(a.value == b.value);
+      if (o == "!=") return truth(a.value != b.value);
       const double x = number(a, op), y = number(b, op);
-      return o == "<=" ? x <= y : o == ">=" ? x >= y : o == "<" ? x < y : x > y;
+      return truth(o == "<=" ? x <= y : o == ">=" ? x >= y : o == "<" ? x < y : x > y);
     }
     return a;
   }
-  ParameterValue sum() {
-    ParameterValue v = product();
+  Operand sum() {
+    Operand v = product();
     for (;;) {
       if (symbol("+")) {
-        const double a = number(v, "+");
-        v = finite(a + number(product(), "+"));
+        const double a = number(v, "+"), b = number(product(), "+");
+        v = result([&] { return a + b; });
       } else if (symbol("-")) {
-        const double a = number(v, "-");
-        v = finite(a - number(product(), "-"));
+        const double a = number(v, "-"), b = number(product(), "-");
+        v = result([&] { return a - b; });
       } else {
         return v;
       }
     }
   }
-  ParameterValue product() {
-    ParameterValue v = sign();
+  Operand product() {
+    Operand v = sign();
     for (;;) {
       if (symbol("*")) {
-        const double a = number(v, "*");
-        v = finite(a * number(sign(), "*"));
+        const double a = number(v, "*"), b = number(sign(), "*");
+        v = result([&] { return a * b; });
       } else if (symbol("/")) {
         const double a = number(v, "/"), b = number(sign(), "/");
-        if (b == 0.0) throw ExpressionError("division by zero");
-        v = finite(a / b);
+        v = result([&] {
+          if (b == 0.0) throw ExpressionError("division by zero");
+          return a / b;
+        });
       } else {
         return v;
       }
     }
   }
-  ParameterValue sign() {
+  Operand sign() {
     const Deeper deeper(depth_);
-    if (symbol("-")) return -number(sign(), "-");
-    if (symbol("+")) return number(sign(), "+");
+    for (const char* op : {"-", "+"})
+      if (symbol(op)) {
+        const double a = number(sign(), op);
+        return result([&] { return *op == '-' ? -a : a; });
+      }
     return power();
   }
-  ParameterValue power() {
-    ParameterValue v = primary();
+  Operand power() {
+    Operand v = primary();
     if (!symbol("^")) return v;
     const double a = number(v, "^"), b = number(sign(), "^");
-    return finite(std::pow(a, b));
+    return result([&] { return std::pow(a, b); });
   }
-  ParameterValue primary() {
+  Operand primary() {
     skip_blanks();
     if (at_ == text_.size()) throw ExpressionError("a value is missing at the end");
     const char c = text_[at_];
     if (c == '(') {
       ++at_;
-      ParameterValue v = disjunction();
+      Operand v = disjunction();
       if (!symbol(")")) throw ExpressionError("a ')' is missing");
       return v;
     }
-    if (c == '\'' || c == '"') return quoted(c);
-    if (is_digit(c) || c == '.') return literal();
+    if (c == '\'' || c == '"') return {quoted(c)};
+    if (is_digit(c) || c == '.') return {literal()};
     if (!is_letter(c)) throw ExpressionError("unexpected " + here());
     const std::string_view name = identifier();
     if (symbol("(")) return call(name);
-    if (name == "pi") return std::numbers::pi;
-    if (name == "true") return true;
-    if (name == "false") return false;
-    const auto it = scope_.find(name);
-    if (it != scope_.end()) return it->second;
-    if (is_reserved_name(name)) throw ExpressionError("unexpected '" + std::string(name) + "'");
+    if (name == "true") return {true};
+    if (name == "false") return {false};
+    const auto it = scope_.find(name);  // a parameter hides a constant of the same name
+    if (it != scope_.end()) return {it->second};
+    for (const auto& [constant, value] : constants)
+      if (name == constant) return {value};
+    if (is_reserved_name(name)) throw ExpressionError("unexpected " + in_quotes(name));
+    throw ExpressionError("unknown parameter " + in_quotes(name) + suggestion(name));
+  }
+  std::string suggestion(std::string_view name) const {
+    if (!suggest_) return "";
     std::vector<std::string> known;
     for (const auto& [key, value] : scope_) known.push_back(key);
-    throw ExpressionError("unknown parameter '" + std::string(name) + "'" +
-                          did_you_mean(name, known));
+    for (const auto& [constant, value] : constants) known.emplace_back(constant);
+    return did_you_mean(name, known);
   }
-  ParameterValue quoted(char quote) {
+  std::string quoted(char quote) {
     const std::size_t end = text_.find(quote, at_ + 1);
     if (end == std::string_view::npos) throw ExpressionError("a text is not closed");
     std::string s(text_.substr(at_ + 1, end - at_ - 1));
     at_ = end + 1;
     return s;
   }
-  ParameterValue literal() {
+  double literal() {
     const std::size_t begin = at_;
     const auto digits = [&] {
       while (at_ < text_.size() && is_digit(text_[at_])) ++at_;
@@ -184,17 +234,27 @@ class Parser {
                             (p.complaint.empty() ? "" : " (" + p.complaint + ")"));
     return p.number;
   }
-  ParameterValue call(std::string_view name) {
-    std::vector<ParameterValue> v;
-    if (!symbol(")")) {
-      do v.push_back(disjunction());
-      while (symbol(","));
-      if (!symbol(")")) throw ExpressionError("a ')' is missing");
-    }
+  /// The arguments of `f`; of an `if` only the branch that its condition chooses is needed.
+  std::vector<Operand> arguments(const std::string& f) {
+    std::vector<Operand> v;
+    if (symbol(")")) return v;
+    bool condition = true;
+    do {
+      const OnlyIf chosen(needed_, f != "if" || v.empty() || (v.size() == 1) == condition);
+      v.push_back(disjunction());
+      if (v.size() == 1)
+        if (const bool* x = std::get_if<bool>(&v[0].value)) condition = *x;
+    } while (symbol(","));
+    if (!symbol(")")) throw ExpressionError("a ')' is missing");
+    return v;
+  }
+  Operand call(std::string_view name) {
     const std::string f(name);
+    const std::vector<Operand> v = arguments(f);
     if (std::find(function_names.begin(), function_names.end(), name) == function_names.end()) {
       const std::vector<std::string> known(function_names.begin(), function_names.end());
-      throw ExpressionError("unknown function '" + f + "'" + did_you_mean(name, known));
+      throw ExpressionError("unknown function " + in_quotes(f) +
+                            (suggest_ ? did_you_mean(name, known) : ""));
     }
     const auto need = [&](std::size_t n) {
       if (v.size() != n)
@@ -204,58 +264,61 @@ class Parser {
     };
     if (f == "if") {
       need(3);
-      return boolean(v[0], "if") ? v[1] : v[2];
+      const bool first = boolean(v[0], "if");
+      if (needed_) return v[first ? 1 : 2];
+      const bool same = v[1].typed && v[2].typed && v[1].value.index() == v[2].value.index();
+      return {v[1].value, false, same};
     }
     if (f == "min" || f == "max") {
       if (v.empty()) throw ExpressionError(f + " takes at least 1 argument, found 0");
       double best = number(v[0], f);
-      for (const ParameterValue& x : v) {
+      for (const Operand& x : v) {
         const double y = number(x, f);
         best = f == "min" ? std::min(best, y) : std::max(best, y);
       }
-      return best;
+      return result([&] { return best; });
     }
     if (f == "atan2") {
       need(2);
-      return std::atan2(number(v[0], f), number(v[1], f));
+      const double y = number(v[0], f), x = number(v[1], f);
+      return result([&] { return std::atan2(y, x); });
     }
     need(1);
     const double x = number(v[0], f);
-    const auto outside = [&] {
+    return result([&] { return function(f, x); });
+  }
+  static double function(const std::string& f, double x) {
+    if ((f == "sqrt" && x < 0.0) || (f == "log" && x <= 0.0) ||
+        ((f == "asin" || f == "acos") && std::abs(x) > 1.0))
       throw ExpressionError(f + " of " + number_text(x) + " is not defined");
-    };
-    if (f == "sqrt" && x < 0.0) outside();
-    if (f == "log" && x <= 0.0) outside();
-    if ((f == "asin" || f == "acos") && std::abs(x) > 1.0) outside();
-    return finite(f == "sqrt"    ? std::sqrt(x)
-                  : f == "sin"   ? std::sin(x)
-                  : f == "cos"   ? std::cos(x)
-                  : f == "tan"   ? std::tan(x)
-                  : f == "asin"  ? std::asin(x)
-                  : f == "acos"  ? std::acos(x)
-                  : f == "atan"  ? std::atan(x)
-                  : f == "exp"   ? std::exp(x)
-                  : f == "log"   ? std::log(x)
-                  : f == "abs"   ? std::abs(x)
-                  : f == "floor" ? std::floor(x)
-                  : f == "ceil"  ? std::ceil(x)
-                                 : std::round(x));
+    return f == "sqrt"    ? std::sqrt(x)
+           : f == "sin"   ? std::sin(x)
+           : f == "cos"   ? std::cos(x)
+           : f == "tan"   ? std::tan(x)
+           : f == "asin"  ? std::asin(x)
+           : f == "acos"  ? std::acos(x)
+           : f == "atan"  ? std::atan(x)
+           : f == "exp"   ? std::exp(x)
+           : f == "log"   ? std::log(x)
+           : f == "abs"   ? std::abs(x)
+           : f == "floor" ? std::floor(x)
+           : f == "ceil"  ? std::ceil(x)
+                          : std::round(x);
   }
 
-  static double number(const ParameterValue& v, std::string_view where) {
-    if (const double* x = std::get_if<double>(&v)) return *x;
-    throw ExpressionError("'" + std::string(where) + "' needs numbers, found " + describe(v));
+  static double number(const Operand& v, std::string_view where) {
+    if (!v.typed) return 1.0;
+    if (const double* x = std::get_if<double>(&v.value)) return *x;
+    throw ExpressionError(in_quotes(where) + " needs numbers, found " + describe(v));
   }
-  static bool boolean(const ParameterValue& v, std::string_view where) {
-    if (const bool* x = std::get_if<bool>(&v)) return *x;
-    throw ExpressionError("'" + std::string(where) + "' needs true or false, found " + describe(v));
+  static bool boolean(const Operand& v, std::string_view where) {
+    if (!v.typed) return true;
+    if (const bool* x = std::get_if<bool>(&v.value)) return *x;
+    throw ExpressionError(in_quotes(where) + " needs true or false, found " + describe(v));
   }
-  static std::string describe(const ParameterValue& v) {
-    return v.index() == 2 ? in_quotes(std::get<std::string>(v)) : value_text(v);
-  }
-  static double finite(double x) {
-    if (!std::isfinite(x)) throw ExpressionError("the result is not a finite number");
-    return x;
+  static std::string describe(const Operand& v) {
+    if (!v.computed) return type_name(v.value);
+    return v.value.index() == 2 ? in_quotes(std::get<std::string>(v.value)) : value_text(v.value);
   }
 
   void skip_blanks() {
@@ -284,124 +347,53 @@ class Parser {
 
   std::string_view text_;
   const ParameterScope& scope_;
+  bool suggest_;
   std::size_t at_ = 0;
   int depth_ = 0;
+  bool needed_ = true;
 };
 
 }  // namespace
 
-ParameterValue evaluate_expression(std::string_view text, const ParameterScope& scope) {
-  return Parser(text, scope).whole();
+ParameterValue evaluate_expression(std::string_view text, const ParameterScope& scope,
+                                   bool suggest) {
+  return Parser(text, scope, suggest).whole();
 }
 
-ParameterValue substitute_parameters(std::string_view text, const ParameterScope& scope) {
+ParameterValue substitute_parameters(std::string_view text, const ParameterScope& scope,
+                                     bool suggest) {
   std::string result;
+  const auto append = [&](std::string_view part) {
+    if (part.size() > longest_text - result.size())
+      throw ExpressionError("the text is longer than " + std::to_string(longest_text) +
+                            " characters");
+    result += part;
+  };
   std::size_t at = 0;
   for (;;) {
     const std::size_t open = text.find("${", at);
     if (open == std::string_view::npos) break;
     const std::size_t close = text.find('}', open);
     if (close == std::string_view::npos) throw ExpressionError("a '}' is missing");
-    ParameterValue v = evaluate_expression(text.substr(open + 2, close - open - 2), scope);
+    ParameterValue v = evaluate_expression(text.substr(open + 2, close - open - 2), scope, suggest);
     if (open == 0 && close + 1 == text.size()) return v;
-    result += text.substr(at, open - at);
-    result += value_text(v);
+    append(text.substr(at, open - at));
+    append(value_text(v));
     at = close + 1;
   }
-  result += text.substr(at);
+  append(text.substr(at));
   return result;
 }
 
-std::string value_text(const ParameterValue& value) {
-  if (const bool* b = std::get_if<bool>(&value)) return *b ? "true" : "false";
-  if (const double* x = std::get_if<double>(&value)) return number_text(*x);
-  return std::get<std::string>(value);
-}
-
-const char* type_name(const ParameterValue& value) {
-  constexpr std::array names{"true or false", "a number", "a text"};
-  return names[value.index()];
+bool is_constant_name(std::string_view name) {
+  return !is_reserved_name(name) &&
+         std::any_of(constants.begin(), constants.end(),
+                     [&](const auto& constant) { return constant.first == name; });
 }
 
 bool is_reserved_name(std::string_view name) {
   return std::find(function_names.begin(), function_names.end(), name) != function_names.end() ||
          std::find(word_names.begin(), word_names.end(), name) != word_names.end();
-}
-
-PlainScalar classify_plain_scalar(std::string_view text) {
-  PlainScalar s;
-  if (text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL") {
-    s.kind = PlainScalar::Kind::null;
-    return s;
-  }
-  if (text == "true" || text == "false") {
-    s.kind = PlainScalar::Kind::boolean;
-    s.boolean = text == "true";
-    return s;
-  }
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  for (const char* word : {"true", "yes", "on", "false", "no", "off"}) {
-    if (lower != word) continue;
-    const bool truth = lower == "true" || lower == "yes" || lower == "on";
-    s.kind = PlainScalar::Kind::bad_boolean;
-    s.complaint = truth ? "write true" : "write false";
-    return s;
-  }
-  std::string_view body = lower;
-  if (body[0] == '+' || body[0] == '-') body.remove_prefix(1);
-  if (body == ".inf" || body == ".nan" || body == "inf" || body == "nan" || body == "infinity") {
-    s.kind = PlainScalar::Kind::bad_number;
-    s.complaint = "numbers must be finite";
-    return s;
-  }
-  if (body.empty() ||
-      !(is_digit(body[0]) || (body[0] == '.' && body.size() > 1 && is_digit(body[1]))))
-    return s;
-  // digits [. digits] [e [+-] digits]
-  std::size_t k = 0;
-  const auto digits = [&] {
-    const std::size_t begin = k;
-    while (k < body.size() && is_digit(body[k])) ++k;
-    return k - begin;
-  };
-  const std::size_t whole = digits();
-  std::size_t fraction = 0;
-  if (k < body.size() && body[k] == '.') ++k, fraction = digits();
-  bool well_formed = whole + fraction > 0;
-  if (well_formed && k < body.size() && body[k] == 'e') {
-    ++k;
-    if (k < body.size() && (body[k] == '+' || body[k] == '-')) ++k;
-    well_formed = digits() > 0;
-  }
-  if (!well_formed || k != body.size()) {
-    const bool other_base =
-        body.size() > 2 && body[0] == '0' && (body[1] == 'x' || body[1] == 'o' || body[1] == 'b');
-    if (other_base || body.find('_') != std::string_view::npos) {
-      s.kind = PlainScalar::Kind::bad_number;
-      s.complaint = "write a decimal number";
-    }
-    return s;
-  }
-  if (whole > 1 && body[0] == '0') {
-    s.kind = PlainScalar::Kind::bad_number;
-    s.complaint = "a number must not start with 0";
-    return s;
-  }
-  const auto r = std::from_chars(body.data(), body.data() + body.size(), s.number);
-  const bool tiny =
-      r.ec == std::errc::result_out_of_range && body.find("e-") != std::string_view::npos;
-  if (tiny) s.number = 0.0;
-  if (!tiny && (r.ec != std::errc() || !std::isfinite(s.number))) {
-    s.kind = PlainScalar::Kind::bad_number;
-    s.complaint = "numbers must be finite";
-    return s;
-  }
-  if (lower[0] == '-') s.number = -s.number;
-  s.kind = PlainScalar::Kind::number;
-  return s;
 }
 
 }  // namespace floatframe

@@ -1,11 +1,13 @@
 #pragma once
 // The expression language of model files: the text inside `${...}`.
-//   numbers, 'text', true, false, pi, parameter names
+//   numbers, 'text', true, false, pi, deg, mm, km_h, rpm, inch, g0, parameter names
 //   + - * / ^ (right associative), unary -, parentheses
 //   == != < <= > >=   and or not
 //   sqrt sin cos tan asin acos atan atan2 exp log abs min max floor ceil round if(condition, a, b)
 // Angles in radians. Every result is finite: a division by zero or the root of a negative number is
-// an error.
+// an error. `if`, `and` and `or` compute only what they need; the rest is checked for syntax, names
+// and types.
+#include <cstddef>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -24,18 +26,26 @@ class ExpressionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Value of the expression `text` (without `${` and `}`). Throws ExpressionError.
-ParameterValue evaluate_expression(std::string_view text, const ParameterScope& scope);
+/// The longest text of a model file, written there or composed of parameters [bytes].
+inline constexpr std::size_t longest_text = 16384;
+
+/// Value of the expression `text` (without `${` and `}`). Throws ExpressionError; `suggest`: with
+/// the known name nearest to one that is not known, which takes time.
+ParameterValue evaluate_expression(std::string_view text, const ParameterScope& scope,
+                                   bool suggest = true);
 
 /// Replaces every `${...}` in `text`. A text that is one single `${...}` keeps the type of its
 /// value, otherwise the values are inserted as text. Throws ExpressionError.
-ParameterValue substitute_parameters(std::string_view text, const ParameterScope& scope);
+ParameterValue substitute_parameters(std::string_view text, const ParameterScope& scope,
+                                     bool suggest = true);
 
 /// Value as text: true, false, number_text or the text itself.
 std::string value_text(const ParameterValue& value);
 /// "a number", "true or false", "a text".
 const char* type_name(const ParameterValue& value);
 
+/// A constant that a parameter of the same name may take the place of (deg, mm, ...).
+bool is_constant_name(std::string_view name);
 /// A name the expression language uses itself (pi, true, and, sqrt, ...).
 bool is_reserved_name(std::string_view name);
 
