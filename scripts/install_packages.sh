@@ -35,8 +35,9 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   fi
   {
     echo "This is not a Debian or Ubuntu system and these tools are missing: ${missing_tools[*]}"
-    echo "Install them and the libraries Eigen 3.4, yaml-cpp, fmt, CLI11, nlohmann-json, GoogleTest and"
-    echo "Google Benchmark with the system's package manager. On Debian the packages are called:"
+    echo "Install them and the libraries Eigen 3.4, yaml-cpp, fmt, CLI11, nlohmann-json, zlib, Spectra, METIS,"
+    echo "GoogleTest and Google Benchmark (and, for sweeps on several processes, MPI; for large parts, the"
+    echo "sequential MUMPS with OpenBLAS) with the system's package manager. On Debian the packages are called:"
     echo "  ${packages[*]}"
   } >&2
   exit 1

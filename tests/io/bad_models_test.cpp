@@ -83,7 +83,7 @@ const Case cases[] = {
      "'one' has 4 elements and no node there; the nearest are at 1/4 = 0.25 and 2/4 = 0.5"},
     {"comment_only.yaml", "comment_only.yaml:1:1: the file is empty"},
     {"deep_nesting.yaml",
-     "deep_nesting.yaml:2:34: lists and maps are nested too deeply, at most 50 levels are allowed"},
+     "deep_nesting.yaml:2:58: lists and maps are nested too deeply, at most 50 levels are allowed"},
     {"division_by_zero.yaml",
      "division_by_zero.yaml:5:19: bodies.block.rigid.mass: in ${1 / zero}: division by zero"},
     {"dof_twice.yaml",

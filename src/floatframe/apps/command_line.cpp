@@ -10,6 +10,7 @@
 #include "floatframe/apps/command.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/printable.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -17,7 +18,10 @@ namespace {
 
 constexpr int failed = 1, bad_input = 2;
 
-void say(const std::string& message) { fmt::print(stderr, "floatframe: {}\n", message); }
+/// Names that came from files and arguments may hold anything: a terminal is not to obey it.
+void say(const std::string& message) {
+  fmt::print(stderr, "floatframe: {}\n", printable(message, true));
+}
 
 /// One fault a line, as compilers do; the number of faults last.
 int report(const InputError& error) {
@@ -27,7 +31,7 @@ int report(const InputError& error) {
     if (fault.mark.file.empty()) {
       say(fault.message);
     } else {
-      fmt::print(stderr, "{}\n", fault.text());
+      fmt::print(stderr, "{}\n", printable(fault.text(), true));
     }
   }
   files.erase("");

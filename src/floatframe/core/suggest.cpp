@@ -1,9 +1,13 @@
 #include "floatframe/core/suggest.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace floatframe {
 namespace {
+/// A suggestion is a courtesy: among very many names only the first are compared [letter pairs].
+constexpr std::size_t most_comparisons = 2'000'000;
+
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 }  // namespace
 
@@ -30,8 +34,11 @@ const std::string* nearest(std::string_view name, const std::vector<std::string>
   if (name.size() > 100) return nullptr;
   const std::string* best = nullptr;
   int distance = std::max(name.size() > 1 ? 1 : 0, static_cast<int>(name.size()) / 3) + 1;
+  std::size_t comparisons = 0;
   for (const std::string& k : known) {
-    if (k.size() > 100) continue;
+    const auto longer = static_cast<int>(k.size()) - static_cast<int>(name.size());
+    if (k.size() > 100 || std::abs(longer) >= distance) continue;
+    if ((comparisons += name.size() * k.size()) > most_comparisons) break;
     const int d = edit_distance(name, k);
     if (d < distance) distance = d, best = &k;
   }

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <set>
 
-#include "floatframe/core/suggest.hpp"
+#include "floatframe/core/printable.hpp"
 
 namespace floatframe {
 namespace {
@@ -19,7 +20,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 class Loader {
  public:
-  Loader(ModelFiles& files, Faults& faults) : files_(files), faults_(faults) {}
+  Loader(ModelFiles& files, ReadFaults& faults) : files_(files), faults_(faults) {}
 
   std::unique_ptr<ModelInstance> open(const YamlDocument* document, ModelInstance* outer) {
     auto instance = std::make_unique<ModelInstance>();
@@ -34,8 +35,47 @@ class Loader {
     std::string name;
     ParameterValue value;
     SourceMark mark;
-    std::string subject;  // "subsystems.left.parameters" or "--set"
+    std::string subject;    // "subsystems.left.parameters" or "--set"
+    std::string raw;        // as it was written on the command line: the value of a text
+    std::string complaint;  // why it is neither a number nor true or false, though it looks so
   };
+
+  /// "--set name=value". A text is taken as it is written; quotes around it may be there.
+  std::optional<Given> override_value(const ParameterOverride& o, const std::string& path) {
+    const SourceMark mark{path, 0, 0};
+    const auto refuse = [&](const std::string& why) {
+      faults_.add(mark, "--set " + o.name + "=" + o.value.substr(0, 100) + ": " + why);
+      return std::nullopt;
+    };
+    if (o.value.size() > longest_text)
+      return refuse("found a text of " + std::to_string(o.value.size()) +
+                    " characters, expected at most " + std::to_string(longest_text));
+    if (printable(o.value) != o.value)
+      return refuse("expected UTF-8 text without control characters");
+    Given given{o.name, {}, mark, "--set", {}, {}};
+    const std::size_t n = o.value.size();
+    if (n > 2 && (o.value[0] == '\'' || o.value[0] == '"') && o.value[n - 1] == o.value[0]) {
+      given.raw = o.value.substr(1, n - 2);
+      given.value = given.raw;
+      return given;
+    }
+    if (o.value.find("${") != std::string::npos) {
+      try {
+        given.value = substitute_parameters(o.value, {});
+      } catch (const ExpressionError& error) {
+        return refuse(error.what());
+      }
+      return given;
+    }
+    const PlainScalar p = classify_plain_scalar(o.value);
+    if (p.kind == PlainScalar::Kind::null) return refuse("found nothing, expected a value");
+    given.raw = o.value;
+    given.value = given.raw;
+    if (p.kind == PlainScalar::Kind::number) given.value = p.number;
+    if (p.kind == PlainScalar::Kind::boolean) given.value = p.boolean;
+    given.complaint = p.complaint;
+    return given;
+  }
 
   void fill(ModelInstance& self, const std::vector<Given>& given, std::vector<std::string>& stack) {
     const YamlValue top(self.context, self.document->root, "");
@@ -44,6 +84,11 @@ class Loader {
                   "found " + top.found() + ", expected a map of keys such as 'bodies'");
       return;
     }
+    if (!faults_.take_of(
+            "values in all files together (each counted as often as it is used)",
+            self.document->values, limits::total_values,
+            {self.document->file, self.document->root.line, self.document->root.column}, ""))
+      return;
     if (!self.root) self.root.emplace(top);
     YamlSection& root = *self.root;
     if (const auto version = root.require("floatframe")) {
@@ -58,16 +103,23 @@ class Loader {
         self.points.emplace(name, value.vector("m").value_or(wrong));
     }
     for (std::size_t k = 0; k < entity_keys.size(); ++k) collect_names(self, k);
-    subsystems(self, stack);
+    if (!faults_.exhausted()) subsystems(self, stack);
   }
 
  private:
   void parameters(ModelInstance& self, const std::vector<Given>& given) {
+    std::multimap<std::string, std::size_t> by_name;  // in the order given
+    for (std::size_t i = 0; i < given.size(); ++i) by_name.emplace(given[i].name, i);
     std::vector<bool> used(given.size(), false);
     std::vector<std::string> known;
-    if (const auto list = self.root->get("parameters"))
-      for (auto& [name, value] : list->named("a map of names to values")) {
+    if (const auto list = self.root->get("parameters")) {
+      const auto declared = list->named("a map of names to values");
+      std::set<std::string> hiding;  // not declared yet, but will hide a constant
+      for (const auto& [name, value] : declared) {
         known.push_back(name);
+        if (is_constant_name(name)) hiding.insert(name);
+      }
+      for (const auto& [name, value] : declared) {
         if (!is_identifier(name) || is_reserved_name(name)) {
           faults_.add(
               value.entity_mark(),
@@ -77,23 +129,56 @@ class Loader {
                        : ": found a hyphen, expected letters, digits and _ in a parameter name"));
           continue;
         }
+        for (const std::string& later : hiding)
+          if (value.is_scalar() && mentions(value.node().text, later))
+            value.fault("found " + value.found() + ", but the parameter '" + later +
+                        "', which takes the place of the constant, is declared later; expected it "
+                        "before its uses");
+        hiding.erase(name);
         auto v = value.parameter();
-        for (std::size_t i = 0; i < given.size(); ++i) {
-          if (given[i].name != name) continue;
-          used[i] = true;
-          if (v && v->index() != given[i].value.index())
-            faults_.add(given[i].mark, given[i].subject + "." + name + ": found " +
-                                           shown(given[i].value) + ", expected " + type_name(*v));
+        for (auto [it, end] = by_name.equal_range(name); it != end; ++it) {
+          const Given& g = given[it->second];
+          used[it->second] = true;
+          if (v && v->index() == 2 && !g.raw.empty())
+            v = g.raw;
+          else if (!g.complaint.empty())
+            faults_.add(g.mark, g.subject + " " + name + "=" + g.raw + ": found " + g.raw + " (" +
+                                    g.complaint + ")");
+          else if (v && v->index() != g.value.index())
+            faults_.add(g.mark, g.subject + "." + name + ": found " + shown(g.value) +
+                                    ", expected " + type_name(*v));
           else
-            v = given[i].value;
+            v = g.value;
         }
         // A parameter that is wrong still exists, so that its uses are not faults too.
+        if (v && v->index() == 2 &&
+            !faults_.take_of("characters in the texts of all parameters",
+                             std::get<std::string>(*v).size(), limits::parameter_text, value.mark(),
+                             value.path()))
+          v = std::string("?");
         self.scope.emplace(name, v.value_or(1.0));
       }
+    }
     for (std::size_t i = 0; i < given.size(); ++i)
       if (!used[i])
         faults_.add(given[i].mark, given[i].subject + ": unknown parameter '" + given[i].name +
-                                       "'" + did_you_mean(given[i].name, known));
+                                       "'" +
+                                       faults_.suggestion(given[i].name, [&] { return known; }));
+  }
+
+  /// True if an expression in `text` uses `name`.
+  static bool mentions(std::string_view text, std::string_view name) {
+    const auto part_of_name = [&](std::size_t k) {
+      return k < text.size() && is_identifier(std::string("_") + text[k]);
+    };
+    for (std::size_t open = text.find("${"); open != std::string_view::npos;
+         open = text.find("${", open)) {
+      const std::size_t close = std::min(text.find('}', open), text.size());
+      for (std::size_t k = text.find(name, open); k < close; k = text.find(name, k + 1))
+        if (!part_of_name(k - 1) && !part_of_name(k + name.size())) return true;
+      open = close;
+    }
+    return false;
   }
 
   static std::string shown(const ParameterValue& v) {
@@ -119,6 +204,9 @@ class Loader {
                     value.path() + ": the name 'ground' is taken by the ground");
         continue;
       }
+      if (active && !faults_.take_of(entity_keys[kind], 1, limits::entities, value.entity_mark(),
+                                     value.path()))
+        active = false;
       self.names[kind].emplace(name, active);
     }
   }
@@ -135,7 +223,8 @@ class Loader {
       std::vector<Given> given;
       if (const auto p = section->get("parameters"))
         for (auto& [key, v] : p->named("a map of names to values"))
-          if (const auto x = v.parameter()) given.push_back({key, *x, v.entity_mark(), p->path()});
+          if (const auto x = v.parameter())
+            given.push_back({key, *x, v.entity_mark(), p->path(), {}, {}});
       Placement placement;
       if (const auto p = section->get("position"))
         if (const auto v = p->vector("m")) placement = translation(*v);
@@ -144,6 +233,7 @@ class Loader {
       if (const auto c = section->get("connect"))
         connections = c->named("a map of external names to names");
       section->finish();
+      if (faults_.exhausted()) return;
       if (!file_value) continue;
       const auto file = file_value->text("the name of a subsystem file");
       if (!file) continue;
@@ -195,39 +285,52 @@ class Loader {
   void connect(ModelInstance& self, ModelInstance& child,
                const std::vector<std::pair<std::string, YamlValue>>& connections,
                const YamlSection& section) {
-    std::vector<std::string> wanted;
+    std::set<std::string> wanted;
+    std::vector<std::string> order;
     const YamlValue top(child.context, child.document->root, "");
     if (top.is_map()) child.root.emplace(top);
     if (child.root)
       if (const auto e = child.root->get("external"))
         for (const YamlValue& item : e->list("a list of names"))
-          if (const auto n = item.text("a name")) wanted.push_back(*n);
-    std::vector<std::string> missing = wanted;
+          if (const auto n = item.text("a name")) {
+            if (n->size() > limits::name_length)
+              item.unexpected("a name of at most " + std::to_string(limits::name_length) +
+                              " characters");
+            else if (wanted.insert(*n).second)
+              order.push_back(*n);
+          }
+    std::set<std::string> given;
     for (const auto& [name, value] : connections) {
       const auto target = value.text("the name of a body or road");
-      if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) {
+      if (!wanted.count(name)) {
         faults_.add(value.entity_mark(), value.path() + ": '" + child.document->file +
                                              "' has no external name '" + name + "'" +
-                                             did_you_mean(name, wanted));
+                                             faults_.suggestion(name, [&] { return order; }));
         continue;
       }
-      std::erase(missing, name);
+      given.insert(name);
       if (!target) {
         child.external.emplace(name, "");
         continue;
       }
       bool exists = false, off = false;
-      std::vector<std::string> known;
-      for (std::size_t k = 0; k < entity_words.size(); ++k) {
+      for (std::size_t k = 0; k < entity_words.size(); ++k)
         exists = exists || self.resolve(static_cast<EntityKind>(k), *target, &off);
-        for (std::string& n : self.known(static_cast<EntityKind>(k))) known.push_back(std::move(n));
-      }
+      const auto known = [&] {
+        std::vector<std::string> out;
+        for (std::size_t k = 0; k < entity_words.size(); ++k)
+          for (std::string& n : self.known(static_cast<EntityKind>(k))) out.push_back(std::move(n));
+        return out;
+      };
       if (!exists && off)
         value.fault("'" + *target + "' is switched off by its 'when'");
       else if (!exists)
-        value.fault("unknown name '" + *target + "'" + did_you_mean(*target, known));
+        value.fault("unknown name '" + *target + "'" + faults_.suggestion(*target, known));
       child.external.emplace(name, exists ? *target : "");
     }
+    std::vector<std::string> missing;
+    for (const std::string& name : order)
+      if (!given.count(name)) missing.push_back(name);
     for (const std::string& name : missing) child.external.emplace(name, "");
     if (!missing.empty())
       section.fault("'" + child.document->file + "' needs " + joined(missing) +
@@ -235,7 +338,7 @@ class Loader {
   }
 
   ModelFiles& files_;
-  Faults& faults_;
+  ReadFaults& faults_;
   int instances_ = 0;
 };
 
@@ -297,7 +400,8 @@ std::optional<std::string> ModelInstance::reference(EntityKind kind, const YamlV
   if (off)
     value.fault("the " + word + " '" + *name + "' is switched off by its 'when'");
   else
-    value.fault("unknown " + word + " '" + *name + "'" + did_you_mean(*name, known(kind)));
+    value.fault("unknown " + word + " '" + *name + "'" +
+                context.faults->suggestion(*name, [&] { return known(kind); }));
   return std::nullopt;
 }
 
@@ -330,7 +434,8 @@ std::optional<Vec3> ModelInstance::read_point(const YamlValue& value) const {
   if (!name) return std::nullopt;
   const auto p = point(*name);
   if (!p) {
-    value.fault("unknown point '" + *name + "'" + did_you_mean(*name, known_points()));
+    value.fault("unknown point '" + *name + "'" +
+                context.faults->suggestion(*name, [&] { return known_points(); }));
     return std::nullopt;
   }
   if (!p->allFinite()) return std::nullopt;  // a point that is wrong itself
@@ -359,35 +464,14 @@ std::size_t ModelFiles::order(const std::string& file) const {
 
 std::unique_ptr<ModelInstance> load_instances(const std::string& path,
                                               const std::vector<ParameterOverride>& overrides,
-                                              ModelFiles& files, Faults& faults) {
+                                              ModelFiles& files, ReadFaults& faults) {
   const YamlDocument* document = files.load(path, {}, "");
   if (!document) return nullptr;
   Loader loader(files, faults);
   auto root = loader.open(document, nullptr);
   std::vector<Loader::Given> given;
-  for (const ParameterOverride& o : overrides) {
-    const SourceMark mark{path, 0, 0};
-    const std::string subject = "--set " + o.name + "=" + o.value;
-    try {
-      ParameterValue value = substitute_parameters(o.value, {});
-      if (o.value.find("${") == std::string::npos) {
-        const PlainScalar p = classify_plain_scalar(o.value);
-        if (p.kind == PlainScalar::Kind::bad_number || p.kind == PlainScalar::Kind::bad_boolean) {
-          faults.add(mark, subject + ": found " + o.value + " (" + p.complaint + ")");
-          continue;
-        }
-        if (p.kind == PlainScalar::Kind::null) {
-          faults.add(mark, subject + ": found nothing, expected a value");
-          continue;
-        }
-        if (p.kind == PlainScalar::Kind::number) value = p.number;
-        if (p.kind == PlainScalar::Kind::boolean) value = p.boolean;
-      }
-      given.push_back({o.name, std::move(value), mark, "--set"});
-    } catch (const ExpressionError& error) {
-      faults.add(mark, subject + ": " + error.what());
-    }
-  }
+  for (const ParameterOverride& o : overrides)
+    if (auto value = loader.override_value(o, path)) given.push_back(std::move(*value));
   std::error_code ignored;
   std::vector<std::string> stack{std::filesystem::weakly_canonical(path, ignored).string()};
   const YamlValue top(root->context, document->root, "");

@@ -62,7 +62,7 @@ struct ModelInstance {
 /// Files already parsed, each once.
 class ModelFiles {
  public:
-  explicit ModelFiles(Faults& faults) : faults_(faults) {}
+  explicit ModelFiles(ReadFaults& faults) : faults_(faults) {}
   /// nullptr and a fault if the file cannot be read. `where`, `subject`: the place that names the
   /// file.
   const YamlDocument* load(const std::string& file, const SourceMark& where,
@@ -71,7 +71,7 @@ class ModelFiles {
   std::size_t order(const std::string& file) const;
 
  private:
-  Faults& faults_;
+  ReadFaults& faults_;
   std::vector<std::pair<std::string, std::unique_ptr<YamlDocument>>> documents_;
 };
 
@@ -79,6 +79,6 @@ class ModelFiles {
 /// entities. nullptr if the model file itself cannot be read.
 std::unique_ptr<ModelInstance> load_instances(const std::string& path,
                                               const std::vector<ParameterOverride>& overrides,
-                                              ModelFiles& files, Faults& faults);
+                                              ModelFiles& files, ReadFaults& faults);
 
 }  // namespace floatframe

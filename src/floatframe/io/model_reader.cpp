@@ -79,11 +79,12 @@ ModelDescription read_model(const std::string& path,
                             const ReadOptions& options) {
   std::optional<FilesRead> record;
   if (used) record.emplace(used->files);
-  Faults faults;
+  ReadFaults faults;
   ModelFiles files(faults);
   ReadModel model;
   model.options = options;
   const auto root = load_instances(path, overrides, files, faults);
+  if (faults.exhausted()) throw InputError(sorted(faults.take(), files));
   if (root && used) {
     for (const auto& [name, value] : root->scope) used->parameters.push_back(name);
     fingerprint(*root, *used);

@@ -2,7 +2,6 @@
 //   H = sum_k (p_k - p_mean) (w_k - w_mean)^T = U S V^T,  R = V diag(1, 1, det(V U^T)) U^T
 #include <Eigen/SVD>
 
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
 
 namespace floatframe {
@@ -26,16 +25,21 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
   };
   std::vector<Pair> pairs;
   bool good = true;
+  std::map<std::string, const ModalNode*> named;
+  for (const ModalNode& n : part.nodes)
+    if (!n.name.empty()) named.insert_or_assign(n.name, &n);
   for (const auto& [name, point] : value.named("a map of markers to points", true)) {
-    const ModalNode* node = nullptr;
-    std::vector<std::string> known;
-    for (const ModalNode& n : part.nodes) {
-      if (n.name == name) node = &n;
-      if (!n.name.empty()) known.push_back(n.name);
-    }
+    const auto at = named.find(name);
+    const ModalNode* node = at == named.end() ? nullptr : at->second;
+    const auto known = [&] {
+      std::vector<std::string> names;
+      for (const auto& [key, unused] : named) names.push_back(key);
+      return names;
+    };
     if (!node)
-      self.context.faults->add(point.entity_mark(), point.path() + ": the part has no marker '" +
-                                                        name + "'" + did_you_mean(name, known));
+      self.context.faults->add(point.entity_mark(),
+                               point.path() + ": the part has no marker '" + name + "'" +
+                                   self.context.faults->suggestion(name, known));
     const auto w = self.read_point(point);
     good = good && node && w;
     if (node && w) pairs.push_back({point, node->p, *w});

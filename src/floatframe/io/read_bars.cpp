@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -81,9 +80,12 @@ class BarReader {
     if (!name) return std::nullopt;
     const auto p = self_.points.find(*name);
     if (p == self_.points.end()) {
-      std::vector<std::string> known;
-      for (const auto& [key, unused] : self_.points) known.push_back(key);
-      value.fault("unknown point '" + *name + "'" + did_you_mean(*name, known));
+      const auto known = [&] {
+        std::vector<std::string> names;
+        for (const auto& [key, unused] : self_.points) names.push_back(key);
+        return names;
+      };
+      value.fault("unknown point '" + *name + "'" + self_.context.faults->suggestion(*name, known));
       return std::nullopt;
     }
     if (!p->second.allFinite()) return std::nullopt;
@@ -112,6 +114,12 @@ class BarReader {
     bool good = true;
     const auto elements = s->require("elements");
     b.elements = elements ? elements->integer(rules::elements).value_or(1) : 1;
+    if (!self_.context.faults->take_of("elements in all bars", static_cast<std::size_t>(b.elements),
+                                       limits::elements, elements ? elements->mark() : s->mark(),
+                                       value.path())) {
+      sound_ = false;
+      return;
+    }
     const auto from = s->require("from");
     if (from && from->is_map()) {
       good = branch(*from, b, g, start);
@@ -156,6 +164,7 @@ class BarReader {
       graph(end);
       inner_[name] = before;
       starts_[name] = start;
+      ends_[name] = end;
       unite(start, end);
       for (int k = 1; k < b.elements; ++k) unite(start, before + static_cast<std::size_t>(k) - 1);
       if (f().bars.empty()) out_.first_point = g.from;
@@ -178,9 +187,13 @@ class BarReader {
     if (!name) return false;
     const auto it = geometry_.find(*name);
     if (it == geometry_.end()) {
-      std::vector<std::string> known;
-      for (const auto& [key, unused] : geometry_) known.push_back(key);
-      bar_value->fault("unknown bar '" + *name + "'" + did_you_mean(*name, known) +
+      const auto known = [&] {
+        std::vector<std::string> names;
+        for (const auto& [key, unused] : geometry_) names.push_back(key);
+        return names;
+      };
+      bar_value->fault("unknown bar '" + *name + "'" +
+                       self_.context.faults->suggestion(*name, known) +
                        " (bars are known after they are written)");
       return false;
     }
@@ -201,15 +214,9 @@ class BarReader {
     g.from = other.from + (other.to - other.from) * (nearest / other.elements);
     const int k = static_cast<int>(nearest);
     start = k == 0                ? starts_[*name]
-            : k == other.elements ? end_of(*name)
+            : k == other.elements ? ends_[*name]
                                   : inner_[*name] + static_cast<std::size_t>(k) - 1;
     return true;
-  }
-
-  std::size_t end_of(const std::string& bar_name) {
-    for (const BarDescription& b : f().bars)
-      if (b.name == bar_name) return out_.named_nodes.at(b.to);
-    return 0;
   }
 
   static std::string fraction(double k, int n) {
@@ -243,7 +250,8 @@ class BarReader {
   FlexibleRead& out_;
   bool sound_ = true;
   std::map<std::string, BarGeometry> geometry_;
-  std::map<std::string, std::size_t> inner_, starts_;  // first inner node, start node of a bar
+  // First inner node, start node and end node of a bar.
+  std::map<std::string, std::size_t> inner_, starts_, ends_;
   std::vector<std::size_t> parent_;
   std::vector<std::pair<std::size_t, YamlValue>> links_;  // start node of each bar
 };

@@ -203,6 +203,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
   body.X_WT = body.X_WB;
   place(body, self.world);
   known.origin = body.X_WB.p;
+  known.index = model.description.bodies.size();
   for (Vec3& p : known.nodes) p = self.world.point(p);
   model.bodies.emplace(body.name, std::move(known));
   model.description.bodies.push_back(std::move(body));

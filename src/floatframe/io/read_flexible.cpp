@@ -7,7 +7,6 @@
 #include <set>
 #include <sstream>
 
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -51,10 +50,13 @@ class FlexibleReader {
     if (!name) return std::nullopt;
     if (out_.named_nodes.count(*name)) return name;
     if (!out_.sound) return std::nullopt;
-    std::vector<std::string> known;
-    for (const auto& [key, unused] : out_.named_nodes) known.push_back(key);
+    const auto known = [&] {
+      std::vector<std::string> names;
+      for (const auto& [key, unused] : out_.named_nodes) names.push_back(key);
+      return names;
+    };
     value.fault("found '" + *name + "', expected an end point of a bar of this body" +
-                did_you_mean(*name, known));
+                value.context().faults->suggestion(*name, known));
     return std::nullopt;
   }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/io/read_table.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 
@@ -51,8 +52,12 @@ std::optional<AttachmentDescription> own_place(const ModelInstance& self, const 
     a.point = w.P * (it->second.nodes[it->second.named_nodes.at(*name)] - w.t);
     return a;
   }
-  a.point = point ? *point : Vec3(w.P * (it->second.origin - w.t));
-  if (!check_node(self, model, *body, a.point, at ? *at : *body_value)) return std::nullopt;
+  if (!point) {
+    a.point = *frame_origin(self, model, *body);
+    return a;
+  }
+  a.point = *point;
+  if (!check_node(self, model, *body, a.point, *at)) return std::nullopt;
   return a;
 }
 
@@ -177,6 +182,28 @@ void load(const ModelInstance& self, YamlSection& s, ReadModel& model, ForceDesc
   f.kind = std::move(d);
 }
 
+/// Points [x, z] of a road; two with the same x are a step.
+PiecewisePolynomial read_profile(const YamlValue& value) {
+  const TableRows table = read_table_rows(value, any_number("m"), "a point [x, z] [m]");
+  if (table.good && table.rows.empty())
+    value.fault(value.is_list() ? "found an empty list, expected points [x, z]"
+                                : "found no rows in '" + table.file + "', expected points x, z");
+  std::vector<TablePoint> points;
+  for (const TableRow& row : table.rows) {
+    const double x = row.point.x;
+    const std::size_t n = points.size();
+    if (n > 0 && x < points.back().x)
+      table.fault(row, "found x = " + number_text(x) + " after " + number_text(points.back().x) +
+                           ", expected x that does not decrease [m]");
+    else if (n > 1 && x == points[n - 1].x && x == points[n - 2].x)
+      table.fault(row,
+                  "found x = " + number_text(x) + " a third time, expected two points at a jump");
+    else
+      points.push_back(row.point);
+  }
+  return points.empty() ? PiecewisePolynomial() : profile_function(points);
+}
+
 }  // namespace
 
 void read_forces(const ModelInstance& self, ReadModel& model) {
@@ -215,28 +242,7 @@ void read_roads(const ModelInstance& self, ReadModel& model) {
     RoadDescription r;
     r.name = self.prefix + name;
     r.origin = s.origin();
-    if (const auto v = s.get("profile")) {
-      std::vector<TablePoint> points;
-      const std::vector<YamlValue> items = v->list("a list of points [x, z]");
-      if (v->is_list() && items.empty()) v->fault("found an empty list, expected points [x, z]");
-      for (const YamlValue& item : items) {
-        const auto p = item.numbers(2, 2, any_number("m"), "a point [x, z] [m]");
-        if (!p) continue;
-        const std::size_t n = points.size();
-        if (n > 0 && (*p)[0] < points.back().x) {
-          item.fault("found x = " + number_text((*p)[0]) + " after " +
-                     number_text(points.back().x) + ", expected x that does not decrease [m]");
-          continue;
-        }
-        if (n > 1 && (*p)[0] == points[n - 1].x && (*p)[0] == points[n - 2].x) {
-          item.fault("found x = " + number_text((*p)[0]) +
-                     " a third time, expected two points at a jump");
-          continue;
-        }
-        points.push_back({(*p)[0], (*p)[1]});
-      }
-      if (!points.empty()) r.pieces = profile_function(points);
-    }
+    if (const auto v = s.get("profile")) r.pieces = read_profile(*v);
     if (const auto v = s.get("bumps"))
       for (const YamlValue& item : v->list("a list of bumps {start, length, height}")) {
         auto b = item.section("a bump {start, length, height}");

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <span>
 
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/rules.hpp"
@@ -81,17 +80,15 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   std::optional<Vec3> point;
   if (at) {
     point = self.read_point(*at);
-  } else if (child && type < unknown && static_cast<JointType>(type) == JointType::free) {
-    const auto it = model.bodies.find(*child);
-    if (it != model.bodies.end()) {
-      const Placement& w =
-          self.world;  // back to the coordinates of this file: P is its own inverse
-      point = w.P * (it->second.origin - w.t);
-    }
   } else if (of_parent || of_child) {
     point = of_parent ? of_parent : of_child;
-  } else if (!s.has("parent_node") && !s.has("child_node") && type < unknown) {
-    s.fault("missing key 'at'");
+  } else if (!s.has("parent_node") && !s.has("child_node")) {
+    if (type < unknown && static_cast<JointType>(type) == JointType::free) {
+      if (child) point = frame_origin(self, model, *child);
+      if (point && parent) check_node(self, model, *parent, *point, s.value());
+    } else if (type < unknown) {
+      s.fault("missing key 'at'");
+    }
   }
   j.parent.point = j.child.point = point.value_or(Vec3::Zero());
   if (const auto place = at ? at : s.get(of_parent ? "parent_node" : "child_node");
@@ -161,6 +158,14 @@ std::optional<Vec3> read_direction(const YamlValue& value) {
   return complaint ? std::nullopt : v;
 }
 
+std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& model,
+                                 const std::string& body) {
+  const auto it = model.bodies.find(body);
+  if (it == model.bodies.end()) return std::nullopt;
+  const Placement& w = self.world;  // P is its own inverse
+  return Vec3(w.P * (it->second.origin - w.t));
+}
+
 bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
                 const Vec3& point, const YamlValue& value) {
   const auto it = model.bodies.find(body);
@@ -194,10 +199,14 @@ bool check_named_node(const ModelInstance& self, const ReadModel& model, const s
     return false;
   }
   if (it->second.named_nodes.count(node)) return true;
-  std::vector<std::string> known;
-  for (const auto& [name, unused] : it->second.named_nodes) known.push_back(name);
+  const auto known = [&] {
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : it->second.named_nodes) names.push_back(name);
+    return names;
+  };
   value.fault("the " + std::string(it->second.flexible ? "flexible body '" : "body '") +
-              self.written(body) + "' has no node '" + node + "'" + did_you_mean(node, known));
+              self.written(body) + "' has no node '" + node + "'" +
+              self.context.faults->suggestion(node, known));
   return false;
 }
 
@@ -231,14 +240,12 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
     if (!check_node(self, model, *body, *point, *at)) return std::nullopt;
     return a;
   }
-  const auto it = model.bodies.find(*body);
-  if (it == model.bodies.end()) {
+  const auto origin = frame_origin(self, model, *body);
+  if (!origin) {
     s.fault("missing key 'at'");  // the ground has no frame origin of its own
     return std::nullopt;
   }
-  const Placement& w = self.world;
-  a.point = w.P * (it->second.origin - w.t);
-  if (!check_node(self, model, *body, a.point, s.value())) return std::nullopt;
+  a.point = *origin;
   return a;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "floatframe/io/read_parts.hpp"
+#include "floatframe/io/read_table.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 
@@ -53,23 +54,26 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
   if (const auto i = section.get("interpolation"))
     if (const auto w = i->word({"linear", "cubic"}))
       interpolation = *w == 0 ? Interpolation::linear : Interpolation::cubic;
+  const TableRows table = read_table_rows(value, any_number(""), "a point [x, f]");
+  bool good = table.good;
+  if (value.is_list() && value.node().items.size() < 2) {
+    value.unexpected("a table of at least 2 points [x, f]");
+    good = false;
+  } else if (good && table.rows.size() < 2) {
+    value.fault("found " + std::to_string(table.rows.size()) +
+                (table.rows.size() == 1 ? " row in '" : " rows in '") + table.file +
+                "', expected a table of at least 2 points");
+    good = false;
+  }
   std::vector<TablePoint> points;
-  const std::vector<YamlValue> items = value.list("a list of points [x, f]");
-  bool good = value.is_list();
-  if (good && items.size() < 2)
-    value.unexpected("a table of at least 2 points [x, f]"), good = false;
-  for (const YamlValue& item : items) {
-    const auto p = item.numbers(2, 2, any_number(""), "a point [x, f]");
-    if (!p) {
-      good = false;
-      continue;
-    }
-    if (!points.empty() && (*p)[0] <= points.back().x) {
-      item.fault("found x = " + number_text((*p)[0]) + " after " + number_text(points.back().x) +
-                 ", expected ascending x [" + x_unit + "]");
+  for (const TableRow& row : table.rows) {
+    if (!points.empty() && row.point.x <= points.back().x) {
+      table.fault(row, "found x = " + number_text(row.point.x) + " after " +
+                           number_text(points.back().x) + ", expected ascending x [" + x_unit +
+                           "]");
       good = false;
     }
-    points.push_back({(*p)[0], (*p)[1]});
+    points.push_back(row.point);
   }
   return good ? table_function(points, interpolation, beyond) : PiecewisePolynomial();
 }

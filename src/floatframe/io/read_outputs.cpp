@@ -98,11 +98,18 @@ class OutputReader {
   void add(const std::string& name, OutputDescription o) {
     o.name = self_.prefix + name;
     place(o, self_.world);
-    for (const OutputDescription& other : model_.description.outputs)
-      if (other.name == o.name) {
-        self_.context.faults->add(o.origin.mark, "outputs: " + sentences::column_exists(o.name));
-        return;
-      }
+    ReadFaults& faults = *self_.context.faults;
+    if (o.name == "time") {
+      faults.add(
+          o.origin.mark,
+          "outputs: found the column 'time', the name of the first column, expected another");
+      return;
+    }
+    if (!model_.columns.insert(o.name).second) {
+      faults.add(o.origin.mark, "outputs: " + sentences::column_exists(o.name));
+      return;
+    }
+    if (!faults.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
     model_.description.outputs.push_back(std::move(o));
   }
 
@@ -136,12 +143,10 @@ class OutputReader {
     if (what.is_map()) {
       if (auto place_section = what.section()) at = read_attachment(self_, model_, *place_section);
     } else if (const auto body = moving_body(what)) {
-      const auto it = model_.bodies.find(*body);
-      if (it != model_.bodies.end()) {
+      if (const auto origin = frame_origin(self_, model_, *body)) {
         at.emplace();
         at->body = *body;
-        at->point = self_.world.P * (it->second.origin - self_.world.t);
-        if (!check_node(self_, model_, *body, at->point, what)) at.reset();
+        at->point = *origin;
       }
     }
     if (!at) {
@@ -230,8 +235,7 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
     if (!a) continue;
     out[*body] = Eigen::Map<const VecX>(a->data(), static_cast<Eigen::Index>(a->size()));
     // With normal modes below a frequency their number is known only when the body is reduced.
-    for (BodyDescription& b : model.description.bodies)
-      if (b.name == *body) b.origin.keys[key] = v.mark();
+    model.description.bodies[it->second.index].origin.keys[key] = v.mark();
   }
 }
 

@@ -2,7 +2,6 @@
 // material are in the units of that file.
 #include <set>
 
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/part_job.hpp"
 #include "floatframe/io/read_parts.hpp"
 
@@ -211,7 +210,8 @@ class JobReader {
       for (const InterfaceDescription& i : o().interfaces) known.push_back(i.name);
       for (const std::string& k : known)
         if (k == *name) return;
-      node->fault("unknown interface '" + *name + "'" + did_you_mean(*name, known));
+      node->fault("unknown interface '" + *name + "'" +
+                  self_.context.faults->suggestion(*name, [&] { return known; }));
     } else if (const auto w = v->word({"mean_axis", "buckens"})) {
       o().reference.kind = static_cast<BodyReference::Kind>(*w);
     }

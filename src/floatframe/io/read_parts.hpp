@@ -4,6 +4,7 @@
 // description.
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct KnownBody {
   bool sound = true;           ///< its nodes are known (no fault in its bars or its file)
   std::vector<Vec3> nodes;     ///< world design positions [m]
   std::map<std::string, std::size_t> named_nodes;
-  int modes = 0;  ///< -1: decided by a frequency limit
+  int modes = 0;          ///< -1: decided by a frequency limit
+  std::size_t index = 0;  ///< in the description
 };
 
 struct ReadModel {
@@ -29,6 +31,7 @@ struct ReadModel {
   std::map<std::string, KnownBody> bodies;         ///< by full name
   std::map<std::string, JointType> joints;         ///< by full name
   std::map<std::string, std::string> force_types;  ///< by full name
+  std::set<std::string> columns;                   ///< names of outputs
   ReadOptions options;
 };
 
@@ -80,10 +83,14 @@ std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInst
 /// normalised).
 std::optional<Vec3> read_direction(const YamlValue& value);
 
-/// {body: name, at: point} or {body: name, node: name}; `at` may be left out for a rigid body: its
-/// frame origin. Points of flexible bodies are checked to be nodes. Coordinates of this file.
+/// {body: name, at: point} or {body: name, node: name}; without either it is the origin of the body
+/// frame. Points of flexible bodies are checked to be nodes. Coordinates of this file.
 std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
                                                      const ReadModel& model, YamlSection section);
+/// Origin of the frame of a body in coordinates of this file; nullopt for the ground. On a flexible
+/// body it need not be a node: a marker there belongs to the frame itself.
+std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& model,
+                                 const std::string& body);
 /// Fault at `value` if a flexible body has no node at `point` (coordinates of this file).
 bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
                 const Vec3& point, const YamlValue& value);

@@ -11,12 +11,16 @@
 #include <sstream>
 
 #include "floatframe/core/content_hash.hpp"
+#include "floatframe/core/printable.hpp"
 #include "floatframe/core/regular_file.hpp"
+#include "floatframe/io/expression.hpp"
 
 namespace floatframe {
 namespace {
 
 constexpr int deepest_nesting = 50;
+constexpr int most_open_brackets =
+    1000;  // the parser looks at a whole line before it says anything
 constexpr std::uint64_t largest_file = 16u << 20u;
 
 // Inside `${...}` the characters that would end a plain scalar in a flow list or map are hidden
@@ -31,10 +35,19 @@ constexpr std::array<std::pair<char, char>, 8> hidden{{{'{', '\x01'},
                                                        {':', '\x07'},
                                                        {'?', '\x08'}}};
 
+std::string too_deep() {
+  return "lists and maps are nested too deeply, at most " + std::to_string(deepest_nesting) +
+         " levels are allowed";
+}
+
 void hide_expressions(std::string& text) {
   for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at + 1)) {
     const std::size_t end = text.find_first_of("}\n", at);
-    if (end == std::string::npos || text[end] == '\n') continue;
+    if (end == std::string::npos) return;
+    if (text[end] == '\n') {  // none of this line is closed
+      at = end;
+      continue;
+    }
     for (std::size_t k = at + 1; k <= end; ++k)
       for (const auto& [plain, secret] : hidden)
         if (text[k] == plain) text[k] = secret;
@@ -42,29 +55,36 @@ void hide_expressions(std::string& text) {
 }
 
 std::string revealed(std::string text) {
-  for (char& c : text)
+  bool inside = false;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    inside = inside || (k > 0 && text[k - 1] == '$' && text[k] == hidden[0].second);
+    if (!inside) continue;  // a control character that was written as \x01
     for (const auto& [plain, secret] : hidden)
-      if (c == secret) c = plain;
+      if (text[k] == secret) text[k] = plain;
+    inside = text[k] != '}';
+  }
   return text;
 }
 
-struct TooDeep {};
+struct GaveUp {};
 
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  TreeBuilder(const std::string& file, YamlNode& root, Faults& faults)
+  TreeBuilder(const std::string& file, YamlNode& root, ReadFaults& faults)
       : file_(file), root_(root), faults_(faults) {}
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     refuse(mark, "", anchor);
+    count(mark);
     YamlNode n;
     place(n, mark);
     scalar(std::move(n));
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     fault(mark, "aliases (*name) are not allowed, use parameters");
+    count(mark);
     YamlNode n;
     place(n, mark);
     scalar(std::move(n));
@@ -72,11 +92,13 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     refuse(mark, tag, anchor);
+    count(mark);
     YamlNode n;
     place(n, mark);
     n.kind = YamlNode::Kind::scalar;
     n.text = revealed(value);
     n.quoted = tag == "!";
+    check_characters(mark, n.text);
     scalar(std::move(n));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -90,6 +112,7 @@ class TreeBuilder final : public YAML::EventHandler {
   }
   void OnMapEnd() override { close(); }
   bool empty() const { return !seen_; }
+  std::size_t values() const { return values_; }
 
  private:
   struct Level {
@@ -107,6 +130,26 @@ class TreeBuilder final : public YAML::EventHandler {
     n.line = mark.line + 1;
     n.column = mark.column + 1;
   }
+  void count(const YAML::Mark& mark) {
+    if (++values_ <= limits::file_values) return;
+    fault(mark, "found more than " + std::to_string(limits::file_values) +
+                    " values in one file, expected fewer (tables may stand in CSV files)");
+    throw GaveUp{};
+  }
+  void check_characters(const YAML::Mark& mark, std::string& text) {
+    if (text.size() > longest_text) {
+      fault(mark, "found a text of " + std::to_string(text.size()) +
+                      " characters, expected at most " + std::to_string(longest_text));
+      text.resize(100);
+      while (!text.empty() && utf8_length(text, text.size() - 1) == 0) text.pop_back();
+    }
+    for (std::size_t k = 0; k < text.size(); ++k)
+      if (is_control(text, k) && text[k] != '\n' && text[k] != '\t') {
+        fault(mark, "found the text '" + printable(text.substr(0, 40)) +
+                        "', expected no control characters");
+        return;
+      }
+  }
   void refuse(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (anchor != 0) fault(mark, "anchors (&name) are not allowed, use parameters");
     if (!tag.empty() && tag != "?" && tag != "!") fault(mark, "tags (!name) are not allowed");
@@ -114,10 +157,10 @@ class TreeBuilder final : public YAML::EventHandler {
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
             YamlNode::Kind kind) {
     refuse(mark, tag, anchor);
+    count(mark);
     if (stack_.size() >= static_cast<std::size_t>(deepest_nesting)) {
-      fault(mark, "lists and maps are nested too deeply, at most " +
-                      std::to_string(deepest_nesting) + " levels are allowed");
-      throw TooDeep{};
+      fault(mark, too_deep());
+      throw GaveUp{};
     }
     Level level;
     level.node.kind = kind;
@@ -174,45 +217,41 @@ class TreeBuilder final : public YAML::EventHandler {
 
   const std::string& file_;
   YamlNode& root_;
-  Faults& faults_;
+  ReadFaults& faults_;
   std::vector<Level> stack_;
+  std::size_t values_ = 0;
   bool seen_ = false;
 };
 
-/// Length of the UTF-8 sequence at text[k]; 0 if it is not valid UTF-8.
-std::size_t utf8_length(const std::string& text, std::size_t k) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  const unsigned c = byte(k);
-  const auto tail = [&](std::size_t i) { return (byte(k + i) & 0xC0u) == 0x80u; };
-  if (c < 0x80) return 1;
-  if (c >= 0xC2 && c <= 0xDF) return tail(1) ? 2 : 0;
-  if (c >= 0xE0 && c <= 0xEF) return tail(1) && tail(2) ? 3 : 0;
-  if (c >= 0xF0 && c <= 0xF4) return tail(1) && tail(2) && tail(3) ? 4 : 0;
-  return 0;
-}
-
 /// Refuses binary data and tabs in the indentation.
-bool check_text(const std::string& file, const std::string& text, Faults& faults) {
+bool check_text(const std::string& file, const std::string& text, ReadFaults& faults) {
   int line = 1;
   std::size_t start = 0;
   bool indentation = true;
+  int brackets = 0;
+  SourceMark deep;  // where they are one too many
   for (std::size_t k = 0; k < text.size();) {
     const char c = text[k];
     const std::size_t n = utf8_length(text, k);
-    const SourceMark mark{file, line, static_cast<int>(k - start) + 1};
+    const auto mark = [&] { return SourceMark{file, line, static_cast<int>(k - start) + 1}; };
     const auto u = static_cast<unsigned char>(c);
     if (n == 0 || u == 0x7F || (u < 0x20 && c != '\n' && c != '\r' && c != '\t')) {
-      faults.add(mark, "this is not a text file (UTF-8)");
+      faults.add(mark(), "this is not a text file (UTF-8)");
+      return false;
+    }
+    if ((c == '[' || c == '{') && ++brackets == deepest_nesting) deep = mark();
+    if ((c == ']' || c == '}') && brackets > 0) --brackets;
+    if (brackets > most_open_brackets) {
+      faults.add(deep, too_deep());
       return false;
     }
     if (c == '\t' && indentation) {
       const std::size_t next = text.find_first_not_of(" \t\r", k);
       if (next != std::string::npos && text[next] != '\n' && text[next] != '#') {
-        faults.add(mark, "a tab in the indentation, use spaces");
+        faults.add(mark(), "a tab in the indentation, use spaces");
         return false;
       }
+      indentation = false;  // the line is blank
     }
     if (c == '\n') {
       ++line;
@@ -230,8 +269,8 @@ thread_local std::map<std::string, std::string>* files_read = nullptr;
 
 }  // namespace
 
-YamlDocument parse_yaml(const std::string& file, const std::string& original, Faults& faults) {
-  YamlDocument document{file, {}};
+YamlDocument parse_yaml(const std::string& file, const std::string& original, ReadFaults& faults) {
+  YamlDocument document{file, {}, 0};
   std::string text = original;
   if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
   if (!check_text(file, text, faults)) return document;
@@ -244,13 +283,14 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Fa
       faults.add({file, 1, 1}, "the file is empty");
       return document;
     }
+    document.values = builder.values();
     YamlNode second;
-    Faults ignored;
+    ReadFaults ignored;
     TreeBuilder more(file, second, ignored);
     if (parser.HandleNextDocument(more))
       faults.add({file, second.line > 0 ? second.line : 1, second.column > 0 ? second.column : 1},
                  "a second document starts here, a model file holds one");
-  } catch (const TooDeep&) {
+  } catch (const GaveUp&) {
   } catch (const YAML::Exception& e) {
     SourceMark mark{file, e.mark.line + 1, e.mark.column + 1};
     if (e.mark.is_null()) mark.line = mark.column = 1;
@@ -261,8 +301,11 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Fa
   return document;
 }
 
-bool read_text_file(const std::string& file, std::string& text, Faults& faults,
-                    const SourceMark& where, const std::string& subject) {
+namespace {
+
+template <class AnyFaults>
+bool read_text(const std::string& file, std::string& text, AnyFaults& faults,
+               const SourceMark& where, const std::string& subject) {
   const auto fail = [&](const std::string& why) {
     if (where.file.empty())
       faults.add({file, 0, 0}, why);
@@ -274,6 +317,18 @@ bool read_text_file(const std::string& file, std::string& text, Faults& faults,
   if (!why.empty()) return fail(why);
   note_file_read(file, content_hash(text));
   return true;
+}
+
+}  // namespace
+
+bool read_text_file(const std::string& file, std::string& text, Faults& faults,
+                    const SourceMark& where, const std::string& subject) {
+  return read_text(file, text, faults, where, subject);
+}
+
+bool read_text_file(const std::string& file, std::string& text, ReadFaults& faults,
+                    const SourceMark& where, const std::string& subject) {
+  return read_text(file, text, faults, where, subject);
 }
 
 void note_file_read(const std::string& file, const std::string& hash) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/core/printable.hpp"
 #include "floatframe/core/suggest.hpp"
 
 namespace floatframe {
@@ -10,8 +11,11 @@ namespace floatframe {
 namespace {
 
 std::string shortened(const std::string& s) {
+  std::size_t end = std::min<std::size_t>(s.size(), 40);
+  while (end < s.size() && (static_cast<unsigned char>(s[end]) & 0xC0u) == 0x80u) --end;
   std::string t;
-  for (char c : s.substr(0, 40)) t += c == '\n' ? ' ' : c;
+  for (char c : s.substr(0, end)) t += c == '\n' ? ' ' : c;
+  t = printable(t);
   return s.size() > 40 ? t + "..." : t;
 }
 
@@ -46,15 +50,20 @@ YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) con
   }
   if (has_expression(*node_)) {
     try {
-      const ParameterValue v = substitute_parameters(node_->text, *context_->scope);
+      const ParameterValue v = substitute_parameters(node_->text, *context_->scope, false);
       s.kind = v.index() == 0   ? Scalar::Kind::boolean
                : v.index() == 1 ? Scalar::Kind::number
                                 : Scalar::Kind::text;
       if (const bool* b = std::get_if<bool>(&v)) s.boolean = *b;
       if (const double* x = std::get_if<double>(&v)) s.number = *x;
       if (const std::string* t = std::get_if<std::string>(&v)) s.text = *t;
-    } catch (const ExpressionError& error) {
-      complain("in " + shortened(node_->text) + ": " + error.what());
+    } catch (const ExpressionError&) {
+      if (quiet) return s;
+      try {  // once more for the sentence
+        substitute_parameters(node_->text, *context_->scope, context_->faults->suggest());
+      } catch (const ExpressionError& error) {
+        complain("in " + shortened(node_->text) + ": " + error.what());
+      }
     }
     return s;
   }
@@ -245,6 +254,13 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::named(const char* what
   }
   const std::string prefix = path_.empty() ? "" : path_ + ".";
   for (const YamlEntry& e : node_->entries) {
+    if (e.key.size() > limits::name_length) {
+      context_->faults->add({*context_->file, e.line, e.column},
+                            prefix + shortened(e.key) + ": found a name of " +
+                                std::to_string(e.key.size()) + " characters, expected at most " +
+                                std::to_string(limits::name_length));
+      continue;
+    }
     if (!free_names && !is_identifier(e.key, true)) {
       context_->faults->add({*context_->file, e.line, e.column},
                             path_ + ": found the name '" + shortened(e.key) +
@@ -289,21 +305,34 @@ std::optional<YamlValue> YamlSection::require(const char* key) {
 }
 
 void YamlSection::finish(const std::vector<std::string>& elsewhere) {
-  for (const YamlEntry& e : value_.node().entries) {
-    if (std::find(asked_.begin(), asked_.end(), e.key) != asked_.end()) continue;
-    std::vector<std::string> free;
-    for (const std::string& k : asked_)
-      if (!has(k.c_str())) free.push_back(k);
-    std::string hint = did_you_mean(e.key, free);
-    if (hint.empty()) {  // a key of another group: its path is the hint
+  ReadFaults& faults = *value_.context().faults;
+  std::vector<const YamlEntry*> unknown;
+  for (const YamlEntry& e : value_.node().entries)
+    if (std::find(asked_.begin(), asked_.end(), e.key) == asked_.end()) unknown.push_back(&e);
+  if (unknown.empty()) return;
+  std::vector<std::string> free;
+  for (const std::string& k : asked_)
+    if (!has(k.c_str())) free.push_back(k);
+  const auto place = [&](const YamlEntry& e) {
+    return SourceMark{*value_.context().file, e.line, e.column};
+  };
+  const std::size_t shown = std::min(unknown.size(), limits::faults_of_a_kind);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const YamlEntry& e = *unknown[i];
+    std::string hint = faults.suggestion(e.key, [&] { return free; });
+    if (hint.empty() && !elsewhere.empty()) {  // a key of another group: its path is the hint
       std::vector<std::string> last;
       for (const std::string& k : elsewhere) last.push_back(k.substr(k.rfind('.') + 1));
-      if (const std::string* best = nearest(e.key, last))
+      const std::string* best = faults.suggest() ? nearest(e.key, last) : nullptr;
+      if (best)
         hint = ", did you mean '" + elsewhere[static_cast<std::size_t>(best - last.data())] + "'?";
     }
-    value_.context().faults->add({*value_.context().file, e.line, e.column},
-                                 path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint);
+    faults.add(place(e), path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint);
   }
+  if (const std::size_t more = unknown.size() - shown; more > 0)
+    faults.add(place(*unknown[shown]),
+               path_prefix() + "... and " + std::to_string(more) +
+                   (more == 1 ? " more unknown key" : " more unknown keys"));
 }
 
 Origin YamlSection::origin() const {

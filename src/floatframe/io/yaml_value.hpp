@@ -23,7 +23,7 @@ namespace floatframe {
 struct ReadContext {
   const std::string* file = nullptr;
   const ParameterScope* scope = nullptr;
-  Faults* faults = nullptr;
+  ReadFaults* faults = nullptr;
 };
 
 class YamlSection;
@@ -94,7 +94,7 @@ class YamlValue {
   std::optional<Vec3> vector(const char* unit) const;
   std::optional<YamlSection> section(const char* what = "a map of keys") const;
   /// A map of names to values, in the order of the file; names are checked to be identifiers
-  /// (unless `free_names`).
+  /// (unless `free_names`), long ones are refused.
   std::vector<std::pair<std::string, YamlValue>> named(const char* what,
                                                        bool free_names = false) const;
   /// True if the scalar holds a number (after substitution); adds no faults.

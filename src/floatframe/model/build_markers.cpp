@@ -10,13 +10,6 @@ namespace {
 
 constexpr double node_tolerance = 1e-6;
 
-/// True if some node keeps its place and orientation in the body frame in every mode.
-bool frame_is_clamped(const std::vector<ModalNode>& nodes) {
-  for (const ModalNode& n : nodes)
-    if (n.X.isZero(0.0) && n.X_theta.isZero(0.0)) return true;
-  return false;
-}
-
 bool same(const Marker& a, const Marker& b) {
   return a.body == b.body && a.node == b.node && a.rotates == b.rotates && a.X_NM.p == b.X_NM.p &&
          a.X_NM.R == b.X_NM.R;
@@ -78,8 +71,8 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
         m.node = static_cast<int>(k);
       }
     }
-    if (best > node_tolerance && X_BM.p.norm() <= node_tolerance && frame_is_clamped(nodes)) {
-      m.node = -1;  // the body frame itself, which follows fully clamped nodes rigidly
+    if (best > node_tolerance && X_BM.p.norm() <= node_tolerance) {
+      m.node = -1;  // the body frame itself, whatever the body reference: no mode moves it
     } else if (best > node_tolerance) {
       const Vec3 nearest = m.node < 0 ? Vec3::Zero().eval()
                                       : Vec3(b.X_WB * nodes[static_cast<std::size_t>(m.node)].p);

@@ -142,8 +142,8 @@ struct InputDescription {
   Origin origin;
 };
 
-/// A place on a body. With `node` the named node of a flexible body; otherwise `point`, which on a
-/// flexible body must coincide with a node (within 1e-6 m).
+/// A place on a body. With `node` a named node of a flexible body; otherwise `point`, on a flexible
+/// body one of its nodes or else the origin of its frame, which no mode moves (within 1e-6 m).
 struct AttachmentDescription {
   std::string body = ground_name;
   Vec3 point = Vec3::Zero();  ///< design configuration [m]

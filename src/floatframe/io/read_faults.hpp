@@ -1,0 +1,74 @@
+#pragma once
+// The faults of one reading of a model file: each once, a few of every kind, the rest counted; and
+// what one reading may take in all, so that no file, however odd, costs more than time in
+// proportion to its length and memory within bounds.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/suggest.hpp"
+
+namespace floatframe {
+
+/// Limits of a model file and its subsystems; docs/model-file.md lists them.
+namespace limits {
+inline constexpr std::size_t faults_of_a_kind = 20;
+inline constexpr std::size_t faults = 500;
+inline constexpr std::size_t name_length = 100;
+inline constexpr std::size_t file_values = 1'000'000;     ///< maps, lists and scalars of one file
+inline constexpr std::size_t total_values = 2'000'000;    ///< of all uses of files
+inline constexpr std::size_t entities = 20'000;           ///< of one kind
+inline constexpr std::size_t parameter_text = 4'000'000;  ///< texts of all parameters [bytes]
+inline constexpr std::size_t elements = 1'000'000;        ///< of all bars
+inline constexpr std::size_t table_rows = 1'000'000;      ///< of all CSV files of tables
+inline constexpr std::size_t table_text = 64'000'000;     ///< of all CSV files of tables [bytes]
+}  // namespace limits
+
+class ReadFaults {
+ public:
+  /// Kept unless it was added before (a file may be used many times) or enough of its kind are
+  /// there: sentences that differ only in names, numbers and places are of one kind.
+  void add(const SourceMark& mark, std::string message);
+  bool empty() const noexcept { return added_ == 0; }
+  /// Number of faults added, kept or not.
+  std::size_t size() const noexcept { return added_; }
+  /// Those kept, and where some were not, how many.
+  std::vector<InputFault> take();
+
+  /// ", did you mean ...?" for a name not found among `known()`, as long as suggestions are not too
+  /// many.
+  template <class Known>
+  std::string suggestion(std::string_view name, Known known) {
+    return suggest() ? did_you_mean(name, known()) : std::string();
+  }
+  /// True a limited number of times.
+  bool suggest() noexcept { return suggestions_ < most_suggestions && ++suggestions_ > 0; }
+
+  /// Adds `amount` to what was taken of something; false beyond `most`, with a fault the first
+  /// time.
+  bool take_of(const char* what, std::size_t amount, std::size_t most, const SourceMark& mark,
+               const std::string& path);
+  /// True once more was taken than there is: what follows makes no sense any more.
+  bool exhausted() const noexcept { return exhausted_; }
+
+ private:
+  static constexpr std::size_t most_suggestions = 100;
+  struct Kind {
+    std::size_t kept = 0, passed_over = 0;
+    SourceMark first;  ///< passed over
+  };
+  std::vector<InputFault> faults_;
+  std::unordered_set<std::uint64_t> seen_;
+  std::unordered_map<std::uint64_t, Kind> kinds_;
+  std::unordered_map<std::string, std::size_t> taken_;
+  Kind others_;  ///< of kinds that came when the list was full
+  std::size_t added_ = 0, suggestions_ = 0;
+  bool exhausted_ = false;
+};
+
+}  // namespace floatframe
