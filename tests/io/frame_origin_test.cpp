@@ -118,11 +118,11 @@ TEST_F(FrameOrigin, AllQuantitiesInBothFormulations) {
       EXPECT_LT((vec(*t, row, 1) + R * in_body - vec(*t, row, 16)).norm(), 1e-13) << row;
       // Rates against differences of the positions.
       const Vec3 v = (vec(*t, row + 1, 1) - vec(*t, row - 1, 1)) / (2 * h);
-      EXPECT_LT((v - vec(*t, row, 4)).norm(), 2e-5 * (1 + v.norm())) << row;
+      EXPECT_LT((v - vec(*t, row, 4)).norm(), 1e-4 * (1 + v.norm())) << row;
       const Mat3 R_next = rotation(vec(*t, row + 1, 10)), R_last = rotation(vec(*t, row - 1, 10));
       const Vec3 w =
           quaternion_log(Eigen::Quaterniond(Mat3(R_next * R_last.transpose()))) / (2 * h);
-      EXPECT_LT((w - vec(*t, row, 13)).norm(), 2e-4 * (1 + w.norm())) << row;
+      EXPECT_LT((w - vec(*t, row, 13)).norm(), 2e-3 * (1 + w.norm())) << row;
     }
     // Averaged over the record the acceleration is the change of the velocity (trapezoidal rule).
     Vec3 change = Vec3::Zero();
