@@ -148,6 +148,11 @@ const Case cases[] = {
     {"joint_type.yaml",
      "joint_type.yaml:8:15: joints.pin.type: found 'hinge', expected weld, revolute, prismatic, "
      "cylindrical, universal, spherical or free"},
+    {"keep_alone.yaml",
+     "keep_alone.yaml:6:69: joints.pin.keep: found without 'position' and 'velocity', expected one "
+     "of them to keep"
+     "\n"
+     "keep_alone.yaml:7:84: joints.lid.keep: found 0.5, expected true or false"},
     {"key_is_a_list.yaml", "key_is_a_list.yaml:2:3: a key must be a name"},
     {"key_of_another_group.yaml",
      "key_of_another_group.yaml:5:5: bodies.block: unknown key 'mas', did you mean 'rigid.mass'?"
@@ -407,6 +412,14 @@ const Case cases[] = {
      "table_order.yaml:12:38: forces.spring.spring.table[3]: found x = 1 after 2, expected "
      "ascending x [m]"},
     {"tag.yaml", "tag.yaml:4:19: tags (!name) are not allowed"},
+    {"tolerances.yaml",
+     "tolerances.yaml:5:25: simulation.tolerance: found 1e-300, expected a number of at least 1e-15"
+     "\n"
+     "tolerances.yaml:5:53: simulation.position_tolerance: found 1e-16, expected a number of at "
+     "least 1e-15 [m]"
+     "\n"
+     "tolerances.yaml:5:80: simulation.velocity_tolerance: found 0, expected a number of at least "
+     "1e-15 [m/s]"},
     {"top_is_a_list.yaml",
      "top_is_a_list.yaml:1:1: found a list of 2, expected a map of keys such as 'bodies'"},
     {"tube.yaml",

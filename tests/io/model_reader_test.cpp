@@ -95,6 +95,8 @@ TEST_F(Everything, Joints) {
   EXPECT_EQ(named(d.joints, "pin").axis, Vec3(0, -1, 0));
   EXPECT_EQ(named(d.joints, "pin").parent.body, "ground");
   EXPECT_EQ(named(d.joints, "pin").velocity, std::vector<double>{0.2});
+  EXPECT_TRUE(named(d.joints, "pin").keep);
+  EXPECT_FALSE(named(d.joints, "tube").keep);
   EXPECT_EQ(named(d.joints, "slide").axis, Vec3(0, 0, 1));
   const TimeFunction& motion = *named(d.joints, "slide").motion;
   EXPECT_DOUBLE_EQ(motion.pieces(1.0).f, 0.1);

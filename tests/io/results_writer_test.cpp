@@ -80,12 +80,11 @@ TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
   const auto json = nlohmann::ordered_json::parse(summary_json(summary));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys,
-            (std::vector<std::string>{"model", "coordinates", "inertia", "step_s", "duration_s",
-                                      "steps", "substeps", "iterations", "factorizations", "cpu_s",
-                                      "real_time_factor", "max_position_violation",
-                                      "max_velocity_violation", "energy", "warnings", "status",
-                                      "message"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"model", "coordinates", "inertia", "step_s",
+                                            "duration_s", "steps", "substeps", "iterations",
+                                            "factorizations", "cpu_s", "real_time_factor",
+                                            "max_position_violation", "max_velocity_violation",
+                                            "energy", "warnings", "start", "status", "message"}));
   EXPECT_EQ(json["coordinates"], "relative");
   EXPECT_EQ(json["step_s"], 0.01);
   EXPECT_EQ(json["energy"]["end"]["total_J"], 2.5);
@@ -116,6 +115,32 @@ TEST(CountsJson, HasTheDocumentedKeys) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["cut_joint_names"][0], "front_left.rod_ball");
+}
+
+TEST(SummaryJson, SaysWhatBecameOfTheStartValues) {
+  RunSummary summary;
+  summary.start.changes.push_back({"joint 'crank'", "angle", false, "rad", 0.3, 0.076});
+  summary.start.redundant.push_back({"joint 'pin'", "rotation about x"});
+  summary.start.notes = {"one", "two"};
+  const auto start = nlohmann::json::parse(summary_json(summary))["start"];
+  EXPECT_EQ(start["changes"][0]["owner"], "joint 'crank'");
+  EXPECT_EQ(start["changes"][0]["given"], 0.3);
+  EXPECT_EQ(start["changes"][0]["used"], 0.076);
+  EXPECT_EQ(start["changes"][0]["rate"], false);
+  EXPECT_EQ(start["redundant"][0]["direction"], "rotation about x");
+  EXPECT_EQ(start["notes"].size(), 2u);
+}
+
+TEST(StaticsJson, MarksReactionsThatAreNotUnique) {
+  StaticsResult statics;
+  statics.joints.push_back({"weld", "weld", Vec3(1, 2, 3), Vec3(4, 5, 6)});
+  statics.joints.push_back(statics.joints[0]);
+  statics.joints[1].unique_force[2] = false;
+  const auto joints = nlohmann::json::parse(statics_json("m", statics))["joints"];
+  EXPECT_EQ(joints[0]["unique"], true);
+  EXPECT_EQ(joints[1]["unique"], false);
+  EXPECT_EQ(joints[1]["unique_force"].dump(), "[true,true,false]");
+  EXPECT_EQ(joints[1]["unique_torque"].dump(), "[true,true,true]");
 }
 
 TEST(StaticsJson, ListsForcesJointsAndBodies) {

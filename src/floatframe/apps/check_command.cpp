@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "floatframe/apps/command.hpp"
+#include "floatframe/apps/notes.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/io/check_json.hpp"
 #include "floatframe/simulation/simulation.hpp"
@@ -54,7 +55,7 @@ int check_model(const ModelArguments& arguments, bool json) {
   } else {
     print(fmt::format("{}: {}, {} ({} cut)\n\n", description.name, bodies_text(counts),
                       plural(counts.joints, "joint"), counts.cut_joints) +
-          counts_text(counts) + flexible_bodies_text(model));
+          counts_text(counts) + flexible_bodies_text(model) + notes_text(counts.start.notes));
   }
   return 0;
 }

@@ -92,8 +92,9 @@ class PlaceArgument {
     if (axis == "x" || axis == "y" || axis == "z")
       return (minus ? -1.0 : 1.0) * Vec3::Unit(axis[0] - 'x');
     const Vec3 v = vector(key, text);
-    if (!(v.norm() > 0.0)) fail(key + ": found a vector of length zero, expected a direction");
-    return v.normalized();
+    if (!(v.stableNorm() > 0.0))
+      fail(key + ": found a vector of length zero, expected a direction");
+    return v.stableNormalized();
   }
 
   NodeChoice choice() {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/apps/command.hpp"
+#include "floatframe/apps/notes.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/realtime/signal_log.hpp"
@@ -275,6 +276,7 @@ std::string realtime_text(const RealTimeReport& r, const RealTimeOptions& option
   }
   if (port != nullptr) text += port_text(r, options, model, *port);
   text += log_text(options);
+  text += notes_text(r.start.notes);
   for (const std::string& refusal : r.refusals) text += "  note: " + refusal + "\n";
   if (r.cpu.count() > 0)
     text += "\nprocessor time a step, number of steps (bars: logarithm)\n" + histogram_text(r.cpu);
@@ -298,6 +300,7 @@ std::string realtime_json(const RealTimeReport& r, const RealTimeOptions& option
                {"real_time_priority", r.priority},
                {"memory_locked", r.memory_locked},
                {"refusals", r.refusals},
+               {"notes", r.start.notes},
                {"steps", r.steps},
                {"substeps", r.substeps},
                {"iterations", r.iterations},

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "floatframe/apps/command.hpp"
+#include "floatframe/apps/notes.hpp"
 #include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
@@ -146,12 +147,12 @@ std::string summary_text(const RunSummary& s) {
       "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time){}\n"
       "  {} coordinates, inertia terms by {}, step {:g} s\n"
       "  {}, {} by halving, {}, {}\n"
-      "  largest constraint violation {:.2g} m, {:.2g} m/s\n",
+      "  largest constraint violation {:.2g} m, {:.2g} m/s\n{}",
       s.model, s.duration, s.cpu, s.real_time_factor,
       s.status == "completed" || s.strict ? "" : ", then it failed", s.coordinates, s.inertia,
       s.step, plural(s.steps, "step"), s.substeps, plural(s.iterations, "Newton iteration"),
-      plural(s.factorizations, "factorization"), s.max_position_violation,
-      s.max_velocity_violation);
+      plural(s.factorizations, "factorization"), s.max_position_violation, s.max_velocity_violation,
+      notes_text(s.start.notes));
 }
 
 std::string files_text(const OutputPaths& paths, const RunArguments& arguments, bool has_table) {

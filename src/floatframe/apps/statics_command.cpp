@@ -29,12 +29,15 @@ bool is_torsional(const Model& model, const std::string& name) {
   });
 }
 
+/// A value that is not unique has a star.
+std::string starred(const std::string& text, bool unique) { return unique ? text : text + "*"; }
+
 std::string forces_text(const Model& model, const StaticsResult& statics) {
   TextTable table({"force element", "type", "force", "", "measure", ""}, {1, 3, 5});
   for (const StaticsForce& f : statics.forces) {
     const bool torsional = is_torsional(model, f.name);
-    table.add({f.name, f.type, fixed(f.force, 4), torsional ? "N m" : "N", fixed(f.length, 9),
-               torsional ? "rad" : "m"});
+    table.add({f.name, f.type, starred(fixed(f.force, 4), f.unique), torsional ? "N m" : "N",
+               fixed(f.length, 9), torsional ? "rad" : "m"});
   }
   return table.empty() ? "" : "\n" + table.text();
 }
@@ -44,8 +47,10 @@ std::string joints_text(const StaticsResult& statics) {
       {"joint", "type", "Fx [N]", "Fy [N]", "Fz [N]", "Mx [N m]", "My [N m]", "Mz [N m]"}, {1});
   for (const StaticsJoint& j : statics.joints) {
     std::vector<std::string> row{j.name, j.type};
-    for (int i = 0; i < 3; ++i) row.push_back(fixed(j.force[i], 4));
-    for (int i = 0; i < 3; ++i) row.push_back(fixed(j.torque[i], 4));
+    for (std::size_t i = 0; i < 3; ++i)
+      row.push_back(starred(fixed(j.force[static_cast<Eigen::Index>(i)], 4), j.unique_force[i]));
+    for (std::size_t i = 0; i < 3; ++i)
+      row.push_back(starred(fixed(j.torque[static_cast<Eigen::Index>(i)], 4), j.unique_torque[i]));
     table.add(std::move(row));
   }
   return table.empty() ? "" : "\n" + table.text();
@@ -73,6 +78,16 @@ std::string amplitudes_text(const StaticsResult& statics) {
   return table.empty() ? "" : "\n" + table.text();
 }
 
+std::string redundancy_note(const StaticsResult& statics) {
+  if (statics.redundant.empty()) return "";
+  return fmt::format(
+      "* Not unique: {} redundant ({}).\n  These are the reactions of least norm (forces, and "
+      "torques divided by the length of the child).\n",
+      statics.redundant.size() == 1 ? "1 constraint is"
+                                    : fmt::format("{} constraints are", statics.redundant.size()),
+      redundancy_text(statics.redundant));
+}
+
 int show_statics(const ModelArguments& arguments, bool json, const std::string& write_state) {
   if (!write_state.empty()) check_writable(write_state);
   const ModelDescription description = read_model(arguments);
@@ -89,7 +104,8 @@ int show_statics(const ModelArguments& arguments, bool json, const std::string& 
         amplitudes_text(result) +
         "\nForces: tension is positive, tyres: vertical force on the wheel. Joints: on the child, "
         "world axes, about "
-        "the\njoint's point. Bodies: origin of the body frame; angles from the design pose.\n");
+        "the\njoint's point. Bodies: origin of the body frame; angles from the design pose.\n" +
+        redundancy_note(result));
   return 0;
 }
 

@@ -115,6 +115,9 @@ class AbsoluteFormulation {
   CoordinateCounts counts() const;
   /// Dense mass matrix at the present configuration (load time, tests).
   MatX mass_matrix() const;
+  /// Coordinates and own constraints of a body; those of all bodies follow each other.
+  int body_size(int i) const noexcept { return body(i).size(); }
+  int body_rows(int i) const noexcept { return 6 + 3 * body(i).points; }
   const MatX& body_mass(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)].M; }
 
  private:

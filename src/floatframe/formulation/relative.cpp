@@ -325,15 +325,17 @@ void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v)
   }
 }
 
-std::vector<char> RelativeFormulation::given_coordinates() const {
-  std::vector<char> given(static_cast<std::size_t>(nv_), 0);
+std::vector<RelativeFormulation::Given> RelativeFormulation::given_coordinates(bool rates) const {
+  std::vector<Given> given(static_cast<std::size_t>(nv_), Given::no);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyData& b = bodies_[i];
     const Joint& joint = model_.joints[static_cast<std::size_t>(b.joint)];
-    if (!joint.position.empty() || !joint.velocity.empty())
-      for (int k = 0; k < b.nj; ++k) given[static_cast<std::size_t>(b.iv + k)] = 1;
-    if (b.nm > 0 && model_.amplitudes[i].size() == b.nm)
-      for (int k = 0; k < b.nm; ++k) given[static_cast<std::size_t>(b.iy + k)] = 1;
+    if (!(rates ? joint.velocity : joint.position).empty())
+      for (int k = 0; k < b.nj; ++k)
+        given[static_cast<std::size_t>(b.iv + k)] = joint.keep ? Given::kept : Given::yes;
+    const VecX& amplitudes = rates ? model_.amplitude_rates[i] : model_.amplitudes[i];
+    if (b.nm > 0 && amplitudes.size() == b.nm)
+      for (int k = 0; k < b.nm; ++k) given[static_cast<std::size_t>(b.iy + k)] = Given::yes;
   }
   return given;
 }

@@ -61,8 +61,9 @@ class RelativeFormulation {
   void start(VecX& q, VecX& v) const { start(model_, 0.0, q, v); }
   /// Those of another model that has the same bodies and joints, at time t.
   void start(const Model& values, double t, VecX& q, VecX& v) const;
-  /// Marks the coordinates that the user gave a start value for.
-  std::vector<char> given_coordinates() const;
+  /// How firmly the user gave the start value of a coordinate, or (`rates`) of its rate.
+  enum class Given : char { no, yes, kept };
+  std::vector<Given> given_coordinates(bool rates) const;
 
   /// What a renewal must save, in iterations (tuned on the Iltis; a factorisation takes about 0.7).
   static constexpr double factorization_cost = 2.0;

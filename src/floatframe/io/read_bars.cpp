@@ -139,7 +139,8 @@ class BarReader {
     if (q) b.to = *q, g.to = f().points.at(*q);
     if (const auto v = s->require("section")) b.section = cross_section(*v);
     const auto reference = s->get("reference");
-    const auto direction = reference ? read_direction(*reference) : std::nullopt;
+    auto direction = reference ? read_direction(*reference) : std::nullopt;
+    if (direction) direction = direction->stableNormalized();
     s->finish();
     if (good) {
       const Vec3 axis = g.to - g.from;

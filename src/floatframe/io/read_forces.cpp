@@ -106,7 +106,7 @@ void guided_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
   GuidedSpringDescription d;
   const auto a = end(self, model, s, "reference"), b = end(self, model, s, "tip");
   const auto axis = s.require("axis");
-  if (const auto v = axis ? read_direction(*axis) : std::nullopt) d.axis = v->normalized();
+  if (const auto v = axis ? read_direction(*axis) : std::nullopt) d.axis = v->stableNormalized();
   double length = 0.0;
   if (a && b) {
     d.reference = *a;
@@ -163,7 +163,7 @@ void tyre(const ModelInstance& self, YamlSection& s, ReadModel& model, ForceDesc
   if (const auto v = s.get("law"))
     if (const auto w = v->word(rules::tyre_laws)) d.law = static_cast<TyreLaw>(*w);
   if (const auto v = s.get("axis"))
-    if (const auto a = read_direction(*v)) d.axis = a->normalized();
+    if (const auto a = read_direction(*v)) d.axis = a->stableNormalized();
   if (const auto v = s.require("road"))
     if (const auto r = self.reference(EntityKind::road, *v)) d.road = *r;
   f.kind = std::move(d);

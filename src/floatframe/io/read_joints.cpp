@@ -98,7 +98,8 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
     if (good && child && !j.child.node) check_node(self, model, *child, *point, *place);
   }
   if (type >= unknown) {
-    for (const char* key : {"axis", "axis_2", "position", "velocity", "motion", "cut"}) s.get(key);
+    for (const char* key : {"axis", "axis_2", "position", "velocity", "keep", "motion", "cut"})
+      s.get(key);
     s.finish();
     return;
   }
@@ -108,11 +109,11 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   if (has_axis) {
     const auto axis = s.require("axis");
     if (const auto a = axis ? read_direction(*axis) : std::nullopt) {
-      j.axis = a->normalized();
+      j.axis = a->stableNormalized();
       if (j.type == JointType::universal) {
         const auto second = s.require("axis_2");
         if (const auto b = second ? read_direction(*second) : std::nullopt) {
-          j.axis_2 = b->normalized();
+          j.axis_2 = b->stableNormalized();
           second->complain(sentences::second_axis(j.axis, j.axis_2));
         }
       }
@@ -130,6 +131,9 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   if (j.type != JointType::revolute && j.type != JointType::prismatic) unused("motion");
   j.position = start_values(s, "position", j.type);
   j.velocity = start_values(s, "velocity", j.type);
+  j.keep = s.boolean("keep", false);
+  if (j.keep && !s.has("position") && !s.has("velocity"))
+    s.get("keep")->fault("found without 'position' and 'velocity', expected one of them to keep");
   if (j.type == JointType::revolute || j.type == JointType::prismatic)
     if (const auto v = s.get("motion")) {
       j.motion =

@@ -136,7 +136,7 @@ class JobReader {
 
   static void direction(YamlSection& s, const char* key, Vec3& out) {
     const auto v = s.require(key);
-    if (const auto d = v ? read_direction(*v) : std::nullopt) out = d->normalized();
+    if (const auto d = v ? read_direction(*v) : std::nullopt) out = d->stableNormalized();
   }
 
   /// False and a fault if the name is taken.

@@ -167,6 +167,16 @@ void extremes_table(fmt::memory_buffer& page, const ResultTable& table) {
   fmt::format_to(out, "</table></div></section>\n");
 }
 
+/// What the start of the run has to say, at the top.
+void notes(fmt::memory_buffer& page, const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return;
+  auto out = std::back_inserter(page);
+  fmt::format_to(out, "<section><h2>Notes on the start</h2>\n<ul>\n");
+  for (const std::string& sentence : sentences)
+    fmt::format_to(out, "<li>{}</li>\n", html_escape(sentence));
+  fmt::format_to(out, "</ul></section>\n");
+}
+
 }  // namespace
 
 std::string report_html(const Report& report) {
@@ -200,6 +210,7 @@ std::string report_html(const Report& report) {
   }
   warning_list(page, s.warnings);
   headline(page, s);
+  notes(page, s.start.notes);
   if (has_curves) {
     fmt::format_to(out, "<h2>Curves</h2>\n");
     for (const PlotGroup& group : group_columns(table.columns)) figure(page, table, group);

@@ -56,6 +56,26 @@ Json balance(const EnergySummary& e) {
           {"exchanged_J", e.exchanged}};
 }
 
+Json redundant_directions(const std::vector<RedundantDirection>& redundant) {
+  Json array = Json::array();
+  for (const RedundantDirection& r : redundant)
+    array.push_back({{"constraint", r.owner}, {"direction", r.direction}});
+  return array;
+}
+
+Json start(const StartReport& s) {
+  Json changes = Json::array();
+  for (const StartChange& c : s.changes)
+    changes.push_back({{"owner", c.owner},
+                       {"quantity", c.quantity},
+                       {"rate", c.rate},
+                       {"unit", c.unit},
+                       {"given", c.given},
+                       {"used", c.used}});
+  return {
+      {"notes", s.notes}, {"changes", changes}, {"redundant", redundant_directions(s.redundant)}};
+}
+
 }  // namespace
 
 std::string summary_json(const RunSummary& s) {
@@ -79,6 +99,7 @@ std::string summary_json(const RunSummary& s) {
         {"end", energy(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end)},
         {"balance", balance(e)}}},
       {"warnings", s.warnings},
+      {"start", start(s.start)},
       {"status", s.status},
       {"message", s.message}};
   if (!s.files.empty()) {
@@ -97,21 +118,28 @@ std::string counts_json(const ModelCounts& c) {
                      {"absolute", coordinate_counts(c.absolute)},
                      {"degrees_of_freedom", c.degrees_of_freedom},
                      {"redundant_constraints", c.redundant_constraints},
-                     {"cut_joint_names", c.cut_joint_names}};
+                     {"cut_joint_names", c.cut_joint_names},
+                     {"start", start(c.start)}};
   return dump(json);
 }
 
 std::string statics_json(const std::string& model, const StaticsResult& statics) {
   Json forces = Json::array(), joints = Json::array(), bodies = Json::array();
   for (const StaticsForce& f : statics.forces) {
-    forces.push_back(
-        {{"name", f.name}, {"type", f.type}, {"force", f.force}, {"length", f.length}});
+    forces.push_back({{"name", f.name},
+                      {"type", f.type},
+                      {"force", f.force},
+                      {"length", f.length},
+                      {"unique", f.unique}});
   }
   for (const StaticsJoint& j : statics.joints) {
     joints.push_back({{"name", j.name},
                       {"type", j.type},
                       {"force", array_of(j.force)},
-                      {"torque", array_of(j.torque)}});
+                      {"torque", array_of(j.torque)},
+                      {"unique", j.unique()},
+                      {"unique_force", j.unique_force},
+                      {"unique_torque", j.unique_torque}});
   }
   for (const StaticsBody& b : statics.bodies) {
     bodies.push_back({{"name", b.name},
@@ -124,7 +152,8 @@ std::string statics_json(const std::string& model, const StaticsResult& statics)
                      {"residual", statics.residual},
                      {"forces", forces},
                      {"joints", joints},
-                     {"bodies", bodies}};
+                     {"bodies", bodies},
+                     {"redundant", redundant_directions(statics.redundant)}};
   return dump(json);
 }
 

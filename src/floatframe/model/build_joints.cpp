@@ -26,6 +26,7 @@ void ModelBuilder::joints() {
     joint.type = j.type;
     joint.position = j.position;
     joint.velocity = j.velocity;
+    joint.keep = j.keep;
     joint.motion = j.motion;
     joint.cut = j.cut;
     joint.parent = body_index(j.parent.body, j.origin.of("parent"), who + ".parent");

@@ -39,6 +39,7 @@ struct Joint {
   int frame_F = -1, frame_M = -1;          ///< markers on parent and child, z along the joint axis
   Vec3 axis_2 = Vec3::UnitX();             ///< in the joint frame
   std::vector<double> position, velocity;  ///< start values, in the user's form
+  bool keep = false;                       ///< they must not move when loops are closed
   std::optional<TimeFunction> motion;
   bool cut = false;        ///< the user wants it cut in the relative formulation
   bool automatic = false;  ///< a free joint added for a body that no joint leads to

@@ -59,10 +59,11 @@ inline constexpr NumberRule duration = non_negative_number("s");
 inline constexpr NumberRule output_interval = non_negative_number("s");
 inline constexpr NumberRule min_step = non_negative_number("s");
 inline constexpr NumberRule spectral_radius{"a number from 0 to 1", "", 0.0, 1.0};
-inline constexpr NumberRule tolerance = positive_number("");
+// Smaller tolerances are below the rounding of coordinates of size 1: no step would converge.
+inline constexpr NumberRule tolerance{"a number of at least 1e-15", "", 1e-15};
 inline constexpr NumberRule penalty = non_negative_number("");
-inline constexpr NumberRule position_tolerance = positive_number("m");
-inline constexpr NumberRule velocity_tolerance = positive_number("m/s");
+inline constexpr NumberRule position_tolerance{"a number of at least 1e-15", "m", 1e-15};
+inline constexpr NumberRule velocity_tolerance{"a number of at least 1e-15", "m/s", 1e-15};
 inline constexpr WholeNumberRule max_iterations{"a number of iterations", 1, 1000};
 inline constexpr double most_steps = 1e9;
 

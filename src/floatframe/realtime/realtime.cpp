@@ -100,7 +100,7 @@ RealTimeReport run_real_time(const Model& model, const SimulationDescription& d,
   report.step = d.step;
   report.paced = options.paced;
   RelativeFormulation tree(model, d.inertia);
-  const State start = start_state(tree, d);
+  const State start = start_state(tree, d, &report.start);
   if (d.coordinates == Coordinates::relative) {
     run_with(tree, start, d, options, port, report);
   } else {

@@ -19,6 +19,7 @@
 #include "floatframe/model/model.hpp"
 #include "floatframe/realtime/histogram.hpp"
 #include "floatframe/realtime/signal_port.hpp"
+#include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
 
@@ -76,6 +77,7 @@ struct RealTimeReport {
   std::vector<std::string> refusals;  ///< priority or locked memory that was not granted
   std::string status = "completed";   ///< "completed", "stopped" or "failed"
   std::string message;                ///< why it failed: time, culprit
+  StartReport start;
   long steps = 0, substeps = 0, iterations = 0, factorizations = 0;
   long cut_short = 0;  ///< steps accepted before they had converged
 

@@ -1,25 +1,12 @@
 // Coordinates, constraints, degrees of freedom of a model, and its equilibrium.
-#include <Eigen/Dense>
-
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
-
-namespace {
-
-int rank_of(const MatX& J) {
-  if (J.rows() == 0) return 0;
-  Eigen::ColPivHouseholderQR<MatX> qr;
-  qr.setThreshold(1e-9);
-  qr.compute(J.transpose());
-  return static_cast<int>(qr.rank());
-}
-
-}  // namespace
 
 ModelCounts count(const Model& model) {
   RelativeFormulation relative(model, model.simulation.inertia);
@@ -34,24 +21,14 @@ ModelCounts count(const Model& model) {
   c.relative = relative.counts();
   c.absolute = absolute.counts();
   // Rank at the assembled start, with position constraints only.
-  State start = relative_start(relative, Start::given);
+  State start = relative_start(relative, Start::given, &c.start);
   start_accelerations(relative, start,
                       default_penalty_mass(model));  // a singular mass matrix shows here
   relative.positions(0.0, start.q);
   relative.velocities(start.v);
-  const MatX J = relative.constraint_jacobian();
-  const int rank = rank_of(J);
+  const int rank = rank_of(relative.constraint_jacobian());
   c.degrees_of_freedom = relative.velocities() - rank;
   c.redundant_constraints = relative.constraints() - rank;
-  for (std::size_t k = 0, row = 0; k < relative.parts().size() && c.redundant_constraints > 0;
-       ++k) {
-    const auto next = row + static_cast<std::size_t>(relative.parts()[k].rows());
-    const int before = rank_of(J.topRows(static_cast<Eigen::Index>(row)));
-    const int after = rank_of(J.topRows(static_cast<Eigen::Index>(next)));
-    if (after - before < relative.parts()[k].rows())
-      c.redundant_constraint_names.push_back(owner_name(model, relative.parts()[k].owner));
-    row = next;
-  }
   return c;
 }
 
@@ -109,6 +86,11 @@ StaticsResult statics(const Model& model) {
     b.amplitudes = VecX::Zero(model.bodies[i].modes());
     for (int m = 0; m < model.bodies[i].modes(); ++m) b.amplitudes[m] = f.amplitude(state.q, k, m);
     s.bodies.push_back(b);
+  }
+  if (f.constraints() > 0 && rank_of(f.constraint_jacobian()) < f.constraints()) {
+    ConstraintAnalysis analysis(f, state.q);
+    analysis.set_reactions(s);
+    s.redundant = analysis.redundant();
   }
   state.v = zero;
   JointFollower joints(model);

@@ -206,6 +206,9 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   const double weight = std::max(1e-6, f.total_mass() * f.model().gravity.norm());
   constexpr double accepted = 1e-7;
   Statics statics(f);
+  VecX r(f.velocities());
+  statics.evaluate(q, e.lambda, r);
+  check_magnitudes(r, [&](int i) { return f.coordinate_owner(i); });
   statics.find_mass(q, e.lambda);
   Best best{q, e.lambda};
   approach(f, statics, weight, q, e.lambda, e.iterations, best);
@@ -213,7 +216,6 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
     descend(f, statics, weight, q, e.lambda, e.iterations, best);
   q = best.q;
   e.lambda = best.lambda;
-  VecX r(f.velocities());
   const auto evaluate = [&](const VecX& at, VecX& out) { statics.evaluate(at, e.lambda, out); };
   evaluate(q, r);
   e.residual = largest(r);
@@ -222,6 +224,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   e.residual = largest(r);
   if (!(best.size < accepted * weight)) {
     Eigen::Index worst = 0;
+    if (r.size() == 0) throw RunError("no static equilibrium found: nothing can move");
     r.cwiseAbs().maxCoeff(&worst);
     throw RunError(fmt::format(
         "no static equilibrium found: after {} iterations {} is out of balance by {:.3g} N "

@@ -1,23 +1,31 @@
 #pragma once
 // The state a run starts from, found once at load time in relative coordinates (dense linear
 // algebra, allocates, throws):
-//   close_loops       least change of the start values that satisfies the position and velocity
-//   constraints;
-//                     coordinates the user gave a value for move last
-//   find_equilibrium  static equilibrium: Newton with pseudo-transient regularisation on the full
-//   residual start_accelerations  a and lambda from M a + Phi_q^T lambda = Q, Phi_q a = gamma, in
-//   any formulation
+//   close_loops          least change of the start values that satisfies the position and velocity
+//                        constraints; what the user gave a value for moves last, what he keeps
+//                        never
+//   find_equilibrium     static equilibrium: Newton with pseudo-transient regularisation on the
+//   full
+//                        residual
+//   start_accelerations  a and lambda from M a + Phi_q^T lambda = Q, Phi_q a = gamma, in any
+//                        formulation
 #include <Eigen/Dense>
+#include <cmath>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
 
-/// At time t. Throws RunError naming the joint or rod that stays open.
-void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool positions, double t = 0.0);
+/// At time t. Throws RunError naming the joint or rod that stays open, or the joints that keep
+/// their values if that is the reason. Without `as_given` the positions are not those that the
+/// model gives, so nothing is held at what is given for joints.
+void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool positions, double t = 0.0,
+                 bool as_given = true);
 
 struct Equilibrium {
   int iterations = 0;
@@ -29,7 +37,18 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q);
 
 /// Start of a run in relative coordinates: the model's start values with loops closed, or the
 /// equilibrium with the model's start velocities. `start_state` knows states and offsets, too.
-State relative_start(RelativeFormulation& f, Start start);
+/// `report`, if given, receives what became of the start values of the user, and redundant
+/// directions of joints.
+State relative_start(RelativeFormulation& f, Start start, StartReport* report = nullptr);
+
+/// Start values of a joint with rotation vectors no longer than half a turn, as they are measured.
+std::vector<double> joint_coordinates_in_range(const Joint& joint,
+                                               const std::vector<double>& values);
+
+/// Adds the start values that differ from those given, at the present positions and velocities of
+/// `f`, and the sentences that say so.
+void report_changes(const RelativeFormulation& f, const State& state, Start start,
+                    StartReport& report);
 
 /// s alpha of the integrator when the user gives no penalty: 1e5 mean body masses.
 double default_penalty_mass(const Model& model);
@@ -37,27 +56,141 @@ double default_penalty_mass(const Model& model);
 /// The integrator's options that a simulation description asks for.
 StepOptions step_options(const Model& model, const SimulationDescription& o);
 
-/// Dense fallback for mass matrices that are singular on the null space of the constraints only
-/// where stiffness acts. `mass`, `stiffness`: nv x nv, `J`: nc x nv. Throws RunError naming the
-/// coordinate that has neither.
+/// A value that no computation with double precision survives: squares of what is larger overflow.
+inline constexpr double largest_magnitude = 1e100;
+
+/// Throws RunError naming a coordinate whose generalised force at the start is not finite or beyond
+/// `largest_magnitude`: an overflow must not be taken for a singular matrix.
+void check_magnitudes(const VecX& force, const std::function<std::string(int)>& owner);
+
+/// The same for the diagonal of the mass matrix.
+void check_masses(const VecX& diagonal, const std::function<std::string(int)>& owner);
+
+/// Scales of coordinates for questions about the mass matrix: its diagonal, but no less than 1e-4
+/// of its largest entry, so that round-off stays small.
+VecX mass_scale(const VecX& diagonal);
+
+/// Below this fraction of `mass_scale` a direction has no mass.
+inline constexpr double no_mass = 1e-10;
+
+/// Start accelerations by dense linear algebra, for mass matrices that are singular: on the null
+/// space of the constraints mass may be missing where stiffness acts. `mass`, `stiffness`: nv x nv,
+/// `J`: nc x nv. Throws RunError if a direction has neither; `movers` puts the directions (columns)
+/// into words.
 void dense_start(const MatX& mass, const MatX& stiffness, const MatX& J, const VecX& force,
-                 const VecX& gamma, const std::function<std::string(int)>& owner, VecX& a,
+                 const VecX& gamma, const std::function<std::string(const MatX&)>& movers, VecX& a,
                  VecX& lambda);
 
-/// True if the mass matrix has a diagonal entry of round-off size (systems beyond 1000 coordinates
-/// are not searched).
+/// "body 'a'", "bodies 'a' and 'b'".
+std::string bodies_text(const std::vector<std::string>& names);
+
+/// The diagonal of the mass matrix.
 template <class F>
-bool has_massless_coordinate(F& f, const State& state) {
+VecX mass_diagonal(F& f, const State& state) {
   const int nv = f.velocities();
-  if (nv == 0 || nv > 1000) return false;
   const VecX zero = VecX::Zero(nv);
   VecX r0(nv), column(nv), diagonal(nv);
   f.residual(zero, state.lambda, 0.0, r0);
+  check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
+  // Differences of the residual keep the digits of the mass if they are no smaller than the forces.
+  const double unit = nv > 0 ? std::max(1.0, r0.cwiseAbs().maxCoeff()) : 1.0;
   for (int j = 0; j < nv; ++j) {
-    f.residual(VecX::Unit(nv, j), state.lambda, 0.0, column);
-    diagonal[j] = column[j] - r0[j];
+    f.residual(unit * VecX::Unit(nv, j), state.lambda, 0.0, column);
+    diagonal[j] = (column[j] - r0[j]) / unit;
   }
-  return diagonal.minCoeff() < 1e-9 * diagonal.maxCoeff();
+  check_masses(diagonal, [&](int i) { return f.coordinate_owner(i); });
+  return diagonal;
+}
+
+/// True if some direction that the constraints leave free may have no mass: the tangent with a
+/// small penalty has a vanishing pivot, or a solution with it grows without measure (inverse
+/// iteration from a vector that no direction is orthogonal to but by chance). Says yes too often
+/// rather than too seldom.
+template <class F>
+bool may_lack_mass(F& f, const VecX& diagonal, double penalty_mass) {
+  const Eigen::Index nv = diagonal.size();
+  if (nv == 0) return false;
+  if (diagonal.minCoeff() < 1e-9 * diagonal.maxCoeff()) return true;
+  constexpr double s = 1e-30;
+  constexpr int slot = 1;
+  // Round-off of the full penalty would look like mass.
+  if (f.factorize(1.0, 0.0, s, 1e-5 * penalty_mass / s, slot) >= 0) return true;
+  const VecX scale = mass_scale(diagonal);
+  VecX x(nv);
+  for (Eigen::Index i = 0; i < nv; ++i) {
+    const double golden = static_cast<double>(i + 1) * 0.6180339887498949;
+    x[i] = (0.5 + golden - std::floor(golden)) * (i % 2 == 0 ? 1.0 : -1.0) / std::sqrt(scale[i]);
+  }
+  for (int pass = 0; pass < 2; ++pass) {
+    x /= std::sqrt(x.dot(scale.cwiseProduct(x)));
+    x = scale.cwiseProduct(x).eval();
+    f.solve(x, slot);
+    const double growth = std::sqrt(x.dot(scale.cwiseProduct(x)));
+    if (!(growth < 0.1 / no_mass)) return true;
+  }
+  return false;
+}
+
+/// The bodies that move when the velocities are a column of `directions`.
+template <class F>
+std::string moving_bodies(F& f, const State& state, const MatX& directions) {
+  const Model& model = f.model();
+  VecX speed = VecX::Zero(static_cast<Eigen::Index>(model.bodies.size()));
+  f.positions(state.t, state.q);
+  for (Eigen::Index k = 0; k < directions.cols(); ++k) {
+    f.velocities(directions.col(k).normalized());
+    for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+      double v = f.body_angular_velocity(static_cast<int>(i)).norm() * model.bodies[i].length;
+      for (std::size_t m = 0; m < model.markers.size(); ++m)
+        if (model.markers[m].body == static_cast<int>(i))
+          v = std::max(v, f.marker(static_cast<int>(m)).v.norm());
+      speed[static_cast<Eigen::Index>(i)] = std::max(speed[static_cast<Eigen::Index>(i)], v);
+    }
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (speed[static_cast<Eigen::Index>(i)] > 1e-3 * speed.maxCoeff())
+      names.push_back(model.bodies[i].name);
+  if (!names.empty()) return bodies_text(names);
+  Eigen::Index worst = 0;
+  directions.col(0).cwiseAbs().maxCoeff(&worst);
+  return f.coordinate_owner(static_cast<int>(worst));
+}
+
+/// Fills state.a and state.lambda by dense linear algebra.
+template <class F>
+void start_accelerations_dense(F& f, State& state) {
+  const int nv = f.velocities(), nc = f.constraints();
+  MatX mass(nv, nv), stiffness(nv, nv);
+  const VecX zero = VecX::Zero(nv), no_lambda = VecX::Zero(nc);
+  VecX r0(nv), column(nv), gamma(nc), q1(state.q.size()), x = VecX::Zero(nv);
+  f.positions(state.t, state.q);
+  f.velocities(state.v);
+  f.dynamics();
+  f.residual(zero, no_lambda, 0.0, r0);
+  check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
+  const double unit = nv > 0 ? std::max(1.0, r0.cwiseAbs().maxCoeff()) : 1.0;
+  for (int j = 0; j < nv; ++j) {
+    f.residual(unit * VecX::Unit(nv, j), no_lambda, 0.0, column);
+    mass.col(j) = (column - r0) / unit;
+  }
+  const MatX J = f.constraint_jacobian();
+  f.constraint_accelerations(zero, gamma);
+  for (int j = 0; j < nv; ++j) {
+    constexpr double step = 1e-7;
+    x.setZero();
+    x[j] = step;
+    f.retract(state.q, x, q1);
+    f.positions(state.t, q1);
+    f.velocities(state.v);
+    f.dynamics();
+    f.residual(zero, no_lambda, 0.0, column);
+    stiffness.col(j) = (column - r0) / step;
+  }
+  dense_start(
+      mass, stiffness, J, -r0, -gamma,
+      [&](const MatX& directions) { return moving_bodies(f, state, directions); }, state.a,
+      state.lambda);
 }
 
 /// Fills state.a, state.a_alg and state.lambda at state.q, state.v, state.t.
@@ -71,13 +204,18 @@ void start_accelerations(F& f, State& state, double penalty_mass) {
   f.dynamics();
   double s = 1e-30;  // no stiffness in the tangent: M + penalty Phi_q^T Phi_q
   VecX r(nv), gamma(nc), push(nv);
-  // A freedom whose mass is round-off passes the pivot test by luck: look at the diagonal of M
-  // first.
-  bool good = !has_massless_coordinate(f, state) && f.factorize(1.0, 0.0, s, penalty_mass / s) < 0;
+  // A freedom whose mass is round-off passes the pivot test by luck: look for it first.
+  constexpr int most = 1000;  // beyond, neither this nor the dense computation is affordable
+  bool good = nv > most || !may_lack_mass(f, mass_diagonal(f, state), penalty_mass);
+  if (nv > most) {
+    f.residual(state.a, state.lambda, 0.0, r);
+    check_magnitudes(r, [&](int i) { return f.coordinate_owner(i); });
+  }
+  good = good && f.factorize(1.0, 0.0, s, penalty_mass / s) < 0;
   bool settled = good;
-  if (!good && nv > 1000) {
-    // The dense computation below would take minutes. A little stiffness holds what has no mass;
-    // that is the solution too if no force acts there, and otherwise the passes do not settle.
+  if (!good && nv > most) {
+    // The dense computation would take minutes. A little stiffness holds what has no mass; that is
+    // the solution too if no force acts there, and otherwise the passes do not settle.
     s = 1e-10;
     good = f.factorize(1.0, 0.0, s, penalty_mass / s) < 0;
     settled = false;
@@ -105,32 +243,7 @@ void start_accelerations(F& f, State& state, double penalty_mass) {
     const double size = 1.0 + state.a.lpNorm<Eigen::Infinity>();
     good = settled && state.a.allFinite() && worst < 1e-5 * size && size < 1e7;
   }
-  if (!good) {
-    MatX mass(nv, nv), stiffness(nv, nv);
-    const VecX zero = VecX::Zero(nv), no_lambda = VecX::Zero(nc);
-    VecX r0(nv), column(nv), q1(state.q.size()), x = VecX::Zero(nv);
-    f.residual(zero, no_lambda, 0.0, r0);
-    for (int j = 0; j < nv; ++j) {
-      f.residual(VecX::Unit(nv, j), no_lambda, 0.0, column);
-      mass.col(j) = column - r0;
-    }
-    const MatX J = f.constraint_jacobian();
-    f.constraint_accelerations(zero, gamma);
-    for (int j = 0; j < nv; ++j) {
-      constexpr double step = 1e-7;
-      x.setZero();
-      x[j] = step;
-      f.retract(state.q, x, q1);
-      f.positions(state.t, q1);
-      f.velocities(state.v);
-      f.dynamics();
-      f.residual(zero, no_lambda, 0.0, column);
-      stiffness.col(j) = (column - r0) / step;
-    }
-    dense_start(
-        mass, stiffness, J, -r0, -gamma, [&](int i) { return f.coordinate_owner(i); }, state.a,
-        state.lambda);
-  }
+  if (!good) start_accelerations_dense(f, state);
   state.a_alg = state.a;
   f.positions(state.t, state.q);
   f.velocities(state.v);

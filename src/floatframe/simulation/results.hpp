@@ -65,6 +65,31 @@ struct EnergySummary {  ///< [J]
   double exchanged = 0;                                    ///< what remainders are measured against
 };
 
+/// A start value that the user gave and that closing the loops has changed.
+struct StartChange {
+  std::string owner;     ///< "joint 'crank'", "body 'beam'"
+  std::string quantity;  ///< "angle", "displacement", "coordinate 2", "amplitude 3"
+  bool rate = false;
+  std::string unit;  ///< "rad", "m/s"; empty: amplitudes
+  double given = 0.0, used = 0.0;
+};
+
+/// A direction of a joint that the rest of the model prescribes already.
+struct RedundantDirection {
+  std::string owner;      ///< "joint 'hinge'", "rod 'tie'"
+  std::string direction;  ///< "translation along x", "rotation about [0.6, 0, 0.8]", "length"
+};
+
+/// "joint 'hinge': translation along x, translation along y; rod 'tie': length"
+std::string redundancy_text(const std::vector<RedundantDirection>& redundant);
+
+/// What a user should know of the state a run starts from.
+struct StartReport {
+  std::vector<StartChange> changes;
+  std::vector<RedundantDirection> redundant;
+  std::vector<std::string> notes;  ///< all of it in sentences
+};
+
 struct RunSummary {
   std::string model, coordinates, inertia;
   double step = 0, duration = 0;  ///< [s]; duration actually reached
@@ -77,6 +102,7 @@ struct RunSummary {
   EnergySummary energy;
   std::string status = "completed";  ///< "completed" or "failed"
   std::string message;               ///< why it failed: time, culprit
+  StartReport start;
   /// Where the run left the range of the method: one sentence each (docs/range.md).
   std::vector<std::string> warnings;
   bool strict = false;  ///< failed only because warnings count as errors: the results are complete
@@ -98,19 +124,25 @@ struct ModelCounts {
   int degrees_of_freedom = 0;
   int redundant_constraints = 0;
   std::vector<std::string> cut_joint_names;
-  std::vector<std::string> redundant_constraint_names;  ///< owners of rows that repeat earlier ones
+  StartReport start;
 };
 
+/// Where constraints are redundant some reactions are not unique: any multiple of forces that
+/// balance each other may be added. Then all reactions are those of minimum norm: the sum of the
+/// squares of the forces and of the torques divided by the length of the child.
 struct StaticsForce {
   std::string name, type;
   double force = 0;   ///< tension positive [N]; torque [N m] for joint springs on revolutes;
                       ///< vertical force of tyres
   double length = 0;  ///< measure of the element: length, deflection, angle
+  bool unique = true;
 };
 struct StaticsJoint {
   std::string name, type;
   Vec3 force = Vec3::Zero();   ///< on the child, world axes [N]
   Vec3 torque = Vec3::Zero();  ///< on the child about the joint point, world axes [N m]
+  std::array<bool, 3> unique_force{true, true, true}, unique_torque{true, true, true};
+  bool unique() const;
 };
 struct StaticsBody {
   std::string name;
@@ -125,6 +157,7 @@ struct StaticsResult {
   std::vector<StaticsJoint> joints;
   std::vector<StaticsBody> bodies;
   std::shared_ptr<SystemState> state;  ///< the equilibrium, at rest
+  std::vector<RedundantDirection> redundant;
 };
 
 }  // namespace floatframe

@@ -82,6 +82,7 @@ class Runner {
 
   /// The culprit of the last failed step, in words.
   std::string failure() const {
+    if (const std::string text = unreachable_tolerance(); !text.empty()) return text;
     const char* what =
         last_.status == StepStatus::singular_tangent ? "the tangent matrix is singular at "
         : last_.status == StepStatus::not_finite     ? "the state is not finite any more; look at "
@@ -112,6 +113,22 @@ class Runner {
                           f_.model().forces[static_cast<std::size_t>(force)].name,
                           f_.force(force).force);
     return text;
+  }
+
+  /// Why the last step failed if a tolerance asks for more digits than double precision has.
+  std::string unreachable_tolerance() const {
+    if (last_.status != StepStatus::not_converged) return {};
+    const bool newton = last_.constraint < 0;
+    const StepOptions& o = integrator_.options();
+    const double tolerance = newton ? o.tolerance : o.position_tolerance;
+    const double size = 1.0 + state_.q.lpNorm<Eigen::Infinity>();
+    const double least = 1e-15 * size;
+    if (!(tolerance < least)) return {};
+    return fmt::format(
+        "step failed at t = {:.6g} s after substeps down to {:.3g} s: the {} of {:g} is below the "
+        "rounding of double precision, about {:.1g} with coordinates up to {:.3g}; expected more",
+        state_.t, min_step_, newton ? "tolerance" : "position_tolerance", tolerance, least,
+        size - 1.0);
   }
 
   /// Steps accepted before they had converged (`StepStatus::cut_short`).

@@ -9,6 +9,7 @@
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/run_watch.hpp"
 #include "floatframe/simulation/runner.hpp"
 #include "floatframe/simulation/system_state.hpp"
@@ -24,7 +25,7 @@ double cpu_seconds() noexcept {
 }
 
 template <class F>
-RunResult run_with(F& f, State start, const SimulationDescription& o,
+RunResult run_with(F& f, State start, StartReport start_report, const SimulationDescription& o,
                    const RunOptions& run_options) {
   const Model& model = f.model();
   RunResult result;
@@ -33,6 +34,7 @@ RunResult run_with(F& f, State start, const SimulationDescription& o,
   s.coordinates = o.coordinates == Coordinates::relative ? "relative" : "absolute";
   s.inertia = o.inertia == InertiaMethod::preprocessing ? "preprocessing" : "projection";
   s.step = o.step;
+  s.start = std::move(start_report);
 
   const StepOptions options = step_options(model, o);
   Runner<F> runner(f, options, o.min_step > 0.0 ? o.min_step : o.step / 1024.0);
@@ -135,7 +137,7 @@ StepOptions step_options(const Model& model, const SimulationDescription& o) {
   return s;
 }
 
-State relative_start(RelativeFormulation& f, Start start) {
+State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
   State state;
   f.start(state.q, state.v);
   VecX at_rest = VecX::Zero(f.velocities());
@@ -144,6 +146,11 @@ State relative_start(RelativeFormulation& f, Start start) {
     find_equilibrium(f, state.q);
     close_loops(f, state.q, state.v, false);
   }
+  if (report == nullptr) return state;
+  f.positions(0.0, state.q);
+  f.velocities(state.v);
+  report_changes(f, state, start, *report);
+  report_redundancy(f, state, *report);
   return state;
 }
 
@@ -152,17 +159,19 @@ RunResult run(const Model& given, const SimulationDescription& o, const RunOptio
   const std::optional<Model> started = started_model(given, o);
   const Model& model = started ? *started : given;
   check_step(o);
+  StartReport start_report;
   if (o.coordinates == Coordinates::relative) {
     RelativeFormulation f(model, o.inertia);
-    return run_with(f, start_state(f, o), o, run_options);
+    State state = start_state(f, o, &start_report);
+    return run_with(f, std::move(state), std::move(start_report), o, run_options);
   }
   RelativeFormulation tree(model, o.inertia);
-  const State start = start_state(tree, o);
+  const State start = start_state(tree, o, &start_report);
   AbsoluteFormulation f(model, o.inertia);
   State state;
   state.t = start.t;
   f.start_from(tree, start.q, start.v, state.q, state.v);
-  return run_with(f, std::move(state), o, run_options);
+  return run_with(f, std::move(state), std::move(start_report), o, run_options);
 }
 
 }  // namespace floatframe

@@ -8,6 +8,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -228,6 +229,7 @@ Model with_start_values(const Model& model, const SystemState& state) {
       refuse(model, state, fmt::format("found numbers that are not finite at joint '{}'", j.name));
     j.position = kept.position;
     j.velocity = kept.velocity;
+    j.keep = false;  // all of them are given, to the tolerances of the run
   }
   for (std::size_t i = 0; i < out.bodies.size(); ++i) {
     const SystemState::Body& kept = named(state.bodies, out.bodies[i].name);
@@ -251,7 +253,7 @@ std::optional<Model> started_model(const Model& model, const SimulationDescripti
   return with_start_values(model, *o.state);
 }
 
-State start_state(RelativeFormulation& f, const SimulationDescription& o) {
+State start_state(RelativeFormulation& f, const SimulationDescription& o, StartReport* report) {
   State state;
   if (o.start == Start::state && o.state) {
     const Model values = with_start_values(f.model(), *o.state);
@@ -260,13 +262,14 @@ State start_state(RelativeFormulation& f, const SimulationDescription& o) {
     f.positions(state.t, state.q);
     f.velocities(state.v);
     compare_bodies(f, *o.state);
-    close_loops(f, state.q, state.v, true, state.t);
+    close_loops(f, state.q, state.v, true, state.t, false);
+    if (report != nullptr) report_redundancy(f, state, *report);
   } else {
-    state = relative_start(f, o.start);
+    state = relative_start(f, o.start, report);
   }
   if (o.offset.empty() || o.start == Start::given) return state;
   apply_offsets(f, o.offset, state.t, state.q);
-  close_loops(f, state.q, state.v, true, state.t);
+  close_loops(f, state.q, state.v, true, state.t, false);
   return state;
 }
 

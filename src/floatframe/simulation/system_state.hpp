@@ -7,6 +7,7 @@
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/system_state.hpp"
+#include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
 
@@ -19,7 +20,8 @@ std::optional<Model> started_model(const Model& model, const SimulationDescripti
 /// Start of a run in relative coordinates: given values, equilibrium or a state, and offsets from
 /// the latter two, with loops closed. Throws InputError for a state of another model, RunError if
 /// the start cannot be.
-State start_state(RelativeFormulation& f, const SimulationDescription& options);
+State start_state(RelativeFormulation& f, const SimulationDescription& options,
+                  StartReport* report = nullptr);
 
 /// Follows the coordinates of all joints, so that turns are counted.
 class JointFollower {

@@ -1,0 +1,208 @@
+#include "floatframe/simulation/redundancy.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace floatframe {
+
+namespace {
+
+/// Rows that are nearer to those before them than this are called dependent.
+constexpr double dependent = 1e-9;
+
+/// "x", "-y" is "y", "[0.6, 0, 0.8]": a line, without a sense.
+std::string line_text(const Vec3& direction) {
+  Vec3 n = direction.normalized();
+  Eigen::Index main = 0;
+  n.cwiseAbs().maxCoeff(&main);
+  if (n[main] < 0.0) n = -n;
+  if (n[main] > 1.0 - 1e-9) return std::string(1, "xyz"[main]);
+  const auto number = [](double x) {
+    return fmt::format("{:.4g}", std::round(x * 1e4) / 1e4 + 0.0);
+  };
+  return fmt::format("[{}, {}, {}]", number(n.x()), number(n.y()), number(n.z()));
+}
+
+std::string direction_text(const ConstraintPart& part, const ConstraintRow& row) {
+  switch (part.kind) {
+    case ConstraintPart::Kind::distance:
+      return "length";
+    case ConstraintPart::Kind::drive_position:
+    case ConstraintPart::Kind::drive_angle:
+      return "prescribed motion";
+    case ConstraintPart::Kind::perpendicular:
+      return "rotation about " + line_text(row.gradient.Tb);
+    case ConstraintPart::Kind::coincident:
+    case ConstraintPart::Kind::in_line:
+      break;
+  }
+  return "translation along " + line_text(row.gradient.Fb);
+}
+
+/// The motions x of a body, its columns, that satisfy its own constraints J x = 0.
+MatX null_space(const MatX& J) {
+  const Eigen::ColPivHouseholderQR<MatX> qr(J.transpose());
+  const MatX Q = qr.householderQ();
+  return Q.rightCols(J.cols() - J.rows());
+}
+
+/// lambda with J^T lambda = 0, orthonormal columns.
+MatX balanced_multipliers(const MatX& J) {
+  Eigen::ColPivHouseholderQR<MatX> qr;
+  qr.setThreshold(dependent);
+  qr.compute(J);
+  const MatX Q = qr.householderQ();
+  return Q.rightCols(J.rows() - qr.rank());
+}
+
+}  // namespace
+
+int rank_of(const MatX& J) {
+  if (J.rows() == 0 || J.cols() == 0) return 0;
+  Eigen::ColPivHouseholderQR<MatX> qr;
+  qr.setThreshold(dependent);
+  qr.compute(J.transpose());
+  return static_cast<int>(qr.rank());
+}
+
+ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
+    : model_(tree.model()), f_(tree.model(), tree.model().simulation.inertia) {
+  State state;
+  f_.start_from(tree, q, VecX::Zero(tree.velocities()), state.q, state.v);
+  f_.positions(0.0, state.q);
+  f_.velocities(state.v);
+  f_.dynamics();
+  const Eigen::Index nq = f_.velocities();
+  first_ = f_.parts().empty() ? f_.constraints() : f_.part_offset(0);
+  const MatX all = f_.constraint_jacobian();
+  VecX load(nq);
+  f_.residual(VecX::Zero(nq), VecX::Zero(f_.constraints()), 0.0, load);
+  // Motions that each body has by itself: its coordinates and its own constraints follow those of
+  // the bodies before it.
+  Eigen::Index column = 0, row = 0, motions = 0;
+  J_ = MatX::Zero(f_.constraints() - first_, nq - first_);
+  load_ = VecX::Zero(nq - first_);
+  for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+    const Eigen::Index size = f_.body_size(static_cast<int>(i));
+    const Eigen::Index own = f_.body_rows(static_cast<int>(i));
+    const MatX N = null_space(all.block(row, column, own, size));
+    J_.middleCols(motions, N.cols()) = all.bottomRows(J_.rows()).middleCols(column, size) * N;
+    load_.segment(motions, N.cols()) = -(N.transpose() * load.segment(column, size));
+    column += size;
+    row += own;
+    motions += N.cols();
+  }
+  rows_.resize(static_cast<std::size_t>(J_.rows()));
+  for (std::size_t k = 0; k < f_.parts().size(); ++k) {
+    const ConstraintPart& p = f_.parts()[k];
+    evaluate_constraint(p, f_.marker(p.a), f_.marker(p.b), 0.0,
+                        rows_.data() + static_cast<std::size_t>(row_of(k)));
+  }
+}
+
+std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
+  std::vector<RedundantDirection> found;
+  MatX basis(J_.cols(), std::min(J_.rows(), J_.cols()));  // orthonormal, of the rows met so far
+  Eigen::Index rank = 0;
+  for (std::size_t k = 0; k < f_.parts().size(); ++k) {
+    const ConstraintPart& part = f_.parts()[k];
+    for (int r = 0; r < part.rows(); ++r) {
+      const Eigen::Index i = row_of(k) + r;
+      VecX x = J_.row(i).transpose();
+      const double size = x.norm();
+      for (int pass = 0; pass < 2; ++pass)  // twice is enough
+        x -= basis.leftCols(rank) * (basis.leftCols(rank).transpose() * x);
+      if (rank < basis.cols() && x.norm() > dependent * size)
+        basis.col(rank++) = x.normalized();
+      else
+        found.push_back({owner_name(model_, part.owner),
+                         direction_text(part, rows_[static_cast<std::size_t>(i)])});
+    }
+  }
+  return found;
+}
+
+bool ConstraintAnalysis::set_reactions(StaticsResult& statics) {
+  if (J_.rows() == 0 || J_.cols() == 0) return true;
+  Eigen::CompleteOrthogonalDecomposition<MatX> cod;
+  cod.setThreshold(dependent);
+  cod.compute(J_.transpose());
+  const VecX lambda = cod.solve(load_);
+  const double error = (J_.transpose() * lambda - load_).lpNorm<Eigen::Infinity>();
+  const double weight = statics.residual + 1e-6 * (1e-6 + load_.lpNorm<Eigen::Infinity>());
+  if (!(error < 10.0 * weight)) return false;
+  const MatX balanced = balanced_multipliers(J_);
+  const Eigen::Index states = balanced.cols();
+  const std::size_t joints = model_.joints.size();
+  std::vector<MatX> force(joints, MatX::Zero(3, states)), torque = force;
+  for (StaticsJoint& j : statics.joints) {
+    j.force.setZero();
+    j.torque.setZero();
+  }
+  for (std::size_t k = 0; k < f_.parts().size(); ++k) {
+    const ConstraintPart& p = f_.parts()[k];
+    const auto owner = static_cast<std::size_t>(p.owner.index);
+    for (int r = 0; r < p.rows(); ++r) {
+      const Eigen::Index i = row_of(k) + r;
+      const WrenchRow& g = rows_[static_cast<std::size_t>(i)].gradient;
+      if (p.owner.kind == ConstraintOwner::Kind::rod) {
+        for (StaticsForce& f : statics.forces)
+          if (f.type == "rod" && f.name == model_.rods[owner].name) {
+            f.force = lambda[i];
+            f.unique = !(balanced.row(i).norm() > 1e-7);
+          }
+        continue;
+      }
+      statics.joints[owner].force -= lambda[i] * g.Fb;
+      statics.joints[owner].torque -= lambda[i] * g.Tb;
+      force[owner] -= g.Fb * balanced.row(i);
+      torque[owner] -= g.Tb * balanced.row(i);
+    }
+  }
+  for (std::size_t j = 0; j < joints; ++j) {
+    const double length = model_.bodies[static_cast<std::size_t>(model_.joints[j].child)].length;
+    for (int c = 0; c < 3; ++c) {
+      const auto i = static_cast<std::size_t>(c);
+      statics.joints[j].unique_force[i] = !(force[j].row(c).norm() > 1e-7);
+      statics.joints[j].unique_torque[i] = !(torque[j].row(c).norm() > 1e-7 * length);
+    }
+  }
+  return true;
+}
+
+bool StaticsJoint::unique() const {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!unique_force[i] || !unique_torque[i]) return false;
+  return true;
+}
+
+std::string redundancy_text(const std::vector<RedundantDirection>& redundant) {
+  std::string text;
+  for (std::size_t k = 0; k < redundant.size(); ++k) {
+    const bool same = k > 0 && redundant[k].owner == redundant[k - 1].owner;
+    if (same)
+      text += ", " + redundant[k].direction;
+    else
+      text += (k > 0 ? "; " : "") + redundant[k].owner + ": " + redundant[k].direction;
+  }
+  return text;
+}
+
+void report_redundancy(RelativeFormulation& f, const State& state, StartReport& report) {
+  const int nc = f.constraints();
+  if (nc == 0 || rank_of(f.constraint_jacobian()) == nc) return;
+  report.redundant = ConstraintAnalysis(f, state.q).redundant();
+  f.positions(state.t, state.q);
+  f.velocities(state.v);
+  if (report.redundant.empty()) return;
+  const std::size_t n = report.redundant.size();
+  report.notes.push_back(fmt::format(
+      "{} redundant ({}): the motion does not depend on {}, but reactions in these loops are not "
+      "unique",
+      n == 1 ? "1 constraint is" : fmt::format("{} constraints are", n),
+      redundancy_text(report.redundant), n == 1 ? "it" : "them"));
+}
+
+}  // namespace floatframe

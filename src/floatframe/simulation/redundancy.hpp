@@ -1,0 +1,46 @@
+#pragma once
+// Redundant constraints. With the rows of all joints, rods and motions in J (each scaled to
+// lengths), on the motions that the bodies have by themselves (three translations, three rotations
+// and the amplitudes each):
+//   a row that depends on the rows before it is redundant, in the order of joints, rods, motions;
+//   reactions are J^T lambda, so a lambda with J^T lambda = 0 may be added to them: a component
+//   that all of these leave alone is unique, for the others the lambda of least norm is given.
+// Tree joints of the relative formulation have no multipliers, so the rows are those of the
+// absolute formulation. Dense linear algebra, load time only.
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/simulation/results.hpp"
+
+namespace floatframe {
+
+class ConstraintAnalysis {
+ public:
+  /// Of the model as `tree` has it at the configuration q, at rest.
+  ConstraintAnalysis(RelativeFormulation& tree, const VecX& q);
+
+  /// Rows that repeat earlier ones.
+  std::vector<RedundantDirection> redundant() const;
+
+  /// Sets the reactions of joints and the forces of rods to those of least norm that hold the
+  /// model, and marks those that are not unique. False (nothing is changed) if none holds it.
+  bool set_reactions(StaticsResult& statics);
+
+ private:
+  Eigen::Index row_of(std::size_t part) const { return f_.part_offset(part) - first_; }
+
+  const Model& model_;
+  AbsoluteFormulation f_;
+  Eigen::Index first_ = 0;  ///< row of the first part: rows of bodies come before
+  MatX J_;                  ///< rows of the parts on the motions of the bodies
+  VecX load_;               ///< what J_^T lambda must be
+  std::vector<ConstraintRow> rows_;
+};
+
+/// Adds redundant directions at the start and the sentence that names them. Looks closer only if
+/// the rank of the constraints of the relative formulation shows that there are any.
+void report_redundancy(RelativeFormulation& f, const State& state, StartReport& report);
+
+/// Rank of the rows of J.
+int rank_of(const MatX& J);
+
+}  // namespace floatframe

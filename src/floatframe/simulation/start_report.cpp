@@ -1,0 +1,128 @@
+// What became of the start values of the user.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floatframe/math/so3.hpp"
+#include "floatframe/model/joint_measure.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+
+namespace floatframe {
+
+namespace {
+
+/// Smaller changes are the rounding of numbers that a person writes.
+constexpr double noticeable = 1e-6;
+
+std::string quantity(JointType type, std::size_t component) {
+  if (type == JointType::revolute) return "angle";
+  if (type == JointType::prismatic) return "displacement";
+  return fmt::format("coordinate {}", component + 1);
+}
+
+std::string unit(JointType type, std::size_t component, bool rate) {
+  const bool metres = type == JointType::prismatic ||
+                      (type == JointType::cylindrical && component == 0) ||
+                      (type == JointType::free && component < 3);
+  return fmt::format("{}{}", metres ? "m" : "rad", rate ? "/s" : "");
+}
+
+std::string sentence(const StartChange& c, const char* what_changed) {
+  const std::string unit = c.unit.empty() ? "" : " " + c.unit;
+  const bool counted = c.quantity.find(' ') != std::string::npos;  // "amplitude 3"
+  return fmt::format("{}: {} changed {}{}{} from the {:.6g}{} given to {:.6g}{} (by {:.3g}{})",
+                     c.owner, what_changed, c.rate ? "the rate of " : "", counted ? "" : "the ",
+                     c.quantity, c.given, unit, c.used, unit, c.used - c.given, unit);
+}
+
+class Changes {
+ public:
+  explicit Changes(StartReport& report) : report_(report) {}
+
+  void joint(const Model& model, const Joint& j, bool rate, const std::vector<double>& given,
+             const RelativeFormulation& f) {
+    const MarkerState& F = f.marker(j.frame_F);
+    const MarkerState& M = f.marker(j.frame_M);
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      const int component = static_cast<int>(k);
+      double wanted = given[k];
+      // All free joints to the ground have the velocity of the simulation on top of their own.
+      if (rate && j.type == JointType::free && j.parent < 0 && k < 3)
+        wanted += model.simulation.velocity[component];
+      const double used =
+          rate ? joint_velocity(j, F, M, component) : joint_position(j, F, M, component, wanted);
+      if (!(std::abs(used - wanted) > noticeable * (1.0 + std::abs(wanted)))) continue;
+      if (!rate && same_rotation(j, given, k, F, M)) continue;
+      report_.changes.push_back({"joint '" + j.name + "'", quantity(j.type, k), rate,
+                                 unit(j.type, k, rate), wanted, used});
+    }
+  }
+
+  void amplitudes(const std::string& body, bool rate, const VecX& given, const VecX& used) {
+    const double size = given.lpNorm<Eigen::Infinity>();
+    for (Eigen::Index k = 0; k < given.size(); ++k)
+      if (std::abs(used[k] - given[k]) > noticeable * (size > 0.0 ? size : 1e-3))
+        report_.changes.push_back({"body '" + body + "'", fmt::format("amplitude {}", k + 1), rate,
+                                   "", given[k], used[k]});
+  }
+
+ private:
+  /// A rotation of half a turn has two rotation vectors.
+  static bool same_rotation(const Joint& j, const std::vector<double>& given, std::size_t k,
+                            const MarkerState& F, const MarkerState& M) {
+    const int first = quaternion_offset(j.type);
+    if (first < 0 || static_cast<int>(k) < first) return false;
+    const Vec3 theta(given.data() + first);
+    const Mat3 difference = rotation_exp(theta).transpose() * (F.R.transpose() * M.R);
+    return quaternion_log(Eigen::Quaterniond(difference)).norm() < noticeable;
+  }
+
+  StartReport& report_;
+};
+
+}  // namespace
+
+std::vector<double> joint_coordinates_in_range(const Joint& joint,
+                                               const std::vector<double>& values) {
+  std::vector<double> out = values;
+  const int first = quaternion_offset(joint.type);
+  if (first < 0 || out.size() < static_cast<std::size_t>(first) + 3) return out;
+  Eigen::Map<Vec3> theta(out.data() + first);
+  if (theta.norm() > 3.141592653589793) theta = quaternion_log(quaternion_exp(theta));
+  return out;
+}
+
+void report_changes(const RelativeFormulation& f, const State& state, Start start,
+                    StartReport& report) {
+  const Model& model = f.model();
+  const bool balanced = start == Start::equilibrium;
+  Changes changes(report);
+  // An equilibrium is another question than the positions given, except to what must be kept.
+  for (const Joint& j : model.joints)
+    if (!balanced || j.keep)
+      changes.joint(model, j, false, joint_coordinates_in_range(j, j.position), f);
+  for (std::size_t i = 0; i < model.bodies.size() && !balanced; ++i) {
+    const VecX& given = model.amplitudes[i];
+    VecX used(given.size());
+    for (int k = 0; k < given.size(); ++k) used[k] = f.amplitude(state.q, static_cast<int>(i), k);
+    if (given.size() > 0) changes.amplitudes(model.bodies[i].name, false, given, used);
+  }
+  const std::size_t positions = report.changes.size();
+  for (const Joint& j : model.joints) changes.joint(model, j, true, j.velocity, f);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const VecX& given = model.amplitude_rates[i];
+    VecX used(given.size());
+    for (int k = 0; k < given.size(); ++k)
+      used[k] = f.amplitude_rate(state.v, static_cast<int>(i), k);
+    if (given.size() > 0) changes.amplitudes(model.bodies[i].name, true, given, used);
+  }
+  for (std::size_t k = 0; k < report.changes.size(); ++k)
+    report.notes.push_back(
+        sentence(report.changes[k],
+                 balanced && k < positions
+                     ? "keep: true holds no position where the start is an equilibrium, which"
+                     : "closing the loops"));
+}
+
+}  // namespace floatframe
