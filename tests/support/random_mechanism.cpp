@@ -261,14 +261,16 @@ Mechanism draw(unsigned seed) {
 }  // namespace
 
 Mechanism random_mechanism(unsigned seed) {
+  constexpr unsigned attempts = 50;
   for (unsigned attempt = 0;; ++attempt) {
     Mechanism m = draw(seed + 1000000 * attempt);
     m.description.name = "mechanism_" + std::to_string(seed);
     try {
-      if (fastest_rate(build_model(m.description), m.relative) < most_rate) return m;
+      if (!(fastest_rate(build_model(m.description), m.relative) >= most_rate)) return m;
     } catch (const InputError&) {
       return m;  // to be refused
     }
+    if (attempt == attempts) return m;
   }
 }
 
