@@ -129,10 +129,6 @@ bool energy_falls(const std::vector<double>& drifts, double scale) {
   return false;
 }
 
-bool lacks_mass(const std::string& reason) {
-  return reason.find("matrix is singular") != std::string::npos;
-}
-
 std::string list(const std::vector<double>& values) {
   return fmt::format("{:.3g}", fmt::join(values, ", "));
 }
@@ -140,12 +136,10 @@ std::string list(const std::vector<double>& values) {
 }  // namespace
 
 const char* word(Verdict v) {
-  static const char* const words[] = {
-      "equal",         "second order", "second order at a finer step",
-      "kinked",        "refused",      "stopped",
-      "massless",      "split",        "no reason",
-      "not finite",    "wrong order",  "energy",
-      "not repeatable"};
+  static const char* const words[] = {"equal",       "second order", "second order at a finer step",
+                                      "kinked",      "refused",      "stopped",
+                                      "split",       "no reason",    "not finite",
+                                      "wrong order", "energy",       "not repeatable"};
   return words[static_cast<int>(v)];
 }
 
@@ -183,7 +177,7 @@ Judgement judge(const Mechanism& mechanism) {
     if (!r.known || !a.known) return verdict(Verdict::no_reason, r.reason + " / " + a.reason);
     if (!r.started || !a.started) {
       if (r.started || a.started)
-        return verdict(lacks_mass(r.reason + a.reason) ? Verdict::massless : Verdict::split,
+        return verdict(Verdict::split,
                        (r.started ? "absolute: " : "relative: ") + r.reason + a.reason);
       return verdict(r.reason.empty() || a.reason.empty() ? Verdict::no_reason : Verdict::refused,
                      r.reason + (r.reason == a.reason ? "" : " / " + a.reason));
@@ -224,8 +218,7 @@ Judgement judge(const Mechanism& mechanism) {
                                    : Verdict::finer);
   }
   if (stopped) return verdict(stops.empty() ? Verdict::no_reason : Verdict::stopped, stops);
-  if (!std::isfinite(j.differences.back()))
-    return verdict(lacks_mass(stops) ? Verdict::massless : Verdict::split, stops);
+  if (!std::isfinite(j.differences.back())) return verdict(Verdict::split, stops);
   const std::string figures = fmt::format(
       "differences {}, energy errors {} (relative) {} (absolute) of {:.3g}{}", list(j.differences),
       list(relative_drift), list(absolute_drift), scale, stops.empty() ? "" : "; " + stops);

@@ -12,8 +12,6 @@
 //                  step it lies, so d need only fall, by 2 a halving in the mean, to the last step
 //   refused        both refuse the model, with a sentence
 //   stopped        both run and stop before the end at all steps, with a sentence
-//   massless       refused or stopped for a freedom without mass by one of them at least: the two
-//                  look for it in different ways
 // Everything else is a violation.
 #include <string>
 #include <vector>
@@ -29,7 +27,6 @@ enum class Verdict {
   kinked,
   refused,
   stopped,
-  massless,
   split,           ///< runs in one formulation, is refused or stops in the other
   no_reason,       ///< refused without a sentence, or by an exception of another kind
   not_finite,      ///< an output that is no number

@@ -219,9 +219,11 @@ void MechanismBuilder::add_outputs() {
     if (j.type != JointType::spherical && j.type != JointType::free)
       for (int c = 0; c < joint_velocities(j.type); ++c)
         add(OutputKind::joint_position, {}, j.name, c);
-  for (const ForceDescription& f : d.forces)
-    for (const OutputKind kind : {OutputKind::force, OutputKind::length, OutputKind::rate})
-      add(kind, {}, f.name, 0);
+  for (const ForceDescription& f : d.forces) {
+    add(OutputKind::force, {}, f.name, 0);
+    if (std::holds_alternative<AppliedLoadDescription>(f.kind)) continue;  // have no length
+    for (const OutputKind kind : {OutputKind::length, OutputKind::rate}) add(kind, {}, f.name, 0);
+  }
 }
 
 namespace {
