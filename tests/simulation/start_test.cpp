@@ -253,6 +253,22 @@ joints:
     expect_in(message_of([&] { run_of(model, c); }), "bodies 'first' and 'second' can move");
 }
 
+// Gravity has a moment about the frame of a point mass that lies elsewhere, which looks like a
+// stiffness of each single rotation; but the mass can turn freely about itself.
+TEST(PointMasses, TurnFreelyWhateverTheGravity) {
+  for (const char* centre : {"[0.05, -0.15, 0.24]", "[-0.05, 0.15, -0.24]", "[0, 0, -0.1]"})
+    for (const Combination& c : combinations) {
+      const Model model = model_of(std::string(R"(
+gravity: [-1.8, 4.75, -8.09]
+bodies: {p: {position: [0, 0, 0], rigid: {mass: 1.57, centre_of_mass: )") +
+                                   centre + R"(}}}
+simulation: {step: 1e-3, duration: 0.01}
+)");
+      expect_in(message_of([&] { run_of(model, c); }),
+                "the mass matrix is singular where nothing holds it: body 'p' can move");
+    }
+}
+
 TEST(SpinningBars, ABitOfInertiaIsEnough) {
   // 1 mm thick and 1 m long: 1e-6 of the inertia across.
   const Model model = model_of(R"(

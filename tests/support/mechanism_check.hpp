@@ -12,6 +12,9 @@
 //                  step it lies, so d need only fall, by 2 a halving in the mean, to the last step
 //   refused        both refuse the model, with a sentence
 //   stopped        both run and stop before the end at all steps, with a sentence
+//   loosened       a freedom without mass is held by forces alone, which may vanish on the way:
+//   both
+//                  start, one of them meets a singular tangent and says so
 // Everything else is a violation.
 #include <string>
 #include <vector>
@@ -27,6 +30,7 @@ enum class Verdict {
   kinked,
   refused,
   stopped,
+  loosened,
   split,           ///< runs in one formulation, is refused or stops in the other
   no_reason,       ///< refused without a sentence, or by an exception of another kind
   not_finite,      ///< an output that is no number

@@ -41,39 +41,68 @@ Motions motions(const MatX& J, const VecX& gamma, Eigen::Index nv) {
   return {rows * square.colPivHouseholderQr().solve(gamma), Q.rightCols(nv - rank)};
 }
 
+/// Directions without mass that nothing holds, of the columns of Z: N^T M N z = 0 for each of them.
+///
+/// What holds a direction n is the change of the work n^T r along the motion, and the direction
+/// turns with the motion: where J n = 0 and M n = 0 stay so, a point mass whose body frame lies
+/// elsewhere can turn freely, although gravity has a moment about its frame. So with ' along Z_j
+///   H_ij = Z_i^T r' + n_i'^T r,   n_i' = nJ + N y,   J nJ = -J' Z_i,
+///   N^T M N y = -N^T (M' Z_i + M nJ).
+/// One direction alone says little: a combination of two that are held may be free.
+MatX loose_directions(const MatX& mass, const MatX& J, const VecX& force, const MatX& N,
+                      const MatX& half_inverse, const MatX& Z, const NeighbourAt& neighbour) {
+  constexpr double step = 1e-6;
+  const Eigen::Index k = Z.cols();
+  const VecX r = -force;
+  MatX H(k, k);
+  Eigen::CompleteOrthogonalDecomposition<MatX> constraints;
+  constraints.setThreshold(1e-11);
+  if (J.rows() > 0) constraints.compute(J);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const Neighbour there = neighbour(step * Z.col(j), Z);
+    const VecX change = (there.r - r) / step;
+    for (Eigen::Index i = 0; i < k; ++i) {
+      VecX turned = VecX::Zero(Z.rows());
+      if (J.rows() > 0) turned = constraints.solve(-(there.JZ.col(i) - J * Z.col(i)) / step);
+      const VecX moved = (there.MZ.col(i) - mass * Z.col(i)) / step + mass * turned;
+      const VecX y = -(half_inverse * (half_inverse.transpose() * (N.transpose() * moved)));
+      H(i, j) = Z.col(i).dot(change) + (turned + N * y).dot(r);
+    }
+  }
+  // Finite differences leave noise of the size of the forces times the step.
+  const double noise = 1e-5 * (1.0 + r.lpNorm<Eigen::Infinity>()) + 1e-9 * H.cwiseAbs().maxCoeff();
+  const Eigen::SelfAdjointEigenSolver<MatX> eig(0.5 * (H + H.transpose()));
+  Eigen::Index loose = 0;
+  while (loose < k && !(eig.eigenvalues()[loose] > noise)) ++loose;
+  return Z * eig.eigenvectors().leftCols(loose);
+}
+
 /// The z of the free accelerations N z: N^T M N z = N^T (force - M a_p).
-VecX free_accelerations(const MatX& mass, const MatX& stiffness, const VecX& force,
-                        const Motions& m, const std::function<std::string(const MatX&)>& movers) {
+VecX free_accelerations(const MatX& mass, const MatX& J, const VecX& force, const Motions& m,
+                        const NeighbourAt& neighbour,
+                        const std::function<std::string(const MatX&)>& movers) {
   const MatX Mr = m.N.transpose() * mass * m.N;
   const MatX Dr = m.N.transpose() * mass_scale(mass.diagonal()).asDiagonal() * m.N;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> eig(0.5 * (Mr + Mr.transpose()), Dr);
   const MatX& V = eig.eigenvectors();
-  VecX z = V.transpose() * (m.N.transpose() * (force - mass * m.a_p));
-  // Finite differences of the residual leave noise of its size times 1e-9.
-  const double noise =
-      1e-7 * (1.0 + force.lpNorm<Eigen::Infinity>()) + 1e-12 * stiffness.cwiseAbs().maxCoeff();
-  std::vector<VecX> loose;
-  for (Eigen::Index i = 0; i < z.size(); ++i) {
-    if (eig.eigenvalues()[i] > no_mass) {
-      z[i] /= eig.eigenvalues()[i];
-      continue;
-    }
-    const VecX n = (m.N * V.col(i)).normalized();
-    if (!(n.dot(stiffness * n) > noise)) loose.push_back(n);
-    z[i] = 0.0;  // massless but stiff: the minimum-norm solution
+  Eigen::Index massless = 0;  // ascending eigenvalues
+  while (massless < V.cols() && !(eig.eigenvalues()[massless] > no_mass)) ++massless;
+  const Eigen::Index heavy = V.cols() - massless;
+  const MatX half_inverse =
+      V.rightCols(heavy) * eig.eigenvalues().tail(heavy).cwiseSqrt().cwiseInverse().asDiagonal();
+  if (massless > 0) {
+    const MatX Z = (m.N * V.leftCols(massless)).colwise().normalized();
+    const MatX loose = loose_directions(mass, J, force, m.N, half_inverse, Z, neighbour);
+    if (loose.cols() > 0)
+      throw RunError(fmt::format(
+          "the mass matrix is singular where nothing holds it: {} can move without mass, "
+          "stiffness or constraint; give mass or inertia (a straight bar has no inertia "
+          "about its own axis unless mass_model is hermite or six_dof with "
+          "section_inertia), or remove the freedom",
+          movers(loose)));
   }
-  if (!loose.empty()) {
-    MatX directions(mass.rows(), static_cast<Eigen::Index>(loose.size()));
-    for (std::size_t i = 0; i < loose.size(); ++i)
-      directions.col(static_cast<Eigen::Index>(i)) = loose[i];
-    throw RunError(
-        fmt::format("the mass matrix is singular where nothing holds it: {} can move without mass, "
-                    "stiffness or constraint; give mass or inertia (a straight bar has no inertia "
-                    "about its own axis unless mass_model is hermite or six_dof with "
-                    "section_inertia), or remove the freedom",
-                    movers(directions)));
-  }
-  return V * z;
+  // Massless but stiff: the minimum-norm solution.
+  return half_inverse * (half_inverse.transpose() * (m.N.transpose() * (force - mass * m.a_p)));
 }
 
 }  // namespace
@@ -111,14 +140,14 @@ std::string bodies_text(const std::vector<std::string>& names) {
   return text;
 }
 
-void dense_start(const MatX& mass, const MatX& stiffness, const MatX& J, const VecX& force,
-                 const VecX& gamma, const std::function<std::string(const MatX&)>& movers, VecX& a,
-                 VecX& lambda) {
+void dense_start(const MatX& mass, const MatX& J, const VecX& force, const VecX& gamma,
+                 const NeighbourAt& neighbour,
+                 const std::function<std::string(const MatX&)>& movers, VecX& a, VecX& lambda) {
   const Eigen::Index nv = mass.rows(), nc = J.rows();
   const Motions m = motions(J, gamma, nv);
   a = m.a_p;
   // Nothing is left where the constraints prescribe all motion, whatever the masses.
-  if (m.N.cols() > 0) a += m.N * free_accelerations(mass, stiffness, force, m, movers);
+  if (m.N.cols() > 0) a += m.N * free_accelerations(mass, J, force, m, neighbour, movers);
   lambda = VecX::Zero(nc);
   if (nc == 0 || nv == 0) return;
   Eigen::CompleteOrthogonalDecomposition<MatX> cod;

@@ -73,13 +73,22 @@ VecX mass_scale(const VecX& diagonal);
 /// Below this fraction of `mass_scale` a direction has no mass.
 inline constexpr double no_mass = 1e-10;
 
+/// The system a little further along a direction: residual without acceleration (nv), and what mass
+/// matrix and constraint Jacobian there make of directions Z (nv x k, nc x k).
+struct Neighbour {
+  VecX r;
+  MatX MZ, JZ;
+};
+/// The system at the positions retracted by the increment `x`.
+using NeighbourAt = std::function<Neighbour(const VecX& x, const MatX& Z)>;
+
 /// Start accelerations by dense linear algebra, for mass matrices that are singular: on the null
-/// space of the constraints mass may be missing where stiffness acts. `mass`, `stiffness`: nv x nv,
-/// `J`: nc x nv. Throws RunError if a direction has neither; `movers` puts the directions (columns)
-/// into words.
-void dense_start(const MatX& mass, const MatX& stiffness, const MatX& J, const VecX& force,
-                 const VecX& gamma, const std::function<std::string(const MatX&)>& movers, VecX& a,
-                 VecX& lambda);
+/// space of the constraints mass may be missing where stiffness acts. `mass`: nv x nv, `J`: nc x
+/// nv. Throws RunError if a direction has neither; `movers` puts the directions (columns) into
+/// words.
+void dense_start(const MatX& mass, const MatX& J, const VecX& force, const VecX& gamma,
+                 const NeighbourAt& neighbour,
+                 const std::function<std::string(const MatX&)>& movers, VecX& a, VecX& lambda);
 
 /// "body 'a'", "bodies 'a' and 'b'".
 std::string bodies_text(const std::vector<std::string>& names);
@@ -161,9 +170,9 @@ std::string moving_bodies(F& f, const State& state, const MatX& directions) {
 template <class F>
 void start_accelerations_dense(F& f, State& state) {
   const int nv = f.velocities(), nc = f.constraints();
-  MatX mass(nv, nv), stiffness(nv, nv);
+  MatX mass(nv, nv);
   const VecX zero = VecX::Zero(nv), no_lambda = VecX::Zero(nc);
-  VecX r0(nv), column(nv), gamma(nc), q1(state.q.size()), x = VecX::Zero(nv);
+  VecX r0(nv), column(nv), gamma(nc), q1(state.q.size());
   f.positions(state.t, state.q);
   f.velocities(state.v);
   f.dynamics();
@@ -176,19 +185,24 @@ void start_accelerations_dense(F& f, State& state) {
   }
   const MatX J = f.constraint_jacobian();
   f.constraint_accelerations(zero, gamma);
-  for (int j = 0; j < nv; ++j) {
-    constexpr double step = 1e-7;
-    x.setZero();
-    x[j] = step;
-    f.retract(state.q, x, q1);
+  const auto neighbour = [&](const VecX& increment, const MatX& Z) {
+    Neighbour n;
+    f.retract(state.q, increment, q1);
     f.positions(state.t, q1);
     f.velocities(state.v);
     f.dynamics();
-    f.residual(zero, no_lambda, 0.0, column);
-    stiffness.col(j) = (column - r0) / step;
-  }
+    n.r.resize(nv);
+    f.residual(zero, no_lambda, 0.0, n.r);
+    n.MZ.resize(nv, Z.cols());
+    for (Eigen::Index k = 0; k < Z.cols(); ++k) {
+      f.residual(unit * Z.col(k), no_lambda, 0.0, column);
+      n.MZ.col(k) = (column - n.r) / unit;
+    }
+    n.JZ = f.constraint_jacobian() * Z;
+    return n;
+  };
   dense_start(
-      mass, stiffness, J, -r0, -gamma,
+      mass, J, -r0, -gamma, neighbour,
       [&](const MatX& directions) { return moving_bodies(f, state, directions); }, state.a,
       state.lambda);
 }
