@@ -149,10 +149,12 @@ std::string list(const std::vector<double>& values) {
 }  // namespace
 
 const char* word(Verdict v) {
-  static const char* const words[] = {"equal",       "second order", "second order at a finer step",
-                                      "kinked",      "refused",      "stopped",
-                                      "split",       "no reason",    "not finite",
-                                      "wrong order", "energy",       "not repeatable"};
+  static const char* const words[] = {
+      "equal",         "second order", "second order at a finer step",
+      "kinked",        "refused",      "stopped",
+      "loosened",      "split",        "no reason",
+      "not finite",    "wrong order",  "energy",
+      "not repeatable"};
   return words[static_cast<int>(v)];
 }
 
