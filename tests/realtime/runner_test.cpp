@@ -243,6 +243,11 @@ TEST(RealTime, ASilentPartnerStopsTheRunOnlyIfItEverSpoke) {
   EXPECT_EQ(r.message, "no inputs came for 0.02 s after t = 0.01 s");
   EXPECT_EQ(r.steps, 6);
   EXPECT_TRUE(silent.ended);
+  // A silence before the first inputs is none of the partner's.
+  Sometimes late([](long k) { return k == 8; });
+  const RealTimeReport after = run_real_time(model(), simulation(0.2), options, &late);
+  EXPECT_EQ(after.input_timeouts, 2);
+  EXPECT_EQ(after.message, "no inputs came for 0.02 s after t = 0.035 s");
   const RealTimeReport waiting = run_real_time(model(), simulation(0.1), options, &mute);
   EXPECT_EQ(waiting.status, "completed");
   EXPECT_EQ(waiting.input_timeouts, 1);

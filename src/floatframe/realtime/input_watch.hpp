@@ -22,7 +22,7 @@ class InputWatch {
   void came(double time) noexcept {
     if (silent_) end(time, true);
     without_ = 0;
-    last_ = time;
+    last_ = report_.last_inputs = time;
     report_.inputs_came = true;
   }
 

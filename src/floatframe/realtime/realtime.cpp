@@ -74,7 +74,7 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
     case End::silent:
       report.status = "failed";
       report.message = fmt::format("no inputs came for {:g} s after t = {:.9g} s",
-                                   options.input_timeout, report.silences.front().from);
+                                   options.input_timeout, report.last_inputs);
       break;
   }
   const std::span<const double> row = runner.sample();

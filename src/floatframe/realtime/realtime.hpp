@@ -100,9 +100,10 @@ struct RealTimeReport {
   long input_timeouts = 0;                        ///< how often inputs stayed away
   std::array<Silence, most_silences> silences{};  ///< the first of them
   bool inputs_came = false;                       ///< at least once
-  std::vector<double> inputs, outputs;            ///< values at the end
-  std::vector<long> refused_inputs;               ///< values refused, by input
-  std::vector<long> clamped_inputs;               ///< values replaced by a limit, by input
+  double last_inputs = 0.0;             ///< model time of the step that took the last ones [s]
+  std::vector<double> inputs, outputs;  ///< values at the end
+  std::vector<long> refused_inputs;     ///< values refused, by input
+  std::vector<long> clamped_inputs;     ///< values replaced by a limit, by input
 };
 
 /// Runs until the duration is over, `stop` is set or a step fails (`status`). `port` may be null.
