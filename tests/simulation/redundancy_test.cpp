@@ -2,6 +2,7 @@
 #include "floatframe/simulation/redundancy.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -14,7 +15,8 @@ namespace floatframe::test {
 namespace {
 
 Model model_of(const std::string& text) {
-  const std::string path = ::testing::TempDir() + "redundancy_test.yaml";
+  const std::string path =
+      ::testing::TempDir() + "redundancy_test_" + std::to_string(getpid()) + ".yaml";
   std::ofstream(path) << "floatframe: 1\n" << text;
   return build_model(read_model(path));
 }

@@ -1,6 +1,7 @@
 // The state a run starts from where that is delicate: nothing left to move, singular mass matrices,
 // start values that do not fit, numbers that overflow.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -15,7 +16,8 @@ namespace floatframe::test {
 namespace {
 
 Model model_of(const std::string& text) {
-  const std::string path = ::testing::TempDir() + "start_test.yaml";
+  const std::string path =
+      ::testing::TempDir() + "start_test_" + std::to_string(getpid()) + ".yaml";
   std::ofstream(path) << "floatframe: 1\n" << text;
   return build_model(read_model(path));
 }
