@@ -165,6 +165,38 @@ class Misuse(CommandLine):
                            err="the output folder 'pendulum.yaml/out' cannot be written: Not a directory")
         self.assertEqual(done.stdout, "")
 
+    def test_state_that_cannot_be_written_is_refused_before_anything_else_is(self):
+        for command in ("run", "statics"):
+            done = self.expect(2, command, "pendulum.yaml", "--write-state", "no/where.json",
+                               err="the file 'no/where.json' cannot be written: No such file or directory")
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["pendulum.yaml"])
+
+    def test_standard_error_that_cannot_be_written_changes_no_exit_code(self):
+        (self.folder / "bad.yaml").write_text(PENDULUM.replace("step: 0.01", "stepp: 0.01"))
+        for arguments, code in ((("check", "bad.yaml"), 2), (("fly",), 2),
+                                (("run", "pendulum.yaml", "--strict", "--step", "0.5", "--quiet"), 1)):
+            for close in ("2>/dev/full", "2>&-", "0<&- 1>&- 2>&-"):
+                with self.subTest(arguments=arguments, close=close):
+                    done = subprocess.run(["sh", "-c", f'exec "$@" {close}', "sh", BINARY, *arguments], cwd=self.folder,
+                                          timeout=60, check=False)
+                    self.assertEqual(done.returncode, code)
+
+    def test_closed_standard_files_are_not_taken_by_others(self):
+        done = subprocess.run(["sh", "-c", 'exec "$@" 1>&- 2>&-', "sh", BINARY, "sweep", "pendulum.yaml", "--vary",
+                               "duration=0.02,0.03", "--out", "study"], cwd=self.folder, timeout=60, check=False)
+        self.assertEqual(done.returncode, 1)  # the summary cannot be printed
+        self.assertEqual(len((self.folder / "study/sweep.csv").read_text().splitlines()), 3)
+        self.assertTrue(all(line[16] == " " for line in
+                            (self.folder / "study/sweep.journal").read_text().splitlines()))
+
+    def test_names_in_messages_cannot_command_the_terminal(self):
+        done = self.expect(1, "run", "pendulum.yaml", "--step", "0.5", "--strict", "--out", "a\x1b[31m", "--quiet")
+        self.assertNotIn("\x1b", done.stderr)
+        (self.folder / "b\x1b.yaml").write_text(PENDULUM.replace("step: 0.01", "stepp: 0.01").replace("type: rev", "typ: rev"))
+        done = self.expect(2, "run", "b\x1b.yaml", err="faults in b\\x1b.yaml")
+        self.assertNotIn("\x1b", done.stderr)
+
     def test_full_standard_output(self):
         with open("/dev/full", "w", encoding="ascii") as full:
             done = subprocess.run([BINARY, "check", "pendulum.yaml"], cwd=self.folder, stdout=full,

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """`floatframe sweep` from outside: threads, processes under mpirun, kills, interrupts, messages, files."""
 import csv
+import json
 import os
 import pathlib
 import shutil
@@ -103,6 +104,12 @@ class Spreading(Sweep):
         self.assertEqual((row["rate"], row["ne_rod"], row["inertia"]), ("50", "4", "projection"))
         kept = (self.folder / "study/runs/08/results.csv").read_bytes()
         self.assertEqual(kept, (self.folder / "single/results.csv").read_bytes())
+        summary, single = (json.loads((self.folder / f"{name}/summary.json").read_text())
+                           for name in ("study/runs/08", "single"))
+        self.assertEqual(summary["settings"], {"simulation.duration": "0.02", "rate": "50", "ne_rod": "4",
+                                               "inertia": "projection"})
+        self.assertEqual(list(single["files"]), [str(CRANK)])
+        self.assertEqual(summary["files"], single["files"])
         with open(self.folder / "single/results.csv", newline="", encoding="utf-8") as file:
             slider = [float(r["slider.x [m]"]) for r in csv.DictReader(file)]
         self.assertEqual(float(row["slider.x final [m]"]), slider[-1])

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 
 namespace floatframe {
@@ -41,15 +40,6 @@ double number_within(const std::string& option, const std::string& text, double 
                                  option, text, low, high));
   }
   return value;
-}
-
-void check_json_file(const std::string& path) {
-  if (path.empty()) return;
-  try {
-    check_writable(path);
-  } catch (const OutputError& error) {
-    throw InputError(error.what());
-  }
 }
 
 void add_bench_command(CLI::App& app, Action& action) {

@@ -19,7 +19,4 @@ std::string find_iltis();
 /// The number in an option's text; InputError unless it lies in (low, high].
 double number_within(const std::string& option, const std::string& text, double low, double high);
 
-/// Throws InputError if the file cannot be written; an empty path means no file.
-void check_json_file(const std::string& path);
-
 }  // namespace floatframe

@@ -8,9 +8,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/printable.hpp"
 #include "floatframe/io/model_reader.hpp"
 
 namespace floatframe {
@@ -36,18 +38,51 @@ ModelDescription read_model(const ModelArguments& arguments, bool quiet, ModelFi
     overrides.push_back({setting.substr(0, equal), setting.substr(equal + 1)});
   }
   ReadOptions options;
-  if (!quiet) options.say = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  if (!quiet) options.say = say_line;
   return read_model(arguments.path, overrides, used, options);
 }
 
-double positive_number(const std::string& option, const std::string& text) {
+namespace {
+
+/// NaN, which no rule holds for, unless all of the text is one number.
+double number_in(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const bool complete = end != text.c_str() && *end == '\0';
-  if (!complete || !std::isfinite(value) || !(value > 0.0)) {
-    throw InputError(fmt::format("{}: found '{}', expected a positive number [s]", option, text));
-  }
+  return complete && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text,
+                         const std::string& expected) {
+  throw InputError(fmt::format("{}: found '{}', expected {}", option, text, expected));
+}
+
+}  // namespace
+
+double option_number(const std::string& option, const std::string& text, const NumberRule& rule) {
+  const double value = number_in(text);
+  if (!rule.holds(value)) refuse(option, text, rule.expectation());
   return value;
+}
+
+int whole_option_number(const std::string& option, const std::string& text,
+                        const WholeNumberRule& rule) {
+  const double value = number_in(text);
+  if (!rule.holds(value)) refuse(option, text, rule.expectation());
+  return static_cast<int>(value);
+}
+
+double positive_number(const std::string& option, const std::string& text) {
+  return option_number(option, text, positive_number("s"));
+}
+
+void require_writable(const std::string& path) {
+  if (path.empty()) return;
+  try {
+    check_writable(path);
+  } catch (const OutputError& error) {
+    throw InputError(error.what());
+  }
 }
 
 const char* word(Coordinates coordinates) noexcept {
@@ -83,5 +118,12 @@ void print(const std::string& text) {
     throw OutputError(std::string("standard output cannot be written: ") + std::strerror(errno));
   }
 }
+
+void say_line(const std::string& line) {
+  const std::string text = printable(line, true) + '\n';
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
+void say(const std::string& message) { say_line("floatframe: " + message); }
 
 }  // namespace floatframe

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/core/number_rule.hpp"
 #include "floatframe/model/description.hpp"
 #include "floatframe/simulation/results.hpp"
 
@@ -35,13 +36,21 @@ struct ModelArguments {
 };
 void add_model_arguments(CLI::App& app, ModelArguments& arguments);
 
-/// Parts that are reduced meanwhile are told on standard error, unless `quiet`. `used`, if given,
-/// is told what was read. Throws InputError.
+/// Parts that are reduced meanwhile are named on standard error, unless `quiet`. `used`, if given,
+/// receives what was read. Throws InputError.
 ModelDescription read_model(const ModelArguments& arguments, bool quiet = false,
                             ModelFingerprint* used = nullptr);
 
-/// The number in an option's text; InputError unless it is finite and positive.
+/// The number in an option's text; InputError unless it is finite and as the rule says.
+double option_number(const std::string& option, const std::string& text, const NumberRule& rule);
+int whole_option_number(const std::string& option, const std::string& text,
+                        const WholeNumberRule& rule);
+/// A positive number of seconds.
 double positive_number(const std::string& option, const std::string& text);
+
+/// Proves that a file that is to be written at the end can be, if a path is given. Throws
+/// InputError.
+void require_writable(const std::string& path);
 
 /// The command line's words.
 const char* word(Coordinates coordinates) noexcept;
@@ -57,5 +66,11 @@ std::string plural(long count, const std::string& one, const std::string& many =
 
 /// Writes to standard output; throws OutputError if that fails (a full disk).
 void print(const std::string& text);
+
+/// Writes "floatframe: message" or the bare line to standard error. Control characters are written
+/// out: names that came from files and arguments may hold anything, and a terminal is not to obey
+/// it. Whether that can be written makes no difference.
+void say(const std::string& message);
+void say_line(const std::string& line);
 
 }  // namespace floatframe

@@ -1,27 +1,23 @@
 #include "floatframe/apps/command_line.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <cerrno>
 #include <new>
 #include <set>
 
 #include "floatframe/apps/command.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/core/printable.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
 namespace {
 
 constexpr int failed = 1, bad_input = 2;
-
-/// Names that came from files and arguments may hold anything: a terminal is not to obey it.
-void say(const std::string& message) {
-  fmt::print(stderr, "floatframe: {}\n", printable(message, true));
-}
 
 /// One fault a line, as compilers do; the number of faults last.
 int report(const InputError& error) {
@@ -31,7 +27,7 @@ int report(const InputError& error) {
     if (fault.mark.file.empty()) {
       say(fault.message);
     } else {
-      fmt::print(stderr, "{}\n", printable(fault.text(), true));
+      say_line(fault.text());
     }
   }
   files.erase("");
@@ -39,7 +35,7 @@ int report(const InputError& error) {
     const std::string where = files.empty()       ? "the input"
                               : files.size() == 1 ? *files.begin()
                                                   : plural(static_cast<long>(files.size()), "file");
-    fmt::print(stderr, "{} faults in {}\n", error.faults().size(), where);
+    say_line(fmt::format("{} faults in {}", error.faults().size(), where));
   }
   return bad_input;
 }
@@ -88,9 +84,19 @@ int parse_and_act(int argc, char** argv) {
   return action();
 }
 
+/// A program may be started with its standard files closed. The next file opened would take such a
+/// number, and messages would be written into a journal or a log. Here writing to it stays an
+/// error.
+void occupy_standard_files() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(file, F_GETFD) < 0 && errno == EBADF)  // the lowest number that is free is this one
+      static_cast<void>(::open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 }  // namespace
 
 int command_line_main(int argc, char** argv) {
+  occupy_standard_files();
   try {
     return parse_and_act(argc, argv);
   } catch (const InputError& error) {

@@ -23,21 +23,12 @@ struct ReduceArguments {
   bool no_free_check = false, no_stress = false, quiet = false;
 };
 
-double number(const char* option, const std::string& text, double low, double high,
-              const char* what) {
-  char* end = nullptr;
-  const double x = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(x >= low) || !(x <= high))
-    throw InputError(fmt::format("{}: found '{}', expected {}", option, text, what));
-  return x;
-}
-
 /// Nothing in most files says which units they are in; the material may give a hint.
 [[noreturn]] void units_are_missing(const PartJob& job) {
   std::vector<std::string> likely;
   try {
     likely = likely_units(read_fe_file(job.file, job.read, job.format));
-  } catch (const InputError&) {  // its faults are told when the units are known
+  } catch (const InputError&) {  // its errors are reported when the units are known
   }
   throw InputError(fmt::format(
       "--units is missing: nothing in the file says its units; known are {}, or any "
@@ -62,16 +53,14 @@ PartJob job_of(const ReduceArguments& a) {
   for (const std::string& text : a.interfaces) o.interfaces.push_back(interface_argument(text));
   for (const std::string& text : a.markers) o.markers.push_back(marker_argument(text));
   if (!a.modes.empty())
-    o.modes =
-        static_cast<int>(number("--modes", a.modes, 0, 10000, "a whole number from 0 to 10000"));
-  if (!a.fmax.empty())
-    o.max_frequency = number("--fmax", a.fmax, 1e-300, 1e300, "a positive number [Hz]");
+    o.modes = whole_option_number("--modes", a.modes, {"a number of modes", 0, 10000});
+  if (!a.fmax.empty()) o.max_frequency = option_number("--fmax", a.fmax, positive_number("Hz"));
   if (!a.effective_mass.empty())
-    o.effective_mass =
-        number("--effective-mass", a.effective_mass, 1e-6, 1.0, "a fraction above 0 and up to 1");
+    o.effective_mass = option_number("--effective-mass", a.effective_mass,
+                                     {"a fraction above 0 and up to 1", "", 0.0, 1.0, true});
   if (!a.damping.empty())
-    o.damping_ratio =
-        number("--damping", a.damping, 0.0, 1.0, "a fraction of critical damping from 0 to 1");
+    o.damping_ratio = option_number("--damping", a.damping,
+                                    {"a fraction of critical damping from 0 to 1", "", 0.0, 1.0});
   if (a.modes.empty() && a.fmax.empty() && a.effective_mass.empty()) o.modes = default_modes;
   for (const ModeMethod m :
        {ModeMethod::craig_bampton, ModeMethod::free_free, ModeMethod::craig_chang})
@@ -85,20 +74,9 @@ PartJob job_of(const ReduceArguments& a) {
   o.stresses = !a.no_stress;
   if (!a.quiet)
     o.progress = [](const std::string& stage, double seconds) {
-      fmt::print(stderr, "{:>8.2f} s  {}\n", seconds, stage);
+      say_line(fmt::format("{:>8.2f} s  {}", seconds, stage));
     };
   return job;
-}
-
-void check_outputs(const std::vector<std::string>& paths) {
-  for (const std::string& path : paths) {
-    if (path.empty()) continue;
-    try {
-      check_writable(path);
-    } catch (const OutputError& error) {
-      throw InputError(error.what());
-    }
-  }
 }
 
 int reduce_file(const ReduceArguments& a) {
@@ -106,7 +84,7 @@ int reduce_file(const ReduceArguments& a) {
   if (name.extension() == ".gz") name = name.stem();
   const std::string out = a.out.empty() ? name.stem().string() + ".ffb" : a.out;
   const PartJob job = job_of(a);
-  check_outputs({out, a.report, a.sid});
+  for (const std::string& path : {out, a.report, a.sid}) require_writable(path);
   const BodyFile content = reduce_part_file(job);
   write_body_file(out, content);
   std::string files = fmt::format("\n  body    {}\n", out);

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <optional>
 
 #include "floatframe/apps/command.hpp"
 #include "floatframe/apps/notes.hpp"
@@ -104,18 +103,6 @@ FactTable setting_facts(const RunArguments& arguments, const SimulationDescripti
   return facts;
 }
 
-/// A run that could not start leaves a summary and a report that say so, in place of older results.
-RunResult failed_start(const ModelDescription& description, const std::string& message) {
-  RunResult result;
-  result.summary.model = description.name;
-  result.summary.coordinates = word(description.simulation.coordinates);
-  result.summary.inertia = word(description.simulation.inertia);
-  result.summary.step = description.simulation.step;
-  result.summary.status = "failed";
-  result.summary.message = message;
-  return result;
-}
-
 /// A run that left the range of the method counts as failed; its results are complete.
 void make_strict(RunSummary& s) {
   if (s.status != "completed" || s.warnings.empty()) return;
@@ -167,30 +154,22 @@ int run_model(const RunArguments& arguments) {
   ModelDescription description = read_model(arguments.model, arguments.quiet, &used);
   apply(arguments, description.simulation);
   check_inertia_method(description, description.simulation.inertia);
-  std::optional<Model> model;
-  std::string fault;
-  try {
-    model = build_model(description);
-  } catch (const RunError& error) {
-    fault = error.what();
-  }
+  const Model model = build_model(description);
+  require_writable(arguments.write_state);
   const OutputPaths paths = make_output_paths(arguments, description.name);
-  if (!arguments.write_state.empty()) check_writable(arguments.write_state);
 
   Report report;
-  if (model) {
-    if (!arguments.no_report) report.facts.push_back(model_facts(*model));
+  if (!arguments.no_report) report.facts.push_back(model_facts(model));
+  RunOptions options;
+  options.keep_state = !arguments.write_state.empty();
+  try {
     ProgressBar bar(!arguments.quiet, description.simulation.duration, "s");
-    RunOptions options;
-    options.keep_state = !arguments.write_state.empty();
     options.progress = [&bar](double fraction) { bar.show(fraction); };
-    try {
-      report.result = run(*model, description.simulation, options);
-    } catch (const RunError& error) {
-      fault = error.what();
-    }
+    report.result = run(model, description.simulation, options);
+  } catch (const RunError& error) {
+    // A summary and a report that say so, in place of older results.
+    report.result.summary = failed_summary(description.name, description.simulation, error.what());
   }
-  if (!fault.empty()) report.result = failed_start(description, fault);
   report.facts.push_back(setting_facts(arguments, description.simulation));
   report.software = build_description();
   report.processor = processor_name();
@@ -208,15 +187,12 @@ int run_model(const RunArguments& arguments) {
     print((has_table ? summary_text(summary) : "") + files_text(paths, arguments, has_table) +
           (state ? fmt::format("  state    {}\n", arguments.write_state) : ""));
   }
-  for (const std::string& warning : summary.warnings)
-    fmt::print(stderr, "floatframe: warning: {}\n", warning);
+  for (const std::string& warning : summary.warnings) say("warning: " + warning);
   if (summary.status == "completed") return 0;
-  fmt::print(stderr, "floatframe: the run failed: {}\n", summary.message);
-  if (has_table && !summary.strict) {
-    fmt::print(stderr,
-               "floatframe: the results up to {:.9g} s are kept in {} and marked as partial\n",
-               summary.duration, paths.folder);
-  }
+  say("the run failed: " + summary.message);
+  if (has_table && !summary.strict)
+    say(fmt::format("the results up to {:.9g} s are kept in {} and marked as partial",
+                    summary.duration, paths.folder));
   return 1;
 }
 

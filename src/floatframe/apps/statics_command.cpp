@@ -89,7 +89,7 @@ std::string redundancy_note(const StaticsResult& statics) {
 }
 
 int show_statics(const ModelArguments& arguments, bool json, const std::string& write_state) {
-  if (!write_state.empty()) check_writable(write_state);
+  require_writable(write_state);
   const ModelDescription description = read_model(arguments);
   const Model model = build_model(description);
   const StaticsResult result = statics(model);

@@ -8,9 +8,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <optional>
@@ -80,11 +78,7 @@ class SignalsAskToStop {
 /// 0 if not given.
 double megabytes(const std::string& text) {
   if (text.empty()) return 0.0;
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !std::isfinite(value) || !(value > 0.0))
-    throw InputError(
-        fmt::format("--case-memory: found '{}', expected a positive number [MB]", text));
+  const double value = option_number("--case-memory", text, positive_number("MB"));
   if (!(memory_of(::getpid()) > 0.0))
     throw InputError("--case-memory: /proc does not tell how much memory a process uses");
   return value;
@@ -161,16 +155,16 @@ int lead(const SweepArguments& arguments, const SweepOptions& options, SweepWork
   }
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
   if (report.interrupted) {
-    fmt::print(stderr, "floatframe: interrupted: {} of {} finished; the same command continues\n",
-               report.finished, plural(static_cast<long>(report.runs), "run"));
+    say(fmt::format("interrupted: {} of {} finished; the same command continues", report.finished,
+                    plural(static_cast<long>(report.runs), "run")));
     return 1;
   }
   if (!arguments.quiet)
     print(report_text(report, passed.count(), options.threads, ranks ? ranks->size() : 1));
   if (report.failed == 0) return 0;
-  fmt::print(stderr, "floatframe: {} of {} failed, the first is run {}: {}\n", report.failed,
-             plural(static_cast<long>(report.runs), "run"), report.first_failed,
-             report.first_message);
+  say(fmt::format("{} of {} failed, the first is run {}: {}", report.failed,
+                  plural(static_cast<long>(report.runs), "run"), report.first_failed,
+                  report.first_message));
   return 1;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model/rules.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/redundancy.hpp"
@@ -24,16 +25,22 @@ double cpu_seconds() noexcept {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+RunSummary summary_of(const std::string& model, const SimulationDescription& o) {
+  RunSummary s;
+  s.model = model;
+  s.coordinates = rules::coordinates[static_cast<std::size_t>(o.coordinates)];
+  s.inertia = rules::inertia_methods[static_cast<std::size_t>(o.inertia)];
+  s.step = o.step;
+  return s;
+}
+
 template <class F>
 RunResult run_with(F& f, State start, StartReport start_report, const SimulationDescription& o,
                    const RunOptions& run_options) {
   const Model& model = f.model();
   RunResult result;
   RunSummary& s = result.summary;
-  s.model = model.name;
-  s.coordinates = o.coordinates == Coordinates::relative ? "relative" : "absolute";
-  s.inertia = o.inertia == InertiaMethod::preprocessing ? "preprocessing" : "projection";
-  s.step = o.step;
+  s = summary_of(model.name, o);
   s.start = std::move(start_report);
 
   const StepOptions options = step_options(model, o);
@@ -152,6 +159,14 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
   report_changes(f, state, start, *report);
   report_redundancy(f, state, *report);
   return state;
+}
+
+RunSummary failed_summary(const std::string& model, const SimulationDescription& o,
+                          const std::string& message) {
+  RunSummary s = summary_of(model, o);
+  s.status = "failed";
+  s.message = message;
+  return s;
 }
 
 RunResult run(const Model& given, const SimulationDescription& o, const RunOptions& run_options) {

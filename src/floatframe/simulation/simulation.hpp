@@ -23,7 +23,7 @@ class RunError : public std::exception {
 /// Coordinates and constraints of both formulations, found from the assembled model (rank by SVD).
 ModelCounts count(const Model& model);
 
-/// Static equilibrium from the design configuration. Throws RunError naming the culprit.
+/// Static equilibrium from the design configuration. Throws RunError naming the cause.
 StaticsResult statics(const Model& model);
 
 /// Throws InputError unless the step and the duration make at least one whole step, or the duration
@@ -39,6 +39,10 @@ struct RunOptions {
   /// Keep the energy balance and say where the run leaves the range of the method (with `record`).
   bool watch = true;
 };
+
+/// The summary of a run that could not start.
+RunSummary failed_summary(const std::string& model, const SimulationDescription& options,
+                          const std::string& message);
 
 /// Runs the model with the options given (those of the model file, changed as the user wishes). A
 /// step that cannot converge ends the run: the result holds all up to there and summary.status =

@@ -51,12 +51,13 @@ void keep_files(const std::filesystem::path& folder, const RunResult& result) {
   write_file((folder / "summary.json").string(), summary_json(result.summary));
 }
 
-PreparedRun prepared_from(const SweepCase& c) {
-  PreparedRun p;
-  p.fingerprint.model = c.fingerprint.model;
-  p.fingerprint.simulation = c.fingerprint.simulation;
-  p.simulation = c.description.simulation;
-  return p;
+/// What a run was given, as `run --set` would be.
+std::vector<std::string> settings_of(const SweepOptions& options, std::size_t run) {
+  std::vector<std::string> settings;
+  for (const SweepSetting& s : options.fixed) settings.push_back(s.name + '=' + s.value);
+  for (std::size_t k = 0; k < options.plan.names.size(); ++k)
+    settings.push_back(options.plan.names[k] + '=' + options.plan.runs[run][k]);
+  return settings;
 }
 
 }  // namespace
@@ -87,6 +88,19 @@ SweepCase SweepRunner::read_checked(std::size_t run) {
   return c;
 }
 
+PreparedRun SweepRunner::prepared_from(const SweepCase& c) {
+  PreparedRun p;
+  p.fingerprint.model = c.fingerprint.model;
+  p.fingerprint.simulation = c.fingerprint.simulation;
+  p.simulation = c.description.simulation;
+  if (options_.keep_results) {
+    if (!last_files_ || *last_files_ != c.fingerprint.files)
+      last_files_ = std::make_shared<const PreparedRun::Files>(c.fingerprint.files);
+    p.files = last_files_;
+  }
+  return p;
+}
+
 PreparedRun SweepRunner::prepare(std::size_t run) { return prepared_from(read_checked(run)); }
 
 void SweepRunner::check(std::size_t run) { prepared_.insert_or_assign(run, prepare(run)); }
@@ -100,9 +114,9 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
   if (stop_.load(std::memory_order_relaxed)) throw RunGivenUp{};
   RunResult result;
   SweepRow row;
+  PreparedRun prepared;
   try {
     std::shared_ptr<const Model> shared;
-    PreparedRun prepared;
     if (auto known = prepared_.extract(run); !known.empty()) {
       prepared = std::move(known.mapped());
       shared = model(run, prepared);
@@ -123,16 +137,18 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
       row = sweep_row(result, options_.measures);
     } catch (const RunError& error) {
       row = failed_row(error.what());
-      result.summary.model = shared->name;
-      result.summary.status = "failed";
-      result.summary.message = error.what();
+      result.summary = failed_summary(shared->name, prepared.simulation, error.what());
     }
   } catch (const InputError& error) {
     row = failed_row(first_fault(error));
     result.summary.status = "failed";
     result.summary.message = row.message;
   }
-  if (options_.keep_results) keep_files(folder_of(options_, run), result);
+  if (options_.keep_results) {
+    result.summary.settings = settings_of(options_, run);
+    if (prepared.files) result.summary.files = *prepared.files;
+    keep_files(folder_of(options_, run), result);
+  }
   return encode_row(run, row);
 }
 
@@ -147,6 +163,7 @@ std::string lost_line(const SweepOptions& options, std::size_t run, const std::s
     RunResult result;
     result.summary.status = "failed";
     result.summary.message = reason;
+    result.summary.settings = settings_of(options, run);
     keep_files(folder_of(options, run), result);
   }
   return encode_row(run, failed_row(reason));

@@ -14,8 +14,12 @@ namespace floatframe {
 
 /// What is known of a run once its values were checked.
 struct PreparedRun {
+  using Files = std::map<std::string, std::string>;
+
   ModelFingerprint fingerprint;  ///< without `files` and `parameters`
   SimulationDescription simulation;
+  /// Fingerprints of the files that were read, if the study keeps results; runs share them.
+  std::shared_ptr<const Files> files;
 };
 
 /// A run given up because the study ends.
@@ -45,6 +49,7 @@ class SweepRunner {
  private:
   SweepCase read(std::size_t run);
   SweepCase read_checked(std::size_t run);
+  PreparedRun prepared_from(const SweepCase& c);
 
   const SweepOptions& options_;
   const std::atomic<bool>& stop_;
@@ -52,6 +57,7 @@ class SweepRunner {
   ModelPool pool_;
   std::unordered_map<std::size_t, PreparedRun> prepared_;
   std::map<std::string, std::string> files_;
+  std::shared_ptr<const PreparedRun::Files> last_files_;  // of the run prepared last
 };
 
 /// The line of a run that was lost with its process, and the files that say so if the study keeps
