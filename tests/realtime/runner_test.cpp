@@ -196,7 +196,9 @@ RealTimeOptions four_steps_of_patience(SilenceFallback fallback) {
 
 TEST(RealTime, SilentInputsAreHeldOrReturnToTheirInitialValues) {
   for (const auto fallback : {SilenceFallback::hold, SilenceFallback::initial}) {
-    const RealTimeOptions options = four_steps_of_patience(fallback);
+    std::atomic<double> since{-1.0};
+    RealTimeOptions options = four_steps_of_patience(fallback);
+    options.silent_since = &since;
     Sometimes silent([](long k) { return k == 3; }), alive([](long) { return true; });
     const RealTimeReport r = run_real_time(model(), simulation(0.1), options, &silent);
     EXPECT_EQ(r.status, "completed");
@@ -204,6 +206,7 @@ TEST(RealTime, SilentInputsAreHeldOrReturnToTheirInitialValues) {
     EXPECT_EQ(r.silences[0].from, 0.01);
     EXPECT_NEAR(r.silences[0].to, 0.1, 1e-15);
     EXPECT_FALSE(r.silences[0].ended);
+    EXPECT_EQ(since, 0.01);  // they have not come again only because the run is over
     EXPECT_EQ(r.inputs[0], fallback == SilenceFallback::hold ? 30.0 : 3.25);
     const RealTimeReport spoken = run_real_time(model(), simulation(0.1), options, &alive);
     EXPECT_EQ(spoken.input_timeouts, 0);

@@ -96,6 +96,8 @@ TEST(SignalLog, ErrorsOfTheDiskAreReported) {
   for (int k = 0; k < 100; ++k) log.push(k, Values{1.0}, Values{2.0});
   log.finish();
   EXPECT_EQ(log.error(), ENOSPC);
+  EXPECT_EQ(log.rows(), 0);
+  EXPECT_EQ(log.lost(), 100);
 }
 
 TEST(SignalLog, WhatCannotBeOpenedIsRefused) {

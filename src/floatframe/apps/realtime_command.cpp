@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
-#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <memory>
@@ -60,10 +59,6 @@ class StopOnSignal {
   struct sigaction terminate_before_ {};
 };
 
-double zero_or_more(const std::string& option, const std::string& text) {
-  return text == "0" ? 0.0 : positive_number(option, text);
-}
-
 void apply(const RealTimeArguments& arguments, SimulationDescription& simulation) {
   if (!arguments.coordinates.empty())
     simulation.coordinates = coordinates_from(arguments.coordinates);
@@ -71,13 +66,6 @@ void apply(const RealTimeArguments& arguments, SimulationDescription& simulation
   if (!arguments.step.empty()) simulation.step = positive_number("--step", arguments.step);
   if (!arguments.duration.empty())
     simulation.duration = positive_number("--duration", arguments.duration);
-  if (!arguments.no_pace && simulation.step < 1e-6)
-    throw InputError(
-        fmt::format("found a step of {:g} s, expected at least 1e-6 s in step with the wall clock",
-                    simulation.step));
-  if (simulation.duration > 1e12 * simulation.step)
-    throw InputError(fmt::format("a duration of {:g} s with a step of {:g} s takes too many steps",
-                                 simulation.duration, simulation.step));
 }
 
 RealTimeOptions options_from(const RealTimeArguments& arguments) {
@@ -87,9 +75,11 @@ RealTimeOptions options_from(const RealTimeArguments& arguments) {
   options.fixed_iterations = arguments.iterations;
   if (!arguments.budget.empty())
     options.time_budget = positive_number("--budget", arguments.budget);
-  if (!arguments.max_lag.empty()) options.max_lag = zero_or_more("--max-lag", arguments.max_lag);
+  if (!arguments.max_lag.empty())
+    options.max_lag = option_number("--max-lag", arguments.max_lag, realtime_rules::max_lag);
   if (!arguments.input_timeout.empty())
-    options.input_timeout = zero_or_more("--input-timeout", arguments.input_timeout);
+    options.input_timeout =
+        option_number("--input-timeout", arguments.input_timeout, realtime_rules::input_timeout);
   options.fallback = arguments.fallback == "initial" ? SilenceFallback::initial
                      : arguments.fallback == "stop"  ? SilenceFallback::stop
                                                      : SilenceFallback::hold;
@@ -110,21 +100,36 @@ UdpAddress listen_address(const RealTimeArguments& arguments, const UdpPortOptio
   return address;
 }
 
+/// An option without the one that it belongs to would do nothing.
+void refuse_alone(const char* option, const std::string& value, bool wanted, const char* other) {
+  if (!value.empty() && !wanted)
+    throw InputError(fmt::format("{}: found without {}, expected both", option, other));
+}
+
 std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Model& model) {
   UdpPortOptions options;
   options.inputs = arguments.input == "udp";
   options.outputs = arguments.output == "udp";
   options.lock_step = arguments.lock_step;
   options.stop = &stop_wanted;
-  if (!arguments.timeout.empty()) options.timeout = positive_number("--timeout", arguments.timeout);
+  if (!arguments.timeout.empty())
+    options.timeout = option_number("--timeout", arguments.timeout, realtime_rules::timeout);
   if (options.lock_step && !(options.inputs && options.outputs))
     throw InputError("--lockstep: found without --input udp and --output udp, expected both");
+  refuse_alone("--listen", arguments.listen, options.inputs || options.outputs,
+               "--input udp or --output udp");
+  refuse_alone("--send", arguments.send, options.outputs, "--output udp");
+  refuse_alone("--peer", arguments.peer, options.inputs, "--input udp");
+  refuse_alone("--timeout", arguments.timeout, options.lock_step, "--lockstep");
   if (!options.inputs && !options.outputs) return nullptr;
   if (options.inputs && model.inputs.empty())
     throw InputError(fmt::format(
         "--input udp: found no inputs in the model '{}', expected a section 'inputs'", model.name));
   options.send =
       parse_udp_address(arguments.send.empty() ? default_send : arguments.send, "--send");
+  if (options.outputs && options.send.port() == 0)
+    throw InputError(
+        fmt::format("--send: found '{}', expected a port from 1 to 65535", arguments.send));
   // Heard is whom a name is given of; of those that are not named, who sends first.
   if (!arguments.peer.empty())
     options.peer = parse_udp_peer(arguments.peer, "--peer");
@@ -161,13 +166,11 @@ int run_command(const RealTimeArguments& arguments) {
     return 0;
   }
   RealTimeOptions options = options_from(arguments);
-  if (!arguments.report.empty()) {
-    try {
-      check_writable(arguments.report);
-    } catch (const OutputError& error) {
-      throw InputError(error.what());
-    }
-  }
+  require_valid(options, description.simulation);
+  require_writable(arguments.report);
+  if (!arguments.log.empty() && arguments.log == arguments.report)
+    throw InputError(
+        fmt::format("--log and --report: found '{}' for both, expected two files", arguments.log));
   const StopOnSignal stop_on_signal;
   const std::unique_ptr<UdpPort> port = open_port(arguments, model);
   if (port && !arguments.quiet) print(port_line(arguments, *port));
@@ -183,9 +186,9 @@ int run_command(const RealTimeArguments& arguments) {
   }
   RealTimeReport report;
   {
-    RealTimeProgress progress(!arguments.quiet,
-                              arguments.endless ? 0.0 : description.simulation.duration,
-                              options.fallback);
+    RealTimeProgress progress(
+        arguments.quiet || arguments.endless ? 0.0 : description.simulation.duration,
+        port && port->gives_inputs(), options.fallback);
     options.progress = &progress.time;
     options.silent_since = &progress.silent_since;
     report = run_real_time(model, description.simulation, options, port.get());
@@ -194,12 +197,10 @@ int run_command(const RealTimeArguments& arguments) {
   if (!arguments.report.empty())
     write_file(arguments.report, realtime_json(report, options, model, port.get()));
   if (!arguments.quiet) print(realtime_text(report, options, model, port.get()));
-  if (report.status == "failed")
-    fmt::print(stderr, "floatframe: the run failed: {}\n", report.message);
+  if (report.status == "failed") say("the run failed: " + report.message);
   const bool log_failed = log && log->error() != 0;
   if (log_failed)
-    fmt::print(stderr, "floatframe: '{}' is incomplete: {}\n", arguments.log,
-               std::strerror(log->error()));
+    say(fmt::format("'{}' is incomplete: {}", arguments.log, std::strerror(log->error())));
   return report.status == "failed" || log_failed ? 1 : 0;
 }
 
@@ -243,14 +244,14 @@ void add_options(CLI::App& command, RealTimeArguments& a) {
         "What then happens to them: hold the last values (default), initial values, or stop");
   command
       .add_option("--iterations", a.iterations,
-                  "Fixed number of Newton iterations a step; default: to convergence")
-      ->check(CLI::Range(1, 1000))
+                  "Fixed number of Newton iterations per step; default: to convergence")
+      ->check(CLI::Range(1, realtime_rules::fixed_iterations.high))
       ->type_name("N");
   seconds("--budget", a.budget, "No Newton iteration begins later in a step than this");
   seconds("--max-lag", a.max_lag,
           "Late steps catch up to this lag, then the clock is moved; default: 0.1");
   command.add_option("--priority", a.priority, "Real-time priority (SCHED_FIFO)")
-      ->check(CLI::Range(1, 99))
+      ->check(CLI::Range(1, realtime_rules::priority.high))
       ->type_name("1-99");
   command.add_flag("--lock-memory", a.lock_memory, "Keep all memory of the program resident");
   command.add_flag("--strict", a.strict,
@@ -262,7 +263,8 @@ void add_options(CLI::App& command, RealTimeArguments& a) {
       ->type_name("FILE");
   command.add_flag("--layout", a.layout, "Print names and order of the values in the packets only");
   command.add_flag("--json", a.json, "With --layout: as JSON");
-  command.add_flag("--quiet", a.quiet, "No progress, no summary; faults are still shown");
+  command.add_flag("--quiet", a.quiet,
+                   "No progress, no summary; errors and silent partners are still shown");
 }
 
 }  // namespace

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
 
+#include "floatframe/apps/command.hpp"
 #include "floatframe/apps/progress_bar.hpp"
 
 namespace floatframe {
 
-RealTimeProgress::RealTimeProgress(bool wanted, double duration, SilenceFallback fallback)
-    : fallback_(fallback) {
-  if (wanted) thread_ = std::thread([this, duration] { loop(duration); });
+RealTimeProgress::RealTimeProgress(double duration, bool silences, SilenceFallback fallback)
+    : silences_(silences), fallback_(fallback) {
+  if (silences || duration > 0.0) thread_ = std::thread([this, duration] { loop(duration); });
 }
 
 RealTimeProgress::~RealTimeProgress() {
@@ -29,7 +29,7 @@ void RealTimeProgress::loop(double duration) {
   std::unique_lock lock(mutex_);
   for (int tick = 1;
        !ended_.wait_for(lock, std::chrono::milliseconds(100), [this] { return end_; }); ++tick) {
-    if (silent_since.load(std::memory_order_relaxed) != shown_) {
+    if (silences_ && silent_since.load(std::memory_order_relaxed) != shown_) {
       bar.clear();
       report_silence();
     }
@@ -40,13 +40,12 @@ void RealTimeProgress::loop(double duration) {
 void RealTimeProgress::report_silence() {
   const double since = silent_since.load(std::memory_order_relaxed);
   if (since >= 0.0)
-    fmt::print(stderr, "floatframe: no inputs have come since t = {:.6g} s; {}\n", since,
-               fallback_ == SilenceFallback::hold      ? "the last values are held"
-               : fallback_ == SilenceFallback::initial ? "the initial values are used"
-                                                       : "the run stops if they ever came");
+    say(fmt::format("no inputs have come since t = {:.6g} s; {}", since,
+                    fallback_ == SilenceFallback::hold      ? "the last values are held"
+                    : fallback_ == SilenceFallback::initial ? "the initial values are used"
+                                                            : "the run stops if they ever came"));
   else
-    fmt::print(stderr, "floatframe: inputs come again at t = {:.6g} s\n",
-               time.load(std::memory_order_relaxed));
+    say(fmt::format("inputs come again at t = {:.6g} s", time.load(std::memory_order_relaxed)));
   shown_ = since;
 }
 

@@ -12,9 +12,9 @@ namespace floatframe {
 
 class RealTimeProgress {
  public:
-  /// `duration` [s]; 0: a run without end, of which no progress is shown. Inputs that stay away,
-  /// and that come again, are reported on standard error. Nothing at all unless `wanted`.
-  RealTimeProgress(bool wanted, double duration, SilenceFallback fallback);
+  /// `duration` [s] of which a bar shows the progress; 0: no bar. `silences`: inputs that stay
+  /// away, and that come again, are reported on standard error.
+  RealTimeProgress(double duration, bool silences, SilenceFallback fallback);
   ~RealTimeProgress();
   RealTimeProgress(const RealTimeProgress&) = delete;
   RealTimeProgress& operator=(const RealTimeProgress&) = delete;
@@ -27,6 +27,7 @@ class RealTimeProgress {
   /// One line when a silence begins or ends.
   void report_silence();
 
+  bool silences_;
   SilenceFallback fallback_;
   double shown_ = -1.0;  ///< the beginning of the silence that has been reported
   std::mutex mutex_;

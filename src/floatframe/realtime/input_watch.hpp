@@ -45,7 +45,8 @@ class InputWatch {
     const auto k = static_cast<std::size_t>(report_.input_timeouts - 1);
     if (k < report_.silences.size()) report_.silences[k] = {last_, time, came_again};
     silent_ = false;
-    if (since_ != nullptr) since_->store(-1.0, std::memory_order_relaxed);
+    // Whoever looks on takes a silence that lasts to the end for no more than that.
+    if (came_again && since_ != nullptr) since_->store(-1.0, std::memory_order_relaxed);
   }
 
   std::atomic<double>* since_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "floatframe/formulation/absolute.hpp"
-#include "floatframe/model/validate.hpp"
 #include "floatframe/realtime/denormals.hpp"
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/realtime/scheduling.hpp"
@@ -91,8 +90,7 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
 
 RealTimeReport run_real_time(const Model& model, const SimulationDescription& d,
                              const RealTimeOptions& options, SignalPort* port) {
-  require_valid(d);
-  if (!options.endless) check_step(d);
+  require_valid(options, d);
   RealTimeReport report;
   report.model = model.name;
   report.coordinates = d.coordinates == Coordinates::relative ? "relative" : "absolute";

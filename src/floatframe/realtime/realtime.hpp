@@ -10,7 +10,6 @@
 // has caught up; if it is more than `max_lag` behind, the clock is moved instead (a *slip*): model
 // time then stays behind the wall clock by the sum of all slips.
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -18,41 +17,11 @@
 #include "floatframe/model/description.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/realtime/histogram.hpp"
+#include "floatframe/realtime/realtime_options.hpp"
 #include "floatframe/realtime/signal_port.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
-
-class SignalLog;
-
-/// What happens when inputs have stayed away for `RealTimeOptions::input_timeout`.
-enum class SilenceFallback {
-  hold,     ///< the last values stay
-  initial,  ///< the initial values return until inputs come again
-  stop      ///< the run ends as failed; only after inputs have come once
-};
-
-struct RealTimeOptions {
-  bool paced = true;     ///< false: as fast as possible
-  bool endless = false;  ///< until `stop`; else for the duration of the simulation description
-  /// > 0: so many Newton iterations a step, accepted whatever their error. 0: to convergence, with
-  /// the step divided if need be, down to an eighth.
-  int fixed_iterations = 0;
-  double time_budget = 0.0;  ///< > 0: no Newton iteration begins later in a step [s of wall clock]
-  double max_lag = 0.1;      ///< [s]; 0: never catch up
-  /// Inputs that stay away for so long are reported, and `fallback` acts [s of model time]; 0:
-  /// never.
-  double input_timeout = 1.0;
-  SilenceFallback fallback = SilenceFallback::hold;
-  int priority = 0;  ///< 1 to 99: SCHED_FIFO
-  bool lock_memory = false;
-  bool strict = false;  ///< RunError if priority or locked memory is not granted
-  const std::atomic<bool>* stop = nullptr;  ///< ends the run after the present step
-  std::atomic<double>* progress = nullptr;  ///< model time [s], for another thread to look at
-  /// Model time since when inputs have stayed away [s], negative while they come; likewise.
-  std::atomic<double>* silent_since = nullptr;
-  SignalLog* log = nullptr;  ///< takes inputs and outputs of every step
-};
 
 struct StepsOfWork {
   long steps = 0;
@@ -76,7 +45,7 @@ struct RealTimeReport {
   bool paced = true, priority = false, memory_locked = false;
   std::vector<std::string> refusals;  ///< priority or locked memory that was not granted
   std::string status = "completed";   ///< "completed", "stopped" or "failed"
-  std::string message;                ///< why it failed: time, culprit
+  std::string message;                ///< why it failed: time, cause
   StartReport start;
   long steps = 0, substeps = 0, iterations = 0, factorizations = 0;
   long cut_short = 0;  ///< steps accepted before they had converged

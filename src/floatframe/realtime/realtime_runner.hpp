@@ -34,7 +34,7 @@ class RealTimeRunner {
 
   State& state() noexcept { return runner_.state(); }
   const InputBuffer& inputs() const noexcept { return inputs_; }
-  /// The culprit of a failed step (allocates: after `run`).
+  /// The cause of a failed step (allocates: after `run`).
   std::string failure() const { return runner_.failure(); }
   /// Time and outputs at the present state.
   std::span<const double> sample() noexcept {
@@ -76,7 +76,7 @@ class RealTimeRunner {
     const double begin = runner_.state().t;
     const long steps = options_.endless ? std::numeric_limits<long>::max()
                                         : std::lround(std::ceil(duration_ / step_ - 1e-9));
-    const double h = 1e9 * step_;
+    const double h = 1e9 * std::min(step_, realtime_rules::longest_step);
     const auto period = static_cast<Nanoseconds>(h);
     const auto max_lag = static_cast<Nanoseconds>(1e9 * options_.max_lag);
     InputWatch watch(options_, step_,
@@ -91,8 +91,9 @@ class RealTimeRunner {
         end = End::stopped;
         break;
       }
-      Nanoseconds due = base + std::llround(static_cast<double>(k) * h);
+      Nanoseconds due = base;
       if (options_.paced) {
+        due += std::llround(static_cast<double>(k) * h);
         const Nanoseconds lag = wall_clock() - due;
         if (lag < 0) {
           // A signal ends the sleep early: it either stops the run or means nothing.

@@ -92,7 +92,8 @@ void SignalLog::loop() {
 void SignalLog::drain() {
   const std::size_t end = written_.load(std::memory_order_acquire);
   std::size_t row = read_.load(std::memory_order_relaxed);
-  const auto put = [this] {
+  long pending = 0;  // rows in text_
+  const auto put = [this, &pending] {
     for (std::size_t done = 0; done < text_.size() && error_ == 0;) {
       const ssize_t n = write(descriptor_, text_.data() + done, text_.size() - done);
       if (n >= 0)
@@ -100,7 +101,13 @@ void SignalLog::drain() {
       else if (errno != EINTR)
         error_ = errno;
     }
-    if (error_ != 0) broken_.store(true, std::memory_order_relaxed);
+    if (error_ == 0) {
+      rows_ += pending;
+    } else {
+      lost_.fetch_add(pending, std::memory_order_relaxed);
+      broken_.store(true, std::memory_order_relaxed);
+    }
+    pending = 0;
     text_.clear();
   };
   for (; row < end; ++row) {
@@ -109,7 +116,7 @@ void SignalLog::drain() {
       for (std::size_t c = 0; c < width_; ++c)
         fmt::format_to(std::back_inserter(text_), "{}{:.17g}", c == 0 ? "" : ",", x[c]);
       text_ += '\n';
-      ++rows_;
+      ++pending;
       if (text_.size() > (1 << 16)) put();
     } else {
       lost_.fetch_add(1, std::memory_order_relaxed);

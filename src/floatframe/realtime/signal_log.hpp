@@ -34,7 +34,8 @@ class SignalLog {
   void finish();
 
   // After `finish`:
-  long rows() const noexcept { return rows_; }  ///< written
+  long rows() const noexcept { return rows_; }  ///< handed to the system
+  /// Rows that found no room, or that the system did not take.
   long lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
   /// The first error of the system while writing; 0: none.
   int error() const noexcept { return error_; }

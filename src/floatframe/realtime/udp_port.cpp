@@ -7,6 +7,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/realtime/clocks.hpp"
+#include "floatframe/realtime/realtime_options.hpp"
 
 namespace floatframe {
 namespace {
@@ -21,6 +22,8 @@ UdpPort::UdpPort(const Model& model, const UdpPortOptions& options)
       socket_(options.listen),
       filter_(model.inputs.size(), input_layout(model).hash(), options.lock_step, options.peer),
       output_hash_(output_layout(model).hash()) {
+  if (const auto complaint = realtime_rules::timeout.complaint(options.timeout))
+    throw InputError("timeout: " + *complaint);
   const std::size_t inputs = model.inputs.size(), outputs = model.outputs.size();
   for (const auto& [count, what] : {std::pair(inputs, "inputs"), std::pair(outputs, "outputs")})
     if (count > largest_count)
