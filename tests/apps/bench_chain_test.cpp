@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "floatframe/apps/bench_scaling.hpp"
@@ -13,6 +11,7 @@
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/reduction/reduction.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -47,11 +46,8 @@ std::string chain_file(int links, int elements) {
 }
 
 TEST(ChainModel, EqualsTheModelFile) {
-  const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "floatframe_chain_model_test.yaml";
-  std::ofstream(file) << chain_file(3, 6);
-  const Model read = build_model(read_model(file.string()));
-  std::filesystem::remove(file);
+  const test::TemporaryFolder folder;
+  const Model read = build_model(read_model(folder.write("chain.yaml", chain_file(3, 6))));
   const Model made = build_model(chain_model(3, 8, 6));
   EXPECT_EQ(made.name, read.name);
   EXPECT_EQ(made.gravity, read.gravity);

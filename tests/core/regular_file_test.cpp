@@ -4,35 +4,21 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <fstream>
-
 #include "floatframe/core/diagnostics.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
 
 class RegularFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ("regular_file_" +
-               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directory(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path file(const std::string& name, std::string_view content) const {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-    return folder_ / name;
-  }
   static std::string why(const std::filesystem::path& path, std::uint64_t largest = 1000) {
     std::string content = "old";
     const std::string reason = read_regular_file(path, largest, content);
     EXPECT_TRUE(reason.empty() || content.empty());
     return reason;
   }
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(RegularFile, WholeAndBeginning) {
@@ -42,9 +28,9 @@ TEST_F(RegularFile, WholeAndBeginning) {
       15);
   std::string long_text;
   for (int k = 0; k < 300000; ++k) long_text += std::to_string(k);
-  EXPECT_EQ(regular_file(file("a", text)), text);
-  EXPECT_EQ(regular_file(file("empty", "")), "");
-  EXPECT_EQ(regular_file(file("long", long_text)), long_text);
+  EXPECT_EQ(regular_file(folder_.write("a", text)), text);
+  EXPECT_EQ(regular_file(folder_.write("empty", "")), "");
+  EXPECT_EQ(regular_file(folder_.write("long", long_text)), long_text);
   std::string content;
   EXPECT_EQ(read_regular_beginning(folder_ / "long", 7, content), "");
   EXPECT_EQ(content, "0123456");
@@ -62,10 +48,10 @@ TEST_F(RegularFile, WhatIsNoRegularFile) {
   EXPECT_EQ(why(folder_ / "link"), "this is not a regular file");
   EXPECT_EQ(why("/dev/zero"), "this is not a regular file");
   EXPECT_EQ(why("/dev/null"), "this is not a regular file");
-  EXPECT_EQ(why(folder_), "this is a folder, not a file");
+  EXPECT_EQ(why(folder_.path()), "this is a folder, not a file");
   EXPECT_EQ(why(folder_ / "nowhere"), "the file does not exist");
   EXPECT_EQ(why(folder_ / "nowhere" / "file"), "the file does not exist");
-  EXPECT_EQ(why(file("a", "x") / "b"), "the file does not exist");
+  EXPECT_EQ(why(folder_.write("a", "x") + "/b"), "the file does not exist");
   std::filesystem::create_symlink("loop", folder_ / "loop");
   EXPECT_NE(why(folder_ / "loop").find("the file cannot be opened ("), std::string::npos);
   EXPECT_EQ(why((folder_ / "a").string() + std::string("\0b", 2)),
@@ -81,11 +67,11 @@ TEST_F(RegularFile, WhatIsNoRegularFile) {
 }
 
 TEST_F(RegularFile, Size) {
-  EXPECT_EQ(why(file("at", std::string(1000, 'x'))), "");
-  EXPECT_EQ(why(file("above", std::string(1001, 'x'))),
+  EXPECT_EQ(why(folder_.write("at", std::string(1000, 'x'))), "");
+  EXPECT_EQ(why(folder_.write("above", std::string(1001, 'x'))),
             "the file is larger than 1000 bytes, which is not read");
   // Holes take no space on the disk; nothing of it may be read.
-  std::filesystem::resize_file(file("holes", ""), std::uintmax_t{1} << 43);
+  std::filesystem::resize_file(folder_.write("holes", ""), std::uintmax_t{1} << 43);
   EXPECT_EQ(why(folder_ / "holes", 16 << 20), "the file is larger than 16 MiB, which is not read");
   EXPECT_EQ(why(folder_ / "holes", largest_file_read),
             "the file is larger than 4 GiB, which is not read");

@@ -2,27 +2,17 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/matrix_model.hpp"
 #include "floatframe/formats/read_abaqus.hpp"
 #include "floatframe/formats/read_matrices.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
-namespace floatframe {
+namespace floatframe::test {
 namespace {
-
-template <typename Read>
-std::string faults_of(Read read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no fault";
-}
 
 struct Case {
   const char* name;
@@ -166,7 +156,7 @@ const Case decks[] = {
 class BadDecks : public testing::TestWithParam<Case> {};
 
 TEST_P(BadDecks, SayWhatIsWrong) {
-  const std::string found = faults_of([] {
+  const std::string found = error_of([] {
     TextSource source(deck_of(GetParam().text), "bad.inp");
     read_abaqus(source, {});
   });
@@ -176,11 +166,11 @@ TEST_P(BadDecks, SayWhatIsWrong) {
 INSTANTIATE_TEST_SUITE_P(Abaqus, BadDecks, testing::ValuesIn(decks), name_of);
 
 TEST(BadDecks, SoundDeckIsSound) {
-  EXPECT_EQ(faults_of([] {
+  EXPECT_EQ(error_of([] {
               TextSource source(sound, "bad.inp");
               read_abaqus(source, {});
             }),
-            "no fault");
+            "no error");
 }
 
 // Two nodes with three degrees of freedom; "K" or "M" as lines "row column value".
@@ -211,7 +201,7 @@ const Case calculix[] = {
 class BadCalculix : public testing::TestWithParam<Case> {};
 
 TEST_P(BadCalculix, SayWhatIsWrong) {
-  EXPECT_EQ(faults_of([] {
+  EXPECT_EQ(error_of([] {
               TextSource nodes("1,0,0,0\n2,1,0,0\n", "nodes.csv"), K(GetParam().text, "bad.sti"),
                   M(matrix_text, "bad.mas"), dofs(map_text, "bad.dof");
               read_calculix_matrices(K, M, dofs, read_node_table(nodes));
@@ -236,7 +226,7 @@ const Case maps[] = {
 class BadMaps : public testing::TestWithParam<Case> {};
 
 TEST_P(BadMaps, SayWhatIsWrong) {
-  EXPECT_EQ(faults_of([] {
+  EXPECT_EQ(error_of([] {
               TextSource nodes("1,0,0,0\n2,1,0,0\n", "nodes.csv"), K(matrix_text, "bad.sti"),
                   M(matrix_text, "bad.mas"), dofs(GetParam().text, "bad.dof");
               read_calculix_matrices(K, M, dofs, read_node_table(nodes));
@@ -265,7 +255,7 @@ const Case market[] = {
 class BadMarket : public testing::TestWithParam<Case> {};
 
 TEST_P(BadMarket, SayWhatIsWrong) {
-  EXPECT_EQ(faults_of([] {
+  EXPECT_EQ(error_of([] {
               TextSource nodes("1,0,0,0\n2,1,0,0\n", "nodes.csv"), K(GetParam().text, "bad_K.mtx"),
                   M("", "bad_M.mtx"), dofs(map_text, "bad_dofs.csv");
               read_matrix_market(K, M, dofs, read_node_table(nodes));
@@ -291,7 +281,7 @@ const Case labels[] = {
 class BadLabels : public testing::TestWithParam<Case> {};
 
 TEST_P(BadLabels, SayWhatIsWrong) {
-  EXPECT_EQ(faults_of([] {
+  EXPECT_EQ(error_of([] {
               TextSource nodes("1,0,0,0\n2,1,0,0\n", "nodes.csv"),
                   K(GetParam().text, "bad_STIF1.mtx"), M("2,1, 2,1, 1.\n", "bad_MASS1.mtx");
               read_abaqus_matrices(K, M, nullptr, read_node_table(nodes));
@@ -304,27 +294,14 @@ INSTANTIATE_TEST_SUITE_P(Matrices, BadLabels, testing::ValuesIn(labels), name_of
 /// Files in a folder of their own.
 class BadFiles : public testing::Test {
  protected:
-  BadFiles() {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~BadFiles() override { std::filesystem::remove_all(folder_); }
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
+  void write(const std::string& name, const std::string& text) { folder_.write(name, text); }
   std::string faults(const std::string& name, const std::string& format = {}) {
-    std::string text = faults_of([&] { read_fe_file(folder_ / name, {}, format); });
-    const std::string prefix = folder_.string() + "/";
-    for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
-      text.erase(at, prefix.size());
-    }
-    const std::string folder = folder_.string();
+    std::string text = folder_.without(error_of([&] { read_fe_file(folder_ / name, {}, format); }));
+    const std::string folder = folder_.path().string();
     const std::size_t at = text.find(folder);
     return at == std::string::npos ? text : text.replace(at, folder.size(), "FOLDER");
   }
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(BadFiles, CircularInclude) {
@@ -389,4 +366,4 @@ TEST_F(BadFiles, MatricesWithoutTheirCompanions) {
 }
 
 }  // namespace
-}  // namespace floatframe
+}  // namespace floatframe::test

@@ -6,22 +6,13 @@
 #include "floatframe/formats/nastran_cards.hpp"
 #include "floatframe/formats/read_dmig.hpp"
 #include "floatframe/formats/read_nastran.hpp"
+#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
 
-template <class Read>
-std::string fault_of(Read read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no fault";
-}
-
 std::string deck_fault(const std::string& text) {
-  return fault_of([&] {
+  return error_of([&] {
     TextSource source(text, "arm.bdf");
     read_nastran(source, has_begin_bulk(text), {});
   });
@@ -50,7 +41,7 @@ const char* const deck =
     "ENDDATA\n";
 
 TEST(BadNastran, Decks) {
-  ASSERT_EQ(deck_fault(deck), "no fault");
+  ASSERT_EQ(deck_fault(deck), "no error");
   const Fault faults[] = {
       {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,44",
        "arm.bdf:6: CTETRA 1 has node 44, which is not in the file"},
@@ -97,7 +88,7 @@ TEST(BadNastran, Decks) {
        "arm.bdf:8: CBAR 2: an offset of the ends (WA, WB) is '0.1', which is not supported"},
       {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2",
        "arm.bdf:7: CBAR 2: the orientation vector is missing"},
-      {"CONM2,7,2,,1.5", "CONM2,7,4,,1.5,.1", "no fault"},
+      {"CONM2,7,2,,1.5", "CONM2,7,4,,1.5,.1", "no error"},
       {"RBE2,8,1,123456,3,4", "RBE2,8,1,123456", "arm.bdf:12: RBE2 8 has no nodes"},
       {"RBE2,8,1,123456,3,4", "RBE3,8,,1,123,1.,123,3,4\n,2",
        "arm.bdf:12: RBE3 8: REFC is '123', only 123456 is read"},
@@ -149,14 +140,14 @@ const char* const punch =
     "*                      1               2 1.000000000D+00\n";                 // 11
 
 std::string punch_fault(const std::string& text) {
-  return fault_of([&] {
+  return error_of([&] {
     TextSource nodes("GRID,1,,0.,0.,0.\n", "arm.bdf"), source(text, "arm.pch");
     read_dmig(source, nullptr, read_nastran(nodes, false, {}, NastranPart::nodes));
   });
 }
 
 TEST(BadNastran, Matrices) {
-  ASSERT_EQ(punch_fault(punch), "no fault");
+  ASSERT_EQ(punch_fault(punch), "no error");
   const Fault faults[] = {
       {"KAAX           0       6", "KAAX           0       9",
        "arm.pch:1: DMIG: IFO is 9, expected 1 (square) or 6 (symmetric)"},

@@ -14,6 +14,8 @@
 #include "floatframe/formats/npy.hpp"
 #include "floatframe/formats/zip_store.hpp"
 #include "floatframe/reduction/reduction.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -353,26 +355,17 @@ TEST(BodyFile, NumbersThatContradictEachOther) {
 }
 
 TEST(BodyFile, IsWrittenWhole) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "floatframe_body_file";
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   const BodyFile file = bracket();
   write_body_file(folder / "a.ffb", file);
   expect_equal(file, read_body_file(folder / "a.ffb"));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);  // nothing else
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}),
+            1);  // nothing else
   EXPECT_THROW(write_body_file("/nowhere/a.ffb", file), OutputError);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(BodyFile, FilesThatCannotBeRead) {
-  const auto fault = [](const char* path) -> std::string {
-    try {
-      read_body_file(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no fault";
-  };
+  const auto fault = [](const char* path) { return test::error_of([&] { read_body_file(path); }); };
   EXPECT_EQ(fault("/nowhere/x.ffb"), "/nowhere/x.ffb: the file does not exist");
   EXPECT_EQ(fault("/dev/null"), "/dev/null: this is not a regular file");
 }

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "floatframe/formats/fe_file.hpp"
@@ -13,29 +11,21 @@
 #include "floatframe/formats/read_abaqus.hpp"
 #include "floatframe/formats/read_gmsh.hpp"
 #include "floatframe/formats/read_nastran.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
-namespace floatframe {
+namespace floatframe::test {
 namespace {
 
-template <typename Read>
-std::string faults_of(Read read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no fault";
-}
-
 std::string abaqus_faults(const std::string& text) {
-  return faults_of([&] {
+  return error_of([&] {
     TextSource source(text, "deck.inp");
     read_abaqus(source, {});
   });
 }
 
 std::string nastran_faults(const std::string& text) {
-  return faults_of([&] {
+  return error_of([&] {
     TextSource source(text, "deck.bdf");
     read_nastran(source, has_begin_bulk(text), {});
   });
@@ -46,36 +36,24 @@ std::size_t lines_of(const std::string& text) {
 }
 
 /// Thirty files, each of which includes the next one ten times.
-std::string include_faults(const std::filesystem::path& folder, const std::string& include,
+std::string include_faults(const TemporaryFolder& folder, const std::string& include,
                            const std::string& ending, const std::string& format) {
   for (int k = 0; k < 30; ++k) {
-    std::ofstream out(folder / fmt::format("f{}{}", k, ending), std::ios::binary);
-    for (int i = 0; k < 29 && i < 10; ++i) {
-      out << fmt::format(fmt::runtime(include), fmt::format("f{}{}", k + 1, ending)) << '\n';
-    }
+    std::string text;
+    for (int i = 0; k < 29 && i < 10; ++i)
+      text += fmt::format(fmt::runtime(include), fmt::format("f{}{}", k + 1, ending)) + '\n';
+    folder.write(fmt::format("f{}{}", k, ending), text);
   }
-  return faults_of([&] { read_fe_file(folder / ("f0" + ending), {}, format); });
+  return error_of([&] { read_fe_file(folder / ("f0" + ending), {}, format); });
 }
 
-class Folder {
- public:
-  explicit Folder(const char* name) : path(std::filesystem::path(testing::TempDir()) / name) {
-    std::filesystem::remove_all(path);
-    std::filesystem::create_directories(path);
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::filesystem::path path;
-};
-
 TEST(DeckLimits, IncludesThatMultiply) {
-  const Folder folder("multiplying_includes");
+  const TemporaryFolder folder;
   const std::string sentence = ": the files include each other more than 10000 times";
-  const std::string abaqus = include_faults(folder.path, "*INCLUDE, INPUT={}", ".inp", "abaqus");
+  const std::string abaqus = include_faults(folder, "*INCLUDE, INPUT={}", ".inp", "abaqus");
   EXPECT_NE(abaqus.find(sentence), std::string::npos) << abaqus;
   EXPECT_NE(abaqus.find(".inp:"), std::string::npos) << abaqus;
-  const std::string nastran = include_faults(folder.path, "INCLUDE '{}'", ".bdf", "nastran");
+  const std::string nastran = include_faults(folder, "INCLUDE '{}'", ".bdf", "nastran");
   EXPECT_NE(nastran.find(sentence), std::string::npos) << nastran;
 }
 
@@ -176,7 +154,7 @@ TEST(DeckLimits, GroupsOfGmshAgainAndAgain) {
                       triangles + 1, triangles);
   for (int k = 0; k < triangles; ++k) text += fmt::format("{} 1 2 3\n", k + 2);
   text += "$EndElements\n";
-  const std::string faults = faults_of([&] { parse_gmsh(text, "mesh.msh", {}); });
+  const std::string faults = error_of([&] { parse_gmsh(text, "mesh.msh", {}); });
   EXPECT_NE(faults.find("the physical groups have more than 10006500 members in all, too many for "
                         "a mesh of 4 nodes and 61 elements"),
             std::string::npos)
@@ -184,4 +162,4 @@ TEST(DeckLimits, GroupsOfGmshAgainAndAgain) {
 }
 
 }  // namespace
-}  // namespace floatframe
+}  // namespace floatframe::test

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/formats/nastran_cards.hpp"
 #include "floatframe/formats/read_nastran.hpp"
+#include "support/error_of.hpp"
 
-namespace floatframe {
+namespace floatframe::test {
 namespace {
 
 FeModel deck(const std::string& text) {
@@ -17,12 +17,7 @@ FeModel deck(const std::string& text) {
 }
 
 std::string fault(const std::string& text) {
-  try {
-    deck(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no fault";
+  return error_of([&] { deck(text); });
 }
 
 const std::string bulk =
@@ -46,7 +41,7 @@ TEST(NastranRules, SuperelementsAreRefused) {
             "arm.bdf:3: 'BEGIN BULK SUPER=2'" + sentence);
   EXPECT_EQ(fault("BEGIN BULK\n" + bulk + "begin super = 3\n" + bulk),
             "arm.bdf:11: 'begin super = 3'" + sentence);
-  EXPECT_EQ(fault("SOL 103\nCEND\n  BEGIN BULK $ comment\n" + bulk), "no fault");
+  EXPECT_EQ(fault("SOL 103\nCEND\n  BEGIN BULK $ comment\n" + bulk), "no error");
   EXPECT_EQ(fault("BEGIN BULK\n" + bulk + "BEGIN BULK\n"), "arm.bdf:11: 'BEGIN BULK'" + sentence);
 }
 
@@ -82,11 +77,11 @@ TEST(NastranRules, UnknownParametersStop) {
        {"POST",  "AUTOSPC", "GRDPNT",   "PRGPST", "MAXRATIO", "BAILOUT", "COUPMASS",
         "K6ROT", "SNORM",   "OGEOM",    "RESVEC", "CM2",      "CK2",     "CB1",
         "G",     "W3",      "USETSTR1", "lgdisp", "EXTOUT",   "CHECKEL"}) {
-    EXPECT_EQ(fault(bulk + "PARAM," + name + ",1\n"), "no fault") << name;
+    EXPECT_EQ(fault(bulk + "PARAM," + name + ",1\n"), "no error") << name;
   }
   EXPECT_EQ(fault(bulk + "MATT1,1,7\n"),
             "arm.bdf:10: MATT1 is not read and may change stiffness or mass");
-  EXPECT_EQ(fault(bulk + "DTI,UNITS,1,KG,N,M,S\n"), "no fault");
+  EXPECT_EQ(fault(bulk + "DTI,UNITS,1,KG,N,M,S\n"), "no error");
 }
 
 TEST(NastranRules, MatricesAndMassOfTheCaseControlStop) {
@@ -140,7 +135,7 @@ TEST(NastranRules, SectionsThatAreNotWhatTheyLook) {
   EXPECT_EQ(fault(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.4\n"),
             "arm.bdf:11: PSHELL 3: TS/T is '.4', expected 0.833333: only homogeneous shells are "
             "supported");
-  EXPECT_EQ(fault(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.833333\n"), "no fault");
+  EXPECT_EQ(fault(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.833333\n"), "no error");
   EXPECT_EQ(fault(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,TUBE2\n,.01,.015")),
             "arm.bdf:8: PBARL 2: the wall of the TUBE2 is more than its outer radius");
   const FeModel bar =
@@ -154,4 +149,4 @@ TEST(NastranRules, SectionsThatAreNotWhatTheyLook) {
 }
 
 }  // namespace
-}  // namespace floatframe
+}  // namespace floatframe::test

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
@@ -15,6 +13,7 @@
 #include "floatframe/formats/read_nastran.hpp"
 #include "formats/mesh_checks.hpp"
 #include "support/random_body.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -337,26 +336,19 @@ TEST(Nastran, AveragingElementsAndEquations) {
   EXPECT_EQ(m.equations[0].terms[2].factor, -0.5);
 }
 
-void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
-}
-
 TEST(Nastran, IncludedFiles) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "floatframe_nastran_include";
-  std::filesystem::create_directories(folder / "mesh");
+  const TemporaryFolder folder;
   const std::string text = small_field;
   const std::size_t begin = text.find("GRID"), end = text.find("CTETRA");
-  write(folder / "mesh" / "nodes.dat", text.substr(begin, end - begin));
-  write(folder / "arm.bdf",
-        text.substr(0, begin) + "INCLUDE 'mesh/\n   nodes.dat'\n" + text.substr(end));
+  folder.write("mesh/nodes.dat", text.substr(begin, end - begin));
+  folder.write("arm.bdf",
+               text.substr(0, begin) + "INCLUDE 'mesh/\n   nodes.dat'\n" + text.substr(end));
   const FeModel m = read_fe_file(folder / "arm.bdf");
   expect_same_mesh(bulk(small_field), m, 0.0);
   ASSERT_EQ(m.files.size(), 2u);
   EXPECT_EQ(m.node_sources[3].file, 1);
   EXPECT_EQ(m.node_sources[3].line, 4);
   EXPECT_EQ(m.elements[0].source.line, 9);
-  std::filesystem::remove_all(folder);
 }
 
 struct Matrices {
@@ -425,12 +417,10 @@ TEST(Dmig, RoundTrip) {
 }
 
 TEST(Dmig, NodesInTheFileOrBesideIt) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "floatframe_dmig";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   const Matrices m = random_matrices();
-  write(folder / "arm.pch", punch("KAAX", m.K, m));
-  write(folder / "mass.pch", punch("MAAX", m.M, m));
+  folder.write("arm.pch", punch("KAAX", m.K, m));
+  folder.write("mass.pch", punch("MAAX", m.M, m));
   FeReadOptions options;
   options.mass = folder / "mass.pch";
   try {
@@ -443,15 +433,14 @@ TEST(Dmig, NodesInTheFileOrBesideIt) {
             ": the coordinates of the nodes are not there: there is no 'arm.bdf' or 'arm.dat' "
             "or 'arm.nas' or 'arm.fem' or 'arm_nodes.csv' beside it; give the nodes file");
   }
-  write(folder / "arm.bdf", punch_nodes);
+  folder.write("arm.bdf", punch_nodes);
   const FeModel beside = read_fe_file(folder / "arm.pch", options);
   EXPECT_EQ(beside.positions[1], Vec3(1, 2, 3));
-  write(folder / "whole.pch", punch_nodes + punch("KAAX", m.K, m) + punch("MAAX", m.M, m));
+  folder.write("whole.pch", punch_nodes + punch("KAAX", m.K, m) + punch("MAAX", m.M, m));
   const FeModel whole = read_fe_file(folder / "whole.pch");
   ASSERT_TRUE(beside.matrices && whole.matrices);
   EXPECT_EQ(MatX(whole.matrices->K), MatX(beside.matrices->K));
   EXPECT_EQ(MatX(whole.matrices->M), MatX(beside.matrices->M));
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -13,59 +13,27 @@
 #include "floatframe/formats/sid_content.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/reduction/reduction.hpp"
+#include "support/error_of.hpp"
 #include "support/iltis_parts.hpp"
-#include "support/random_body.hpp"
+#include "support/point_masses.hpp"
 #include "support/reference_json.hpp"
 
 namespace floatframe::test {
 namespace {
 
-/// Point masses with mode shapes of any kind: the integrals are sums.
-struct Points {
-  std::vector<double> m;
-  std::vector<Vec3> p;
-  std::vector<Mat3X> X;
-};
-
-FlexibleBody body_of(const Points& points, int nm) {
+FlexibleBody body_of(const PointMasses& points, int nm) {
   FlexibleBody body;
-  InertiaInvariants v = InertiaInvariants::zero(nm);
-  for (std::size_t i = 0; i < points.m.size(); ++i) {
-    const double m = points.m[i];
-    const Vec3& p = points.p[i];
-    const Mat3X& X = points.X[i];
-    v.m += m;
-    v.m_u += m * p;
-    v.P_u += m * p * p.transpose();
-    v.S += m * X;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto row = static_cast<Eigen::Index>(a);
-      v.Si[a] += m * p(row) * X;
-      for (std::size_t b = 0; b < 3; ++b) {
-        v.Sij[a][b] += m * X.row(row).transpose() * X.row(static_cast<Eigen::Index>(b));
-      }
-    }
-    body.nodes.push_back({fmt::format("P{}", i), p, X, Mat3X::Zero(3, nm)});
-  }
-  body.invariants = v;
+  body.invariants = integrals_of(points, nm);
+  for (std::size_t i = 0; i < points.m.size(); ++i)
+    body.nodes.push_back({fmt::format("P{}", i), points.p[i], points.X[i], Mat3X::Zero(3, nm)});
   body.K = MatX::Zero(nm, nm);
   body.D = MatX::Zero(nm, nm);
   return body;
 }
 
-Points random_points(Random& random, int n, int nm) {
-  Points points;
-  for (int i = 0; i < n; ++i) {
-    points.m.push_back(random(0.5, 2.0));
-    points.p.push_back(random.vec3());
-    points.X.emplace_back(random.matrix(3, nm));
-  }
-  return points;
-}
-
 FlexibleBody random_body(unsigned seed, int nm) {
   Random random(seed);
-  FlexibleBody body = body_of(random_points(random, 12, nm), nm);
+  FlexibleBody body = body_of(random_point_masses(random, 12, nm), nm);
   const MatX A = random.matrix(nm, nm), B = random.matrix(nm, nm);
   body.K = 1e6 * A * A.transpose();
   body.D = B * B.transpose();
@@ -234,7 +202,7 @@ TEST(SidFile, GyroscopicBlocksAreTheVelocityForces) {
 TEST(SidFile, SelfTests) {
   // (a) Ct = m1 of mdCM transposed; (b) translation modes: Me = m I, Ct = m I.
   Random random(9);
-  Points points = random_points(random, 6, 5);
+  PointMasses points = random_point_masses(random, 6, 5);
   for (Mat3X& X : points.X) X.leftCols<3>().setIdentity();
   const SidContent c = sid_content(body_of(points, 5));
   for (int k = 0; k < 5; ++k) {
@@ -254,20 +222,15 @@ TEST(SidFile, SelfTests) {
 /// from the origin.
 TEST(SidFile, InertiaAboutTheCentreOfMass) {
   Random random(12);
-  Points points = random_points(random, 8, 2);
+  PointMasses points = random_point_masses(random, 8, 2);
   for (Vec3& p : points.p) p += Vec3(3000.0, 4000.0, 0.0);
   FlexibleBody body = body_of(points, 2);
   body.K = 1e4 * MatX::Identity(2, 2);
-  const auto fault = [](const SidContent& content) -> std::string {
-    try {
-      sid_body(content, "far.SID_FEM");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no fault";
+  const auto fault = [](const SidContent& content) {
+    return error_of([&] { sid_body(content, "far.SID_FEM"); });
   };
   SidContent c = sid_content(body);
-  EXPECT_EQ(fault(c), "no fault");
+  EXPECT_EQ(fault(c), "no error");
   c.J.line = 7;
   const double about_centre = body.invariants.inertia_about_centre()(2, 2);
   c.J.m0(2, 0) -= 3.0 * about_centre;
@@ -293,7 +256,7 @@ TEST(SidFile, InertiaAboutTheCentreOfMass) {
 /// tests/data/fe/classical.SID_FEM: four points with two modes in the classical dialect (12 digits,
 /// D exponents, zeros left out, structures 0 to 4, Oe of order 0).
 TEST(SidFile, ClassicalDialect) {
-  Points points;
+  PointMasses points;
   points.m = {1.5, 0.5, 0.75, 1.25};
   points.p = {{0, 0, 0}, {0.8, 0.1, 0}, {0.2, 0.6, -0.1}, {0.3, -0.2, 0.5}};
   const double raw[4][2][3] = {{{0, 0, 0}, {0.2, 0.1, 0}},
@@ -418,12 +381,7 @@ TEST(SidFile, Faults) {
     }
   }
   const auto fault_of = [](const std::string& text) {
-    try {
-      parse_sid(text, "arm.SID_FEM");
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("no fault");
+    return error_of([&] { parse_sid(text, "arm.SID_FEM"); });
   };
   const std::string text = classical();
   EXPECT_EQ(fault_of(text.substr(0, text.find(" end part"))),

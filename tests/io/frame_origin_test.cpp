@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/formats/body_file.hpp"
@@ -13,6 +11,7 @@
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -42,17 +41,8 @@ const ReducedPart& rod() {
 
 class FrameOrigin : public testing::Test {
  protected:
-  FrameOrigin() {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("frame_origin_") +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-  }
-  ~FrameOrigin() override { std::filesystem::remove_all(folder_); }
-
   ModelDescription read(const std::string& text) {
-    std::ofstream(folder_ / "model.yaml") << "floatframe: 1\n" << text;
-    return read_model((folder_ / "model.yaml").string());
+    return read_model(folder_.write("model.yaml", "floatframe: 1\n" + text));
   }
   static ResultTable go(const ModelDescription& d, Coordinates coordinates) {
     SimulationDescription options = d.simulation;
@@ -70,7 +60,7 @@ class FrameOrigin : public testing::Test {
            rotation_exp(angles.x() * Vec3::UnitX());
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(FrameOrigin, AllQuantitiesInBothFormulations) {

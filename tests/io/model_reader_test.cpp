@@ -7,11 +7,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "floatframe/math/so3.hpp"
+#include "support/error_of.hpp"
+#include "support/model_text.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -197,12 +198,13 @@ TEST(Overrides, ChangeParametersAndWhatFollows) {
 }
 
 TEST(Overrides, OfTextsAreTakenAsTheyAreWritten) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "texts.yaml";
-  std::ofstream(file)
-      << "floatframe: 1\nname: ${name}\nparameters: {name: 'no one', n: 3, on: true}\n"
-         "bodies: {a: {rigid: {mass: '${n}'}, position: [0, 0, 0]}}\n";
+  const test::TemporaryFolder folder;
+  const std::string file =
+      folder.write("model.yaml",
+                   "floatframe: 1\nname: ${name}\nparameters: {name: 'no one', n: 3, on: true}\n"
+                   "bodies: {a: {rigid: {mass: '${n}'}, position: [0, 0, 0]}}\n");
   const auto name = [&](const std::string& value) {
-    return read_model(file.string(), {{"name", value}}).name;
+    return read_model(file, {{"name", value}}).name;
   };
   for (const char* value : {"true", "false", "yes", "10", "010", "1e3", "0x1F", ".nan", "a'b"})
     EXPECT_EQ(name(value), value);
@@ -210,12 +212,7 @@ TEST(Overrides, OfTextsAreTakenAsTheyAreWritten) {
   EXPECT_EQ(name("\"10\""), "10");
   EXPECT_EQ(name("${'a'}"), "a");
   const auto fault = [&](const ParameterOverride& o) {
-    try {
-      read_model(file.string(), {o});
-    } catch (const InputError& error) {
-      return std::string(error.what()).substr(file.string().size() + 2);
-    }
-    return std::string("none");
+    return test::error_of([&] { read_model(file, {o}); }).substr(file.size() + 2);
   };
   EXPECT_EQ(fault({"n", "true"}), "--set.n: found true, expected a number");
   EXPECT_EQ(fault({"n", "'4'"}), "--set.n: found '4', expected a number");
@@ -224,29 +221,22 @@ TEST(Overrides, OfTextsAreTakenAsTheyAreWritten) {
   EXPECT_EQ(fault({"on", "1"}), "--set.on: found 1, expected true or false");
   EXPECT_EQ(fault({"name", ""}), "--set name=: found nothing, expected a value");
   EXPECT_EQ(fault({"nam", "x"}), "--set: unknown parameter 'nam', did you mean 'name'?");
-  std::filesystem::remove(file);
 }
 
 TEST(Parameters, MayTakeThePlaceOfAConstant) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "constant.yaml";
-  const auto mass = [&](const std::string& parameters) {
-    std::ofstream(file)
-        << "floatframe: 1\nparameters: {" << parameters
-        << "}\nbodies: {a: {rigid: {mass: '${2 * a + mm}'}, position: [0, 0, 0]}}\n";
-    const ModelDescription d = read_model(file.string());
+  const auto mass = [](const std::string& parameters) {
+    const ModelDescription d = test::description_of(
+        "parameters: {" + parameters +
+        "}\nbodies: {a: {rigid: {mass: '${2 * a + mm}'}, position: [0, 0, 0]}}\n");
     return std::get<RigidDescription>(d.bodies[0].kind).mass;
   };
   EXPECT_DOUBLE_EQ(mass("a: '${1000 * mm}'"), 2.001);
   EXPECT_DOUBLE_EQ(mass("mm: 5, a: '${1000 * mm}'"), 10005.0);
-  try {
-    mass("a: '${1000 * mm}', mm: 5");  // before: an unknown parameter; the constant is not meant
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()).substr(file.string().size()),
-              ":2:17: parameters.a: found ${1000 * mm} = 1, but the parameter 'mm', which takes "
-              "the place of the constant, is declared later; expected it before its uses");
-  }
-  std::filesystem::remove(file);
+  // Before: an unknown parameter; the constant is not meant.
+  const std::string text = test::error_of([&] { mass("a: '${1000 * mm}', mm: 5"); });
+  EXPECT_EQ(text.substr(text.find(":2:")),
+            ":2:17: parameters.a: found ${1000 * mm} = 1, but the parameter 'mm', which takes the "
+            "place of the constant, is declared later; expected it before its uses");
 }
 
 TEST(Examples, IltisIsTheVehicleOfTheDataSheet) {

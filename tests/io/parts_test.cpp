@@ -2,13 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "floatframe/formats/body_file.hpp"
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model/model.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -18,21 +19,16 @@ const std::string bracket_file = FLOATFRAME_TEST_DATA "/body_files/bracket_v1.ff
 
 class Parts : public testing::Test {
  protected:
-  Parts() {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-    std::filesystem::copy_file(bracket_file, folder_ / "bracket.ffb",
-                               std::filesystem::copy_options::overwrite_existing);
-  }
-  ~Parts() override { std::filesystem::remove_all(folder_); }
+  Parts() { std::filesystem::copy_file(bracket_file, folder_ / "bracket.ffb"); }
 
   Model model(const std::string& text, const std::vector<ParameterOverride>& overrides = {}) {
-    std::ofstream(folder_ / "model.yaml") << "floatframe: 1\n" << text;
-    return build_model(read_model((folder_ / "model.yaml").string(), overrides));
+    return build_model(read_model(write(text), overrides));
+  }
+  std::string write(const std::string& text) {
+    return folder_.write("model.yaml", "floatframe: 1\n" + text);
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
   BodyFile bracket_ = read_body_file(bracket_file);
 };
 
@@ -178,13 +174,14 @@ TEST_F(Parts, AlignmentFindsThePose) {
 }
 
 TEST_F(Parts, MirroredInASubsystem) {
-  std::ofstream(folder_ / "half.yaml")
-      << "floatframe: 1\n"
-         "parameters: {flex: true}\n"
-         "bodies:\n"
-         "  arm: {part: bracket.ffb, flexible: \"${flex}\", position: [1, 0.4, 0], orientation: "
-         "[0.1, 0.2, 0.3]}\n"
-         "joints: {ball: {type: spherical, child: arm, child_node: eye}}\n";
+  folder_.write(
+      "half.yaml",
+      "floatframe: 1\n"
+      "parameters: {flex: true}\n"
+      "bodies:\n"
+      "  arm: {part: bracket.ffb, flexible: \"${flex}\", position: [1, 0.4, 0], orientation: "
+      "[0.1, 0.2, 0.3]}\n"
+      "joints: {ball: {type: spherical, child: arm, child_node: eye}}\n");
   for (const std::string flex : {"true", "false"}) {
     const Model m = model(
         "subsystems:\n"
@@ -212,32 +209,25 @@ TEST_F(Parts, ProjectionNeedsItsData) {
   BodyFile without = bracket_;
   without.part.body.projection = nullptr;
   write_body_file(folder_ / "bracket.ffb", without);
-  std::ofstream(folder_ / "model.yaml") << "floatframe: 1\n" << text;
-  const ModelDescription d = read_model((folder_ / "model.yaml").string());
+  const ModelDescription d = read_model(write(text));
   EXPECT_NO_THROW(check_inertia_method(d, InertiaMethod::preprocessing));
-  try {
-    check_inertia_method(d, InertiaMethod::projection);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()).substr((folder_ / "model.yaml").string().size()),
-              ":2:22: bodies.arm: the part was reduced without projection data, expected inertia "
-              "terms by preprocessing (or a reduction with projection: true)");
-  }
+  EXPECT_EQ(
+      folder_.without(test::error_of([&] { check_inertia_method(d, InertiaMethod::projection); })),
+      "model.yaml:2:22: bodies.arm: the part was reduced without projection data, expected "
+      "inertia terms by preprocessing (or a reduction with projection: true)");
 }
 
 TEST_F(Parts, WarningsOfItsReportAreTold) {
-  std::ofstream(folder_ / "model.yaml") << "floatframe: 1\nbodies: {arm: {part: bracket.ffb}}\n";
+  const std::string file = write("bodies: {arm: {part: bracket.ffb}}\n");
   std::vector<std::string> lines;
-  read_model((folder_ / "model.yaml").string(), {}, nullptr,
-             {[&](const std::string& line) { lines.push_back(line); }});
+  read_model(file, {}, nullptr, {[&](const std::string& line) { lines.push_back(line); }});
   EXPECT_EQ(lines, (std::vector<std::string>{"bodies.arm: the health report of '" +
-                                             (folder_ / "bracket.ffb").string() +
+                                             folder_.file("bracket.ffb") +
                                              "' has 1 warning (floatframe info shows it)"}));
 }
 
 TEST_F(Parts, StandardInputDataIsAPartToo) {
-  std::filesystem::copy_file(FLOATFRAME_TEST_DATA "/fe/classical.SID_FEM", folder_ / "a.SID_FEM",
-                             std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(FLOATFRAME_TEST_DATA "/fe/classical.SID_FEM", folder_ / "a.SID_FEM");
   const std::string text =
       "parameters: {flex: true}\nbodies: {arm: {part: a.SID_FEM, flexible: \"${flex}\"}}\n";
   EXPECT_GT(model(text).bodies[0].modes(), 0);

@@ -1,11 +1,9 @@
 // Writers of results: CSV round trip, JSON keys and words, files that appear whole or not at all.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -13,28 +11,12 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/io/results_csv.hpp"
 #include "floatframe/io/summary_json.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "floatframe-test-XXXXXX").string();
-    path = ::mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() { fs::remove_all(path); }
-  fs::path path;
-};
 
 TEST(ResultsCsv, HasOneHeaderLineWithUnits) {
   const ResultTable table{{{"time", "s"}, {"chassis.z", "m"}, {"ratio", ""}}, {0, 0.5, 1}};
@@ -158,25 +140,25 @@ TEST(StaticsJson, ListsForcesJointsAndBodies) {
 }
 
 TEST(AtomicFile, ReplacesTheFileAndLeavesNothingElse) {
-  const TemporaryFolder folder;
-  const std::string path = (folder.path / "results.csv").string();
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("results.csv");
   write_file(path, "first");
   write_file(path, "second");
-  EXPECT_EQ(content_of(path), "second");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 1);
+  EXPECT_EQ(folder.read("results.csv"), "second");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }
 
 TEST(AtomicFile, FolderIsMadeWithThoseAboveItAndLeftEmpty) {
-  const TemporaryFolder folder;
-  const fs::path deep = folder.path / "a" / "b";
+  const test::TemporaryFolder folder;
+  const fs::path deep = folder / "a" / "b";
   make_output_folder(deep.string());
   EXPECT_TRUE(fs::is_directory(deep));
   EXPECT_TRUE(fs::is_empty(deep));
 }
 
 TEST(AtomicFile, SaysWhatCannotBeWrittenAndWhy) {
-  const TemporaryFolder folder;
-  const std::string file = (folder.path / "file").string();
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("file");
   write_file(file, "x");
   const auto message_of = [](auto&& action) -> std::string {
     try {
@@ -190,8 +172,8 @@ TEST(AtomicFile, SaysWhatCannotBeWrittenAndWhy) {
             "the output folder '" + file + "/out' cannot be written: Not a directory");
   EXPECT_EQ(message_of([&] { write_file(file + "/x", ""); }),
             "the file '" + file + "/x' cannot be written: Not a directory");
-  EXPECT_EQ(message_of([&] { check_writable(folder.path.string()); }),
-            "the file '" + folder.path.string() + "' cannot be written: Is a directory");
+  EXPECT_EQ(message_of([&] { check_writable(folder.path().string()); }),
+            "the file '" + folder.path().string() + "' cannot be written: Is a directory");
 }
 
 TEST(AtomicFile, FullDeviceIsAnErrorAndStaysADevice) {
@@ -201,11 +183,11 @@ TEST(AtomicFile, FullDeviceIsAnErrorAndStaysADevice) {
 }
 
 TEST(AtomicFile, CheckLeavesAnExistingFileAlone) {
-  const TemporaryFolder folder;
-  const std::string path = (folder.path / "bench.json").string();
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("bench.json");
   write_file(path, "kept");
   check_writable(path);
-  EXPECT_EQ(content_of(path), "kept");
+  EXPECT_EQ(folder.read("bench.json"), "kept");
 }
 
 TEST(AtomicFile, FileNamesFromUserText) {

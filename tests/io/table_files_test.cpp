@@ -2,63 +2,46 @@
 // faults have the place in the CSV file; sweeps and caches know that it was read.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/io/model_reader.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
 
 class TableFiles : public testing::Test {
  protected:
-  TableFiles() {
-    folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        (std::string("tables_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_ / "data");
-  }
-  ~TableFiles() override { std::filesystem::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
   ModelDescription read(const std::string& motion, const std::string& spring,
                         const std::string& road, ModelFingerprint* used = nullptr) {
-    write("model.yaml",
-          "floatframe: 1\n"
-          "bodies: {a: {rigid: {mass: 1, inertia: [1, 1, 1]}, position: [0, 0, 0]}}\n"
-          "joints: {j: {type: prismatic, child: a, at: [0, 0, 0], axis: z, motion: {table: " +
-              motion +
-              "}}}\n"
-              "forces:\n  s: {type: spring_damper, from: {body: ground, at: [0, 0, 1]}, to: {body: "
-              "a}, spring: {table: " +
-              spring + ", interpolation: cubic}}\nroads: {r: {profile: " + road + "}}\n");
-    return read_model((folder_ / "model.yaml").string(), {}, used);
+    folder_.write(
+        "model.yaml",
+        "floatframe: 1\n"
+        "bodies: {a: {rigid: {mass: 1, inertia: [1, 1, 1]}, position: [0, 0, 0]}}\n"
+        "joints: {j: {type: prismatic, child: a, at: [0, 0, 0], axis: z, motion: {table: " +
+            motion +
+            "}}}\n"
+            "forces:\n  s: {type: spring_damper, from: {body: ground, at: [0, 0, 1]}, to: {body: "
+            "a}, spring: {table: " +
+            spring + ", interpolation: cubic}}\nroads: {r: {profile: " + road + "}}\n");
+    return read_model(folder_.file("model.yaml"), {}, used);
   }
   std::string faults(const std::string& table) {
-    write("t.csv", table);
-    try {
-      read("t.csv", "[[0, 0], [1, 1]]", "[[0, 0]]");
-    } catch (const InputError& error) {
-      std::string text = error.what();
-      const std::string prefix = folder_.string() + "/";
-      for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix))
-        text.erase(at, prefix.size());
-      return text;
-    }
-    return "none";
+    folder_.write("t.csv", table);
+    return fault_of_motion("t.csv");
+  }
+  std::string fault_of_motion(const std::string& name) {
+    return folder_.without(test::error_of([&] { read(name, "[[0, 0], [1, 1]]", "[[0, 0]]"); }));
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(TableFiles, GiveWhatTheSameNumbersInTheModelFileGive) {
-  write("data/motion.csv",
-        "\xEF\xBB\xBF# a ramp\ntime [s],z [m]\n0,0\n0.5, 0.25 # half\n\n1,1e0\r\n2,-1\n");
-  write("data/spring.csv", "0.5;-100\n1;0\n1.5;200\n");
-  write("data/road.csv", "x z\n0 0\n 1\t0\n1   0.1\n4 0.1");
+  folder_.write("data/motion.csv",
+                "\xEF\xBB\xBF# a ramp\ntime [s],z [m]\n0,0\n0.5, 0.25 # half\n\n1,1e0\r\n2,-1\n");
+  folder_.write("data/spring.csv", "0.5;-100\n1;0\n1.5;200\n");
+  folder_.write("data/road.csv", "x z\n0 0\n 1\t0\n1   0.1\n4 0.1");
   const ModelDescription from_files = read("data/motion.csv", "data/spring.csv", "data/road.csv");
   const ModelDescription written =
       read("[[0, 0], [0.5, 0.25], [1, 1], [2, -1]]", "[[0.5, -100], [1, 0], [1.5, 200]]",
@@ -75,14 +58,13 @@ TEST_F(TableFiles, GiveWhatTheSameNumbersInTheModelFileGive) {
 }
 
 TEST_F(TableFiles, AreAmongTheFilesOfTheFingerprint) {
-  write("t.csv", "0,0\n1,1\n");
+  folder_.write("t.csv", "0,0\n1,1\n");
   ModelFingerprint before, after;
   read("t.csv", "t.csv", "t.csv", &before);
-  EXPECT_EQ(before.files.at((folder_ / "t.csv").string()), content_hash("0,0\n1,1\n"));
-  write("t.csv", "0,0\n1,2\n");
+  EXPECT_EQ(before.files.at(folder_.file("t.csv")), content_hash("0,0\n1,1\n"));
+  folder_.write("t.csv", "0,0\n1,2\n");
   read("t.csv", "t.csv", "t.csv", &after);
-  EXPECT_NE(before.files.at((folder_ / "t.csv").string()),
-            after.files.at((folder_ / "t.csv").string()));
+  EXPECT_NE(before.files.at(folder_.file("t.csv")), after.files.at(folder_.file("t.csv")));
 }
 
 TEST_F(TableFiles, FaultsHaveTheirPlace) {
@@ -111,33 +93,28 @@ TEST_F(TableFiles, FaultsHaveTheirPlace) {
 }
 
 TEST_F(TableFiles, OnlyFilesThatAreThereAndRegular) {
-  const auto fault = [&](const std::string& name) {
-    try {
-      read(name, "[[0, 0], [1, 1]]", "[[0, 0]]");
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
-  };
-  EXPECT_NE(fault("missing.csv").find("the file does not exist"), std::string::npos);
-  EXPECT_NE(fault("data").find("this is a folder, not a file"), std::string::npos);
-  EXPECT_NE(fault("/dev/zero").find("this is not a regular file"), std::string::npos);
-  EXPECT_NE(fault("3").find("found 3, expected a list of points [x, f] or the name of a CSV file"),
+  std::filesystem::create_directory(folder_ / "data");
+  EXPECT_NE(fault_of_motion("missing.csv").find("the file does not exist"), std::string::npos);
+  EXPECT_NE(fault_of_motion("data").find("this is a folder, not a file"), std::string::npos);
+  EXPECT_NE(fault_of_motion("/dev/zero").find("this is not a regular file"), std::string::npos);
+  EXPECT_NE(fault_of_motion("3").find(
+                "found 3, expected a list of points [x, f] or the name of a CSV file"),
             std::string::npos);
-  EXPECT_NE(fault("{a: 1}").find("found a map, expected a list of points [x, f] or the name of a "
-                                 "CSV file"),
+  EXPECT_NE(fault_of_motion("{a: 1}").find(
+                "found a map, expected a list of points [x, f] or the name of a "
+                "CSV file"),
             std::string::npos);
 }
 
 TEST_F(TableFiles, BelongToTheFolderOfTheSubsystem) {
-  write("data/t.csv", "0,0\n1,1\n");
-  write("data/part.yaml",
-        "floatframe: 1\nparameters: {file: t}\n"
-        "bodies: {a: {rigid: {mass: 1, inertia: [1, 1, 1]}, position: [0, 0, 0]}}\n"
-        "joints: {j: {type: prismatic, child: a, at: [0, 0, 0], axis: z, motion: {table: "
-        "\"${file}.csv\"}}}\n");
-  write("model.yaml", "floatframe: 1\nsubsystems: {s: {file: data/part.yaml}}\n");
-  const ModelDescription d = read_model((folder_ / "model.yaml").string());
+  folder_.write("data/t.csv", "0,0\n1,1\n");
+  folder_.write("data/part.yaml",
+                "floatframe: 1\nparameters: {file: t}\n"
+                "bodies: {a: {rigid: {mass: 1, inertia: [1, 1, 1]}, position: [0, 0, 0]}}\n"
+                "joints: {j: {type: prismatic, child: a, at: [0, 0, 0], axis: z, motion: {table: "
+                "\"${file}.csv\"}}}\n");
+  folder_.write("model.yaml", "floatframe: 1\nsubsystems: {s: {file: data/part.yaml}}\n");
+  const ModelDescription d = read_model(folder_.file("model.yaml"));
   EXPECT_EQ(d.joints[0].motion->pieces(0.5).f, 0.5);
 }
 

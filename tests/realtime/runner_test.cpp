@@ -214,6 +214,16 @@ TEST(RealTime, SilentInputsAreHeldOrReturnToTheirInitialValues) {
   }
 }
 
+TEST(RealTime, SilenceIsReportedAfterASecondByDefault) {
+  for (const double duration : {0.9, 1.1}) {
+    Sometimes silent([](long k) { return k == 1; });
+    const RealTimeReport r = run_real_time(model(), simulation(duration), unpaced(), &silent);
+    EXPECT_EQ(r.status, "completed");
+    EXPECT_EQ(r.input_timeouts, duration > 1.0 ? 1 : 0);
+    EXPECT_EQ(r.inputs[0], 30.0);  // held
+  }
+}
+
 TEST(RealTime, EverySilenceHasItsTimes) {
   Sometimes port([](long k) { return k == 2 || k == 8 || k == 10 || k == 16; });
   std::atomic<double> since{-1.0};

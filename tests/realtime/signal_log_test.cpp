@@ -4,17 +4,18 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/realtime/realtime.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -29,35 +30,15 @@ Model one_in_one_out() {
   return m;
 }
 
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "floatframe-log-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const char* name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-std::string content(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
 using Values = std::vector<double>;
 
 TEST(SignalLog, HoldsEveryRowWithAllItsDigits) {
-  const Folder folder;
-  const std::string path = folder.file("log.csv");
-  SignalLog log(one_in_one_out(), path, true);
+  const TemporaryFolder folder;
+  SignalLog log(one_in_one_out(), folder.file("log.csv"), true);
   log.push(0.0, Values{0.5}, Values{1.0});
   log.push(0.1, Values{-3.0}, Values{1.0 / 3.0});
   log.finish();
-  EXPECT_EQ(content(path),
+  EXPECT_EQ(folder.read("log.csv"),
             "time [s],input.push [N],z [m]\n"
             "0,0.5,1\n"
             "0.10000000000000001,-3,0.33333333333333331\n");
@@ -67,7 +48,7 @@ TEST(SignalLog, HoldsEveryRowWithAllItsDigits) {
 }
 
 TEST(SignalLog, LosesNothingWhereNobodyPaces) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Model wide = one_in_one_out();
   for (int k = 0; k < 5000; ++k) wide.outputs.push_back(wide.outputs[0]);
   const Values outputs(wide.outputs.size(), 1.0);
@@ -76,13 +57,26 @@ TEST(SignalLog, LosesNothingWhereNobodyPaces) {
   log.finish();
   EXPECT_EQ(log.rows(), 1000);
   EXPECT_EQ(log.lost(), 0);
-  const std::string text = content(folder.file("log.csv"));
+  const std::string text = folder.read("log.csv");
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1001);
+}
+
+TEST(SignalLog, CanBeFollowedWhileItGrows) {
+  const TemporaryFolder folder;
+  SignalLog log(one_in_one_out(), folder.file("log.csv"), false);
+  std::string expected = "time [s],input.push [N],z [m]\n";
+  for (int k = 0; k < 3; ++k) {
+    log.push(k, Values{0.5}, Values{2.0});
+    expected += std::to_string(k) + ",0.5,2\n";
+    for (int waited = 0; folder.read("log.csv") != expected && waited < 6000; ++waited)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(folder.read("log.csv"), expected);
+  }
 }
 
 TEST(SignalLog, PushingDoesNotAllocate) {
   if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
-  const Folder folder;
+  const TemporaryFolder folder;
   SignalLog log(one_in_one_out(), folder.file("log.csv"), false);
   const Values in{1.0}, out{2.0};
   const AllocationScope scope;
@@ -101,7 +95,7 @@ TEST(SignalLog, ErrorsOfTheDiskAreReported) {
 }
 
 TEST(SignalLog, WhatCannotBeOpenedIsRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   EXPECT_THROW(SignalLog(one_in_one_out(), folder.file("nowhere/log.csv"), true), OutputError);
   // A pipe that nobody reads would block for ever.
   const std::string pipe = folder.file("pipe");
@@ -125,7 +119,7 @@ class Counting final : public SignalPort {
 };
 
 TEST(SignalLog, EachStepOfARunHasOneRow) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const ModelDescription d = read_model(FLOATFRAME_TEST_DATA "/good_models/inputs.yaml");
   const Model model = build_model(d);
   SimulationDescription s = d.simulation;
@@ -139,7 +133,7 @@ TEST(SignalLog, EachStepOfARunHasOneRow) {
   log.finish();
   EXPECT_EQ(r.status, "completed");
   EXPECT_EQ(log.rows(), 11);
-  std::istringstream text(content(folder.file("log.csv")));
+  std::istringstream text(folder.read("log.csv"));
   std::string line;
   std::getline(text, line);
   EXPECT_EQ(line.substr(0, 31), "time [s],input.push [N],input.p");

@@ -1,12 +1,13 @@
 #pragma once
 // Short hands of the tests of runs: figures printed beside what they are held against, the four
-// combinations of coordinates and inertia method, columns of a result.
+// combinations of coordinates and inertia method, columns of a result, messages of runs that fail.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <string>
 
 #include "floatframe/simulation/simulation.hpp"
@@ -41,6 +42,28 @@ inline SimulationDescription with(SimulationDescription s, const Combination& c,
   s.duration = duration;
   s.output_interval = output_interval;
   return s;
+}
+
+inline RunResult run_of(const Model& model, const Combination& c) {
+  const SimulationDescription& s = model.simulation;
+  return run(model, with(s, c, s.step, s.duration));
+}
+
+/// The message of the error that `f` throws.
+template <class Error = std::exception, class Function>
+std::string message_of(Function&& f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    std::printf("[ message ] %s\n", e.what());
+    return e.what();
+  }
+  ADD_FAILURE() << "no error";
+  return {};
+}
+
+inline void expect_in(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
 }
 
 inline std::size_t column(const ResultTable& table, const std::string& name) {

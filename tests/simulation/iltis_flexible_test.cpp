@@ -2,7 +2,6 @@
 // that other meshes, mode counts, sections and interfaces run.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -12,6 +11,8 @@
 #include "floatframe/simulation/initial_state.hpp"
 #include "simulation/figures.hpp"
 #include "simulation/iltis.hpp"
+#include "support/dense_algebra.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -38,8 +39,7 @@ TEST(IltisFlexible, Counts) {
 
 /// Rank by singular values above 1e-9 of the largest.
 Eigen::Index rank_of(const MatX& J, const std::string& name) {
-  const Eigen::BDCSVD<MatX> svd(J);
-  const VecX s = svd.singularValues();
+  const VecX s = singular_values(J);
   figure(name + ": smallest singular value / largest", s[s.size() - 1] / s[0]);
   return (s.array() > 1e-9 * s[0]).count();
 }
@@ -153,12 +153,11 @@ TEST(IltisFlexible, OtherMassModelsRun) {
 
 /// A copy of the example's folder with one text of suspension.yaml replaced.
 ModelDescription changed_suspension(
-    const std::string& name, const std::vector<std::pair<std::string, std::string>>& changes) {
+    const std::vector<std::pair<std::string, std::string>>& changes) {
   namespace fs = std::filesystem;
   const fs::path from = fs::path(FLOATFRAME_EXAMPLES) / "iltis";
-  const fs::path to = fs::path(::testing::TempDir()) / ("floatframe_iltis_" + name);
-  fs::create_directories(to);
-  fs::copy_file(from / "iltis.yaml", to / "iltis.yaml", fs::copy_options::overwrite_existing);
+  const TemporaryFolder to;
+  fs::copy_file(from / "iltis.yaml", to / "iltis.yaml");
   std::stringstream text;
   text << std::ifstream(from / "suspension.yaml").rdbuf();
   std::string s = text.str();
@@ -167,10 +166,8 @@ ModelDescription changed_suspension(
     for (std::size_t at = 0; (at = s.find(old, at)) != std::string::npos; at += now.size())
       s.replace(at, old.size(), now);
   }
-  std::ofstream(to / "suspension.yaml") << s;
-  const ModelDescription d = read_model((to / "iltis.yaml").string());
-  fs::remove_all(to);
-  return d;
+  to.write("suspension.yaml", s);
+  return read_model(to.file("iltis.yaml"));
 }
 
 void runs(const std::string& name, const ModelDescription& d, int elastic) {
@@ -191,26 +188,23 @@ void runs(const std::string& name, const ModelDescription& d, int elastic) {
 
 TEST(IltisFlexible, OtherBarsSectionsInterfacesAndModesRun) {
   runs("more modes",
-       changed_suspension("modes", {{"normal_modes: 2", "normal_modes: 6"},
-                                    {"dynamic_per_plane: 2", "dynamic_per_plane: 3"}}),
+       changed_suspension({{"normal_modes: 2", "normal_modes: 6"},
+                           {"dynamic_per_plane: 2", "dynamic_per_plane: 3"}}),
        4 * (8 + 8 + 8));
   runs("static modes alone",
-       changed_suspension("static", {{"normal_modes: 2", "normal_modes: 0"},
-                                     {"dynamic_per_plane: 2", "dynamic_per_plane: 0"}}),
+       changed_suspension({{"normal_modes: 2", "normal_modes: 0"},
+                           {"dynamic_per_plane: 2", "dynamic_per_plane: 0"}}),
        4 * (2 + 2 + 2));
   runs("hollow arm, flat link",
-       changed_suspension("sections",
-                          {{"{round: 0.03737837}", "{tube: [0.045, 0.025]}"},
+       changed_suspension({{"{round: 0.03737837}", "{tube: [0.045, 0.025]}"},
                            {"section: {round: 0.03}", "section: {rectangle: [0.05, 0.02]}"}}),
        64);
   runs("all translations as interfaces",
-       changed_suspension("interfaces",
-                          {{"point: shock_lower, dofs: [z]", "point: shock_lower, dofs: [x, y, z]"},
+       changed_suspension({{"point: shock_lower, dofs: [z]", "point: shock_lower, dofs: [x, y, z]"},
                            {"point: arm_ball, dofs: [z]", "point: arm_ball, dofs: [x, y, z]"}}),
        4 * (8 + 6 + 6));
   runs("finite-element modes of the bars",
        changed_suspension(
-           "fe_modes",
            {{"analytic: {dynamic_per_plane: 2}\n      mass_model: ${mass_model}\n\n  rod:",
              "clamped: [link_hinge]\n      static_modes: [{point: link_ball, dofs: [y, z]}]\n"
              "      normal_modes: 4\n      mass_model: ${mass_model}\n\n  rod:"}}),

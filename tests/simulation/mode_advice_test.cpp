@@ -2,15 +2,12 @@
 #include "floatframe/simulation/mode_advice.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "floatframe/body/with_modes.hpp"
-#include "floatframe/io/model_reader.hpp"
+#include "support/model_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -18,7 +15,6 @@ namespace {
 // A cantilever of 1 m that is welded to the ground and carries a tip mass on a slow sine force in
 // z. Its bending in y is never excited, and its higher bending modes in z hardly.
 const char* const cantilever = R"(
-floatframe: 1
 gravity: [0, 0, 0]
 parameters: {normal: 6, frequency: 1}
 points: {root: [0, 0, 0], tip: [1, 0, 0]}
@@ -44,12 +40,7 @@ simulation: {step: 0.002, duration: 1, spectral_radius: 0.8, tolerance: 1.0e-9}
 
 ModelDescription description(const std::string& text,
                              const std::vector<ParameterOverride>& values = {}) {
-  const std::string path =
-      testing::TempDir() + "floatframe_advice_" + std::to_string(::getpid()) + ".yaml";
-  std::ofstream(path) << text;
-  ModelDescription d = read_model(path, values);
-  std::filesystem::remove(path);
-  return d;
+  return test::description_of(text, values);
 }
 
 ModeAdviceReport advise(const ModelDescription& d, AdviceOptions options = {}) {
@@ -150,7 +141,6 @@ TEST(ModeAdvice, ARunThatChangesRefusesTheDrop) {
 
 TEST(ModeAdvice, AModelWithoutModes) {
   const ModelDescription d = description(R"(
-floatframe: 1
 bodies: {rod: {rigid: {mass: 1, centre_of_mass: [0.5, 0, 0], inertia: [0.01, 0.1, 0.1]}}}
 joints: {hinge: {type: revolute, child: rod, at: [0, 0, 0], axis: y}}
 simulation: {step: 0.01, duration: 0.1}

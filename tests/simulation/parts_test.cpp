@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <map>
 
@@ -14,6 +13,7 @@
 #include "floatframe/reduction/part.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "simulation/figures.hpp"
+#include "support/dense_algebra.hpp"
 #include "support/random_model.hpp"
 #include "support/trajectory_models.hpp"
 
@@ -82,7 +82,7 @@ Launch represent(const ReducedPart& part, const VecX& field, double& residual) {
   // Columns of one size: the modes and the rigid motions differ by orders of magnitude.
   const VecX scale = A.colwise().norm().cwiseInverse();
   const MatX scaled = A * scale.asDiagonal();
-  const VecX x = scale.asDiagonal() * VecX(scaled.colPivHouseholderQr().solve(field));
+  const VecX x = scale.asDiagonal() * VecX(least_squares(scaled, field));
   residual = (A * x - field).norm() / field.norm();
   return {x.head<3>(), x.segment<3>(3), x.tail(mesh.X.cols())};
 }
@@ -92,8 +92,7 @@ VecX lowest_mode_field() {
   const ReducedPart& part = rod(BodyReference::Kind::mean_axis);
   const InertiaInvariants& v = part.body.invariants;
   const MatX M = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(part.body.K, M);
-  const VecX field = part.body.projection->X * solver.eigenvectors().col(0);
+  const VecX field = part.body.projection->X * lowest_eigenvector(part.body.K, M);
   return field / field.cwiseAbs().maxCoeff();
 }
 

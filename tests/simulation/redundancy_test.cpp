@@ -2,24 +2,16 @@
 #include "floatframe/simulation/redundancy.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/model_text.hpp"
 
 namespace floatframe::test {
 namespace {
-
-Model model_of(const std::string& text) {
-  const std::string path =
-      ::testing::TempDir() + "redundancy_test_" + std::to_string(getpid()) + ".yaml";
-  std::ofstream(path) << "floatframe: 1\n" << text;
-  return build_model(read_model(path));
-}
 
 std::vector<std::string> texts(const std::vector<RedundantDirection>& redundant) {
   std::vector<std::string> out;

@@ -3,13 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/io/state_json.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -64,27 +62,14 @@ simulation: {step: 1.0e-3, duration: 0.4, output_interval: 0.01}
 )";
 
 ModelDescription read_text(const std::string& text, const std::string& state = "") {
-  const auto folder =
-      std::filesystem::temp_directory_path() /
-      (std::string("state_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "model.yaml") << text;
-  std::ofstream(folder / "state.json") << state;
-  struct Remove {
-    std::filesystem::path folder;
-    ~Remove() { std::filesystem::remove_all(folder); }
-  } remove{folder};
-  return read_model((folder / "model.yaml").string());
+  const test::TemporaryFolder folder;
+  folder.write("state.json", state);
+  return read_model(folder.write("model.yaml", text));
 }
 
 SystemState copy_through_file(const SystemState& state) {
-  const auto file = std::filesystem::temp_directory_path() /
-                    (std::string("copy_") +
-                     ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json");
-  std::ofstream(file) << state_json(state);
-  SystemState read = read_state(file.string());
-  std::filesystem::remove(file);
-  return read;
+  const test::TemporaryFolder folder;
+  return read_state(folder.write("copy.json", state_json(state)));
 }
 
 RunResult run_keeping(const Model& model, const SimulationDescription& o) {
@@ -319,12 +304,10 @@ TEST(SystemState, OfAnotherModel) {
 
 TEST(SystemState, DamagedFiles) {
   const auto read = [](const std::string& text) {
-    const auto file = std::filesystem::temp_directory_path() / "damaged_state.json";
-    std::ofstream(file) << text;
-    const std::string fault = fault_of([&] { read_state(file.string()); });
-    std::filesystem::remove(file);
-    return fault.rfind(file.string() + ": ", 0) == 0 ? fault.substr(file.string().size() + 2)
-                                                     : fault;
+    const test::TemporaryFolder folder;
+    const std::string file = folder.write("damaged.json", text) + ": ";
+    const std::string fault = fault_of([&] { read_state(folder.file("damaged.json")); });
+    return fault.starts_with(file) ? fault.substr(file.size()) : fault;
   };
   EXPECT_EQ(read(""), "this is not a state file (damaged, or not JSON)");
   EXPECT_EQ(read("{\"floatframe_state\": 1, "), "this is not a state file (damaged, or not JSON)");

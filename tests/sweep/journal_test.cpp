@@ -1,17 +1,15 @@
 // The journal of a study: what survives, what is refused.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -22,16 +20,8 @@ SweepRow row(const std::string& value) {
 
 class Journal : public testing::Test {
  protected:
-  void SetUp() override {
-    path_ = testing::TempDir() + "floatframe_journal_" + std::to_string(::getpid());
-    std::filesystem::remove(path_);
-  }
-  void TearDown() override { std::filesystem::remove_all(path_); }
-  std::string text() const {
-    std::ifstream in(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  void set_text(const std::string& t) const { std::ofstream(path_, std::ios::binary) << t; }
+  std::string text() const { return folder_.read("sweep.journal"); }
+  void set_text(const std::string& t) const { folder_.write("sweep.journal", t); }
   std::size_t finished(const SweepIdentity& identity = study) const {
     return SweepJournal(path_, identity, 10, false).finished().size();
   }
@@ -44,7 +34,8 @@ class Journal : public testing::Test {
     return "accepted";
   }
 
-  std::string path_;
+  test::TemporaryFolder folder_;
+  const std::string path_ = folder_.file("sweep.journal");
   inline static const SweepIdentity study{{"another program", "1"}, {"another model", "abc"}};
 };
 

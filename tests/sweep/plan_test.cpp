@@ -1,10 +1,9 @@
 // Which runs a study consists of.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/sweep/sweep_plan.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -12,12 +11,7 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string fault_of(const std::vector<std::string>& variations) {
-  try {
-    grid_plan(variations);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no fault";
+  return test::error_of([&] { grid_plan(variations); });
 }
 
 TEST(GridPlan, LastVariationChangesFastest) {
@@ -76,21 +70,13 @@ TEST(GridPlan, FaultsAreOneSentence) {
 
 class TablePlan : public testing::Test {
  protected:
-  std::string write(const std::string& text) {
-    const std::string path = testing::TempDir() + "floatframe_table_plan.csv";
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
+  std::string write(const std::string& text) { return folder_.write("plan.csv", text); }
   std::string fault_of_table(const std::string& text) {
     const std::string path = write(text);
-    try {
-      table_plan(path);
-    } catch (const InputError& error) {
-      std::string message = error.what();
-      return message.substr(message.find(path) + path.size());
-    }
-    return "no fault";
+    const std::string message = test::error_of([&] { table_plan(path); });
+    return message.substr(message.find(path) + path.size());
   }
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(TablePlan, OneRunALine) {
@@ -112,7 +98,7 @@ TEST_F(TablePlan, FaultsNameThePlace) {
   EXPECT_EQ(fault_of_table("a,,b\n1,2,3\n"),
             ":1:1: found nothing, expected the name of a parameter");
   EXPECT_EQ(fault_of_table("a,a\n1,2\n"), ":1:1: 'a' is varied twice");
-  EXPECT_THROW(table_plan(testing::TempDir() + "nowhere.csv"), InputError);
+  EXPECT_THROW(table_plan(folder_.file("nowhere.csv")), InputError);
 }
 
 }  // namespace

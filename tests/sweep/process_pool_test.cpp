@@ -11,13 +11,13 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <set>
 #include <stdexcept>
 #include <thread>
 
 #include "floatframe/simulation/simulation.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -261,7 +261,8 @@ TEST(ProcessPool, NoProcessOutlivesTheProgram) {
 
 // A lock of a file is held by all processes that have inherited it.
 TEST(ProcessPool, WorkersHoldNoFilesOfTheProgram) {
-  const std::string path = testing::TempDir() + "floatframe_lock_" + std::to_string(::getpid());
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("lock");
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT, 0600);
   ASSERT_EQ(::flock(file, LOCK_EX), 0);
   ProcessPool pool(1, {}, work);
@@ -270,7 +271,6 @@ TEST(ProcessPool, WorkersHoldNoFilesOfTheProgram) {
   const int again = ::open(path.c_str(), O_RDWR);
   EXPECT_EQ(::flock(again, LOCK_EX | LOCK_NB), 0);
   ::close(again);
-  ::unlink(path.c_str());
 }
 
 // Ctrl-C goes to all processes of the terminal: what becomes of the runs is for the program to say.

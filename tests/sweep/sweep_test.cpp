@@ -2,16 +2,15 @@
 #include "floatframe/sweep/sweep.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/sweep/simulation_option.hpp"
 #include "floatframe/sweep/sweep_run.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -31,35 +30,17 @@ simulation: {step: "${step}", duration: 0.2}
 class Sweep : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = testing::TempDir() + "floatframe_sweep_" + std::to_string(::getpid()) + "_" +
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    write("pendulum.yaml", pendulum);
-    options_.model = folder_ + "/pendulum.yaml";
-    options_.folder = folder_ + "/out";
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ + "/" + name, std::ios::binary) << text;
-  }
-  std::string read(const std::string& name) const {
-    std::ifstream in(folder_ + "/" + name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    options_.model = folder_.write("pendulum.yaml", pendulum);
+    options_.folder = folder_.file("out");
   }
   SweepReport run() {
     return run_sweep(options_, stop_, [](const SweepProgress&) {});
   }
   std::string fault() {
-    try {
-      run();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no fault";
+    return test::error_of([&] { run(); });
   }
 
-  std::string folder_;
+  test::TemporaryFolder folder_;
   SweepOptions options_;
   std::atomic<bool> stop_{false};
 };
@@ -150,18 +131,18 @@ TEST_F(Sweep, RunsThatShareAModelShareTheObject) {
 TEST_F(Sweep, TableDoesNotDependOnThreads) {
   options_.plan = grid_plan({"push=-2:2:5", "mass=1,2", "coordinates=relative,absolute"});
   EXPECT_EQ(run().finished, 20u);
-  const std::string one = read("out/sweep.csv");
+  const std::string one = folder_.read("out/sweep.csv");
   EXPECT_EQ(std::count(one.begin(), one.end(), '\n'), 21);
   options_.threads = 3;
-  options_.folder = folder_ + "/three";
+  options_.folder = folder_.file("three");
   run();
-  EXPECT_EQ(read("three/sweep.csv"), one);
+  EXPECT_EQ(folder_.read("three/sweep.csv"), one);
 }
 
 TEST_F(Sweep, FailedRunsHaveRows) {
   // A rod between two bodies, one of them driven away: too short for the second value, torn in the
   // third.
-  write("tie.yaml", R"(
+  options_.model = folder_.write("tie.yaml", R"(
 floatframe: 1
 parameters: {length: 2, far: 0}
 bodies:
@@ -176,7 +157,6 @@ outputs:
   slider.x: {position: slider, axis: x}
 simulation: {step: 0.01, duration: 1}
 )");
-  options_.model = folder_ + "/tie.yaml";
   options_.plan.names = {"length", "far"};
   options_.plan.runs = {{"1.25", "0"}, {"9", "0"}, {"1.25", "-2"}};
   options_.plan.origins.assign(3, "--vary");
@@ -184,7 +164,7 @@ simulation: {step: 0.01, duration: 1}
   EXPECT_EQ(report.finished, 3u);
   EXPECT_EQ(report.failed, 2u);
   EXPECT_EQ(report.first_failed, 2u);
-  const std::string table = read("out/sweep.csv");
+  const std::string table = folder_.read("out/sweep.csv");
   EXPECT_NE(table.find("\n1,1.25,0,completed,,1,"), std::string::npos) << table;
   EXPECT_NE(table.find("\n2,9,0,failed,"), std::string::npos) << table;
   EXPECT_NE(table.find("\n3,1.25,-2,failed,step failed at t = "), std::string::npos) << table;
@@ -201,9 +181,10 @@ TEST_F(Sweep, ARunThatTakesTooLongIsARowAndCanBeRepeated) {
   EXPECT_EQ(report.failed, 1u);
   EXPECT_EQ(report.first_failed, 2u);
   EXPECT_EQ(report.first_message, "stopped after 2 s (--case-timeout)");
-  EXPECT_NE(read("out/sweep.csv").find("\n2,1000000,failed,stopped after 2 s (--case-timeout),,"),
-            std::string::npos);
-  EXPECT_NE(read("out/runs/2/summary.json").find("stopped after 2 s"), std::string::npos);
+  EXPECT_NE(
+      folder_.read("out/sweep.csv").find("\n2,1000000,failed,stopped after 2 s (--case-timeout),,"),
+      std::string::npos);
+  EXPECT_NE(folder_.read("out/runs/2/summary.json").find("stopped after 2 s"), std::string::npos);
   options_.limits.seconds = 1.5;  // no part of what the study is
   EXPECT_EQ(run().before, 3u);
   options_.retry_failed = true;
@@ -234,19 +215,20 @@ TEST_F(Sweep, BadInputIsRefusedBeforeAnythingIsWritten) {
 TEST_F(Sweep, ContinuesWhereItWasStopped) {
   options_.plan = grid_plan({"push=1:2:6"});
   run();
-  const std::string table = read("out/sweep.csv"), journal = read("out/sweep.journal");
+  const std::string table = folder_.read("out/sweep.csv"),
+                    journal = folder_.read("out/sweep.journal");
   // The state after a kill: three finished runs and a torn line; no table.
   std::size_t cut = 0;
   for (int lines = 0; lines < 4; ++lines) cut = journal.find('\n', cut) + 1;
-  write("out/sweep.journal", journal.substr(0, cut + 30));
+  folder_.write("out/sweep.journal", journal.substr(0, cut + 30));
   std::filesystem::remove(options_.folder + "/sweep.csv");
   const SweepReport report = run();
   EXPECT_EQ(report.before, 3u);
-  EXPECT_EQ(read("out/sweep.csv"), table);
-  const std::string continued = read("out/sweep.journal");
+  EXPECT_EQ(folder_.read("out/sweep.csv"), table);
+  const std::string continued = folder_.read("out/sweep.journal");
   EXPECT_EQ(std::count(continued.begin(), continued.end(), '\n'), 7);
 
-  write("pendulum.yaml", std::string(pendulum) + "# changed\n");
+  folder_.write("pendulum.yaml", std::string(pendulum) + "# changed\n");
   EXPECT_NE(fault().find("(the file 'pendulum.yaml' has changed)"), std::string::npos) << fault();
   options_.fresh = true;
   EXPECT_EQ(run().before, 0u);

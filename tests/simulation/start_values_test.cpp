@@ -1,0 +1,112 @@
+// Start values that do not fit the loops are changed and reported; those that are kept stay.
+#include <gtest/gtest.h>
+
+#include "simulation/figures.hpp"
+#include "support/model_text.hpp"
+
+namespace floatframe::test {
+namespace {
+
+/// A four-bar linkage of unequal links; `extra` are keys of the joints at the ground.
+std::string four_bar(const std::string& crank, const std::string& rocker,
+                     const std::string& cut = "c") {
+  const auto mark = [&](const char* joint) { return cut == joint ? ", cut: true" : ""; };
+  return std::string(R"(
+bodies:
+  crank: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0.1], inertia: [.001, .001, .001]}}
+  coupler: {position: [0, 0, 0.2], rigid: {mass: 1, centre_of_mass: [0.25, 0, 0.3], inertia: [.001, .001, .001]}}
+  rocker: {position: [0.5, 0, 0], rigid: {mass: 1, centre_of_mass: [0.5, 0, 0.2], inertia: [.001, .001, .001]}}
+joints:
+  a: {type: revolute, child: crank, at: [0, 0, 0], axis: y)") +
+         crank + mark("a") + R"(}
+  b: {type: revolute, parent: crank, child: coupler, at: [0, 0, 0.2], axis: y)" +
+         mark("b") + R"(}
+  c: {type: revolute, parent: coupler, child: rocker, at: [0.5, 0, 0.4], axis: y)" +
+         mark("c") + R"(}
+  d: {type: revolute, child: rocker, at: [0.5, 0, 0], axis: y)" +
+         rocker + mark("d") + R"(}
+outputs:
+  a: {joint_position: a}
+  d: {joint_position: d}
+  a.rate: {joint_velocity: a}
+  d.rate: {joint_velocity: d}
+simulation: {step: 0.001, duration: 0.01}
+)";
+}
+
+TEST(StartValues, GivenOnesThatDoNotFitAreReported) {
+  const Model model =
+      model_of(four_bar(", position: 0.3, velocity: 1", ", position: 0.3, velocity: 1"));
+  for (const Combination& c : combinations) {
+    const RunResult r = run_of(model, c);
+    const StartReport& start = r.summary.start;
+    ASSERT_EQ(start.changes.size(), 4u) << c.name();
+    EXPECT_EQ(start.changes[0].owner, "joint 'a'");
+    EXPECT_EQ(start.changes[0].quantity, "angle");
+    EXPECT_EQ(start.changes[0].unit, "rad");
+    EXPECT_EQ(start.changes[3].owner, "joint 'd'");
+    EXPECT_TRUE(start.changes[3].rate);
+    EXPECT_EQ(start.changes[3].unit, "rad/s");
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_EQ(start.changes[k].given, k < 2 ? 0.3 : 1.0);
+      // What the outputs show at the start.
+      EXPECT_NEAR(start.changes[k].used, r.table.at(0, k + 1), 1e-9) << c.name() << k;
+    }
+    ASSERT_GE(start.notes.size(), 4u);
+    expect_in(start.notes[0],
+              "joint 'a': closing the loops changed the angle from the 0.3 rad given to ");
+    expect_in(start.notes[3],
+              "joint 'd': closing the loops changed the rate of the angle from the 1 rad/s");
+  }
+  EXPECT_EQ(count(model).start.changes.size(), 4u);
+}
+
+TEST(StartValues, OnesThatFitAreNot) {
+  const Model model = model_of(four_bar(", position: 0.3, velocity: 1", ""));
+  const RunResult r = run_of(model, combinations[0]);
+  EXPECT_TRUE(r.summary.start.changes.empty());
+  EXPECT_NEAR(r.table.at(0, 1), 0.3, 1e-12);
+  EXPECT_NEAR(r.table.at(0, 3), 1.0, 1e-12);
+}
+
+TEST(StartValues, CountWhereverTheLoopIsCut) {
+  // The value of a joint that happens to be cut was forgotten.
+  for (const char* cut : {"a", "b", "c", "d"}) {
+    const Model model = model_of(four_bar(", position: 0.3, velocity: 1", "", cut));
+    for (const Combination& c : combinations) {
+      const RunResult r = run_of(model, c);
+      EXPECT_TRUE(r.summary.start.changes.empty()) << cut << c.name();
+      EXPECT_NEAR(r.table.at(0, 1), 0.3, 1e-9) << cut << c.name();
+      EXPECT_NEAR(r.table.at(0, 3), 1.0, 1e-9) << cut << c.name();
+    }
+  }
+}
+
+TEST(StartValues, KeptOnesDoNotMove) {
+  for (const char* cut : {"a", "c", "d"}) {
+    const Model model = model_of(
+        four_bar(", position: 0.3, velocity: 1, keep: true", ", position: 0.3, velocity: 1", cut));
+    const RunResult r = run_of(model, combinations[0]);
+    EXPECT_NEAR(r.table.at(0, 1), 0.3, 1e-9) << cut;
+    EXPECT_NEAR(r.table.at(0, 3), 1.0, 1e-9) << cut;
+    ASSERT_EQ(r.summary.start.changes.size(), 2u) << cut;
+    EXPECT_EQ(r.summary.start.changes[0].owner, "joint 'd'");
+    EXPECT_TRUE(r.summary.start.changes[1].rate);
+  }
+}
+
+TEST(StartValues, KeptOnesThatCannotBeHeldAreNamed) {
+  for (const char* cut : {"a", "c"}) {
+    const Model positions =
+        model_of(four_bar(", position: 0.3, keep: true", ", position: 0.3, keep: true", cut));
+    expect_in(message_of([&] { run_of(positions, combinations[0]); }),
+              "cannot be assembled while joints 'a' and 'd' keep their start values (keep: true)");
+    const Model rates =
+        model_of(four_bar(", velocity: 1, keep: true", ", velocity: 1, keep: true", cut));
+    expect_in(message_of([&] { run_of(rates, combinations[0]); }),
+              "the start velocities do not fit while joints 'a' and 'd' keep their start values");
+  }
+}
+
+}  // namespace
+}  // namespace floatframe::test
