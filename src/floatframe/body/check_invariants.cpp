@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -19,7 +18,7 @@ double largest(const MatX& m) { return m.size() > 0 ? m.cwiseAbs().maxCoeff() : 
 
 double smallest_eigenvalue(const MatX& m) {
   if (m.rows() == 0) return 0.0;
-  return Eigen::SelfAdjointEigenSolver<MatX>(m, Eigen::EigenvaluesOnly).eigenvalues()(0);
+  return symmetric_eigenvalues(m)(0);
 }
 
 /// 1 / sqrt of the diagonal; 0 where that is not positive.
@@ -221,7 +220,7 @@ class Check {
     const VecX unit = to_unit(G.diagonal());
     G = (unit.asDiagonal() * G * unit.asDiagonal()).eval();
     G.diagonal().array() += rounding;
-    if (Eigen::LLT<MatX>(G).info() == Eigen::Success) return;
+    if (is_positive_definite(G)) return;
     const double least = smallest_eigenvalue(G) - rounding;
     if (source_ == InvariantSource::integrals)
       add("S", fmt::format("the integrals m, m_u, P_u, S, S1 to S3 and S11 to S33 contradict each "

@@ -1,9 +1,9 @@
 #include "floatframe/body/modal_mass.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
 
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -45,11 +45,11 @@ double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free, const 
     for (Eigen::Index k = 0; k < Z.cols(); ++k) Z.col(k).normalize();
     const MatX M_rr = Z.transpose() * M6 * Z;
     const MatX M_rf = Z.transpose() * G;
-    const Eigen::SelfAdjointEigenSolver<MatX> rigid(M_rr);
+    const SymmetricEigen rigid = symmetric_eigen(M_rr);
     for (Eigen::Index k = 0; k < M_rr.rows(); ++k) {
-      const double mass = rigid.eigenvalues()[k];
+      const double mass = rigid.values[k];
       if (!(mass > 1e-10 * v.m)) continue;
-      const VecX g = M_rf.transpose() * rigid.eigenvectors().col(k);
+      const VecX g = M_rf.transpose() * rigid.vectors.col(k);
       own -= g * g.transpose() / mass;
     }
   }
@@ -61,8 +61,7 @@ double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free, const 
       const Eigen::Index b = massive[static_cast<std::size_t>(j)];
       scaled(i, j) = own(a, b) / std::sqrt(M_ff(a, a) * M_ff(b, b));
     }
-  const Eigen::SelfAdjointEigenSolver<MatX> solver(scaled, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0];
+  return symmetric_eigenvalues(scaled)[0];
 }
 
 }  // namespace floatframe

@@ -1,13 +1,12 @@
 #include "floatframe/fe/dependent_dofs.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -184,9 +183,8 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
       }
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(normal);
-  if (s.nodes.size() < 3 || !(size > 0.0) ||
-      !(eigen.eigenvalues()(0) > 1e-9 * eigen.eigenvalues()(5))) {
+  const VecX spread = symmetric_eigenvalues(normal);
+  if (s.nodes.size() < 3 || !(size > 0.0) || !(spread(0) > 1e-9 * spread(5))) {
     return refuse("its " + std::to_string(s.nodes.size()) +
                   " nodes lie on a line or in a point and cannot define a rotation");
   }
@@ -212,9 +210,8 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
     C.col(static_cast<Eigen::Index>(i)) =
         columns.at(table.index(candidates[i].node, candidates[i].axis));
   }
-  const Eigen::ColPivHouseholderQR<MatX> qr(C);
-  if (candidates.size() < 6 ||
-      !(std::abs(qr.matrixR()(5, 5)) > 1e-9 * std::abs(qr.matrixR()(0, 0)))) {
+  const PivotedQr qr = pivoted_qr(C);
+  if (candidates.size() < 6 || !(std::abs(qr.diagonal(5)) > 1e-9 * std::abs(qr.diagonal(0)))) {
     return refuse(
         "too many of its nodes depend on other spiders or equations already; a mean spider needs "
         "at least three free nodes that do not lie on a line");
@@ -223,7 +220,7 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   std::array<Dof, 6> slaves;
   std::array<int, 6> slave_dofs{};
   for (int k = 0; k < 6; ++k) {
-    const int column = static_cast<int>(qr.colsPermutation().indices()(k));
+    const int column = static_cast<int>(qr.pivots(k));
     slaves[static_cast<std::size_t>(k)] = candidates[static_cast<std::size_t>(column)];
     slave_dofs[static_cast<std::size_t>(k)] = table.index(slaves[static_cast<std::size_t>(k)].node,
                                                           slaves[static_cast<std::size_t>(k)].axis);

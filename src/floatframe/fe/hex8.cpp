@@ -12,6 +12,7 @@
 
 #include "floatframe/fe/isoparametric.hpp"
 #include "floatframe/fe/solid_element.hpp"
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 namespace {
@@ -83,7 +84,7 @@ void incompatible(const ElementInput& in, MatX& K, Modes& amplitudes) {
     all.noalias() += B.transpose() * DB;
   }
   const MatX modes = all.bottomRightCorner<9, 9>(), load = all.bottomLeftCorner<9, 24>();
-  amplitudes = -modes.ldlt().solve(load);
+  amplitudes = -ldlt_solve(modes, load);
   K = all.topLeftCorner<24, 24>() + all.topRightCorner<24, 9>() * amplitudes;
   K = (0.5 * (K + K.transpose())).eval();
 }

@@ -1,9 +1,9 @@
 #include "floatframe/fe/isoparametric.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include "floatframe/fe/solid_element.hpp"
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe::solid {
 namespace {
@@ -78,7 +78,7 @@ IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
   for (int a = 0; a < nodes; ++a) {
     at_nodes.row(a) = stress.functions(stress.nodes[static_cast<std::size_t>(a)]);
   }
-  element.to_nodes = at_nodes * at_points.completeOrthogonalDecomposition().pseudoInverse();
+  element.to_nodes = at_nodes * LeastNorm(at_points).pseudo_inverse();
   return element;
 }
 

@@ -1,7 +1,8 @@
 #include "floatframe/fe/quadrature.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 
@@ -17,10 +18,10 @@ LineRule gauss_jacobi(int n, int alpha) {
     const double b = 4.0 * k * (k + a) * k * (k + a) / (s * s * (s + 1.0) * (s - 1.0));
     J(k, k - 1) = J(k - 1, k) = std::sqrt(b);
   }
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(J);
+  const SymmetricEigen eigen = symmetric_eigen(J);
   LineRule rule;
-  rule.u = 0.5 * (eigen.eigenvalues().array() + 1.0);
-  rule.weight = eigen.eigenvectors().row(0).array().square() / (a + 1.0);
+  rule.u = 0.5 * (eigen.values.array() + 1.0);
+  rule.weight = eigen.vectors.row(0).array().square() / (a + 1.0);
   return rule;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/formats/health_text.hpp"
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 namespace {
@@ -23,9 +23,9 @@ std::vector<double> frequencies(const FlexibleBody& body) {
   const MatX M = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
   std::vector<double> out;
   if (M.rows() == 0) return out;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(body.K, M, Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) return out;
-  for (const double w2 : solver.eigenvalues())
+  const SymmetricEigen modes = generalised_eigenvalues(body.K, M);
+  if (!modes.found) return out;
+  for (const double w2 : modes.values)
     out.push_back(std::sqrt(std::max(0.0, w2)) / (2.0 * std::numbers::pi));
   return out;
 }

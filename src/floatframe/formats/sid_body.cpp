@@ -11,6 +11,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/formats/sid_content.hpp"
 #include "floatframe/formats/text_source.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -319,9 +320,7 @@ class BodyOfSid {
       const double least =
           matrix->diagonal().minCoeff(&k) < 0.0
               ? (*matrix)(k, k)
-              : Eigen::SelfAdjointEigenSolver<MatX>(unit.asDiagonal() * *matrix * unit.asDiagonal(),
-                                                    Eigen::EigenvaluesOnly)
-                    .eigenvalues()(0);
+              : symmetric_eigenvalues(unit.asDiagonal() * *matrix * unit.asDiagonal())(0);
       if (least < -same)
         faults_.add(mark(block->line),
                     fmt::format("block {} holds a negative {} ({:.3g}), expected none below zero",
@@ -356,8 +355,7 @@ class BodyOfSid {
     const VecX d = M.diagonal().cwiseSqrt().cwiseInverse().unaryExpr(
         [](double x) { return std::isfinite(x) ? x : 0.0; });
     const MatX scaled = d.asDiagonal() * M * d.asDiagonal();
-    const double least =
-        Eigen::SelfAdjointEigenSolver<MatX>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
+    const double least = symmetric_eigenvalues(scaled)(0);
     if (!(least >= -same)) {
       faults_.add(
           mark(c_.Me.line),

@@ -1,9 +1,9 @@
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "floatframe/core/number_rule.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/piecewise_build.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -102,12 +102,7 @@ Complaint body_reference(const std::vector<std::pair<Vec3, unsigned>>& clamped) 
     }
     rows.row(static_cast<Eigen::Index>(i)) = row.transpose();
   }
-  Eigen::Index rank = 0;
-  if (rows.rows() > 0) {
-    Eigen::ColPivHouseholderQR<MatX> qr(rows);
-    qr.setThreshold(1e-9);
-    rank = qr.rank();
-  }
+  const Eigen::Index rank = pivoted_rank(rows, 1e-9);
   if (rank >= 6) return std::nullopt;
   return "these degrees of freedom leave " + std::to_string(6 - rank) +
          (rank == 5 ? " rigid motion" : " rigid motions") + " of the body free, expected none";

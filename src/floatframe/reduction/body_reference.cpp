@@ -1,12 +1,11 @@
 #include "floatframe/reduction/body_reference.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/reduction/modal_damping.hpp"
 
 namespace floatframe {
@@ -42,28 +41,25 @@ ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const Ma
     const double norm = conditions.row(i).norm();
     if (norm > 0.0) conditions.row(i) /= norm;
   }
-  const Eigen::ColPivHouseholderQR<MatX> qr(conditions.transpose());
-  if (qr.rank() < 6)
+  const PivotedQr qr = pivoted_qr(conditions.transpose());
+  if (qr.rank < 6)
     throw InputError("the body reference does not remove all rigid motions of the part");
-  MatX Q = MatX::Identity(n, n);
-  Q = qr.householderQ() * Q;
-  const MatX null = s.asDiagonal() * Q.rightCols(n - 6);
+  const MatX null = s.asDiagonal() * qr.Q.rightCols(n - 6);
 
   MatX Kc = null.transpose() * K * null;
   MatX Mc = null.transpose() * M * null;
   Kc = (0.5 * (Kc + Kc.transpose())).eval();
   Mc = (0.5 * (Mc + Mc.transpose())).eval();
-  const Eigen::SelfAdjointEigenSolver<MatX> mass(Mc, Eigen::EigenvaluesOnly);
-  const VecX& m = mass.eigenvalues();
+  const VecX m = symmetric_eigenvalues(Mc);
   result.condition = m(0) > 0.0 ? m(m.size() - 1) / m(0) : std::numeric_limits<double>::infinity();
   if (!(m(0) > 1e-13 * m(m.size() - 1))) {
     throw InputError(
         "the modes hold a combination that moves no mass: there are more interface degrees of "
         "freedom and modes than the mesh has ways to move; use fewer, or a finer mesh");
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(Kc, Mc);
-  result.lambda = solver.eigenvalues();
-  result.C = null * solver.eigenvectors();
+  const SymmetricEigen modes = generalised_eigen(Kc, Mc);
+  result.lambda = modes.values;
+  result.C = null * modes.vectors;
   const VecX first = result.C.col(0).cwiseAbs();
   result.stiffness = result.lambda(0) / first.dot(K.cwiseAbs() * first);
   result.mass = relative_modal_mass(combined(raw, result.C), Mat6X::Identity(6, 6));

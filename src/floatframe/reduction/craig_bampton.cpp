@@ -1,5 +1,4 @@
 // Choice of dofs, check of the body reference, constraint modes and fixed-interface modes.
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +7,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/strain_energy.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/reduction/bar_chains.hpp"
 #include "floatframe/reduction/fixed_interface.hpp"
@@ -71,10 +71,10 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
     }
     ++row;
   }
-  const Eigen::JacobiSVD<MatX> svd(R, Eigen::ComputeFullV);
-  const VecX s = svd.singularValues();
+  const Singular svd = singular_values(R);
+  const VecX& s = svd.values;
   if (s.size() == 6 && s(5) > 1e-8 * s(0)) return;
-  Vec6 motion = svd.matrixV().col(5);
+  Vec6 motion = svd.V.col(5);
   Eigen::Index largest = 0;
   motion.cwiseAbs().maxCoeff(&largest);
   if (motion(largest) < 0.0) motion = -motion;

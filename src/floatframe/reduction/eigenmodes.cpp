@@ -2,10 +2,11 @@
 
 #include <Spectra/SymGEigsShiftSolver.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 namespace {
@@ -14,9 +15,9 @@ constexpr Eigen::Index dense_limit = 240;
 
 /// Solves the small problem M z = mu A z; mu descending.
 void solve_dense(const MatX& M, const MatX& A, VecX& mu, MatX& z) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(M, A);
-  mu = solver.eigenvalues().reverse();
-  z = solver.eigenvectors().rowwise().reverse();
+  const SymmetricEigen pairs = generalised_eigen(M, A);
+  mu = pairs.values.reverse();
+  z = pairs.vectors.rowwise().reverse();
 }
 
 /// Keeps the modes with mass, x^T M x = 1 (x^T A x = 1 on entry), and fixes the signs.
@@ -159,9 +160,8 @@ int count_modes_below(const SparseMatrix& K, const SparseMatrix& M, double omega
                       SparseSolver solver) {
   if (K.rows() == 0) return 0;
   if (K.rows() <= dense_limit) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> dense(MatX(M), MatX(K),
-                                                               Eigen::EigenvaluesOnly);
-    return static_cast<int>((dense.eigenvalues().array() * omega * omega > 1.0).count());
+    const VecX mu = generalised_eigenvalues(MatX(M), MatX(K)).values;
+    return static_cast<int>((mu.array() * omega * omega > 1.0).count());
   }
   return SparseFactors(SparseMatrix(K - omega * omega * M), solver).negative_pivots();
 }

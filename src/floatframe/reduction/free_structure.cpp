@@ -1,12 +1,12 @@
 #include "floatframe/reduction/free_structure.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 
@@ -54,19 +54,18 @@ double elastic_estimate(const FeModel& model, const FeSystem& system) {
   R.rightCols<3>() /= size;
   const MatX MR = system.M * R;
   const Mat6 M_rr = R.transpose() * MR;
-  U -= R * M_rr.completeOrthogonalDecomposition().solve(MR.transpose() * U);
+  U -= R * LeastNorm(M_rr).solve(MatX(MR.transpose() * U));
   const MatX Kr = U.transpose() * (system.K * U);
   const MatX Mr = U.transpose() * (system.M * U);
   // Directions with mass only.
-  const Eigen::SelfAdjointEigenSolver<MatX> mass(0.5 * (Mr + Mr.transpose()));
-  const VecX m = mass.eigenvalues();
+  const SymmetricEigen mass = symmetric_eigen(0.5 * (Mr + Mr.transpose()));
+  const VecX& m = mass.values;
   Eigen::Index first = 0;
   while (first < m.size() && !(m(first) > 1e-8 * m(m.size() - 1))) ++first;
   if (first == m.size()) return 0.0;
-  const MatX Q = mass.eigenvectors().rightCols(m.size() - first) *
+  const MatX Q = mass.vectors.rightCols(m.size() - first) *
                  m.tail(m.size() - first).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatX> ritz(Q.transpose() * Kr * Q, Eigen::EigenvaluesOnly);
-  return std::max(ritz.eigenvalues()(0), 0.0);
+  return std::max(symmetric_eigenvalues(Q.transpose() * Kr * Q)(0), 0.0);
 }
 
 FreeStructure::FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX R, double estimate,

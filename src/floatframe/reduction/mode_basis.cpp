@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/strain_energy.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/reduction/connectivity.hpp"
 #include "floatframe/reduction/mode_selection.hpp"
 
@@ -52,14 +52,14 @@ MatX independent(const MatX& X, const MatX& energy, const VecX& full,
       E(i, j) = 0.5 * (energy(a, b) + energy(b, a)) / std::sqrt(energy(a, a) * energy(b, b));
     }
   }
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(E);
+  const SymmetricEigen eigen = symmetric_eigen(E);
   Eigen::Index first = 0;
-  while (first < n && !(eigen.eigenvalues()(first) > 1e-8)) ++first;
+  while (first < n && !(eigen.values(first) > 1e-8)) ++first;
   names.clear();
   for (Eigen::Index a = first; a < n; ++a)
     names.push_back(fmt::format("attachment {}", a - first + 1));
-  return Y * eigen.eigenvectors().rightCols(n - first) *
-         eigen.eigenvalues().tail(n - first).cwiseSqrt().cwiseInverse().asDiagonal();
+  return Y * eigen.vectors.rightCols(n - first) *
+         eigen.values.tail(n - first).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
 void append(ModeBasis& basis, const MatX& X, const MatX& K, const std::vector<std::string>& names) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -39,7 +40,7 @@ double condition_of(const FeModel& model, const std::vector<int>& nodes) {
     motion << Mat3::Identity(), -skew((position(model, node) - c) / size);
     A += motion.transpose() * motion;
   }
-  const Vec6 e = Eigen::SelfAdjointEigenSolver<Mat6>(A, Eigen::EigenvaluesOnly).eigenvalues();
+  const VecX e = symmetric_eigenvalues(A);
   return e(0) > 0.0 ? std::sqrt(e(5) / e(0)) : std::numeric_limits<double>::infinity();
 }
 

@@ -1,11 +1,11 @@
 // Mode set -> flexible body: inertia integrals, projection data, modal damping.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/strain_energy.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/reduction/modal_damping.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
@@ -25,14 +25,13 @@ void orthonormalise(const FeModel& model, const ReductionOptions& options, ModeS
   // Each mode of unit mass: displacements and rotations are not of one size.
   const VecX s =
       M.diagonal().unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<MatX> check(s.asDiagonal() * M * s.asDiagonal(),
-                                                  Eigen::EigenvaluesOnly);
-  if (!(check.eigenvalues()(0) > 1e-14 * check.eigenvalues()(M.rows() - 1))) {
+  const VecX masses = symmetric_eigenvalues(s.asDiagonal() * M * s.asDiagonal());
+  if (!(masses(0) > 1e-14 * masses(M.rows() - 1))) {
     throw InputError("the modes cannot be orthonormalised: a combination of them has no mass");
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(set.K, M);
-  MatX X = set.X * solver.eigenvectors();
-  set.K = solver.eigenvalues().asDiagonal();
+  const SymmetricEigen modes = generalised_eigen(set.K, M);
+  MatX X = set.X * modes.vectors;
+  set.K = modes.values.asDiagonal();
   set.names.clear();
   for (Eigen::Index a = 0; a < X.cols(); ++a) {
     Eigen::Index k = 0;

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 namespace {
@@ -20,10 +21,8 @@ MatX by_stiffness(const MatX& K, const InterfacePlace& loaded, const InterfacePl
       columns.push_back(static_cast<Eigen::Index>(free.size()));
     free.push_back(i);
   }
-  const MatX inverse = MatX(K(free, free))
-                           .ldlt()
-                           .solve(MatX::Identity(static_cast<Eigen::Index>(free.size()),
-                                                 static_cast<Eigen::Index>(free.size())));
+  const auto n = static_cast<Eigen::Index>(free.size());
+  const MatX inverse = ldlt_solve(K(free, free), MatX::Identity(n, n));
   return inverse(columns, columns);
 }
 
@@ -64,7 +63,7 @@ MatX by_modes(const FlexibleBody& body, std::size_t loaded, std::size_t held,
   MatX E(static_cast<Eigen::Index>(axes.size()), all.cols());
   for (std::size_t k = 0; k < axes.size(); ++k)
     E.row(static_cast<Eigen::Index>(k)) = all.row(axes[k]);
-  return E * body.K.ldlt().solve(E.transpose());
+  return E * ldlt_solve(body.K, E.transpose());
 }
 
 }  // namespace

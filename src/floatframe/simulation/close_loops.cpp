@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "floatframe/math/dense.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
@@ -30,10 +31,7 @@ const ConstraintPart& worst_part(const RelativeFormulation& f, const VecX& phi) 
 VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
   if (J.cols() == 0) return VecX();
   const MatX Jw = J * w.cwiseSqrt().asDiagonal();
-  Eigen::CompleteOrthogonalDecomposition<MatX> cod;
-  cod.setThreshold(1e-11);
-  cod.compute(Jw);
-  return w.cwiseSqrt().cwiseProduct(cod.solve(b));
+  return w.cwiseSqrt().cwiseProduct(LeastNorm(Jw, 1e-11).solve(b));
 }
 
 /// A start value given for a joint outside of the tree.

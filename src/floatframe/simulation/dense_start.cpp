@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
@@ -30,15 +31,10 @@ struct Motions {
 Motions motions(const MatX& J, const VecX& gamma, Eigen::Index nv) {
   if (J.rows() == 0 || nv == 0) return {VecX::Zero(nv), MatX::Identity(nv, nv)};
   // J^T P = Q R: the leading columns of Q span the rows of J, the others its null space.
-  Eigen::ColPivHouseholderQR<MatX> qr;
-  qr.setThreshold(1e-11);
-  qr.compute(J.transpose());
-  const Eigen::Index rank = qr.rank();
-  const MatX Q = qr.householderQ();
-  if (rank == 0) return {VecX::Zero(nv), Q};
-  const MatX rows = Q.leftCols(rank);
-  const MatX square = J * rows;
-  return {rows * square.colPivHouseholderQr().solve(gamma), Q.rightCols(nv - rank)};
+  const PivotedQr qr = pivoted_qr(J.transpose(), 1e-11);
+  if (qr.rank == 0) return {VecX::Zero(nv), qr.Q};
+  const MatX rows = qr.Q.leftCols(qr.rank);
+  return {rows * qr_solve(J * rows, gamma), qr.Q.rightCols(nv - qr.rank)};
 }
 
 /// Directions without mass that nothing holds, of the columns of Z: N^T M N z = 0 for each of them.
@@ -55,15 +51,13 @@ MatX loose_directions(const MatX& mass, const MatX& J, const VecX& force, const 
   const Eigen::Index k = Z.cols();
   const VecX r = -force;
   MatX H(k, k);
-  Eigen::CompleteOrthogonalDecomposition<MatX> constraints;
-  constraints.setThreshold(1e-11);
-  if (J.rows() > 0) constraints.compute(J);
+  const LeastNorm constraints(J, 1e-11);
   for (Eigen::Index j = 0; j < k; ++j) {
     const Neighbour there = neighbour(step * Z.col(j), Z);
     const VecX change = (there.r - r) / step;
     for (Eigen::Index i = 0; i < k; ++i) {
       VecX turned = VecX::Zero(Z.rows());
-      if (J.rows() > 0) turned = constraints.solve(-(there.JZ.col(i) - J * Z.col(i)) / step);
+      if (J.rows() > 0) turned = constraints.solve(VecX((J * Z.col(i) - there.JZ.col(i)) / step));
       const VecX moved = (there.MZ.col(i) - mass * Z.col(i)) / step + mass * turned;
       const VecX y = -(half_inverse * (half_inverse.transpose() * (N.transpose() * moved)));
       H(i, j) = Z.col(i).dot(change) + (turned + N * y).dot(r);
@@ -71,10 +65,10 @@ MatX loose_directions(const MatX& mass, const MatX& J, const VecX& force, const 
   }
   // Finite differences leave noise of the size of the forces times the step.
   const double noise = 1e-5 * (1.0 + r.lpNorm<Eigen::Infinity>()) + 1e-9 * H.cwiseAbs().maxCoeff();
-  const Eigen::SelfAdjointEigenSolver<MatX> eig(0.5 * (H + H.transpose()));
+  const SymmetricEigen eig = symmetric_eigen(0.5 * (H + H.transpose()));
   Eigen::Index loose = 0;
-  while (loose < k && !(eig.eigenvalues()[loose] > noise)) ++loose;
-  return Z * eig.eigenvectors().leftCols(loose);
+  while (loose < k && !(eig.values[loose] > noise)) ++loose;
+  return Z * eig.vectors.leftCols(loose);
 }
 
 /// The z of the free accelerations N z: N^T M N z = N^T (force - M a_p).
@@ -83,13 +77,13 @@ VecX free_accelerations(const MatX& mass, const MatX& J, const VecX& force, cons
                         const std::function<std::string(const MatX&)>& movers) {
   const MatX Mr = m.N.transpose() * mass * m.N;
   const MatX Dr = m.N.transpose() * mass_scale(mass.diagonal()).asDiagonal() * m.N;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> eig(0.5 * (Mr + Mr.transpose()), Dr);
-  const MatX& V = eig.eigenvectors();
+  const SymmetricEigen eig = generalised_eigen(0.5 * (Mr + Mr.transpose()), Dr);
+  const MatX& V = eig.vectors;
   Eigen::Index massless = 0;  // ascending eigenvalues
-  while (massless < V.cols() && !(eig.eigenvalues()[massless] > no_mass)) ++massless;
+  while (massless < V.cols() && !(eig.values[massless] > no_mass)) ++massless;
   const Eigen::Index heavy = V.cols() - massless;
   const MatX half_inverse =
-      V.rightCols(heavy) * eig.eigenvalues().tail(heavy).cwiseSqrt().cwiseInverse().asDiagonal();
+      V.rightCols(heavy) * eig.values.tail(heavy).cwiseSqrt().cwiseInverse().asDiagonal();
   if (massless > 0) {
     const MatX Z = (m.N * V.leftCols(massless)).colwise().normalized();
     const MatX loose = loose_directions(mass, J, force, m.N, half_inverse, Z, neighbour);
@@ -150,10 +144,7 @@ void dense_start(const MatX& mass, const MatX& J, const VecX& force, const VecX&
   if (m.N.cols() > 0) a += m.N * free_accelerations(mass, J, force, m, neighbour, movers);
   lambda = VecX::Zero(nc);
   if (nc == 0 || nv == 0) return;
-  Eigen::CompleteOrthogonalDecomposition<MatX> cod;
-  cod.setThreshold(1e-11);
-  cod.compute(J.transpose());
-  lambda = cod.solve(force - mass * a);
+  lambda = LeastNorm(J.transpose(), 1e-11).solve(VecX(force - mass * a));
 }
 
 }  // namespace floatframe

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
@@ -42,7 +43,7 @@ class Statics {
     J = f_.constraint_jacobian();
     phi = f_.constraint_values();
     if (first && phi.size() > 0) {
-      lambda = J.transpose().completeOrthogonalDecomposition().solve(-r);
+      lambda = LeastNorm(J.transpose()).solve(VecX(-r));
       evaluate(q, lambda, r);
     }
     K.resize(nv, nv);
@@ -76,15 +77,9 @@ class Statics {
       d[i] = norm > 0.0 ? 1.0 / std::sqrt(norm) : 1.0;
     }
     const MatX Td = d.asDiagonal() * T * d.asDiagonal();
-    VecX x;
-    if (nv + nc <= 700) {
-      Eigen::CompleteOrthogonalDecomposition<MatX> cod;
-      cod.setThreshold(1e-14);
-      cod.compute(Td);
-      x = d.cwiseProduct(cod.solve(d.cwiseProduct(b)));
-    } else {
-      x = d.cwiseProduct(Td.partialPivLu().solve(d.cwiseProduct(b)));
-    }
+    const VecX scaled = d.cwiseProduct(b);
+    VecX x = nv + nc <= 700 ? LeastNorm(Td, 1e-14).solve(scaled) : VecX(lu_solve(Td, scaled));
+    x = d.cwiseProduct(x).eval();
     const double length = largest(x.head(nv));
     if (!std::isfinite(length)) return false;
     x *= length > 0.2 ? 0.2 / length : 1.0;

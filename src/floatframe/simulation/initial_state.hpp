@@ -9,7 +9,7 @@
 //                        residual
 //   start_accelerations  a and lambda from M a + Phi_q^T lambda = Q, Phi_q a = gamma, in any
 //                        formulation
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <functional>
 #include <string>

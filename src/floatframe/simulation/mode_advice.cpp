@@ -1,6 +1,5 @@
 #include "floatframe/simulation/mode_advice.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <set>
 
 #include "floatframe/body/with_modes.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -31,10 +31,7 @@ MatX recoil_mass(const InertiaInvariants& v) {
   M_rf.row(4) = v.Si[2].row(0) - v.Si[0].row(2);
   M_rf.row(5) = v.Si[0].row(1) - v.Si[1].row(0);
   // A thin rod has no inertia about its axis: the least solution leaves that rotation alone.
-  Eigen::CompleteOrthogonalDecomposition<MatX> solver;
-  solver.setThreshold(1e-12);
-  solver.compute(M_rr);
-  return modal_mass(v) - M_rf.transpose() * solver.solve(M_rf);
+  return modal_mass(v) - M_rf.transpose() * LeastNorm(M_rr, 1e-12).solve(M_rf);
 }
 
 double frequency_of(double stiffness, double mass) {
@@ -45,12 +42,12 @@ double frequency_of(double stiffness, double mass) {
 
 /// K x = omega^2 M x with a mass matrix that need not be definite: M x = (1 / omega^2) K x.
 VecX frequencies(const MatX& K, const MatX& M) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(M, K, Eigen::EigenvaluesOnly);
+  const SymmetricEigen inverse = generalised_eigenvalues(M, K);
   VecX f = VecX::Constant(K.rows(), std::numeric_limits<double>::infinity());
-  if (solver.info() != Eigen::Success) return f;
-  const double least = 1e-14 * solver.eigenvalues().cwiseAbs().maxCoeff();
+  if (!inverse.found) return f;
+  const double least = 1e-14 * inverse.values.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < f.size(); ++k)
-    if (solver.eigenvalues()[k] > least) f[k] = 1.0 / (two_pi * std::sqrt(solver.eigenvalues()[k]));
+    if (inverse.values[k] > least) f[k] = 1.0 / (two_pi * std::sqrt(inverse.values[k]));
   std::sort(f.begin(), f.end());
   return f;
 }
@@ -114,7 +111,7 @@ BodyAdvice body_advice(const Model& model, int index, const MatX& y, const VecX&
   const Body& body = model.bodies[static_cast<std::size_t>(index)];
   const FlexibleBody& data = *body.data;
   const MatX M = modal_mass(data.invariants), M_free = recoil_mass(data.invariants);
-  const MatX K_inverse = data.K.completeOrthogonalDecomposition().pseudoInverse();
+  const MatX K_inverse = LeastNorm(data.K).pseudo_inverse();
   const VecX static_shares = shares(data.K, K_inverse, K_inverse * unit_loads(model, index));
   const VecX dynamic_shares = shares(data.K, K_inverse, y);
   BodyAdvice advice;

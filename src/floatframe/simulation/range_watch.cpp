@@ -1,10 +1,12 @@
 #include "floatframe/simulation/range_watch.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
+
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 namespace {
@@ -16,9 +18,9 @@ double lowest_frequency_of(const FlexibleBody& body) {
   const InertiaInvariants& v = body.invariants;
   if (body.modes() == 0) return 0.0;
   const MatX M = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(M, body.K, Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) return 0.0;
-  const double most = solver.eigenvalues().maxCoeff();
+  const SymmetricEigen inverse = generalised_eigenvalues(M, body.K);
+  if (!inverse.found) return 0.0;
+  const double most = inverse.values.maxCoeff();
   return most > 0.0 && std::isfinite(most) ? 1.0 / std::sqrt(most) : 0.0;
 }
 

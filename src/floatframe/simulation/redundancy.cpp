@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <cmath>
+
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 
@@ -43,29 +44,18 @@ std::string direction_text(const ConstraintPart& part, const ConstraintRow& row)
 
 /// The motions x of a body, its columns, that satisfy its own constraints J x = 0.
 MatX null_space(const MatX& J) {
-  const Eigen::ColPivHouseholderQR<MatX> qr(J.transpose());
-  const MatX Q = qr.householderQ();
-  return Q.rightCols(J.cols() - J.rows());
+  return pivoted_qr(J.transpose()).Q.rightCols(J.cols() - J.rows());
 }
 
 /// lambda with J^T lambda = 0, orthonormal columns.
 MatX balanced_multipliers(const MatX& J) {
-  Eigen::ColPivHouseholderQR<MatX> qr;
-  qr.setThreshold(dependent);
-  qr.compute(J);
-  const MatX Q = qr.householderQ();
-  return Q.rightCols(J.rows() - qr.rank());
+  const PivotedQr qr = pivoted_qr(J, dependent);
+  return qr.Q.rightCols(J.rows() - qr.rank);
 }
 
 }  // namespace
 
-int rank_of(const MatX& J) {
-  if (J.rows() == 0 || J.cols() == 0) return 0;
-  Eigen::ColPivHouseholderQR<MatX> qr;
-  qr.setThreshold(dependent);
-  qr.compute(J.transpose());
-  return static_cast<int>(qr.rank());
-}
+int rank_of(const MatX& J) { return static_cast<int>(pivoted_rank(J.transpose(), dependent)); }
 
 ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
     : model_(tree.model()), f_(tree.model(), tree.model().simulation.inertia) {
@@ -126,10 +116,7 @@ std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
 
 bool ConstraintAnalysis::set_reactions(StaticsResult& statics) {
   if (J_.rows() == 0 || J_.cols() == 0) return true;
-  Eigen::CompleteOrthogonalDecomposition<MatX> cod;
-  cod.setThreshold(dependent);
-  cod.compute(J_.transpose());
-  const VecX lambda = cod.solve(load_);
+  const VecX lambda = LeastNorm(J_.transpose(), dependent).solve(load_);
   const double error = (J_.transpose() * lambda - load_).lpNorm<Eigen::Infinity>();
   const double weight = statics.residual + 1e-6 * (1e-6 + load_.lpNorm<Eigen::Infinity>());
   if (!(error < 10.0 * weight)) return false;

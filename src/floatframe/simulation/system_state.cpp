@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/redundancy.hpp"
@@ -174,10 +175,7 @@ double move_to(RelativeFormulation& f, OffsetGoal& goal, double t, bool hold, Ve
     J.bottomRows(n) = goal.jacobian(hold);
     for (int j = 0; j < f.velocities(); ++j)
       if (f.is_elastic(j)) J.col(j).setZero();
-    Eigen::CompleteOrthogonalDecomposition<MatX> cod;
-    cod.setThreshold(1e-9);
-    cod.compute(J);
-    VecX x = cod.solve(b);
+    VecX x = LeastNorm(J, 1e-9).solve(b);
     const double size = x.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) break;
     if (size > 0.2) x *= 0.2 / size;

@@ -1,0 +1,93 @@
+#include "floatframe/math/dense.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <limits>
+
+namespace floatframe {
+namespace {
+
+template <typename Decomposition>
+Decomposition decomposed(const MatX& A, std::optional<double> threshold) {
+  Decomposition d;
+  if (threshold) d.setThreshold(*threshold);
+  d.compute(A);
+  return d;
+}
+
+/// Of a problem without a solution: NaN, which no comparison takes for a valid value.
+SymmetricEigen not_found(Eigen::Index n, Eigen::Index vectors) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  return {VecX::Constant(n, nan), MatX::Constant(n, vectors, nan), false};
+}
+
+using ColPivQr = Eigen::ColPivHouseholderQR<MatX>;
+
+}  // namespace
+
+SymmetricEigen symmetric_eigen(const MatX& A) {
+  const Eigen::SelfAdjointEigenSolver<MatX> solver(A);
+  if (solver.info() != Eigen::Success) return not_found(A.rows(), A.rows());
+  return {solver.eigenvalues(), solver.eigenvectors(), true};
+}
+
+VecX symmetric_eigenvalues(const MatX& A) {
+  const Eigen::SelfAdjointEigenSolver<MatX> solver(A, Eigen::EigenvaluesOnly);
+  return solver.info() == Eigen::Success ? solver.eigenvalues() : not_found(A.rows(), 0).values;
+}
+
+SymmetricEigen generalised_eigen(const MatX& A, const MatX& B) {
+  // Eigen goes on with what is left of a Cholesky factor that failed.
+  if (!is_positive_definite(B)) return not_found(A.rows(), A.rows());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(A, B);
+  if (solver.info() != Eigen::Success) return not_found(A.rows(), A.rows());
+  return {solver.eigenvalues(), solver.eigenvectors(), true};
+}
+
+SymmetricEigen generalised_eigenvalues(const MatX& A, const MatX& B) {
+  if (!is_positive_definite(B)) return not_found(A.rows(), 0);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatX> solver(A, B, Eigen::EigenvaluesOnly);
+  if (solver.info() != Eigen::Success) return not_found(A.rows(), 0);
+  return {solver.eigenvalues(), MatX(), true};
+}
+
+bool is_positive_definite(const MatX& A) { return Eigen::LLT<MatX>(A).info() == Eigen::Success; }
+
+PivotedQr pivoted_qr(const MatX& A, std::optional<double> threshold) {
+  const auto qr = decomposed<ColPivQr>(A, threshold);
+  return {qr.rank(), qr.householderQ(), qr.matrixR().diagonal(), qr.colsPermutation().indices()};
+}
+
+Eigen::Index pivoted_rank(const MatX& A, std::optional<double> threshold) {
+  if (A.size() == 0) return 0;
+  return decomposed<ColPivQr>(A, threshold).rank();
+}
+
+Singular singular_values(const MatX& A) {
+  const Eigen::JacobiSVD<MatX> svd(A, Eigen::ComputeFullV);
+  return {svd.singularValues(), svd.matrixV()};
+}
+
+struct LeastNorm::Factors {
+  Eigen::CompleteOrthogonalDecomposition<MatX> cod;
+};
+
+LeastNorm::LeastNorm(const MatX& A, std::optional<double> threshold)
+    : factors_(
+          new Factors{decomposed<Eigen::CompleteOrthogonalDecomposition<MatX>>(A, threshold)}) {}
+LeastNorm::~LeastNorm() = default;
+LeastNorm::LeastNorm(LeastNorm&&) noexcept = default;
+LeastNorm& LeastNorm::operator=(LeastNorm&&) noexcept = default;
+
+VecX LeastNorm::solve(const VecX& b) const { return factors_->cod.solve(b); }
+MatX LeastNorm::solve(const MatX& B) const { return factors_->cod.solve(B); }
+MatX LeastNorm::pseudo_inverse() const { return factors_->cod.pseudoInverse(); }
+
+MatX lu_solve(const MatX& A, const MatX& B) { return A.partialPivLu().solve(B); }
+MatX ldlt_solve(const MatX& A, const MatX& B) { return A.ldlt().solve(B); }
+MatX qr_solve(const MatX& A, const MatX& B) { return A.colPivHouseholderQr().solve(B); }
+
+}  // namespace floatframe
