@@ -84,7 +84,13 @@ TEST(Validate, Joints) {
 TEST(Validate, Outputs) {
   check({
       {[](D& d) { d.outputs[0].name = "a,b"; },
-       "outputs.a,b: expected a column name without commas, quotes, brackets and line breaks"},
+       "outputs.a,b: expected a column name without commas, quotes, brackets and control "
+       "characters"},
+      {[](D& d) { d.outputs[0].name = "a\tb"; },
+       "outputs.a\tb: expected a column name without commas, quotes, brackets and control "
+       "characters"},
+      {[](D& d) { d.outputs[0].name = "time"; },
+       "outputs: found the column 'time', the name of the first column, expected another"},
       {[](D& d) { d.outputs[1].name = "z"; }, "outputs: the column 'z' exists already"},
       {[](D& d) { d.outputs[0].kind = static_cast<OutputKind>(99); },
        "outputs.z: found 99, expected position, velocity, acceleration, rotation, "

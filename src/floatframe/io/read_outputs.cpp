@@ -100,9 +100,7 @@ class OutputReader {
     place(o, self_.world);
     ReadFaults& faults = *self_.context.faults;
     if (o.name == "time") {
-      faults.add(
-          o.origin.mark,
-          "outputs: found the column 'time', the name of the first column, expected another");
+      faults.add(o.origin.mark, "outputs: " + sentences::time_column());
       return;
     }
     if (!model_.columns.insert(o.name).second) {

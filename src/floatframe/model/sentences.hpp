@@ -53,6 +53,7 @@ Complaint input_initial(double initial, const std::optional<double>& low,
 /// A component, counted from 0, that is not one of the `n` that a model file counts from 1.
 std::string number_of(const char* what, int component, int n);
 Complaint column_name(const std::string& name);
+std::string time_column();
 std::string column_exists(const std::string& name);
 Complaint model_name(const std::string& name);
 Complaint min_step(double min_step, double step);

@@ -90,6 +90,8 @@ void outputs(const ModelDescription& d, const Names& names, Faults& faults) {
     const Entity entity{faults, o.origin, "outputs." + o.name};
     if (const auto complaint = sentences::column_name(o.name))
       entity.fault(*complaint);
+    else if (o.name == "time")
+      faults.add(o.origin.mark, "outputs: " + sentences::time_column());
     else if (!taken.insert(o.name).second)
       faults.add(o.origin.mark, "outputs: " + sentences::column_exists(o.name));
     const auto kind = word_complaint(static_cast<int>(o.kind), rules::quantities);

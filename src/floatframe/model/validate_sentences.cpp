@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/math/dense.hpp"
@@ -190,9 +191,17 @@ std::string number_of(const char* what, int component, int n) {
 }
 
 Complaint column_name(const std::string& name) {
-  if (!name.empty() && name.size() <= 200 && name.find_first_of(",\"\n\r[]") == std::string::npos)
+  const auto bad = [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
+           std::string_view(",\"[]").find(c) != std::string_view::npos;
+  };
+  if (!name.empty() && name.size() <= 200 && std::none_of(name.begin(), name.end(), bad))
     return std::nullopt;
-  return "expected a column name without commas, quotes, brackets and line breaks";
+  return "expected a column name without commas, quotes, brackets and control characters";
+}
+
+std::string time_column() {
+  return "found the column 'time', the name of the first column, expected another";
 }
 
 std::string column_exists(const std::string& name) {
