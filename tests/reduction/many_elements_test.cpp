@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/bar_frame.hpp"
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/reduction/reduction.hpp"
+#include "support/error_of.hpp"
+#include "support/iltis_parts.hpp"
 
 namespace floatframe {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 BarFrame corner(int elements) {
   BarFrame frame;
   frame.material = {7e10, 0.3, 2700.0};
-  frame.points = {{"foot", {0, 0, 0}}, {"knee", {0.6, 0.8, 0}}, {"tip", {0.6, 0.8, 0.5}}};
-  for (const auto& [from, to] : {std::pair{"foot", "knee"}, {"knee", "tip"}}) {
+  frame.points = {{"inner", {0, 0, 0}}, {"knee", {0.6, 0.8, 0}}, {"outer", {0.6, 0.8, 0.5}}};
+  for (const auto& [from, to] : {std::pair{"inner", "knee"}, {"knee", "outer"}}) {
     Bar bar;
     bar.name = from;
     bar.from = from;
@@ -32,24 +33,17 @@ BarFrame corner(int elements) {
 }
 
 BarFrame rod(int elements) {
-  BarFrame frame;
+  BarFrame frame = test::straight_bar(1.0, 0.02, elements);
   frame.material = {7e10, 0.3, 2700.0};
-  frame.points = {{"foot", {0, 0, 0}}, {"tip", {1, 0, 0}}};
-  Bar bar;
-  bar.name = "rod";
-  bar.from = "foot";
-  bar.to = "tip";
-  bar.elements = elements;
-  bar.section = BeamSection::rectangle(0.01, 0.02);
-  bar.reference = Vec3::UnitY();
-  frame.bars.push_back(bar);
+  frame.bars[0].section = BeamSection::rectangle(0.01, 0.02);
+  frame.bars[0].reference = Vec3::UnitY();
   return frame;
 }
 
 ReductionOptions options_of(int normal_modes) {
   ReductionOptions options;
-  options.clamped = {{"foot", -1, all_dofs}};
-  options.interfaces = {{"tip", -1, all_dofs}};
+  options.clamped = {{"inner", -1, all_dofs}};
+  options.interfaces = {{"outer", -1, all_dofs}};
   options.normal_modes = normal_modes;
   options.mass_model = MassModel::hermite;
   return options;
@@ -66,14 +60,14 @@ TEST(ManyElements, FrequenciesOfAFreeTip) {
                        std::sqrt(7e10 * std::min(s.Iy, s.Iz) / (2700.0 * s.A));
   ReductionOptions options = options_of(4);
   options.interfaces.clear();
-  for (const int elements : {100, 101, 1000, 20000, 50000}) {
+  for (const int elements : {100, 101, 20000, 50000}) {
     const FlexibleBody body = reduce(build_bar_frame(rod(elements)), options);
     EXPECT_NEAR(body.fixed_interface_frequencies(0), exact, 1e-6 * exact) << elements;
     EXPECT_NEAR(body.fixed_interface_frequencies(1), 2.0 * exact, 2e-6 * exact) << elements;
   }
   options.normal_modes = 0;
   options.max_frequency = 6.0 * exact;  // 1 and 2 times the first, 6.27 above
-  EXPECT_EQ(reduce(build_bar_frame(rod(20000)), options).fixed_interface_frequencies.size(), 2);
+  EXPECT_EQ(reduce(build_bar_frame(rod(1000)), options).fixed_interface_frequencies.size(), 2);
 }
 
 TEST(ManyElements, StaticShapesAndStiffness) {
@@ -124,16 +118,11 @@ std::string fault_of_unlike(int elements) {
     model.sections.resize(e + 1, s);
     if (e % 2 == 0) model.sections[e].A *= 1.001;
   }
-  try {
-    reduce(model, options_of(2));
-  } catch (const InputError& fault) {
-    return fault.what();
-  }
-  return "no fault";
+  return test::error_of([&] { reduce(model, options_of(2)); });
 }
 
 TEST(ManyElements, IsRefusedWhereDigitsAreLost) {
-  EXPECT_EQ(fault_of_unlike(150), "no fault");
+  EXPECT_EQ(fault_of_unlike(150), "no error");
   const std::string lost = fault_of_unlike(6000);
   EXPECT_TRUE(lost.starts_with("the 6000 elements are more than the digits of a double carry: "))
       << lost;
