@@ -93,6 +93,23 @@ TEST_F(Hostile, UnknownReferencesAreCounted) {
   EXPECT_EQ(found[20], "model.yaml:25:33: ... and 14980 more faults of this kind");
 }
 
+TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
+  const std::string bodies =
+      "bodies:\n" + many(15000, "  body", ": {rigid: {mass: 1}, position: [0, 0, 0]}\n");
+  for (const bool offset : {true, false}) {
+    const Sentences found = faults(
+        bodies +
+        (offset ? "simulation: {start: {equilibrium: true, offset: {" : "initial: {amplitudes: {") +
+        many(100000, "\n  bady", offset ? ": [0, 0, 0]," : ": [0],") + "}}" +
+        (offset ? "}\n" : "\n"));
+    ASSERT_EQ(found.size(), 21u);
+    EXPECT_EQ(found[0], std::string("model.yaml:15004:3: ") +
+                            (offset ? "simulation.start.offset" : "initial.amplitudes") +
+                            ".bady0: unknown body 'bady0', did you mean 'body0'?");
+    EXPECT_EQ(found[20], "model.yaml:15024:3: ... and 99980 more faults of this kind");
+  }
+}
+
 TEST_F(Hostile, UnknownParametersAreCounted) {
   const Sentences found = faults("parameters:\n" + many(30000, "  known", ": 1\n") + body +
                                  "points:\n" + many(30000, "  p", ": [0, 0, \"${other}\"]\n"));

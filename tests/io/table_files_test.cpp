@@ -77,10 +77,13 @@ TEST_F(TableFiles, FaultsHaveTheirPlace) {
   EXPECT_EQ(faults("0,0\n1,nan\n"),
             "t.csv:2:1: found 'nan', expected a number with a decimal point (numbers must be "
             "finite)");
-  EXPECT_EQ(faults("0,0,0\n1,1,1\n"),
-            "t.csv:1:1: found 3 columns, expected two\nt.csv:2:1: found 3 columns, expected two");
+  EXPECT_EQ(faults("0,0,0\n1,1,1\n"), "t.csv:1:1: found 3 columns, expected two");
   EXPECT_EQ(faults("t,1\n1,1\n2,2\n"),
-            "t.csv:1:1: found a name beside a number, expected two names or two numbers");
+            "t.csv:1:1: found 't', expected a number with a decimal point, or names in both "
+            "columns of the first line");
+  EXPECT_EQ(faults("0;0,5\n1;1\n"),
+            "t.csv:1:1: found '0,5', expected a number with a decimal point, or names in both "
+            "columns of the first line");
   EXPECT_EQ(faults("0,0\n2,1\n\n1,1\n"),
             "t.csv:4:1: found x = 1 after 2, expected ascending x [s]");
   EXPECT_EQ(

@@ -57,6 +57,54 @@ TEST(Topology, SuspensionLoopIsCutAtItsFreestJoint) {
   EXPECT_EQ(cut_names(m), std::set<std::string>{"rod_outer"});
 }
 
+/// The definition, word by word: of all joints that lead to a new body the best, again and again.
+std::vector<int> joints_of_tree(const Model& m) {
+  std::vector<int> depth(m.bodies.size(), -1), tree;
+  const auto of = [&](int body) { return body < 0 ? 0 : depth[static_cast<std::size_t>(body)]; };
+  for (;;) {
+    int best = -1;
+    std::pair<int, int> best_key{7, 0};
+    for (std::size_t j = 0; j < m.joints.size(); ++j) {
+      const Joint& joint = m.joints[j];
+      const int p = of(joint.parent), c = of(joint.child);
+      const std::pair<int, int> key{joint_velocities(joint.type), std::max(p, c)};
+      if (joint.cut || (p < 0) == (c < 0) || !(key < best_key)) continue;
+      best_key = key;
+      best = static_cast<int>(j);
+    }
+    if (best < 0) return tree;
+    const Joint& joint = m.joints[static_cast<std::size_t>(best)];
+    const int end = of(joint.parent) < 0 ? joint.parent : joint.child;
+    depth[static_cast<std::size_t>(end)] = best_key.second + 1;
+    tree.push_back(best);
+  }
+}
+
+TEST(Topology, IsThatOfTheDefinition) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    const auto whole = [&](int most) {
+      return std::min(static_cast<int>(random(0.0, most + 1.0)), most);
+    };
+    std::vector<std::string> names;
+    for (int k = 0; k < 8; ++k) names.push_back("b" + std::to_string(k));
+    RandomSystem s = with_bodies(names);
+    for (int k = 0; k < 14; ++k) {
+      const int child = whole(7), parent = whole(8);
+      if (parent == child) continue;
+      s.add_joint("j" + std::to_string(k), all_joint_types[static_cast<std::size_t>(whole(6))],
+                  parent == 8 ? ground_name : names[static_cast<std::size_t>(parent)], 0,
+                  names[static_cast<std::size_t>(child)], 0)
+          .cut = whole(5) == 0;
+    }
+    const Model m = build_model(s.d);
+    expect_tree(m);
+    std::vector<int> joints;
+    for (const Topology::Link& l : find_topology(m).links) joints.push_back(l.joint);
+    EXPECT_EQ(joints, joints_of_tree(m)) << seed;
+  }
+}
+
 TEST(Topology, NamedCutsStayOutOfTheTree) {
   RandomSystem s = corner();
   s.d.joints[1].cut = true;

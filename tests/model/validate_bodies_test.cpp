@@ -19,7 +19,7 @@ TEST(Validate, WhatIsValidIsBuilt) {
 TEST(Validate, Model) {
   check({
       {[](D& d) { d.name = "a/b"; },
-       "name: found 'a/b', expected a name without slashes and line breaks"},
+       "name: found 'a/b', expected a name without slashes and control characters"},
       {[](D& d) { d.gravity.z() = nan; },
        "gravity[3]: found nan, expected a number [m/s2] (numbers must be finite)"},
       {[](D& d) { d = ModelDescription(); }, "bodies: found none, expected at least one body"},

@@ -76,10 +76,43 @@ TEST(Validate, Joints) {
       {[](D& d) { d.rods[0].a.body = "x"; }, "rods.rod.from.body: unknown body 'x'"},
       {[](D& d) { d.rods[0].a.node = "n0"; },
        "rods.rod.from.node: found a node on the ground, expected a flexible body"},
+      // Nodes are known when the bodies are reduced; the sentences are those of model files.
+      {[](D& d) { d.joints[2].child.node = "n9"; },
+       "joints.ball.child_node: the flexible body 'part' has no node 'n9', did you mean 'n0'?"},
+      {[](D& d) { d.rods[0].b.node = "n0"; },
+       "rods.rod.to.node: found a node on the rigid body 'block', expected a flexible body"},
+      {[](D& d) {
+         d.bodies[2].rigid = true;
+         d.amplitudes.clear();
+         d.amplitude_rates.clear();
+         d.outputs.clear();
+         d.joints[2].child.node = "end";
+       },
+       "joints.ball.child_node: the body 'part' has no node 'end'"},
+      {[](D& d) {
+         d.joints[2].child.node.reset();
+         d.joints[2].child.point = d.joints[2].parent.point = Vec3(0.4, 0, 0);
+       },
+       "joints.ball.at: found the point [0.4, 0, 0] on the flexible body 'part', expected one of "
+       "its nodes; the nearest is at [0.5, 0, 0]"},
+      {[](D& d) { kind<GuidedSpringDescription>(d, 1).tip.point.x() = 0.6; },
+       "forces.guide.tip.at: found the point [0.6, 0, 0] on the flexible body 'part', expected one "
+       "of its nodes; the nearest is at [0.5, 0, 0]"},
+      {[](D& d) { kind<AppliedLoadDescription>(d, 4).at.node = "n0"; },
+       "forces.load.node: found a node on the rigid body 'block', expected a flexible body"},
+      {[](D& d) {
+         d.outputs[0].at.body = "part";
+         d.outputs[0].at.point = Vec3(0.7, 0, 0);
+       },
+       "outputs.z.position.at: found the point [0.7, 0, 0] on the flexible body 'part', expected "
+       "one of its nodes; the nearest is at [0.5, 0, 0]"},
       {[](D& d) { d.rods[0].b.point.z() = nan; },
        "rods.rod.to.at[3]: found nan, expected a number [m] (numbers must be finite)"},
   });
 }
+
+const std::string long_name =
+    "outputs." + std::string(201, 'n') + ": found a name of 201 characters, expected at most 200";
 
 TEST(Validate, Outputs) {
   check({
@@ -87,8 +120,14 @@ TEST(Validate, Outputs) {
        "outputs.a,b: expected a column name without commas, quotes, brackets and control "
        "characters"},
       {[](D& d) { d.outputs[0].name = "a\tb"; },
-       "outputs.a\tb: expected a column name without commas, quotes, brackets and control "
+       "outputs.a\\tb: expected a column name without commas, quotes, brackets and control "
        "characters"},
+      {[](D& d) { d.outputs[0].name = std::string("a\0b", 3); },
+       "outputs.a\\x00b: expected a column name without commas, quotes, brackets and control "
+       "characters"},
+      {[](D& d) { d.outputs[0].name = ""; },
+       "outputs.: found an empty name, expected a column name"},
+      {[](D& d) { d.outputs[0].name = std::string(201, 'n'); }, long_name},
       {[](D& d) { d.outputs[0].name = "time"; },
        "outputs: found the column 'time', the name of the first column, expected another"},
       {[](D& d) { d.outputs[1].name = "z"; }, "outputs: the column 'z' exists already"},

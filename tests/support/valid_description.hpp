@@ -197,7 +197,7 @@ inline FlexibleBody& part(ModelDescription& d) { return std::get<FlexibleBody>(d
 
 struct Case {
   std::function<void(ModelDescription&)> change;
-  const char* expected;
+  std::string expected;
 };
 using D = ModelDescription;
 

@@ -1,6 +1,7 @@
 #pragma once
 // "did you mean": the known name nearest to a mistyped one, by the number of inserted, deleted,
 // replaced or swapped letters (optimal string alignment distance).
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,24 @@ int edit_distance(std::string_view a, std::string_view b);
 /// The known name that is near (a third of the letters, at least one, are edited) or, if none is,
 /// the shortest that begins with `name` (three letters or more); null if nothing fits.
 const std::string* nearest(std::string_view name, const std::vector<std::string>& known);
+
+/// A longer list of names costs more than the suggestion is worth: only so many are looked at.
+inline constexpr std::size_t most_known = 10'000;
+
+/// The keys of a map of names, to choose from.
+template <class Map>
+std::vector<std::string> keys_of(const Map& map) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : map) {
+    if (keys.size() == most_known) break;
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+/// Suggestions of one reading: each takes up to some ten milliseconds, and who mistyped more names
+/// than that is helped by the first.
+inline constexpr std::size_t most_suggestions = 100;
 
 /// ", did you mean 'name'?" with the nearest known name, or an empty text.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);

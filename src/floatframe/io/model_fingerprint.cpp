@@ -18,7 +18,7 @@ void add(ContentHash& hash, const YamlNode& node, const ParameterScope& scope) {
         return;
       }
       try {
-        const ParameterValue value = substitute_parameters(node.text, scope);
+        const ParameterValue value = substitute_parameters(node.text, scope, false);
         hash.add(static_cast<std::uint64_t>(value.index())).add(value_text(value));
       } catch (const ExpressionError&) {  // a part that is switched off, or a fault of its own
         hash.add(node.text);

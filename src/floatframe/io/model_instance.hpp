@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct ModelInstance {
   std::map<std::string, Vec3> points;  ///< coordinates of this file [m]
   /// Names defined in this file; false: switched off by `when`.
   std::array<std::map<std::string, bool>, entity_words.size()> names;
+  std::set<std::string> refused_names;          ///< of entities: a fault already
   std::map<std::string, std::string> external;  ///< external name -> outer name
   std::vector<std::pair<std::string, std::unique_ptr<ModelInstance>>> children;
   std::optional<YamlSection> root;
@@ -46,6 +48,8 @@ struct ModelInstance {
                                      bool* off = nullptr) const;
   /// As above, with a fault at `value`. `bodies` include the ground.
   std::optional<std::string> reference(EntityKind kind, const YamlValue& value) const;
+  /// The same of a body, not the ground, whose name is the key of `entry`.
+  std::optional<std::string> moving_body(const std::string& name, const YamlValue& entry) const;
   /// A full name as it would be written in this file.
   std::string written(const std::string& full) const;
   /// All names that could be written in this file for a kind.
@@ -57,28 +61,10 @@ struct ModelInstance {
   std::vector<std::string> known_points() const;
   /// A point written as a name or as [x, y, z].
   std::optional<Vec3> read_point(const YamlValue& value) const;
-};
-
-/// Files already parsed, each once.
-class ModelFiles {
- public:
-  explicit ModelFiles(ReadFaults& faults) : faults_(faults) {}
-  /// nullptr and a fault if the file cannot be read. `where`, `subject`: the place that names the
-  /// file.
-  const YamlDocument* load(const std::string& file, const SourceMark& where,
-                           const std::string& subject);
-  /// Position of the file in the order of loading (for sorting faults).
-  std::size_t order(const std::string& file) const;
 
  private:
-  ReadFaults& faults_;
-  std::vector<std::pair<std::string, std::unique_ptr<YamlDocument>>> documents_;
+  /// Why there is no entity of that name; empty if the reason is a fault already.
+  std::string no_entity(EntityKind kind, const std::string& name, bool off) const;
 };
-
-/// Reads the file and, recursively, its subsystems: parameters, points and the names of all
-/// entities. nullptr if the model file itself cannot be read.
-std::unique_ptr<ModelInstance> load_instances(const std::string& path,
-                                              const std::vector<ParameterOverride>& overrides,
-                                              ModelFiles& files, ReadFaults& faults);
 
 }  // namespace floatframe

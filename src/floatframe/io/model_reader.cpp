@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "floatframe/io/load_instances.hpp"
 #include "floatframe/io/read_parts.hpp"
 #include "floatframe/model/sentences.hpp"
 

@@ -31,15 +31,9 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
   for (const auto& [name, point] : value.named("a map of markers to points", true)) {
     const auto at = named.find(name);
     const ModalNode* node = at == named.end() ? nullptr : at->second;
-    const auto known = [&] {
-      std::vector<std::string> names;
-      for (const auto& [key, unused] : named) names.push_back(key);
-      return names;
-    };
     if (!node)
-      self.context.faults->add(point.entity_mark(),
-                               point.path() + ": the part has no marker '" + name + "'" +
-                                   self.context.faults->suggestion(name, known));
+      point.entity_fault("the part has no marker '" + name + "'" +
+                         self.context.faults->suggestion(name, [&] { return keys_of(named); }));
     const auto w = self.read_point(point);
     good = good && node && w;
     if (node && w) pairs.push_back({point, node->p, *w});

@@ -23,7 +23,7 @@ class BarReader {
   void read(YamlSection& section) {
     if (const auto bars = section.require("bars")) {
       const auto list = bars->named("a map of names to bars");
-      if (bars->is_map() && list.empty()) bars->fault("found no bars, expected at least one");
+      if (bars->is_map() && list.empty()) bars->fault(sentences::no_bars());
       for (const auto& [name, value] : list) bar(name, value);
     }
     out_.sound = sound_ && !geometry_.empty();
@@ -80,11 +80,7 @@ class BarReader {
     if (!name) return std::nullopt;
     const auto p = self_.points.find(*name);
     if (p == self_.points.end()) {
-      const auto known = [&] {
-        std::vector<std::string> names;
-        for (const auto& [key, unused] : self_.points) names.push_back(key);
-        return names;
-      };
+      const auto known = [&] { return keys_of(self_.points); };
       value.fault("unknown point '" + *name + "'" + self_.context.faults->suggestion(*name, known));
       return std::nullopt;
     }
@@ -188,14 +184,9 @@ class BarReader {
     if (!name) return false;
     const auto it = geometry_.find(*name);
     if (it == geometry_.end()) {
-      const auto known = [&] {
-        std::vector<std::string> names;
-        for (const auto& [key, unused] : geometry_) names.push_back(key);
-        return names;
-      };
-      bar_value->fault("unknown bar '" + *name + "'" +
-                       self_.context.faults->suggestion(*name, known) +
-                       " (bars are known after they are written)");
+      const auto known = [&] { return keys_of(geometry_); };
+      bar_value->fault(
+          sentences::unknown_bar(*name, self_.context.faults->suggestion(*name, known)));
       return false;
     }
     if (at < 0.0 || !it->second.sound) return false;
@@ -240,9 +231,7 @@ class BarReader {
   void connectivity() {
     for (const auto& [node, value] : links_)
       if (leader(node) != leader(links_.front().first)) {
-        value.context().faults->add(
-            value.entity_mark(),
-            value.path() + ": " + sentences::bar_not_connected(f().bars.front().name));
+        value.entity_fault(sentences::bar_not_connected(f().bars.front().name));
         return;
       }
   }

@@ -57,7 +57,6 @@ class ReadFaults {
   bool exhausted() const noexcept { return exhausted_; }
 
  private:
-  static constexpr std::size_t most_suggestions = 100;
   struct Kind {
     std::size_t kept = 0, passed_over = 0;
     SourceMark first;  ///< passed over

@@ -50,13 +50,8 @@ class FlexibleReader {
     if (!name) return std::nullopt;
     if (out_.named_nodes.count(*name)) return name;
     if (!out_.sound) return std::nullopt;
-    const auto known = [&] {
-      std::vector<std::string> names;
-      for (const auto& [key, unused] : out_.named_nodes) names.push_back(key);
-      return names;
-    };
-    value.fault("found '" + *name + "', expected an end point of a bar of this body" +
-                value.context().faults->suggestion(*name, known));
+    const auto known = [&] { return keys_of(out_.named_nodes); };
+    value.fault(sentences::no_end_point(*name) + value.context().faults->suggestion(*name, known));
     return std::nullopt;
   }
 

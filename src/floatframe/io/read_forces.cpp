@@ -39,7 +39,7 @@ std::optional<AttachmentDescription> own_place(const ModelInstance& self, const 
   if (!body || (at && !point)) return std::nullopt;
   a.body = *body;
   if (*body == ground_name) {
-    body_value->fault("found ground, expected a body");
+    body_value->fault(sentences::ground_is_no_body());
     return std::nullopt;
   }
   const auto it = model.bodies.find(*body);

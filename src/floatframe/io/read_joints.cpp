@@ -1,5 +1,5 @@
 // Joints and rods, and the places on bodies that they and the forces use.
-#include <cmath>
+#include <algorithm>
 #include <span>
 
 #include "floatframe/io/read_parts.hpp"
@@ -12,24 +12,12 @@ namespace {
 
 constexpr std::span joint_words(rules::joint_types);
 
-constexpr double node_tolerance = 1e-6;  // [m], the same as when markers are placed
-
-std::string point_text(const Vec3& p) {
-  std::string text = "[";
-  for (int k = 0; k < 3; ++k) {
-    if (k > 0) text += ", ";
-    text += number_text(std::round(p[k] * 1e9) / 1e9);
-  }
-  text += ']';
-  return text;
-}
-
 std::vector<double> start_values(YamlSection& s, const char* key, JointType type) {
   const auto v = s.get(key);
   if (!v) return {};
   const auto n = static_cast<std::size_t>(joint_velocities(type));
   if (n == 0) {
-    v->fault("a weld has no coordinates, expected no such key");
+    v->fault(sentences::weld_has_no_coordinates());
     return {};
   }
   if (n == 1 && !v->is_list()) {
@@ -122,9 +110,7 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
     }
   }
   const auto unused = [&](const char* key) {
-    if (const auto v = s.get(key))
-      v->fault(std::string("is not used by a ") + joint_words[type] +
-               " joint, expected no such key");
+    if (const auto v = s.get(key)) v->fault(sentences::not_used_by_joint(joint_words[type]));
   };
   if (!has_axis) unused("axis");
   if (j.type != JointType::universal) unused("axis_2");
@@ -175,17 +161,14 @@ bool check_node(const ModelInstance& self, const ReadModel& model, const std::st
   const auto it = model.bodies.find(body);
   if (it == model.bodies.end() || !it->second.flexible || !it->second.sound) return true;
   const Vec3 p = self.world.point(point);
-  double best = -1.0;
-  Vec3 nearest = p;
-  for (const Vec3& n : it->second.nodes) {
-    const double d = (n - p).norm();
-    if (best < 0.0 || d < best) best = d, nearest = n;
-  }
-  if (best <= node_tolerance) return true;
+  const std::vector<Vec3>& nodes = it->second.nodes;
+  const auto nearer = [&](const Vec3& a, const Vec3& b) { return (a - p).norm() < (b - p).norm(); };
+  const auto nearest = std::min_element(nodes.begin(), nodes.end(), nearer);
+  if (nearest != nodes.end() && (*nearest - p).norm() <= rules::node_tolerance) return true;
   const Placement& w = self.world;
-  value.fault("found the point " + point_text(point) + " on the flexible body '" +
-              self.written(body) + "', expected one of its nodes; the nearest is at " +
-              point_text(w.P * (nearest - w.t)));
+  const Vec3 there = nearest != nodes.end() ? Vec3(w.P * (*nearest - w.t)) : Vec3::Zero().eval();
+  value.fault(
+      sentences::no_node_at(point, self.written(body), nearest != nodes.end() ? &there : nullptr));
   return false;
 }
 
@@ -193,23 +176,17 @@ bool check_named_node(const ModelInstance& self, const ReadModel& model, const s
                       const std::string& node, const YamlValue& value) {
   const auto it = model.bodies.find(body);
   if (it == model.bodies.end()) {
-    if (body == ground_name) value.fault("found a node on the ground, expected a flexible body");
+    if (body == ground_name) value.fault(sentences::node_on_ground());
     return false;
   }
   if (!it->second.sound) return false;
   if (!it->second.flexible && it->second.named_nodes.empty()) {
-    value.fault("found a node on the rigid body '" + self.written(body) +
-                "', expected a flexible body");
+    value.fault(sentences::node_on_rigid_body(self.written(body)));
     return false;
   }
   if (it->second.named_nodes.count(node)) return true;
-  const auto known = [&] {
-    std::vector<std::string> names;
-    for (const auto& [name, unused] : it->second.named_nodes) names.push_back(name);
-    return names;
-  };
-  value.fault("the " + std::string(it->second.flexible ? "flexible body '" : "body '") +
-              self.written(body) + "' has no node '" + node + "'" +
+  const auto known = [&] { return keys_of(it->second.named_nodes); };
+  value.fault(sentences::no_node_named(self.written(body), it->second.flexible, node) +
               self.context.faults->suggestion(node, known));
   return false;
 }

@@ -36,7 +36,7 @@ class OutputReader {
 
   void read(const std::string& name, const YamlValue& value) {
     if (const auto complaint = sentences::column_name(name)) {
-      value.context().faults->add(value.entity_mark(), value.path() + ": " + *complaint);
+      value.entity_fault(*complaint);
       return;
     }
     auto s = value.section("a quantity, for example {position: body, axis: z}");
@@ -85,8 +85,7 @@ class OutputReader {
           const bool measured = type == model_.force_types.end() ||
                                 (type->second != "force" && type->second != "torque");
           if (o.kind != OutputKind::force && !measured)
-            what.fault("a " + type->second + " has no " + quantity->key() +
-                       ", expected another force element");
+            what.fault(sentences::load_without(type->second, quantity->key()));
           add(name, o);
         }
         break;
@@ -99,12 +98,9 @@ class OutputReader {
     o.name = self_.prefix + name;
     place(o, self_.world);
     ReadFaults& faults = *self_.context.faults;
-    if (o.name == "time") {
-      faults.add(o.origin.mark, "outputs: " + sentences::time_column());
-      return;
-    }
-    if (!model_.columns.insert(o.name).second) {
-      faults.add(o.origin.mark, "outputs: " + sentences::column_exists(o.name));
+    const bool exists = !model_.columns.insert(o.name).second;
+    if (const auto complaint = sentences::column_taken(o.name, exists)) {
+      faults.add(o.origin.mark, "outputs: " + *complaint);
       return;
     }
     if (!faults.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
@@ -130,7 +126,7 @@ class OutputReader {
   std::optional<std::string> moving_body(const YamlValue& value) {
     const auto body = self_.reference(EntityKind::body, value);
     if (body && *body == ground_name) {
-      value.fault("found ground, expected a body");
+      value.fault(sentences::ground_is_no_body());
       return std::nullopt;
     }
     return body;
@@ -164,7 +160,7 @@ class OutputReader {
     if (it == model_.joints.end()) return;
     const int n = joint_velocities(it->second);
     if (n == 0) {
-      what.fault("found a weld, expected a joint that moves");
+      what.fault(sentences::weld_does_not_move());
       return;
     }
     if (coordinate) {
@@ -186,10 +182,7 @@ class OutputReader {
     const auto it = model_.bodies.find(*body);
     if (it == model_.bodies.end() || !it->second.sound) return;
     if (!it->second.flexible) {
-      what.fault(it->second.named_nodes.empty()
-                     ? "found a rigid body, expected a flexible one"
-                     : "found a body that is switched to rigid (flexible: false) and has no modal "
-                       "amplitudes, expected a flexible one");
+      what.fault(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
       return;
     }
     const auto k =
@@ -206,23 +199,12 @@ class OutputReader {
 void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValue& value,
                      const char* key, std::map<std::string, VecX>& out) {
   for (const auto& [name, v] : value.named("a map of bodies to lists of modal amplitudes", true)) {
-    bool off = false;
-    const auto body = self.resolve(EntityKind::body, name, &off);
-    const auto it = body ? model.bodies.find(*body) : model.bodies.end();
-    if (it == model.bodies.end()) {
-      self.context.faults->add(v.entity_mark(), v.path() + ": " +
-                                                    (off ? "the body is switched off by its 'when'"
-                                                         : "unknown body '" + name + "'"));
-      continue;
-    }
-    if (!it->second.sound) continue;
+    const auto body = self.moving_body(name, v);
+    if (!body) continue;
+    const auto it = model.bodies.find(*body);
+    if (it == model.bodies.end() || !it->second.sound) continue;
     if (!it->second.flexible) {
-      self.context.faults->add(v.entity_mark(),
-                               v.path() + (it->second.named_nodes.empty()
-                                               ? ": found a rigid body, expected a flexible one"
-                                               : ": found a body that is switched to rigid "
-                                                 "(flexible: false) and has no modal amplitudes, "
-                                                 "expected a flexible one"));
+      v.entity_fault(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
       continue;
     }
     const int n = it->second.modes;

@@ -91,12 +91,14 @@ FlexibleRead read_part(const ModelInstance& self, const ReadModel& model, const 
                        const YamlValue& value) {
   const std::string who = "bodies." + body;
   if (value.is_scalar()) return from_body_file(self, model, who, value);
-  bool file = false;
-  if (value.is_map())
-    for (const YamlEntry& entry : value.node().entries) file = file || entry.key == "file";
-  if (file) return from_job(self, model, who, value);
   const auto group = value.section("a map with material, bars and modes, or with a file");
-  return group ? read_flexible(self, *group) : FlexibleRead();
+  if (!group) return {};
+  if (group->has("file")) return from_job(self, model, who, value);
+  if (!group->has("bars") && !group->has("material")) {
+    group->fault("found neither 'bars' nor 'file', expected one of them");
+    return {};
+  }
+  return read_flexible(self, *group);
 }
 
 }  // namespace floatframe

@@ -1,5 +1,4 @@
 // The `simulation` group: how the model is run.
-#include "floatframe/core/suggest.hpp"
 #include "floatframe/io/read_parts.hpp"
 #include "floatframe/io/state_json.hpp"
 #include "floatframe/model/rules.hpp"
@@ -11,17 +10,8 @@ namespace {
 /// {chassis: [0, 0, 0.05]}: translation [m], or translation and rotation vector [m, rad].
 void read_offset(const ModelInstance& self, const YamlValue& value, SimulationDescription& d) {
   for (const auto& [name, v] : value.named("a map of bodies to offsets [x, y, z]", true)) {
-    bool off = false;
-    const auto body = self.resolve(EntityKind::body, name, &off);
-    if (!body || *body == ground_name) {
-      self.context.faults->add(v.entity_mark(),
-                               v.path() + ": " +
-                                   (body  ? "found ground, expected a body"
-                                    : off ? "the body '" + name + "' is switched off by its 'when'"
-                                          : "unknown body '" + name + "'" +
-                                                did_you_mean(name, self.known(EntityKind::body))));
-      continue;
-    }
+    const auto body = self.moving_body(name, v);
+    if (!body) continue;
     const char* what = "[x, y, z] [m], or [x, y, z, rx, ry, rz] with a rotation vector [m, rad]";
     if (v.is_list() && v.node().items.size() != 3 && v.node().items.size() != 6) {
       v.unexpected(what);
@@ -48,6 +38,10 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
   s->finish();
   if (equilibrium && state) {
     state->fault("found with 'equilibrium', expected one of the two");
+    return;
+  }
+  if (!equilibrium && !state && !offset) {
+    value.unexpected("given, equilibrium, or a map with equilibrium or state");
     return;
   }
   const auto on = equilibrium ? equilibrium->boolean() : std::nullopt;

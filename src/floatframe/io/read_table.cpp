@@ -1,5 +1,6 @@
 #include "floatframe/io/read_table.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <string_view>
 
@@ -44,7 +45,7 @@ class TableFile {
       if (content.empty()) continue;
       if (!row(content, line, header)) out_.good = false;
       header = false;
-      if (full_) return;
+      if (stop_) return;
     }
   }
 
@@ -52,31 +53,25 @@ class TableFile {
   bool row(std::string_view content, int line, bool header) {
     const std::vector<std::string_view> words = cells(content);
     const TableRow place{{}, line, 1, out_.rows.size() + 1};
-    double x[2] = {0.0, 0.0};
-    bool good = words.size() == 2;
-    std::size_t names = 0;
-    for (std::size_t k = 0; k < words.size(); ++k) {
-      const PlainScalar p = classify_plain_scalar(words[k]);
-      names += p.kind == PlainScalar::Kind::text;
-      if (k > 1 || p.kind == PlainScalar::Kind::number) {
-        if (k < 2) x[k] = p.number;
-        continue;
-      }
-      good = false;
-      if (header && p.kind == PlainScalar::Kind::text) continue;
-      out_.fault(place, "found '" + std::string(words[k].substr(0, 40)) +
-                            "', expected a number with a decimal point" +
-                            (p.complaint.empty() ? "" : " (" + p.complaint + ")"));
-      return false;
-    }
-    if (header && names == words.size()) return true;
+    const auto is_name = [](std::string_view word) {
+      return classify_plain_scalar(word).kind == PlainScalar::Kind::text;
+    };
+    if (header && std::all_of(words.begin(), words.end(), is_name)) return true;
     if (words.size() != 2) {
       out_.fault(place, "found " + std::to_string(words.size()) +
                             (words.size() == 1 ? " column" : " columns") + ", expected two");
+      stop_ = true;  // the other rows have as many
       return false;
     }
-    if (!good) {
-      out_.fault(place, "found a name beside a number, expected two names or two numbers");
+    double x[2] = {0.0, 0.0};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const PlainScalar p = classify_plain_scalar(words[k]);
+      x[k] = p.number;
+      if (p.kind == PlainScalar::Kind::number) continue;
+      out_.fault(place, "found '" + std::string(words[k].substr(0, 40)) +
+                            "', expected a number with a decimal point" +
+                            (p.complaint.empty() ? "" : " (" + p.complaint + ")") +
+                            (header ? ", or names in both columns of the first line" : ""));
       return false;
     }
     for (const double v : x)
@@ -84,16 +79,16 @@ class TableFile {
         out_.fault(place, "found " + number_text(v) + ", expected " + rule_.expectation());
         return false;
       }
-    full_ = !out_.faults->take_of("rows in all CSV files of tables", 1, limits::table_rows,
+    stop_ = !out_.faults->take_of("rows in all CSV files of tables", 1, limits::table_rows,
                                   value_.mark(), value_.path());
     out_.rows.push_back({{x[0], x[1]}, line, 1, place.number});
-    return !full_;
+    return !stop_;
   }
 
   const YamlValue& value_;
   const NumberRule& rule_;
   TableRows& out_;
-  bool full_ = false;
+  bool stop_ = false;
 };
 
 }  // namespace

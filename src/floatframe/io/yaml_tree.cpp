@@ -98,7 +98,8 @@ class TreeBuilder final : public YAML::EventHandler {
     n.kind = YamlNode::Kind::scalar;
     n.text = revealed(value);
     n.quoted = tag == "!";
-    check_characters(mark, n.text);
+    n.refused = !check_characters(mark, n.text);
+    last_ = n.quoted ? mark : YAML::Mark::null_mark();
     scalar(std::move(n));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -112,6 +113,8 @@ class TreeBuilder final : public YAML::EventHandler {
   }
   void OnMapEnd() override { close(); }
   bool empty() const { return !seen_; }
+  /// Where the last scalar begins, if it is in quotes.
+  const YAML::Mark& last_quoted() const { return last_; }
   std::size_t values() const { return values_; }
 
  private:
@@ -136,19 +139,21 @@ class TreeBuilder final : public YAML::EventHandler {
                     " values in one file, expected fewer (tables may stand in CSV files)");
     throw GaveUp{};
   }
-  void check_characters(const YAML::Mark& mark, std::string& text) {
+  bool check_characters(const YAML::Mark& mark, std::string& text) {
     if (text.size() > longest_text) {
       fault(mark, "found a text of " + std::to_string(text.size()) +
                       " characters, expected at most " + std::to_string(longest_text));
       text.resize(100);
       while (!text.empty() && utf8_length(text, text.size() - 1) == 0) text.pop_back();
+      return false;
     }
     for (std::size_t k = 0; k < text.size(); ++k)
       if (is_control(text, k) && text[k] != '\n' && text[k] != '\t') {
         fault(mark, "found the text '" + printable(text.substr(0, 40)) +
                         "', expected no control characters");
-        return;
+        return false;
       }
+    return true;
   }
   void refuse(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (anchor != 0) fault(mark, "anchors (&name) are not allowed, use parameters");
@@ -221,9 +226,10 @@ class TreeBuilder final : public YAML::EventHandler {
   std::vector<Level> stack_;
   std::size_t values_ = 0;
   bool seen_ = false;
+  YAML::Mark last_ = YAML::Mark::null_mark();
 };
 
-/// Refuses binary data and tabs in the indentation.
+/// Refuses binary data, line ends that YAML does not know and tabs in the indentation.
 bool check_text(const std::string& file, const std::string& text, ReadFaults& faults) {
   int line = 1;
   std::size_t start = 0;
@@ -237,6 +243,12 @@ bool check_text(const std::string& file, const std::string& text, ReadFaults& fa
     const auto u = static_cast<unsigned char>(c);
     if (n == 0 || u == 0x7F || (u < 0x20 && c != '\n' && c != '\r' && c != '\t')) {
       faults.add(mark(), "this is not a text file (UTF-8)");
+      return false;
+    }
+    if (c == '\r' && k + 1 < text.size() && text[k + 1] != '\n') {
+      faults.add(mark(),
+                 "a carriage return without a line feed, expected lines that end with LF "
+                 "or CRLF");
       return false;
     }
     if ((c == '[' || c == '{') && ++brackets == deepest_nesting) deep = mark();
@@ -265,6 +277,24 @@ bool check_text(const std::string& file, const std::string& text, ReadFaults& fa
   return true;
 }
 
+/// The parser takes the end of the file for the closing quote.
+bool is_closed(const std::string& text, const YAML::Mark& begin) {
+  std::size_t at = 0;
+  for (int line = 0; line < begin.line; ++line) at = text.find('\n', at) + 1;
+  at += static_cast<std::size_t>(begin.column);
+  if (at >= text.size() || (text[at] != '"' && text[at] != '\'')) return true;  // a block
+  const char quote = text[at];
+  for (++at; at < text.size(); ++at) {
+    if (quote == '"' && text[at] == '\\') {
+      ++at;
+    } else if (text[at] == quote) {
+      if (quote == '"' || at + 1 == text.size() || text[at + 1] != quote) return true;
+      ++at;
+    }
+  }
+  return false;
+}
+
 thread_local std::map<std::string, std::string>* files_read = nullptr;
 
 }  // namespace
@@ -284,6 +314,11 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Re
       return document;
     }
     document.values = builder.values();
+    if (const YAML::Mark& last = builder.last_quoted(); !last.is_null() && !is_closed(text, last)) {
+      faults.add({file, last.line + 1, last.column + 1},
+                 "the text in quotes that begins here is not closed");
+      return YamlDocument{file, {}, 0};
+    }
     YamlNode second;
     ReadFaults ignored;
     TreeBuilder more(file, second, ignored);
@@ -294,7 +329,8 @@ YamlDocument parse_yaml(const std::string& file, const std::string& original, Re
   } catch (const YAML::Exception& e) {
     SourceMark mark{file, e.mark.line + 1, e.mark.column + 1};
     if (e.mark.is_null()) mark.line = mark.column = 1;
-    faults.add(mark, "YAML syntax: " + revealed(e.msg));
+    const bool open = e.msg == "illegal EOF in scalar";
+    faults.add(mark, open ? "a text in quotes is not closed" : "YAML syntax: " + revealed(e.msg));
   } catch (const std::exception& e) {  // the parser's own limit on recursion
     faults.add({file, 1, 1}, std::string("YAML syntax: ") + e.what());
   }

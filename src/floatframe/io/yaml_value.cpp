@@ -34,6 +34,7 @@ bool has_expression(const YamlNode& n) {
 
 YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) const {
   Scalar s;
+  if (node_->refused) return s;
   const auto complain = [&](const std::string& sentence) {
     if (!quiet) fault(sentence);
   };

@@ -57,6 +57,10 @@ class YamlValue {
   void fault(const std::string& sentence) const {
     context_->faults->add(mark(), path_ + ": " + sentence);
   }
+  /// The same at the key of the value.
+  void entity_fault(const std::string& sentence) const {
+    context_->faults->add(entity_mark(), path_ + ": " + sentence);
+  }
   void complain(const std::optional<std::string>& complaint) const {
     if (complaint) fault(*complaint);
   }

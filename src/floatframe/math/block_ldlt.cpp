@@ -22,29 +22,31 @@ BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<
     nodes_[k].offset = offset;
     offset += sizes[k];
   }
-  // Minimum degree, counted in unknowns; eliminating a block couples its neighbours.
-  std::vector<char> done(n, 0);
-  for (std::size_t step = 0; step < n; ++step) {
-    int best = -1;
-    long best_degree = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      if (done[k]) continue;
-      long degree = 0;
-      for (int j : neighbours[k]) degree += sizes[static_cast<std::size_t>(j)];
-      if (best < 0 || degree < best_degree) {
-        best = static_cast<int>(k);
-        best_degree = degree;
-      }
-    }
+  // Minimum degree, counted in unknowns, then the order given; eliminating a block couples its
+  // neighbours.
+  std::vector<long> degree(n, 0);
+  std::set<std::pair<long, int>> left;
+  for (std::size_t k = 0; k < n; ++k) {
+    for (int j : neighbours[k]) degree[k] += sizes[static_cast<std::size_t>(j)];
+    left.emplace(degree[k], static_cast<int>(k));
+  }
+  while (!left.empty()) {
+    const int best = left.begin()->second;
+    left.erase(left.begin());
     const auto b = static_cast<std::size_t>(best);
-    done[b] = 1;
-    nodes_[b].rank = static_cast<int>(step);
+    nodes_[b].rank = static_cast<int>(order_.size());
     order_.push_back(best);
     nodes_[b].blocks.assign(neighbours[b].begin(), neighbours[b].end());
-    for (int i : neighbours[b])
+    for (int i : neighbours[b]) {
+      const auto k = static_cast<std::size_t>(i);
+      left.erase({degree[k], i});
       for (int j : neighbours[b])
-        if (i != j) neighbours[static_cast<std::size_t>(i)].insert(j);
-    for (int i : neighbours[b]) neighbours[static_cast<std::size_t>(i)].erase(best);
+        if (i != j && neighbours[k].insert(j).second)
+          degree[k] += sizes[static_cast<std::size_t>(j)];
+      neighbours[k].erase(best);
+      degree[k] -= sizes[b];
+      left.emplace(degree[k], i);
+    }
   }
   for (Node& node : nodes_) {
     std::sort(node.blocks.begin(), node.blocks.end(), [&](int a, int b) {

@@ -61,16 +61,20 @@ void ModelBuilder::bodies() {
 }
 
 void ModelBuilder::modal_masses() {
+  // Of the joints of a body to the ground the first one that leaves the fewest motions.
+  std::vector<const Joint*> on_ground(model.bodies.size(), nullptr);
+  for (const Joint& j : model.joints) {
+    if (j.parent != ground_index) continue;
+    const Joint*& tightest = on_ground[static_cast<std::size_t>(j.child)];
+    if (joint_velocities(j.type) < (tightest ? joint_velocities(tightest->type) : 6)) tightest = &j;
+  }
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& b = model.bodies[i];
     if (b.modes() == 0) continue;
     // Any motion, unless a joint to the ground says which.
-    Mat6X free = Mat6::Identity();
-    for (const Joint& j : model.joints) {
-      if (j.parent != ground_index || j.child != static_cast<int>(i)) continue;
-      if (joint_velocities(j.type) >= free.cols()) continue;
-      free = rigid_motions(j, b, marker(j.frame_M));
-    }
+    const Joint* joint = on_ground[i];
+    const Mat6X free =
+        joint ? rigid_motions(*joint, b, marker(joint->frame_M)) : Mat6X(Mat6::Identity());
     const double own = relative_modal_mass(b.data->invariants, free, b.data->K);
     if (own > least_modal_mass) continue;
     std::ostringstream s;
@@ -84,6 +88,12 @@ void ModelBuilder::modal_masses() {
 void ModelBuilder::finish() {
   double mass = 0.0;
   int heavy = 0;
+  std::vector<double> reach(model.bodies.size(), 0.0);  // of markers that belong to no node
+  for (const Marker& m : model.markers)
+    if (m.body >= 0 && m.node < 0) {
+      double& r = reach[static_cast<std::size_t>(m.body)];
+      r = std::max(r, m.X_NM.p.norm());
+    }
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     Body& b = model.bodies[i];
     const InertiaInvariants& v = b.data->invariants;
@@ -91,10 +101,8 @@ void ModelBuilder::finish() {
       mass += v.m;
       ++heavy;
     }
-    double length = 0.0;
+    double length = reach[i];
     for (const ModalNode& n : b.data->nodes) length = std::max(length, n.p.norm());
-    for (const Marker& m : model.markers)
-      if (m.body == static_cast<int>(i) && m.node < 0) length = std::max(length, m.X_NM.p.norm());
     if (v.m > 0.0) length = std::max(length, std::sqrt(std::max(v.P_u.trace(), 0.0) / v.m));
     b.length = length > 0.0 ? length : 1.0;
     const auto amplitudes = [&](const char* key, const std::map<std::string, VecX>& given,

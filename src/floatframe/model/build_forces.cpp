@@ -13,10 +13,16 @@ struct ForceBuild {
   const std::string who;
   Force force;
 
+  /// `key` holds the place; nullptr: the place stands among the keys of the force itself.
   int marker(const AttachmentDescription& at, bool oriented, const char* key) {
-    return builder.add_marker(at, Mat3::Identity(), oriented, origin.of(key), who + "." + key);
+    return builder.add_marker(at, Mat3::Identity(), oriented,
+                              origin.of(key       ? key
+                                        : at.node ? "node"
+                                                  : "at"),
+                              key ? who + "." + key : who);
   }
-  int input(const SignalDescription& signal) { return builder.input_index(signal.input); }
+  /// -1 without an input.
+  int input(const SignalDescription& signal) { return builder.input_names.index(signal.input); }
   void actuate(const std::optional<SignalDescription>& signal) {
     if (!signal) return;
     force.magnitude = *signal;
@@ -53,32 +59,30 @@ struct ForceBuild {
     if (d.target_rate) force.target_rate = {*d.target_rate, input(*d.target_rate)};
     force.targeted = d.target || d.target_rate;
     force.derived_rate = !d.target_rate;
-    for (const Joint& joint : builder.model.joints) {
-      if (joint.name != d.joint) continue;
-      force.a = joint.frame_F;
-      force.b = joint.frame_M;
-      force.rotational = joint.type == JointType::revolute;
-      return true;
-    }
-    return false;  // the joint has a fault of its own
+    const auto k = builder.joint_names.find(d.joint);
+    if (!k) return false;  // the joint has a fault of its own
+    const Joint& joint = builder.model.joints[*k];
+    force.a = joint.frame_F;
+    force.b = joint.frame_M;
+    force.rotational = joint.type == JointType::revolute;
+    return true;
   }
 
   bool build(const TyreDescription& d) {
     force.type = ForceType::tyre;
-    force.b = marker(d.centre, d.law == TyreLaw::radial, "centre");
+    force.b = marker(d.centre, d.law == TyreLaw::radial, nullptr);
     force.radius = d.radius;
     force.stiffness = d.stiffness;
     force.damping = d.damping;
     force.law = d.law;
     force.axis = unit_vector(d.axis);
-    for (std::size_t k = 0; k < builder.model.roads.size(); ++k)
-      if (builder.model.roads[k].name == d.road) force.road = static_cast<int>(k);
+    force.road = builder.road_names.index(d.road);
     return force.b >= 0;
   }
 
   bool build(const AppliedLoadDescription& d) {
     force.type = d.torque ? ForceType::torque : ForceType::force;
-    force.b = marker(d.at, d.torque || d.follows, "at");
+    force.b = marker(d.at, d.torque || d.follows, nullptr);
     force.axis = d.direction;
     force.magnitude = d.magnitude;
     force.input = input(d.magnitude);
@@ -93,8 +97,9 @@ void ModelBuilder::forces() {
   for (const ForceDescription& f : d.forces) {
     ForceBuild b{*this, f.origin, "forces." + f.name, {}};
     b.force.name = f.name;
-    if (std::visit([&](const auto& kind) { return b.build(kind); }, f.kind))
-      model.forces.push_back(std::move(b.force));
+    if (!std::visit([&](const auto& kind) { return b.build(kind); }, f.kind)) continue;
+    force_names.add(f.name);
+    model.forces.push_back(std::move(b.force));
   }
 }
 

@@ -16,10 +16,4 @@ void ModelBuilder::inputs() {
   }
 }
 
-int ModelBuilder::input_index(const std::string& name) const {
-  for (std::size_t i = 0; i < model.inputs.size(); ++i)
-    if (model.inputs[i].name == name) return static_cast<int>(i);
-  return -1;
-}
-
 }  // namespace floatframe

@@ -1,4 +1,6 @@
 // Joints of the description, and the free joints that bodies without one hang from.
+#include <utility>
+
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
@@ -29,34 +31,43 @@ void ModelBuilder::joints() {
     joint.keep = j.keep;
     joint.motion = j.motion;
     joint.cut = j.cut;
-    joint.parent = body_index(j.parent.body, j.origin.of("parent"), who + ".parent");
-    joint.child = body_index(j.child.body, j.origin.of("child"), who + ".child");
+    joint.parent = body_index(j.parent.body);
+    joint.child = body_index(j.child.body);
     const bool ball = j.type == JointType::spherical || j.type == JointType::free;
     const Mat3 R =
         ball || j.type == JointType::weld ? Mat3::Identity().eval() : frame_with_z(j.axis);
     if (j.type == JointType::universal) joint.axis_2 = R.transpose() * unit_vector(j.axis_2);
-    joint.frame_F = add_marker(j.parent, R, !ball, j.origin.of("at"), who);
-    joint.frame_M = add_marker(j.child, R, !ball, j.origin.of("at"), who);
+    joint.frame_F = add_marker(j.parent, R, !ball, j.origin.of("at"), who, "parent_node");
+    joint.frame_M = add_marker(j.child, R, !ball, j.origin.of("at"), who, "child_node");
     if (joint.frame_F < 0 || joint.frame_M < 0) continue;
+    joint_names.add(joint.name);
     model.joints.push_back(std::move(joint));
   }
 }
 
 void ModelBuilder::free_joints() {
   std::vector<char> reached(model.bodies.size(), 0);
+  std::vector<std::vector<int>> neighbours(model.bodies.size());
+  std::vector<int> next;
+  const auto reach = [&](int body) {
+    if (std::exchange(reached[static_cast<std::size_t>(body)], 1) == 0) next.push_back(body);
+  };
   const auto spread = [&] {
-    for (bool more = true; more;) {
-      more = false;
-      for (const Joint& j : model.joints) {
-        if (j.cut) continue;
-        const bool p = j.parent < 0 || reached[static_cast<std::size_t>(j.parent)];
-        const bool c = reached[static_cast<std::size_t>(j.child)];
-        if (p == c) continue;
-        reached[static_cast<std::size_t>(p ? j.child : j.parent)] = 1;
-        more = true;
-      }
+    while (!next.empty()) {
+      const int body = next.back();
+      next.pop_back();
+      for (const int other : neighbours[static_cast<std::size_t>(body)]) reach(other);
     }
   };
+  for (const Joint& j : model.joints) {
+    if (j.cut) continue;
+    if (j.parent < 0) {
+      reach(j.child);
+      continue;
+    }
+    neighbours[static_cast<std::size_t>(j.parent)].push_back(j.child);
+    neighbours[static_cast<std::size_t>(j.child)].push_back(j.parent);
+  }
   spread();
   for (std::size_t i = 0; i < reached.size(); ++i) {
     if (reached[i]) continue;
@@ -76,7 +87,7 @@ void ModelBuilder::free_joints() {
     joint.frame_M = static_cast<int>(model.markers.size());
     model.markers.push_back(own);
     model.joints.push_back(std::move(joint));
-    reached[i] = 1;
+    reach(static_cast<int>(i));
     spread();
   }
 }

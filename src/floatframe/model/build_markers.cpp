@@ -1,48 +1,42 @@
 // Names of bodies and places on them.
+#include <array>
 #include <limits>
-#include <sstream>
 
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/model/model_builder.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
 namespace {
 
-constexpr double node_tolerance = 1e-6;
-
-bool same(const Marker& a, const Marker& b) {
-  return a.body == b.body && a.node == b.node && a.rotates == b.rotates && a.X_NM.p == b.X_NM.p &&
-         a.X_NM.R == b.X_NM.R;
+/// Equal for equal markers.
+std::array<double, 15> place_of(const Marker& m) {
+  std::array<double, 15> place{static_cast<double>(m.body), static_cast<double>(m.node),
+                               m.rotates ? 1.0 : 0.0};
+  for (Eigen::Index i = 0; i < 3; ++i) place[3 + static_cast<std::size_t>(i)] = m.X_NM.p[i];
+  for (Eigen::Index i = 0; i < 9; ++i) place[6 + static_cast<std::size_t>(i)] = m.X_NM.R(i);
+  return place;
 }
 
-std::string node_names(const std::vector<ModalNode>& nodes) {
-  std::string text;
-  for (const ModalNode& n : nodes)
-    if (!n.name.empty()) text += (text.empty() ? " (" : ", ") + n.name;
-  return text.empty() ? text : text + ")";
+std::string no_node_named(const Body& body, const std::string& node) {
+  std::vector<std::string> known;
+  for (const ModalNode& n : body.data->nodes)
+    if (!n.name.empty()) known.push_back(n.name);
+  if (body.modes() == 0 && known.empty()) return sentences::node_on_rigid_body(body.name);
+  return sentences::no_node_named(body.name, body.modes() > 0, node) + did_you_mean(node, known);
 }
 
 }  // namespace
 
-std::string point_text(const Vec3& p) {
-  std::ostringstream s;
-  s << '[' << p.x() << ", " << p.y() << ", " << p.z() << ']';
-  return s.str();
-}
-
-int ModelBuilder::body_index(const std::string& name, const SourceMark& mark,
-                             const std::string& who) {
-  if (name == ground_name) return ground_index;
-  for (std::size_t i = 0; i < model.bodies.size(); ++i)
-    if (model.bodies[i].name == name) return static_cast<int>(i);
-  faults.add(mark, who + ": found body '" + name + "', expected the name of a body or 'ground'");
-  return unknown;
+int ModelBuilder::body_index(const std::string& name) const {
+  return name == ground_name ? ground_index : body_names.index(name);
 }
 
 int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_design, bool oriented,
-                             const SourceMark& mark, const std::string& who) {
-  const int body = body_index(at.body, mark, who);
-  if (body == unknown) return -1;
+                             const SourceMark& mark, const std::string& who, const char* node_key) {
+  const int body = body_index(at.body);
   Marker m;
   m.body = body;
   if (body < 0) {
@@ -57,8 +51,7 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
     for (std::size_t k = 0; k < nodes.size(); ++k)
       if (nodes[k].name == *at.node) m.node = static_cast<int>(k);
     if (m.node < 0) {
-      faults.add(mark, who + ": found node '" + *at.node + "', expected a node of body '" + b.name +
-                           "'" + node_names(nodes));
+      faults.add(mark, who + "." + node_key + ": " + no_node_named(b, *at.node));
       return -1;
     }
     X_BM.p = nodes[static_cast<std::size_t>(m.node)].p;
@@ -71,28 +64,29 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
         m.node = static_cast<int>(k);
       }
     }
-    if (best > node_tolerance && X_BM.p.norm() <= node_tolerance) {
+    if (best > rules::node_tolerance && X_BM.p.norm() <= rules::node_tolerance) {
       m.node = -1;  // the body frame itself, whatever the body reference: no mode moves it
-    } else if (best > node_tolerance) {
-      const Vec3 nearest = m.node < 0 ? Vec3::Zero().eval()
-                                      : Vec3(b.X_WB * nodes[static_cast<std::size_t>(m.node)].p);
-      faults.add(mark, who + ": found point " + point_text(at.point) + " on flexible body '" +
-                           b.name + "', expected one of its nodes; the nearest is at " +
-                           point_text(nearest));
+    } else if (best > rules::node_tolerance) {
+      Vec3 nearest = Vec3::Zero();
+      if (m.node >= 0) nearest = b.X_WB * nodes[static_cast<std::size_t>(m.node)].p;
+      faults.add(
+          mark,
+          who + ".at: " + sentences::no_node_at(at.point, b.name, m.node < 0 ? nullptr : &nearest));
       return -1;
     }
   }
   if (m.node >= 0) {
     m.X_NM = {X_BM.p - nodes[static_cast<std::size_t>(m.node)].p, X_BM.R};
-    if (m.X_NM.p.norm() <= node_tolerance) m.X_NM.p.setZero();
+    if (m.X_NM.p.norm() <= rules::node_tolerance) m.X_NM.p.setZero();
     m.rotates = oriented;
   } else {
     m.X_NM = X_BM;
   }
-  for (std::size_t k = 0; k < model.markers.size(); ++k)  // joints and forces share equal markers
-    if (same(model.markers[k], m)) return static_cast<int>(k);
-  model.markers.push_back(m);
-  return static_cast<int>(model.markers.size()) - 1;
+  // Joints and forces share equal markers.
+  const auto [it, fresh] =
+      marker_places.emplace(place_of(m), static_cast<int>(model.markers.size()));
+  if (fresh) model.markers.push_back(m);
+  return it->second;
 }
 
 Vec3 ModelBuilder::design_point(int marker) const {

@@ -1,6 +1,7 @@
 // Result columns: what they measure and their units.
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
+#include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
@@ -19,14 +20,14 @@ void ModelBuilder::outputs() {
       case OutputKind::position:
       case OutputKind::velocity:
       case OutputKind::acceleration:
-        out.marker = add_marker(o.at, Mat3::Identity(), false, o.origin.mark, who);
+        out.marker = add_marker(o.at, Mat3::Identity(), false, o.origin.mark,
+                                who + "." + rules::quantities[static_cast<std::size_t>(o.kind)]);
         if (out.marker < 0) continue;
         break;
       case OutputKind::rotation:
       case OutputKind::angular_velocity:
       case OutputKind::modal_amplitude:
-        out.body = body_index(o.at.body, o.origin.mark, who);
-        if (out.body < 0) continue;
+        out.body = body_index(o.at.body);
         if (o.kind == OutputKind::modal_amplitude) {
           const int nm = model.bodies[static_cast<std::size_t>(out.body)].modes();
           if (o.component < 0 || o.component >= nm) {
@@ -40,8 +41,7 @@ void ModelBuilder::outputs() {
         break;
       case OutputKind::joint_position:
       case OutputKind::joint_velocity: {
-        for (std::size_t k = 0; k < model.joints.size(); ++k)
-          if (model.joints[k].name == o.entity) out.joint = static_cast<int>(k);
+        out.joint = joint_names.index(o.entity);
         if (out.joint < 0) continue;  // it has a fault of its own
         const JointType type = model.joints[static_cast<std::size_t>(out.joint)].type;
         const bool metres = type == JointType::prismatic ||
@@ -54,8 +54,7 @@ void ModelBuilder::outputs() {
       case OutputKind::force:
       case OutputKind::length:
       case OutputKind::rate: {
-        for (std::size_t k = 0; k < model.forces.size(); ++k)
-          if (model.forces[k].name == o.entity) out.force = static_cast<int>(k);
+        out.force = force_names.index(o.entity);
         if (out.force < 0) continue;  // it has a fault of its own
         const Force& f = model.forces[static_cast<std::size_t>(out.force)];
         if (f.rotational || f.type == ForceType::torque)

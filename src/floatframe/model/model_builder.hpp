@@ -1,10 +1,13 @@
 #pragma once
 // The work of build_model in stages that share names, markers and the list of faults; each stage in
 // the file of its subject (build_*.cpp).
+#include <array>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "floatframe/model/model.hpp"
+#include "floatframe/model/name_index.hpp"
 
 namespace floatframe {
 
@@ -12,13 +15,20 @@ namespace floatframe {
 /// are reduced.
 struct ModelBuilder {
   static constexpr int ground_index = -1;
-  static constexpr int unknown = -2;
 
   const ModelDescription& d;
+  const NameIndex body_names, road_names, input_names;
+  NameIndex joint_names, force_names;  ///< of those that are built
+  /// Body, node, whether it turns with the node, place and orientation of each marker on a body.
+  std::map<std::array<double, 15>, int> marker_places;
   Model model;
   Faults faults;
 
-  explicit ModelBuilder(const ModelDescription& description) : d(description) {}
+  explicit ModelBuilder(const ModelDescription& description)
+      : d(description),
+        body_names(description.bodies),
+        road_names(description.roads),
+        input_names(description.inputs) {}
 
   void bodies();
   void roads();
@@ -35,14 +45,13 @@ struct ModelBuilder {
   /// Lengths and masses that scale the equations; start values of the modes.
   void finish();
 
-  /// `ground_index`, or `unknown` and a fault.
-  int body_index(const std::string& name, const SourceMark& mark, const std::string& who);
-  /// A marker at a design point; -1 and a fault if the body or node does not exist. `oriented`: the
-  /// marker's orientation matters, so the rotation of the node enters.
+  /// `ground_index` for the ground.
+  int body_index(const std::string& name) const;
+  /// A marker at a design point; -1 and a fault if the body has no such node. `oriented`: the
+  /// marker's orientation matters, so the rotation of the node enters. The fault is one of "who.at"
+  /// or of "who.node_key".
   int add_marker(const AttachmentDescription& at, const Mat3& R_design, bool oriented,
-                 const SourceMark& mark, const std::string& who);
-  /// Index of an input; -1 for no name.
-  int input_index(const std::string& name) const;
+                 const SourceMark& mark, const std::string& who, const char* node_key = "node");
   const Marker& marker(int index) const { return model.markers[static_cast<std::size_t>(index)]; }
   /// World place of a marker in the design configuration.
   Vec3 design_point(int marker) const;
@@ -52,8 +61,5 @@ struct ModelBuilder {
 inline Vec3 unit_vector(const Vec3& v) {
   return std::isfinite(v.squaredNorm()) ? v.normalized() : v.stableNormalized();
 }
-
-/// "[1, 2, 3]"
-std::string point_text(const Vec3& p);
 
 }  // namespace floatframe

@@ -43,6 +43,9 @@ inline constexpr WholeNumberRule normal_modes{"a number of modes, or {below: fre
                                               10000};
 inline constexpr WholeNumberRule analytic_shapes{"a number of shapes", 0, 50};
 
+/// A point of a flexible body that is this near to a node is the node [m].
+inline constexpr double node_tolerance = 1e-6;
+
 // Forces and roads.
 inline constexpr NumberRule sine_frequency = positive_number("Hz");
 inline constexpr NumberRule rod_length = positive_number("m");
@@ -66,5 +69,6 @@ inline constexpr NumberRule position_tolerance{"a number of at least 1e-15", "m"
 inline constexpr NumberRule velocity_tolerance{"a number of at least 1e-15", "m/s", 1e-15};
 inline constexpr WholeNumberRule max_iterations{"a number of iterations", 1, 1000};
 inline constexpr double most_steps = 1e9;
+inline constexpr std::size_t column_length = 200;
 
 }  // namespace floatframe::rules

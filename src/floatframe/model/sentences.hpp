@@ -26,9 +26,23 @@ Complaint analytic_shapes(std::size_t bars, std::size_t masses);
 Complaint more_modes_than_dofs(int modes, std::size_t nodes, bool isoparametric);
 std::string dof_twice(const std::string& node, unsigned dof);
 std::string no_modes();
+std::string no_bars();
+/// `hint`: ", did you mean ...?" or nothing.
+std::string unknown_bar(const std::string& name, const std::string& hint);
+std::string no_end_point(const std::string& name);
 std::string bar_not_connected(const std::string& first_bar);
 /// Places of the clamped degrees of freedom, each with its direction 0..5 = x y z rx ry rz.
 Complaint body_reference(const std::vector<std::pair<Vec3, unsigned>>& clamped);
+
+// Places on bodies, and what is asked of bodies that have no modes.
+std::string ground_is_no_body();
+std::string node_on_ground();
+std::string node_on_rigid_body(const std::string& body);
+/// No node of that name, on a flexible body or one that is switched to rigid.
+std::string no_node_named(const std::string& body, bool flexible, const std::string& node);
+/// `nearest`: nullptr if the body has no nodes.
+std::string no_node_at(const Vec3& point, const std::string& body, const Vec3* nearest);
+std::string rigid_body_has_no_modes(bool switched);
 
 // Joints, forces, roads.
 Complaint direction(const Vec3& v);
@@ -40,6 +54,8 @@ Complaint rod_ends(const Vec3& a, const Vec3& b);
 Complaint spring_ends(const Vec3& a, const Vec3& b);
 std::string target_without_law();
 std::string motion_and_start_value();
+std::string weld_has_no_coordinates();
+std::string not_used_by_joint(const std::string& type);
 /// The piece from which the law jumps, and the sentence.
 std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f);
 
@@ -52,9 +68,12 @@ Complaint input_initial(double initial, const std::optional<double>& low,
                         const std::optional<double>& high);
 /// A component, counted from 0, that is not one of the `n` that a model file counts from 1.
 std::string number_of(const char* what, int component, int n);
+std::string weld_does_not_move();
+/// A force or torque that is given has no length and no rate.
+std::string load_without(const std::string& type, const std::string& quantity);
 Complaint column_name(const std::string& name);
-std::string time_column();
-std::string column_exists(const std::string& name);
+/// Of the whole name of a column: another one has it (`exists`), or the time.
+Complaint column_taken(const std::string& name, bool exists);
 Complaint model_name(const std::string& name);
 Complaint min_step(double min_step, double step);
 /// More steps than a run can count and keep.

@@ -9,6 +9,7 @@
 
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/model/description.hpp"
+#include "floatframe/model/name_index.hpp"
 
 namespace floatframe {
 
@@ -26,7 +27,7 @@ namespace validation {
 
 /// Names that entities refer to.
 struct Names {
-  std::vector<std::string> bodies, joints, forces, roads, inputs;
+  NameIndex bodies, joints, forces, roads, inputs;
 };
 
 /// One entity: adds "path.key: sentence" at the key's place, if one is known.
@@ -55,7 +56,7 @@ struct Entity {
   bool direction(const std::string& key, const Vec3& v) const;
   bool rotation(const std::string& key, const Mat3& R) const;
   bool reference(const std::string& key, const char* kind, const std::string& name,
-                 const std::vector<std::string>& known) const;
+                 const NameIndex& known) const;
   /// A place on a body; the ground too if `ground`.
   bool place(const std::string& key, const AttachmentDescription& at, const Names& names,
              bool ground = true) const;

@@ -34,7 +34,7 @@ bool is_mirror(const Mat3& P) {
   return true;
 }
 
-/// Sizes and finiteness of the arrays of a reduced body; `fault` is told which array is wrong.
+/// Sizes and finiteness of the arrays of a reduced body.
 class Arrays {
  public:
   Arrays(const FlexibleBody& f, const Entity& body) : f_(f), body_(body) {}
@@ -157,17 +157,12 @@ void amplitudes(const ModelDescription& d, const Names& names, Faults& faults) {
   const auto check = [&](const char* key, const std::map<std::string, VecX>& given) {
     for (const auto& [body_name, values] : given) {
       const Origin none;
-      const Origin* origin = &none;
-      bool flexible = true;
-      for (const BodyDescription& b : d.bodies)
-        if (b.name == body_name) {
-          origin = &b.origin;
-          flexible = !b.rigid && !std::holds_alternative<RigidDescription>(b.kind);
-        }
-      const Entity entity{faults, *origin, std::string("initial.") + key};
+      const auto k = names.bodies.find(body_name);
+      const Entity entity{faults, k ? d.bodies[*k].origin : none, std::string("initial.") + key};
       if (!entity.reference(body_name, "body", body_name, names.bodies)) continue;
-      if (!flexible) {
-        entity.fault(body_name, "found a rigid body, expected a flexible one");
+      const BodyDescription& b = d.bodies[*k];
+      if (b.rigid || std::holds_alternative<RigidDescription>(b.kind)) {
+        entity.fault(body_name, sentences::rigid_body_has_no_modes(b.rigid));
         continue;
       }
       for (Eigen::Index i = 0; i < values.size(); ++i)

@@ -1,6 +1,7 @@
 // The checks that entities share: numbers, words, places, functions.
 #include <cmath>
 
+#include "floatframe/core/printable.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -26,11 +27,12 @@ const SourceMark& mark_of(const Origin& origin, const std::string& key) {
 }  // namespace
 
 void Entity::fault(const std::string& key, const std::string& sentence) const {
-  faults.add(mark_of(origin, key), path + (path.empty() ? "" : ".") + key + ": " + sentence);
+  faults.add(mark_of(origin, key),
+             printable(path + (path.empty() ? "" : ".") + key + ": " + sentence));
 }
 
 void Entity::fault(const std::string& sentence) const {
-  faults.add(origin.mark, path + ": " + sentence);
+  faults.add(origin.mark, printable(path + ": " + sentence));
 }
 
 bool Entity::number(const std::string& key, double x, const NumberRule& rule) const {
@@ -89,10 +91,10 @@ bool Entity::rotation(const std::string& key, const Mat3& R) const {
 }
 
 bool Entity::reference(const std::string& key, const char* kind, const std::string& name,
-                       const std::vector<std::string>& known) const {
-  for (const std::string& k : known)
-    if (k == name) return true;
-  fault(key, std::string("unknown ") + kind + " '" + name + "'" + did_you_mean(name, known));
+                       const NameIndex& known) const {
+  if (known.find(name)) return true;
+  fault(key, std::string("unknown ") + kind + " '" + name + "'" +
+                 (faults.size() < most_suggestions ? did_you_mean(name, known.names()) : ""));
   return false;
 }
 
@@ -101,12 +103,12 @@ bool Entity::place(const std::string& key, const AttachmentDescription& at, cons
   const std::string inside = key.empty() ? "" : key + ".";
   bool good = true;
   if (at.body == ground_name && !ground) {
-    fault(inside + "body", "found ground, expected a body");
+    fault(inside + "body", sentences::ground_is_no_body());
     good = false;
   } else if (at.body != ground_name) {
     good = reference(inside + "body", "body", at.body, names.bodies);
   } else if (at.node) {
-    fault(inside + "node", "found a node on the ground, expected a flexible body");
+    fault(inside + "node", sentences::node_on_ground());
     good = false;
   }
   return vector(inside + "at", at.point, "m") && good;
@@ -178,7 +180,7 @@ void name(const char* kind, const std::string& name, std::set<std::string>& take
   if (!good) {
     const std::string shown = name.size() > 40 ? name.substr(0, 40) + "..." : name;
     entity.faults.add(entity.origin.mark,
-                      std::string(kind) + ": found the name '" + shown +
+                      kind + (": found the name '" + printable(shown)) +
                           "', expected letters, digits, _ and -, with a letter first");
   } else if (kind == std::string_view("bodies") && name == ground_name) {
     entity.fault("the name 'ground' is taken by the ground");

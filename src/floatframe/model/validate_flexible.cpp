@@ -49,7 +49,7 @@ class FlexibleCheck {
 
   void points() {
     for (const auto& [name, p] : f_.points) {
-      known_points_.push_back(name);
+      known_points_.add(name);
       group_.vector("points." + name, p, "m");
     }
   }
@@ -83,10 +83,8 @@ class FlexibleCheck {
   bool branch(const Entity& bar, const BarDescription& b, BarGeometry& g) {
     const auto it = geometry_.find(*b.from_bar);
     if (it == geometry_.end()) {
-      std::vector<std::string> known;
-      for (const auto& [name, unused] : geometry_) known.push_back(name);
-      bar.fault("from.bar", "unknown bar '" + *b.from_bar + "'" + did_you_mean(*b.from_bar, known) +
-                                " (bars are known after they are written)");
+      bar.fault("from.bar",
+                sentences::unknown_bar(*b.from_bar, did_you_mean(*b.from_bar, keys_of(geometry_))));
       return false;
     }
     if (!bar.number("from.at", b.from_fraction, rules::fraction) || !it->second.good) return false;
@@ -96,7 +94,7 @@ class FlexibleCheck {
   }
 
   void bars() {
-    if (f_.bars.empty()) group_.fault("bars", "found no bars, expected at least one");
+    if (f_.bars.empty()) group_.fault("bars", sentences::no_bars());
     for (const BarDescription& b : f_.bars) {
       const Entity bar{group_.faults, b.origin.mark.file.empty() ? group_.origin : b.origin,
                        group_.path + ".bars." + b.name};
@@ -166,10 +164,7 @@ class FlexibleCheck {
   bool node(const std::string& key, const std::string& name) {
     if (bar_of_point_.contains(name)) return true;
     if (!geometry_good_) return false;  // a bar that is wrong makes no nodes
-    std::vector<std::string> known;
-    for (const auto& [point, bar] : bar_of_point_) known.push_back(point);
-    group_.fault(key, "found '" + name + "', expected an end point of a bar of this body" +
-                          did_you_mean(name, known));
+    group_.fault(key, sentences::no_end_point(name) + did_you_mean(name, keys_of(bar_of_point_)));
     return false;
   }
 
@@ -232,7 +227,7 @@ class FlexibleCheck {
 
   const FlexibleDescription& f_;
   const Entity group_;
-  std::vector<std::string> known_points_;
+  NameIndex known_points_;
   std::map<std::string, BarGeometry> geometry_;
   std::map<std::string, std::size_t> bar_of_point_;
   std::vector<std::size_t> leaders_;

@@ -47,12 +47,10 @@ struct ForceCheck {
   }
 
   void operator()(const JointSpringDescription& s) const {
-    entity.reference("joint", "joint", s.joint, names.joints);
-    for (const JointDescription& j : d.joints) {
-      if (j.name != s.joint) continue;
-      if (j.type != JointType::revolute && j.type != JointType::prismatic)
+    if (entity.reference("joint", "joint", s.joint, names.joints)) {
+      const JointType type = d.joints[*names.joints.find(s.joint)].type;
+      if (type != JointType::revolute && type != JointType::prismatic)
         entity.fault("joint", "found '" + s.joint + "', expected a revolute or prismatic joint");
-      break;
     }
     laws(s.spring, s.damper, s.actuator);
     const bool law = !is_zero(s.spring) || !is_zero(s.damper);

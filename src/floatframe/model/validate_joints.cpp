@@ -1,5 +1,4 @@
-// Joints, rods, inputs and outputs.
-
+// Joints, rods and inputs.
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -19,7 +18,7 @@ void start_values(const Entity& joint, const char* key, const std::vector<double
   const auto n = static_cast<std::size_t>(joint_velocities(type));
   if (given.empty()) return;
   if (n == 0) {
-    joint.fault(key, "a weld has no coordinates, expected no such key");
+    joint.fault(key, sentences::weld_has_no_coordinates());
   } else if (given.size() != n) {
     joint.fault(key, "found a list of " + std::to_string(given.size()) + ", expected " +
                          (n == 1 ? std::string("a number")
@@ -35,7 +34,7 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
   if (j.parent.body != ground_name)
     entity.reference("parent", "body", j.parent.body, names.bodies);
   else if (j.parent.node)
-    entity.fault("parent_node", "found a node on the ground, expected a flexible body");
+    entity.fault("parent_node", sentences::node_on_ground());
   if (j.child.body == ground_name)
     entity.fault("child", sentences::ground_as_child());
   else if (entity.reference("child", "body", j.child.body, names.bodies) &&
@@ -50,8 +49,7 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
   start_values(entity, "velocity", j.velocity, j.type);
   if (!j.motion) return;
   if (j.type != JointType::revolute && j.type != JointType::prismatic) {
-    entity.fault("motion", std::string("is not used by a ") + joint_type_name(j.type) +
-                               " joint, expected no such key");
+    entity.fault("motion", sentences::not_used_by_joint(joint_type_name(j.type)));
     return;
   }
   entity.function("motion", *j.motion);

@@ -5,25 +5,14 @@
 
 namespace floatframe {
 
-namespace {
-
-template <class Entities>
-std::vector<std::string> names_of(const Entities& entities) {
-  std::vector<std::string> names;
-  for (const auto& e : entities) names.push_back(e.name);
-  return names;
-}
-
-}  // namespace
-
 void validate(const ModelDescription& d, Faults& faults) {
   const Origin none;
   const validation::Entity model{faults, none, ""};
   if (const auto complaint = sentences::model_name(d.name))
     model.fault("name", "found '" + d.name + "', " + *complaint);
   model.vector("gravity", d.gravity, "m/s2");
-  const validation::Names names{names_of(d.bodies), names_of(d.joints), names_of(d.forces),
-                                names_of(d.roads), names_of(d.inputs)};
+  const validation::Names names{NameIndex(d.bodies), NameIndex(d.joints), NameIndex(d.forces),
+                                NameIndex(d.roads), NameIndex(d.inputs)};
   validation::bodies(d, faults);
   validation::joints(d, names, faults);
   validation::rods(d, names, faults);

@@ -15,32 +15,23 @@ const char* quantity(OutputKind kind) { return rules::quantities[static_cast<std
 void joint_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
                   const Entity& entity) {
   if (!entity.reference(quantity(o.kind), "joint", o.entity, names.joints)) return;
-  for (const JointDescription& j : d.joints) {
-    if (j.name != o.entity || word_complaint(static_cast<int>(j.type), rules::joint_types))
-      continue;
-    const int n = joint_velocities(j.type);
-    if (n == 0) {
-      entity.fault(quantity(o.kind), "found a weld, expected a joint that moves");
-      return;
-    }
-    // Counted from 0 here and from 1 in model files.
-    if (o.component < 0 || o.component >= n)
-      entity.fault("coordinate",
-                   sentences::number_of("the number of a coordinate", o.component, n));
-    return;
-  }
+  const JointType type = d.joints[*names.joints.find(o.entity)].type;
+  if (word_complaint(static_cast<int>(type), rules::joint_types)) return;
+  const int n = joint_velocities(type);
+  if (n == 0)
+    entity.fault(quantity(o.kind), sentences::weld_does_not_move());
+  else if (o.component < 0 || o.component >= n)  // counted from 0 here and from 1 in model files
+    entity.fault("coordinate", sentences::number_of("the number of a coordinate", o.component, n));
 }
 
 void force_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
                   const Entity& entity) {
   if (!entity.reference(quantity(o.kind), "force", o.entity, names.forces)) return;
-  for (const ForceDescription& f : d.forces) {
-    const auto* load = std::get_if<AppliedLoadDescription>(&f.kind);
-    if (f.name == o.entity && load && o.kind != OutputKind::force)
-      entity.fault(quantity(o.kind), std::string("a ") + (load->torque ? "torque" : "force") +
-                                         " has no " + quantity(o.kind) +
-                                         ", expected another force element");
-  }
+  const ForceDescription& f = d.forces[*names.forces.find(o.entity)];
+  const auto* load = std::get_if<AppliedLoadDescription>(&f.kind);
+  if (load && o.kind != OutputKind::force)
+    entity.fault(quantity(o.kind),
+                 sentences::load_without(load->torque ? "torque" : "force", quantity(o.kind)));
 }
 
 void output(const OutputDescription& o, const ModelDescription& d, const Names& names,
@@ -48,7 +39,7 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
   const std::string what = quantity(o.kind);
   const auto moving_body = [&] {
     if (o.at.body == ground_name)
-      entity.fault(what, "found ground, expected a body");
+      entity.fault(what, sentences::ground_is_no_body());
     else
       entity.reference(what, "body", o.at.body, names.bodies);
   };
@@ -90,10 +81,8 @@ void outputs(const ModelDescription& d, const Names& names, Faults& faults) {
     const Entity entity{faults, o.origin, "outputs." + o.name};
     if (const auto complaint = sentences::column_name(o.name))
       entity.fault(*complaint);
-    else if (o.name == "time")
-      faults.add(o.origin.mark, "outputs: " + sentences::time_column());
-    else if (!taken.insert(o.name).second)
-      faults.add(o.origin.mark, "outputs: " + sentences::column_exists(o.name));
+    else if (const auto taken_by = sentences::column_taken(o.name, !taken.insert(o.name).second))
+      faults.add(o.origin.mark, "outputs: " + *taken_by);
     const auto kind = word_complaint(static_cast<int>(o.kind), rules::quantities);
     if (kind)
       entity.fault(*kind);

@@ -1,9 +1,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "floatframe/core/number_rule.hpp"
+#include "floatframe/core/printable.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/piecewise_build.hpp"
 #include "floatframe/model/rules.hpp"
@@ -14,6 +14,14 @@ namespace floatframe::sentences {
 namespace {
 
 constexpr const char* dof_names[] = {"x", "y", "z", "rx", "ry", "rz"};
+
+/// "[1, 2, 3]", to a nanometre.
+std::string point_text(const Vec3& p) {
+  std::string text;
+  for (const double x : p)
+    text += (text.empty() ? "[" : ", ") + number_text(std::round(x * 1e9) / 1e9);
+  return text + ']';
+}
 
 }  // namespace
 
@@ -76,6 +84,16 @@ std::string no_modes() {
   return "found no modes, expected static_modes, normal_modes, analytic or basis";
 }
 
+std::string no_bars() { return "found no bars, expected at least one"; }
+
+std::string unknown_bar(const std::string& name, const std::string& hint) {
+  return "unknown bar '" + name + "'" + hint + " (bars are known after they are written)";
+}
+
+std::string no_end_point(const std::string& name) {
+  return "found '" + name + "', expected an end point of a bar of this body";
+}
+
 std::string bar_not_connected(const std::string& first_bar) {
   return "the bar is not connected to '" + first_bar +
          "', expected all bars of a body to hang together";
@@ -107,6 +125,31 @@ Complaint body_reference(const std::vector<std::pair<Vec3, unsigned>>& clamped) 
   if (rank >= 6) return std::nullopt;
   return "these degrees of freedom leave " + std::to_string(6 - rank) +
          (rank == 5 ? " rigid motion" : " rigid motions") + " of the body free, expected none";
+}
+
+std::string ground_is_no_body() { return "found ground, expected a body"; }
+std::string node_on_ground() { return "found a node on the ground, expected a flexible body"; }
+
+std::string node_on_rigid_body(const std::string& body) {
+  return "found a node on the rigid body '" + body + "', expected a flexible body";
+}
+
+std::string no_node_named(const std::string& body, bool flexible, const std::string& node) {
+  return std::string("the ") + (flexible ? "flexible body" : "body") + " '" + body +
+         "' has no node '" + node + "'";
+}
+
+std::string no_node_at(const Vec3& point, const std::string& body, const Vec3* nearest) {
+  return "found the point " + point_text(point) + " on the flexible body '" + body +
+         "', expected " +
+         (nearest ? "one of its nodes; the nearest is at " + point_text(*nearest)
+                  : "the origin of its frame, because it has no nodes");
+}
+
+std::string rigid_body_has_no_modes(bool switched) {
+  return switched ? "found a body that is switched to rigid (flexible: false) and has no modal "
+                    "amplitudes, expected a flexible one"
+                  : "found a rigid body, expected a flexible one";
 }
 
 Complaint direction(const Vec3& v) {
@@ -145,6 +188,12 @@ std::string target_without_law() {
 
 std::string motion_and_start_value() {
   return "found with a prescribed motion, which decides it, expected no such key";
+}
+
+std::string weld_has_no_coordinates() { return "a weld has no coordinates, expected no such key"; }
+
+std::string not_used_by_joint(const std::string& type) {
+  return "is not used by a " + type + " joint, expected no such key";
 }
 
 std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f) {
@@ -190,28 +239,34 @@ std::string number_of(const char* what, int component, int n) {
          WholeNumberRule{what, 1, n}.expectation();
 }
 
+std::string weld_does_not_move() { return "found a weld, expected a joint that moves"; }
+
+std::string load_without(const std::string& type, const std::string& quantity) {
+  return "a " + type + " has no " + quantity + ", expected another force element";
+}
+
 Complaint column_name(const std::string& name) {
-  const auto bad = [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
-           std::string_view(",\"[]").find(c) != std::string_view::npos;
-  };
-  if (!name.empty() && name.size() <= 200 && std::none_of(name.begin(), name.end(), bad))
+  if (name.empty()) return "found an empty name, expected a column name";
+  if (name.size() > rules::column_length)
+    return "found a name of " + std::to_string(name.size()) + " characters, expected at most " +
+           std::to_string(rules::column_length);
+  if (name.find_first_of(",\"[]") == std::string::npos && printable(name) == name)
     return std::nullopt;
   return "expected a column name without commas, quotes, brackets and control characters";
 }
 
-std::string time_column() {
-  return "found the column 'time', the name of the first column, expected another";
-}
-
-std::string column_exists(const std::string& name) {
-  return "the column '" + name + "' exists already";
+Complaint column_taken(const std::string& name, bool exists) {
+  if (name == "time")
+    return "found the column 'time', the name of the first column, expected another";
+  if (exists) return "the column '" + name + "' exists already";
+  return std::nullopt;
 }
 
 Complaint model_name(const std::string& name) {
-  if (name.find_first_of("/\\\n\r\t") == std::string::npos && name != "." && name != "..")
+  if (name.find_first_of("/\\") == std::string::npos && printable(name) == name && name != "." &&
+      name != "..")
     return std::nullopt;
-  return "expected a name without slashes and line breaks";
+  return "expected a name without slashes and control characters";
 }
 
 Complaint min_step(double min_step, double step) {
