@@ -218,7 +218,13 @@ TEST(DeckDialects, TwoNumbersAreAnEllipseOfCalculix) {
             "give --dialect calculix");
   EXPECT_EQ(fault(beam("CIRC\n4., 2., 1.")),
             "deck.inp:13: *BEAM SECTION has 3 dimensions, expected 1 or 2");
-  EXPECT_EQ(fault(beam("PIPE\n4.")), "deck.inp:13: *BEAM SECTION has 1 dimensions, expected 2");
+  EXPECT_EQ(fault(beam("PIPE\n4.")), "deck.inp:13: *BEAM SECTION has 1 dimension, expected 2");
+  // One sentence for a number that is wrong.
+  EXPECT_EQ(fault(beam("PIPE\n-4., 1.")), "deck.inp:14: outer radius is -4, expected more than 0");
+  EXPECT_EQ(fault(beam("BOX\n1., 0., .1, .1, .1, .1")),
+            "deck.inp:14: height of the box is 0, expected more than 0");
+  EXPECT_EQ(fault(beam("RECT\nwide, 1.")),
+            "deck.inp:14: width of the rectangle: 'wide' is not a number");
 }
 
 }  // namespace

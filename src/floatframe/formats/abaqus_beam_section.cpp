@@ -13,8 +13,6 @@ namespace floatframe {
 namespace {
 
 BeamSection pipe(AbaqusLines& lines, double radius, double wall) {
-  positive_number(lines, radius, "outer radius");
-  positive_number(lines, wall, "thickness of the wall");
   if (wall > radius) {
     lines.source().fault(
         fmt::format("the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall, radius));
@@ -25,9 +23,6 @@ BeamSection pipe(AbaqusLines& lines, double radius, double wall) {
 /// Closed thin-walled box, a along direction 1, b along direction 2; the torsion constant is that
 /// of Bredt, 4 A_m^2 / (closed integral of ds / t).
 BeamSection box(AbaqusLines& lines, double a, double b, const std::array<double, 4>& t) {
-  positive_number(lines, a, "width of the box");
-  positive_number(lines, b, "height of the box");
-  for (const double wall : t) positive_number(lines, wall, "thickness of a wall of the box");
   if (t[0] != t[2] || t[1] != t[3]) {
     lines.source().fault(
         "opposite walls of the box differ, so that its centroid is not at the "
@@ -57,13 +52,23 @@ BeamSection ellipse(double a, double b) {
   return s;
 }
 
-/// How many numbers a section has: in both programs, and in CalculiX alone (0: none).
+/// How many numbers a section has: in both programs, and in CalculiX alone (0: none). What they
+/// are.
 struct Shape {
   const char* name;
   std::size_t numbers, calculix;
+  std::array<const char*, 6> what;
 };
-constexpr std::array shapes{Shape{"RECT", 2, 1}, Shape{"CIRC", 1, 2}, Shape{"PIPE", 2, 0},
-                            Shape{"BOX", 6, 0}};
+constexpr const char* wall_of_box = "thickness of a wall of the box";
+constexpr std::array shapes{
+    Shape{"RECT", 2, 1, {"width of the rectangle", "height of the rectangle"}},
+    Shape{"CIRC", 1, 2, {"size of the circle", "second diameter of the ellipse"}},
+    Shape{"PIPE", 2, 0, {"outer radius", "thickness of the wall"}},
+    Shape{"BOX",
+          6,
+          0,
+          {"width of the box", "height of the box", wall_of_box, wall_of_box, wall_of_box,
+           wall_of_box}}};
 
 void no_offset(AbaqusLines& lines, const AbaqusKeyword& keyword) {
   for (const char* offset : {"OFFSET1", "OFFSET2"}) {
@@ -73,7 +78,8 @@ void no_offset(AbaqusLines& lines, const AbaqusKeyword& keyword) {
   }
 }
 
-/// The numbers of the section; false and a fault if there are not as many as the shape has.
+/// The numbers of the section; false and a fault if there are not as many as the shape has, or one
+/// is not positive.
 bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const Shape& shape,
                   DeckDialect dialect, std::vector<double>& numbers) {
   std::vector<std::string_view> fields;
@@ -84,18 +90,20 @@ bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const Shape&
   if (n != shape.numbers && !(calculix && dialect != DeckDialect::abaqus)) {
     const bool both = shape.calculix != 0 && dialect != DeckDialect::abaqus;
     lines.fault(keyword,
-                fmt::format("has {} dimensions, expected {}", n,
+                fmt::format("has {} dimension{}, expected {}", n, n == 1 ? "" : "s",
                             both ? fmt::format("{} or {}", std::min(shape.numbers, shape.calculix),
                                                std::max(shape.numbers, shape.calculix))
                                  : std::to_string(shape.numbers)));
     lines.skip_data();
     return false;
   }
+  const std::size_t before = lines.source().faults();
   for (std::size_t k = 0; k < n; ++k) {
-    const std::string what = fmt::format("dimension {} of the section", k + 1);
-    numbers.push_back(positive_number(lines, lines.real(fields[k], what), what));
+    numbers.push_back(positive_real(lines, fields[k], shape.what[k]));
   }
-  return true;
+  if (lines.source().faults() == before) return true;
+  lines.skip_data();
+  return false;
 }
 
 }  // namespace

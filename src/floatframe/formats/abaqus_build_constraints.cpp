@@ -122,7 +122,7 @@ void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list)
   if (surface == nullptr) {
     std::vector<std::string> known;
     for (const auto& [key, s] : c.surfaces) {
-      if (known.size() == 10'000) break;
+      if (known.size() == most_known) break;
       known.push_back(c.names[static_cast<std::size_t>(key.second)]);
     }
     build.source.fault(spider.at, fmt::format("surface {} is not there{}", shown(name),

@@ -74,7 +74,7 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section,
     build.source.fault(section.at,
                        fmt::format("{} names the material {}, which is not there{}", section.shown,
                                    shown(section.material),
-                                   c.material_order.size() > 10'000
+                                   c.material_order.size() > most_known
                                        ? ""
                                        : did_you_mean(section.material, c.material_order)));
   } else {

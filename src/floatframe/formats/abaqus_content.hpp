@@ -206,8 +206,8 @@ void read_abaqus_rotary_inertia(AbaqusLines&, const AbaqusKeyword&, AbaqusConten
 /// What all sections have; false if the section cannot be used.
 bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
                           AbaqusType::Family family, AbaqusSection& section);
-/// The value; a fault at the last line if it is not positive.
-double positive_number(AbaqusLines& lines, double value, std::string_view what);
+/// The value; one fault at the last line if it is no positive number.
+double positive_real(AbaqusLines& lines, std::string_view field, std::string_view what);
 // abaqus_beam_section.cpp
 void read_abaqus_beam_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_constraints.cpp

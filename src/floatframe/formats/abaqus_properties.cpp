@@ -62,8 +62,10 @@ bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaq
   return false;
 }
 
-double positive_number(AbaqusLines& lines, double value, std::string_view what) {
-  if (!(value > 0.0))
+double positive_real(AbaqusLines& lines, std::string_view field, std::string_view what) {
+  const std::size_t before = lines.source().faults();
+  const double value = lines.real(field, what);
+  if (!(value > 0.0) && lines.source().faults() == before)
     lines.source().fault(fmt::format("{} is {:g}, expected more than 0", what, value));
   return value;
 }
@@ -151,8 +153,7 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (!begin_abaqus_section(lines, keyword, content, Family::shell, section)) return;
   std::vector<std::string_view> fields;
   if (!lines.next_fields(fields)) return lines.fault(keyword, "has no thickness");
-  section.thickness = lines.real(fields[0], "thickness of the shell");
-  positive_number(lines, section.thickness, "thickness of the shell");
+  section.thickness = positive_real(lines, fields[0], "thickness of the shell");
   std::string_view more;
   if (lines.next_data(more)) {
     lines.source().fault("*SHELL SECTION has a second line, which is not supported");

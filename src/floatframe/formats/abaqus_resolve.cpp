@@ -13,8 +13,6 @@ namespace {
 constexpr int deepest_set = 200;
 // Members that are named in all: these, and so many times the nodes or elements of the deck.
 constexpr std::uint64_t work_of_any_deck = 10'000'000, work_of_a_member = 100;
-// A long list of names costs more than the suggestion is worth.
-constexpr std::size_t most_suggestions = 10'000;
 
 }  // namespace
 
@@ -41,7 +39,7 @@ const AbaqusContent::Key* AbaqusResolver::find_set(const AbaqusReference& refere
 
 void AbaqusResolver::missing(const AbaqusReference& reference) {
   std::string help;
-  if (reference.name >= 0 && sets_.size() <= most_suggestions) {
+  if (reference.name >= 0 && sets_.size() <= most_known) {
     std::vector<std::string> known;
     for (const auto& [key, set] : sets_) {
       known.push_back(content_.names[static_cast<std::size_t>(key.second)]);

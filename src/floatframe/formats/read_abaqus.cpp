@@ -137,11 +137,12 @@ class DeckReader {
 
   void unknown(const AbaqusKeyword& keyword) {
     if (faults_.contains(keyword.name) || noted_.contains(keyword.name)) return;
+    if (content_.only_nodes && noted_.size() >= most_notes) return;
     const std::string near = nearly(keyword.name);
     if (!near.empty()) {
       fault(keyword, fmt::format("is not known, did you mean '*{}'?", near));
     } else if (content_.only_nodes) {
-      if (noted_.size() < most_notes) note(keyword, "is not known and is passed over");
+      note(keyword, "is not known and is passed over");
     } else {
       fault(keyword,
             "is not known and may change stiffness, mass or constraints: take it out of the deck "
