@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/math/so3.hpp"
 
 namespace floatframe {
 namespace {
@@ -203,19 +203,7 @@ class Check {
       G.block<1, 3>(one, r) = v_.m_u.transpose();
       G(one, one) = v_.m;
     } else {
-      G = MatX::Zero(6 + nm_, 6 + nm_);
-      G.topLeftCorner<3, 3>() = v_.m * Mat3::Identity();
-      G.block<3, 3>(0, 3) = -skew(v_.m_u);
-      G.block<3, 3>(3, 0) = skew(v_.m_u);
-      G.block<3, 3>(3, 3) = v_.inertia_about_origin();
-      G.topRightCorner(3, nm_) = v_.S;
-      for (Eigen::Index i = 0; i < 3; ++i) {  // int r x X dm
-        const Eigen::Index j = (i + 1) % 3, k = (i + 2) % 3;
-        G.block(3 + i, 6, 1, nm_) =
-            v_.Si[static_cast<std::size_t>(j)].row(k) - v_.Si[static_cast<std::size_t>(k)].row(j);
-      }
-      G.bottomLeftCorner(nm_, 6) = G.topRightCorner(6, nm_).transpose();
-      G.bottomRightCorner(nm_, nm_) = M_ff_;
+      G = mass_matrix_at_rest(v_);
     }
     const VecX unit = to_unit(G.diagonal());
     G = (unit.asDiagonal() * G * unit.asDiagonal()).eval();

@@ -9,12 +9,19 @@
 
 namespace floatframe {
 
+/// 6 x nm: int X dm and int r_u x X dm.
+MatX momentum_of_modes(const InertiaInvariants& invariants);
+
+/// M(0), (6 + nm) x (6 + nm): [m I, -skew(m_u), S; . , J, int r_u x X dm; . , . , M_ff] in body
+/// axes, the rigid motions at the body origin.
+MatX mass_matrix_at_rest(const InertiaInvariants& invariants);
+
 /// Smallest eigenvalue of D^-1/2 (M_ff - G M_rr^+ G^T) D^-1/2, D the diagonal of M_ff, over the
-/// modes that have mass; 1 if there are none. Sound bodies have more than 1e-6, singular ones
+/// modes that have mass; 1 if there are none. Valid bodies have more than 1e-6, singular ones
 /// rounding errors. `free`: the rigid motions the body is free to make, columns (v; w) at the body
 /// origin in body axes; those without inertia (a bar about its axis) are left out. `K`: modal
-/// stiffness, by which a mode of little mass (a rotation of a small body in rad, beside
-/// displacements in m) is told from one without; may be empty.
+/// stiffness, which distinguishes a mode of little mass (a rotation of a small body in rad, beside
+/// displacements in m) from one without; may be empty.
 double relative_modal_mass(const InertiaInvariants& invariants, const Mat6X& free,
                            const MatX& K = MatX());
 

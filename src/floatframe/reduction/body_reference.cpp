@@ -3,23 +3,11 @@
 #include <cmath>
 
 #include "floatframe/body/fe_invariants.hpp"
-#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/reduction/modal_damping.hpp"
 
 namespace floatframe {
-
-MatX momentum_of_modes(const InertiaInvariants& v) {
-  MatX B(6, v.modes());
-  B.topRows(3) = v.S;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    B.row(3 + static_cast<Eigen::Index>(i)) =
-        v.Si[j].row(static_cast<Eigen::Index>(k)) - v.Si[k].row(static_cast<Eigen::Index>(j));
-  }
-  return B;
-}
 
 ElasticModes elastic_modes(const MatX& K, const InertiaInvariants& raw, const MatX& B) {
   const Eigen::Index n = K.rows();

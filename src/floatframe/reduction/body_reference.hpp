@@ -7,12 +7,10 @@
 // In the null space C of B the modes are those of (C^T K C, C^T M_ff C): M_ff = I and K diagonal,
 // so that the basis is as well conditioned as can be.
 #include "floatframe/body/inertia_invariants.hpp"
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
-
-/// 6 x nm: int X dm and int r_u x X dm.
-MatX momentum_of_modes(const InertiaInvariants& invariants);
 
 struct ElasticModes {
   MatX C;                  ///< raw modes x new modes
