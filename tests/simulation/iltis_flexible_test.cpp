@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "simulation/figures.hpp"
 #include "simulation/iltis.hpp"
-#include "support/dense_algebra.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
@@ -39,7 +39,7 @@ TEST(IltisFlexible, Counts) {
 
 /// Rank by singular values above 1e-9 of the largest.
 Eigen::Index rank_of(const MatX& J, const std::string& name) {
-  const VecX s = singular_values(J);
+  const VecX s = singular_values(J).values;
   figure(name + ": smallest singular value / largest", s[s.size() - 1] / s[0]);
   return (s.array() > 1e-9 * s[0]).count();
 }

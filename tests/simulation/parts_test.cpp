@@ -9,11 +9,11 @@
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/reduction/part.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "simulation/figures.hpp"
-#include "support/dense_algebra.hpp"
 #include "support/random_model.hpp"
 #include "support/trajectory_models.hpp"
 
@@ -82,7 +82,7 @@ Launch represent(const ReducedPart& part, const VecX& field, double& residual) {
   // Columns of one size: the modes and the rigid motions differ by orders of magnitude.
   const VecX scale = A.colwise().norm().cwiseInverse();
   const MatX scaled = A * scale.asDiagonal();
-  const VecX x = scale.asDiagonal() * VecX(least_squares(scaled, field));
+  const VecX x = scale.asDiagonal() * qr_solve(scaled, field);
   residual = (A * x - field).norm() / field.norm();
   return {x.head<3>(), x.segment<3>(3), x.tail(mesh.X.cols())};
 }
@@ -92,7 +92,7 @@ VecX lowest_mode_field() {
   const ReducedPart& part = rod(BodyReference::Kind::mean_axis);
   const InertiaInvariants& v = part.body.invariants;
   const MatX M = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
-  const VecX field = part.body.projection->X * lowest_eigenvector(part.body.K, M);
+  const VecX field = part.body.projection->X * generalised_eigen(part.body.K, M).vectors.col(0);
   return field / field.cwiseAbs().maxCoeff();
 }
 
