@@ -1,13 +1,12 @@
 // Mistakes of every sort, each in a small model that is right otherwise: one sentence with its
 // place, and none that only follows from the mistake.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "floatframe/io/model_reader.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
@@ -25,21 +24,8 @@ const std::string good =
 
 /// What is said of a model, without the folder.
 std::string said(const std::string& text) {
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / ("one_sentence_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "m", std::ios::binary) << text;
-  std::string out = "nothing";
-  try {
-    read_model((folder / "m").string());
-  } catch (const InputError& error) {
-    out = error.what();
-  }
-  std::filesystem::remove_all(folder);
-  const std::string path = folder.string() + "/";
-  for (std::size_t at = out.find(path); at != std::string::npos; at = out.find(path))
-    out.erase(at, path.size());
-  return out;
+  const test::TemporaryFolder folder;
+  return folder.without(test::error_of([&] { read_model(folder.write("m", text)); }));
 }
 
 std::string with(const std::string& before, const std::string& after) {
@@ -50,15 +36,15 @@ std::string with(const std::string& before, const std::string& after) {
 }
 
 TEST(OneSentence, WhatIsRight) {
-  EXPECT_EQ(said(good), "nothing");
-  EXPECT_EQ(said("\xEF\xBB\xBF" + good), "nothing");
+  EXPECT_EQ(said(good), "no error");
+  EXPECT_EQ(said("\xEF\xBB\xBF" + good), "no error");
   std::string crlf;
   for (const char c : good) crlf += c == '\n' ? "\r\n"s : std::string(1, c);
-  EXPECT_EQ(said(crlf), "nothing");
-  EXPECT_EQ(said(with("mass: 1", "mass:\t1")), "nothing");
-  EXPECT_EQ(said(good + "name: \"it's \\\"quoted\\\"\"\n"), "nothing");
-  EXPECT_EQ(said(good + "name: 'it''s quoted'"), "nothing");
-  EXPECT_EQ(said(good + "name: |-\n  a block\n"), "nothing");
+  EXPECT_EQ(said(crlf), "no error");
+  EXPECT_EQ(said(with("mass: 1", "mass:\t1")), "no error");
+  EXPECT_EQ(said(good + "name: \"it's \\\"quoted\\\"\"\n"), "no error");
+  EXPECT_EQ(said(good + "name: 'it''s quoted'"), "no error");
+  EXPECT_EQ(said(good + "name: |-\n  a block\n"), "no error");
 }
 
 TEST(OneSentence, Files) {

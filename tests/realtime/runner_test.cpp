@@ -9,63 +9,15 @@
 #include <thread>
 
 #include "floatframe/formulation/absolute.hpp"
-#include "floatframe/io/model_reader.hpp"
 #include "floatframe/realtime/denormals.hpp"
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "realtime/recorder.hpp"
 #include "support/allocation_counter.hpp"
 
 namespace floatframe::test {
 namespace {
-
-const ModelDescription& description() {
-  static const ModelDescription d = read_model(FLOATFRAME_TEST_DATA "/good_models/inputs.yaml");
-  return d;
-}
-
-Model model() { return build_model(description()); }
-
-/// Notes all outputs; sends inputs that a test chooses.
-class Recorder : public SignalPort {
- public:
-  bool receive(InputBuffer& inputs) noexcept override {
-    ++received;
-    if (!answer) return false;
-    answer(*this, inputs);
-    return true;
-  }
-  void send(std::uint64_t step, double time, std::span<const double> outputs,
-            bool last) noexcept override {
-    // A run that ends early sends its last good state again.
-    EXPECT_TRUE(step == steps.size() || (last && step + 1 == steps.size())) << step;
-    steps.push_back(step);
-    row.assign(1, time);
-    row.insert(row.end(), outputs.begin(), outputs.end());
-    rows.insert(rows.end(), row.begin(), row.end());
-    ended = last;
-  }
-  bool wait() noexcept override { return received < patience; }
-
-  std::function<void(Recorder&, InputBuffer&)> answer;
-  long received = 0, patience = std::numeric_limits<long>::max();
-  std::vector<std::uint64_t> steps;
-  std::vector<double> row, rows;
-  bool ended = false;
-};
-
-SimulationDescription simulation(double duration, double step = 0.005) {
-  SimulationDescription s = description().simulation;
-  s.duration = duration;
-  s.step = step;
-  return s;
-}
-
-RealTimeOptions unpaced() {
-  RealTimeOptions o;
-  o.paced = false;
-  return o;
-}
 
 /// Rows of time and outputs of steps that nobody paces: 10 whole ones and a part of one.
 template <class F>
@@ -171,110 +123,6 @@ TEST(RealTime, RefusedInputsAreCountedAndKeepTheLastValue) {
   EXPECT_EQ(r.refused_inputs, (std::vector<long>{10, 0, 0, 0}));
   EXPECT_EQ(r.inputs[0], 3.25);
   EXPECT_EQ(r.inputs[1], 1.0);
-}
-
-/// Sends inputs at the steps chosen, counted from 1.
-class Sometimes : public Recorder {
- public:
-  explicit Sometimes(std::function<bool(long)> speaks) : speaks_(std::move(speaks)) {}
-  bool receive(InputBuffer& inputs) noexcept override {
-    if (!speaks_(++received)) return false;
-    inputs.accept(std::vector<double>{30.0, 1.0, 0.1, 0.0});
-    return true;
-  }
-
- private:
-  std::function<bool(long)> speaks_;
-};
-
-RealTimeOptions four_steps_of_patience(SilenceFallback fallback) {
-  RealTimeOptions options = unpaced();
-  options.input_timeout = 0.02;
-  options.fallback = fallback;
-  return options;
-}
-
-TEST(RealTime, SilentInputsAreHeldOrReturnToTheirInitialValues) {
-  for (const auto fallback : {SilenceFallback::hold, SilenceFallback::initial}) {
-    std::atomic<double> since{-1.0};
-    RealTimeOptions options = four_steps_of_patience(fallback);
-    options.silent_since = &since;
-    Sometimes silent([](long k) { return k == 3; }), alive([](long) { return true; });
-    const RealTimeReport r = run_real_time(model(), simulation(0.1), options, &silent);
-    EXPECT_EQ(r.status, "completed");
-    EXPECT_EQ(r.input_timeouts, 1);
-    EXPECT_EQ(r.silences[0].from, 0.01);
-    EXPECT_NEAR(r.silences[0].to, 0.1, 1e-15);
-    EXPECT_FALSE(r.silences[0].ended);
-    EXPECT_EQ(since, 0.01);  // they have not come again only because the run is over
-    EXPECT_EQ(r.inputs[0], fallback == SilenceFallback::hold ? 30.0 : 3.25);
-    const RealTimeReport spoken = run_real_time(model(), simulation(0.1), options, &alive);
-    EXPECT_EQ(spoken.input_timeouts, 0);
-    EXPECT_EQ(spoken.inputs[0], 30.0);
-  }
-}
-
-TEST(RealTime, SilenceIsReportedAfterASecondByDefault) {
-  for (const double duration : {0.9, 1.1}) {
-    Sometimes silent([](long k) { return k == 1; });
-    const RealTimeReport r = run_real_time(model(), simulation(duration), unpaced(), &silent);
-    EXPECT_EQ(r.status, "completed");
-    EXPECT_EQ(r.input_timeouts, duration > 1.0 ? 1 : 0);
-    EXPECT_EQ(r.inputs[0], 30.0);  // held
-  }
-}
-
-TEST(RealTime, EverySilenceHasItsTimes) {
-  Sometimes port([](long k) { return k == 2 || k == 8 || k == 10 || k == 16; });
-  std::atomic<double> since{-1.0};
-  RealTimeOptions options = four_steps_of_patience(SilenceFallback::initial);
-  options.silent_since = &since;
-  const RealTimeReport r = run_real_time(model(), simulation(0.095), options, &port);
-  ASSERT_EQ(r.input_timeouts, 2);
-  EXPECT_NEAR(r.silences[0].from, 0.005, 1e-15);
-  EXPECT_NEAR(r.silences[0].to, 0.035, 1e-15);
-  EXPECT_TRUE(r.silences[0].ended);
-  EXPECT_NEAR(r.silences[1].from, 0.045, 1e-15);
-  EXPECT_NEAR(r.silences[1].to, 0.075, 1e-15);
-  EXPECT_EQ(since, -1.0);
-  EXPECT_EQ(r.inputs[0], 30.0);
-}
-
-TEST(RealTime, MoreSilencesThanAreListedAreCounted) {
-  Sometimes port([](long k) { return k % 5 == 1; });
-  const RealTimeReport r =
-      run_real_time(model(), simulation(0.5), four_steps_of_patience(SilenceFallback::hold), &port);
-  EXPECT_EQ(r.input_timeouts, 20);
-  EXPECT_NEAR(r.silences.back().from, 0.375, 1e-12);
-}
-
-TEST(RealTime, ASilentPartnerStopsTheRunOnlyIfItEverSpoke) {
-  const RealTimeOptions options = four_steps_of_patience(SilenceFallback::stop);
-  Sometimes silent([](long k) { return k == 3; }), mute([](long) { return false; });
-  const RealTimeReport r = run_real_time(model(), simulation(0.1), options, &silent);
-  EXPECT_EQ(r.status, "failed");
-  EXPECT_EQ(r.message, "no inputs came for 0.02 s after t = 0.01 s");
-  EXPECT_EQ(r.steps, 6);
-  EXPECT_TRUE(silent.ended);
-  // A silence before the first inputs is none of the partner's.
-  Sometimes late([](long k) { return k == 8; });
-  const RealTimeReport after = run_real_time(model(), simulation(0.2), options, &late);
-  EXPECT_EQ(after.input_timeouts, 2);
-  EXPECT_EQ(after.message, "no inputs came for 0.02 s after t = 0.035 s");
-  const RealTimeReport waiting = run_real_time(model(), simulation(0.1), options, &mute);
-  EXPECT_EQ(waiting.status, "completed");
-  EXPECT_EQ(waiting.input_timeouts, 1);
-  EXPECT_FALSE(waiting.inputs_came);
-}
-
-TEST(RealTime, NobodyWaitsForInputsThatNeverComeThisWay) {
-  class Listener : public Recorder {
-   public:
-    bool gives_inputs() const noexcept override { return false; }
-  } listener;
-  const RealTimeReport r = run_real_time(model(), simulation(0.1),
-                                         four_steps_of_patience(SilenceFallback::stop), &listener);
-  EXPECT_EQ(r.input_timeouts, 0);
 }
 
 TEST(RealTime, OverrunsAreTheProgramsOrTheHosts) {
