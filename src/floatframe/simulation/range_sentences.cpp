@@ -34,60 +34,60 @@ class Writer {
       : model_(model), bodies_(bodies), step_(step), limits_(limits) {}
 
   void displacement(std::vector<std::string>& out) const {
-    const Worst worst = find([&](const BodyRange& b) {
-      return b.size() > 0.0 ? b.displacement().value / (limits_.displacement * b.size()) : 0.0;
-    });
-    if (!worst) return;
-    const BodyRange& b = at(worst);
-    const Largest& x = b.displacement();
-    out.push_back(fmt::format(
-        "{} deforms too far for small deformations: from t = {:.4g} s on by more than {} of its "
-        "size of {:.3g} m, at t = {:.4g} s node {} is {:.3g} m ({}) off its place in the body "
-        "frame; divide it into several bodies",
-        subject(worst), x.first, percent(limits_.displacement), b.size(), x.at, b.node_name(x.node),
-        x.value, percent(x.value / b.size())));
+    about_worst(
+        &BodyRange::displacement,
+        [&](const BodyRange& b) { return limits_.displacement * b.size(); },
+        [&](const std::string& body, const BodyRange& b, const Largest& x) {
+          return fmt::format(
+              "{} deforms too far for small deformations: from t = {:.4g} s on by more than {} of "
+              "its size of {:.3g} m, at t = {:.4g} s node {} is {:.3g} m ({}) off its place in the "
+              "body frame; divide it into several bodies",
+              body, x.first, percent(limits_.displacement), b.size(), x.at, b.node_name(x.node),
+              x.value, percent(x.value / b.size()));
+        },
+        out);
   }
 
   void rotation(std::vector<std::string>& out) const {
-    const Worst worst =
-        find([&](const BodyRange& b) { return b.rotation().value / limits_.rotation; });
-    if (!worst) return;
-    const BodyRange& b = at(worst);
-    const Largest& x = b.rotation();
-    out.push_back(fmt::format(
-        "{} bends too far for small rotations: from t = {:.4g} s on by more than {:g} rad, at "
-        "t = {:.4g} s node {} is turned by {:.3g} rad in the body frame; divide it into several "
-        "bodies",
-        subject(worst), x.first, limits_.rotation, x.at, b.node_name(x.node), x.value));
+    about_worst(
+        &BodyRange::rotation, [&](const BodyRange&) { return limits_.rotation; },
+        [&](const std::string& body, const BodyRange& b, const Largest& x) {
+          return fmt::format(
+              "{} bends too far for small rotations: from t = {:.4g} s on by more than {:g} rad, "
+              "at "
+              "t = {:.4g} s node {} is turned by {:.3g} rad in the body frame; divide it into "
+              "several bodies",
+              body, x.first, limits_.rotation, x.at, b.node_name(x.node), x.value);
+        },
+        out);
   }
 
   void spin(std::vector<std::string>& out) const {
-    const Worst worst = find([&](const BodyRange& b) {
-      return b.lowest_frequency() > 0.0 ? b.spin().value / (limits_.spin * b.lowest_frequency())
-                                        : 0.0;
-    });
-    if (!worst) return;
-    const BodyRange& b = at(worst);
-    const double ratio = b.spin().value / b.lowest_frequency();
-    out.push_back(fmt::format(
-        "{} spins too fast for its stiffness: from t = {:.4g} s on at more than {:g} times its "
-        "lowest frequency of {:.4g} rad/s, at t = {:.4g} s at {:.4g} rad/s; centrifugal tension "
-        "does not stiffen it here, which leaves its frequencies in error by about {} (the square "
-        "of "
-        "the ratio); divide it into several bodies",
-        subject(worst), b.spin().first, limits_.spin, b.lowest_frequency(), b.spin().at,
-        b.spin().value, percent(ratio * ratio)));
+    about_worst(
+        &BodyRange::spin, [&](const BodyRange& b) { return limits_.spin * b.lowest_frequency(); },
+        [&](const std::string& body, const BodyRange& b, const Largest& x) {
+          const double ratio = x.value / b.lowest_frequency();
+          return fmt::format(
+              "{} spins too fast for its stiffness: from t = {:.4g} s on at more than {:g} times "
+              "its lowest frequency of {:.4g} rad/s, at t = {:.4g} s at {:.4g} rad/s; centrifugal "
+              "tension does not stiffen it here, which leaves its frequencies in error by about {} "
+              "(the square of the ratio); divide it into several bodies",
+              body, x.first, limits_.spin, b.lowest_frequency(), x.at, x.value,
+              percent(ratio * ratio));
+        },
+        out);
   }
 
   void turn(std::vector<std::string>& out) const {
-    const Worst worst = find([&](const BodyRange& b) { return b.turn().value / limits_.turn; });
-    if (!worst) return;
-    const Largest& x = at(worst).turn();
-    out.push_back(fmt::format(
-        "{} turns too far in one step of {:g} s: from t = {:.4g} s on by more than {:g} rad, at "
-        "t = {:.4g} s by {:.3g} rad; take a step of at most {:.2g} s",
-        subject(worst), step_, x.first, limits_.turn, x.at, x.value,
-        step_ * limits_.turn / x.value));
+    about_worst(
+        &BodyRange::turn, [&](const BodyRange&) { return limits_.turn; },
+        [&](const std::string& body, const BodyRange&, const Largest& x) {
+          return fmt::format(
+              "{} turns too far in one step of {:g} s: from t = {:.4g} s on by more than {:g} rad, "
+              "at t = {:.4g} s by {:.3g} rad; take a step of at most {:.2g} s",
+              body, step_, x.first, limits_.turn, x.at, x.value, step_ * limits_.turn / x.value);
+        },
+        out);
   }
 
   void phase(const std::vector<std::vector<PhaseMeter>>& meters,
@@ -157,16 +157,19 @@ class Writer {
   static constexpr long least_steps = 6;
   static constexpr double least_vibration = 1e-4;
 
-  template <class Ratio>
-  Worst find(const Ratio& ratio) const {
+  /// The sentence about the body that is furthest beyond its limit; a limit of 0 is none.
+  template <class Limit, class Sentence>
+  void about_worst(const Largest& (BodyRange::*measure)() const, const Limit& limit,
+                   const Sentence& sentence, std::vector<std::string>& out) const {
     Worst worst;
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-      worst.offer(static_cast<int>(i), ratio(bodies_[i]));
-    return worst;
+      if (limit(bodies_[i]) > 0.0)
+        worst.offer(static_cast<int>(i), (bodies_[i].*measure)().value / limit(bodies_[i]));
+    if (!worst) return;
+    const BodyRange& b = bodies_[static_cast<std::size_t>(worst.body)];
+    out.push_back(sentence(subject(worst), b, (b.*measure)()));
   }
-  const BodyRange& at(const Worst& worst) const {
-    return bodies_[static_cast<std::size_t>(worst.body)];
-  }
+
   std::string subject(const Worst& worst) const {
     const std::string name =
         "body '" + model_.bodies[static_cast<std::size_t>(worst.body)].name + "'";

@@ -14,14 +14,14 @@ struct RangeLimits {
   double displacement = 0.1;  ///< elastic displacement over the size of the body
   double rotation = 0.2;      ///< elastic rotation [rad]
   double spin = 0.3;          ///< spin across the body over its lowest frequency
-  double turn = 0.5;          ///< of a body in one step [rad]
-  double phase = 1.0;         ///< of an oscillation in one step [rad]
+  double turn = 0.5;          ///< of a body per step [rad]
+  double phase = 1.0;         ///< of an oscillation per step [rad]
   double share = 0.05;        ///< of the kinetic energy of all oscillations that counts
   double imbalance = 0.05;    ///< remainder of the energy balance over the energy exchanged
   double dissipation = 0.1;   ///< the same of what numerical damping takes out
 };
 
-/// Motion in a step that means nothing: the tolerances of the solver show [m, rad].
+/// Motion in a step below which only the tolerances of the solver show [m, rad].
 inline constexpr double least_motion = 1e-8;
 
 /// The largest value met, with the time it first passed its limit.
@@ -49,10 +49,10 @@ class BodyRange {
   double size() const noexcept { return size_; }
   /// Lowest angular frequency with the body frame held [rad/s]; 0: none.
   double lowest_frequency() const noexcept { return lowest_; }
-  const Largest& displacement() const noexcept { return displacement_; }  ///< [m]
-  const Largest& rotation() const noexcept { return rotation_; }          ///< [rad]
-  const Largest& spin() const noexcept { return spin_; }                  ///< [rad/s]
-  const Largest& turn() const noexcept { return turn_; }                  ///< [rad]
+  const Largest& displacement() const { return displacement_; }  ///< [m]
+  const Largest& rotation() const { return rotation_; }          ///< [rad]
+  const Largest& spin() const { return spin_; }                  ///< [rad/s]
+  const Largest& turn() const { return turn_; }                  ///< [rad]
   std::string node_name(int node) const;
 
  private:
@@ -99,12 +99,12 @@ class RangeWatch {
   RangeWatch(const Model& model, double step, const RangeLimits& limits = {});
 
   std::vector<BodyRange>& bodies() noexcept { return bodies_; }
-  /// Two a body, its motion and its turning, then one a mode.
+  /// Two per body, its motion and its turning, then one per mode.
   std::vector<PhaseMeter>& meters(int body) noexcept {
     return meters_[static_cast<std::size_t>(body)];
   }
   double step() const noexcept { return step_; }
-  /// Energy of all bodies moving by `least_motion` a step [J].
+  /// Energy of all bodies moving by `least_motion` per step [J].
   double noise() const noexcept;
   const RangeLimits& limits() const noexcept { return limits_; }
 
