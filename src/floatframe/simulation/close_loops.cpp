@@ -220,10 +220,8 @@ std::string keepers(const Model& model, bool rates) {
   for (const Joint& j : model.joints)
     if (j.keep && !(rates ? j.velocity : j.position).empty()) names.push_back(j.name);
   if (names.empty()) return {};
-  std::string text = names.size() == 1 ? "joint " : "joints ";
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
-  return text + (names.size() == 1 ? " keeps its start values" : " keep their start values") +
+  return named_text("joint", "joints", names) +
+         (names.size() == 1 ? " keeps its start values" : " keep their start values") +
          " (keep: true)";
 }
 

@@ -125,11 +125,11 @@ VecX mass_scale(const VecX& diagonal) {
   return diagonal.cwiseMax(1e-4 * top);
 }
 
-std::string bodies_text(const std::vector<std::string>& names) {
-  std::string text = names.size() == 1 ? "body " : "bodies ";
+std::string named_text(const char* one, const char* many, const std::vector<std::string>& names) {
+  std::string text = names.size() == 1 ? one : many;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
-    text += "'" + names[i] + "'";
+    text += i == 0 ? " '" : i + 1 == names.size() ? " and '" : ", '";
+    text += names[i] + "'";
   }
   return text;
 }

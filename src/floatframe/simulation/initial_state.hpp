@@ -5,8 +5,7 @@
 //                        constraints; what the user gave a value for moves last, what he keeps
 //                        never
 //   find_equilibrium     static equilibrium: Newton with pseudo-transient regularisation on the
-//   full
-//                        residual
+//                        full residual
 //   start_accelerations  a and lambda from M a + Phi_q^T lambda = Q, Phi_q a = gamma, in any
 //                        formulation
 #include <Eigen/Core>
@@ -90,8 +89,8 @@ void dense_start(const MatX& mass, const MatX& J, const VecX& force, const VecX&
                  const NeighbourAt& neighbour,
                  const std::function<std::string(const MatX&)>& movers, VecX& a, VecX& lambda);
 
-/// "body 'a'", "bodies 'a' and 'b'".
-std::string bodies_text(const std::vector<std::string>& names);
+/// "body 'a'", "bodies 'a', 'b' and 'c'".
+std::string named_text(const char* one, const char* many, const std::vector<std::string>& names);
 
 /// The diagonal of the mass matrix.
 template <class F>
@@ -101,6 +100,11 @@ VecX mass_diagonal(F& f, const State& state) {
   VecX r0(nv), column(nv), diagonal(nv);
   f.residual(zero, state.lambda, 0.0, r0);
   check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
+  if constexpr (requires { f.mass_matrix(); }) {
+    diagonal = f.mass_matrix().diagonal();
+    check_masses(diagonal, [&](int i) { return f.coordinate_owner(i); });
+    return diagonal;
+  }
   // Differences of the residual keep the digits of the mass if they are no smaller than the forces.
   const double unit = nv > 0 ? std::max(1.0, r0.cwiseAbs().maxCoeff()) : 1.0;
   for (int j = 0; j < nv; ++j) {
@@ -113,13 +117,14 @@ VecX mass_diagonal(F& f, const State& state) {
 
 /// True if some direction that the constraints leave free may have no mass: the tangent with a
 /// small penalty has a vanishing pivot, or a solution with it grows without measure (inverse
-/// iteration from a vector that no direction is orthogonal to but by chance). Says yes too often
-/// rather than too seldom.
+/// iteration from a vector that no direction is orthogonal to but by chance). A coordinate without
+/// mass alone says nothing: most of natural coordinates are held by constraints. Says yes too often
+/// rather than too seldom: the dense computation takes as long as a hundred steps of a vehicle.
 template <class F>
 bool may_lack_mass(F& f, const VecX& diagonal, double penalty_mass) {
   const Eigen::Index nv = diagonal.size();
   if (nv == 0) return false;
-  if (diagonal.minCoeff() < 1e-9 * diagonal.maxCoeff()) return true;
+  if (!(diagonal.maxCoeff() > 0.0)) return true;
   constexpr double s = 1e-30;
   constexpr int slot = 1;
   // Round-off of the full penalty would look like mass.
@@ -160,7 +165,7 @@ std::string moving_bodies(F& f, const State& state, const MatX& directions) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     if (speed[static_cast<Eigen::Index>(i)] > 1e-3 * speed.maxCoeff())
       names.push_back(model.bodies[i].name);
-  if (!names.empty()) return bodies_text(names);
+  if (!names.empty()) return named_text("body", "bodies", names);
   Eigen::Index worst = 0;
   directions.col(0).cwiseAbs().maxCoeff(&worst);
   return f.coordinate_owner(static_cast<int>(worst));
