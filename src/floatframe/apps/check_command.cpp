@@ -71,7 +71,7 @@ void add_check_command(CLI::App& app, Action& action) {
   command->add_flag("--json", *json, "JSON on standard output");
   command->footer(
       "Prints masses [kg] and frequencies [Hz] of the flexible bodies as well.\n"
-      "Exit codes: 0 the model is sound, 1 it cannot be assembled, 2 bad input.");
+      "Exit codes: 0 the model is valid, 1 it cannot be assembled, 2 bad input.");
   command->callback([arguments, json, &action] {
     action = [arguments, json] { return check_model(*arguments, *json); };
   });

@@ -229,7 +229,7 @@ void add_run_command(CLI::App& app, Action& action) {
   command->add_flag("--strict", arguments->strict,
                     "Warnings count as errors: exit code 1, results are kept");
   command->add_flag("--quiet", arguments->quiet,
-                    "No progress bar, no summary; faults and warnings are still shown");
+                    "No progress bar, no summary; errors and warnings are still shown");
   command->footer(
       "Files: results.csv (SI units, radians), report.html, summary.json.\n"
       "Exit codes: 0 completed, 1 failed (results up to there are kept) or, with --strict, with\n"

@@ -46,10 +46,10 @@ UdpAddress resolve(const std::string& host, const std::string& port, const std::
   hints.ai_family = AF_UNSPEC;
   hints.ai_socktype = SOCK_DGRAM;
   addrinfo* found = nullptr;
-  const int fault = getaddrinfo(host.c_str(), port.c_str(), &hints, &found);
-  if (fault != 0)
+  const int error = getaddrinfo(host.c_str(), port.c_str(), &hints, &found);
+  if (error != 0)
     throw InputError(fmt::format("{}: found the host '{}', expected one that is known ({})", option,
-                                 host, gai_strerror(fault)));
+                                 host, gai_strerror(error)));
   UdpAddress address;
   std::memcpy(&address.storage, found->ai_addr, found->ai_addrlen);
   address.size = found->ai_addrlen;
@@ -127,13 +127,13 @@ UdpAddress local_address_towards(const UdpAddress& to, const std::string& option
   const bool found =
       probe >= 0 && connect(probe, reinterpret_cast<const sockaddr*>(&to.storage), to.size) == 0 &&
       getsockname(probe, reinterpret_cast<sockaddr*>(&local.storage), &local.size) == 0;
-  const int fault = errno;
+  const int error = errno;
   if (probe >= 0) close(probe);
   if (!found)
     throw InputError(
         fmt::format("{}: found no way to {} ({}); --listen names an address of this "
                     "machine",
-                    option, to.text(), std::strerror(fault)));
+                    option, to.text(), std::strerror(error)));
   local.set_port(0);
   return local;
 }

@@ -92,9 +92,9 @@ void UdpPort::send(std::uint64_t step, double time, std::span<const double> outp
 }
 
 void UdpPort::transmit() noexcept {
-  const int fault = socket_.send(options_.send, outgoing_);
-  ++(fault == 0 ? sent_ : send_errors_);
-  if (fault != 0) send_error_ = fault;
+  const int error = socket_.send(options_.send, outgoing_);
+  ++(error == 0 ? sent_ : send_errors_);
+  if (error != 0) send_error_ = error;
 }
 
 }  // namespace floatframe

@@ -20,10 +20,10 @@ const sockaddr* generic(const UdpAddress& a) noexcept {
 UdpSocket::UdpSocket(const UdpAddress& local) {
   descriptor_ = socket(local.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (descriptor_ < 0 || bind(descriptor_, generic(local), local.size) != 0) {
-    const int fault = errno;
+    const int error = errno;
     if (descriptor_ >= 0) close(descriptor_);
     throw RunError(fmt::format("UDP packets cannot be received at {}: {}", local.text(),
-                               std::strerror(fault)));
+                               std::strerror(error)));
   }
 }
 

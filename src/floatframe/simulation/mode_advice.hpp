@@ -5,20 +5,16 @@
 // For amplitude k of a body with stiffness K and mass M_ff (both modal), h the step:
 //   frequency        sqrt(K_kk / M_kk) / 2 pi                     the body frame held
 //   free frequency   the same with M_kk - M_kr M_rr^-1 M_rk       the body free to recoil (r: its
-//   six
-//                                                                 rigid coordinates)
+//                                                                 six rigid coordinates)
 //   phase of a step  omega h with the free frequency: above pi the step has less than two points a
 //                    period, and the integrator cannot show the mode's own vibration
 //   static share     of the compliance under unit forces (and torques, divided by the length of the
-//   body)
-//                    at the places where joints, rods and forces attach, the part that is lost with
-//                    y_k = 0:  sum y_k^2 / (K^-1)_kk  over  sum y^T K y,  y = K^-1 g
+//                    body) at the places where joints, rods and forces attach, the part that is
+//                    lost with y_k = 0:  sum y_k^2 / (K^-1)_kk  over  sum y^T K y,  y = K^-1 g
 //   dynamic share    the same quotient with the amplitudes y(t) of the run: strain energy that the
-//   body
-//                    could not have taken up without the mode
+//                    body could not have taken up without the mode
 //   kinetic ratio    sum M_kk ydot_k^2 over sum K_kk (y_k - mean)^2 in the run: about 1 for a mode
-//   that
-//                    vibrates at its own frequency, far below 1 for one that follows its load
+//                    that vibrates at its own frequency, far below 1 for one that follows its load
 #include <string>
 #include <vector>
 

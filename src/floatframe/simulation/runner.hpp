@@ -80,7 +80,7 @@ class Runner {
   }
   double elastic_energy() noexcept { return f_.elastic_energy(state_.q); }
 
-  /// The culprit of the last failed step, in words.
+  /// The cause of the last failed step, in words.
   std::string failure() const {
     if (const std::string text = unreachable_tolerance(); !text.empty()) return text;
     const char* what =

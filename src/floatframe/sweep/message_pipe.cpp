@@ -14,7 +14,7 @@ namespace floatframe {
 namespace {
 
 constexpr std::size_t head_size = 1 + sizeof(std::uint64_t);
-/// A process that went mad may send anything.
+/// A process that is damaged may send anything.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 32;
 
 bool send_all(int socket, const char* data, std::size_t size) {

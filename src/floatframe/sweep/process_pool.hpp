@@ -53,7 +53,7 @@ class ProcessPool {
   std::optional<Answer> ask(int worker, const std::string& request, const std::atomic<bool>& stop);
   /// Sum over the requests in work of the fraction done.
   double in_work() const;
-  /// Tells the work to give up.
+  /// Asks the work to give up.
   void give_up() { flags_->give_up.store(true); }
 
  private:

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 //   worker -> 0:  hello <study>   the first message; the study as this process understood it
 //                 want <n>        may be sent n more runs
 //                 done <line>     a finished run
-//                 fault <text>    something that ends the study
+//                 error <text>    something that ends the study
 //   0 -> worker:  run <number>    to be done
 //                 stop            it is over
 std::string word_of(const std::string& text) { return text.substr(0, text.find(' ')); }
@@ -302,7 +302,7 @@ void serve_sweep(const SweepOptions& options, SweepWorkers* workers, Ranks& rank
     if (workers) dismissed = RankWorker(options, *workers, ranks).work(stop);
     if (workers && !dismissed) ranks.send(0, "interrupted");
   } catch (const std::exception& error) {
-    ranks.send(0, std::string("fault ") + error.what());
+    ranks.send(0, std::string("error ") + error.what());
   }
   while (!dismissed) {
     RankMessage message;

@@ -145,9 +145,9 @@ std::string SweepService::serve(const std::string& request, WorkerState& state) 
     out.kind = ServiceAnswer::Kind::error;
     out.text = error.what();
   }
-  if (runner_ && runner_->files().size() > told_.size()) {
+  if (runner_ && runner_->files().size() > sent_files_.size()) {
     for (const auto& [file, hash] : runner_->files())
-      if (told_.emplace(file, hash).second) out.files.emplace(file, hash);
+      if (sent_files_.emplace(file, hash).second) out.files.emplace(file, hash);
   }
   return encode(out);
 }

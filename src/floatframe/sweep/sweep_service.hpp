@@ -52,8 +52,8 @@ class SweepService {
 
   const SweepOptions& options_;
   const std::atomic<bool>& give_up_;
-  std::unique_ptr<SweepRunner> runner_;      // made by the first request
-  std::map<std::string, std::string> told_;  // files of former answers
+  std::unique_ptr<SweepRunner> runner_;            // made by the first request
+  std::map<std::string, std::string> sent_files_;  // with former answers
 };
 
 }  // namespace floatframe
