@@ -122,6 +122,8 @@ class Misuse(CommandLine):
                 ((), "a command is required: run, check, statics, realtime, bench, sweep, advise, reduce or info"),
                 (("fly",), "found the command 'fly', expected run, check, statics, realtime, bench, sweep, advise, reduce or info"),
                 (("run",), "MODEL is required"),
+                (("run", ""), "MODEL: found an empty name, expected a file"),
+                (("sweep", "", "--vary", "a=1,2"), "MODEL: found an empty name, expected a file"),
                 (("run", "pendulum.yaml", "--frobnicate"), "--frobnicate"),
                 (("run", "pendulum.yaml", "--coordinates", "polar"), "polar not in {relative,absolute}"),
                 (("run", "pendulum.yaml", "--inertia", "guess"), "guess not in {preprocessing,projection}"),

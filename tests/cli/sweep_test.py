@@ -309,24 +309,49 @@ bodies:
         done = self.sweep(1, CRANK, "--vary", "duration=1000,0.01", "--threads", "1", "--out", "out")
         self.assertIn("all 2 runs were finished before", done.stdout)
 
-    def test_no_worker_outlives_a_killed_study(self):
-        process = self.start(CRANK, "--vary", "duration=1000,2000", "--threads", "2", "--out", "out")
-        self.run_in_work(process)
+    def guards_and_workers(self, process):
         guards = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-        everyone = [*map(int, guards), *self.workers(process)]
-        self.assertEqual(len(everyone), 4)
-        process.kill()
-        process.communicate(timeout=60)
+        return [*map(int, guards), *self.workers(process)]
 
+    def wait_until_gone(self, pids):
         def alive(pid):
             try:
                 return pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] not in "ZX"
             except OSError:
                 return False
         end = time.monotonic() + 60
-        while any(map(alive, everyone)):
+        while any(map(alive, pids)):
             self.assertLess(time.monotonic(), end)
             time.sleep(0.01)
+
+    def test_no_worker_outlives_a_killed_study(self):
+        process = self.start(CRANK, "--vary", "duration=1000,2000", "--threads", "2", "--out", "out")
+        self.run_in_work(process)
+        everyone = self.guards_and_workers(process)
+        self.assertEqual(len(everyone), 4)
+        process.kill()
+        process.communicate(timeout=60)
+        self.wait_until_gone(everyone)
+
+    def test_a_killed_guard_ends_the_study_with_all_processes_and_it_continues(self):
+        process = self.start(CRANK, *LONG, "--threads", "2", "--out", "out")
+        self.wait_for_runs(process, "out", 2)
+        everyone = self.guards_and_workers(process)
+        os.kill(everyone[0], signal.SIGTERM)  # is for the program to decide about
+        os.kill(everyone[0], signal.SIGKILL)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(errors, "floatframe: the process that watches over a worker was ended from outside\n")
+        self.assertEqual(process.returncode, 1)
+        self.wait_until_gone(everyone)
+        done = self.sweep(0, CRANK, *LONG, "--threads", "2", "--out", "out")
+        self.assertRegex(done.stdout, r"\d+ were finished before")
+
+    def test_too_few_file_numbers_for_the_workers_are_said(self):
+        done = subprocess.run(["sh", "-c", 'ulimit -n 12; exec "$@"', "sh", BINARY, "sweep", CRANK, *LONG, "--threads",
+                               "40", "--out", "out"], cwd=self.folder, timeout=60, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "floatframe: a worker process cannot be started: Too many open files\n")
+        self.assertFalse((self.folder / "out").exists())
 
     def test_signal_to_all_processes_of_the_group_is_an_interrupt(self):
         process = subprocess.Popen([BINARY, "sweep", CRANK, "--vary", "duration=1000,2000", "--threads", "2", "--out",

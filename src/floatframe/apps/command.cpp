@@ -18,7 +18,12 @@
 namespace floatframe {
 
 void add_model_arguments(CLI::App& app, ModelArguments& arguments) {
-  app.add_option("MODEL", arguments.path, "Model file (YAML)")->required()->type_name("");
+  app.add_option("MODEL", arguments.path, "Model file (YAML)")
+      ->required()
+      ->check([](const std::string& file) {  // of a shell variable that is not set
+        return std::string(file.empty() ? "found an empty name, expected a file" : "");
+      })
+      ->type_name("");
   // One value an occurrence: `--set a=1 model.yaml` must not swallow the model.
   app.add_option("--set", arguments.settings,
                  "Change a parameter of the model file; may be repeated")

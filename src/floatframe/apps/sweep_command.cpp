@@ -87,6 +87,7 @@ double megabytes(const std::string& text) {
 SweepOptions options_from(const SweepArguments& a) {
   SweepOptions o;
   o.model = a.model.path;
+  if (o.model.empty()) throw InputError("MODEL: found an empty name, expected a file");
   for (const std::string& setting : a.model.settings) {
     const std::size_t equal = setting.find('=');
     if (equal == std::string::npos || equal == 0)
@@ -172,12 +173,12 @@ int sweep(const SweepArguments& arguments) {
   // Worker processes first: they are forks, and MPI brings threads and locks with it.
   std::optional<SweepOptions> options;
   std::optional<SweepWorkers> workers;
-  std::exception_ptr fault;
+  std::exception_ptr error;
   try {
     options = options_from(arguments);
     workers.emplace(*options);
   } catch (...) {
-    fault = std::current_exception();
+    error = std::current_exception();
   }
   std::unique_ptr<Ranks> ranks;
   if (started_on_ranks()) ranks = open_ranks();
@@ -191,7 +192,7 @@ int sweep(const SweepArguments& arguments) {
       return 0;
     }
     try {
-      if (fault) std::rethrow_exception(fault);
+      if (error) std::rethrow_exception(error);
       code = lead(arguments, *options, *workers, ranks.get());
     } catch (...) {
       if (ranks) dismiss_ranks(*ranks);
@@ -260,7 +261,7 @@ void add_sweep_command(CLI::App& app, Action& action) {
       ->add_option("--case-memory", a->case_memory,
                    "A run that needs more memory is stopped and has failed [MB]")
       ->type_name("MB");
-  command->add_flag("--quiet", a->quiet, "No progress bar, no summary; faults are still shown");
+  command->add_flag("--quiet", a->quiet, "No progress bar, no summary; errors are still shown");
   command->footer(
       "NAME is a parameter of the model file or else a simulation option: coordinates, inertia,\n"
       "start, step, duration, output_interval, spectral_radius, tolerance, ... (simulation.step "
