@@ -1,8 +1,10 @@
 // The loop of a paced run: results, counts, ends, and what it must not do. Nothing here depends on
 // how fast the machine is: slow steps are made slow.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -11,6 +13,7 @@
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/realtime/denormals.hpp"
 #include "floatframe/realtime/realtime_runner.hpp"
+#include "floatframe/realtime/signal_log.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "realtime/recorder.hpp"
@@ -230,11 +233,12 @@ TEST(RealTime, StrictRunsNeedWhatTheyAskFor) {
   }
 }
 
-/// Answers without memory of its own.
+/// Answers, sometimes late, without memory of its own.
 class Plain final : public SignalPort {
  public:
   bool receive(InputBuffer& inputs) noexcept override {
-    const double values[] = {0.1 * static_cast<double>(++count % 100), 1.5, 0.2, 0.0};
+    if (++count % 10 != 0) return false;
+    const double values[] = {0.1 * static_cast<double>(count), 1.5, 0.2, 0.0};
     inputs.accept(values);
     return true;
   }
@@ -258,6 +262,12 @@ void check_allocations(bool paced) {
   start_accelerations(f, state, step_options.penalty_mass);
   RealTimeOptions options;
   options.paced = paced;
+  options.input_timeout = 0.003;
+  options.fallback = SilenceFallback::initial;
+  const std::string file =
+      ::testing::TempDir() + "runner_test_" + std::to_string(getpid()) + ".csv";
+  SignalLog log(m, file, false);
+  options.log = &log;
   Plain port;
   RealTimeReport report;
   RealTimeRunner<F> runner(f, step_options, options, 0.001, 0.1, &port, report);
@@ -267,6 +277,10 @@ void check_allocations(bool paced) {
   EXPECT_EQ(scope.count(), 0u);
   EXPECT_EQ(end, RealTimeRunner<F>::End::completed);
   EXPECT_EQ(report.steps, 100);
+  EXPECT_EQ(report.input_timeouts, 10);
+  log.finish();
+  EXPECT_EQ(log.rows(), 101);
+  std::remove(file.c_str());
 }
 
 TEST(RealTime, LoopDoesNotAllocate) {
