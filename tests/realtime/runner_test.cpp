@@ -1,10 +1,8 @@
 // The loop of a paced run: results, counts, ends, and what it must not do. Nothing here depends on
 // how fast the machine is: slow steps are made slow.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -18,6 +16,7 @@
 #include "floatframe/simulation/simulation.hpp"
 #include "realtime/recorder.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -264,9 +263,8 @@ void check_allocations(bool paced) {
   options.paced = paced;
   options.input_timeout = 0.003;
   options.fallback = SilenceFallback::initial;
-  const std::string file =
-      ::testing::TempDir() + "runner_test_" + std::to_string(getpid()) + ".csv";
-  SignalLog log(m, file, false);
+  const TemporaryFolder folder;
+  SignalLog log(m, folder.file("log.csv"), false);
   options.log = &log;
   Plain port;
   RealTimeReport report;
@@ -280,7 +278,6 @@ void check_allocations(bool paced) {
   EXPECT_EQ(report.input_timeouts, 10);
   log.finish();
   EXPECT_EQ(log.rows(), 101);
-  std::remove(file.c_str());
 }
 
 TEST(RealTime, LoopDoesNotAllocate) {
