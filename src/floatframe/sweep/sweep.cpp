@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <deque>
 #include <filesystem>
 #include <optional>
-#include <thread>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -15,6 +13,7 @@
 #include "floatframe/sweep/sweep_check.hpp"
 #include "floatframe/sweep/sweep_identity.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
+#include "floatframe/sweep/sweep_messages.hpp"
 #include "floatframe/sweep/sweep_workers.hpp"
 
 namespace floatframe {
@@ -22,39 +21,6 @@ namespace {
 
 using What = ServiceRequest::What;
 using Clock = std::chrono::steady_clock;
-
-// Messages between processes: one word, a blank, the rest.
-//   worker -> 0:  hello <study>   the first message; the study as this process understood it
-//                 want <n>        may be sent n more runs
-//                 done <line>     a finished run
-//                 error <text>    something that ends the study
-//   0 -> worker:  run <number>    to be done
-//                 stop            it is over
-std::string word_of(const std::string& text) { return text.substr(0, text.find(' ')); }
-std::string rest_of(const std::string& text) {
-  const std::size_t blank = text.find(' ');
-  return blank == std::string::npos ? "" : text.substr(blank + 1);
-}
-
-/// The line of a run whose worker has answered; none if it was given up.
-std::optional<std::string> line_of(const SweepOptions& options,
-                                   const SweepWorkers::Answer& answer) {
-  if (!answer.lost.empty()) return lost_line(options, answer.run, answer.lost);
-  if (answer.kind == ServiceAnswer::Kind::given_up) return std::nullopt;
-  if (!answer.faults.empty()) throw InputError(answer.faults);
-  return answer.text;
-}
-
-/// Fingerprint of the files of the first run, as this process sees them; none if stopped.
-std::optional<std::string> first_run_files(const SweepOptions& options, SweepWorkers& workers,
-                                           const std::atomic<bool>& stop) {
-  const auto answer = workers.ask(0, {What::files, 0}, stop);
-  if (!answer) return std::nullopt;
-  if (!answer->lost.empty())
-    throw RunError(fmt::format("{}: reading it {}", options.model, answer->lost));
-  if (!answer->faults.empty()) throw InputError(answer->faults);
-  return answer->text;
-}
 
 /// What earlier calls left in the folder, except the journal.
 void remove_results(const std::string& folder) {
@@ -236,79 +202,6 @@ SweepReport run_sweep(const SweepOptions& options, const std::atomic<bool>& stop
                       const std::function<void(const SweepProgress&)>& progress) {
   SweepWorkers workers(options);
   return run_sweep(options, workers, nullptr, stop, progress);
-}
-
-void dismiss_ranks(Ranks& ranks) {
-  for (int k = 1; k < ranks.size(); ++k) ranks.send(k, "stop");
-}
-
-namespace {
-
-/// A process other than 0: does what it is sent.
-class RankWorker {
- public:
-  RankWorker(const SweepOptions& options, SweepWorkers& workers, Ranks& ranks)
-      : options_(options), workers_(workers), ranks_(ranks) {}
-
-  /// Until process 0 says that it is over (true), or `stop` (false).
-  bool work(const std::atomic<bool>& stop) {
-    const auto files = first_run_files(options_, workers_, stop);
-    if (!files) return false;
-    ranks_.send(0, "hello " + study_hash(options_, *files));
-    want(workers_.size());
-    while (!stop.load()) {
-      for (int k = 0; k < workers_.size() && !queue_.empty(); ++k) {
-        if (!workers_.idle(k)) continue;
-        workers_.give(k, {What::run, queue_.front()});
-        queue_.pop_front();
-      }
-      for (const SweepWorkers::Answer& answer : workers_.answers(std::chrono::milliseconds(1)))
-        take(answer);
-      RankMessage message;
-      while (ranks_.receive(message)) {
-        if (word_of(message.text) == "stop") return true;
-        queue_.push_back(std::stoul(rest_of(message.text)));
-      }
-    }
-    return false;
-  }
-
- private:
-  void want(int runs) { ranks_.send(0, fmt::format("want {}", runs)); }
-
-  void take(const SweepWorkers::Answer& answer) {
-    const auto line = line_of(options_, answer);
-    if (!line) return;
-    ranks_.send(0, "done " + *line);
-    // Short runs: a second run a worker lies ready, so that none waits for the answer.
-    const bool short_run = !ahead_ && answer.seconds < 0.1;
-    want(short_run ? 1 + workers_.size() : 1);
-    ahead_ = ahead_ || short_run;
-  }
-
-  const SweepOptions& options_;
-  SweepWorkers& workers_;
-  Ranks& ranks_;
-  std::deque<std::size_t> queue_;
-  bool ahead_ = false;
-};
-
-}  // namespace
-
-void serve_sweep(const SweepOptions& options, SweepWorkers* workers, Ranks& ranks,
-                 const std::atomic<bool>& stop) {
-  bool dismissed = false;
-  try {
-    if (workers) dismissed = RankWorker(options, *workers, ranks).work(stop);
-    if (workers && !dismissed) ranks.send(0, "interrupted");
-  } catch (const std::exception& error) {
-    ranks.send(0, std::string("error ") + error.what());
-  }
-  while (!dismissed) {
-    RankMessage message;
-    while (!dismissed && ranks.receive(message)) dismissed = word_of(message.text) == "stop";
-    if (!dismissed) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
 }
 
 }  // namespace floatframe
