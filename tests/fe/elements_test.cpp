@@ -432,7 +432,7 @@ TEST(BarFrames, Faults) {
             "bar 'one', element 1 has a section whose A, Iy, Iz and J are not all positive");
   f = good;
   f.material.young = 0.0;
-  EXPECT_EQ(message(f), "material 0: Young's modulus must be positive");
+  EXPECT_EQ(message(f), "material 0: found Young's modulus 0, expected a positive number");
   f = good;
   f.masses = {{"b", -1.0}};
   EXPECT_EQ(message(f), "point mass 0 on node 'b': the mass must not be negative");

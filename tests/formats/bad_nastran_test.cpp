@@ -57,10 +57,9 @@ TEST(BadNastran, Decks) {
       {"CTETRA,1,1", "CTETRA,1,2", "arm.bdf:6: CTETRA 1: property 2 is a PBAR, expected a PSOLID"},
       {"CTETRA,1,1", "CTETRA,1,5", "arm.bdf:6: CTETRA 1: property 5 is not in the file"},
       {"GRID,2,,1.,0.,0.", "GRID,1,,1.,0.,0.",
-       "arm.bdf:3: node 1 is in the file twice, first in line 2\n"
-       "arm.bdf:6: CTETRA 1 has node 2, which is not in the file\n"
-       "arm.bdf:7: CBAR 2 has node 2, which is not in the file\n"
-       "arm.bdf:11: CONM2 7 has node 2, which is not in the file"},
+       "arm.bdf:3: node 1 is in the file twice, first in line 2"},
+      {"GRID,2,,1.,0.,0.", "GRID,99999999999,,1.,0.,0.",
+       "arm.bdf:3: GRID: the number of the node is '99999999999', expected a whole number from 1"},
       {"GRID,2,,1.,0.,0.", "GRID,2,,1.,0.,0.,,777",
        "arm.bdf:3: GRID 2: the held components PS are '777', expected some of the digits 1 to 6"},
       {"GRID,2,,1.,0.,0.", "GRID,2,5,1.,0.,0.",
@@ -75,6 +74,12 @@ TEST(BadNastran, Decks) {
        "arm.bdf:3: GRID 2: a coordinate: '1.0.0' is not a number"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,,8000.",
        "arm.bdf:10: MAT1 1: one of E, G and NU given, expected two"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,-2.+11,,.3,8000.",
+       "arm.bdf:10: MAT1 1: E is -2e+11, expected more than 0"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,.5,8000.",
+       "arm.bdf:10: MAT1 1: NU is 0.5, expected more than -1 and less than 0.5"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,.3,-1.",
+       "arm.bdf:10: MAT1 1: RHO is -1, expected no negative density"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,.3",
        "arm.bdf:10: MAT1 1: RHO is missing; give the density (0.0 if all mass is in point masses)"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT1,3,2.+11,,.3,8000.",
@@ -116,11 +121,13 @@ TEST(BadNastran, Lines) {
       deck_fault("CTETRA  1       1       1       2       3       4       5       6       +A\n"
                  "+B      7       8       9       10\n"),
       "arm.bdf:2: the continuation '+B' does not follow the card with this mark; the card "
-      "before (CTETRA in line 1) has '+A'\narm.bdf: the file has no nodes (GRID)\n"
-      "arm.bdf:1: CTETRA 1 has node 1, which is not in the file");
+      "before (CTETRA in line 1) has '+A'");
   EXPECT_EQ(deck_fault("GRID,1,,0.,0.,0.,,,,,,,,1\n"),
             "arm.bdf:1: the line has 14 fields; a line in free field has at most 10");
   EXPECT_EQ(deck_fault("$ nothing\n"), "arm.bdf: the file has no nodes (GRID)");
+  EXPECT_EQ(deck_fault("GRID,1,,0.,0.,0.\rGRID,2,,0.,0.,0.\r"),
+            "arm.bdf: its lines end with a carriage return alone, expected a line feed (LF or "
+            "CRLF)");
   EXPECT_EQ(deck_fault(std::string("GRID,1,,0.\0\1\2", 14)),
             "arm.bdf: the file is binary, not text: byte 0x00 in line 1");
 }

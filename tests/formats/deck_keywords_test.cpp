@@ -156,7 +156,7 @@ const std::string abaqus_clue = "*STEP, NAME=Step-1\n*FREQUENCY\n3\n*END STEP\n"
 TEST(DeckDialects, ARoundSectionWithoutClueIsRefused) {
   EXPECT_EQ(fault(beam("CIRC\n2.")),
             "deck.inp:13: *BEAM SECTION, SECTION=CIRC: 2 is a radius in Abaqus and a diameter in "
-            "CalculiX, and nothing in the deck tells whose it is: give --dialect abaqus or "
+            "CalculiX, and nothing in the deck shows whose it is: give --dialect abaqus or "
             "--dialect calculix (in a model file 'dialect:')");
   EXPECT_EQ(fault(beam("CIRC\n2.", calculix_clue + abaqus_clue)),
             "deck.inp:13: *BEAM SECTION, SECTION=CIRC: 2 is a radius in Abaqus and a diameter in "

@@ -5,8 +5,11 @@
 #include <zlib.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
+#include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/text_fields.hpp"
 
 namespace floatframe {
@@ -33,6 +36,24 @@ std::string fault_of(const std::string& bytes) {
     return error.what();
   }
   return "no fault";
+}
+
+TEST(Gzip, AFileThatIsDamagedFromItsBeginningIsNotEmpty) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "damaged_from_its_beginning.inp.gz";
+  const auto said = [&](const std::string& bytes) -> std::string {
+    std::ofstream(file, std::ios::binary) << bytes;
+    try {
+      read_fe_file(file);
+    } catch (const InputError& error) {
+      return error.faults().front().message;
+    }
+    return "no error";
+  };
+  EXPECT_TRUE(said("\x1f\x8b\x08 broken").starts_with("the gzip data are damaged"));
+  EXPECT_EQ(said(gzip("")), "the file is empty");
+  EXPECT_EQ(said(""), "the file is empty");
+  std::filesystem::remove(file);
 }
 
 TEST(TextFields, RealsOfFortranAndNastran) {

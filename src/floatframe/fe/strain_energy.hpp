@@ -40,7 +40,7 @@ void check_digits(const FeModel& model, const MatX& U, const MatX& Theta, const 
                   Integration integration = Integration::exact);
 
 /// Runs `factor`; if it finds a stiffness that is singular, and there are so many beams that
-/// rounding may be the cause, the fault says so.
+/// rounding may be the cause, the error says so.
 void with_digits_hint(const FeModel& model, const std::function<void()>& factor);
 
 }  // namespace floatframe

@@ -64,13 +64,19 @@ void check_materials(const FeModel& model, LimitedFaults& faults) {
     const std::string label =
         named ? "material '" + model.material_names[i] + "'" : "material " + std::to_string(i);
     if (!(m.young > 0.0) || !std::isfinite(m.young)) {
-      faults.add("materials", {}, label + ": Young's modulus must be positive");
+      faults.add("materials", {},
+                 fmt::format("{}: found Young's modulus {:g}, expected a positive number", label,
+                             m.young));
     }
     if (!(m.density >= 0.0) || !std::isfinite(m.density)) {
-      faults.add("materials", {}, label + ": the density must not be negative");
+      faults.add(
+          "materials", {},
+          fmt::format("{}: found the density {:g}, expected no negative number", label, m.density));
     }
     if (!(m.poisson > -1.0 && m.poisson < 0.5)) {
-      faults.add("materials", {}, label + ": Poisson's ratio must lie between -1 and 0.5");
+      faults.add("materials", {},
+                 fmt::format("{}: found Poisson's ratio {:g}, expected a number between -1 and 0.5",
+                             label, m.poisson));
     }
   }
   if (model.materials.empty() && !model.elements.empty()) {

@@ -78,7 +78,7 @@ void no_offset(AbaqusLines& lines, const AbaqusKeyword& keyword) {
   }
 }
 
-/// The numbers of the section; false and a fault if there are not as many as the shape has, or one
+/// The numbers of the section; false and an error if there are not as many as the shape has, or one
 /// is not positive.
 bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const Shape& shape,
                   DeckDialect dialect, std::vector<double>& numbers) {

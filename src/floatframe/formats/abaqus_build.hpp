@@ -29,6 +29,22 @@ struct AbaqusBuild {
   int node_list_ = 0;
 };
 
+/// What the elements of a section have in the model.
+struct AbaqusProperties {
+  int material = -1, section = 0;
+  Vec3 reference = Vec3::UnitZ();
+};
+
+// abaqus_build_sections.cpp
+/// "element 7 (C3D4)"
+std::string abaqus_label(const AbaqusElement& element);
+/// Of each element of the deck the index of the section whose set names it; -1: none.
+std::vector<int> sections_of_elements(AbaqusBuild& build,
+                                      const std::vector<AbaqusSection>& sections);
+/// Notes elements with a section that CalculiX does not take for them: a clue whose deck it is.
+void look_at_abaqus_beams(AbaqusBuild& build, const std::vector<int>& section_of);
+/// Of each section; its material and its shape get into the model.
+std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build);
 // abaqus_build_mesh.cpp
 void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);

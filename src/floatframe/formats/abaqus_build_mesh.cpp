@@ -1,11 +1,8 @@
-// Nodes, elements with their sections, masses and sets of an Abaqus deck in the model.
+// Nodes, elements, masses and sets of an Abaqus deck in the model.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_map>
 
-#include "floatframe/core/suggest.hpp"
-#include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/abaqus_build.hpp"
 #include "floatframe/formats/text_fields.hpp"
 
@@ -15,166 +12,6 @@ namespace {
 using Family = AbaqusType::Family;
 
 constexpr int most_notes = 20;  // of a kind
-
-std::string label(const AbaqusElement& e) {
-  return fmt::format("element {} ({})", e.id, e.type->name);
-}
-
-/// Index of each section's element list by element of the deck; -1: none.
-std::vector<int> assign(AbaqusBuild& build, const std::vector<AbaqusSection>& sections) {
-  const AbaqusContent& c = build.content;
-  std::vector<int> section_of(c.elements.size(), -1);
-  for (std::size_t s = 0; s < sections.size(); ++s) {
-    const AbaqusSection& section = sections[s];
-    bool told = false;
-    for (const int e : build.elements.resolve(section.elements)) {
-      const AbaqusElement& element = c.elements[static_cast<std::size_t>(e)];
-      int& at = section_of[static_cast<std::size_t>(e)];
-      // Sets of parts hold masses beside the elements of a section.
-      if (element.type->family != section.family &&
-          (element.type->family == Family::mass || element.type->family == Family::rotary ||
-           element.type->family == Family::coupling)) {
-        continue;
-      }
-      std::string fault;
-      if (element.type->family != section.family) {
-        fault = element.type->family == Family::skin
-                    ? fmt::format(
-                          "{} names {}; elements of this type are read as skins only, "
-                          "without a section",
-                          section.shown, label(element))
-                    : fmt::format("{} names {}, for which it is not supported", section.shown,
-                                  label(element));
-      } else if (at >= 0) {
-        const SourceMark first = build.source.mark(sections[static_cast<std::size_t>(at)].at);
-        fault = fmt::format("{} names {}, which has one already ({}:{})", section.shown,
-                            label(element), first.file, first.line);
-      }
-      if (!fault.empty() && !told) {
-        told = true;
-        build.source.fault(section.at, fault);
-      }
-      at = static_cast<int>(s);
-    }
-  }
-  return section_of;
-}
-
-/// Index of the section's material in the model, which gets it if it is not there yet.
-int material_of(AbaqusBuild& build, const AbaqusSection& section,
-                std::unordered_map<std::string, int>& index) {
-  const AbaqusContent& c = build.content;
-  FeModel& model = build.model;
-  const auto [place, fresh] =
-      index.emplace(section.material, static_cast<int>(model.materials.size()));
-  if (!fresh) return place->second;
-  const auto it = c.materials.find(section.material);
-  Material material;
-  if (it == c.materials.end()) {
-    build.source.fault(section.at,
-                       fmt::format("{} names the material {}, which is not there{}", section.shown,
-                                   shown(section.material),
-                                   c.material_order.size() > most_known
-                                       ? ""
-                                       : did_you_mean(section.material, c.material_order)));
-  } else {
-    const AbaqusMaterial& m = it->second;
-    if (!m.young) {
-      build.source.fault(m.at, fmt::format("material {} has no *ELASTIC", shown(section.material)));
-    }
-    if (!m.density) {
-      build.source.fault(m.at, fmt::format("material {} has no *DENSITY", shown(section.material)));
-    }
-    material = {m.young.value_or(0.0), m.poisson.value_or(0.0), m.density.value_or(0.0)};
-  }
-  model.materials.push_back(material);
-  model.material_names.push_back(section.material);
-  return place->second;
-}
-
-/// The section of CIRC with one number: a radius in Abaqus, a diameter in CalculiX.
-BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
-  const DialectClues& clues = build.clues;
-  DeckDialect dialect = build.content.dialect;
-  if (dialect == DeckDialect::by_content &&
-      clues.abaqus.has_value() != clues.calculix.has_value()) {
-    dialect = clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
-    const DialectClues::Clue& clue = clues.abaqus ? *clues.abaqus : *clues.calculix;
-    const SourceMark mark = build.source.mark(clue.at);
-    build.note(section.at, fmt::format("{}, SECTION=CIRC: {:g} is the {}, as in {} ({} in {}:{})",
-                                       section.shown, section.round,
-                                       dialect == DeckDialect::abaqus ? "radius" : "diameter",
-                                       program_of(dialect), clue.what, mark.file, mark.line));
-  }
-  if (dialect == DeckDialect::by_content) {
-    build.source.fault(
-        section.at,
-        fmt::format("{}, SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and "
-                    "{}: give --dialect abaqus or --dialect calculix (in a model file 'dialect:')",
-                    section.shown, section.round,
-                    clues.abaqus ? fmt::format("the deck has things of both ({}, {})",
-                                               clues.abaqus->what, clues.calculix->what)
-                                 : "nothing in the deck tells whose it is"));
-  }
-  return BeamSection::solid_round(section.round * (dialect == DeckDialect::abaqus ? 2.0 : 1.0));
-}
-
-/// Numbers of a section that only CalculiX takes, in a deck of Abaqus.
-void check_form(AbaqusBuild& build, const AbaqusSection& section) {
-  const DialectClues& clues = build.clues;
-  if (!section.calculix_form || !clues.abaqus || build.content.dialect == DeckDialect::calculix) {
-    return;
-  }
-  const SourceMark mark = build.source.mark(clues.abaqus->at);
-  build.source.fault(
-      section.at,
-      fmt::format("{}, SECTION={} has dimensions as in CalculiX, but the deck has {} ({}:{}), "
-                  "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
-                  section.shown, section.shape, clues.abaqus->what, mark.file, mark.line));
-}
-
-/// Elements with a section that CalculiX does not take for them.
-void look_at_beams(const AbaqusBuild& build, const std::vector<int>& section_of,
-                   DialectClues& clues) {
-  const AbaqusContent& c = build.content;
-  for (std::size_t e = 0; e < c.elements.size() && !clues.abaqus; ++e) {
-    if (section_of[e] < 0) continue;
-    const AbaqusSection& section = c.sections[static_cast<std::size_t>(section_of[e])];
-    const std::string_view type = c.elements[e].type->name;
-    if (section.family != Family::beam || section.shape == "RECT" || type == "B32R" ||
-        (section.shape == "CIRC" && type == "B32")) {
-      continue;
-    }
-    clues.add(DeckDialect::abaqus, fmt::format("SECTION={} for {}", section.shape, type),
-              section.at);
-  }
-}
-
-struct Properties {
-  int material = -1, section = 0;
-  Vec3 reference = Vec3::UnitZ();
-};
-
-std::vector<Properties> section_properties(AbaqusBuild& build) {
-  std::vector<Properties> list;
-  std::unordered_map<std::string, int> material_index;
-  FeModel& model = build.model;
-  for (const AbaqusSection& section : build.content.sections) {
-    Properties p;
-    p.material = material_of(build, section, material_index);
-    if (section.family == Family::beam) {
-      p.section = static_cast<int>(model.sections.size());
-      check_form(build, section);
-      model.sections.push_back(section.round > 0.0 ? round_section(build, section) : section.beam);
-      p.reference = build.content.placement.R * section.n1;
-    } else if (section.family == Family::shell) {
-      p.section = static_cast<int>(model.shells.size());
-      model.shells.push_back({section.thickness});
-    }
-    list.push_back(p);
-  }
-  return list;
-}
 
 /// How many elements of a type there are, and where the first stands.
 struct Count {
@@ -187,13 +24,13 @@ struct Count {
 
 void build_masses(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
-  const std::vector<int> section_of = assign(build, c.masses);
+  const std::vector<int> section_of = sections_of_elements(build, c.masses);
   for (std::size_t e = 0; e < c.elements.size(); ++e) {
     const AbaqusElement& element = c.elements[e];
     const bool rotary = element.type->family == Family::rotary;
     if (!rotary && element.type->family != Family::mass) continue;
     if (section_of[e] < 0) {
-      build.source.fault(element.at, fmt::format("{} has no {}", label(element),
+      build.source.fault(element.at, fmt::format("{} has no {}", abaqus_label(element),
                                                  rotary ? "*ROTARY INERTIA" : "*MASS"));
       continue;
     }
@@ -201,7 +38,7 @@ void build_masses(AbaqusBuild& build) {
     const auto node =
         c.node_of_label.find(AbaqusContent::label(element.scope, c.element_nodes[element.first]));
     if (node == c.node_of_label.end()) {
-      build.source.fault(element.at, fmt::format("{}: node {} is not there", label(element),
+      build.source.fault(element.at, fmt::format("{}: node {} is not there", abaqus_label(element),
                                                  c.element_nodes[element.first]));
       continue;
     }
@@ -280,12 +117,12 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
   const std::size_t before = build.source.faults();
-  const std::vector<int> section_of = assign(build, c.sections);
+  const std::vector<int> section_of = sections_of_elements(build, c.sections);
   const bool assigned = build.source.faults() == before;
-  look_at_beams(build, section_of, build.clues);
-  std::vector<Properties> properties = section_properties(build);
+  look_at_abaqus_beams(build, section_of);
+  const std::vector<AbaqusProperties> properties = abaqus_properties(build);
   const bool mesh_only = c.sections.empty() && c.materials.empty();
-  Properties given;
+  AbaqusProperties given;
   if (mesh_only && options.material) {
     model.materials.push_back(*options.material);
     model.material_names.emplace_back();
@@ -312,18 +149,18 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     const bool material_given = mesh_only && type.family == Family::solid;
     if (section < 0 && !material_given) {
       if (without_section.number == 0 && assigned) {
-        build.source.fault(
-            element.at,
-            fmt::format("{} has no section: no *{} SECTION names a set with it", label(element),
-                        type.family == Family::solid   ? "SOLID"
-                        : type.family == Family::shell ? "SHELL"
-                                                       : "BEAM"));
+        build.source.fault(element.at,
+                           fmt::format("{} has no section: no *{} SECTION names a set with it",
+                                       abaqus_label(element),
+                                       type.family == Family::solid   ? "SOLID"
+                                       : type.family == Family::shell ? "SHELL"
+                                                                      : "BEAM"));
       }
       without_section.add(element.at);
       continue;
     }
     if (type.remark != nullptr) read_as[&type].add(element.at);
-    const Properties& p = section < 0 ? given : properties[static_cast<std::size_t>(section)];
+    const AbaqusProperties& p = section < 0 ? given : properties[static_cast<std::size_t>(section)];
     Element result;
     result.type = type.type;
     result.material = p.material;
@@ -336,7 +173,8 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
       const int id = c.element_nodes[element.first + static_cast<std::size_t>(k)];
       const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
       if (it == c.node_of_label.end()) {
-        build.source.fault(element.at, fmt::format("{}: node {} is not there", label(element), id));
+        build.source.fault(element.at,
+                           fmt::format("{}: node {} is not there", abaqus_label(element), id));
         sound = false;
         break;
       }

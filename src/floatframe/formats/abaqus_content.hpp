@@ -95,8 +95,9 @@ struct AbaqusSection {
   std::string material;
   double thickness = 0.0;
   BeamSection beam;
-  std::string shape;           ///< of beams: "CIRC"
-  double round = 0.0;          ///< of CIRC with one number: that number, whose meaning is not told
+  std::string shape;  ///< of beams: "CIRC"
+  double round =
+      0.0;  ///< of CIRC with one number: that number, whose meaning depends on the dialect
   bool calculix_form = false;  ///< fewer or more numbers than Abaqus takes
   Vec3 n1 = -Vec3::UnitZ();
   double mass = 0.0;  ///< of *MASS
@@ -206,7 +207,7 @@ void read_abaqus_rotary_inertia(AbaqusLines&, const AbaqusKeyword&, AbaqusConten
 /// What all sections have; false if the section cannot be used.
 bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
                           AbaqusType::Family family, AbaqusSection& section);
-/// The value; one fault at the last line if it is no positive number.
+/// The value; one error at the last line if it is no positive number.
 double positive_real(AbaqusLines& lines, std::string_view field, std::string_view what);
 // abaqus_beam_section.cpp
 void read_abaqus_beam_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);

@@ -1,7 +1,7 @@
 #pragma once
 // Abaqus and CalculiX read the same keywords, but not always as the same thing: the number of a
 // round beam section is its radius in Abaqus and its diameter in CalculiX. What only one of the two
-// programs knows tells whose deck it is.
+// programs knows shows whose deck it is.
 #include <optional>
 #include <string>
 

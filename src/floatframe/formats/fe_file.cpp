@@ -78,7 +78,8 @@ const FeFormat& by_name(const std::filesystem::path& file, const std::string& na
 /// one whose ending fits, whose reader then says what is wrong.
 const FeFormat& recognised(const std::filesystem::path& file) {
   const std::string beginning = read_beginning(file, std::size_t{1} << 16);
-  if (beginning.empty()) throw InputError({file.string()}, "the file is empty");
+  if (beginning.empty() && read_whole_file(file).empty())  // or a damaged gzip file: that throws
+    throw InputError({file.string()}, "the file is empty");
   std::vector<const FeFormat*> by_ending, by_content, by_both;
   for (const FeFormat& f : formats()) {
     const bool ending = has_ending(f, file.filename().string()), content = f.recognise(beginning);

@@ -16,7 +16,7 @@ namespace floatframe {
 
 /// Whose deck a `.inp` file is, where the two programs read the same words differently.
 enum class DeckDialect {
-  by_content,  ///< told by what only one of them has; a fault where it cannot be told and matters
+  by_content,  ///< by what only one of them has; an error where that is not clear and matters
   abaqus,
   calculix
 };

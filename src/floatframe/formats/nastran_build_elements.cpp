@@ -232,8 +232,23 @@ class ElementBuilder {
                                 "shells and solids have E and NU, as in Nastran",
                                 id, *m.shear, result.shear()));
     }
-    result.young *= c_.stiffness_factor;
-    return result;
+    if (!checked_.insert(id).second) return scaled(result);
+    const auto expect = [&](bool valid, const char* what, double found, const char* expected) {
+      if (!valid)
+        b_.source.fault(m.at,
+                        fmt::format("MAT1 {}: {} is {:g}, expected {}", id, what, found, expected));
+    };
+    expect(result.young > 0.0, "E", result.young, "more than 0");
+    expect(result.poisson > -1.0 && result.poisson < 0.5, "NU", result.poisson,
+           "more than -1 and less than 0.5");
+    const double density = m.density.value_or(0.0);
+    expect(density >= 0.0, "RHO", density, "no negative density");
+    return scaled(result);
+  }
+
+  Material scaled(Material m) const {
+    m.young *= c_.stiffness_factor;
+    return m;
   }
 
   void notes() {
@@ -273,7 +288,7 @@ class ElementBuilder {
   bool mesh_only_ = false;
   int skins_ = 0, beams_ = 0, shears_ = 0;
   FeSource first_skin_, first_beam_, first_shear_;
-  std::set<int> missing_, inconsistent_;
+  std::set<int> missing_, inconsistent_, checked_;
   std::map<std::string, std::set<int>> members_;
   std::map<int, int> sections_, shells_;
   std::map<std::pair<int, double>, int> materials_;

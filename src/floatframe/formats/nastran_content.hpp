@@ -103,6 +103,7 @@ struct NastranSet {
 
 struct NastranContent {
   std::vector<NastranGrid> grids;
+  NastranGrid grid_default;  ///< GRDSET
   std::map<int, NastranSystem> systems;
   std::map<int, std::string> other_systems, other_materials;  ///< card, of what is not read
   std::vector<NastranElement> elements;
@@ -135,6 +136,27 @@ enum class NastranParameter {
 NastranParameter nastran_parameter(const std::string& name);
 
 class NastranFields;
+/// Reads a card into the content.
+using NastranCardReader = void (*)(NastranFields&, NastranContent&);
+// nastran_mesh_cards.cpp
+void read_nastran_grid(NastranFields&, NastranContent&);
+void read_nastran_grid_default(NastranFields&, NastranContent&);
+void read_nastran_system(NastranFields&, NastranContent&);
+void read_nastran_solid(NastranFields&, NastranContent&);
+void read_nastran_surface(NastranFields&, NastranContent&);
+void read_nastran_bar(NastranFields&, NastranContent&);
+void read_nastran_material(NastranFields&, NastranContent&);
+void read_nastran_mass(NastranFields&, NastranContent&);
+// nastran_constraint_cards.cpp
+void read_nastran_rbe2(NastranFields&, NastranContent&);
+void read_nastran_rbe3(NastranFields&, NastranContent&);
+void read_nastran_rbar(NastranFields&, NastranContent&);
+void read_nastran_mpc(NastranFields&, NastranContent&);
+void read_nastran_mpc_add(NastranFields&, NastranContent&);
+void read_nastran_spc(NastranFields&, NastranContent&);
+void read_nastran_spc1(NastranFields&, NastranContent&);
+/// Says that a number is in the file twice.
+void nastran_twice(NastranFields& card, const FeSource& first);
 /// PSOLID, PSHELL, PBAR, PBARL, PBEAM, PBEAML; false if the card is none of them.
 bool read_nastran_property(NastranFields& card, NastranProperty& property);
 

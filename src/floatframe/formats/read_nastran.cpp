@@ -32,8 +32,10 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
                      NastranPart part) {
   const NastranContent content =
       read_nastran_content(source, has_control, part == NastranPart::nodes);
+  source.throw_if_any();  // what is missing otherwise may be missing for that reason; so below
   NastranBuild build(content, source);
   build_nastran_nodes(build);
+  source.throw_if_any();
   if (part == NastranPart::all) {
     build_nastran_elements(build, options);
     build_nastran_constraints(build);

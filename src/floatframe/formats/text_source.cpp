@@ -126,6 +126,8 @@ std::string not_text(std::string_view bytes) {
   if (zero != std::string_view::npos) {
     return fmt::format("the file is binary, not text: byte 0x00 in line {}", line_of(bytes, zero));
   }
+  if (bytes.find('\n') == std::string_view::npos && bytes.find('\r') != std::string_view::npos)
+    return "its lines end with a carriage return alone, expected a line feed (LF or CRLF)";
   // Control characters that no text has, and few of them are already too many.
   const std::string_view head = bytes.substr(0, 65536);
   const auto control = [](char c) {

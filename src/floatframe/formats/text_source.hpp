@@ -22,7 +22,7 @@ inline constexpr std::uint64_t largest_text = std::uint64_t{4} << 30;  ///< [byt
 /// Above 64 MiB, no file may be compressed better than this; decks and matrices reach 20.
 inline constexpr std::uint64_t largest_compression = 200;
 
-/// Content of a regular file, decompressed if it is gzip (told by its first bytes, not by its
+/// Content of a regular file, decompressed if it is gzip (by its first bytes, not by its
 /// name). Throws InputError naming the file.
 std::string read_whole_file(const std::filesystem::path& file);
 /// The first `bytes` of the same, for recognition.
