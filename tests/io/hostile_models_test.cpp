@@ -90,7 +90,7 @@ TEST_F(Hostile, UnknownReferencesAreCounted) {
   const Sentences found = faults(text);
   ASSERT_EQ(found.size(), 21u);
   EXPECT_EQ(found[0], "model.yaml:5:32: joints.j0.child: unknown body 'b0'");
-  EXPECT_EQ(found[20], "model.yaml:25:33: ... and 14980 more faults of this kind");
+  EXPECT_EQ(found[20], "model.yaml:25:33: ... and 14980 more of this kind");
 }
 
 TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
@@ -106,7 +106,7 @@ TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
     EXPECT_EQ(found[0], std::string("model.yaml:15004:3: ") +
                             (offset ? "simulation.start.offset" : "initial.amplitudes") +
                             ".bady0: unknown body 'bady0', did you mean 'body0'?");
-    EXPECT_EQ(found[20], "model.yaml:15024:3: ... and 99980 more faults of this kind");
+    EXPECT_EQ(found[20], "model.yaml:15024:3: ... and 99980 more of this kind");
   }
 }
 
@@ -114,7 +114,7 @@ TEST_F(Hostile, UnknownParametersAreCounted) {
   const Sentences found = faults("parameters:\n" + many(30000, "  known", ": 1\n") + body +
                                  "points:\n" + many(30000, "  p", ": [0, 0, \"${other}\"]\n"));
   ASSERT_EQ(found.size(), 21u);
-  EXPECT_EQ(found[20], "model.yaml:30026:15: ... and 29980 more faults of this kind");
+  EXPECT_EQ(found[20], "model.yaml:30026:15: ... and 29980 more of this kind");
 }
 
 TEST_F(Hostile, DuplicatesAreCounted) {
@@ -123,7 +123,7 @@ TEST_F(Hostile, DuplicatesAreCounted) {
   const Sentences found = faults(text);
   ASSERT_EQ(found.size(), 21u);
   EXPECT_EQ(found[0], "model.yaml:6:3: duplicate key 'p', first used in line 5");
-  EXPECT_EQ(found[20], "model.yaml:26:3: ... and 49979 more faults of this kind");
+  EXPECT_EQ(found[20], "model.yaml:26:3: ... and 49979 more of this kind");
 }
 
 TEST_F(Hostile, ManyKindsOfFaults) {

@@ -1,31 +1,16 @@
 #include "floatframe/io/expression.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/io/expression_words.hpp"
 
 namespace floatframe {
 namespace {
 
-constexpr std::array function_names{"sqrt", "sin",   "cos",  "tan",   "asin", "acos",
-                                    "atan", "atan2", "exp",  "log",   "abs",  "min",
-                                    "max",  "floor", "ceil", "round", "if"};
-constexpr std::array word_names{"pi", "true", "false", "and", "or", "not"};
-/// In SI units. Those without a reserved name are hidden by a parameter of the same name.
-constexpr std::array<std::pair<std::string_view, double>, 7> constants{{
-    {"pi", std::numbers::pi},
-    {"deg", std::numbers::pi / 180.0},
-    {"mm", 1e-3},
-    {"km_h", 1.0 / 3.6},
-    {"rpm", std::numbers::pi / 30.0},
-    {"inch", 0.0254},
-    {"g0", 9.80665},
-}};
 constexpr int deepest_nesting = 100;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -193,8 +178,7 @@ class Parser {
     if (name == "false") return {false};
     const auto it = scope_.find(name);  // a parameter hides a constant of the same name
     if (it != scope_.end()) return {it->second};
-    for (const auto& [constant, value] : constants)
-      if (name == constant) return {value};
+    if (const auto value = constant_value(name)) return {*value};
     if (is_reserved_name(name)) throw ExpressionError("unexpected " + in_quotes(name));
     throw ExpressionError("unknown parameter " + in_quotes(name) + suggestion(name));
   }
@@ -202,7 +186,8 @@ class Parser {
     if (!suggest_) return "";
     std::vector<std::string> known;
     for (const auto& [key, value] : scope_) known.push_back(key);
-    for (const auto& [constant, value] : constants) known.emplace_back(constant);
+    for (std::string& name_of_constant : constant_names())
+      known.push_back(std::move(name_of_constant));
     return did_you_mean(name, known);
   }
   std::string quoted(char quote) {
@@ -251,11 +236,9 @@ class Parser {
   Operand call(std::string_view name) {
     const std::string f(name);
     const std::vector<Operand> v = arguments(f);
-    if (std::find(function_names.begin(), function_names.end(), name) == function_names.end()) {
-      const std::vector<std::string> known(function_names.begin(), function_names.end());
+    if (!is_function_name(name))
       throw ExpressionError("unknown function " + in_quotes(f) +
-                            (suggest_ ? did_you_mean(name, known) : ""));
-    }
+                            (suggest_ ? did_you_mean(name, function_names()) : ""));
     const auto need = [&](std::size_t n) {
       if (v.size() != n)
         throw ExpressionError(f + " takes " + std::to_string(n) +
@@ -285,25 +268,11 @@ class Parser {
     }
     need(1);
     const double x = number(v[0], f);
-    return result([&] { return function(f, x); });
-  }
-  static double function(const std::string& f, double x) {
-    if ((f == "sqrt" && x < 0.0) || (f == "log" && x <= 0.0) ||
-        ((f == "asin" || f == "acos") && std::abs(x) > 1.0))
-      throw ExpressionError(f + " of " + number_text(x) + " is not defined");
-    return f == "sqrt"    ? std::sqrt(x)
-           : f == "sin"   ? std::sin(x)
-           : f == "cos"   ? std::cos(x)
-           : f == "tan"   ? std::tan(x)
-           : f == "asin"  ? std::asin(x)
-           : f == "acos"  ? std::acos(x)
-           : f == "atan"  ? std::atan(x)
-           : f == "exp"   ? std::exp(x)
-           : f == "log"   ? std::log(x)
-           : f == "abs"   ? std::abs(x)
-           : f == "floor" ? std::floor(x)
-           : f == "ceil"  ? std::ceil(x)
-                          : std::round(x);
+    return result([&] {
+      const UnaryFunction& g = *unary_function(name);
+      if (!g.defined(x)) throw ExpressionError(f + " of " + number_text(x) + " is not defined");
+      return g.value(x);
+    });
   }
 
   static double number(const Operand& v, std::string_view where) {
@@ -383,17 +352,6 @@ ParameterValue substitute_parameters(std::string_view text, const ParameterScope
   }
   append(text.substr(at));
   return result;
-}
-
-bool is_constant_name(std::string_view name) {
-  return !is_reserved_name(name) &&
-         std::any_of(constants.begin(), constants.end(),
-                     [&](const auto& constant) { return constant.first == name; });
-}
-
-bool is_reserved_name(std::string_view name) {
-  return std::find(function_names.begin(), function_names.end(), name) != function_names.end() ||
-         std::find(word_names.begin(), word_names.end(), name) != word_names.end();
 }
 
 }  // namespace floatframe

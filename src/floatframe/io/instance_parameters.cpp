@@ -115,7 +115,7 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
         else
           v = g.value;
       }
-      // A parameter that is wrong still exists, so that its uses are not faults too.
+      // A parameter that is wrong still exists, so that its uses are not errors too.
       if (v && v->index() == 2 &&
           !faults.take_of("characters in the texts of all parameters",
                           std::get<std::string>(*v).size(), limits::parameter_text, value.mark(),

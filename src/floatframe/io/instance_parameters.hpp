@@ -20,7 +20,7 @@ struct GivenParameter {
 };
 
 /// "--set name=value" for the file `path`. A text is taken as it is written; quotes around it may
-/// be there. nullopt and a fault if it has no value.
+/// be there. nullopt and an error if it has no value.
 std::optional<GivenParameter> read_override(const ParameterOverride& o, const std::string& path,
                                             ReadFaults& faults);
 

@@ -223,7 +223,7 @@ const YamlDocument* ModelFiles::load(const std::string& file, const SourceMark& 
   if (!read_text_file(file, text, faults_, where, subject)) return nullptr;
   const std::size_t before = faults_.size();
   auto document = std::make_unique<YamlDocument>(parse_yaml(file, text, faults_));
-  // Nothing was understood: no second fault about missing keys.
+  // Nothing was understood: no second error about missing keys.
   if (faults_.size() > before && document->root.line == 0) document.reset();
   documents_.emplace_back(file, std::move(document));
   return documents_.back().second.get();

@@ -14,7 +14,7 @@ namespace floatframe {
 class ModelFiles {
  public:
   explicit ModelFiles(ReadFaults& faults) : faults_(faults) {}
-  /// nullptr and a fault if the file cannot be read. `where`, `subject`: the place that names the
+  /// nullptr and an error if the file cannot be read. `where`, `subject`: the place that names the
   /// file.
   const YamlDocument* load(const std::string& file, const SourceMark& where,
                            const std::string& subject);

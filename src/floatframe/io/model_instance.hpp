@@ -35,7 +35,7 @@ struct ModelInstance {
   std::map<std::string, Vec3> points;  ///< coordinates of this file [m]
   /// Names defined in this file; false: switched off by `when`.
   std::array<std::map<std::string, bool>, entity_words.size()> names;
-  std::set<std::string> refused_names;          ///< of entities: a fault already
+  std::set<std::string> refused_names;          ///< of entities: an error already
   std::map<std::string, std::string> external;  ///< external name -> outer name
   std::vector<std::pair<std::string, std::unique_ptr<ModelInstance>>> children;
   std::optional<YamlSection> root;
@@ -63,7 +63,7 @@ struct ModelInstance {
   std::optional<Vec3> read_point(const YamlValue& value) const;
 
  private:
-  /// Why there is no entity of that name; empty if the reason is a fault already.
+  /// Why there is no entity of that name; empty if the reason is an error already.
   std::string no_entity(EntityKind kind, const std::string& name, bool off) const;
 };
 

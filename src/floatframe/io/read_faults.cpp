@@ -36,7 +36,7 @@ std::string skeleton(std::string_view message) {
 }
 
 std::string more(std::size_t n, const char* what) {
-  return "... and " + std::to_string(n) + " more " + (n == 1 ? "fault" : "faults") + what;
+  return "... and " + std::to_string(n) + " more of " + what;
 }
 
 }  // namespace
@@ -71,10 +71,9 @@ void ReadFaults::add(const SourceMark& mark, std::string message) {
 
 std::vector<InputFault> ReadFaults::take() {
   for (const auto& [key, kind] : kinds_)
-    if (kind.passed_over > 0)
-      faults_.push_back({kind.first, more(kind.passed_over, " of this kind")});
+    if (kind.passed_over > 0) faults_.push_back({kind.first, more(kind.passed_over, "this kind")});
   if (others_.passed_over > 0)
-    faults_.push_back({others_.first, more(others_.passed_over, " of other kinds")});
+    faults_.push_back({others_.first, more(others_.passed_over, "other kinds")});
   return std::move(faults_);
 }
 

@@ -14,7 +14,7 @@ struct TableRow {
   std::size_t number = 0;  ///< from 1
 };
 
-/// The rows of a table with their places, for faults about one of them.
+/// The rows of a table with their places, for errors about one of them.
 struct TableRows {
   bool good = false;  ///< nothing was wrong so far
   std::string file, path;

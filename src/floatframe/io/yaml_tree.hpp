@@ -20,7 +20,7 @@ struct YamlNode {
   int line = 0, column = 0;        ///< from 1
   std::string text;                ///< scalar
   bool quoted = false;             ///< scalar in quotes or a block scalar: always a text
-  bool refused = false;            ///< a fault already: nothing more is said about it
+  bool refused = false;            ///< an error already: nothing more is said about it
   std::vector<YamlNode> items;     ///< sequence
   std::vector<YamlEntry> entries;  ///< map, in the order of the file, keys unique
 };

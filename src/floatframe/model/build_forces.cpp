@@ -60,7 +60,7 @@ struct ForceBuild {
     force.targeted = d.target || d.target_rate;
     force.derived_rate = !d.target_rate;
     const auto k = builder.joint_names.find(d.joint);
-    if (!k) return false;  // the joint has a fault of its own
+    if (!k) return false;  // the joint has an error of its own
     const Joint& joint = builder.model.joints[*k];
     force.a = joint.frame_F;
     force.b = joint.frame_M;

@@ -42,7 +42,7 @@ void ModelBuilder::outputs() {
       case OutputKind::joint_position:
       case OutputKind::joint_velocity: {
         out.joint = joint_names.index(o.entity);
-        if (out.joint < 0) continue;  // it has a fault of its own
+        if (out.joint < 0) continue;  // it has an error of its own
         const JointType type = model.joints[static_cast<std::size_t>(out.joint)].type;
         const bool metres = type == JointType::prismatic ||
                             ((type == JointType::cylindrical) && o.component == 0) ||
@@ -55,7 +55,7 @@ void ModelBuilder::outputs() {
       case OutputKind::length:
       case OutputKind::rate: {
         out.force = force_names.index(o.entity);
-        if (out.force < 0) continue;  // it has a fault of its own
+        if (out.force < 0) continue;  // it has an error of its own
         const Force& f = model.forces[static_cast<std::size_t>(out.force)];
         if (f.rotational || f.type == ForceType::torque)
           out.unit = o.kind == OutputKind::force    ? "N m"

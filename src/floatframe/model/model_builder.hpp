@@ -11,7 +11,7 @@
 
 namespace floatframe {
 
-/// What is described has been checked by `validate`: faults are left to what shows only when bodies
+/// What is described has been checked by `validate`: errors are left to what shows only when bodies
 /// are reduced.
 struct ModelBuilder {
   static constexpr int ground_index = -1;
@@ -47,8 +47,8 @@ struct ModelBuilder {
 
   /// `ground_index` for the ground.
   int body_index(const std::string& name) const;
-  /// A marker at a design point; -1 and a fault if the body has no such node. `oriented`: the
-  /// marker's orientation matters, so the rotation of the node enters. The fault is one of "who.at"
+  /// A marker at a design point; -1 and an error if the body has no such node. `oriented`: the
+  /// marker's orientation matters, so the rotation of the node enters. The error is one of "who.at"
   /// or of "who.node_key".
   int add_marker(const AttachmentDescription& at, const Mat3& R_design, bool oriented,
                  const SourceMark& mark, const std::string& who, const char* node_key = "node");

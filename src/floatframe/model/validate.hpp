@@ -18,7 +18,7 @@ namespace floatframe {
 void validate(const ModelDescription& description, Faults& faults);
 /// The group `simulation`.
 void validate(const SimulationDescription& simulation, Faults& faults);
-/// Throws InputError with every fault of the group.
+/// Throws InputError with every error of the group.
 void require_valid(const SimulationDescription& simulation);
 /// The same, and the number of steps is one that a run can keep.
 void require_valid_run(const SimulationDescription& simulation);

@@ -72,7 +72,7 @@ class FlexibleCheck {
     }
   }
 
-  /// The place of a point; null and a fault if there is none of that name.
+  /// The place of a point; null and an error if there is none of that name.
   const Vec3* point(const Entity& bar, const char* key, const std::string& name) {
     const auto it = f_.points.find(name);
     if (it != f_.points.end()) return &it->second;

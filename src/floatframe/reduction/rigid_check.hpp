@@ -21,7 +21,7 @@ double check_rigid_motions(const FeModel& model, const FeSystem& system);
 inline constexpr double largest_rigid_residual = 1e-3;
 
 /// Throws if a shape (n x k, the rigid motions are not among them) has no stiffness: its strain
-/// energy cannot be told from the rounding of the entries of K,
+/// energy cannot be distinguished from the rounding of the entries of K,
 ///   x^T K x <= least |x|^T |K| |x|
 void check_stiffness_of(const FeModel& model, const FeSystem& system, const MatX& shapes);
 inline constexpr double least_strain_energy = 1e-13;
