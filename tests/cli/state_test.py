@@ -103,6 +103,31 @@ class States(unittest.TestCase):
         self.assertIn("simulation.start.state: end.json: this is not a state file (damaged, or not JSON)", error)
         self.run_program("run", "swing.yaml", "--write-state", "no/where.json", code=2)
 
+    def test_check_compares_the_state_as_a_run_does(self):
+        self.run_program("run", "swing.yaml", "--out", "first", "--no-report", "--write-state", "end.json")
+        self.model("{state: end.json}")
+        self.run_program("check", "swing.yaml")
+        state = json.loads((self.path / "end.json").read_text())
+        state["joints"] = {}
+        (self.path / "end.json").write_text(json.dumps(state))
+        for command in (["check", "swing.yaml"], ["run", "swing.yaml", "--out", "second"]):
+            self.assertIn("found joint 'hinge' nowhere in the state", self.run_program(*command, code=2).stderr)
+
+    def test_states_that_are_made_to_harm(self):
+        self.run_program("run", "swing.yaml", "--out", "first", "--no-report", "--write-state", "end.json")
+        good = json.loads((self.path / "end.json").read_text())
+        self.model("{state: end.json}")
+        for key in ("floatframe_state", "time", "joints", "bodies"):
+            text = json.dumps({**good, key: "@@"}).replace('"@@"', "[" * 500000 + "]" * 500000)
+            (self.path / "end.json").write_text(text)
+            for command in (["check", "swing.yaml"], ["run", "swing.yaml", "--out", "second"]):
+                self.assertIn("nests deeper than 64 levels", self.run_program(*command, code=2).stderr)
+        long = "a" * 1000000
+        for changed in ({"floatframe_state": long}, {"time": long}, {"joints": {long: {"type": long}}},
+                        {"joints": {"hinge": {"type": long}}}, {"bodies": {long: {}}}):
+            (self.path / "end.json").write_text(json.dumps({**good, **changed}))
+            self.assertLess(len(self.run_program("check", "swing.yaml", code=2).stderr), 1000)
+
     def test_a_study_notices_that_a_state_has_changed(self):
         self.run_program("statics", "swing.yaml", "--write-state", "rest.json")
         self.model("{state: rest.json}")

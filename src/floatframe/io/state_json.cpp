@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "floatframe/core/json_text.hpp"
 #include "floatframe/io/yaml_tree.hpp"
 #include "floatframe/model/rules.hpp"
 
@@ -30,33 +31,35 @@ class StateReader {
     Faults faults;
     std::string text;
     if (!read_text_file(file_, text, faults, {}, "")) faults.throw_if_any();
-    const Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded()) fail("this is not a state file (damaged, or not JSON)");
+    std::string why;
+    const Json json = read_json(text, why);
+    if (json.is_discarded()) fail("this is not a state file (" + why + ")");
     if (!json.is_object() || !json.contains("floatframe_state"))
       fail("this is not a state file (it has no key 'floatframe_state')");
     const Json& number = json.at("floatframe_state");
     if (!number.is_number_integer() || number.get<long>() != version)
-      fail("floatframe_state: found " + number.dump() + ", this program reads version 1");
+      fail("floatframe_state: found " + json_excerpt(number) + ", this program reads version 1");
     SystemState s;
     s.file = file_;
     s.model = text_of(json, "model");
     s.time = number_of(member(json, "time", ""), "time");
     for (const auto& [name, value] : members(json, "joints")) {
-      const std::string path = "joints." + name;
+      const std::string path = "joints." + excerpt(name);
       SystemState::Joint j;
       j.name = name;
       const std::string type = text_of(value, "type", path);
       std::size_t k = 0;
       while (k < std::size(rules::joint_types) && type != rules::joint_types[k]) ++k;
       if (k == std::size(rules::joint_types))
-        fail(path + ".type: found '" + type + "', expected " + alternatives(rules::joint_types));
+        fail(path + ".type: found '" + excerpt(type) + "', expected " +
+             alternatives(rules::joint_types));
       j.type = static_cast<JointType>(k);
       j.position = list(value, "position", path);
       j.velocity = list(value, "velocity", path);
       s.joints.push_back(std::move(j));
     }
     for (const auto& [name, value] : members(json, "bodies")) {
-      const std::string path = "bodies." + name;
+      const std::string path = "bodies." + excerpt(name);
       SystemState::Body b;
       b.name = name;
       b.position = fixed<3>(value, "position", path);
@@ -91,7 +94,7 @@ class StateReader {
   }
   double number_of(const Json& v, const std::string& path) const {
     if (!v.is_number() || !std::isfinite(v.get<double>()))
-      fail(path + ": found " + v.dump().substr(0, 40) + ", expected a number");
+      fail(path + ": found " + json_excerpt(v) + ", expected a number");
     return v.get<double>();
   }
   std::vector<std::pair<std::string, Json>> members(const Json& json, const char* key) const {

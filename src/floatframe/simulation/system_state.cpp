@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/simulation/initial_state.hpp"
@@ -19,7 +20,7 @@ namespace {
 [[noreturn]] void refuse(const Model& model, const SystemState& state, const std::string& what) {
   throw InputError({state.file, 0, 0},
                    fmt::format("{} (the state was taken of model '{}', the model is '{}')", what,
-                               state.model, model.name));
+                               excerpt(state.model), model.name));
 }
 
 template <class Entity, class Entities>
@@ -33,7 +34,7 @@ void same_names(const Model& model, const SystemState& state, const char* kind,
     if (found == 0)
       refuse(model, state,
              fmt::format("found {} '{}' in the state, which the model does not have{}", kind,
-                         e.name, did_you_mean(e.name, names)));
+                         excerpt(e.name), did_you_mean(e.name, names)));
   }
   for (const std::string& n : names) {
     int found = 0;

@@ -15,6 +15,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/json_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -32,7 +33,8 @@ Json json_of(const std::string& line) {
   if (line.size() < 18 || line[16] != ' ') return nothing;
   const std::string text = line.substr(17);
   if (content_hash(text).compare(0, 16, line, 0, 16) != 0) return nothing;
-  return Json::parse(text, nullptr, false);
+  std::string why;
+  return read_json(text, why);
 }
 
 Json header_of(const SweepIdentity& identity, std::size_t runs, const SweepJournal::Files& files) {
