@@ -41,7 +41,8 @@ TEST(CheckInvariants, AnyDistributionOfMassPasses) {
       for (const double away : {0.0, 1.0, 100.0})
         for (const bool line : {false, true}) {
           const FlexibleBody body = points(random, nm, size, away * size, line);
-          for (const auto source : {InvariantSource::integrals, InvariantSource::parameters})
+          for (const auto source :
+               {InvariantSource::integrals, InvariantSource::rotary, InvariantSource::parameters})
             EXPECT_EQ(faults(body, source), "") << nm << ' ' << size << ' ' << away << ' ' << line;
         }
 }
@@ -88,6 +89,17 @@ TEST(CheckInvariants, EachMistakeHasItsSentence) {
             "K: found a combination of modes of negative stiffness (s");
   EXPECT_EQ(with([](B& b, V&) { b.D = -b.D.eval(); }).substr(0, 53),
             "D: found a combination of modes that gains energy (sm");
+  // Rotary inertia of nodes: what is no distribution of mass may have a positive M(0).
+  const auto twisted = [](B&, V& v) {
+    v.Sij[0][1] *= 3.0;
+    v.Sij[1][0] *= 3.0;
+  };
+  EXPECT_EQ(with(twisted, InvariantSource::rotary), "");
+  EXPECT_NE(with(twisted), "");
+  EXPECT_EQ(with([](B& b, V&) { b.K.setZero(); }, InvariantSource::rotary).substr(0, 34),
+            "K: found the stiffness 0 of mode 1");
+  EXPECT_EQ(with([](B&, V& v) { v.S *= 10.0; }, InvariantSource::rotary).substr(0, 49),
+            "S: the mass matrix at zero deformation is not pos");
   // Bodies of other origin: no stiffness, second-order terms that are an estimate.
   const auto estimate = [](B& b, V& v) {
     b.K.setZero();

@@ -57,13 +57,14 @@ BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
   h.elements = 4;
   h.dofs = 30;
   h.modes = part.body.modes();
-  h.from_elements = {1.5, {0.1, 0.2, 0.3}, Mat3::Identity()};
   const InertiaInvariants& v = part.body.invariants;
+  h.from_elements = {v.m, {0.1, 0.2, 0.3}, Mat3::Identity()};
   h.from_invariants = {v.m, v.centre_of_mass(), v.inertia_about_origin()};
   h.volume = 2e-4;
   h.volume_times_density = 1.57;
   h.rigid_eigenvalues = Vec6::LinSpaced(6, -1e-12, 1e-12);
   h.rigid_residual = 3e-16;
+  h.rotary_inertia = false;
   h.normal_modes = {{"normal 1", 100.0, Vec6::Constant(0.25), true}};
   h.free_frequencies = {{100.0, 100.25}};
   h.interfaces = {{"eye", 7, {0.3, 0.2, 0.25}, "rigid", 3.5, 1e-9}};
@@ -236,7 +237,9 @@ TEST(BodyFile, FaultsOfTheHeader) {
       "arm.ffb: this is not a body file (member 'header.json' does not say format 'floatframe "
       "body')";
   EXPECT_EQ(with("floatframe body", "something"), not_ours);
-  EXPECT_EQ(with("{", "["), not_ours);
+  EXPECT_EQ(with("{", "["),
+            "arm.ffb: this is not a body file (member 'header.json' is no header: damaged, or not "
+            "JSON)");
   EXPECT_EQ(with("\"eye\"", "\"foot\""),
             "arm.ffb: member 'header.json': found the marker name 'foot', expected names that are "
             "not empty and differ");
@@ -350,8 +353,29 @@ TEST(BodyFile, NumbersThatContradictEachOther) {
       with_header("\"SI (m, kg, s, rad)\"", "\"mm\""),
       "arm.ffb: member 'header.json': found the units \"mm\", expected \"SI (m, kg, s, rad)\": "
       "all members are in SI units");
+  EXPECT_EQ(with_header("\"mass_kg\": 1.3964", "\"mass_kg\": 2.3964").substr(0, 78),
+            "arm.ffb: member 'm.npy': found 1.3964 kg, but the health report says 2.3964 kg");
   EXPECT_EQ(with_header("\"modes\": 5", "\"modes\": 6"),
             "arm.ffb: member 'header.json': health: found 6 modes, expected the 5 of this file");
+}
+
+/// Of a part whose nodes have rotary inertia, or of an earlier program, only M(0) is checked.
+TEST(BodyFile, IntegralsOfRotaryInertia) {
+  BodyFile file = bracket();
+  InertiaInvariants& v = file.part.body.invariants;
+  v.Sij[0][1] *= 3.0;  // no distribution of mass, but in no term at zero deformation
+  v.Sij[1][0] *= 3.0;
+  for (const std::optional<bool> rotary : {std::optional<bool>(), std::optional(true)}) {
+    file.part.health.rotary_inertia = rotary;
+    EXPECT_EQ(fault_of(body_file_bytes(file)), "no fault");
+  }
+  file.part.health.rotary_inertia = false;
+  EXPECT_TRUE(
+      fault_of(body_file_bytes(file)).starts_with("arm.ffb: member 'S.npy': the integrals"));
+  file.part.health.rotary_inertia = true;
+  v.S *= 10.0;
+  EXPECT_TRUE(fault_of(body_file_bytes(file))
+                  .starts_with("arm.ffb: member 'S.npy': the mass matrix at zero deformation"));
 }
 
 TEST(BodyFile, IsWrittenWhole) {
@@ -406,7 +430,7 @@ TEST(Health, JsonRoundTripAndText) {
   EXPECT_EQ(health_json(again), health_json(h));
   const std::string text = health_text(h);
   for (const char* part :
-       {"mass [kg]", "1.5", "+0.2500", "sum of those kept", "foot", "a note", "static error"})
+       {"mass [kg]", "1.3964", "+0.2500", "sum of those kept", "foot", "a note", "static error"})
     EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
   EXPECT_NE(text.find("WARNING: 1 thing to look at\n  ! the interface 'eye' has few nodes\n"),
             std::string::npos)

@@ -6,6 +6,7 @@
 #include "floatframe/apps/command.hpp"
 #include "floatframe/apps/notes.hpp"
 #include "floatframe/core/text_table.hpp"
+#include "floatframe/formats/health_text.hpp"
 #include "floatframe/io/check_json.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
@@ -37,7 +38,7 @@ std::string flexible_bodies_text(const Model& model) {
     if (body.modes() == 0) continue;
     std::string frequencies;
     for (const double f : body.data->fixed_interface_frequencies) {
-      frequencies += fmt::format("{}{:.3f}", frequencies.empty() ? "" : "  ", f);
+      frequencies += (frequencies.empty() ? "" : "  ") + hertz_text(f);
     }
     table.add({body.name, std::to_string(body.modes()),
                fmt::format("{:.6g}", body.data->invariants.m),

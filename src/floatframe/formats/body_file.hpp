@@ -42,6 +42,12 @@ BodyFile read_body_bytes(std::string_view bytes, const std::string& name);
 /// Frequency of each mode alone, sqrt(K_kk / M_kk) / 2 pi [Hz]; not finite without mass.
 VecX mode_frequencies(const FlexibleBody& body);
 
+/// At most three points of the surface that move rigidly with a marker in all modes (its own node,
+/// nodes of a rigid interface); none without modes.
+std::vector<int> surface_points_that_follow(const ReducedPart& part, const ModalNode& node);
+/// Largest component by which a point of the surface leaves the rigid motion of a marker.
+double distance_from_rigid(const ReducedPart& part, const ModalNode& node, int point);
+
 /// Does a file begin as an archive does?
 bool is_body_file(const std::filesystem::path& file);
 

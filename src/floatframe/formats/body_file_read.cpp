@@ -1,15 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "floatframe/body/check_invariants.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/json_text.hpp"
+#include "floatframe/core/printable.hpp"
 #include "floatframe/core/regular_file.hpp"
 #include "floatframe/formats/body_arrays.hpp"
 #include "floatframe/formats/body_file.hpp"
+#include "floatframe/formats/body_numbers.hpp"
 #include "floatframe/formats/health_text.hpp"
 
 namespace floatframe {
@@ -60,7 +61,7 @@ class Reader {
     surface();
     if (arrays_.has("projection_p")) projection();
     faults_.throw_if_any();
-    physics();
+    check_body_numbers(out_, header_, arrays_, faults_, name_);
     faults_.throw_if_any();
     return std::move(out_);
   }
@@ -77,7 +78,11 @@ class Reader {
                                  [](const ZipMember& m) { return m.name == "header.json"; });
     if (it == members_.end())
       throw InputError({name_, 0, 0}, "this is not a body file (it has no member 'header.json')");
-    const Json json = Json::parse(it->content, nullptr, false);
+    std::string why;
+    const Json json = read_json(it->content, why);
+    if (json.is_discarded())
+      throw InputError({name_, 0, 0},
+                       "this is not a body file (member 'header.json' is no header: " + why + ")");
     if (!json.is_object() || text_of(json, "format") != "floatframe body")
       throw InputError({name_, 0, 0},
                        "this is not a body file (member 'header.json' does not say format "
@@ -88,28 +93,32 @@ class Reader {
           {name_, 0, 0},
           fmt::format("member 'header.json': found format version {}, this program reads version "
                       "{} (the file was written by Floatframe {})",
-                      version == json.end() ? "none" : version->dump(), body_file_version,
-                      text_of(json, "floatframe")));
+                      version == json.end() ? "none" : json_excerpt(*version), body_file_version,
+                      excerpt(text_of(json, "floatframe"))));
     if (const auto units = json.find("units"); units != json.end() && *units != body_file_units)
       fault(fmt::format("found the units {}, expected \"{}\": all members are in SI units",
-                        units->dump(-1, ' ', false, Json::error_handler_t::replace),
-                        body_file_units));
+                        json_excerpt(*units), body_file_units));
     if (const auto m = json.find("modes"); m != json.end() && m->is_array())
       for (const Json& mode : *m) {
-        body().mode_names.push_back(text_of(mode, "name"));
+        body().mode_names.push_back(name_of(mode, "mode"));
         const auto f = mode.is_object() ? mode.find("frequency_Hz") : mode.end();
-        frequencies_.push_back(
-            mode.is_object() && f != mode.end() && f->is_number() ? f->get<double>() : -1.0);
+        const bool given = mode.is_object() && f != mode.end() && !f->is_null();
+        if (given && !f->is_number())
+          fault(fmt::format("found the frequency_Hz {} of mode {}, expected a number [Hz]",
+                            json_excerpt(*f), header_.frequencies.size() + 1));
+        header_.frequencies.push_back(given && f->is_number() ? f->get<double>() : -1.0);
       }
     else
       fault("found no list of 'modes', expected one entry a mode");
     std::set<std::string> names;
     if (const auto m = json.find("markers"); m != json.end() && m->is_array())
       for (const Json& marker : *m) {
-        body().nodes.emplace_back().name = text_of(marker, "name");
-        if (body().nodes.back().name.empty() || !names.insert(body().nodes.back().name).second)
-          fault("found the marker name '" + body().nodes.back().name +
+        const std::string name = name_of(marker, "marker");
+        body().nodes.emplace_back().name = name;
+        if (name.empty() || !names.insert(name).second)
+          fault("found the marker name '" + excerpt(name) +
                 "', expected names that are not empty and differ");
+        followers(marker, name);
       }
     else
       fault("found no list of 'markers', expected one");
@@ -117,7 +126,7 @@ class Reader {
     const std::vector<std::string> models{"isoparametric", "six_dof", "hermite"};
     const auto model = std::find(models.begin(), models.end(), mass_model);
     if (model == models.end())
-      fault("found the mass model '" + mass_model +
+      fault("found the mass model '" + excerpt(mass_model) +
             "', expected isoparametric, six_dof or hermite");
     else
       body().mass_model = static_cast<MassModel>(model - models.begin());
@@ -129,6 +138,31 @@ class Reader {
     } catch (const InputError& error) {
       fault(std::string("health: ") + error.what());
     }
+  }
+
+  /// As in model files: no control characters, which a terminal would obey.
+  std::string name_of(const Json& object, const char* what) {
+    std::string name = text_of(object, "name");
+    if (printable(name) != name)
+      fault(fmt::format("found the {} name '{}', expected one without control characters", what,
+                        printable(excerpt(name))));
+    return name;
+  }
+
+  /// Points of the surface that move with a marker.
+  void followers(const Json& marker, const std::string& name) {
+    std::vector<std::int64_t>& list = header_.moves_with.emplace_back();
+    const auto given = marker.is_object() ? marker.find("moves_with") : marker.end();
+    if (!marker.is_object() || given == marker.end()) return;
+    bool right = given->is_array();
+    for (const Json& point : *given) {
+      right = right && point.is_number_integer();
+      if (right) list.push_back(point.get<std::int64_t>());
+    }
+    if (right) return;
+    list.clear();
+    fault(fmt::format("found moves_with {} of marker '{}', expected a list of surface points",
+                      json_excerpt(*given), excerpt(name)));
   }
 
   void provenance(const Json& json, const std::string& version) {
@@ -196,7 +230,9 @@ class Reader {
     part.surface.triangles = cells<3>("surface_triangles", n);
     part.surface.lines = cells<2>("surface_lines", n);
     part.surface_positions = arrays_.matrix("surface_positions", n, 3).transpose();
-    part.surface_modes = arrays_.grouped("surface_modes", n, 3, nm);
+    // Without modes nothing can be missing; files of parts without modes were written empty once.
+    part.surface_modes =
+        nm > 0 ? arrays_.grouped("surface_modes", n, 3, nm) : MatX(MatX::Zero(3 * n, 0));
     if (arrays_.has("surface_stress"))
       part.surface_stress = arrays_.grouped("surface_stress", n, 6, nm);
   }
@@ -215,83 +251,9 @@ class Reader {
     body().projection = data;
   }
 
-  /// What the numbers must satisfy, and whether they are those of the header.
-  void physics() {
-    for (const InvariantFault& f : check_invariants(body(), InvariantSource::integrals))
-      arrays_.fault(f.quantity, f.sentence);
-    if (!faults_.empty()) return;
-    const InertiaInvariants& v = body().invariants;
-    if (const auto& p = body().projection) {
-      double m = 0.0;
-      if (p->six_dof()) {
-        for (Eigen::Index r = 0; r < p->M_6.rows(); r += 6)
-          for (SparseRows::InnerIterator it(p->M_6, r); it; ++it)
-            if (it.col() % 6 == 0) m += it.value();
-      } else {
-        m = p->M_s.sum();
-      }
-      if (!(std::abs(m - v.m) <= same * v.m))
-        arrays_.fault(p->six_dof() ? "projection_M_6_data" : "projection_M_s_data",
-                      fmt::format("found {:g} kg in all, expected the mass of member 'm.npy', {:g} "
-                                  "kg",
-                                  m, v.m));
-    }
-    const VecX own = mode_frequencies(body());
-    for (std::size_t k = 0; k < frequencies_.size(); ++k) {
-      const double f = own(static_cast<Eigen::Index>(k));
-      if (frequencies_[k] < 0.0 || !std::isfinite(f)) continue;
-      if (std::abs(f - frequencies_[k]) <= same * std::max(f, frequencies_[k])) continue;
-      fault(
-          fmt::format("found {:.6g} Hz for mode {}, but K and the modal mass S11 + S22 + S33 give "
-                      "{:.6g} Hz",
-                      frequencies_[k], k + 1, f));
-      break;
-    }
-    health(v);
-  }
-
-  /// The report was made of these integrals.
-  void health(const InertiaInvariants& v) {
-    const HealthReport& h = out_.part.health;
-    const MassProperties& said = h.from_invariants;
-    if (!(said.mass > 0.0)) return;  // no report
-    if (h.modes != v.modes())
-      fault(
-          fmt::format("health: found {} modes, expected the {} of this file", h.modes, v.modes()));
-    if (!(std::abs(v.m - said.mass) <= same * said.mass)) {
-      arrays_.fault("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg", v.m,
-                                     said.mass));
-      return;
-    }
-    const Mat3 J = v.inertia_about_origin();
-    const double length = std::sqrt(J.trace() / v.m);
-    const Vec3 c = v.centre_of_mass();
-    if (!((c - said.centre).norm() <= same * length))
-      arrays_.fault("m_u", fmt::format("found the centre of mass ({:.6g}, {:.6g}, {:.6g}) m, but "
-                                       "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
-                                       c.x(), c.y(), c.z(), said.centre.x(), said.centre.y(),
-                                       said.centre.z()));
-    if (!((J - said.J_origin).norm() <= same * J.norm()))
-      arrays_.fault("P_u", fmt::format("found moments of inertia ({:.6g}, {:.6g}, {:.6g}) kg m2 "
-                                       "about the origin, but the health report says ({:.6g}, "
-                                       "{:.6g}, {:.6g}) kg m2",
-                                       J(0, 0), J(1, 1), J(2, 2), said.J_origin(0, 0),
-                                       said.J_origin(1, 1), said.J_origin(2, 2)));
-    for (const InterfaceHealth& interface : h.interfaces)
-      for (const ModalNode& node : body().nodes)
-        if (node.name == interface.name &&
-            !((node.p - interface.p).norm() <= same * (length + node.p.norm())))
-          arrays_.fault("marker_p", fmt::format("found ({:.6g}, {:.6g}, {:.6g}) m for '{}', but "
-                                                "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
-                                                node.p.x(), node.p.y(), node.p.z(), node.name,
-                                                interface.p.x(), interface.p.y(), interface.p.z()));
-  }
-
-  static constexpr double same = 1e-6;  // numbers that were printed and read again
-
   std::string name_;
   Faults faults_;
-  std::vector<double> frequencies_;  ///< of the header [Hz]; -1: not given
+  BodyHeader header_;
   std::vector<ZipMember> members_;
   ArrayReader arrays_;
   BodyFile out_;

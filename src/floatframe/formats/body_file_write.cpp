@@ -9,6 +9,7 @@
 #include "floatframe/formats/body_arrays.hpp"
 #include "floatframe/formats/body_file.hpp"
 #include "floatframe/formats/health_text.hpp"
+#include "floatframe/math/so3.hpp"
 
 namespace floatframe {
 namespace {
@@ -37,6 +38,8 @@ std::string header_of(const BodyFile& content) {
     markers.push_back({{"name", node.name},
                        {"interface", interface},
                        {"kind", interface ? Json(it->kind) : Json()}});
+    const std::vector<int> points = surface_points_that_follow(content.part, node);
+    if (!points.empty()) markers.back()["moves_with"] = points;
   }
   for (const auto& [key, value] : from.options) options.push_back({key, value});
   for (const auto& [file, hash] : from.files) files.push_back({{"file", file}, {"hash", hash}});
@@ -79,6 +82,25 @@ void add_sparse(const Sparse& m, const std::string& name,
 }
 
 }  // namespace
+
+double distance_from_rigid(const ReducedPart& part, const ModalNode& node, int point) {
+  const Eigen::Index k = point;
+  const Vec3 r = part.surface_positions.col(k) - node.p;
+  const Mat3X rigid = node.X - skew(r) * node.X_theta;
+  return (part.surface_modes.middleRows<3>(3 * k) - rigid).cwiseAbs().maxCoeff();
+}
+
+std::vector<int> surface_points_that_follow(const ReducedPart& part, const ModalNode& node) {
+  std::vector<int> all;
+  const Eigen::Index n = part.surface_positions.cols(), nm = part.body.modes();
+  if (nm == 0 || n == 0 || part.surface_modes.rows() != 3 * n || part.surface_modes.cols() != nm)
+    return all;
+  const double limit = 1e-9 * part.surface_modes.cwiseAbs().maxCoeff();
+  for (int k = 0; k < n; ++k)
+    if (distance_from_rigid(part, node, k) <= limit) all.push_back(k);
+  if (all.size() > 3) all = {all.front(), all[all.size() / 2], all.back()};
+  return all;
+}
 
 VecX mode_frequencies(const FlexibleBody& body) {
   const InertiaInvariants& v = body.invariants;
@@ -127,9 +149,10 @@ std::string body_file_bytes(const BodyFile& content) {
   add("surface_triangles", array_of(surface.triangles));
   add("surface_lines", array_of(surface.lines));
   add("surface_positions", array_of(part.surface_positions.transpose()));
-  add("surface_modes",
-      grouped_array(part.surface_modes.size() > 0 ? part.surface_modes : MatX(MatX::Zero(0, nm)),
-                    3));
+  // Without modes it has rows all the same; a file without a surface has none.
+  const Eigen::Index rows = 3 * static_cast<Eigen::Index>(surface.nodes.size());
+  const bool given = part.surface_modes.rows() == rows && part.surface_modes.cols() == nm;
+  add("surface_modes", grouped_array(given ? part.surface_modes : MatX(MatX::Zero(rows, nm)), 3));
   if (part.surface_stress.size() > 0) add("surface_stress", grouped_array(part.surface_stress, 6));
   if (body.projection) {
     const ProjectionData& data = *body.projection;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "floatframe/core/printable.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/formats/health_text.hpp"
 #include "floatframe/math/dense.hpp"
@@ -49,8 +50,8 @@ std::string tables_text(const FlexibleBody& body) {
     for (int k = 0; k < body.modes(); ++k) {
       const auto i = static_cast<std::size_t>(k);
       modes.add({std::to_string(k + 1), i < body.mode_names.size() ? body.mode_names[i] : "",
-                 std::isfinite(alone[k]) ? fmt::format("{:.3f}", alone[k]) : "-",
-                 i < together.size() ? fmt::format("{:.3f}", together[i]) : "-"});
+                 std::isfinite(alone[k]) ? hertz_text(alone[k]) : "-",
+                 i < together.size() ? hertz_text(together[i]) : "-"});
     }
     text += '\n' + modes.text(2) +
             "  alone: this mode by itself; together: ascending eigenfrequencies of (K, M_ff), with "
@@ -58,7 +59,7 @@ std::string tables_text(const FlexibleBody& body) {
   }
   if (body.fixed_interface_frequencies.size() > 0) {
     text += "  normal modes [Hz]:";
-    for (const double f : body.fixed_interface_frequencies) text += fmt::format(" {:.3f}", f);
+    for (const double f : body.fixed_interface_frequencies) text += ' ' + hertz_text(f);
     text += '\n';
   }
   if (!body.nodes.empty()) {
@@ -115,13 +116,15 @@ std::string body_info_text(const std::string& file, const BodyFile& content) {
                       content.part.surface.lines.size(),
                       content.part.surface_stress.size() > 0 ? ", with stresses" : "");
   text += fmt::format("  projection data  {}\n", body.projection ? "yes" : "no");
-  text += fmt::format("  made from        {} ({}) by Floatframe {}, {}\n", from.source, from.units,
-                      from.version, from.date);
-  text += fmt::format("  fingerprint      {} of {} file{}\n", from.source_hash, from.files.size(),
-                      from.files.size() == 1 ? "" : "s");
+  text += fmt::format("  made from        {} ({}) by Floatframe {}, {}\n", printable(from.source),
+                      printable(from.units), printable(from.version), printable(from.date));
+  text += fmt::format("  fingerprint      {} of {} file{}\n", printable(from.source_hash),
+                      from.files.size(), from.files.size() == 1 ? "" : "s");
   for (const auto& [option, value] : from.options)
-    text += fmt::format("  --{}{}\n", option, value == "true" ? "" : " " + value);
-  return text + tables_text(body) + "\nHealth report: " + health_text(content.part.health);
+    text +=
+        fmt::format("  --{}{}\n", printable(option), value == "true" ? "" : " " + printable(value));
+  text += tables_text(body) + "\nHealth report: " + health_text(content.part.health);
+  return printable(text, true);
 }
 
 std::string body_info_json(const std::string& file, const BodyFile& content) {
@@ -148,7 +151,7 @@ std::string sid_info_text(const std::string& file, const FlexibleBody& body,
                      properties_text(body) + tables_text(body);
   if (!notes.empty()) text += "\nNotes\n";
   for (const std::string& note : notes) text += "  - " + note + '\n';
-  return text;
+  return printable(text, true);
 }
 
 std::string sid_info_json(const std::string& file, const FlexibleBody& body,

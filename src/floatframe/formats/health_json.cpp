@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/json_text.hpp"
 #include "floatframe/formats/health_text.hpp"
 
 namespace floatframe {
@@ -61,6 +62,7 @@ void fields(IO& io, HealthReport& r) {
   io("rigid_eigenvalues", r.rigid_eigenvalues);
   io("rigid_residual", r.rigid_residual);
   io("modal_mass_condition", r.modal_mass_condition);
+  io("rotary_inertia", r.rotary_inertia);
   io("normal_modes", r.normal_modes);
   io("free_frequencies", r.free_frequencies);
   io("interfaces", r.interfaces);
@@ -180,7 +182,8 @@ std::string health_json(const HealthReport& report, int indent) {
 
 HealthReport health_from_json(const std::string& text) {
   HealthReport out;
-  const Json json = Json::parse(text, nullptr, false);
+  std::string why;
+  const Json json = read_json(text, why);
   if (!json.is_object()) throw InputError("found no object, expected a health report");
   Reader reader{json};
   fields(reader, out);

@@ -13,10 +13,6 @@ namespace {
 constexpr std::size_t indent = 2;
 
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : "-"; }
-std::string hertz(double x) {
-  if (!(x > 0.0)) return "-";
-  return x < 1.0 ? fmt::format("{:.3g}", x) : fmt::format("{:.3f}", x);
-}
 std::string percent(double x) { return fmt::format("{:.1f}", 100.0 * x); }
 std::string small(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : "-"; }
 
@@ -79,7 +75,7 @@ std::string modes_text(const HealthReport& r) {
   TextTable table({"normal mode", "[Hz]", "x", "y", "z", "rx", "ry", "rz", "kept"}, {8});
   Vec6 sum = Vec6::Zero();
   for (const ModeHealth& m : r.normal_modes) {
-    std::vector<std::string> row{m.name, hertz(m.frequency)};
+    std::vector<std::string> row{m.name, hertz_text(m.frequency)};
     for (int k = 0; k < 6; ++k) row.push_back(percent(m.effective_mass[k]));
     row.push_back(m.kept ? "yes" : "no");
     table.add(std::move(row));
@@ -97,7 +93,7 @@ std::string free_text(const HealthReport& r) {
   TextTable table({"free elastic mode", "full [Hz]", "reduced [Hz]", "error [%]"});
   int k = 0;
   for (const FrequencyPair& p : r.free_frequencies)
-    table.add({std::to_string(++k), hertz(p.full), hertz(p.reduced),
+    table.add({std::to_string(++k), hertz_text(p.full), hertz_text(p.reduced),
                p.full > 0.0 ? fmt::format("{:+.4f}", 100.0 * p.relative_error()) : "-"});
   return title("Truncation: free frequencies of the reduced against the full model") +
          table.text(indent);
@@ -124,6 +120,11 @@ std::string list_text(const std::string& heading, const std::vector<std::string>
 }
 
 }  // namespace
+
+std::string hertz_text(double x) {
+  if (!(x > 0.0)) return "-";
+  return x < 1.0 ? fmt::format("{:.3g}", x) : fmt::format("{:.3f}", x);
+}
 
 std::string health_text(const HealthReport& r) {
   std::string text = fmt::format("{} nodes, {} elements, {} degrees of freedom -> {} modes\n",

@@ -10,6 +10,9 @@ namespace floatframe {
 /// Aligned tables; warnings come last. Each line ends with a line break.
 std::string health_text(const HealthReport& report);
 
+/// A frequency of a table: three decimals, below 1 Hz three digits; "-" if it is not positive.
+std::string hertz_text(double frequency);
+
 /// An object; `indent` blanks a level.
 std::string health_json(const HealthReport& report, int indent = 2);
 /// What `health_json` wrote; unknown keys are passed over, missing ones keep their defaults. Throws

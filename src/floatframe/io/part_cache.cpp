@@ -39,7 +39,8 @@ fs::path cache_file(const PartJob& job, const fs::path& cache) {
 }
 
 /// The body file if it is of this job and all files that it was made from are as they were then.
-std::optional<BodyFile> fresh(const fs::path& file, const PartJob& job) {
+/// `damage`: why a file that is there cannot be read.
+std::optional<BodyFile> fresh(const fs::path& file, const PartJob& job, std::string& damage) {
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;
   try {
@@ -51,7 +52,8 @@ std::optional<BodyFile> fresh(const fs::path& file, const PartJob& job) {
     for (const auto& [name, hash] : from.files)
       if (file_hash(folder / name) != hash) return std::nullopt;
     return found;
-  } catch (const InputError&) {  // damaged, or of another kind
+  } catch (const InputError& fault) {  // damaged, or of another kind
+    damage = fault.faults().front().text();
     return std::nullopt;
   }
 }
@@ -80,8 +82,9 @@ BodyFile cached_part(const PartJob& job, const fs::path& cache, const std::strin
   };
   const std::string source = job.file.string();
   const fs::path file = cache.empty() ? fs::path() : cache_file(job, cache);
+  std::string damage;
   if (!file.empty())
-    if (auto found = fresh(file, job)) {
+    if (auto found = fresh(file, job, damage)) {
       const std::size_t warnings = found->part.health.warnings.size();
       tell(fmt::format("'{}' with {} modes from the cache, {}{}", source, found->part.body.modes(),
                        file.string(),
@@ -90,6 +93,7 @@ BodyFile cached_part(const PartJob& job, const fs::path& cache, const std::strin
                                     : ""));
       return std::move(*found);
     }
+  if (!damage.empty()) tell("what was kept cannot be read: " + damage);
   tell(fmt::format("reducing '{}' ...", source));
   const auto start = std::chrono::steady_clock::now();
   BodyFile made = reduce_part_file(job);

@@ -51,6 +51,9 @@ struct HealthReport {
   double rigid_residual = 0.0;
   /// Condition of M_ff of the raw basis without rigid motions, each direction scaled to one.
   double modal_mass_condition = 1.0;
+  /// Do rotations of nodes carry mass (beams, shells, point masses with inertia)? Not given in
+  /// files of earlier programs.
+  std::optional<bool> rotary_inertia;
   std::vector<ModeHealth> normal_modes;
   std::vector<FrequencyPair> free_frequencies;  ///< elastic, full against reduced
   std::vector<InterfaceHealth> interfaces;

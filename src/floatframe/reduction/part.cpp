@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/body/check_invariants.hpp"
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -156,6 +157,16 @@ void add_surface(const FeModel& model, const FeSystem& system, const MatX& X,
   if (options.stresses) part.surface_stress = surface_stresses(model, part.surface, U);
 }
 
+/// What is written must be what can be read.
+void check_body(const FlexibleBody& body, bool rotary) {
+  Faults faults;
+  for (const InvariantFault& f :
+       check_invariants(body, rotary ? InvariantSource::rotary : InvariantSource::integrals))
+    faults.add(
+        {}, fmt::format("the reduced part has no valid inertia: {}: {}", f.quantity, f.sentence));
+  faults.throw_if_any();
+}
+
 /// Full model and boundary of the static check.
 struct Statics {
   MatX stiffness, flexibility;
@@ -181,8 +192,14 @@ void free_frequencies(const VecX& reduced, const Eigenpairs* full, HealthReport&
     if (full) pair.full = hertz(full->lambda(k + 6));
     health.free_frequencies.push_back(pair);
   }
-  if (full && full->lambda.size() > 6)
-    health.rigid_eigenvalues = full->lambda.head<6>() / full->lambda(6);
+  if (!full || full->lambda.size() <= 6) return;
+  health.rigid_eigenvalues = full->lambda.head<6>() / full->lambda(6);
+  const double worst = health.rigid_eigenvalues->cwiseAbs().maxCoeff();
+  if (worst > 1e-3)
+    throw InputError(fmt::format(
+        "a rigid motion has an eigenvalue of {:.1e} of the first elastic one instead of zero: the "
+        "stiffness does not carry enough digits for such a slender part; use fewer elements",
+        worst));
 }
 
 }  // namespace
@@ -273,6 +290,8 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   }
   health.modes = body.modes();
   health.from_invariants = mass_properties(body.invariants);
+  health.rotary_inertia = points.p.cols() > model.nodes();
+  check_body(body, *health.rotary_inertia);
   stages.done("body");
 
   add_surface(model, system, X, options, part);
