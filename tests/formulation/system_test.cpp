@@ -127,7 +127,7 @@ void expect_marker_rates(F& f, const VecX& q, const VecX& v, const VecX& a) {
 TEST_P(TwoFormulations, MarkerRatesAgainstFiniteDifferences) {
   const Model m = build(false);
   RelativeFormulation relative(m, InertiaMethod::preprocessing);
-  const AbsoluteFormulation from(m, InertiaMethod::preprocessing);
+  AbsoluteFormulation from(m, InertiaMethod::preprocessing);
   AbsoluteFormulation absolute(m, InertiaMethod::preprocessing);
   Random random(11);
   VecX q, v, qa, va;

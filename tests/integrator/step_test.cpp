@@ -358,6 +358,75 @@ TEST(Failure, MasslessFreedomIsASingularTangent) {
   EXPECT_TRUE(same_bits(state, before));
 }
 
+/// A massless arm on a hinge with a torsion spring; a stone hangs from its tip by a spring. The arm
+/// is in balance at the start: what has no mass would jump to it.
+Model massless_arm() {
+  ModelDescription d;
+  BodyDescription arm, stone;
+  arm.name = "arm";
+  arm.kind = RigidDescription{};
+  stone.name = "stone";
+  stone.X_WB.p = Vec3(1.0, 0.1, -0.8);
+  RigidDescription r;
+  r.mass = 1.0;
+  r.J_C = 0.01 * Mat3::Identity();
+  stone.kind = r;
+  d.bodies = {arm, stone};
+  JointDescription hinge;
+  hinge.name = "hinge";
+  hinge.type = JointType::revolute;
+  hinge.axis = Vec3::UnitY();
+  hinge.child.body = "arm";
+  d.joints.push_back(hinge);
+  ForceDescription f;
+  f.name = "torsion";
+  JointSpringDescription torsion;
+  torsion.joint = "hinge";
+  const double length = Vec3(0.0, 0.1, -0.8).norm(), pull = 50.0 * (length - 0.7);
+  torsion.spring = PiecewisePolynomial::polynomial({pull * 0.8 / length, 20.0});
+  f.kind = torsion;
+  d.forces.push_back(f);
+  f.name = "string";
+  SpringDamperDescription string;
+  string.a = {"arm", Vec3(1.0, 0.0, 0.0), std::nullopt, {}};
+  string.b = {"stone", stone.X_WB.p, std::nullopt, {}};
+  string.spring = PiecewisePolynomial::linear(50.0, 0.7);
+  f.kind = string;
+  d.forces.push_back(f);
+  OutputDescription tip;
+  tip.name = "tip";
+  tip.at = string.a;
+  d.outputs.push_back(tip);
+  return build_model(d);
+}
+
+/// What holds the arm in the projections, 0.01 s K, is 1e-16 of the penalty of its constraints. The
+/// arm follows the stone at once, so that nothing but rounding tells the formulations apart.
+TEST(MasslessFreedom, HeldByASpringIsNoSingularTangent) {
+  const Model m = massless_arm();
+  StepOptions o;
+  o.tolerance = 1e-12;
+  for (const double h : {1e-3, 2e-4, 1e-4}) {
+    System<RelativeFormulation> r(m, o);
+    System<AbsoluteFormulation> a(m, o);
+    const auto tip = [&](const auto& s) -> Vec3 {
+      return s.f.marker(m.outputs[0].marker).r + s.f.origin();
+    };
+    double d = 0.0, moved = 0.0;
+    const Vec3 from = tip(r);
+    for (int k = 0; k < 10; ++k) {
+      ASSERT_NO_FATAL_FAILURE(r.run(h, std::lround(0.02 / h)));
+      ASSERT_NO_FATAL_FAILURE(a.run(h, std::lround(0.02 / h)));
+      d = std::max(d, (tip(r) - tip(a)).norm());
+      moved = std::max(moved, (tip(r) - from).norm());
+    }
+    EXPECT_GT(moved, 0.05);
+    EXPECT_LT(a.worst.position_violation, 1e-9);
+    EXPECT_LT(a.worst.velocity_violation, 1e-8);
+    EXPECT_LT(d, 1e-11) << h;
+  }
+}
+
 TEST(Failure, StateThatIsNotFiniteIsRefused) {
   const Model m = build_model(double_pendulum());
   System<RelativeFormulation> s(m, StepOptions{});

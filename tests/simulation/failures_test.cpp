@@ -145,6 +145,7 @@ TEST(Failures, StepThatCannotConverge) {
       expect_in(r.summary.message,
                 c.coordinates == Coordinates::relative ? "joint 'rail'" : "body 'carriage'");
       expect_in(r.summary.message, "(largest force: 'wall', ");
+      EXPECT_EQ(r.summary.message.find("almost without mass"), std::string::npos);
       // What was reached is kept: times 0 to 0.10 s at 1 m/s.
       ASSERT_EQ(r.table.rows(), 11u) << c.name();
       EXPECT_NEAR(r.table.at(10, 0), 0.10, 1e-12);
@@ -168,6 +169,40 @@ TEST(Failures, NoEquilibrium) {
   both_formulations([&](const Combination& c) {
     expect_in(message_of<RunError>([&] { run(start, with(start.simulation, c, 0.01, 1.0)); }),
               "no static equilibrium found: after ");
+  });
+}
+
+/// An arm without mass goes with its load until the torsion spring can hold no more, at 2.5 N m:
+/// beyond, it has no place to be.
+TEST(Failures, ArmWithoutMassThatNothingHoldsAnyMoreIsNamed) {
+  ModelDescription d;
+  d.bodies = {rigid("arm", 0.0, Vec3::Zero()),
+              rigid("stone", 1.0, Vec3(0, 0, 2), 0.1 * Mat3::Identity())};
+  d.joints = {joint("hinge", JointType::revolute, "ground", "arm", Vec3::Zero(), Vec3::UnitY())};
+  ForceDescription force;
+  force.name = "spring";
+  JointSpringDescription spring;
+  spring.joint = "hinge";
+  spring.spring = PiecewisePolynomial::polynomial({0.0, 10.0, -10.0});
+  force.kind = spring;
+  d.forces.push_back(force);
+  force.name = "load";
+  AppliedLoadDescription load;
+  load.at.body = "arm";
+  load.direction = Vec3::UnitY();
+  load.torque = true;
+  load.magnitude.pieces = PiecewisePolynomial::polynomial({0.0, 5.0});
+  force.kind = load;
+  d.forces.push_back(force);
+  d.outputs = {position("x", "arm", Vec3(1, 0, 0), 0)};
+  const Model model = build_model(d);
+  both_formulations([&](const Combination& c) {
+    const RunResult r = run(model, with(d.simulation, c, 0.01, 1.0));
+    EXPECT_EQ(r.summary.status, "failed") << c.name();
+    EXPECT_NEAR(r.summary.duration, 0.5, 0.01) << c.name();
+    expect_in(r.summary.message,
+              "; body 'arm' can move there almost without mass, so that nothing "
+              "but forces limits where to and how fast");
   });
 }
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
+#include <string_view>
 
-#include "floatframe/model/constraint_part.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe::test {
@@ -17,6 +17,7 @@ namespace {
 
 constexpr int most_levels = 4;
 constexpr double nothing = 1e-8;
+constexpr double meaningful = 0.1;  ///< larger differences fall by chance, if they fall
 
 struct Outcome {
   bool started = false, finished = false, known = true;
@@ -50,9 +51,10 @@ bool compared(OutputKind kind) {
          kind == OutputKind::modal_amplitude;
 }
 
-double difference(const Model& model, const ResultTable& a, const ResultTable& b) {
+double difference(const Model& model, const ResultTable& a, const ResultTable& b,
+                  double until = std::numeric_limits<double>::infinity()) {
   double d = 0.0;
-  for (std::size_t r = 0; r < a.rows(); ++r)
+  for (std::size_t r = 0; r < std::min(a.rows(), b.rows()) && a.at(r, 0) <= until; ++r)
     for (std::size_t c = 0; c < model.outputs.size(); ++c)
       if (compared(model.outputs[c].kind))
         d = std::max(d, std::abs(a.at(r, c + 1) - b.at(r, c + 1)));
@@ -61,59 +63,6 @@ double difference(const Model& model, const ResultTable& a, const ResultTable& b
 
 bool all_finite(const ResultTable& t) {
   return std::all_of(t.data.begin(), t.data.end(), [](double x) { return std::isfinite(x); });
-}
-
-/// Number of the kinks of f (jumps of its value or slope) below x.
-int kinks_below(const PiecewisePolynomial& f, double x) {
-  int count = 0;
-  for (std::size_t k = 0; k < f.breaks().size() && f.breaks()[k] <= x; ++k) {
-    const double at = f.breaks()[k];
-    const PiecewisePolynomial::Value l = f.piece_value(k, at), r = f.piece_value(k + 1, at);
-    if (std::abs(l.f - r.f) > 1e-9 * (1.0 + std::abs(l.f)) ||
-        std::abs(l.df - r.df) > 1e-9 * (1.0 + std::abs(l.df)))
-      ++count;
-  }
-  return count;
-}
-
-int kinks_in_time(const TimeFunction& f, double end) {
-  return kinks_below(f.pieces, end) - kinks_below(f.pieces, 0.0);
-}
-
-/// Whether a run passed from one smooth piece of a law to another. Forces come last in a row, with
-/// force, length and rate each.
-bool passes_kinks(const Model& model, const ResultTable& t) {
-  const std::size_t first = 1 + model.outputs.size() - 3 * model.forces.size();
-  for (std::size_t k = 0; k < model.forces.size(); ++k) {
-    const Force& f = model.forces[k];
-    const double end = model.simulation.duration;
-    if (kinks_in_time(f.magnitude, end) || kinks_in_time(f.target.function, end) ||
-        kinks_in_time(f.target_rate.function, end))
-      return true;
-    const auto side = [&](std::size_t row) {
-      const double time = t.at(row, 0), force = t.at(row, first + 3 * k);
-      double length = t.at(row, first + 3 * k + 1), rate = t.at(row, first + 3 * k + 2);
-      if (f.type == ForceType::tyre) return force > 0.0 ? 1 : 0;
-      if (f.targeted) {
-        const auto input = [&](const Signal& s) {
-          return s.input < 0 ? 0.0 : model.inputs[static_cast<std::size_t>(s.input)].initial;
-        };
-        const PiecewisePolynomial::Value target = evaluate(f.target.function, time);
-        length -= target.f + input(f.target);
-        rate -= f.derived_rate ? target.df
-                               : evaluate(f.target_rate.function, time).f + input(f.target_rate);
-      }
-      return kinks_below(f.spring, length) + 100 * kinks_below(f.damper, rate);
-    };
-    for (std::size_t r = 1; r < t.rows(); ++r)
-      if (side(r) != side(0)) return true;
-    if (f.type == ForceType::tyre && side(0) == 1) {
-      // The centre of a wheel stays within its speed times the time; edges of a road are kinks.
-      const Road& road = model.roads[static_cast<std::size_t>(f.road)];
-      if (kinks_below(road.pieces, 1e9) > 0) return true;
-    }
-  }
-  return false;
 }
 
 double drift(const RunResult& r) {
@@ -130,15 +79,57 @@ bool energy_falls(const std::vector<double>& drifts, double scale) {
   return false;
 }
 
-/// Whether some rigid body lacks mass, or inertia about an axis.
-bool lacks_mass(const ModelDescription& description) {
-  for (const BodyDescription& body : description.bodies)
-    if (const auto* rigid = std::get_if<RigidDescription>(&body.kind)) {
-      const Eigen::SelfAdjointEigenSolver<Mat3> inertia(rigid->J_C);
-      const Vec3 moments = inertia.eigenvalues();
-      if (rigid->mass == 0.0 || !(moments.minCoeff() > 1e-12 * (1.0 + moments.maxCoeff())))
-        return true;
+/// "from t = 0.1 s on" of a sentence.
+std::optional<double> beginning(const std::string& sentence) {
+  constexpr std::string_view words = "from t = ";
+  const std::size_t at = sentence.find(words);
+  if (at == std::string::npos) return std::nullopt;
+  return std::stod(sentence.substr(at + words.size()));
+}
+
+/// How far a run says it may be judged: until it leaves the range of small deformations, and half
+/// the way to where a freedom has lost its mass. Nothing if it stops for another reason.
+std::optional<double> judged_until(const Outcome& o) {
+  double until = o.result.summary.duration;
+  if (!o.finished) {
+    if (o.reason.find("almost without mass") == std::string::npos) return std::nullopt;
+    until *= 0.5;
+  }
+  for (const std::string& w : o.result.summary.warnings)
+    if (w.find(" deforms too far ") != std::string::npos ||
+        w.find(" bends too far ") != std::string::npos)
+      if (const std::optional<double> t = beginning(w)) until = std::min(until, *t);
+  return until;
+}
+
+/// Both formulations with one step.
+struct Level {
+  Outcome relative, absolute;
+};
+
+bool falls(double before, double now) {
+  const double ratio = before / now;
+  return now < nothing || (now < meaningful && ratio >= 3.0 && ratio <= 5.0);
+}
+
+/// Whether the differences fall as they must until the first run says that it has left what it can
+/// be judged by (at least the first ten instants, of which a step has all).
+bool falls_before(const Model& model, const std::vector<Level>& levels, double step) {
+  double until = std::numeric_limits<double>::infinity();
+  for (const Level& l : levels)
+    for (const Outcome* o : {&l.relative, &l.absolute}) {
+      const std::optional<double> t = judged_until(*o);
+      if (!t) return false;
+      until = std::min(until, *t);
     }
+  until = std::max(until, 10.5 * step);
+  double before = 0.0;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const double now =
+        difference(model, levels[k].relative.result.table, levels[k].absolute.result.table, until);
+    if (k > 0 && falls(before, now)) return true;
+    before = now;
+  }
   return false;
 }
 
@@ -149,12 +140,11 @@ std::string list(const std::vector<double>& values) {
 }  // namespace
 
 const char* word(Verdict v) {
-  static const char* const words[] = {
-      "equal",         "second order", "second order at a finer step",
-      "kinked",        "refused",      "stopped",
-      "loosened",      "split",        "no reason",
-      "not finite",    "wrong order",  "energy",
-      "not repeatable"};
+  static const char* const words[] = {"equal",      "second order",  "second order at a finer step",
+                                      "kinked",     "refused",       "stopped",
+                                      "weightless", "out of range",  "split",
+                                      "no reason",  "not finite",    "wrong order",
+                                      "energy",     "not repeatable"};
   return words[static_cast<int>(v)];
 }
 
@@ -184,6 +174,7 @@ Judgement judge(const Mechanism& mechanism) {
   double scale = 0.0;
   bool stopped = true;
   std::string stops;
+  std::vector<Level> levels;
   for (int level = 0; level < most_levels; ++level, o.step *= 0.5) {
     // An error of the increment is an error of the velocity times half the step.
     o.tolerance = std::max(1e-8 * o.step, 3e-13);
@@ -199,6 +190,7 @@ Judgement judge(const Mechanism& mechanism) {
     }
     if (!all_finite(r.result.table) || !all_finite(a.result.table))
       return verdict(Verdict::not_finite);
+    levels.push_back({r, a});
     if (!r.finished || !a.finished) {
       if (r.finished != a.finished) stopped = false;
       stops = (r.finished ? "" : "relative: " + r.reason) +
@@ -222,34 +214,29 @@ Judgement judge(const Mechanism& mechanism) {
     j.differences.push_back(difference(model, r.result.table, a.result.table));
     const std::size_t n = j.differences.size();
     const double now = j.differences.back();
-    const double ratio = n < 2 ? 0.0 : j.differences[n - 2] / now;
-    const bool falls = now < nothing || (ratio >= 3.0 && ratio <= 5.0);
+    const bool small = now < nothing || (n > 1 && falls(j.differences[n - 2], now));
     // Energy is judged on two steps at least.
     const bool judged = !j.conservative || (level > 0 && energy_falls(relative_drift, scale) &&
                                             energy_falls(absolute_drift, scale));
-    if (falls && judged)
+    if (small && judged)
       return verdict(now < nothing ? Verdict::equal
                      : level == 1  ? Verdict::second_order
                                    : Verdict::finer);
   }
   if (stopped) return verdict(stops.empty() ? Verdict::no_reason : Verdict::stopped, stops);
-  if (!std::isfinite(j.differences.back()))
-    return verdict(lacks_mass(mechanism.description) &&
-                           stops.find("tangent matrix is singular") != std::string::npos
-                       ? Verdict::loosened
-                       : Verdict::split,
-                   stops);
   const std::string figures = fmt::format(
       "differences {}, energy errors {} (relative) {} (absolute) of {:.3g}{}", list(j.differences),
       list(relative_drift), list(absolute_drift), scale, stops.empty() ? "" : "; " + stops);
   const double first = j.differences.front(), last = j.differences.back();
-  const bool falls = first > std::pow(2.0, most_levels - 1) * last;
-  if (j.kinked && falls) return verdict(Verdict::kinked, figures);
+  if (j.kinked && last < meaningful && first > std::pow(2.0, most_levels - 1) * last)
+    return verdict(Verdict::kinked, figures);
+  if (falls_before(model, levels, j.step))
+    return verdict(stops.empty() ? Verdict::out_of_range : Verdict::weightless, figures);
+  if (!std::isfinite(last)) return verdict(Verdict::split, stops);
   bool ordered = false;
-  for (std::size_t k = 0; k < j.differences.size(); ++k) {
-    const double ratio = k == 0 ? 0.0 : j.differences[k - 1] / j.differences[k];
-    ordered = ordered || j.differences[k] < nothing || (ratio >= 3.0 && ratio <= 5.0);
-  }
+  for (std::size_t k = 0; k < j.differences.size(); ++k)
+    ordered = ordered || j.differences[k] < nothing ||
+              (k > 0 && falls(j.differences[k - 1], j.differences[k]));
   return verdict(ordered ? Verdict::energy : Verdict::wrong_order, figures);
 }
 

@@ -5,20 +5,23 @@
 // (fastest_rate); the same rule for all. Difference d(h): the largest over all positions of points,
 // joint coordinates and modal amplitudes at the instants of the first step.
 //   equal          d < 1e-8 at some step
-//   second_order   d(h)/d(h/2) is 3 to 5 at the first step ...
+//   second_order   d(h)/d(h/2) is 3 to 5 at the first step, and d(h/2) below 0.1 m or rad ...
 //   finer          ... or at one of the next two halvings: the first step was not small enough
 //   kinked         a run passed a kink of a law (a stop, a table of straight lines, a tyre that
 //                  lifts off or meets an edge): the error of that one step depends on where in the
 //                  step it lies, so d need only fall, by 2 a halving in the mean, to the last step
 //   refused        both refuse the model, with a sentence
 //   stopped        both run and stop before the end at all steps, with a sentence
-//   loosened       a freedom without mass is held by forces alone, which may vanish on the way:
-//   both
-//                  start, one of them meets a singular tangent and says so
+//   weightless     a run stops with the sentence that a body can move almost without mass where it
+//                  has come to: its speed is unbounded there, or its place jumps. Until half of
+//                  that time d falls by 3 to 5 at some halving, or is below 1e-8
+//   out_of_range   a run says that a body deforms or bends too far for linear modes, which soon
+//                  grow without bound: the same until then
 // Everything else is a violation.
 #include <string>
 #include <vector>
 
+#include "floatframe/simulation/results.hpp"
 #include "support/random_mechanism.hpp"
 
 namespace floatframe::test {
@@ -30,7 +33,8 @@ enum class Verdict {
   kinked,
   refused,
   stopped,
-  loosened,
+  weightless,
+  out_of_range,
   split,           ///< runs in one formulation, is refused or stops in the other
   no_reason,       ///< refused without a sentence, or by an exception of another kind
   not_finite,      ///< an output that is no number
@@ -51,6 +55,9 @@ struct Judgement {
 };
 
 Judgement judge(const Mechanism& mechanism);
+
+/// Whether a run passed from one smooth piece of a law to another.
+bool passes_kinks(const Model& model, const ResultTable& table);
 
 /// The same violation with as little as possible: what is not needed for it is taken away.
 Mechanism shrunk(const Mechanism& mechanism, Verdict verdict);

@@ -119,7 +119,7 @@ struct RandomSystem {
 };
 
 /// A configuration away from the start and random velocities.
-inline void random_configuration(const RelativeFormulation& f, Random& random, VecX& q, VecX& v) {
+inline void random_configuration(RelativeFormulation& f, Random& random, VecX& q, VecX& v) {
   VecX q0;
   f.start(q0, v);
   q = q0;
@@ -131,8 +131,7 @@ inline void random_configuration(const RelativeFormulation& f, Random& random, V
 }
 
 /// d(absolute velocities)/d(relative velocities) at q.
-inline MatX velocity_map(RelativeFormulation& tree, const AbsoluteFormulation& absolute,
-                         const VecX& q) {
+inline MatX velocity_map(RelativeFormulation& tree, AbsoluteFormulation& absolute, const VecX& q) {
   MatX T(absolute.velocities(), tree.velocities());
   VecX qa, va;
   for (int j = 0; j < tree.velocities(); ++j) {
@@ -144,7 +143,7 @@ inline MatX velocity_map(RelativeFormulation& tree, const AbsoluteFormulation& a
 
 /// Absolute accelerations of the motion with relative accelerations a: central difference of the
 /// absolute velocities along it.
-inline VecX absolute_accelerations(RelativeFormulation& tree, const AbsoluteFormulation& absolute,
+inline VecX absolute_accelerations(RelativeFormulation& tree, AbsoluteFormulation& absolute,
                                    const VecX& q, const VecX& v, const VecX& a, double dt = 1e-5) {
   VecX q1 = q, qa, plus, minus;
   tree.retract(q, dt * v + 0.5 * dt * dt * a, q1);

@@ -95,6 +95,7 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
   rows_.resize(static_cast<std::size_t>(nc_ - part_rows_));
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);
+  kept_reference_ = force_reference_;
   for (const Input& input : model_.inputs) inputs_.push_back(input.initial);
   phi_ = weights_ = lambda_ = VecX::Zero(nc_);
   a_ = omega2_ = VecX::Zero(nq_);
@@ -110,10 +111,13 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
 }
 
 void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree_q,
-                                     const VecX& tree_v, VecX& q, VecX& v) const {
+                                     const VecX& tree_v, VecX& q, VecX& v) {
   q = v = VecX::Zero(nq_);
   tree.positions(0.0, tree_q);
   tree.velocities(tree_v);
+  tree.forces();
+  for (std::size_t k = 0; k < model_.forces.size(); ++k)
+    if (model_.forces[k].rotational) force_reference_[k] = tree.force(static_cast<int>(k)).length;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyData& b = bodies_[i];
     const int k = static_cast<int>(i);

@@ -40,15 +40,21 @@ class AbsoluteFormulation {
   }
   std::span<const double> inputs() const noexcept { return inputs_; }
 
-  /// The same configuration and velocities as a relative state.
+  /// The same configuration and velocities as a relative state. Axes do not tell turns: the angles
+  /// of joint springs go on from those of the tree.
   void start_from(RelativeFormulation& tree, const VecX& tree_q, const VecX& tree_v, VecX& q,
-                  VecX& v) const;
+                  VecX& v);
 
   /// What a renewal must save, in iterations (tuned on the Iltis).
   static constexpr double factorization_cost = 3.0;
 
   /// As in relative.hpp; here all markers are kept up to date.
-  void stepping(bool) noexcept {}
+  void stepping(bool on, bool accepted = true) noexcept {
+    if (on)
+      std::copy(force_reference_.begin(), force_reference_.end(), kept_reference_.begin());
+    else if (!accepted)
+      std::copy(kept_reference_.begin(), kept_reference_.end(), force_reference_.begin());
+  }
 
   // -- the integrator's view
   // ---------------------------------------------------------------------------------------
@@ -179,7 +185,7 @@ class AbsoluteFormulation {
   std::vector<ConstraintRow> rows_;
   int part_rows_ = 0;  // first row of the parts
   std::vector<ForceState> force_states_;
-  std::vector<double> force_reference_, inputs_;
+  std::vector<double> force_reference_, kept_reference_, inputs_;  // as in relative.hpp
   Linearization linearizations_[2];
   Gradient ga_, gb_;
   int nq_ = 0, nc_ = 0;

@@ -255,6 +255,8 @@ void RelativeFormulation::build_elements() {
   rows_.resize(static_cast<std::size_t>(nc_));
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);
+  count_turns_from(model_, 0.0);
+  kept_reference_ = force_reference_;
   for (const Input& input : model_.inputs) inputs_.push_back(input.initial);
   // The angle of a spring on a tree joint is the joint's own coordinate, whatever it turns in a
   // step.
@@ -298,7 +300,23 @@ void RelativeFormulation::build_elements() {
       }
 }
 
-void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v) const {
+void RelativeFormulation::count_turns_from(const Model& values, double t) {
+  for (std::size_t k = 0; k < model_.forces.size(); ++k) {
+    const Force& f = model_.forces[k];
+    force_reference_[k] = 0.0;
+    if (!f.rotational) continue;
+    for (const Joint& joint : values.joints) {
+      if (joint.frame_F != f.a || joint.frame_M != f.b) continue;
+      if (joint.motion)
+        force_reference_[k] = evaluate(*joint.motion, t).f;
+      else if (!joint.position.empty())
+        force_reference_[k] = joint.position[0];
+    }
+  }
+}
+
+void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v) {
+  count_turns_from(values, t);
   q = VecX::Zero(nq_);
   v = VecX::Zero(nv_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

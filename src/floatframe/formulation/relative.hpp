@@ -57,10 +57,11 @@ class RelativeFormulation {
   std::span<const double> inputs() const noexcept { return inputs_; }
   const Topology& topology() const noexcept { return topology_; }
 
-  /// Start values of the model in these coordinates (before loops are closed).
-  void start(VecX& q, VecX& v) const { start(model_, 0.0, q, v); }
+  /// Start values of the model in these coordinates (before loops are closed). Turns of the springs
+  /// on cut joints are counted from here on.
+  void start(VecX& q, VecX& v) { start(model_, 0.0, q, v); }
   /// Those of another model that has the same bodies and joints, at time t.
-  void start(const Model& values, double t, VecX& q, VecX& v) const;
+  void start(const Model& values, double t, VecX& q, VecX& v);
   /// How firmly the user gave the start value of a coordinate, or (`rates`) of its rate.
   enum class Given : char { no, yes, kept };
   std::vector<Given> given_coordinates(bool rates) const;
@@ -69,8 +70,15 @@ class RelativeFormulation {
   static constexpr double factorization_cost = 2.0;
 
   /// While a step is made, markers that only outputs look at are left alone; after it they are
-  /// those of the next `positions` and `velocities`.
-  void stepping(bool on) noexcept { stepping_ = on; }
+  /// those of the next `positions` and `velocities`. What the angles of springs turned by in a step
+  /// that was not accepted is forgotten.
+  void stepping(bool on, bool accepted = true) noexcept {
+    stepping_ = on;
+    if (on)
+      std::copy(force_reference_.begin(), force_reference_.end(), kept_reference_.begin());
+    else if (!accepted)
+      std::copy(kept_reference_.begin(), kept_reference_.end(), force_reference_.begin());
+  }
 
   // -- the integrator's view; all noexcept and free of allocation
   // ------------------------------------------------
@@ -224,6 +232,7 @@ class RelativeFormulation {
   void build_bodies(InertiaMethod method);
   void build_clusters();
   void build_elements();
+  void count_turns_from(const Model& values, double t);
   Element make_element(int a, int b);
   int mode_front(const Cluster& c, int body) const;
   void marker_world_position(MarkerData& m) noexcept;
@@ -274,7 +283,9 @@ class RelativeFormulation {
   std::vector<ConstraintRow> rows_;
   std::vector<Element> part_elements_, force_elements_;
   std::vector<ForceState> force_states_;
-  std::vector<double> force_reference_, inputs_;
+  // Angles of joint springs at the last evaluation, which pick the turn of the next, and those at
+  // the beginning of the step.
+  std::vector<double> force_reference_, kept_reference_, inputs_;
   std::vector<int>
       force_tree_body_;  // joint springs on tree joints: the body whose joint it is, else -1
   std::vector<Cluster> clusters_;

@@ -81,7 +81,7 @@ class AugmentedLagrangian {
   StepReport step(State& state, double h) noexcept {
     f_.stepping(true);
     const StepReport report = advance(state, h);
-    f_.stepping(false);
+    f_.stepping(false, report.accepted());
     return report;
   }
 
@@ -96,6 +96,11 @@ class AugmentedLagrangian {
   static constexpr int newton_slot = 0, projection_slot = 1;
   /// The projections have no nonlinear terms to disturb: a stiffer penalty saves passes.
   static constexpr double metric_penalty = 300.0;
+  /// What holds a freedom without mass is its stiffness times s, which next to the penalty may be
+  /// less than round-off. A matrix with a vanishing pivot is made again with so much of the
+  /// penalty, so often; the iterations that correct for a penalty that is finite see to the rest.
+  static constexpr double softer = 1e-2;
+  static constexpr int most_softer = 3;
 
   StepReport advance(State& state, double h) noexcept {
     const Scheme k(options_, h);
@@ -167,7 +172,7 @@ class AugmentedLagrangian {
     const bool constrained = f_.constraints() > 0;
     const auto begin = options_.time_budget > 0.0 ? Clock::now() : Clock::time_point{};
     bool renew = true;
-    double increment = 0.0, error = 0.0;
+    double increment = 0.0, error = 0.0, penalty = k.penalty, alpha = k.alpha;
     while (true) {
       f_.retract(state.q, x_, q_);
       v_ = k.c1 * x_ + v_hat_;
@@ -214,8 +219,14 @@ class AugmentedLagrangian {
       f_.dynamics();
       f_.residual(a_, lambda_, 0.0, rhs_);
       if (renew) {
-        const int pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, k.alpha, newton_slot);
+        int pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, alpha, newton_slot);
         ++report.factorizations;
+        for (int retry = 0; constrained && pivot >= 0 && retry < most_softer; ++retry) {
+          penalty *= softer;
+          alpha *= softer;
+          pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, alpha, newton_slot);
+          ++report.factorizations;
+        }
         if (pivot >= 0) {
           report.status = StepStatus::singular_tangent;
           report.coordinate = pivot;
@@ -228,11 +239,11 @@ class AugmentedLagrangian {
       delta_ = -k.s * rhs_;
       if (constrained) {
         const VecX& phi = f_.constraint_values();
-        work_ = -k.penalty * phi;
+        work_ = -penalty * phi;
         f_.solve(delta_, work_, increments_, newton_slot);
         // The multiplier that belongs to this solution. Taking Phi(q) after the update instead
         // would feed the curvature of the constraints, alpha O(dx^2), into the multipliers.
-        lambda_ += k.alpha * (phi + increments_);
+        lambda_ += alpha * (phi + increments_);
       } else {
         f_.solve(delta_, newton_slot);
       }
@@ -259,8 +270,14 @@ class AugmentedLagrangian {
   /// Velocities and accelerations onto the constraints, orthogonal in W = M + 0.01 s K (the Newton
   /// tangent itself would feed energy into stiff modes). False if W is singular.
   bool project(const Scheme& k, StepReport& report) noexcept {
-    const int pivot = f_.factorize_metric(0.01 * k.s, metric_penalty * k.penalty, projection_slot);
+    double penalty = metric_penalty * k.penalty;
+    int pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
     ++report.factorizations;
+    for (int retry = 0; pivot >= 0 && retry < most_softer; ++retry) {
+      penalty *= softer;
+      pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
+      ++report.factorizations;
+    }
     if (pivot >= 0) {
       report.status = StepStatus::singular_tangent;
       report.coordinate = pivot;
@@ -271,7 +288,7 @@ class AugmentedLagrangian {
     const double enough = 0.1 * options_.velocity_tolerance;
     for (int pass = 0; pass < options_.max_projections && report.velocity_violation >= enough;
          ++pass) {
-      correct(v_, metric_penalty * k.penalty);
+      correct(v_, penalty);
       report.velocity_violation = largest(rate_);
     }
     f_.velocities(v_);
@@ -281,10 +298,10 @@ class AugmentedLagrangian {
     reactions_ = lambda_;
     for (int pass = 0; pass < options_.max_projections; ++pass) {
       if (violation < 1e-6 + 1e-9 * first || (pass > 3 && violation > 0.5 * first)) break;
-      correct(a_, metric_penalty * k.penalty);
+      correct(a_, penalty);
       violation = largest(rate_);
       // W times the change of a is -Phi_q^T penalty rate, with the rate that is left.
-      reactions_ += metric_penalty * k.penalty * rate_;
+      reactions_ += penalty * rate_;
     }
     return true;
   }

@@ -7,6 +7,7 @@
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/realtime/scheduling.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/light_motion.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/system_state.hpp"
 
@@ -64,6 +65,7 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
     case End::failed:
       report.status = "failed";
       report.message = runner.failure();
+      report.message += light_motion_note(f, runner.state());  // moves f
       break;
     case End::no_inputs:
       report.status = "failed";

@@ -5,6 +5,7 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/light_motion.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -132,6 +133,19 @@ std::string named_text(const char* one, const char* many, const std::vector<std:
     text += names[i] + "'";
   }
   return text;
+}
+
+MatX light_directions(const MatX& mass, const MatX& J, double light) {
+  const Eigen::Index nv = mass.rows();
+  const MatX N = motions(J, VecX::Zero(J.rows()), nv).N;
+  if (N.cols() == 0) return MatX(nv, 0);
+  const MatX Mr = N.transpose() * mass * N;
+  const MatX Dr = N.transpose() * mass_scale(mass.diagonal()).asDiagonal() * N;
+  const SymmetricEigen eig = generalised_eigen(0.5 * (Mr + Mr.transpose()), Dr);
+  if (!eig.found) return MatX(nv, 0);
+  Eigen::Index count = 0;  // ascending eigenvalues
+  while (count < N.cols() && eig.values[count] <= light) ++count;
+  return N * eig.vectors.leftCols(count);
 }
 
 void dense_start(const MatX& mass, const MatX& J, const VecX& force, const VecX& gamma,

@@ -144,8 +144,9 @@ class Runner {
     bool started = false;
     double time = 0.0, position = 0.0, rate = 0.0;
   };
-  /// The start value the user gave, so that an output begins at the turn he means.
-  static double start_position(const Joint& joint, int component) noexcept {
+  /// The start value or motion the user gave, so that an output begins at the turn he means.
+  double start_position(const Joint& joint, int component) const noexcept {
+    if (joint.motion) return evaluate(*joint.motion, state_.t).f;
     const auto k = static_cast<std::size_t>(component);
     return k < joint.position.size() ? joint.position[k] : 0.0;
   }

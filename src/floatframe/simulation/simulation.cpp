@@ -10,6 +10,7 @@
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/light_motion.hpp"
 #include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/run_watch.hpp"
 #include "floatframe/simulation/runner.hpp"
@@ -96,6 +97,7 @@ RunResult run_with(F& f, State start, StartReport start_report, const Simulation
     if (!good) {
       s.status = "failed";
       s.message = runner.failure();
+      s.message += light_motion_note(f, runner.state());  // moves f
       break;
     }
     if (run_options.progress && (k + 1) % report_every == 0)

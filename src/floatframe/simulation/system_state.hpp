@@ -47,7 +47,8 @@ class JointFollower {
         const int component = static_cast<int>(i);
         const double rate = joint_velocity(joints[k], F_, M, component);
         const double turned = started_ ? 0.5 * (t - time_) * (j.velocity[i] + rate) : 0.0;
-        const double expected = j.position[i] + turned;
+        const double expected = !started_ && joints[k].motion ? evaluate(*joints[k].motion, t).f
+                                                              : j.position[i] + turned;
         j.position[i] = joint_position(joints[k], F_, M, component, expected);
         j.velocity[i] = rate;
       }

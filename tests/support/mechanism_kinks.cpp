@@ -1,0 +1,65 @@
+// Kinks of laws, functions of time and roads that a run passed.
+#include <cmath>
+
+#include "floatframe/model/constraint_part.hpp"
+#include "support/mechanism_check.hpp"
+
+namespace floatframe::test {
+
+namespace {
+
+/// Number of the kinks of f (jumps of its value or slope) below x.
+int kinks_below(const PiecewisePolynomial& f, double x) {
+  int count = 0;
+  for (std::size_t k = 0; k < f.breaks().size() && f.breaks()[k] <= x; ++k) {
+    const double at = f.breaks()[k];
+    const PiecewisePolynomial::Value l = f.piece_value(k, at), r = f.piece_value(k + 1, at);
+    if (std::abs(l.f - r.f) > 1e-9 * (1.0 + std::abs(l.f)) ||
+        std::abs(l.df - r.df) > 1e-9 * (1.0 + std::abs(l.df)))
+      ++count;
+  }
+  return count;
+}
+
+int kinks_in_time(const TimeFunction& f, double end) {
+  return kinks_below(f.pieces, end) - kinks_below(f.pieces, 0.0);
+}
+
+}  // namespace
+
+// Forces come last in a row, with force, length and rate each.
+bool passes_kinks(const Model& model, const ResultTable& t) {
+  const std::size_t first = 1 + model.outputs.size() - 3 * model.forces.size();
+  for (std::size_t k = 0; k < model.forces.size(); ++k) {
+    const Force& f = model.forces[k];
+    const double end = model.simulation.duration;
+    if (kinks_in_time(f.magnitude, end) || kinks_in_time(f.target.function, end) ||
+        kinks_in_time(f.target_rate.function, end))
+      return true;
+    const auto side = [&](std::size_t row) {
+      const double time = t.at(row, 0), force = t.at(row, first + 3 * k);
+      double length = t.at(row, first + 3 * k + 1), rate = t.at(row, first + 3 * k + 2);
+      if (f.type == ForceType::tyre) return force > 0.0 ? 1 : 0;
+      if (f.targeted) {
+        const auto input = [&](const Signal& s) {
+          return s.input < 0 ? 0.0 : model.inputs[static_cast<std::size_t>(s.input)].initial;
+        };
+        const PiecewisePolynomial::Value target = evaluate(f.target.function, time);
+        length -= target.f + input(f.target);
+        rate -= f.derived_rate ? target.df
+                               : evaluate(f.target_rate.function, time).f + input(f.target_rate);
+      }
+      return kinks_below(f.spring, length) + 100 * kinks_below(f.damper, rate);
+    };
+    for (std::size_t r = 1; r < t.rows(); ++r)
+      if (side(r) != side(0)) return true;
+    if (f.type == ForceType::tyre && side(0) == 1) {
+      // The centre of a wheel stays within its speed times the time; edges of a road are kinks.
+      const Road& road = model.roads[static_cast<std::size_t>(f.road)];
+      if (kinks_below(road.pieces, 1e9) > 0) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace floatframe::test
