@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test demo bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all demo bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -10,6 +10,7 @@ CTEST := ctest --output-on-failure --no-tests=error -j2
 help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
+	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
 	@echo "make bench         timing of a chain of flexible links, the Iltis and single kernels"
 	@echo "make bench-record  all benchmarks, recorded in bench/history; docs/performance.md anew"
@@ -31,6 +32,10 @@ build: install-packages
 test: build
 	cmake --build build --parallel $(JOBS)
 	@cd build && $(CTEST)
+
+# What takes longer than everyday work allows.
+test-all: test
+	FLOATFRAME_MECHANISMS=1000 build/tests/mechanisms_tests --gtest_brief=1
 
 demo: build
 	build/floatframe run $(DEMO_MODEL) --out $(DEMO_OUTPUT)
