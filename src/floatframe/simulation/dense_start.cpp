@@ -29,13 +29,18 @@ struct Motions {
   MatX N;
 };
 
-Motions motions(const MatX& J, const VecX& gamma, Eigen::Index nv) {
-  if (J.rows() == 0 || nv == 0) return {VecX::Zero(nv), MatX::Identity(nv, nv)};
+Motions motions(const MatX& J, const VecX& gamma, const VecX& possible) {
+  const Eigen::Index nv = possible.size();
+  // In coordinates of like size: rows of lengths, angles and amplitudes have no rank in common.
+  const VecX unit = possible.cwiseSqrt().cwiseInverse();
+  if (J.rows() == 0 || nv == 0) return {VecX::Zero(nv), unit.asDiagonal()};
   // J^T P = Q R: the leading columns of Q span the rows of J, the others its null space.
-  const PivotedQr qr = pivoted_qr(J.transpose(), 1e-11);
-  if (qr.rank == 0) return {VecX::Zero(nv), qr.Q};
+  const MatX scaled = J * unit.asDiagonal();
+  const PivotedQr qr = pivoted_qr(scaled.transpose(), 1e-11);
+  if (qr.rank == 0) return {VecX::Zero(nv), unit.asDiagonal() * qr.Q};
   const MatX rows = qr.Q.leftCols(qr.rank);
-  return {rows * qr_solve(J * rows, gamma), qr.Q.rightCols(nv - qr.rank)};
+  const VecX a_p = rows * qr_solve(scaled * rows, gamma);
+  return {unit.cwiseProduct(a_p), unit.asDiagonal() * qr.Q.rightCols(nv - qr.rank)};
 }
 
 /// Directions without mass that nothing holds, of the columns of Z: N^T M N z = 0 for each of them.
@@ -73,11 +78,11 @@ MatX loose_directions(const MatX& mass, const MatX& J, const VecX& force, const 
 }
 
 /// The z of the free accelerations N z: N^T M N z = N^T (force - M a_p).
-VecX free_accelerations(const MatX& mass, const MatX& J, const VecX& force, const Motions& m,
-                        const NeighbourAt& neighbour,
+VecX free_accelerations(const MatX& mass, const VecX& possible, const MatX& J, const VecX& force,
+                        const Motions& m, const NeighbourAt& neighbour,
                         const std::function<std::string(const MatX&)>& movers) {
   const MatX Mr = m.N.transpose() * mass * m.N;
-  const MatX Dr = m.N.transpose() * mass_scale(mass.diagonal()).asDiagonal() * m.N;
+  const MatX Dr = m.N.transpose() * mass_scale(mass.diagonal(), possible).asDiagonal() * m.N;
   const SymmetricEigen eig = generalised_eigen(0.5 * (Mr + Mr.transpose()), Dr);
   const MatX& V = eig.vectors;
   Eigen::Index massless = 0;  // ascending eigenvalues
@@ -120,12 +125,6 @@ void check_masses(const VecX& diagonal, const std::function<std::string(int)>& o
                   owner(i), magnitude_text(diagonal[i]), largest_magnitude));
 }
 
-VecX mass_scale(const VecX& diagonal) {
-  const double top = diagonal.size() > 0 ? diagonal.cwiseAbs().maxCoeff() : 0.0;
-  if (!(top > 0.0)) return VecX::Ones(diagonal.size());
-  return diagonal.cwiseMax(1e-4 * top);
-}
-
 std::string named_text(const char* one, const char* many, const std::vector<std::string>& names) {
   std::string text = names.size() == 1 ? one : many;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -135,12 +134,12 @@ std::string named_text(const char* one, const char* many, const std::vector<std:
   return text;
 }
 
-MatX light_directions(const MatX& mass, const MatX& J, double light) {
+MatX light_directions(const MatX& mass, const VecX& possible, const MatX& J, double light) {
   const Eigen::Index nv = mass.rows();
-  const MatX N = motions(J, VecX::Zero(J.rows()), nv).N;
+  const MatX N = motions(J, VecX::Zero(J.rows()), possible).N;
   if (N.cols() == 0) return MatX(nv, 0);
   const MatX Mr = N.transpose() * mass * N;
-  const MatX Dr = N.transpose() * mass_scale(mass.diagonal()).asDiagonal() * N;
+  const MatX Dr = N.transpose() * mass_scale(mass.diagonal(), possible).asDiagonal() * N;
   const SymmetricEigen eig = generalised_eigen(0.5 * (Mr + Mr.transpose()), Dr);
   if (!eig.found) return MatX(nv, 0);
   Eigen::Index count = 0;  // ascending eigenvalues
@@ -148,14 +147,14 @@ MatX light_directions(const MatX& mass, const MatX& J, double light) {
   return N * eig.vectors.leftCols(count);
 }
 
-void dense_start(const MatX& mass, const MatX& J, const VecX& force, const VecX& gamma,
-                 const NeighbourAt& neighbour,
+void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const VecX& force,
+                 const VecX& gamma, const NeighbourAt& neighbour,
                  const std::function<std::string(const MatX&)>& movers, VecX& a, VecX& lambda) {
   const Eigen::Index nv = mass.rows(), nc = J.rows();
-  const Motions m = motions(J, gamma, nv);
+  const Motions m = motions(J, gamma, possible);
   a = m.a_p;
   // Nothing is left where the constraints prescribe all motion, whatever the masses.
-  if (m.N.cols() > 0) a += m.N * free_accelerations(mass, J, force, m, neighbour, movers);
+  if (m.N.cols() > 0) a += m.N * free_accelerations(mass, possible, J, force, m, neighbour, movers);
   lambda = VecX::Zero(nc);
   if (nc == 0 || nv == 0) return;
   lambda = LeastNorm(J.transpose(), 1e-11).solve(VecX(force - mass * a));

@@ -16,6 +16,7 @@
 
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/simulation/mass_scale.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
@@ -65,13 +66,6 @@ void check_magnitudes(const VecX& force, const std::function<std::string(int)>& 
 /// The same for the diagonal of the mass matrix.
 void check_masses(const VecX& diagonal, const std::function<std::string(int)>& owner);
 
-/// Scales of coordinates for questions about the mass matrix: its diagonal, but no less than 1e-4
-/// of its largest entry, so that round-off stays small.
-VecX mass_scale(const VecX& diagonal);
-
-/// Below this fraction of `mass_scale` a direction has no mass.
-inline constexpr double no_mass = 1e-10;
-
 /// The system a little further along a direction: residual without acceleration (nv), and what mass
 /// matrix and constraint Jacobian there make of directions Z (nv x k, nc x k).
 struct Neighbour {
@@ -82,19 +76,19 @@ struct Neighbour {
 using NeighbourAt = std::function<Neighbour(const VecX& x, const MatX& Z)>;
 
 /// Start accelerations by dense linear algebra, for mass matrices that are singular: on the null
-/// space of the constraints mass may be missing where stiffness acts. `mass`: nv x nv, `J`: nc x
-/// nv. Throws RunError if a direction has neither; `movers` puts the directions (columns) into
-/// words.
-void dense_start(const MatX& mass, const MatX& J, const VecX& force, const VecX& gamma,
-                 const NeighbourAt& neighbour,
+/// space of the constraints mass may be missing where stiffness acts. `mass`: nv x nv, `possible`:
+/// see mass_scale.hpp, `J`: nc x nv. Throws RunError if a direction has neither; `movers` puts the
+/// directions (columns) into words.
+void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const VecX& force,
+                 const VecX& gamma, const NeighbourAt& neighbour,
                  const std::function<std::string(const MatX&)>& movers, VecX& a, VecX& lambda);
 
 /// "body 'a'", "bodies 'a', 'b' and 'c'".
 std::string named_text(const char* one, const char* many, const std::vector<std::string>& names);
 
-/// The diagonal of the mass matrix.
+/// The diagonal of the mass matrix, after `dynamics`.
 template <class F>
-VecX mass_diagonal(F& f, const State& state) {
+VecX mass_diagonal(F& f, const State& state, const VecX& possible) {
   const int nv = f.velocities();
   const VecX zero = VecX::Zero(nv);
   VecX r0(nv), column(nv), diagonal(nv);
@@ -106,10 +100,10 @@ VecX mass_diagonal(F& f, const State& state) {
     return diagonal;
   }
   // Differences of the residual keep the digits of the mass if they are no smaller than the forces.
-  const double unit = nv > 0 ? std::max(1.0, r0.cwiseAbs().maxCoeff()) : 1.0;
+  const VecX test = test_accelerations(r0, possible);
   for (int j = 0; j < nv; ++j) {
-    f.residual(unit * VecX::Unit(nv, j), state.lambda, 0.0, column);
-    diagonal[j] = (column[j] - r0[j]) / unit;
+    f.residual(test[j] * VecX::Unit(nv, j), state.lambda, 0.0, column);
+    diagonal[j] = (column[j] - r0[j]) / test[j];
   }
   check_masses(diagonal, [&](int i) { return f.coordinate_owner(i); });
   return diagonal;
@@ -121,7 +115,7 @@ VecX mass_diagonal(F& f, const State& state) {
 /// mass alone says nothing: most of natural coordinates are held by constraints. Says yes too often
 /// rather than too seldom: the dense computation takes as long as a hundred steps of a vehicle.
 template <class F>
-bool may_lack_mass(F& f, const VecX& diagonal, double penalty_mass) {
+bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass) {
   const Eigen::Index nv = diagonal.size();
   if (nv == 0) return false;
   if (!(diagonal.maxCoeff() > 0.0)) return true;
@@ -129,7 +123,7 @@ bool may_lack_mass(F& f, const VecX& diagonal, double penalty_mass) {
   constexpr int slot = 1;
   // Round-off of the full penalty would look like mass.
   if (f.factorize(1.0, 0.0, s, 1e-5 * penalty_mass / s, slot) >= 0) return true;
-  const VecX scale = mass_scale(diagonal);
+  const VecX scale = mass_scale(diagonal, possible);
   VecX x(nv);
   for (Eigen::Index i = 0; i < nv; ++i) {
     const double golden = static_cast<double>(i + 1) * 0.6180339887498949;
@@ -178,15 +172,16 @@ void start_accelerations_dense(F& f, State& state) {
   MatX mass(nv, nv);
   const VecX zero = VecX::Zero(nv), no_lambda = VecX::Zero(nc);
   VecX r0(nv), column(nv), gamma(nc), q1(state.q.size());
+  const VecX possible = possible_masses(f, state);
   f.positions(state.t, state.q);
   f.velocities(state.v);
   f.dynamics();
   f.residual(zero, no_lambda, 0.0, r0);
   check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
-  const double unit = nv > 0 ? std::max(1.0, r0.cwiseAbs().maxCoeff()) : 1.0;
+  const VecX test = test_accelerations(r0, possible);
   for (int j = 0; j < nv; ++j) {
-    f.residual(unit * VecX::Unit(nv, j), no_lambda, 0.0, column);
-    mass.col(j) = (column - r0) / unit;
+    f.residual(test[j] * VecX::Unit(nv, j), no_lambda, 0.0, column);
+    mass.col(j) = (column - r0) / test[j];
   }
   const MatX J = f.constraint_jacobian();
   f.constraint_accelerations(zero, gamma);
@@ -200,6 +195,7 @@ void start_accelerations_dense(F& f, State& state) {
     f.residual(zero, no_lambda, 0.0, n.r);
     n.MZ.resize(nv, Z.cols());
     for (Eigen::Index k = 0; k < Z.cols(); ++k) {
+      const double unit = std::max(1.0, n.r.cwiseAbs().maxCoeff());
       f.residual(unit * Z.col(k), no_lambda, 0.0, column);
       n.MZ.col(k) = (column - n.r) / unit;
     }
@@ -207,7 +203,7 @@ void start_accelerations_dense(F& f, State& state) {
     return n;
   };
   dense_start(
-      mass, J, -r0, -gamma, neighbour,
+      mass, possible, J, -r0, -gamma, neighbour,
       [&](const MatX& directions) { return moving_bodies(f, state, directions); }, state.a,
       state.lambda);
 }
@@ -218,14 +214,17 @@ void start_accelerations(F& f, State& state, double penalty_mass) {
   const int nv = f.velocities(), nc = f.constraints();
   state.a = VecX::Zero(nv);
   state.lambda = VecX::Zero(nc);
+  constexpr int most = 1000;  // beyond, neither this nor the dense computation is affordable
+  VecX possible;
+  if (nv <= most) possible = possible_masses(f, state);
   f.positions(state.t, state.q);
   f.velocities(state.v);
   f.dynamics();
   double s = 1e-30;  // no stiffness in the tangent: M + penalty Phi_q^T Phi_q
   VecX r(nv), gamma(nc), push(nv);
   // A freedom whose mass is round-off passes the pivot test by luck: look for it first.
-  constexpr int most = 1000;  // beyond, neither this nor the dense computation is affordable
-  bool good = nv > most || !may_lack_mass(f, mass_diagonal(f, state), penalty_mass);
+  bool good =
+      nv > most || !may_lack_mass(f, mass_diagonal(f, state, possible), possible, penalty_mass);
   if (nv > most) {
     f.residual(state.a, state.lambda, 0.0, r);
     check_magnitudes(r, [&](int i) { return f.coordinate_owner(i); });

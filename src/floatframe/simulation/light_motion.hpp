@@ -10,8 +10,8 @@
 namespace floatframe {
 
 /// Directions (columns) that the constraints J leave free and along which the mass is less than
-/// `light` of what the coordinates have by themselves.
-MatX light_directions(const MatX& mass, const MatX& J, double light);
+/// `light` of what the coordinates have by themselves or could have (`possible_masses`).
+MatX light_directions(const MatX& mass, const VecX& possible, const MatX& J, double light);
 
 /// The combinations of `directions` that move body frames. What is left out are modes without mass
 /// (torsion of a bar without spin inertia): their stiffness holds them.
@@ -41,21 +41,22 @@ std::string light_motion_note(F& f, const State& state) {
   constexpr double light = 1e-4;
   const int nv = f.velocities(), nc = f.constraints();
   if (nv == 0 || nv > most || !state.q.allFinite() || !state.v.allFinite()) return {};
+  const VecX possible = possible_masses(f, state);
   f.positions(state.t, state.q);
   f.velocities(state.v);
   f.dynamics();
   const VecX zero = VecX::Zero(nv), no_lambda = VecX::Zero(nc);
   VecX r0(nv), column(nv);
   f.residual(zero, no_lambda, 0.0, r0);
-  const double unit = std::max(1.0, r0.cwiseAbs().maxCoeff());
+  const VecX test = test_accelerations(r0, possible);
   MatX mass(nv, nv);
   for (int j = 0; j < nv; ++j) {
-    f.residual(unit * VecX::Unit(nv, j), no_lambda, 0.0, column);
-    mass.col(j) = (column - r0) / unit;
+    f.residual(test[j] * VecX::Unit(nv, j), no_lambda, 0.0, column);
+    mass.col(j) = (column - r0) / test[j];
   }
   const MatX J = f.constraint_jacobian();
   if (!mass.allFinite() || !J.allFinite()) return {};
-  MatX loose = light_directions(mass, J, light);
+  MatX loose = light_directions(mass, possible, J, light);
   if (loose.cols() > 0) loose = moving_frames(f, state, loose);
   if (loose.cols() == 0) return {};
   return fmt::format(
