@@ -53,6 +53,13 @@ TEST(Validate, ForcesRoadsInputs) {
       {[](D& d) { kind<JointSpringDescription>(d, 2).spring = {}; },
        "forces.motor.target: found without spring and damper, expected a law that pulls to the "
        "target"},
+      {[](D& d) {
+         kind<JointSpringDescription>(d, 2).spring = {};
+         kind<JointSpringDescription>(d, 2).target.reset();
+       },
+       "forces.motor: found no law, expected spring, damper, bump_stop, rebound_stop or actuator"},
+      {[](D& d) { kind<GuidedSpringDescription>(d, 1).damper = {}; },
+       "forces.guide: found no law, expected spring, damper, bump_stop, rebound_stop or actuator"},
       {[](D& d) { kind<TyreDescription>(d, 3).radius = 0.0; },
        "forces.tyre.radius: found 0, expected a positive number [m]"},
       {[](D& d) { kind<TyreDescription>(d, 3).stiffness = -1.0; },

@@ -64,6 +64,8 @@ TEST(Validate, Joints) {
          d.outputs.clear();
        },
        "joints.pin.position: a weld has no coordinates, expected no such key"},
+      {[](D& d) { d.joints[2].keep = true; },
+       "joints.ball.keep: found without 'position' and 'velocity', expected one of them to keep"},
       {[](D& d) { d.rods[0].length = 0.0; },
        "rods.rod.length: found 0, expected a positive number [m]"},
       {[](D& d) { d.rods[0].a.body = "block"; },
@@ -109,6 +111,18 @@ TEST(Validate, Joints) {
       {[](D& d) { d.rods[0].b.point.z() = nan; },
        "rods.rod.to.at[3]: found nan, expected a number [m] (numbers must be finite)"},
   });
+}
+
+// Squares of such components are zero.
+TEST(Validate, AxesOfTinyNumbersAreDirections) {
+  for (const Vec3& axis : {Vec3(1e-300, 1e-300, 0), Vec3(5e-324, 0, 0), Vec3(1e300, 0, -1e300)}) {
+    ModelDescription d = valid_description();
+    d.joints[0].axis = axis;
+    const Model model = build_model(d);
+    const auto frame = static_cast<std::size_t>(model.joints[0].frame_F);
+    const Vec3 z = model.markers[frame].X_NM.R.col(2);
+    EXPECT_LT((z - (axis / axis.cwiseAbs().maxCoeff()).normalized()).norm(), 1e-15);
+  }
 }
 
 const std::string long_name =

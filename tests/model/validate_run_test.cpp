@@ -45,7 +45,13 @@ TEST(Validate, Simulation) {
        "simulation.start: found 5, expected given, equilibrium or {state: file}"},
       {[](S& s) { s.start = Start::state; },
        "simulation.start: found no state, expected the state to start from"},
-      {[](S& s) { s.offset["block"].translation.x() = nan; },
+      {[](S& s) { s.offset["block"].translation.x() = 0.1; },
+       "simulation.start.offset: found without 'equilibrium: true' or 'state', expected where to "
+       "start from"},
+      {[](S& s) {
+         s.start = Start::equilibrium;
+         s.offset["block"].translation.x() = nan;
+       },
        "simulation.start.offset.block[1]: found nan, expected a number [m] (numbers must be "
        "finite)"},
   };

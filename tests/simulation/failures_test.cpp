@@ -118,6 +118,7 @@ ModelDescription jump() {
   force.name = "wall";
   JointSpringDescription spring;
   spring.joint = "rail";
+  spring.spring = PiecewisePolynomial::linear(1.0, 0.0);
   force.kind = spring;
   d.forces = {force};
   d.outputs = {position("x", "carriage", Vec3::Zero(), 0)};

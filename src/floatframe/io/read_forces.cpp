@@ -79,8 +79,7 @@ void laws(const ModelInstance& self, YamlSection& s, double free, PiecewisePolyn
       stop->finish();
       spring = spring + (bump ? ramp_below(length, stiffness) : ramp_above(length, stiffness));
     }
-  if (found == 0)
-    s.fault("found no law, expected spring, damper, bump_stop, rebound_stop or actuator");
+  if (found == 0) s.fault(sentences::no_law());
 }
 
 void spring_damper(const ModelInstance& self, YamlSection& s, ReadModel& model,

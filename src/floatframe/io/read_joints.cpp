@@ -119,7 +119,7 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   j.velocity = start_values(s, "velocity", j.type);
   j.keep = s.boolean("keep", false);
   if (j.keep && !s.has("position") && !s.has("velocity"))
-    s.get("keep")->fault("found without 'position' and 'velocity', expected one of them to keep");
+    s.get("keep")->fault(sentences::keep_alone());
   if (j.type == JointType::revolute || j.type == JointType::prismatic)
     if (const auto v = s.get("motion")) {
       j.motion =

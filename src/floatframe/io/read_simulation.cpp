@@ -56,7 +56,7 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
   }
   if (!offset) return;
   if (!state && !on.value_or(false))
-    offset->fault("found without 'equilibrium: true' or 'state', expected where to start from");
+    offset->fault(sentences::offset_alone());
   read_offset(self, *offset, d);
 }
 

@@ -59,7 +59,9 @@ struct ModelBuilder {
 
 /// v / |v|, also where |v|^2 overflows.
 inline Vec3 unit_vector(const Vec3& v) {
-  return std::isfinite(v.squaredNorm()) ? v.normalized() : v.stableNormalized();
+  const double square = v.squaredNorm();  // overflows, or is zero of tiny components
+  return std::isfinite(square) && square > 1e-280 ? v.normalized()
+                                                  : (v / v.cwiseAbs().maxCoeff()).normalized();
 }
 
 }  // namespace floatframe

@@ -52,8 +52,10 @@ std::string child_is_parent();
 std::string both_ends_on(const std::string& body);
 Complaint rod_ends(const Vec3& a, const Vec3& b);
 Complaint spring_ends(const Vec3& a, const Vec3& b);
+std::string no_law();
 std::string target_without_law();
 std::string motion_and_start_value();
+std::string keep_alone();
 std::string weld_has_no_coordinates();
 std::string not_used_by_joint(const std::string& type);
 /// The piece from which the law jumps, and the sentence.
@@ -76,6 +78,7 @@ Complaint column_name(const std::string& name);
 Complaint column_taken(const std::string& name, bool exists);
 Complaint model_name(const std::string& name);
 Complaint min_step(double min_step, double step);
+std::string offset_alone();
 /// More steps than a run can count and keep.
 Complaint steps(double duration, double step);
 

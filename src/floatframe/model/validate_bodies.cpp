@@ -142,12 +142,9 @@ void bodies(const ModelDescription& d, Faults& faults) {
       body.fault("mirror",
                  "found a matrix that is not diagonal with 1 and -1, expected a reflection at "
                  "planes normal to the axes");
-    if (const auto* r = std::get_if<RigidDescription>(&b.kind)) {
-      rigid(*r, body);
-      continue;
-    }
     body.vector("template.position", b.X_WT.p, "m");
     body.rotation("template.orientation", b.X_WT.R);
+    if (const auto* r = std::get_if<RigidDescription>(&b.kind)) rigid(*r, body);
     if (const auto* f = std::get_if<FlexibleDescription>(&b.kind)) flexible(*f, body);
     if (const auto* f = std::get_if<FlexibleBody>(&b.kind)) flexible(*f, body);
   }

@@ -21,10 +21,14 @@ struct ForceCheck {
   const Entity& entity;
 
   void laws(const PiecewisePolynomial& spring, const PiecewisePolynomial& damper,
-            const std::optional<SignalDescription>& actuator) const {
+            const std::optional<SignalDescription>& actuator, bool target = false) const {
     entity.pieces("spring", spring);
     entity.pieces("damper", damper);
     if (actuator) entity.signal("actuator", *actuator, names);
+    // Model files may give a law of zeros: the reader knows whether one is there.
+    if (entity.origin.mark.file.empty() && !actuator && !target && is_zero(spring) &&
+        is_zero(damper))
+      entity.fault(sentences::no_law());
   }
 
   void operator()(const SpringDamperDescription& s) const {
@@ -52,7 +56,7 @@ struct ForceCheck {
       if (type != JointType::revolute && type != JointType::prismatic)
         entity.fault("joint", "found '" + s.joint + "', expected a revolute or prismatic joint");
     }
-    laws(s.spring, s.damper, s.actuator);
+    laws(s.spring, s.damper, s.actuator, s.target || s.target_rate);
     const bool law = !is_zero(s.spring) || !is_zero(s.damper);
     const auto target = [&](const char* key, const std::optional<SignalDescription>& signal) {
       if (!signal) return;

@@ -47,6 +47,8 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
     entity.complain("axis_2", sentences::second_axis(j.axis, j.axis_2));
   start_values(entity, "position", j.position, j.type);
   start_values(entity, "velocity", j.velocity, j.type);
+  if (j.keep && j.position.empty() && j.velocity.empty())
+    entity.fault("keep", sentences::keep_alone());
   if (!j.motion) return;
   if (j.type != JointType::revolute && j.type != JointType::prismatic) {
     entity.fault("motion", sentences::not_used_by_joint(joint_type_name(j.type)));

@@ -32,6 +32,8 @@ void validate(const SimulationDescription& s, Faults& faults) {
   group.word("start", s.start, {"given", "equilibrium", "{state: file}"});
   if (s.start == Start::state && !s.state)
     group.fault("start", "found no state, expected the state to start from");
+  if (s.start == Start::given && !s.offset.empty())
+    group.fault("start.offset", sentences::offset_alone());
   for (const auto& [body, offset] : s.offset) {
     group.vector("start.offset." + body, offset.translation, "m");
     if (offset.rotation) group.vector("start.offset." + body, *offset.rotation, "rad");

@@ -182,12 +182,20 @@ Complaint spring_ends(const Vec3& a, const Vec3& b) {
   return "found both ends at the same point, expected two points apart";
 }
 
+std::string no_law() {
+  return "found no law, expected spring, damper, bump_stop, rebound_stop or actuator";
+}
+
 std::string target_without_law() {
   return "found without spring and damper, expected a law that pulls to the target";
 }
 
 std::string motion_and_start_value() {
   return "found with a prescribed motion, which decides it, expected no such key";
+}
+
+std::string keep_alone() {
+  return "found without 'position' and 'velocity', expected one of them to keep";
 }
 
 std::string weld_has_no_coordinates() { return "a weld has no coordinates, expected no such key"; }
@@ -273,6 +281,10 @@ Complaint min_step(double min_step, double step) {
   if (!(min_step > step)) return std::nullopt;
   return "found " + number_text(min_step) + ", expected at most the step, " + number_text(step) +
          " [s]";
+}
+
+std::string offset_alone() {
+  return "found without 'equilibrium: true' or 'state', expected where to start from";
 }
 
 Complaint steps(double duration, double step) {
