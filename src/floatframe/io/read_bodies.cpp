@@ -1,6 +1,7 @@
 // Bodies: position and orientation, rigid data, the choice between rigid and flexible.
 #include <cmath>
 
+#include "floatframe/body/surface_points.hpp"
 #include "floatframe/io/read_parts.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/rules.hpp"
@@ -179,6 +180,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
     known.nodes = std::move(flexible->nodes);
     known.named_nodes = std::move(flexible->named_nodes);
     known.modes = flexible->modes;
+    if (flexible->body && !part.on) remove_surface_points(*flexible->body);
     if (flexible->body)
       body.kind = std::move(*flexible->body);
     else

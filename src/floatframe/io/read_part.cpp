@@ -1,7 +1,9 @@
 // Parts of flexible bodies: bars written in the model file, finite-element files that are reduced
 // when the model is loaded, and files with a part that is reduced already.
 #include <filesystem>
+#include <iterator>
 
+#include "floatframe/body/surface_points.hpp"
 #include "floatframe/formats/sid_file.hpp"
 #include "floatframe/io/part_cache.hpp"
 #include "floatframe/io/read_parts.hpp"
@@ -19,6 +21,15 @@ FlexibleRead known_part(FlexibleBody body) {
   out.modes = body.modes();
   out.sound = true;
   out.body = std::move(body);
+  return out;
+}
+
+/// The surface of the part is watched too, but nothing can sit on it.
+FlexibleRead known_part(ReducedPart part) {
+  std::vector<ModalNode> points = surface_points(part.surface_positions, part.surface_modes);
+  FlexibleRead out = known_part(std::move(part.body));
+  out.body->nodes.insert(out.body->nodes.end(), std::make_move_iterator(points.begin()),
+                         std::make_move_iterator(points.end()));
   return out;
 }
 
@@ -46,7 +57,7 @@ FlexibleRead from_body_file(const ModelInstance& self, const ReadModel& model,
         model.options.say(who + ": the health report of '" + file + "' has " +
                           std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings") +
                           " (floatframe info shows it)");
-      return known_part(std::move(content.part.body));
+      return known_part(std::move(content.part));
     }
     SidBody sid = read_sid(file);
     note_file_read(file, file_hash(file));
@@ -72,7 +83,7 @@ FlexibleRead from_job(const ModelInstance& self, const ReadModel& model, const s
         cached_part(*job, part_cache_folder(folder.empty() ? "." : folder), who, model.options.say);
     for (const auto& [name, hash] : content.provenance.files)
       note_file_read((job->file.parent_path() / name).string(), hash);
-    return known_part(std::move(content.part.body));
+    return known_part(std::move(content.part));
   } catch (const InputError& error) {
     add_faults(value, error);
     return {};

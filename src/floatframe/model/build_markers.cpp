@@ -2,6 +2,7 @@
 #include <array>
 #include <limits>
 
+#include "floatframe/body/surface_points.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/rules.hpp"
@@ -23,7 +24,7 @@ std::array<double, 15> place_of(const Marker& m) {
 std::string no_node_named(const Body& body, const std::string& node) {
   std::vector<std::string> known;
   for (const ModalNode& n : body.data->nodes)
-    if (!n.name.empty()) known.push_back(n.name);
+    if (!n.name.empty() && !is_surface_point(n)) known.push_back(n.name);
   if (body.modes() == 0 && known.empty()) return sentences::node_on_rigid_body(body.name);
   return sentences::no_node_named(body.name, body.modes() > 0, node) + did_you_mean(node, known);
 }
@@ -49,7 +50,7 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
   const std::vector<ModalNode>& nodes = b.data->nodes;
   if (at.node) {
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (nodes[k].name == *at.node) m.node = static_cast<int>(k);
+      if (nodes[k].name == *at.node && !is_surface_point(nodes[k])) m.node = static_cast<int>(k);
     if (m.node < 0) {
       faults.add(mark, who + "." + node_key + ": " + no_node_named(b, *at.node));
       return -1;
@@ -58,6 +59,7 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
   } else if (b.modes() > 0) {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (is_surface_point(nodes[k])) continue;
       const double distance = (nodes[k].p - X_BM.p).norm();
       if (distance < best) {
         best = distance;

@@ -40,7 +40,7 @@ class Writer {
         [&](const std::string& body, const BodyRange& b, const Largest& x) {
           return fmt::format(
               "{} deforms too far for small deformations: from t = {:.4g} s on by more than {} of "
-              "its size of {:.3g} m, at t = {:.4g} s node {} is {:.3g} m ({}) off its place in the "
+              "its size of {:.3g} m, at t = {:.4g} s {} is {:.3g} m ({}) off its place in the "
               "body frame; divide it into several bodies",
               body, x.first, percent(limits_.displacement), b.size(), x.at, b.node_name(x.node),
               x.value, percent(x.value / b.size()));
@@ -55,7 +55,7 @@ class Writer {
           return fmt::format(
               "{} bends too far for small rotations: from t = {:.4g} s on by more than {:g} rad, "
               "at "
-              "t = {:.4g} s node {} is turned by {:.3g} rad in the body frame; divide it into "
+              "t = {:.4g} s {} is turned by {:.3g} rad in the body frame; divide it into "
               "several bodies",
               body, x.first, limits_.rotation, x.at, b.node_name(x.node), x.value);
         },

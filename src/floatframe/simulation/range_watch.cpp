@@ -1,11 +1,14 @@
 #include "floatframe/simulation/range_watch.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
+#include "floatframe/body/surface_points.hpp"
 #include "floatframe/math/dense.hpp"
 
 namespace floatframe {
@@ -83,8 +86,11 @@ void BodyRange::choose_nodes(const Model& model, int index) {
 
 std::string BodyRange::node_name(int node) const {
   if (node < 0) return "";
-  const std::string& name = data_.nodes[static_cast<std::size_t>(node)].name;
-  return name.empty() ? std::to_string(node + 1) : "'" + name + "'";
+  const ModalNode& n = data_.nodes[static_cast<std::size_t>(node)];
+  if (is_surface_point(n))
+    return fmt::format("the surface point at ({:.4g}, {:.4g}, {:.4g}) m", n.p.x(), n.p.y(),
+                       n.p.z());
+  return "node " + (n.name.empty() ? std::to_string(node + 1) : "'" + n.name + "'");
 }
 
 void BodyRange::observe(double t, double h, const Vec3& w, const double* y,

@@ -53,6 +53,7 @@ class BodyRange {
   const Largest& rotation() const { return rotation_; }          ///< [rad]
   const Largest& spin() const { return spin_; }                  ///< [rad/s]
   const Largest& turn() const { return turn_; }                  ///< [rad]
+  /// "node 'tip'", "node 7", "the surface point at (0.5, 0, 0.02) m" (of the undeformed body).
   std::string node_name(int node) const;
 
  private:
@@ -62,7 +63,8 @@ class BodyRange {
   double size_ = 0.0, lowest_ = 0.0;
   /// |stretch w| is the spin that pulls at the body: that about a slender body's axis does not.
   Mat3 stretch_ = Mat3::Zero();
-  std::vector<int> nodes_;    ///< that move or turn most in a mode, and those with markers
+  /// Those that move or turn most in a mode, and those with markers.
+  std::vector<int> nodes_;
   VecX displaced_, rotated_;  ///< largest motion and rotation of a node in each mode
   Largest displacement_, rotation_, spin_, turn_;
 };

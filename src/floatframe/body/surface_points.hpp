@@ -1,0 +1,21 @@
+#pragma once
+// Points of the surface of a part whose deformation is watched (docs/range.md). Its markers may
+// stand still where the part sags between them.
+#include "floatframe/body/flexible_body.hpp"
+
+namespace floatframe {
+
+/// Name of such points among the nodes of a body. They have no rotations of their own, so joints,
+/// forces and outputs cannot sit on them.
+inline constexpr const char* surface_point_name = "(point of the surface)";
+
+bool is_surface_point(const ModalNode& node) noexcept;
+
+/// The points that move most in a mode, at most one a mode. `positions`: 3 x points [m]; `modes`:
+/// three rows a point, one column a mode.
+std::vector<ModalNode> surface_points(const Mat3X& positions, const MatX& modes);
+
+/// Without them, as a body that does not deform is.
+void remove_surface_points(FlexibleBody& body);
+
+}  // namespace floatframe

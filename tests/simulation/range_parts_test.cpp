@@ -1,0 +1,81 @@
+// Parts from files: their surface is watched too, where the markers stand still.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "floatframe/body/surface_points.hpp"
+#include "floatframe/io/model_reader.hpp"
+#include "floatframe/simulation/simulation.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace floatframe::test {
+namespace {
+
+/// The bracket has markers foot, knee and eye, which mode 5 moves by 0, 0.02 and 0 m; a
+/// point of its surface moves by 1.09 m.
+class RangeOfParts : public testing::Test {
+ protected:
+  RangeOfParts() {
+    std::filesystem::copy_file(FLOATFRAME_TEST_DATA "/body_files/bracket_v1.ffb",
+                               folder_ / "bracket.ffb");
+  }
+  ModelDescription read(const std::string& rest, const std::string& part = "part: bracket.ffb") {
+    return read_model(folder_.write(
+        "model.yaml", "floatframe: 1\ngravity: [0, 0, 0]\nbodies: {arm: {" + part +
+                          "}}\njoints: {foot: {type: weld, child: arm, child_node: foot}}\n" +
+                          rest));
+  }
+  /// What is said about displacements; that the markers turn is said apart.
+  std::string far(double amplitude, Coordinates coordinates) {
+    ModelDescription d =
+        read("initial: {amplitudes: {arm: [0, 0, 0, 0, " + std::to_string(amplitude) +
+             "]}}\nsimulation: {step: 1e-7, duration: 1e-6}\n");
+    d.simulation.coordinates = coordinates;
+    for (const std::string& w : run(build_model(d), d.simulation).summary.warnings)
+      if (w.find("body 'arm' deforms too far") != std::string::npos) return w;
+    return "";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RangeOfParts, SurfaceBetweenMarkersThatStandStill) {
+  for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+    const std::string sentence = far(0.4, c);
+    EXPECT_NE(sentence.find("s the surface point at ("), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find(" m is 0.436 m ("), std::string::npos) << sentence;
+    EXPECT_EQ(far(0.04, c), "");
+  }
+}
+
+TEST_F(RangeOfParts, AtMostOnePointAModeAndNoneWhenRigid) {
+  const auto points = [&](const std::string& part) {
+    const Model m = build_model(read("", part));
+    const std::vector<ModalNode>& nodes = m.bodies[0].data->nodes;
+    EXPECT_EQ(nodes[2].name, "eye");
+    return std::count_if(nodes.begin(), nodes.end(), is_surface_point);
+  };
+  const auto some = points("part: bracket.ffb");
+  EXPECT_GE(some, 1);
+  EXPECT_LE(some, 5);
+  EXPECT_EQ(points("part: bracket.ffb, flexible: false"), 0);
+}
+
+// A surface point has no rotations: what sits on a part sits on its markers.
+TEST_F(RangeOfParts, NothingSitsOnTheSurface) {
+  const Model m = build_model(read(""));
+  const Vec3 p = m.bodies[0].data->nodes.back().p;
+  ASSERT_TRUE(is_surface_point(m.bodies[0].data->nodes.back()));
+  ModelDescription d = read("outputs: {x: {position: {body: arm, node: eye}}}\n");
+  d.outputs.at(0).at.node.reset();
+  d.outputs.at(0).at.point = p;
+  const std::string error = error_of([&] { build_model(d); });
+  EXPECT_NE(error.find("expected one of its nodes"), std::string::npos) << error;
+  d.outputs.at(0).at.node = surface_point_name;
+  EXPECT_NE(error_of([&] { build_model(d); }), "no error");
+}
+
+}  // namespace
+}  // namespace floatframe::test
