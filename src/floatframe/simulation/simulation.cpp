@@ -9,6 +9,7 @@
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/validate.hpp"
+#include "floatframe/simulation/forcing.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/light_motion.hpp"
 #include "floatframe/simulation/redundancy.hpp"
@@ -119,7 +120,11 @@ RunResult run_with(F& f, State start, StartReport start_report, const Simulation
     result.state = std::make_shared<SystemState>(system_state(f, runner.state(), *joints));
     place_bodies(model, o.inertia, *result.state);
   }
-  if (watch) watch->finish(runner.state(), o.spectral_radius, s);
+  if (watch) {
+    watch->finish(runner.state(), o.spectral_radius, s);
+    const auto unresolved = unresolved_forcing(model, o.step, begin, o.duration);
+    s.warnings.insert(s.warnings.begin(), unresolved.begin(), unresolved.end());
+  }
   return result;
 }
 
