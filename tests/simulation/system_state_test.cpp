@@ -295,6 +295,10 @@ TEST(SystemState, OfAnotherModel) {
             "s.json: found numbers that are not finite at joint 'arm'");
   EXPECT_EQ(start([](SystemState& s) { s.time = INFINITY; }),
             "s.json: found a time that is not finite");
+  const std::string late = start([](SystemState& s) { s.time = -1e17; });
+  EXPECT_EQ(late.substr(0, late.find(" of ")), "s.json: found the time -1e+17 s, at which steps");
+  EXPECT_EQ(start([&](SystemState& s) { s.time = 0.9e9 * model.simulation.step; }), "no fault");
+  EXPECT_NE(start([&](SystemState& s) { s.time = 1.1e9 * model.simulation.step; }), "no fault");
   EXPECT_EQ(start([](SystemState& s) { s.bodies[1].amplitudes = VecX::Zero(2); }),
             "s.json: found 2 amplitudes and 0 rates of body 'wheel' in the state, expected 0");
   const std::string moved = start([](SystemState& s) { s.bodies[0].position.z() += 0.5; });

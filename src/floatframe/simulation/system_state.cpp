@@ -59,6 +59,17 @@ bool finite(const std::vector<double>& v) {
   return true;
 }
 
+/// A step must show in the time, to enough digits that functions of time see it.
+void check_time(const SystemState& state, double step) {
+  constexpr double digits = 1e-9;
+  if (step >= digits * std::abs(state.time)) return;
+  throw InputError(
+      {state.file, 0, 0},
+      fmt::format("found the time {:g} s, at which steps of {:g} s get lost in rounding, expected "
+                  "at most {:g} s: steps of at least {:g} of the time",
+                  state.time, step, step / digits, digits));
+}
+
 /// Poses and velocities of f against those kept with the state.
 void compare_bodies(const RelativeFormulation& f, const SystemState& state) {
   for (std::size_t i = 0; i < f.model().bodies.size(); ++i) {
@@ -132,6 +143,7 @@ State start_state(RelativeFormulation& f, const SimulationDescription& o, StartR
   State state;
   if (o.start == Start::state && o.state) {
     const Model values = with_start_values(f.model(), *o.state);
+    check_time(*o.state, o.step);
     state.t = o.state->time;
     f.start(values, state.t, state.q, state.v);
     f.positions(state.t, state.q);
