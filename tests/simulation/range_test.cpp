@@ -159,6 +159,14 @@ TEST(Range, NoiseIsNoMotion) {
     }
 }
 
+TEST(Range, NothingHasMass) {
+  for (const Coordinates c : both) {
+    const RunSummary s = summary_of(RANGE("massless"), {}, c);
+    EXPECT_EQ(s.status, "completed");
+    EXPECT_TRUE(s.warnings.empty()) << s.warnings.front();
+  }
+}
+
 TEST(Range, StepLongerThanTheDuration) {
   ModelDescription d = read_model(RANGE("pendulum"));
   const Model model = build_model(d);

@@ -22,6 +22,11 @@ class RunWatch {
     int modes = 0;
     for (const Body& b : f_.model().bodies) modes = std::max(modes, b.modes());
     y_ = VecX::Zero(modes);
+    double total = 0.0;
+    for (const Body& b : f_.model().bodies) mass_.push_back(b.data->invariants.m);
+    for (const double m : mass_) total += m;
+    // Without any mass the penalty is scaled by 1 kg, and so is what rounding leaves of it.
+    if (total == 0.0) mass_.assign(mass_.size(), massless * f_.model().mean_mass);
   }
 
   /// At the start of the run; `lambda` belongs to its accelerations.
@@ -61,6 +66,9 @@ class RunWatch {
   /// In a run: the work is summed over all steps, so that a remainder does not get lost between
   /// checks. Each costs as much as 8 % of a step of a vehicle, all else that is watched 2 %.
   static constexpr long energy_checks = 50;
+  /// Of the mean mass, for bodies in a model without mass: a millionth of their energy is the least
+  /// that counts as exchanged, and rounding is 1e-11 of it.
+  static constexpr double massless = 1e-4;
 
   void evaluate(const State& s) noexcept {
     f_.positions(s.t, s.q);
@@ -80,7 +88,7 @@ class RunWatch {
       const int body = static_cast<int>(i);
       const double fastest =
           f_.body_velocity(body).norm() + f_.body_angular_velocity(body).norm() * b.length;
-      e.motion += 0.5 * b.data->invariants.m * fastest * fastest;
+      e.motion += 0.5 * mass_[i] * fastest * fastest;
     }
     return e;
   }
@@ -110,6 +118,7 @@ class RunWatch {
   RangeWatch watch_;
   EnergyBalance balance_;
   VecX y_;
+  std::vector<double> mass_;  ///< of the bodies, for the energy of their motion [kg]
   long every_, records_ = 0;
 };
 
