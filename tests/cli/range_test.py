@@ -58,6 +58,26 @@ class Range(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.assertEqual(self.summary["warnings"], [])
 
+    def test_an_equilibrium_out_of_range(self):
+        def statics(*arguments):
+            return subprocess.run([BINARY, "statics", str(MODELS / "cantilever.yaml"), *arguments], capture_output=True, text=True,
+                                  timeout=300)
+        done = statics("--json")
+        warnings = json.loads(done.stdout)["warnings"]
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(len(warnings), 2)
+        self.assertRegex(warnings[0], "^body 'beam' deforms too far for small deformations: in the equilibrium node 'tip' is ")
+        self.assertIn("more than 10 % of its size of 1 m", warnings[0])
+        self.assertRegex(warnings[1], "^body 'beam' bends too far for small rotations: in the equilibrium node 'tip' is turned by ")
+        said = "".join(f"floatframe: warning: {w}\n" for w in warnings)
+        self.assertEqual(done.stderr, said)
+        plain, strict = statics(), statics("--strict")
+        self.assertEqual((plain.returncode, plain.stderr), (0, said))
+        self.assertEqual((strict.returncode, strict.stdout), (1, plain.stdout))
+        self.assertEqual(strict.stderr, said + "floatframe: the equilibrium counts as failed: 2 warnings count as errors under --strict\n")
+        little = statics("--set", "load=3.5", "--strict", "--json")
+        self.assertEqual((little.returncode, little.stderr, json.loads(little.stdout)["warnings"]), (0, "", []))
+
     def test_balance_is_complete(self):
         self.assertEqual(self.run_model(MODELS / "springs.yaml", "--no-report").returncode, 0)
         energy = self.summary["energy"]

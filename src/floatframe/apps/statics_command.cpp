@@ -11,6 +11,7 @@
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/io/state_json.hpp"
 #include "floatframe/io/summary_json.hpp"
+#include "floatframe/simulation/range_watch.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -88,15 +89,27 @@ std::string redundancy_note(const StaticsResult& statics) {
       redundancy_text(statics.redundant));
 }
 
-int show_statics(const ModelArguments& arguments, bool json, const std::string& write_state) {
+/// Says them; the exit code.
+int warn(const std::vector<std::string>& warnings, bool strict) {
+  for (const std::string& warning : warnings) say("warning: " + warning);
+  if (warnings.empty() || !strict) return 0;
+  say(fmt::format("the equilibrium counts as failed: {} under --strict",
+                  plural(static_cast<long>(warnings.size()), "warning counts as an error",
+                         "warnings count as errors")));
+  return 1;
+}
+
+int show_statics(const ModelArguments& arguments, bool json, bool strict,
+                 const std::string& write_state) {
   require_writable(write_state);
   const ModelDescription description = read_model(arguments);
   const Model model = build_model(description);
   const StaticsResult result = statics(model);
   if (!write_state.empty()) write_file(write_state, state_json(*result.state));
+  const std::vector<std::string> warnings = equilibrium_warnings(model, result.bodies);
   if (json) {
-    print(statics_json(description.name, result));
-    return 0;
+    print(statics_json(description.name, result, warnings));
+    return warn(warnings, strict);
   }
   print(fmt::format("{}: static equilibrium after {}, largest unbalanced force {:.2g} N\n",
                     description.name, plural(result.iterations, "iteration"), result.residual) +
@@ -106,7 +119,7 @@ int show_statics(const ModelArguments& arguments, bool json, const std::string& 
         "world axes, about "
         "the\njoint's point. Bodies: origin of the body frame; angles from the design pose.\n" +
         redundancy_note(result));
-  return 0;
+  return warn(warnings, strict);
 }
 
 }  // namespace
@@ -123,9 +136,14 @@ void add_statics_command(CLI::App& app, Action& action) {
       ->add_option("--write-state", *state,
                    "Write the equilibrium as a state, for start: {state: FILE}")
       ->type_name("FILE");
-  command->footer("Exit codes: 0 found, 1 no equilibrium, 2 bad input.");
-  command->callback([arguments, json, state, &action] {
-    action = [arguments, json, state] { return show_statics(*arguments, *json, *state); };
+  auto strict = std::make_shared<bool>(false);
+  command->add_flag("--strict", *strict, "Warnings count as errors: exit code 1");
+  command->footer(
+      "Exit codes: 0 found, 1 no equilibrium or, with --strict, warnings, 2 bad input.");
+  command->callback([arguments, json, strict, state, &action] {
+    action = [arguments, json, strict, state] {
+      return show_statics(*arguments, *json, *strict, *state);
+    };
   });
 }
 

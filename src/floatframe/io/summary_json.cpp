@@ -123,7 +123,8 @@ std::string counts_json(const ModelCounts& c) {
   return dump(json);
 }
 
-std::string statics_json(const std::string& model, const StaticsResult& statics) {
+std::string statics_json(const std::string& model, const StaticsResult& statics,
+                         const std::vector<std::string>& warnings) {
   Json forces = Json::array(), joints = Json::array(), bodies = Json::array();
   for (const StaticsForce& f : statics.forces) {
     forces.push_back({{"name", f.name},
@@ -153,7 +154,8 @@ std::string statics_json(const std::string& model, const StaticsResult& statics)
                      {"forces", forces},
                      {"joints", joints},
                      {"bodies", bodies},
-                     {"redundant", redundant_directions(statics.redundant)}};
+                     {"redundant", redundant_directions(statics.redundant)},
+                     {"warnings", warnings}};
   return dump(json);
 }
 

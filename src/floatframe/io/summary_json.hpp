@@ -13,7 +13,9 @@ std::string summary_json(const RunSummary& summary);
 /// Of a check: numbers of bodies, joints, coordinates and constraints in both formulations.
 std::string counts_json(const ModelCounts& counts);
 
-/// Of a static equilibrium: forces [N], torques [N m], positions [m], angles [rad].
-std::string statics_json(const std::string& model, const StaticsResult& statics);
+/// Of a static equilibrium: forces [N], torques [N m], positions [m], angles [rad]; `warnings`:
+/// where it leaves the range of the method.
+std::string statics_json(const std::string& model, const StaticsResult& statics,
+                         const std::vector<std::string>& warnings = {});
 
 }  // namespace floatframe

@@ -38,6 +38,13 @@ class Writer {
         &BodyRange::displacement,
         [&](const BodyRange& b) { return limits_.displacement * b.size(); },
         [&](const std::string& body, const BodyRange& b, const Largest& x) {
+          if (at_rest())
+            return fmt::format(
+                "{} deforms too far for small deformations: in the equilibrium {} is {:.3g} m ({}) "
+                "off its place in the body frame, more than {} of its size of {:.3g} m; divide it "
+                "into several bodies",
+                body, b.node_name(x.node), x.value, percent(x.value / b.size()),
+                percent(limits_.displacement), b.size());
           return fmt::format(
               "{} deforms too far for small deformations: from t = {:.4g} s on by more than {} of "
               "its size of {:.3g} m, at t = {:.4g} s {} is {:.3g} m ({}) off its place in the "
@@ -52,6 +59,11 @@ class Writer {
     about_worst(
         &BodyRange::rotation, [&](const BodyRange&) { return limits_.rotation; },
         [&](const std::string& body, const BodyRange& b, const Largest& x) {
+          if (at_rest())
+            return fmt::format(
+                "{} bends too far for small rotations: in the equilibrium {} is turned by {:.3g} "
+                "rad in the body frame, more than {:g} rad; divide it into several bodies",
+                body, b.node_name(x.node), x.value, limits_.rotation);
           return fmt::format(
               "{} bends too far for small rotations: from t = {:.4g} s on by more than {:g} rad, "
               "at "
@@ -170,6 +182,8 @@ class Writer {
     out.push_back(sentence(subject(worst), b, (b.*measure)()));
   }
 
+  bool at_rest() const { return step_ == 0.0; }
+
   std::string subject(const Worst& worst) const {
     const std::string name =
         "body '" + model_.bodies[static_cast<std::size_t>(worst.body)].name + "'";
@@ -184,6 +198,22 @@ class Writer {
 };
 
 }  // namespace
+
+std::vector<std::string> equilibrium_warnings(const Model& model,
+                                              const std::vector<StaticsBody>& bodies,
+                                              const RangeLimits& limits) {
+  std::vector<BodyRange> ranges;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    ranges.emplace_back(model, static_cast<int>(i));
+    if (model.bodies[i].modes() > 0)
+      ranges.back().observe(0.0, 0.0, Vec3::Zero(), bodies[i].amplitudes.data(), limits);
+  }
+  const Writer writer(model, ranges, 0.0, limits);
+  std::vector<std::string> out;
+  writer.displacement(out);
+  writer.rotation(out);
+  return out;
+}
 
 std::vector<std::string> RangeWatch::sentences(const EnergySummary& energy,
                                                double spectral_radius) const {
