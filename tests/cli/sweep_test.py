@@ -144,6 +144,42 @@ class Spreading(Sweep):
         self.assertEqual(done.returncode, 0)
 
 
+# Clamped at one end, loaded at the other: the second and third run bend it out of the range of the method.
+CANTILEVER = pathlib.Path(__file__).resolve().parents[1] / "data" / "range" / "cantilever.yaml"
+LOADS = ("--vary", "load=3.5,100,385", "--duration", "0.1")
+
+
+class Warnings(Sweep):
+    def test_runs_out_of_range_are_said_at_the_end(self):
+        done = self.sweep(0, CANTILEVER, *LOADS, "--quiet", "--keep-results", "--out", "out")
+        self.assertEqual(done.stdout, "")
+        said = done.stderr.splitlines()
+        self.assertEqual(said[0], "floatframe: warning: 2 of 3 runs left the range of the method")
+        summaries = [json.loads((self.folder / f"out/runs/{k}/summary.json").read_text()) for k in (1, 2, 3)]
+        self.assertEqual([len(s["warnings"]) for s in summaries], [0, 2, 2])
+        self.assertIn("deforms too far", summaries[1]["warnings"][0])
+        self.assertEqual(said[1:], [f"floatframe: warning: run 2 (and 1 more): {w}" for w in summaries[1]["warnings"]])
+        rows = self.rows("out")
+        self.assertEqual([(r["status"], r["message"]) for r in rows], [("completed", "")] * 3)
+        self.assertFalse(any("warning" in title for title in rows[0]))
+        # What is said comes from the journal: also of runs that an earlier call has made. A run without has none there.
+        for line in self.journal("out")[1:]:
+            self.assertEqual('"warnings"' in line, '"run":1,' not in line)
+        self.assertEqual(self.sweep(0, CANTILEVER, *LOADS, "--quiet", "--keep-results", "--out", "out").stderr, done.stderr)
+        self.assertEqual(self.sweep(0, CANTILEVER, "--vary", "load=1,3.5", "--duration", "0.1", "--quiet", "--out", "few").stderr, "")
+
+    def test_strict_makes_them_failed_rows(self):
+        done = self.sweep(1, CANTILEVER, *LOADS, "--quiet", "--strict", "--keep-results", "--out", "out")
+        summary = json.loads((self.folder / "out/runs/2/summary.json").read_text())
+        self.assertEqual((summary["status"], summary["message"]),
+                         ("failed", "2 warnings count as errors under --strict; the results are complete"))
+        rows = self.rows("out")
+        self.assertEqual([r["status"] for r in rows], ["completed", "failed", "failed"])
+        self.assertEqual(rows[1]["message"], summary["warnings"][0] + " (and 1 more)")
+        self.assertEqual(float(rows[1]["time reached [s]"]), summary["duration_s"])
+        self.assertIn(f"floatframe: 2 of 3 runs failed, the first is run 2: {rows[1]['message']}\n", done.stderr)
+
+
 class Continuing(Sweep):
     def test_killed_study_repeats_no_finished_run(self):
         process = self.start(CRANK, *LONG, "--threads", 2, "--out", "out", "--keep-results")
@@ -190,7 +226,8 @@ class Continuing(Sweep):
                 ((CRANK, "--vary", "rate=40:60:3", "--duration", "0.02"), "the varied parameters or their values differ"),
                 ((CRANK, *GRID[:-1], "0.03"), "the values that are the same for all runs differ"),
                 ((CRANK, *GRID, "--measure", "slider.x"), "the outputs measured differ"),
-                ((CRANK, *GRID, "--keep-results"), "one keeps the results of its runs, the other does not")):
+                ((CRANK, *GRID, "--keep-results"), "one keeps the results of its runs, the other does not"),
+                ((CRANK, *GRID, "--strict"), "warnings count as errors in one, in the other not")):
             done = self.sweep(2, *arguments, "--out", "out")
             self.assertEqual(done.stderr, f"floatframe: 'out/sweep.journal' holds another study ({reason}); "
                                           "give another --out to keep it, or --fresh to replace it\n")

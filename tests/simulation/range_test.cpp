@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <set>
 
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/io/model_reader.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/run_watch.hpp"
 #include "floatframe/simulation/runner.hpp"
 #include "simulation/figures.hpp"
@@ -70,6 +72,25 @@ TEST(Range, PendulumWithAStepOfHalfASecond) {
     EXPECT_TRUE(says(warning(s, "is too long for"), "steps to a period"));
     EXPECT_TRUE(says(warning(s, "energy balance does not close"), "J exchanged (limit 5 %)"));
   }
+}
+
+// What a study needs to say each only once.
+TEST(Range, SentencesAreOfKinds) {
+  std::set<std::string> kinds;
+  std::size_t sentences = 0;
+  for (const char* file : {RANGE("cantilever"), RANGE("pendulum")})
+    for (const std::string& w : summary_of(file, {}, Coordinates::relative).warnings) {
+      EXPECT_LT(warning_kind(w).size(), 45u) << w;
+      kinds.insert(warning_kind(w));
+      ++sentences;
+    }
+  EXPECT_GE(sentences, 4u);
+  EXPECT_EQ(kinds.size(), sentences);
+  EXPECT_EQ(warning_kind(warning(summary_of(RANGE("cantilever"), {}, Coordinates::relative),
+                                 "bends too far")),
+            warning_kind(
+                warning(summary_of(RANGE("cantilever"), {{"load", "200"}}, Coordinates::absolute),
+                        "bends too far")));
 }
 
 TEST(Range, PendulumWithAStepThatResolvesIt) {

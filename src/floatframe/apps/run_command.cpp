@@ -17,6 +17,7 @@
 #include "floatframe/io/summary_json.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model/validate.hpp"
+#include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -101,16 +102,6 @@ FactTable setting_facts(const RunArguments& arguments, const SimulationDescripti
     facts.rows.push_back({"parameter set", setting});
   }
   return facts;
-}
-
-/// A run that left the range of the method counts as failed; its results are complete.
-void make_strict(RunSummary& s) {
-  if (s.status != "completed" || s.warnings.empty()) return;
-  s.status = "failed";
-  s.strict = true;
-  s.message = fmt::format("{} under --strict; the results are complete",
-                          plural(static_cast<long>(s.warnings.size()), "warning counts as an error",
-                                 "warnings count as errors"));
 }
 
 void write_outputs(const OutputPaths& paths, const RunArguments& arguments, Report&& report) {

@@ -31,7 +31,7 @@ struct SweepArguments {
   std::vector<std::string> vary, measures;
   std::string table, out, coordinates, inertia, step, duration, case_timeout, case_memory;
   int threads = 0;
-  bool keep_results = false, fresh = false, retry_failed = false, quiet = false;
+  bool keep_results = false, fresh = false, retry_failed = false, strict = false, quiet = false;
 };
 
 /// Processors this process may use, shared with the other processes of the study on this machine.
@@ -112,6 +112,7 @@ SweepOptions options_from(const SweepArguments& a) {
   o.keep_results = a.keep_results;
   o.fresh = a.fresh;
   o.retry_failed = a.retry_failed;
+  o.strict = a.strict;
   if (!a.case_timeout.empty()) o.limits.seconds = positive_number("--case-timeout", a.case_timeout);
   o.limits.megabytes = megabytes(a.case_memory);
   o.folder = a.out;
@@ -134,6 +135,16 @@ std::string report_text(const SweepReport& r, double seconds, int at_a_time, int
                         r.before > 0 ? fmt::format(", {} were finished before", r.before) : "");
   text += fmt::format("  table    {}\n  journal  {}\n", r.table, r.journal);
   return text;
+}
+
+/// How many runs left the range of the method, and the first sentence of each kind.
+void say_warnings(const SweepReport& r) {
+  if (r.warned == 0) return;
+  const std::string runs = plural(static_cast<long>(r.runs), "run");
+  say(fmt::format("warning: {} of {} left the range of the method", r.warned, runs));
+  for (const SweepWarnings& w : r.warnings)
+    say(fmt::format("warning: run {}{}: {}", w.first,
+                    w.runs > 1 ? fmt::format(" (and {} more)", w.runs - 1) : "", w.sentence));
 }
 
 int lead(const SweepArguments& arguments, const SweepOptions& options, SweepWorkers& workers,
@@ -162,6 +173,7 @@ int lead(const SweepArguments& arguments, const SweepOptions& options, SweepWork
   }
   if (!arguments.quiet)
     print(report_text(report, passed.count(), options.threads, ranks ? ranks->size() : 1));
+  say_warnings(report);
   if (report.failed == 0) return 0;
   say(fmt::format("{} of {} failed, the first is run {}: {}", report.failed,
                   plural(static_cast<long>(report.runs), "run"), report.first_failed,
@@ -253,6 +265,7 @@ void add_sweep_command(CLI::App& app, Action& action) {
                     "Keep results.csv and summary.json of every run below DIR/runs");
   command->add_flag("--fresh", a->fresh, "Do not continue the study in DIR: start again");
   command->add_flag("--retry-failed", a->retry_failed, "Continue, and repeat the runs that failed");
+  command->add_flag("--strict", a->strict, "A run with warnings has failed; its figures are kept");
   command
       ->add_option("--case-timeout", a->case_timeout,
                    "A run that takes longer is stopped and has failed")
@@ -261,7 +274,8 @@ void add_sweep_command(CLI::App& app, Action& action) {
       ->add_option("--case-memory", a->case_memory,
                    "A run that needs more memory is stopped and has failed [MB]")
       ->type_name("MB");
-  command->add_flag("--quiet", a->quiet, "No progress bar, no summary; errors are still shown");
+  command->add_flag("--quiet", a->quiet,
+                    "No progress bar, no summary; errors and warnings are still shown");
   command->footer(
       "NAME is a parameter of the model file or else a simulation option: coordinates, inertia,\n"
       "start, step, duration, output_interval, spectral_radius, tolerance, ... (simulation.step "

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/run_queue.hpp"
 #include "floatframe/sweep/sweep_check.hpp"
@@ -144,12 +146,26 @@ class Coordinator {
   RunQueue queue_;
 };
 
+void add_warnings(std::size_t run, const SweepRow& row, SweepReport& report) {
+  report.warned += row.warnings.empty() ? 0 : 1;
+  for (const std::string& sentence : row.warnings) {
+    const std::string kind = warning_kind(sentence);
+    auto known =
+        std::find_if(report.warnings.begin(), report.warnings.end(),
+                     [&](const SweepWarnings& w) { return warning_kind(w.sentence) == kind; });
+    if (known == report.warnings.end())
+      known = report.warnings.insert(known, {0, run + 1, sentence});
+    ++known->runs;
+  }
+}
+
 SweepReport report_of(const SweepOptions& o, const SweepJournal& journal, std::size_t before) {
   SweepReport report;
   report.runs = o.plan.runs.size();
   report.finished = journal.finished().size();
   report.before = before;
   for (const auto& [run, row] : journal.finished()) {
+    add_warnings(run, row, report);
     if (row.status == "completed") continue;
     if (++report.failed == 1) {
       report.first_failed = run + 1;

@@ -34,6 +34,7 @@ struct SweepOptions {
   bool keep_results = false;  ///< results.csv and summary.json of every run below runs/<number>
   bool fresh = false;         ///< do not continue what is in the folder
   bool retry_failed = false;  ///< repeat the runs that failed, whatever the reason
+  bool strict = false;        ///< a run with warnings has failed
 };
 
 struct SweepProgress {
@@ -43,6 +44,12 @@ struct SweepProgress {
   double in_work = 0.0;             ///< sum of the fractions done of the runs in work
 };
 
+/// Warnings of one kind in a study.
+struct SweepWarnings {
+  std::size_t runs = 0, first = 0;  ///< how many have one; number from 1 of the first
+  std::string sentence;             ///< of the first
+};
+
 struct SweepReport {
   std::size_t runs = 0;      ///< of the study
   std::size_t finished = 0;  ///< of these; fewer only if interrupted
@@ -50,6 +57,8 @@ struct SweepReport {
   std::size_t failed = 0;
   std::size_t first_failed = 0;  ///< number from 1, 0: none
   std::string first_message;
+  std::size_t warned = 0;  ///< runs with warnings about the range of the method
+  std::vector<SweepWarnings> warnings;
   bool interrupted = false;
   std::string table;    ///< path of the table; empty if interrupted
   std::string journal;  ///< its path

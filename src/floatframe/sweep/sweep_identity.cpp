@@ -22,7 +22,8 @@ std::string study_hash(const SweepOptions& o, const std::string& first_run) {
   ContentHash hash;
   hash.add(program_identity())
       .add(plan_hash(o.plan))
-      .add(static_cast<std::uint64_t>(o.keep_results));
+      .add(static_cast<std::uint64_t>(o.keep_results))
+      .add(static_cast<std::uint64_t>(o.strict));
   for (const SweepSetting& s : o.fixed) hash.add(s.name).add(s.value);
   for (const SweepMeasure& m : o.measures) hash.add(m.output).add(m.statistic);
   return hash.add(first_run).text();
@@ -38,6 +39,8 @@ SweepIdentity identity_of(const SweepOptions& o) {
   identity.emplace_back("the outputs measured differ", measures);
   identity.emplace_back("one keeps the results of its runs, the other does not",
                         o.keep_results ? "yes" : "no");
+  identity.emplace_back("warnings count as errors in one, in the other not",
+                        o.strict ? "yes" : "no");
   return identity;
 }
 

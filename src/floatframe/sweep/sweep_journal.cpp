@@ -81,6 +81,7 @@ bool row_of(const Json& json, std::size_t& run, SweepRow& row) {
     run = number - 1;
     row = {json.at("status"), json.at("message"), {}};
     for (const Json& field : json.at("fields")) row.fields.emplace_back(field.at(0), field.at(1));
+    if (json.contains("warnings")) json.at("warnings").get_to(row.warnings);
   } catch (const Json::exception&) {
     return false;
   }
@@ -98,10 +99,12 @@ InputError another_study(const std::string& path, const std::string& difference)
 std::string encode_row(std::size_t run, const SweepRow& row) {
   Json fields = Json::array();
   for (const auto& [title, value] : row.fields) fields.push_back({title, value});
-  return line_of({{"run", run + 1},
-                  {"status", row.status},
-                  {"message", row.message},
-                  {"fields", std::move(fields)}});
+  Json line = {{"run", run + 1},
+               {"status", row.status},
+               {"message", row.message},
+               {"fields", std::move(fields)}};
+  if (!row.warnings.empty()) line["warnings"] = row.warnings;
+  return line_of(line);
 }
 
 bool decode_row(const std::string& text, std::size_t& run, SweepRow& row) {

@@ -65,7 +65,7 @@ SweepMeasure sweep_measure(const std::string& text) {
 
 SweepRow sweep_row(const RunResult& result, const std::vector<SweepMeasure>& measures) {
   const RunSummary& s = result.summary;
-  SweepRow row{s.status, s.message, {}};
+  SweepRow row{s.status, s.message, {}, s.warnings};
   const auto add = [&](std::string title, std::string value) {
     row.fields.emplace_back(std::move(title), std::move(value));
   };
@@ -103,6 +103,14 @@ SweepRow sweep_row(const RunResult& result, const std::vector<SweepMeasure>& mea
     add_figure("rms", "rms", f.rms, unit);
   }
   return row;
+}
+
+void make_strict(SweepRow& row) {
+  if (row.status != "completed" || row.warnings.empty()) return;
+  row.status = "failed";
+  row.message = row.warnings.front();
+  if (row.warnings.size() > 1)
+    row.message += fmt::format(" (and {} more)", row.warnings.size() - 1);
 }
 
 SweepRow failed_row(const std::string& message) { return {"failed", message, {}}; }

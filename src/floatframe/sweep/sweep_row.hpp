@@ -13,6 +13,8 @@ struct SweepRow {
   std::string status;                                       ///< "completed" or "failed"
   std::string message;                                      ///< why it failed
   std::vector<std::pair<std::string, std::string>> fields;  ///< column title, value
+  /// Where the run left the range of the method; not in the table.
+  std::vector<std::string> warnings = {};
 };
 
 /// Which figures of which outputs go into the table.
@@ -30,6 +32,9 @@ SweepMeasure sweep_measure(const std::string& text);
 /// smallest and largest sample and their times, and the root of the mean square over time
 /// (trapezoidal rule between samples). Holds no processor times.
 SweepRow sweep_row(const RunResult& result, const std::vector<SweepMeasure>& measures);
+
+/// A run whose warnings count as errors has failed; its figures are complete.
+void make_strict(SweepRow& row);
 
 /// A run that could not start.
 SweepRow failed_row(const std::string& message);

@@ -11,6 +11,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/io/results_csv.hpp"
 #include "floatframe/io/summary_json.hpp"
+#include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
 
@@ -135,6 +136,10 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
     try {
       result = floatframe::run(*shared, prepared.simulation, options);
       row = sweep_row(result, options_.measures);
+      if (options_.strict) {
+        make_strict(row);
+        make_strict(result.summary);
+      }
     } catch (const RunError& error) {
       row = failed_row(error.what());
       result.summary = failed_summary(shared->name, prepared.simulation, error.what());
