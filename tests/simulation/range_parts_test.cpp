@@ -50,7 +50,26 @@ TEST_F(RangeOfParts, SurfaceBetweenMarkersThatStandStill) {
   }
 }
 
-TEST_F(RangeOfParts, AtMostOnePointAModeAndNoneWhenRigid) {
+// Both modes move the marker at the end most; together they may leave it where it is.
+TEST(SurfacePoints, BetweenMarkersInACombinationOfModes) {
+  FlexibleBody body;
+  body.K = MatX::Identity(2, 2);
+  Mat3X p = Mat3X::Zero(3, 31);
+  MatX modes = MatX::Zero(93, 2);
+  for (Eigen::Index k = 0; k <= 30; ++k) {
+    const double x = static_cast<double>(k) / 30.0;
+    p(0, k) = x;
+    modes.row(3 * k + 2) << x * x, x * x * x;
+  }
+  body.nodes.push_back({"end", p.col(30), modes.bottomRows(3), Mat3X::Zero(3, 2)});
+  const std::vector<ModalNode> points = surface_points(body, p, modes);
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_NEAR(points[0].p.x(), 2.0 / 3.0, 1e-12);  // where x^2 - x^3 is largest
+  EXPECT_EQ(points[1].p.x(), 1.0);
+  EXPECT_EQ(points[0].X, Mat3X(modes.middleRows<3>(60)));
+}
+
+TEST_F(RangeOfParts, FewPointsAndNoneWhenRigid) {
   const auto points = [&](const std::string& part) {
     const Model m = build_model(read("", part));
     const std::vector<ModalNode>& nodes = m.bodies[0].data->nodes;

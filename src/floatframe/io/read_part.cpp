@@ -26,7 +26,8 @@ FlexibleRead known_part(FlexibleBody body) {
 
 /// The surface of the part is watched too, but nothing can sit on it.
 FlexibleRead known_part(ReducedPart part) {
-  std::vector<ModalNode> points = surface_points(part.surface_positions, part.surface_modes);
+  std::vector<ModalNode> points =
+      surface_points(part.body, part.surface_positions, part.surface_modes);
   FlexibleRead out = known_part(std::move(part.body));
   out.body->nodes.insert(out.body->nodes.end(), std::make_move_iterator(points.begin()),
                          std::make_move_iterator(points.end()));

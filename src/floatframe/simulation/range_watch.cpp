@@ -63,6 +63,8 @@ void BodyRange::choose_nodes(const Model& model, int index) {
   std::set<int> chosen;
   for (const Marker& m : model.markers)
     if (m.body == index && m.node >= 0) chosen.insert(m.node);
+  for (std::size_t n = 0; n < data_.nodes.size(); ++n)
+    if (is_surface_point(data_.nodes[n])) chosen.insert(static_cast<int>(n));
   displaced_ = rotated_ = VecX::Zero(data_.modes());
   for (Eigen::Index k = 0; k < data_.modes(); ++k) {
     int moves = -1, turns = -1;
