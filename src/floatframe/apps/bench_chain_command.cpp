@@ -47,7 +47,7 @@ ChainOptions checked(const ChainArguments& a) {
 
 int run_chain(const ChainArguments& arguments) {
   ChainOptions options = checked(arguments);
-  require_writable(arguments.json_file);
+  require_writable({{"--json", arguments.json_file}});
   ProgressBar bar(true, 100.0, "%");
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   const ChainResult result = bench_chain(options);

@@ -24,7 +24,7 @@ int run_bench(const BenchArguments& arguments) {
     options.duration = positive_number("--duration", arguments.duration);
   }
   if (options.model.empty()) options.model = find_iltis();
-  require_writable(json_file);
+  require_writable({{"--json", json_file}});
   ProgressBar bar(true, 100.0, "%");
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   const BenchResult result = bench_iltis(options);

@@ -29,7 +29,7 @@ int run_scaling(const ScalingArguments& a) {
         options.sweeps.push_back(sweep);
     }
   }
-  require_writable(a.json_file);
+  require_writable({{"--json", a.json_file}});
   ProgressBar bar(true, 100.0, "%");
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   const ScalingResult result = bench_scaling(options);

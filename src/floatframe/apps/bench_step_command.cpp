@@ -64,7 +64,7 @@ int run_steps(const StepArguments& a) {
     o.spectral_radius = number_within("--spectral-radius", a.spectral_radius, 0.0, 1.0);
   if (!a.coordinates.empty()) o.coordinates = coordinates_from(a.coordinates);
   if (!a.inertia.empty()) o.inertia = inertia_from(a.inertia);
-  require_writable(a.json_file);
+  require_writable({{"--json", a.json_file}}, {a.model});
   const Model model = build_model(description);
   const auto stepper = make_bench_stepper(model, o);
   const long steps = a.iterations > 0 ? 0 : std::max(1L, std::lround(o.duration / o.step));

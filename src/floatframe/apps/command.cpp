@@ -13,6 +13,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/printable.hpp"
+#include "floatframe/io/model_fingerprint.hpp"
 #include "floatframe/io/model_reader.hpp"
 
 namespace floatframe {
@@ -81,13 +82,23 @@ double positive_number(const std::string& option, const std::string& text) {
   return option_number(option, text, positive_number("s"));
 }
 
-void require_writable(const std::string& path) {
-  if (path.empty()) return;
-  try {
-    check_writable(path);
-  } catch (const OutputError& error) {
-    throw InputError(error.what());
+void require_writable(const std::vector<OutputFile>& outputs,
+                      const std::vector<std::string>& inputs) {
+  require_distinct(outputs, inputs);
+  for (const OutputFile& output : outputs) {
+    if (output.path.empty()) continue;
+    try {
+      check_writable(output.path);
+    } catch (const OutputError& error) {
+      throw InputError(error.what());
+    }
   }
+}
+
+std::vector<std::string> files_of(const ModelFingerprint& used) {
+  std::vector<std::string> files;
+  for (const auto& [file, hash] : used.files) files.push_back(file);
+  return files;
 }
 
 const char* word(Coordinates coordinates) noexcept {

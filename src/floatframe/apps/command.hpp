@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "floatframe/core/number_rule.hpp"
+#include "floatframe/core/output_files.hpp"
 #include "floatframe/model/description.hpp"
 #include "floatframe/simulation/results.hpp"
 
@@ -48,9 +49,12 @@ int whole_option_number(const std::string& option, const std::string& text,
 /// A positive number of seconds.
 double positive_number(const std::string& option, const std::string& text);
 
-/// Proves that a file that is to be written at the end can be, if a path is given. Throws
-/// InputError.
-void require_writable(const std::string& path);
+/// Proves that files that are to be written at the end can be, and that none is one of `inputs` or
+/// another output. Paths may be empty. Throws InputError.
+void require_writable(const std::vector<OutputFile>& outputs,
+                      const std::vector<std::string>& inputs = {});
+/// The names of all files that were read.
+std::vector<std::string> files_of(const ModelFingerprint& used);
 
 /// The command line's words.
 const char* word(Coordinates coordinates) noexcept;

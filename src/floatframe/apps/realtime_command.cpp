@@ -12,6 +12,7 @@
 #include "floatframe/apps/realtime_progress.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/io/model_fingerprint.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/realtime/signal_log.hpp"
 #include "floatframe/simulation/simulation.hpp"
@@ -157,7 +158,8 @@ std::string port_line(const RealTimeArguments& arguments, const UdpPort& port) {
 int run_command(const RealTimeArguments& arguments) {
   if (arguments.json && !arguments.layout)
     throw InputError("--json: found without --layout; a run writes JSON with --report FILE");
-  ModelDescription description = read_model(arguments.model);
+  ModelFingerprint used;
+  ModelDescription description = read_model(arguments.model, false, &used);
   apply(arguments, description.simulation);
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
@@ -167,10 +169,9 @@ int run_command(const RealTimeArguments& arguments) {
   }
   RealTimeOptions options = options_from(arguments);
   require_valid(options, description.simulation);
-  require_writable(arguments.report);
-  if (!arguments.log.empty() && arguments.log == arguments.report)
-    throw InputError(
-        fmt::format("--log and --report: found '{}' for both, expected two files", arguments.log));
+  // The log is opened at the start and may be a pipe that somebody reads.
+  require_distinct({{"--log", arguments.log}, {"--report", arguments.report}}, files_of(used));
+  require_writable({{"--report", arguments.report}});
   const StopOnSignal stop_on_signal;
   const std::unique_ptr<UdpPort> port = open_port(arguments, model);
   if (port && !arguments.quiet) print(port_line(arguments, *port));

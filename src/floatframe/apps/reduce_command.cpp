@@ -84,8 +84,14 @@ int reduce_file(const ReduceArguments& a) {
   if (name.extension() == ".gz") name = name.stem();
   const std::string out = a.out.empty() ? name.stem().string() + ".ffb" : a.out;
   const PartJob job = job_of(a);
-  for (const std::string& path : {out, a.report, a.sid}) require_writable(path);
+  const std::vector<OutputFile> outputs{{"-o", out}, {"--report", a.report}, {"--sid", a.sid}};
+  require_writable(outputs, {a.part, a.nodes, a.mass, a.dofs});
   const BodyFile content = reduce_part_file(job);
+  // Files that the part includes are known by now.
+  std::vector<std::string> inputs;
+  for (const auto& [file, hash] : content.provenance.files)
+    inputs.push_back((std::filesystem::path(a.part).parent_path() / file).string());
+  require_distinct(outputs, inputs);
   write_body_file(out, content);
   std::string files = fmt::format("\n  body    {}\n", out);
   if (!a.report.empty()) {

@@ -146,8 +146,13 @@ int run_model(const RunArguments& arguments) {
   apply(arguments, description.simulation);
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
-  require_writable(arguments.write_state);
+  require_writable({{"--write-state", arguments.write_state}}, files_of(used));
   const OutputPaths paths = make_output_paths(arguments, description.name);
+  require_writable({{"--write-state", arguments.write_state},
+                    {"--out", paths.results},
+                    {"--out", paths.report},
+                    {"--out", paths.summary}},
+                   files_of(used));
 
   Report report;
   if (!arguments.no_report) report.facts.push_back(model_facts(model));
@@ -170,7 +175,7 @@ int run_model(const RunArguments& arguments) {
   if (arguments.strict) make_strict(report.result.summary);
 
   const RunSummary summary = report.result.summary;
-  const bool state = report.result.state && summary.status == "completed";
+  const bool state = report.result.state && (summary.status == "completed" || summary.strict);
   if (state) write_file(arguments.write_state, state_json(*report.result.state));
   const bool has_table = !report.result.table.columns.empty();
   write_outputs(paths, arguments, std::move(report));

@@ -9,6 +9,7 @@
 #include "floatframe/apps/command.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/text_table.hpp"
+#include "floatframe/io/model_fingerprint.hpp"
 #include "floatframe/io/state_json.hpp"
 #include "floatframe/io/summary_json.hpp"
 #include "floatframe/simulation/range_watch.hpp"
@@ -101,8 +102,9 @@ int warn(const std::vector<std::string>& warnings, bool strict) {
 
 int show_statics(const ModelArguments& arguments, bool json, bool strict,
                  const std::string& write_state) {
-  require_writable(write_state);
-  const ModelDescription description = read_model(arguments);
+  ModelFingerprint used;
+  const ModelDescription description = read_model(arguments, false, &used);
+  require_writable({{"--write-state", write_state}}, files_of(used));
   const Model model = build_model(description);
   const StaticsResult result = statics(model);
   if (!write_state.empty()) write_file(write_state, state_json(*result.state));

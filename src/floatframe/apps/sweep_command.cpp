@@ -120,6 +120,8 @@ SweepOptions options_from(const SweepArguments& a) {
     const std::string stem = std::filesystem::path(o.model).stem().string();
     o.folder = (std::filesystem::path("out") / (file_name_from(stem) + "_sweep")).string();
   }
+  const std::filesystem::path folder(o.folder);
+  require_distinct({{"--out", (folder / "sweep.csv").string()}}, {a.table});
   return o;
 }
 

@@ -41,9 +41,23 @@ std::string temporary_name(const std::string& path) {
   return path + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(calls++);
 }
 
-bool is_special(const std::string& path) {
+/// What is not a regular file is written to in place, where that cannot wait for somebody without
+/// end or destroy a file system: a terminal, a null device, a pipe that this process already holds.
+enum class Place { regular, special };
+
+Place place_of(const std::string& path) {
   struct stat status {};
-  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+  if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return Place::regular;
+  if (S_ISDIR(status.st_mode)) throw OutputError(cannot("the file", path, EISDIR));
+  std::error_code nameless;  // a pipe behind /dev/stdout or /dev/fd/N
+  if (S_ISFIFO(status.st_mode)) static_cast<void>(std::filesystem::canonical(path, nameless));
+  if (!S_ISCHR(status.st_mode) && !nameless)
+    throw OutputError("the file '" + path + "' cannot be written: this is a " +
+                      (S_ISFIFO(status.st_mode)  ? "named pipe"
+                       : S_ISBLK(status.st_mode) ? "block device"
+                                                 : "socket") +
+                      ", expected a regular file");
+  return Place::special;
 }
 
 /// 0 or the system's error number.
@@ -60,8 +74,10 @@ int write_all(int file, std::string_view content) {
 }
 
 int write_to(const std::string& path, int flags, std::string_view content, bool flush_to_disk) {
-  const int file = ::open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  // Not blocking: what the name stands for may have become a pipe.
+  const int file = ::open(path.c_str(), flags | O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
   if (file < 0) return errno;
+  ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
   int error = write_all(file, content);
   // Without this a power failure after the rename could leave an empty file under the final name.
   if (error == 0 && flush_to_disk && ::fsync(file) != 0 && errno != EINVAL) error = errno;
@@ -86,25 +102,25 @@ void make_output_folder(const std::string& path) {
 }
 
 void check_writable(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw OutputError(cannot("the file", path, EISDIR));
+  if (place_of(path) == Place::special) {
+    const int failed = write_to(path, 0, "", false);
+    if (failed != 0) throw OutputError(cannot("the file", path, failed));
+    return;
   }
   const SignalHold hold;
-  const bool special = is_special(path);
-  const std::string probe = special ? path : temporary_name(path);
-  const int failed = write_to(probe, special ? 0 : O_CREAT | O_TRUNC, "", false);
-  if (!special) ::unlink(probe.c_str());
+  const std::string probe = temporary_name(path);
+  const int failed = write_to(probe, O_CREAT | O_TRUNC, "", false);
+  ::unlink(probe.c_str());
   if (failed != 0) throw OutputError(cannot("the file", path, failed));
 }
 
 void write_file(const std::string& path, std::string_view content) {
-  const SignalHold hold;
-  if (is_special(path)) {
+  if (place_of(path) == Place::special) {  // a slow reader can be interrupted
     const int error = write_to(path, 0, content, false);
     if (error != 0) throw OutputError(cannot("the file", path, error));
     return;
   }
+  const SignalHold hold;
   const std::string temporary = temporary_name(path);
   int error = write_to(temporary, O_CREAT | O_TRUNC, content, true);
   if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;

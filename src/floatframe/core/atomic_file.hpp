@@ -23,11 +23,13 @@ class OutputError : public std::exception {
 /// OutputError.
 void make_output_folder(const std::string& path);
 
-/// Proves that `path` can be written, without touching a file that is there. Throws OutputError.
+/// Proves that `path` can be written, without touching a file that is there. Never waits: a named
+/// pipe is refused, as are sockets, block devices and folders. Throws OutputError.
 void check_writable(const std::string& path);
 
-/// Replaces the file at `path` by `content` in one stroke. What is there but is not a regular file
-/// (a device, a pipe) is written to directly. Throws OutputError.
+/// Replaces the file at `path` by `content` in one stroke. A terminal, a null device and a pipe
+/// without a name (/dev/stdout) are written to directly; what check_writable refuses is refused.
+/// Throws OutputError.
 void write_file(const std::string& path, std::string_view content);
 
 /// Removes the file if it is there.

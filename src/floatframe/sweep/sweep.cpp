@@ -9,6 +9,7 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/output_files.hpp"
 #include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/run_queue.hpp"
@@ -194,6 +195,14 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
   }
   const std::string journal_path = (std::filesystem::path(o.folder) / "sweep.journal").string();
   const std::string table_path = (std::filesystem::path(o.folder) / "sweep.csv").string();
+  std::vector<std::string> inputs;
+  for (const auto& [file, hash] : workers.files()) inputs.push_back(file);
+  require_distinct({{"--out", table_path}, {"--out", journal_path}}, inputs);
+  try {
+    check_writable(table_path);
+  } catch (const OutputError& error) {
+    throw InputError(error.what());
+  }
   SweepJournal journal(journal_path, identity_of(o), o.plan.runs.size(), o.fresh,
                        relative_to_model(o, workers.files()));
   if (o.retry_failed) journal.forget_failed();
