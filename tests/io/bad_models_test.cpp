@@ -411,6 +411,9 @@ const Case cases[] = {
     {"table_order.yaml",
      "table_order.yaml:12:38: forces.spring.spring.table[3]: found x = 1 after 2, expected "
      "ascending x [m]"},
+    {"table_steep.yaml",
+     "table_steep.yaml:6:91: joints.slide.motion.table[2]: found the step from 0 to 1 over 1e-200 "
+     "[s], expected a slope that is a finite number"},
     {"tag.yaml", "tag.yaml:4:19: tags (!name) are not allowed"},
     {"tolerances.yaml",
      "tolerances.yaml:5:25: simulation.tolerance: found 1e-300, expected a number of at least 1e-15"

@@ -75,7 +75,18 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
     }
     points.push_back(row.point);
   }
-  return good ? table_function(points, interpolation, beyond) : PiecewisePolynomial();
+  if (!good) return {};
+  PiecewisePolynomial f = table_function(points, interpolation, beyond);
+  for (std::size_t k = 1; k < points.size(); ++k)  // the piece between points k - 1 and k
+    for (const double c : f.pieces()[k].coefficients)
+      if (!std::isfinite(c)) {
+        table.fault(table.rows[k], "found the step from " + number_text(points[k - 1].f) + " to " +
+                                       number_text(points[k].f) + " over " +
+                                       number_text(points[k].x - points[k - 1].x) + " [" + x_unit +
+                                       "], expected a slope that is a finite number");
+        return {};
+      }
+  return f;
 }
 
 constexpr const char* time_laws =

@@ -107,6 +107,16 @@ VecX free_accelerations(const MatX& mass, const VecX& possible, const MatX& J, c
 
 }  // namespace
 
+void check_numbers(const Model& model, const std::string& overflow, double t) {
+  for (const Body& b : model.bodies)
+    if (const double m = b.data->invariants.m; m > 0.0 && m < smallest_mass)
+      throw RunError(fmt::format(
+          "the numbers of the model overflow: the mass of body '{}' is {:g} kg, expected 0 or at "
+          "least {:g}",
+          b.name, m, smallest_mass));
+  if (!overflow.empty()) throw RunError(overflow_sentence(overflow, t, largest_magnitude));
+}
+
 void check_magnitudes(const VecX& force, const std::function<std::string(int)>& owner) {
   const int i = out_of_range(force);
   if (i < 0) return;

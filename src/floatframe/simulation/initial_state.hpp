@@ -17,6 +17,7 @@
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/simulation/mass_scale.hpp"
+#include "floatframe/simulation/overflow.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
@@ -56,8 +57,12 @@ double default_penalty_mass(const Model& model);
 /// The integrator's options that a simulation description asks for.
 StepOptions step_options(const Model& model, const SimulationDescription& o);
 
-/// A value that no computation with double precision survives: squares of what is larger overflow.
-inline constexpr double largest_magnitude = 1e100;
+/// Below, inertias of parts of the body are no normal numbers [kg].
+inline constexpr double smallest_mass = 1e-300;
+
+/// Throws RunError if a mass is too small to compute with, or with the text of a number that is too
+/// large (`overflow_text`).
+void check_numbers(const Model& model, const std::string& overflow, double t);
 
 /// Throws RunError naming a coordinate whose generalised force at the start is not finite or beyond
 /// `largest_magnitude`: an overflow must not be taken for a singular matrix.
@@ -214,6 +219,7 @@ void start_accelerations(F& f, State& state, double penalty_mass) {
   const int nv = f.velocities(), nc = f.constraints();
   state.a = VecX::Zero(nv);
   state.lambda = VecX::Zero(nc);
+  check_numbers(f.model(), overflow_text(f, state, state.t, largest_magnitude), state.t);
   constexpr int most = 1000;  // beyond, neither this nor the dense computation is affordable
   VecX possible;
   if (nv <= most) possible = possible_masses(f, state);

@@ -11,6 +11,7 @@
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/model/joint_measure.hpp"
+#include "floatframe/simulation/overflow.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
@@ -30,6 +31,7 @@ class Runner {
   /// Advances by h, in substeps if need be. False: the step did not converge at the smallest
   /// substep.
   bool advance(double h) noexcept {
+    asked_ = h;
     StepReport r = integrator_.step(state_, h);
     count(r);
     if (r.accepted()) return true;
@@ -82,6 +84,13 @@ class Runner {
 
   /// The cause of the last failed step, in words.
   std::string failure() const {
+    std::string text = step_failure();  // first: of the iteration that failed
+    const std::string numbers = overflow();
+    return numbers.empty() ? text : numbers;
+  }
+
+  /// The same from what the last iteration has left.
+  std::string step_failure() const {
     if (const std::string text = unreachable_tolerance(); !text.empty()) return text;
     const char* what =
         last_.status == StepStatus::singular_tangent ? "the tangent matrix is singular at "
@@ -113,6 +122,18 @@ class Runner {
                           f_.model().forces[static_cast<std::size_t>(force)].name,
                           f_.force(force).force);
     return text;
+  }
+
+  /// Why the last step failed if numbers of the model are beyond what can be computed with.
+  std::string overflow() const {
+    std::string text;
+    if (!(asked_ < largest_beside_one))
+      text = fmt::format("the step of {:g} s is too long", asked_);
+    else
+      text = overflow_text(f_, state_, state_.t + min_step_, largest_beside_one);
+    if (text.empty()) return text;
+    return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}", state_.t,
+                       min_step_, overflow_sentence(text, state_.t, largest_beside_one));
   }
 
   /// Why the last step failed if a tolerance asks for more digits than double precision has.
@@ -206,7 +227,7 @@ class Runner {
   F& f_;
   AugmentedLagrangian<F> integrator_;
   State state_;
-  double min_step_;
+  double min_step_, asked_ = 0.0;
   StepReport last_;
   std::vector<Follow> follow_;
   long cut_short_ = 0, substeps_ = 0, iterations_ = 0, factorizations_ = 0;

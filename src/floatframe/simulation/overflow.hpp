@@ -1,0 +1,76 @@
+#pragma once
+// Numbers of a model that double precision cannot compute with. What they make of matrices and
+// iterations (vanishing pivots, no convergence) looks like another cause.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/model/constraint_part.hpp"
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+/// Squares of what is larger overflow.
+inline constexpr double largest_magnitude = 1e100;
+/// Beside what is larger nothing of the size of 1 is left: blamed when a step has failed.
+inline constexpr double largest_beside_one = 1e15;
+
+/// "the spring of 's' has a slope of 1e+308 [N/m, N m/rad]", or nothing if all numbers of the model
+/// at these positions and velocities and the time t are below the limit. The words are the same in
+/// all formulations. Moves `f`.
+template <class F>
+std::string overflow_text(F& f, const State& state, double t, double limit) {
+  const Model& model = f.model();
+  std::string text;
+  const auto look = [&](double x, const auto& sentence) {
+    if (text.empty() && !(std::abs(x) < limit))
+      text = sentence(std::isfinite(x) ? fmt::format("{:.3g}", std::abs(x)) : "more than 1e+308");
+  };
+  for (const Joint& j : model.joints) {
+    if (!j.motion) continue;
+    const auto motion = evaluate(*j.motion, t);
+    for (const double x : {motion.f, motion.df, motion.ddf})
+      look(x, [&](const std::string& n) {
+        return fmt::format("the motion of joint '{}' or its rate reaches {} [m, rad, s]", j.name,
+                           n);
+      });
+  }
+  f.positions(t, state.q);
+  f.velocities(state.v);
+  f.forces();
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const int body = static_cast<int>(i);
+    look(f.body_angular_velocity(body).stableNorm(), [&](const std::string& n) {
+      return fmt::format("body '{}' turns at {} rad/s", model.bodies[i].name, n);
+    });
+    look(f.body_velocity(body).stableNorm(), [&](const std::string& n) {
+      return fmt::format("body '{}' moves at {} m/s", model.bodies[i].name, n);
+    });
+  }
+  for (std::size_t k = 0; k < model.forces.size(); ++k) {
+    const Force& force = model.forces[k];
+    const auto& now = f.force(static_cast<int>(k));
+    const auto slope = [&](const char* law, const char* unit) {
+      return [&force, law, unit](const std::string& n) {
+        return fmt::format("the {} of '{}' has a slope of {} [{}]", law, force.name, n, unit);
+      };
+    };
+    look(force.spring(now.length).df, slope("spring", "N/m, N m/rad"));
+    look(force.damper(now.rate).df, slope("damper", "N s/m, N m s/rad"));
+    look(now.force, [&](const std::string& n) {
+      return fmt::format("the force of '{}' is {} [N, N m]", force.name, n);
+    });
+  }
+  return text;
+}
+
+/// "the numbers of the model overflow: ..."
+inline std::string overflow_sentence(const std::string& text, double t, double limit) {
+  return fmt::format(
+      "the numbers of the model overflow: {} at t = {:.6g} s, expected less than {:g}", text, t,
+      limit);
+}
+
+}  // namespace floatframe
