@@ -151,6 +151,14 @@ class Misuse(CommandLine):
         for command in ("run", "check", "statics"):
             self.expect(2, command, "nowhere.yaml", err="nowhere.yaml")
 
+    def test_faults_that_are_not_listed_are_counted(self):
+        keys = "".join(f"key{k}: 1\n" for k in range(100))
+        inside = "".join(f"    key{k}: 1\n" for k in range(30))
+        (self.folder / "bad.yaml").write_text(PENDULUM.replace("joints:\n", inside + "joints:\n") + keys)
+        lines = self.expect(2, "check", "bad.yaml").stderr.splitlines()
+        self.assertLess(len(lines), 130)
+        self.assertEqual(lines[-1], "130 faults in bad.yaml")
+
     def test_faults_are_listed_and_counted(self):
         (self.folder / "bad.yaml").write_text(PENDULUM.replace("step: 0.01", "stepp: 0.01").replace("type: rev", "typ: rev"))
         for command in ("run", "check", "statics"):

@@ -6,8 +6,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <cstdlib>
 #include <new>
 #include <set>
+#include <string_view>
 
 #include "floatframe/apps/command.hpp"
 #include "floatframe/core/build_info.hpp"
@@ -19,10 +21,23 @@ namespace {
 
 constexpr int failed = 1, bad_input = 2;
 
+/// The number of faults that a line stands for: "... and 180 more unknown keys", after a path or
+/// not, tells of those of one kind that are not shown.
+std::size_t faults_of_line(const std::string& message) {
+  static constexpr std::string_view rest = "... and ";
+  const std::size_t at = message.find(rest);
+  if (at == std::string::npos || (at != 0 && message.compare(at - 2, 2, ": ") != 0)) return 1;
+  char* end = nullptr;
+  const unsigned long n = std::strtoul(message.c_str() + at + rest.size(), &end, 10);
+  return n > 0 && std::string_view(end).starts_with(" more ") ? n : 1;
+}
+
 /// One fault a line, as compilers do; the number of faults last.
 int report(const InputError& error) {
   std::set<std::string> files;
+  std::size_t count = 0;
   for (const InputFault& fault : error.faults()) {
+    count += faults_of_line(fault.message);
     files.insert(fault.mark.file);
     if (fault.mark.file.empty()) {
       say(fault.message);
@@ -35,7 +50,7 @@ int report(const InputError& error) {
     const std::string where = files.empty()       ? "the input"
                               : files.size() == 1 ? *files.begin()
                                                   : plural(static_cast<long>(files.size()), "file");
-    say_line(fmt::format("{} faults in {}", error.faults().size(), where));
+    say_line(fmt::format("{} faults in {}", count, where));
   }
   return bad_input;
 }

@@ -63,12 +63,13 @@ std::optional<GivenParameter> read_override(const ParameterOverride& o, const st
     return given;
   }
   const PlainScalar p = classify_plain_scalar(o.value);
-  if (p.kind == PlainScalar::Kind::null) return refuse("found nothing, expected a value");
+  if (o.value.empty()) return refuse("found nothing, expected a value");
   given.raw = o.value;
   given.value = given.raw;
   if (p.kind == PlainScalar::Kind::number) given.value = p.number;
   if (p.kind == PlainScalar::Kind::boolean) given.value = p.boolean;
-  given.complaint = p.complaint;
+  given.complaint =
+      p.kind == PlainScalar::Kind::null ? std::string("this is no value") : p.complaint;
   return given;
 }
 

@@ -76,32 +76,39 @@ Json start(const StartReport& s) {
       {"notes", s.notes}, {"changes", changes}, {"redundant", redundant_directions(s.redundant)}};
 }
 
+Json measured(const RunSummary& s) {
+  const EnergySummary& e = s.energy;
+  return {{"duration_s", s.duration},
+          {"steps", s.steps},
+          {"substeps", s.substeps},
+          {"iterations", s.iterations},
+          {"factorizations", s.factorizations},
+          {"cpu_s", s.cpu},
+          {"real_time_factor", s.real_time_factor},
+          {"max_position_violation", s.max_position_violation},
+          {"max_velocity_violation", s.max_velocity_violation},
+          {"energy",
+           {{"start", energy(e.kinetic_start, e.potential_start, e.elastic_start, e.total_start)},
+            {"end", energy(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end)},
+            {"balance", balance(e)}}},
+          {"warnings", s.warnings},
+          {"start", start(s.start)}};
+}
+
 }  // namespace
 
 std::string summary_json(const RunSummary& s) {
-  const EnergySummary& e = s.energy;
-  Json json = {
-      {"model", s.model},
-      {"coordinates", s.coordinates},
-      {"inertia", s.inertia},
-      {"step_s", s.step},
-      {"duration_s", s.duration},
-      {"steps", s.steps},
-      {"substeps", s.substeps},
-      {"iterations", s.iterations},
-      {"factorizations", s.factorizations},
-      {"cpu_s", s.cpu},
-      {"real_time_factor", s.real_time_factor},
-      {"max_position_violation", s.max_position_violation},
-      {"max_velocity_violation", s.max_velocity_violation},
-      {"energy",
-       {{"start", energy(e.kinetic_start, e.potential_start, e.elastic_start, e.total_start)},
-        {"end", energy(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end)},
-        {"balance", balance(e)}}},
-      {"warnings", s.warnings},
-      {"start", start(s.start)},
-      {"status", s.status},
-      {"message", s.message}};
+  Json json = Json::object();
+  // What nobody measured is left out: a model that could not be read, a run that never began, or
+  // one of a study that was stopped or died.
+  const bool began = s.status != "failed" || s.steps > 0 || s.cpu > 0.0;
+  if (began || !s.model.empty())
+    json.update({{"model", s.model},
+                 {"coordinates", s.coordinates},
+                 {"inertia", s.inertia},
+                 {"step_s", s.step}});
+  if (began) json.update(measured(s));
+  json.update({{"status", s.status}, {"message", s.message}});
   if (!s.files.empty()) {
     json["settings"] = settings(s.settings);
     json["files"] = s.files;

@@ -262,6 +262,12 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::named(const char* what
                                 std::to_string(limits::name_length));
       continue;
     }
+    if (free_names && e.key.find("${") != std::string::npos) {
+      context_->faults->add({*context_->file, e.line, e.column},
+                            path_ + ": found the name " + in_quotes(e.key) +
+                                ", but expressions stand for values, not in names");
+      continue;
+    }
     if (!free_names && !is_identifier(e.key, true)) {
       context_->faults->add({*context_->file, e.line, e.column},
                             path_ + ": found the name '" + shortened(e.key) +

@@ -271,6 +271,7 @@ Complaint column_taken(const std::string& name, bool exists) {
 }
 
 Complaint model_name(const std::string& name) {
+  if (name.size() > 100) return "expected a name of at most 100 characters";  // it names a folder
   if (name.find_first_of("/\\") == std::string::npos && printable(name) == name && name != "." &&
       name != "..")
     return std::nullopt;
