@@ -194,7 +194,7 @@ class Misuse(CommandLine):
 
     def test_closed_standard_files_are_not_taken_by_others(self):
         done = subprocess.run(["sh", "-c", 'exec "$@" 1>&- 2>&-', "sh", BINARY, "sweep", "pendulum.yaml", "--vary",
-                               "duration=0.02,0.03", "--out", "study"], cwd=self.folder, timeout=60, check=False)
+                               "duration=0.02,0.03", "--out", "study"], cwd=self.folder, timeout=300, check=False)
         self.assertEqual(done.returncode, 1)  # the summary cannot be printed
         self.assertEqual(len((self.folder / "study/sweep.csv").read_text().splitlines()), 3)
         self.assertTrue(all(line[16] == " " for line in
