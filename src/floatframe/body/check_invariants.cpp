@@ -204,9 +204,18 @@ class Check {
       G = mass_matrix_at_rest(v_);
     }
     VecX diagonal = G.diagonal();
-    if (source_ != InvariantSource::integrals)  // what is left of J about the axis of a bar
+    if (source_ == InvariantSource::integrals) {
+      // Of a direction in which a mode does not move rounding is left, beside products with the
+      // other modes that are as small but not as small as a unit diagonal asks for.
+      for (Eigen::Index k = 0; k < 3 * nm_; ++k) {
+        const Eigen::Index mode = k % nm_;
+        const double all = diagonal(mode) + diagonal(nm_ + mode) + diagonal(2 * nm_ + mode);
+        if (G(k, k) <= cancelled * all) diagonal(k) = 0.0;
+      }
+    } else {  // what is left of J about the axis of a bar
       for (Eigen::Index k = 3; k < 6; ++k)
         if (diagonal(k) <= cancelled * diagonal.segment<3>(3).sum()) diagonal(k) = 0.0;
+    }
     const VecX unit = to_unit(diagonal);
     G = (unit.asDiagonal() * G * unit.asDiagonal()).eval();
     G.diagonal().array() += rounding;
