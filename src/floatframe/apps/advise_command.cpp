@@ -1,11 +1,10 @@
 // floatframe advise: which modes a model could do without at a given step, verified by a run.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/io/advice_json.hpp"
@@ -130,40 +129,31 @@ int advise(const AdviseArguments& a) {
 
 }  // namespace
 
-void add_advise_command(CLI::App& app, Action& action) {
-  auto a = std::make_shared<AdviseArguments>();
-  CLI::App* command = app.add_subcommand(
-      "advise", "Find out which modes of flexible bodies a model could do without");
-  add_model_arguments(*command, a->model);
-  command->add_option("--step", a->step, "Time step [s]; default: that of the model file")
-      ->type_name("SECONDS");
-  command
-      ->add_option("--duration", a->duration,
-                   "Time to simulate [s]; default: that of the model file")
-      ->type_name("SECONDS");
-  command
-      ->add_option("--share", a->options.drop_share,
-                   "Modes with smaller static and dynamic shares may go; default 0.001")
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("FRACTION");
-  command
-      ->add_option("--tolerance", a->options.tolerance,
-                   "Difference of outputs allowed, of the range of each; default 0.01")
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("FRACTION");
-  command
-      ->add_option("--repeat", a->options.repeat,
-                   "Timed runs of both models, the quickest counts; default 3")
-      ->check(CLI::Range(1, 1000))
-      ->type_name("N");
-  command->add_flag("--json", a->json, "JSON on standard output");
-  command->footer(
-      "The model is run with the options of its file, then without the modes whose shares are "
-      "small;\n"
-      "modes are only called droppable if that run agrees. Shares and thresholds: "
-      "docs/mode-advisor.md.\n"
-      "Exit codes: 0 done, 1 the model does not run, 2 bad input.");
-  command->callback([a, &action] { action = [a] { return advise(*a); }; });
+Command advise_command() {
+  const auto a = std::make_shared<AdviseArguments>();
+  return {
+      .name = "advise",
+      .help = "Find out which modes of flexible bodies a model could do without",
+      .options = joined(
+          model_options(a->model),
+          {text_option("--step", a->step, "SECONDS",
+                       "Time step [s]; default: that of the model file"),
+           text_option("--duration", a->duration, "SECONDS",
+                       "Time to simulate [s]; default: that of the model file"),
+           fraction_option("--share", a->options.drop_share,
+                           "Modes with smaller static and dynamic shares may go; default 0.001"),
+           fraction_option("--tolerance", a->options.tolerance,
+                           "Difference of outputs allowed, of the range of each; default 0.01"),
+           whole_option("--repeat", a->options.repeat, 1, 1000,
+                        "Timed runs of both models, the quickest counts; default 3"),
+           flag("--json", a->json, "JSON on standard output")}),
+      .footer =
+          "The model is run with the options of its file, then without the modes whose shares are "
+          "small;\n"
+          "modes are only called droppable if that run agrees. Shares and thresholds: "
+          "docs/mode-advisor.md.\n"
+          "Exit codes: 0 done, 1 the model does not run, 2 bad input.",
+      .run = [a] { return advise(*a); }};
 }
 
 }  // namespace floatframe

@@ -1,7 +1,6 @@
 // floatframe bench chain: options, and exit code 1 if a run of the table failed.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "floatframe/apps/bench_chain.hpp"
@@ -61,48 +60,37 @@ int run_chain(const ChainArguments& arguments) {
 
 }  // namespace
 
-void add_bench_chain(CLI::App& bench, Action& action) {
-  CLI::App* chain = bench.add_subcommand(
-      "chain", "Chains of flexible links: time a step, iterations, accuracy, energy");
-  auto a = std::make_shared<ChainArguments>();
-  const auto list = [&](const char* name, std::vector<int>& target, int most, const char* what) {
-    chain->add_option(name, target, what)
-        ->delimiter(',')
-        ->check(CLI::Range(1, most))
-        ->type_name("LIST");
-  };
-  const auto text = [&](const char* name, std::string& target, const char* type, const char* what) {
-    return chain->add_option(name, target, what)->type_name(type);
-  };
-  list("--links", a->options.links, 4096,
-       "Numbers of links, comma-separated (default 1,4,16,64,256)");
-  list("--modes", a->options.modes, 1000,
-       "Modes a link, comma-separated (default 8: six static, two normal)");
-  chain->add_option("--elements", a->options.elements, "Elements a link (default 20)")
-      ->check(CLI::Range(1, 100000))
-      ->type_name("N");
-  text("--step", a->step, "SECONDS", "Time step [s] (default 0.001)");
-  text("--duration", a->duration, "SECONDS", "Time to simulate [s] (default 2)");
-  text("--coordinates", a->coordinates, "", "Only these: relative or absolute")
-      ->check(CLI::IsMember({"relative", "absolute"}))
-      ->type_name("WORD");
-  text("--inertia", a->inertia, "", "Only this method: preprocessing or projection")
-      ->check(CLI::IsMember({"preprocessing", "projection"}))
-      ->type_name("WORD");
-  text("--tolerance", a->tolerance, "NUMBER",
-       "Newton tolerance: largest coordinate increment (default 1e-9)");
-  text("--spectral-radius", a->spectral_radius, "NUMBER",
-       "Of the integrator at infinite frequency (default 0.9; 1: trapezoidal rule)");
-  chain->add_option("--repeat", a->options.runs, "Timed runs of a row, at least (default 5)")
-      ->check(CLI::Range(1, 1000))
-      ->type_name("N");
-  text("--seconds", a->seconds, "SECONDS",
-       "Processor time for the timed runs of a row, about (default 2)");
-  text("--json", a->json_file, "FILE", "Write the figures to this file as JSON");
-  chain->footer(
-      "Links are steel beams of 1 m hung by parallel hinges and released from the horizontal.\n"
-      "Times are processor times of stepping, without input and output.");
-  chain->callback([a, &action] { action = [a] { return run_chain(*a); }; });
+Command bench_chain_command() {
+  const auto a = std::make_shared<ChainArguments>();
+  return {
+      .name = "chain",
+      .help = "Chains of flexible links: time a step, iterations, accuracy, energy",
+      .options = {whole_list("--links", a->options.links, 1, 4096,
+                             "Numbers of links, comma-separated (default 1,4,16,64,256)"),
+                  whole_list("--modes", a->options.modes, 1, 1000,
+                             "Modes a link, comma-separated (default 8: six static, two normal)"),
+                  whole_option("--elements", a->options.elements, 1, 100000,
+                               "Elements a link (default 20)"),
+                  text_option("--step", a->step, "SECONDS", "Time step [s] (default 0.001)"),
+                  text_option("--duration", a->duration, "SECONDS",
+                              "Time to simulate [s] (default 2)"),
+                  coordinates_option(a->coordinates, "Only these: relative or absolute"),
+                  inertia_option(a->inertia, "Only this method: preprocessing or projection"),
+                  text_option("--tolerance", a->tolerance, "NUMBER",
+                              "Newton tolerance: largest coordinate increment (default 1e-9)"),
+                  text_option(
+                      "--spectral-radius", a->spectral_radius, "NUMBER",
+                      "Of the integrator at infinite frequency (default 0.9; 1: trapezoidal rule)"),
+                  whole_option("--repeat", a->options.runs, 1, 1000,
+                               "Timed runs of a row, at least (default 5)"),
+                  text_option("--seconds", a->seconds, "SECONDS",
+                              "Processor time for the timed runs of a row, about (default 2)"),
+                  text_option("--json", a->json_file, "FILE",
+                              "Write the figures to this file as JSON")},
+      .footer =
+          "Links are steel beams of 1 m hung by parallel hinges and released from the horizontal.\n"
+          "Times are processor times of stepping, without input and output.",
+      .run = [a] { return run_chain(*a); }};
 }
 
 }  // namespace floatframe

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
 
 namespace floatframe {
@@ -42,13 +42,11 @@ double number_within(const std::string& option, const std::string& text, double 
   return value;
 }
 
-void add_bench_command(CLI::App& app, Action& action) {
-  CLI::App* bench = app.add_subcommand("bench", "Measure processor times on this machine");
-  bench->require_subcommand(1);
-  add_bench_iltis(*bench, action);
-  add_bench_chain(*bench, action);
-  add_bench_scaling(*bench, action);
-  add_bench_step(*bench, action);
+Command bench_command() {
+  return {.name = "bench",
+          .help = "Measure processor times on this machine",
+          .commands = {bench_iltis_command(), bench_chain_command(), bench_scaling_command(),
+                       bench_step_command()}};
 }
 
 }  // namespace floatframe

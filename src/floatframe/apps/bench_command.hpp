@@ -1,16 +1,15 @@
 #pragma once
-// The benchmarks behind `floatframe bench`: each declares its options and sets the action when it
-// is the one that was given.
+// The benchmarks behind `floatframe bench`, and what they share.
 #include <string>
 
 #include "floatframe/apps/command.hpp"
 
 namespace floatframe {
 
-void add_bench_iltis(CLI::App& bench, Action& action);
-void add_bench_chain(CLI::App& bench, Action& action);
-void add_bench_scaling(CLI::App& bench, Action& action);
-void add_bench_step(CLI::App& bench, Action& action);
+Command bench_iltis_command();
+Command bench_chain_command();
+Command bench_scaling_command();
+Command bench_step_command();
 
 /// The Iltis example: in a build folder beside the examples, in the current folder, or where the
 /// program is installed. Throws InputError if it is not there.

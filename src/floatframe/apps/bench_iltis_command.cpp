@@ -1,8 +1,6 @@
 // floatframe bench iltis: finds the Iltis model, measures, prints and optionally writes JSON.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "floatframe/apps/bench_command.hpp"
 #include "floatframe/apps/bench_iltis.hpp"
 #include "floatframe/apps/progress_bar.hpp"
@@ -36,33 +34,25 @@ int run_bench(const BenchArguments& arguments) {
 
 }  // namespace
 
-void add_bench_iltis(CLI::App& bench, Action& action) {
-  CLI::App* iltis = bench.add_subcommand(
-      "iltis", "The Iltis manoeuvre: Table 1 of the paper beside this machine");
-  auto arguments = std::make_shared<BenchArguments>();
-  iltis->add_option("--json", arguments->json_file, "Write the figures to this file as JSON")
-      ->type_name("FILE");
-  iltis->add_option("--repeat", arguments->options.repeats, "Runs of each combination (default 5)")
-      ->check(CLI::Range(1, 1000))
-      ->type_name("N");
-  iltis
-      ->add_option("--elements", arguments->options.elements,
-                   "Elements a bar, comma-separated (default 5,10,50,100)")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 100000))
-      ->type_name("LIST");
-  iltis
-      ->add_option("--model", arguments->options.model,
-                   "Model file with a parameter ne (default: the example iltis.yaml)")
-      ->type_name("FILE");
-  iltis->add_option("--step", arguments->step, "Time step [s]; default: that of the model file")
-      ->type_name("SECONDS");
-  iltis
-      ->add_option("--duration", arguments->duration,
-                   "Time to simulate [s]; default: that of the model file")
-      ->type_name("SECONDS");
-  iltis->footer("Times are processor seconds of stepping, without input and output.");
-  iltis->callback([arguments, &action] { action = [arguments] { return run_bench(*arguments); }; });
+Command bench_iltis_command() {
+  const auto a = std::make_shared<BenchArguments>();
+  return {
+      .name = "iltis",
+      .help = "The Iltis manoeuvre: Table 1 of the paper beside this machine",
+      .options = {text_option("--json", a->json_file, "FILE",
+                              "Write the figures to this file as JSON"),
+                  whole_option("--repeat", a->options.repeats, 1, 1000,
+                               "Runs of each combination (default 5)"),
+                  whole_list("--elements", a->options.elements, 1, 100000,
+                             "Elements a bar, comma-separated (default 5,10,50,100)"),
+                  text_option("--model", a->options.model, "FILE",
+                              "Model file with a parameter ne (default: the example iltis.yaml)"),
+                  text_option("--step", a->step, "SECONDS",
+                              "Time step [s]; default: that of the model file"),
+                  text_option("--duration", a->duration, "SECONDS",
+                              "Time to simulate [s]; default: that of the model file")},
+      .footer = "Times are processor seconds of stepping, without input and output.",
+      .run = [a] { return run_bench(*a); }};
 }
 
 }  // namespace floatframe

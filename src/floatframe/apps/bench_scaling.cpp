@@ -79,7 +79,7 @@ void measure(const Model& model, const SimulationDescription& simulation,
     // Where a step takes long, fewer of them: a run should not take more than 5 times what it may.
     const double first = time_steps(*stepper, 1, 1, 0.0).least;
     const double most = std::clamp(5.0 * options.seconds / std::max(first, 1e-9), 1.0, 1e6);
-    row.time = time_steps(*stepper, std::min(options.steps, round_steps(std::lround(most))),
+    row.time = time_steps(*stepper, std::min<long>(options.steps, round_steps(std::lround(most))),
                           options.runs, options.seconds);
   } catch (const RunError& error) {
     row.failure = error.what();

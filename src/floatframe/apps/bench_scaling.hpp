@@ -34,7 +34,7 @@ struct ScalingOptions {
   std::vector<Coordinates> coordinates{Coordinates::relative, Coordinates::absolute};
   std::vector<InertiaMethod> inertia{InertiaMethod::preprocessing};
   double step = 1e-3;    ///< [s]
-  long steps = 100;      ///< of every run
+  int steps = 100;       ///< of every run
   int runs = 5;          ///< timed runs of a row, at least
   double seconds = 0.5;  ///< processor time for the timed runs of a row, about
   std::function<void(double)> progress;

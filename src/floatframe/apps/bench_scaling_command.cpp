@@ -1,5 +1,4 @@
 // floatframe bench scaling: options, and exit code 1 if a run of the tables failed.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "floatframe/apps/bench_command.hpp"
@@ -43,39 +42,27 @@ int run_scaling(const ScalingArguments& a) {
 
 }  // namespace
 
-void add_bench_scaling(CLI::App& bench, Action& action) {
-  CLI::App* scaling = bench.add_subcommand(
-      "scaling", "Cost of a step against elements, interface nodes, modes and bodies");
-  auto a = std::make_shared<ScalingArguments>();
-  std::vector<std::string> words;
-  for (const Sweep sweep : all_sweeps) words.emplace_back(word(sweep));
-  scaling
-      ->add_option("--sweep", a->sweeps,
-                   "Only these: elements, interface-nodes, modes, bodies; comma-separated")
-      ->delimiter(',')
-      ->check(CLI::IsMember(words))
-      ->type_name("LIST");
-  scaling->add_option("--step", a->step, "Time step [s] (default 0.001)")->type_name("SECONDS");
-  scaling->add_option("--steps", a->options.steps, "Steps of a run (default 100)")
-      ->check(CLI::Range(1, 1000000))
-      ->type_name("N");
-  scaling->add_option("--coordinates", a->coordinates, "Only these: relative or absolute")
-      ->check(CLI::IsMember({"relative", "absolute"}))
-      ->type_name("WORD");
-  scaling->add_option("--inertia", a->inertia, "preprocessing (default) or projection")
-      ->check(CLI::IsMember({"preprocessing", "projection"}))
-      ->type_name("WORD");
-  scaling->add_option("--repeat", a->options.runs, "Timed runs of a row, at least (default 5)")
-      ->check(CLI::Range(1, 1000))
-      ->type_name("N");
-  scaling
-      ->add_option("--seconds", a->seconds,
-                   "Processor time for the timed runs of a row, about (default 0.5)")
-      ->type_name("SECONDS");
-  scaling->add_option("--json", a->json_file, "Write the figures to this file as JSON")
-      ->type_name("FILE");
-  scaling->footer("Times are processor times of stepping, without input and output.");
-  scaling->callback([a, &action] { action = [a] { return run_scaling(*a); }; });
+Command bench_scaling_command() {
+  const auto a = std::make_shared<ScalingArguments>();
+  std::vector<std::string> sweeps;
+  for (const Sweep sweep : all_sweeps) sweeps.emplace_back(word(sweep));
+  return {
+      .name = "scaling",
+      .help = "Cost of a step against elements, interface nodes, modes and bodies",
+      .options =
+          {word_list("--sweep", a->sweeps, sweeps,
+                     "Only these: elements, interface-nodes, modes, bodies; comma-separated"),
+           text_option("--step", a->step, "SECONDS", "Time step [s] (default 0.001)"),
+           whole_option("--steps", a->options.steps, 1, 1000000, "Steps of a run (default 100)"),
+           coordinates_option(a->coordinates, "Only these: relative or absolute"),
+           inertia_option(a->inertia, "preprocessing (default) or projection"),
+           whole_option("--repeat", a->options.runs, 1, 1000,
+                        "Timed runs of a row, at least (default 5)"),
+           text_option("--seconds", a->seconds, "SECONDS",
+                       "Processor time for the timed runs of a row, about (default 0.5)"),
+           text_option("--json", a->json_file, "FILE", "Write the figures to this file as JSON")},
+      .footer = "Times are processor times of stepping, without input and output.",
+      .run = [a] { return run_scaling(*a); }};
 }
 
 }  // namespace floatframe

@@ -3,7 +3,6 @@
 // floatframe_counted_steps, that a tool can switch its counting on and off by.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -99,50 +98,40 @@ int run_steps(const StepArguments& a) {
 
 }  // namespace
 
-void add_bench_step(CLI::App& bench, Action& action) {
-  CLI::App* step = bench.add_subcommand(
-      "step", "Only the steps of a run, to be watched by a profiler or an instruction counter");
-  auto a = std::make_shared<StepArguments>();
-  const auto text = [&](const char* name, std::string& target, const char* type, const char* what) {
-    return step->add_option(name, target, what)->type_name(type);
-  };
-  text("MODEL", a->model, "", "chain (default), iltis or a model file");
-  step->add_option("--set", a->settings, "Change a parameter of the model file; may be repeated")
-      ->type_name("NAME=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-  const auto number = [&](const char* name, int& target, int most, const char* what) {
-    step->add_option(name, target, what)->check(CLI::Range(1, most))->type_name("N");
-  };
-  number("--links", a->links, 4096, "Links of the chain (default 4)");
-  number("--modes", a->modes, 1000, "Modes a link of the chain (default 8)");
-  number("--elements", a->elements, 100000, "Elements a link of the chain (default 20)");
-  step->add_option("--iterations", a->iterations,
-                   "Instead of steps, so many full Newton iterations at the start")
-      ->check(CLI::Range(1, 1000000))
-      ->type_name("N");
-  step->add_option("--bricks", a->across,
-                   "Links of N x N x 50 bricks with (N + 1)^2 nodes of each end tied to the joint")
-      ->check(CLI::IsMember({1, 3, 5, 7, 9}))
-      ->type_name("N");
-  text("--step", a->step, "SECONDS", "Time step [s]; default: that of the model");
-  text("--duration", a->duration, "SECONDS", "Time to simulate [s]; default: that of the model");
-  text("--coordinates", a->coordinates, "", "relative or absolute; default: that of the model")
-      ->check(CLI::IsMember({"relative", "absolute"}))
-      ->type_name("WORD");
-  text("--inertia", a->inertia, "", "preprocessing or projection; default: that of the model")
-      ->check(CLI::IsMember({"preprocessing", "projection"}))
-      ->type_name("WORD");
-  text("--tolerance", a->tolerance, "NUMBER", "Newton tolerance; default: that of the model");
-  text("--spectral-radius", a->spectral_radius, "NUMBER",
-       "Of the integrator at infinite frequency; default: that of the model");
-  text("--json", a->json_file, "FILE", "Write the counts to this file as JSON");
-  step->footer(
-      "All steps are made inside the function floatframe_counted_steps, for instance:\n"
-      "valgrind --tool=callgrind --toggle-collect=floatframe_counted_steps \\\n"
-      "  floatframe bench step chain --duration 0.1");
-  step->callback([a, &action] { action = [a] { return run_steps(*a); }; });
+Command bench_step_command() {
+  const auto a = std::make_shared<StepArguments>();
+  return {
+      .name = "step",
+      .help = "Only the steps of a run, to be watched by a profiler or an instruction counter",
+      .options =
+          {text_position("MODEL", a->model, "chain (default), iltis or a model file"),
+           repeated_option("--set", a->settings, "NAME=VALUE",
+                           "Change a parameter of the model file; may be repeated"),
+           whole_option("--links", a->links, 1, 4096, "Links of the chain (default 4)"),
+           whole_option("--modes", a->modes, 1, 1000, "Modes a link of the chain (default 8)"),
+           whole_option("--elements", a->elements, 1, 100000,
+                        "Elements a link of the chain (default 20)"),
+           whole_option("--iterations", a->iterations, 1, 1000000,
+                        "Instead of steps, so many full Newton iterations at the start"),
+           one_of({"1", "3", "5", "7", "9"},
+                  whole_option("--bricks", a->across, 1, 9,
+                               "Links of N x N x 50 bricks with (N + 1)^2 nodes of each end tied "
+                               "to the joint")),
+           text_option("--step", a->step, "SECONDS", "Time step [s]; default: that of the model"),
+           text_option("--duration", a->duration, "SECONDS",
+                       "Time to simulate [s]; default: that of the model"),
+           coordinates_option(a->coordinates, "relative or absolute; default: that of the model"),
+           inertia_option(a->inertia, "preprocessing or projection; default: that of the model"),
+           text_option("--tolerance", a->tolerance, "NUMBER",
+                       "Newton tolerance; default: that of the model"),
+           text_option("--spectral-radius", a->spectral_radius, "NUMBER",
+                       "Of the integrator at infinite frequency; default: that of the model"),
+           text_option("--json", a->json_file, "FILE", "Write the counts to this file as JSON")},
+      .footer =
+          "All steps are made inside the function floatframe_counted_steps, for instance:\n"
+          "valgrind --tool=callgrind --toggle-collect=floatframe_counted_steps \\\n"
+          "  floatframe bench step chain --duration 0.1",
+      .run = [a] { return run_steps(*a); }};
 }
 
 }  // namespace floatframe

@@ -1,9 +1,7 @@
 // floatframe check: reads and builds a model and counts its coordinates in both formulations.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
-#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/notes.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/formats/health_text.hpp"
@@ -12,6 +10,11 @@
 
 namespace floatframe {
 namespace {
+
+struct CheckArguments {
+  ModelArguments model;
+  bool json = false;
+};
 
 std::string counts_text(const ModelCounts& c) {
   TextTable table({"", "relative", "absolute"});
@@ -63,19 +66,16 @@ int check_model(const ModelArguments& arguments, bool json) {
 
 }  // namespace
 
-void add_check_command(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<ModelArguments>();
-  auto json = std::make_shared<bool>(false);
-  CLI::App* command =
-      app.add_subcommand("check", "Check a model file and count its coordinates and constraints");
-  add_model_arguments(*command, *arguments);
-  command->add_flag("--json", *json, "JSON on standard output");
-  command->footer(
-      "Prints masses [kg] and frequencies [Hz] of the flexible bodies as well.\n"
-      "Exit codes: 0 the model is valid, 1 it cannot be assembled, 2 bad input.");
-  command->callback([arguments, json, &action] {
-    action = [arguments, json] { return check_model(*arguments, *json); };
-  });
+Command check_command() {
+  const auto a = std::make_shared<CheckArguments>();
+  return {.name = "check",
+          .help = "Check a model file and count its coordinates and constraints",
+          .options =
+              joined(model_options(a->model), {flag("--json", a->json, "JSON on standard output")}),
+          .footer =
+              "Prints masses [kg] and frequencies [Hz] of the flexible bodies as well.\n"
+              "Exit codes: 0 the model is valid, 1 it cannot be assembled, 2 bad input.",
+          .run = [a] { return check_model(a->model, a->json); }};
 }
 
 }  // namespace floatframe

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -18,20 +18,23 @@
 
 namespace floatframe {
 
-void add_model_arguments(CLI::App& app, ModelArguments& arguments) {
-  app.add_option("MODEL", arguments.path, "Model file (YAML)")
-      ->required()
-      ->check([](const std::string& file) {  // of a shell variable that is not set
-        return std::string(file.empty() ? "found an empty name, expected a file" : "");
-      })
-      ->type_name("");
-  // One value an occurrence: `--set a=1 model.yaml` must not swallow the model.
-  app.add_option("--set", arguments.settings,
-                 "Change a parameter of the model file; may be repeated")
-      ->type_name("NAME=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+std::vector<Option> model_options(ModelArguments& arguments) {
+  return {file_position("MODEL", arguments.path, "Model file (YAML)"),
+          repeated_option("--set", arguments.settings, "NAME=VALUE",
+                          "Change a parameter of the model file; may be repeated")};
+}
+
+std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+Option coordinates_option(std::string& word, std::string help) {
+  return word_option("--coordinates", word, {"relative", "absolute"}, std::move(help));
+}
+
+Option inertia_option(std::string& word, std::string help) {
+  return word_option("--inertia", word, {"preprocessing", "projection"}, std::move(help));
 }
 
 ModelDescription read_model(const ModelArguments& arguments, bool quiet, ModelFingerprint* used) {

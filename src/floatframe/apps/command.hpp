@@ -1,41 +1,44 @@
 #pragma once
-// What the subcommands share. Each `add_..._command` declares its options on the application; when
-// it is the one that was given it sets `action`, which does the work and returns the exit code.
+// What a command is, and what the commands share.
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "floatframe/apps/options.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/output_files.hpp"
 #include "floatframe/model/description.hpp"
 #include "floatframe/simulation/results.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace floatframe {
 
 struct ModelFingerprint;
 
-using Action = std::function<int()>;
+namespace exit_code {
+inline constexpr int done = 0, failed = 1, bad_input = 2;
+}
 
-void add_run_command(CLI::App& app, Action& action);
-void add_check_command(CLI::App& app, Action& action);
-void add_statics_command(CLI::App& app, Action& action);
-void add_realtime_command(CLI::App& app, Action& action);
-void add_bench_command(CLI::App& app, Action& action);
-void add_sweep_command(CLI::App& app, Action& action);
-void add_advise_command(CLI::App& app, Action& action);
-void add_reduce_command(CLI::App& app, Action& action);
-void add_info_command(CLI::App& app, Action& action);
+/// A command of the program. The parser and the help are made of this table.
+struct Command {
+  std::string name;
+  std::string help;  ///< one line
+  std::vector<Option> options{};
+  std::string footer{};             ///< below the options in its help
+  std::function<int()> run{};       ///< returns the exit code; it owns what the options fill
+  std::vector<Command> commands{};  ///< those of a group (bench), which has no `run`
+};
 
 /// MODEL and --set, as every command that reads a model takes them.
 struct ModelArguments {
   std::string path;
   std::vector<std::string> settings;  ///< "name=value"
 };
-void add_model_arguments(CLI::App& app, ModelArguments& arguments);
+std::vector<Option> model_options(ModelArguments& arguments);
+/// `first`, then `second`.
+std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>& second);
+/// --coordinates and --inertia.
+Option coordinates_option(std::string& word, std::string help);
+Option inertia_option(std::string& word, std::string help);
 
 /// Parts that are reduced meanwhile are named on standard error, unless `quiet`. `used`, if given,
 /// receives what was read. Throws InputError.

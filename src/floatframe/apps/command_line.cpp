@@ -4,22 +4,19 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdlib>
 #include <new>
 #include <set>
 #include <string_view>
 
-#include "floatframe/apps/command.hpp"
-#include "floatframe/core/build_info.hpp"
+#include "floatframe/apps/command_parser.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
 namespace {
-
-constexpr int failed = 1, bad_input = 2;
 
 /// The number of faults that a line stands for: "... and 180 more unknown keys", after a path or
 /// not, tells of those of one kind that are not shown.
@@ -52,51 +49,12 @@ int report(const InputError& error) {
                                                   : plural(static_cast<long>(files.size()), "file");
     say_line(fmt::format("{} faults in {}", count, where));
   }
-  return bad_input;
-}
-
-/// The subcommand that was reached, for the hint which help to read.
-std::string command_path(const CLI::App& app) {
-  std::string path = app.get_name();
-  for (const CLI::App* sub : app.get_subcommands()) path += " " + command_path(*sub);
-  return path;
+  return exit_code::bad_input;
 }
 
 int parse_and_act(int argc, char** argv) {
-  CLI::App app(
-      "Simulates flexible multibody systems with the floating frame of reference formulation.",
-      "floatframe");
-  app.get_formatter()->column_width(34);
-  app.set_version_flag("--version", "floatframe " + build_description());
-  app.require_subcommand(1);
-  app.footer(
-      "SI units, angles in radians. Exit codes: 0 done, 1 failed run, 2 bad input.\n"
-      "`floatframe COMMAND --help` shows the options of a command.");
-  Action action;
-  add_run_command(app, action);
-  add_check_command(app, action);
-  add_statics_command(app, action);
-  add_realtime_command(app, action);
-  add_bench_command(app, action);
-  add_sweep_command(app, action);
-  add_advise_command(app, action);
-  add_reduce_command(app, action);
-  add_info_command(app, action);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::string message = error.what();
-    const char* commands = "run, check, statics, realtime, bench, sweep, advise, reduce or info";
-    if (argc <= 1) {
-      message = fmt::format("a command is required: {}", commands);
-    } else if (app.get_subcommands().empty() && argv[1][0] != '-') {
-      message = fmt::format("found the command '{}', expected {}", argv[1], commands);
-    }
-    say(fmt::format("{} (see {} --help)", message, command_path(app)));
-    return bad_input;
-  }
-  return action();
+  const ParsedCommand command = parse_command_line(all_commands(), argc, argv);
+  return command.run ? command.run() : command.exit_code;
 }
 
 /// A program may be started with its standard files closed. The next file opened would take such a
@@ -123,7 +81,7 @@ int command_line_main(int argc, char** argv) {
   } catch (const std::exception& error) {
     say(error.what());
   }
-  return failed;
+  return exit_code::failed;
 }
 
 }  // namespace floatframe

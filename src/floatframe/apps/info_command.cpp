@@ -1,10 +1,9 @@
 // floatframe info: what is in a finite-element file, a body file or a SID_FEM file.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/part_arguments.hpp"
 #include "floatframe/formats/body_info.hpp"
 #include "floatframe/formats/fe_info.hpp"
@@ -53,37 +52,29 @@ int info(InfoArguments a) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, Action& action) {
-  auto a = std::make_shared<InfoArguments>();
-  CLI::App* command = app.add_subcommand(
-      "info", "Show what is in a finite-element file, a body file or a SID_FEM file");
-  command->add_option("FILE", a->file, "Finite-element file (also .gz), .ffb or SID_FEM")
-      ->required()
-      ->type_name("");
-  command->add_flag("--json", a->json, "JSON on standard output");
-  command->add_option("--format", a->format, "Format of FILE; default: by its content")
-      ->type_name("NAME");
-  command
-      ->add_option("--dialect", a->dialect,
-                   "Whose deck FILE is, abaqus or calculix; default: by its content")
-      ->check(CLI::IsMember({"abaqus", "calculix"}))
-      ->type_name("WORD");
-  command
-      ->add_option("--material", a->material,
-                   "young,poisson,density for files without, their units")
-      ->type_name("E,NU,RHO");
-  command->add_option("--nodes", a->nodes, "File with the nodes of matrices")->type_name("FILE");
-  command->add_option("--mass", a->mass, "Mass matrix, if it is not beside the stiffness")
-      ->type_name("FILE");
-  command->add_option("--dofs", a->dofs, "Dof map of matrices, if not beside them")
-      ->type_name("FILE");
-  command->footer(
-      "Finite-element files: numbers in the units of the file; sets and spiders that could be\n"
-      "interfaces of `floatframe reduce`; what the reader passed over. Body files: SI units, "
-      "where\n"
-      "they came from, modes, markers and the health report.\n"
-      "Exit codes: 0 done, 2 bad input.");
-  command->callback([a, &action] { action = [a] { return info(*a); }; });
+Command info_command() {
+  const auto a = std::make_shared<InfoArguments>();
+  return {
+      .name = "info",
+      .help = "Show what is in a finite-element file, a body file or a SID_FEM file",
+      .options =
+          {file_position("FILE", a->file, "Finite-element file (also .gz), .ffb or SID_FEM"),
+           flag("--json", a->json, "JSON on standard output"),
+           text_option("--format", a->format, "NAME", "Format of FILE; default: by its content"),
+           word_option("--dialect", a->dialect, {"abaqus", "calculix"},
+                       "Whose deck FILE is, abaqus or calculix; default: by its content"),
+           text_option("--material", a->material, "E,NU,RHO",
+                       "young,poisson,density for files without, their units"),
+           text_option("--nodes", a->nodes, "FILE", "File with the nodes of matrices"),
+           text_option("--mass", a->mass, "FILE", "Mass matrix, if it is not beside the stiffness"),
+           text_option("--dofs", a->dofs, "FILE", "Dof map of matrices, if not beside them")},
+      .footer =
+          "Finite-element files: numbers in the units of the file; sets and spiders that could be\n"
+          "interfaces of `floatframe reduce`; what the reader passed over. Body files: SI units, "
+          "where\n"
+          "they came from, modes, markers and the health report.\n"
+          "Exit codes: 0 done, 2 bad input.",
+      .run = [a] { return info(*a); }};
 }
 
 }  // namespace floatframe

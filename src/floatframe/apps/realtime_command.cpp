@@ -1,13 +1,12 @@
 // floatframe realtime: steps a model with the wall clock and exchanges inputs and outputs by UDP.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
 #include <cstring>
 #include <memory>
 
-#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/realtime_output.hpp"
 #include "floatframe/apps/realtime_progress.hpp"
 #include "floatframe/core/atomic_file.hpp"
@@ -155,7 +154,7 @@ std::string port_line(const RealTimeArguments& arguments, const UdpPort& port) {
   return text + "\n";
 }
 
-int run_command(const RealTimeArguments& arguments) {
+int run_paced(const RealTimeArguments& arguments) {
   if (arguments.json && !arguments.layout)
     throw InputError("--json: found without --layout; a run writes JSON with --report FILE");
   ModelFingerprint used;
@@ -205,82 +204,71 @@ int run_command(const RealTimeArguments& arguments) {
   return report.status == "failed" || log_failed ? 1 : 0;
 }
 
-void add_options(CLI::App& command, RealTimeArguments& a) {
-  const auto seconds = [&command](const char* name, std::string& value, const char* help) {
-    command.add_option(name, value, help)->type_name("SECONDS");
+std::vector<Option> options_of(RealTimeArguments& a) {
+  const auto seconds = [](const char* name, std::string& value, const char* help) {
+    return text_option(name, value, "SECONDS", help);
   };
-  const auto words = [&command](const char* name, std::string& value,
-                                const std::vector<std::string>& known, const char* help) {
-    command.add_option(name, value, help)->check(CLI::IsMember(known))->type_name("WORD");
-  };
-  words("--coordinates", a.coordinates, {"relative", "absolute"},
-        "Formulation: relative (joint coordinates) or absolute (natural coordinates)");
-  words("--inertia", a.inertia, {"preprocessing", "projection"},
-        "Inertia terms: preprocessing (constant integrals) or projection (all nodes)");
-  seconds("--step", a.step, "Time step [s]; default: that of the model file");
-  seconds("--duration", a.duration, "Time to run [s]; default: that of the model file");
-  command.add_flag("--endless", a.endless, "Run until Ctrl-C instead");
-  words("--input", a.input, {"udp", "none"}, "Where inputs come from: udp or none (default)");
-  words("--output", a.output, {"udp", "none"}, "Where outputs go to: udp or none (default)");
-  command
-      .add_option("--listen", a.listen,
-                  "Where inputs come in; default: port 47100 of the address that the partner sees")
-      ->type_name("HOST:PORT");
-  command
-      .add_option("--send", a.send,
+  return {
+      coordinates_option(
+          a.coordinates,
+          "Formulation: relative (joint coordinates) or absolute (natural coordinates)"),
+      inertia_option(a.inertia,
+                     "Inertia terms: preprocessing (constant integrals) or projection (all nodes)"),
+      seconds("--step", a.step, "Time step [s]; default: that of the model file"),
+      seconds("--duration", a.duration, "Time to run [s]; default: that of the model file"),
+      flag("--endless", a.endless, "Run until Ctrl-C instead"),
+      word_option("--input", a.input, {"udp", "none"},
+                  "Where inputs come from: udp or none (default)"),
+      word_option("--output", a.output, {"udp", "none"},
+                  "Where outputs go to: udp or none (default)"),
+      text_option("--listen", a.listen, "HOST:PORT",
+                  "Where inputs come in; default: port 47100 of the address that the partner sees"),
+      text_option("--send", a.send, "HOST:PORT",
                   "Where outputs go to, and the only one whose inputs are heard; default: "
-                  "127.0.0.1:47101")
-      ->type_name("HOST:PORT");
-  command
-      .add_option("--peer", a.peer,
+                  "127.0.0.1:47101"),
+      text_option("--peer", a.peer, "HOST[:PORT]",
                   "The only one whose inputs are heard; default: --send if it is given, else who "
-                  "sends first")
-      ->type_name("HOST[:PORT]");
-  command.add_flag("--lockstep", a.lock_step,
-                   "Wait before each step for the inputs that answer the last outputs");
-  seconds("--timeout", a.timeout, "Longest wait of --lockstep; default: 5");
-  seconds("--input-timeout", a.input_timeout,
-          "Inputs that stay away for so long are reported; default: 1; 0: never");
-  words("--fallback", a.fallback, {"hold", "initial", "stop"},
-        "What then happens to them: hold the last values (default), initial values, or stop");
-  command
-      .add_option("--iterations", a.iterations,
-                  "Fixed number of Newton iterations per step; default: to convergence")
-      ->check(CLI::Range(1, realtime_rules::fixed_iterations.high))
-      ->type_name("N");
-  seconds("--budget", a.budget, "No Newton iteration begins later in a step than this");
-  seconds("--max-lag", a.max_lag,
-          "Late steps catch up to this lag, then the clock is moved; default: 0.1");
-  command.add_option("--priority", a.priority, "Real-time priority (SCHED_FIFO)")
-      ->check(CLI::Range(1, realtime_rules::priority.high))
-      ->type_name("1-99");
-  command.add_flag("--lock-memory", a.lock_memory, "Keep all memory of the program resident");
-  command.add_flag("--strict", a.strict,
-                   "Fail if the priority or the locked memory is not granted");
-  command.add_flag("--no-pace", a.no_pace, "As fast as possible, without the wall clock");
-  command.add_option("--report", a.report, "Write figures and histograms to this file as JSON")
-      ->type_name("FILE");
-  command.add_option("--log", a.log, "Write inputs and outputs of every step to this CSV file")
-      ->type_name("FILE");
-  command.add_flag("--layout", a.layout, "Print names and order of the values in the packets only");
-  command.add_flag("--json", a.json, "With --layout: as JSON");
-  command.add_flag("--quiet", a.quiet,
-                   "No progress, no summary; errors and silent partners are still shown");
+                  "sends first"),
+      flag("--lockstep", a.lock_step,
+           "Wait before each step for the inputs that answer the last outputs"),
+      seconds("--timeout", a.timeout, "Longest wait of --lockstep; default: 5"),
+      seconds("--input-timeout", a.input_timeout,
+              "Inputs that stay away for so long are reported; default: 1; 0: never"),
+      word_option("--fallback", a.fallback, {"hold", "initial", "stop"},
+                  "What then happens to them: hold the last values (default), initial values, or "
+                  "stop"),
+      whole_option("--iterations", a.iterations, 1, realtime_rules::fixed_iterations.high,
+                   "Fixed number of Newton iterations per step; default: to convergence"),
+      seconds("--budget", a.budget, "No Newton iteration begins later in a step than this"),
+      seconds("--max-lag", a.max_lag,
+              "Late steps catch up to this lag, then the clock is moved; default: 0.1"),
+      whole_option("--priority", a.priority, 1, realtime_rules::priority.high,
+                   "Real-time priority (SCHED_FIFO)", "1-99"),
+      flag("--lock-memory", a.lock_memory, "Keep all memory of the program resident"),
+      flag("--strict", a.strict, "Fail if the priority or the locked memory is not granted"),
+      flag("--no-pace", a.no_pace, "As fast as possible, without the wall clock"),
+      text_option("--report", a.report, "FILE",
+                  "Write figures and histograms to this file as JSON"),
+      text_option("--log", a.log, "FILE",
+                  "Write inputs and outputs of every step to this CSV file"),
+      flag("--layout", a.layout, "Print names and order of the values in the packets only"),
+      flag("--json", a.json, "With --layout: as JSON"),
+      flag("--quiet", a.quiet,
+           "No progress, no summary; errors and silent partners are still shown")};
 }
 
 }  // namespace
 
-void add_realtime_command(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<RealTimeArguments>();
-  CLI::App* command = app.add_subcommand(
-      "realtime", "Step a model with the wall clock; exchange inputs and outputs by UDP");
-  add_model_arguments(*command, arguments->model);
-  add_options(*command, *arguments);
-  command->footer(
-      "Ctrl-C ends the run with its summary. The packets are described in docs/realtime.md.\n"
-      "Exit codes: 0 done or stopped, 1 failed, 2 bad input.");
-  command->callback(
-      [arguments, &action] { action = [arguments] { return run_command(*arguments); }; });
+Command realtime_command() {
+  const auto a = std::make_shared<RealTimeArguments>();
+  return {
+      .name = "realtime",
+      .help = "Step a model with the wall clock; exchange inputs and outputs by UDP",
+      .options = joined(model_options(a->model), options_of(*a)),
+      .footer =
+          "Ctrl-C ends the run with its summary. The packets are described in docs/realtime.md.\n"
+          "Exit codes: 0 done or stopped, 1 failed, 2 bad input.",
+      .run = [a] { return run_paced(*a); }};
 }
 
 }  // namespace floatframe

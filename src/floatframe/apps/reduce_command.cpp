@@ -1,10 +1,9 @@
 // floatframe reduce: from a finite-element file to a body file, with a report on its health.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/part_arguments.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/formats/fe_info.hpp"
@@ -109,93 +108,77 @@ int reduce_file(const ReduceArguments& a) {
   return 0;
 }
 
-CLI::Option* add_places(CLI::App& app, const char* name, std::vector<std::string>& texts,
-                        const char* help) {
-  return app.add_option(name, texts, help)
-      ->type_name("NAME=...")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+std::vector<Option> file_options(ReduceArguments& a) {
+  return {file_position("PART", a.part, "Finite-element file (also .gz)"),
+          text_option("-o,--out", a.out, "FILE",
+                      "Body file to write; default: PART.ffb in this folder"),
+          text_option("--report", a.report, "FILE", "Health report as JSON"),
+          text_option("--sid", a.sid, "FILE", "Standard Input Data (SID_FEM) as well"),
+          text_option("--units", a.units, "UNITS",
+                      "Unit system of PART: mm-t-s, m-kg-s (si), ...; required"),
+          text_option("--format", a.job.format, "NAME", "Format of PART; default: by its content"),
+          word_option("--dialect", a.dialect, {"abaqus", "calculix"},
+                      "Whose deck PART is, abaqus or calculix; default: by its content"),
+          text_option("--material", a.material, "E,NU,RHO",
+                      "young,poisson,density for files without, in their units"),
+          text_option("--nodes", a.nodes, "FILE", "File with the nodes of matrices"),
+          text_option("--mass", a.mass, "FILE", "Mass matrix, if it is not beside the stiffness"),
+          text_option("--dofs", a.dofs, "FILE", "Dof map of matrices, if not beside them")};
 }
 
-void add_files(CLI::App& app, ReduceArguments& a) {
-  app.add_option("PART", a.part, "Finite-element file (also .gz)")->required()->type_name("");
-  app.add_option("-o,--out", a.out, "Body file to write; default: PART.ffb in this folder")
-      ->type_name("FILE");
-  app.add_option("--report", a.report, "Health report as JSON")->type_name("FILE");
-  app.add_option("--sid", a.sid, "Standard Input Data (SID_FEM) as well")->type_name("FILE");
-  app.add_option("--units", a.units, "Unit system of PART: mm-t-s, m-kg-s (si), ...; required")
-      ->type_name("UNITS");
-  app.add_option("--format", a.job.format, "Format of PART; default: by its content")
-      ->type_name("NAME");
-  app.add_option("--dialect", a.dialect,
-                 "Whose deck PART is, abaqus or calculix; default: by its content")
-      ->check(CLI::IsMember({"abaqus", "calculix"}))
-      ->type_name("WORD");
-  app.add_option("--material", a.material,
-                 "young,poisson,density for files without, in their units")
-      ->type_name("E,NU,RHO");
-  app.add_option("--nodes", a.nodes, "File with the nodes of matrices")->type_name("FILE");
-  app.add_option("--mass", a.mass, "Mass matrix, if it is not beside the stiffness")
-      ->type_name("FILE");
-  app.add_option("--dofs", a.dofs, "Dof map of matrices, if not beside them")->type_name("FILE");
-}
-
-void add_options(CLI::App& app, ReduceArguments& a) {
-  add_places(app, "--interface", a.interfaces, "Where the part is held or driven; repeatable");
-  add_places(app, "--marker", a.markers,
-             "Where loads act (residual) or outputs are taken; repeatable");
-  app.add_option("--modes", a.modes, "Number of normal modes; default 20 if nothing selects them")
-      ->type_name("N");
-  app.add_option("--fmax", a.fmax, "All normal modes below this frequency [Hz]")->type_name("HZ");
-  app.add_option("--effective-mass", a.effective_mass,
-                 "Normal modes until this fraction of the effective mass is reached")
-      ->type_name("FRACTION");
-  app.add_option("--method", a.method, "craig_bampton (default), free_free or craig_chang")
-      ->check(CLI::IsMember({"craig_bampton", "free_free", "craig_chang"}))
-      ->type_name("WORD");
-  app.add_option("--reference", a.reference,
-                 "Body frame: mean_axis (default), buckens or node:NAME of an interface")
-      ->type_name("WORD");
-  app.add_option("--integration", a.integration, "exact (default), or ccx: as CalculiX")
-      ->check(CLI::IsMember({"exact", "ccx"}))
-      ->type_name("WORD");
-  app.add_option("--damping", a.damping, "Modal damping, fraction of critical; default 0")
-      ->type_name("FRACTION");
-  app.add_option("--solver", a.solver, "auto (default), mumps or eigen")
-      ->check(CLI::IsMember({"auto", "mumps", "eigen"}))
-      ->type_name("WORD");
-  app.add_flag("--no-free-check", a.no_free_check,
-               "No free modes of the full model in the report (saves a factorisation)");
-  app.add_flag("--no-stress", a.no_stress, "No stress modes in the body file");
-  app.add_flag("--projection", a.job.options.keep_projection,
-               "Nodes and mass matrix in the body file, for inertia terms by projection");
-  app.add_flag("--quiet", a.quiet, "No progress; the report is still printed");
+std::vector<Option> reduction_options(ReduceArguments& a) {
+  return {repeated_option("--interface", a.interfaces, "NAME=...",
+                          "Where the part is held or driven; repeatable"),
+          repeated_option("--marker", a.markers, "NAME=...",
+                          "Where loads act (residual) or outputs are taken; repeatable"),
+          text_option("--modes", a.modes, "N",
+                      "Number of normal modes; default 20 if nothing selects them"),
+          text_option("--fmax", a.fmax, "HZ", "All normal modes below this frequency [Hz]"),
+          text_option("--effective-mass", a.effective_mass, "FRACTION",
+                      "Normal modes until this fraction of the effective mass is reached"),
+          word_option("--method", a.method, {"craig_bampton", "free_free", "craig_chang"},
+                      "craig_bampton (default), free_free or craig_chang"),
+          text_option("--reference", a.reference, "WORD",
+                      "Body frame: mean_axis (default), buckens or node:NAME of an interface"),
+          word_option("--integration", a.integration, {"exact", "ccx"},
+                      "exact (default), or ccx: as CalculiX"),
+          text_option("--damping", a.damping, "FRACTION",
+                      "Modal damping, fraction of critical; default 0"),
+          word_option("--solver", a.solver, {"auto", "mumps", "eigen"},
+                      "auto (default), mumps or eigen"),
+          flag("--no-free-check", a.no_free_check,
+               "No free modes of the full model in the report (saves a factorisation)"),
+          flag("--no-stress", a.no_stress, "No stress modes in the body file"),
+          flag("--projection", a.job.options.keep_projection,
+               "Nodes and mass matrix in the body file, for inertia terms by projection"),
+          flag("--quiet", a.quiet, "No progress; the report is still printed")};
 }
 
 }  // namespace
 
-void add_reduce_command(CLI::App& app, Action& action) {
-  auto a = std::make_shared<ReduceArguments>();
-  CLI::App* command = app.add_subcommand(
-      "reduce", "Reduce a finite-element part to a flexible body and report on its health");
-  add_files(*command, *a);
-  add_options(*command, *a);
-  command->footer(
-      "An interface or marker is NAME=WAY:VALUE[,OPTION=VALUE ...], lengths in the units of PART:\n"
-      "  BALL=set:BALL                            nodes of a set, physical group or surface\n"
-      "  BALL=node:123                            a node by its number\n"
-      "  BALL=nearest:1,2,3                       the node nearest to a point\n"
-      "  END=plane:0,0,0,normal=x                 nodes on a plane\n"
-      "  EYE=cylinder:0,0,0,axis=y,radius=12      nodes on a bore; also length=30\n"
-      "  BALL=sphere:1,2,3,radius=10              nodes on a sphere\n"
-      "Options: at=x,y,z (reference point), tolerance=0.1; of interfaces type=rigid|mean and\n"
-      "dofs=all|xyz|x+z|xyz+rz; of markers residual (attachment modes for loads that act there).\n"
-      "Example: floatframe reduce arm.inp --units mm-t-s --interface BALL=set:BALL \\\n"
-      "  --interface EYE=cylinder:0,0,0,axis=y,radius=12 --modes 20 -o arm.ffb\n"
-      "Report on standard output, progress on standard error. docs/parts.md explains both.\n"
-      "Exit codes: 0 done, 1 failed, 2 bad input; nothing half-written stays.");
-  command->callback([a, &action] { action = [a] { return reduce_file(*a); }; });
+Command reduce_command() {
+  const auto a = std::make_shared<ReduceArguments>();
+  return {
+      .name = "reduce",
+      .help = "Reduce a finite-element part to a flexible body and report on its health",
+      .options = joined(file_options(*a), reduction_options(*a)),
+      .footer =
+          "An interface or marker is NAME=WAY:VALUE[,OPTION=VALUE ...], lengths in the units of "
+          "PART:\n"
+          "  BALL=set:BALL                            nodes of a set, physical group or surface\n"
+          "  BALL=node:123                            a node by its number\n"
+          "  BALL=nearest:1,2,3                       the node nearest to a point\n"
+          "  END=plane:0,0,0,normal=x                 nodes on a plane\n"
+          "  EYE=cylinder:0,0,0,axis=y,radius=12      nodes on a bore; also length=30\n"
+          "  BALL=sphere:1,2,3,radius=10              nodes on a sphere\n"
+          "Options: at=x,y,z (reference point), tolerance=0.1; of interfaces type=rigid|mean and\n"
+          "dofs=all|xyz|x+z|xyz+rz; of markers residual (attachment modes for loads that act "
+          "there).\n"
+          "Example: floatframe reduce arm.inp --units mm-t-s --interface BALL=set:BALL \\\n"
+          "  --interface EYE=cylinder:0,0,0,axis=y,radius=12 --modes 20 -o arm.ffb\n"
+          "Report on standard output, progress on standard error. docs/parts.md explains both.\n"
+          "Exit codes: 0 done, 1 failed, 2 bad input; nothing half-written stays.",
+      .run = [a] { return reduce_file(*a); }};
 }
 
 }  // namespace floatframe

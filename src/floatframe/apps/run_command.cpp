@@ -1,10 +1,9 @@
 // floatframe run: simulates a model and writes results.csv, report.html and summary.json.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/notes.hpp"
 #include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/core/atomic_file.hpp"
@@ -194,44 +193,36 @@ int run_model(const RunArguments& arguments) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command =
-      app.add_subcommand("run", "Simulate a model; write results, report and summary");
-  add_model_arguments(*command, arguments->model);
-  command
-      ->add_option("--coordinates", arguments->coordinates,
-                   "Formulation: relative (joint coordinates) or absolute (natural coordinates)")
-      ->check(CLI::IsMember({"relative", "absolute"}))
-      ->type_name("WORD");
-  command
-      ->add_option("--inertia", arguments->inertia,
-                   "Inertia terms: preprocessing (constant integrals) or projection (all nodes)")
-      ->check(CLI::IsMember({"preprocessing", "projection"}))
-      ->type_name("WORD");
-  command->add_option("--step", arguments->step, "Time step [s]; default: that of the model file")
-      ->type_name("SECONDS");
-  command
-      ->add_option("--duration", arguments->duration,
-                   "Time to simulate [s]; default: that of the model file")
-      ->type_name("SECONDS");
-  command->add_option("--out", arguments->out, "Folder for the files; default: out/<model name>")
-      ->type_name("DIR");
-  command
-      ->add_option("--write-state", arguments->write_state,
-                   "Write the state at the end, for start: {state: FILE}")
-      ->type_name("FILE");
-  command->add_flag("--no-report", arguments->no_report, "Do not write report.html");
-  command->add_flag("--strict", arguments->strict,
-                    "Warnings count as errors: exit code 1, results are kept");
-  command->add_flag("--quiet", arguments->quiet,
-                    "No progress bar, no summary; errors and warnings are still shown");
-  command->footer(
-      "Files: results.csv (SI units, radians), report.html, summary.json.\n"
-      "Exit codes: 0 completed, 1 failed (results up to there are kept) or, with --strict, with\n"
-      "warnings, 2 bad input.");
-  command->callback(
-      [arguments, &action] { action = [arguments] { return run_model(*arguments); }; });
+Command run_command() {
+  const auto a = std::make_shared<RunArguments>();
+  return {
+      .name = "run",
+      .help = "Simulate a model; write results, report and summary",
+      .options = joined(
+          model_options(a->model),
+          {coordinates_option(
+               a->coordinates,
+               "Formulation: relative (joint coordinates) or absolute (natural coordinates)"),
+           inertia_option(
+               a->inertia,
+               "Inertia terms: preprocessing (constant integrals) or projection (all nodes)"),
+           text_option("--step", a->step, "SECONDS",
+                       "Time step [s]; default: that of the model file"),
+           text_option("--duration", a->duration, "SECONDS",
+                       "Time to simulate [s]; default: that of the model file"),
+           text_option("--out", a->out, "DIR", "Folder for the files; default: out/<model name>"),
+           text_option("--write-state", a->write_state, "FILE",
+                       "Write the state at the end, for start: {state: FILE}"),
+           flag("--no-report", a->no_report, "Do not write report.html"),
+           flag("--strict", a->strict, "Warnings count as errors: exit code 1, results are kept"),
+           flag("--quiet", a->quiet,
+                "No progress bar, no summary; errors and warnings are still shown")}),
+      .footer =
+          "Files: results.csv (SI units, radians), report.html, summary.json.\n"
+          "Exit codes: 0 completed, 1 failed (results up to there are kept) or, with --strict, "
+          "with\n"
+          "warnings, 2 bad input.",
+      .run = [a] { return run_model(*a); }};
 }
 
 }  // namespace floatframe

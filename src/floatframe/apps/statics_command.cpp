@@ -2,11 +2,10 @@
 // the poses of bodies.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/io/model_fingerprint.hpp"
@@ -100,18 +99,23 @@ int warn(const std::vector<std::string>& warnings, bool strict) {
   return 1;
 }
 
-int show_statics(const ModelArguments& arguments, bool json, bool strict,
-                 const std::string& write_state) {
+struct StaticsArguments {
+  ModelArguments model;
+  std::string write_state;
+  bool json = false, strict = false;
+};
+
+int show_statics(const StaticsArguments& a) {
   ModelFingerprint used;
-  const ModelDescription description = read_model(arguments, false, &used);
-  require_writable({{"--write-state", write_state}}, files_of(used));
+  const ModelDescription description = read_model(a.model, false, &used);
+  require_writable({{"--write-state", a.write_state}}, files_of(used));
   const Model model = build_model(description);
   const StaticsResult result = statics(model);
-  if (!write_state.empty()) write_file(write_state, state_json(*result.state));
+  if (!a.write_state.empty()) write_file(a.write_state, state_json(*result.state));
   const std::vector<std::string> warnings = equilibrium_warnings(model, result.bodies);
-  if (json) {
+  if (a.json) {
     print(statics_json(description.name, result, warnings));
-    return warn(warnings, strict);
+    return warn(warnings, a.strict);
   }
   print(fmt::format("{}: static equilibrium after {}, largest unbalanced force {:.2g} N\n",
                     description.name, plural(result.iterations, "iteration"), result.residual) +
@@ -121,32 +125,23 @@ int show_statics(const ModelArguments& arguments, bool json, bool strict,
         "world axes, about "
         "the\njoint's point. Bodies: origin of the body frame; angles from the design pose.\n" +
         redundancy_note(result));
-  return warn(warnings, strict);
+  return warn(warnings, a.strict);
 }
 
 }  // namespace
 
-void add_statics_command(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<ModelArguments>();
-  auto json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand(
-      "statics", "Find the static equilibrium; show forces [N], torques [N m] and poses [m, rad]");
-  add_model_arguments(*command, *arguments);
-  command->add_flag("--json", *json, "JSON on standard output (N, N m, m, rad)");
-  auto state = std::make_shared<std::string>();
-  command
-      ->add_option("--write-state", *state,
-                   "Write the equilibrium as a state, for start: {state: FILE}")
-      ->type_name("FILE");
-  auto strict = std::make_shared<bool>(false);
-  command->add_flag("--strict", *strict, "Warnings count as errors: exit code 1");
-  command->footer(
-      "Exit codes: 0 found, 1 no equilibrium or, with --strict, warnings, 2 bad input.");
-  command->callback([arguments, json, strict, state, &action] {
-    action = [arguments, json, strict, state] {
-      return show_statics(*arguments, *json, *strict, *state);
-    };
-  });
+Command statics_command() {
+  const auto a = std::make_shared<StaticsArguments>();
+  return {
+      .name = "statics",
+      .help = "Find the static equilibrium; show forces [N], torques [N m] and poses [m, rad]",
+      .options = joined(model_options(a->model),
+                        {flag("--json", a->json, "JSON on standard output (N, N m, m, rad)"),
+                         text_option("--write-state", a->write_state, "FILE",
+                                     "Write the equilibrium as a state, for start: {state: FILE}"),
+                         flag("--strict", a->strict, "Warnings count as errors: exit code 1")}),
+      .footer = "Exit codes: 0 found, 1 no equilibrium or, with --strict, warnings, 2 bad input.",
+      .run = [a] { return show_statics(*a); }};
 }
 
 }  // namespace floatframe

@@ -3,7 +3,6 @@
 #include <sched.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -14,7 +13,7 @@
 #include <optional>
 #include <thread>
 
-#include "floatframe/apps/command.hpp"
+#include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -87,7 +86,6 @@ double megabytes(const std::string& text) {
 SweepOptions options_from(const SweepArguments& a) {
   SweepOptions o;
   o.model = a.model.path;
-  if (o.model.empty()) throw InputError("MODEL: found an empty name, expected a file");
   for (const std::string& setting : a.model.settings) {
     const std::size_t equal = setting.find('=');
     if (equal == std::string::npos || equal == 0)
@@ -223,72 +221,59 @@ int sweep(const SweepArguments& arguments) {
 
 }  // namespace
 
-void add_sweep_command(CLI::App& app, Action& action) {
-  auto a = std::make_shared<SweepArguments>();
-  CLI::App* command = app.add_subcommand(
-      "sweep", "Run a model many times with other values; one row of results a run");
-  command->add_option("MODEL", a->model.path, "Model file (YAML)")->required()->type_name("");
-  // One value an occurrence: an option must not swallow the model.
-  const auto repeated = [&](const char* name, std::vector<std::string>& values, const char* type,
-                            const char* text) {
-    command->add_option(name, values, text)
-        ->type_name(type)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);
-  };
-  repeated("--vary", a->vary, "NAME=VALUES",
-           "What changes: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: all combinations");
-  command
-      ->add_option("--table", a->table,
-                   "Instead: CSV file, names in the first line, then one run a line")
-      ->type_name("FILE");
-  repeated("--set", a->model.settings, "NAME=VALUE", "The same for all runs; may be repeated");
-  repeated("--measure", a->measures, "OUTPUT[:STATISTIC]",
-           "Only these outputs in the table: final, min, time_of_min, max, time_of_max or rms; "
-           "may be repeated; default: all of all");
-  command
-      ->add_option("--threads", a->threads,
-                   "Runs at a time, each in a process of its own; default: the processors at hand")
-      ->check(CLI::Range(1, 4096))
-      ->type_name("N");
-  command->add_option("--coordinates", a->coordinates, "relative or absolute, for all runs")
-      ->check(CLI::IsMember({"relative", "absolute"}))
-      ->type_name("WORD");
-  command->add_option("--inertia", a->inertia, "preprocessing or projection, for all runs")
-      ->check(CLI::IsMember({"preprocessing", "projection"}))
-      ->type_name("WORD");
-  command->add_option("--step", a->step, "Time step of all runs [s]")->type_name("SECONDS");
-  command->add_option("--duration", a->duration, "Time to simulate in all runs [s]")
-      ->type_name("SECONDS");
-  command->add_option("--out", a->out, "Folder for the files; default: out/<file name>_sweep")
-      ->type_name("DIR");
-  command->add_flag("--keep-results", a->keep_results,
-                    "Keep results.csv and summary.json of every run below DIR/runs");
-  command->add_flag("--fresh", a->fresh, "Do not continue the study in DIR: start again");
-  command->add_flag("--retry-failed", a->retry_failed, "Continue, and repeat the runs that failed");
-  command->add_flag("--strict", a->strict, "A run with warnings has failed; its figures are kept");
-  command
-      ->add_option("--case-timeout", a->case_timeout,
-                   "A run that takes longer is stopped and has failed")
-      ->type_name("SECONDS");
-  command
-      ->add_option("--case-memory", a->case_memory,
-                   "A run that needs more memory is stopped and has failed [MB]")
-      ->type_name("MB");
-  command->add_flag("--quiet", a->quiet,
-                    "No progress bar, no summary; errors and warnings are still shown");
-  command->footer(
-      "NAME is a parameter of the model file or else a simulation option: coordinates, inertia,\n"
-      "start, step, duration, output_interval, spectral_radius, tolerance, ... (simulation.step "
-      "if\n"
-      "the file has a parameter of that name too).\n"
-      "Files: DIR/sweep.csv, the same to the byte whatever the number of threads and processes;\n"
-      "DIR/sweep.journal, from which an interrupted study continues when the command is repeated.\n"
-      "A run that crashes has its row, \"failed\" and why, and the study goes on.\n"
-      "`mpirun -n 4 floatframe sweep ...` spreads the runs over processes.\n"
-      "Exit codes: 0 completed, 1 a run failed or the study was interrupted, 2 bad input.");
-  command->callback([a, &action] { action = [a] { return sweep(*a); }; });
+Command sweep_command() {
+  const auto a = std::make_shared<SweepArguments>();
+  return {
+      .name = "sweep",
+      .help = "Run a model many times with other values; one row of results a run",
+      .options =
+          {file_position("MODEL", a->model.path, "Model file (YAML)"),
+           repeated_option("--vary", a->vary, "NAME=VALUES",
+                           "What changes: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: all "
+                           "combinations"),
+           text_option("--table", a->table, "FILE",
+                       "Instead: CSV file, names in the first line, then one run a line"),
+           repeated_option("--set", a->model.settings, "NAME=VALUE",
+                           "The same for all runs; may be repeated"),
+           repeated_option(
+               "--measure", a->measures, "OUTPUT[:STATISTIC]",
+               "Only these outputs in the table: final, min, time_of_min, max, time_of_max or rms; "
+               "may be repeated; default: all of all"),
+           whole_option("--threads", a->threads, 1, 4096,
+                        "Runs at a time, each in a process of its own; default: the processors at "
+                        "hand"),
+           coordinates_option(a->coordinates, "relative or absolute, for all runs"),
+           inertia_option(a->inertia, "preprocessing or projection, for all runs"),
+           text_option("--step", a->step, "SECONDS", "Time step of all runs [s]"),
+           text_option("--duration", a->duration, "SECONDS", "Time to simulate in all runs [s]"),
+           text_option("--out", a->out, "DIR",
+                       "Folder for the files; default: out/<file name>_sweep"),
+           flag("--keep-results", a->keep_results,
+                "Keep results.csv and summary.json of every run below DIR/runs"),
+           flag("--fresh", a->fresh, "Do not continue the study in DIR: start again"),
+           flag("--retry-failed", a->retry_failed, "Continue, and repeat the runs that failed"),
+           flag("--strict", a->strict, "A run with warnings has failed; its figures are kept"),
+           text_option("--case-timeout", a->case_timeout, "SECONDS",
+                       "A run that takes longer is stopped and has failed"),
+           text_option("--case-memory", a->case_memory, "MB",
+                       "A run that needs more memory is stopped and has failed [MB]"),
+           flag("--quiet", a->quiet,
+                "No progress bar, no summary; errors and warnings are still shown")},
+      .footer =
+          "NAME is a parameter of the model file or else a simulation option: coordinates, "
+          "inertia,\n"
+          "start, step, duration, output_interval, spectral_radius, tolerance, ... "
+          "(simulation.step "
+          "if\n"
+          "the file has a parameter of that name too).\n"
+          "Files: DIR/sweep.csv, the same to the byte whatever the number of threads and "
+          "processes;\n"
+          "DIR/sweep.journal, from which an interrupted study continues when the command is "
+          "repeated.\n"
+          "A run that crashes has its row, \"failed\" and why, and the study goes on.\n"
+          "`mpirun -n 4 floatframe sweep ...` spreads the runs over processes.\n"
+          "Exit codes: 0 completed, 1 a run failed or the study was interrupted, 2 bad input.",
+      .run = [a] { return sweep(*a); }};
 }
 
 }  // namespace floatframe

@@ -1,0 +1,149 @@
+// The only place that sees CLI11.
+#include "floatframe/apps/command_parser.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+
+#include "floatframe/core/build_info.hpp"
+#include "floatframe/core/number_rule.hpp"
+
+namespace floatframe {
+namespace {
+
+std::string alternatives_of(const std::vector<std::string>& words) {
+  std::vector<const char*> texts;
+  for (const std::string& word : words) texts.push_back(word.c_str());
+  return alternatives(texts);
+}
+
+std::string names_of(const std::vector<Command>& commands) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.name);
+  return alternatives_of(names);
+}
+
+bool is_whole(const Option& option) {
+  return std::holds_alternative<int*>(option.target) ||
+         std::holds_alternative<std::vector<int>*>(option.target);
+}
+
+bool is_number(const Option& option) {
+  return is_whole(option) || std::holds_alternative<double*>(option.target);
+}
+
+/// What a value must be; empty if any will do.
+std::string expectation(const Option& option) {
+  if (!option.words.empty()) return alternatives_of(option.words);
+  if (is_whole(option))
+    return fmt::format("a whole number from {:.0f} to {:.0f}", option.low, option.high);
+  if (is_number(option))
+    return fmt::format("a number from {} to {}", number_text(option.low), number_text(option.high));
+  return "";
+}
+
+bool is_allowed(const Option& option, const std::string& text) {
+  if (!option.words.empty())
+    return std::find(option.words.begin(), option.words.end(), text) != option.words.end();
+  if (!is_number(option)) return true;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0') return false;
+  return value >= option.low && value <= option.high &&
+         (!is_whole(option) || value == std::round(value));
+}
+
+void add_option(CLI::App& app, const Option& option) {
+  if (const auto* given = std::get_if<bool*>(&option.target)) {
+    app.add_flag(option.name, **given, option.help);
+    return;
+  }
+  const bool repeated = std::holds_alternative<std::vector<std::string>*>(option.target);
+  CLI::Option* added = std::visit(
+      [&](auto* target) -> CLI::Option* {
+        return app.add_option(option.name, *target, option.help);
+      },
+      option.target);
+  added->type_name(option.type);
+  if (option.required) added->required();
+  if (option.commas) {
+    added->delimiter(',');
+  } else if (repeated) {
+    // One value an occurrence: `--set a=1 model.yaml` must not swallow the model.
+    added->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+  }
+  const auto check = [option](const std::string& text) {
+    if (option.required && text.empty())  // of a shell variable that is not set
+      return std::string("found an empty name, expected a file");
+    if (is_allowed(option, text)) return std::string();
+    return fmt::format("found '{}', expected {}", text, expectation(option));
+  };
+  added->check(CLI::Validator(check, ""));
+}
+
+/// The command that is reached is put into `chosen`.
+void add_command(CLI::App& app, const Command& command, const Command*& chosen) {
+  CLI::App* sub = app.add_subcommand(command.name, command.help);
+  for (const Option& option : command.options) add_option(*sub, option);
+  for (const Command& below : command.commands) add_command(*sub, below, chosen);
+  if (!command.footer.empty()) sub->footer(command.footer);
+  if (command.commands.empty())
+    sub->callback([&command, &chosen] { chosen = &command; });
+  else
+    sub->require_subcommand(1);
+}
+
+/// The commands that were reached, for the hint which help to read.
+std::string path_of(const CLI::App& app) {
+  std::string path = app.get_name();
+  for (const CLI::App* sub : app.get_subcommands()) path += " " + path_of(*sub);
+  return path;
+}
+
+/// The sentence about a command that is missing or unknown; empty if that is not what is wrong.
+std::string command_complaint(const std::vector<Command>& commands, const CLI::App& app,
+                              std::span<char*> words) {
+  if (commands.empty()) return "";
+  if (words.empty()) return fmt::format("a command is required: {}", names_of(commands));
+  for (const Command& command : commands)
+    if (command.name == words[0])
+      return command_complaint(command.commands, *app.get_subcommand(command.name),
+                               words.subspan(1));
+  if (words[0][0] == '-') return "";
+  return fmt::format("found the command '{}', expected {}", words[0], names_of(commands));
+}
+
+}  // namespace
+
+ParsedCommand parse_command_line(const std::vector<Command>& commands, int argc, char** argv) {
+  CLI::App app(
+      "Simulates flexible multibody systems with the floating frame of reference formulation.",
+      "floatframe");
+  app.get_formatter()->column_width(34);
+  app.set_version_flag("--version", "floatframe " + build_description());
+  app.require_subcommand(1);
+  app.footer(
+      "SI units, angles in radians. Exit codes: 0 done, 1 failed run, 2 bad input.\n"
+      "`floatframe COMMAND --help` shows the options of a command.");
+  const Command* chosen = nullptr;
+  for (const Command& command : commands) add_command(app, command, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return {{}, app.exit(error)};  // --help, --version
+    const std::span<char*> words(argv + std::min(argc, 1), argv + argc);
+    std::string message = command_complaint(commands, app, words);
+    if (message.empty()) message = error.what();
+    say(fmt::format("{} (see {} --help)", message, path_of(app)));
+    return {{}, exit_code::bad_input};
+  }
+  return {chosen->run, exit_code::done};
+}
+
+}  // namespace floatframe
