@@ -23,7 +23,7 @@ struct RealTimeArguments {
   ModelArguments model;
   std::string coordinates, inertia, step, duration, budget, max_lag, timeout, input_timeout, report,
       log;
-  std::string input = "none", output = "none", listen, send, peer, fallback = "hold";
+  std::string input = "none", output = "none", listen, send, peer, fallback;
   int iterations = 0, priority = 0;
   bool endless = false, lock_step = false, no_pace = false, lock_memory = false, strict = false;
   bool layout = false, json = false, quiet = false;
@@ -121,6 +121,8 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
   refuse_alone("--send", arguments.send, options.outputs, "--output udp");
   refuse_alone("--peer", arguments.peer, options.inputs, "--input udp");
   refuse_alone("--timeout", arguments.timeout, options.lock_step, "--lockstep");
+  refuse_alone("--input-timeout", arguments.input_timeout, options.inputs, "--input udp");
+  refuse_alone("--fallback", arguments.fallback, options.inputs, "--input udp");
   if (!options.inputs && !options.outputs) return nullptr;
   if (options.inputs && model.inputs.empty())
     throw InputError(fmt::format(
@@ -140,6 +142,13 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
     throw InputError(
         fmt::format("--listen: found {} beside --send {}, expected both IPv4 or both IPv6",
                     options.listen.text(), options.send.text()));
+  // A socket that is open to all addresses of IPv6 hears IPv4 as well.
+  if (options.inputs && options.peer.known() && options.peer.family() != options.listen.family() &&
+      !options.listen.text().starts_with("[::]"))
+    throw InputError(
+        fmt::format("--peer: found {}, from which no packet can come to {}, expected both IPv4 or "
+                    "both IPv6",
+                    options.peer.text(), options.listen.text()));
   return std::make_unique<UdpPort>(model, options);
 }
 
