@@ -27,8 +27,42 @@ TEST(Equilibrium, SliderCrankFromAnyAngle) {
   }
 }
 
+std::string run_error_of(const Model& model) {
+  try {
+    statics(model);
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
 TEST(Equilibrium, SliderCrankOfTheExampleHangsDown) {
   EXPECT_NEAR(body_of(slider_crank(M_PI / 4), "rod").position.y(), -0.15, 1e-9);
+}
+
+// Its matrices are dense: 800 MB each at this size.
+TEST(Equilibrium, OfTooManyCoordinatesIsRefused) {
+  ModelDescription d;
+  d.name = "stones";
+  for (int k = 0; k < 1667; ++k) {
+    BodyDescription stone;
+    stone.name = "s" + std::to_string(k);
+    RigidDescription rigid;
+    rigid.mass = 1.0;
+    rigid.J_C = Mat3::Identity();
+    stone.kind = rigid;
+    JointDescription free;
+    free.name = "f" + std::to_string(k);
+    free.type = JointType::free;
+    free.child.body = stone.name;
+    d.bodies.push_back(stone);
+    d.joints.push_back(free);
+  }
+  const Model model = build_model(d);
+  EXPECT_EQ(
+      run_error_of(model),
+      "the static equilibrium of the model 'stones' is not looked for: found 10002 coordinates "
+      "and 0 constraints, expected at most 10000 together");
 }
 
 }  // namespace

@@ -192,9 +192,22 @@ void keep_neutral_positions(RelativeFormulation& f, const VecX& start, VecX& q, 
   }
 }
 
+/// The matrices of the search are dense: at this size they take 4 GB and hours.
+constexpr long largest_equilibrium = 10'000;
+
+void check_size(const RelativeFormulation& f) {
+  const long nv = f.velocities(), nc = f.constraints();
+  if (nv + nc > largest_equilibrium)
+    throw RunError(fmt::format(
+        "the static equilibrium of the model '{}' is not looked for: found {} coordinates "
+        "and {} constraints, expected at most {} together",
+        f.model().name, nv, nc, largest_equilibrium));
+}
+
 }  // namespace
 
 Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
+  check_size(f);
   Equilibrium e;
   e.lambda = VecX::Zero(f.constraints());
   const VecX start_q = q;
