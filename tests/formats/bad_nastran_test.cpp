@@ -78,6 +78,13 @@ TEST(BadNastran, Decks) {
        "arm.bdf:10: MAT1 1: E is -2e+11, expected more than 0"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,.5,8000.",
        "arm.bdf:10: MAT1 1: NU is 0.5, expected more than -1 and less than 0.5"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.1+11,7.+10,,8000.",
+       "arm.bdf:10: MAT1 1: NU is 0.5 (from E = 2.1e+11 and G = 7e+10), expected more than -1 and "
+       "less than 0.5"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,,-7.+10,.3,8000.",
+       "arm.bdf:10: MAT1 1: E is -1.82e+11 (from G = -7e+10 and NU = 0.3), expected more than 0"},
+      {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,-7.+10,,8000.",
+       "arm.bdf:10: MAT1 1: G is -7e+10, expected more than 0 where it gives NU with E"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,.3,-1.",
        "arm.bdf:10: MAT1 1: RHO is -1, expected no negative density"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,.3",

@@ -4,9 +4,11 @@
 
 #include <string>
 
+#include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/nastran_cards.hpp"
 #include "floatframe/formats/read_nastran.hpp"
 #include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -48,7 +50,7 @@ TEST(NastranRules, SuperelementsAreRefused) {
 TEST(NastranRules, FactorsOfMassAndStiffness) {
   const FeModel plain = deck(bulk), mass = deck(bulk + "PARAM,CM1,2.5\n"),
                 stiffness = deck(bulk + "PARAM*,CK1,.5,0.\n"),
-                both = deck(bulk + "PARAM,WTMASS,.1\nPARAM,CM1,2.\nPARAM,CM1,3.\n");
+                both = deck(bulk + "PARAM,WTMASS,.1\nPARAM,CM1,3.\nPARAM,CM1,3.\n");
   EXPECT_DOUBLE_EQ(mass.materials.at(0).density, 2.5 * plain.materials.at(0).density);
   EXPECT_EQ(mass.materials.at(0).young, plain.materials.at(0).young);
   EXPECT_EQ(mass.notes.back(), "arm.bdf: PARAM CM1: the mass of the part is multiplied by 2.5");
@@ -68,6 +70,49 @@ TEST(NastranRules, ParametersOfTheCaseControlCount) {
       "BULK\n" +
       bulk);
   EXPECT_DOUBLE_EQ(model.materials.at(0).density, 0.5 * plain.materials.at(0).density);
+}
+
+TEST(NastranRules, FactorsThatDisagreeStop) {
+  const auto subcases = [](const std::string& first, const std::string& second) {
+    return "SOL 103\nCEND\nSUBCASE 1\n PARAM," + first + "\nSUBCASE 2\n PARAM," + second +
+           "\nBEGIN BULK\n" + bulk;
+  };
+  EXPECT_EQ(fault(subcases("CM1,2.0", "CM1,5.0")),
+            "arm.bdf:6: PARAM: CM1 is '5.0', but 2 in arm.bdf:4; a part can have only one of them, "
+            "remove the other");
+  for (const char* word : {"WTMASS", "CK1"}) {
+    const std::string name = word;
+    EXPECT_EQ(fault(subcases(name + ",2.", name + ",1.")),
+              "arm.bdf:6: PARAM: " + name +
+                  " is '1.', but 2 in arm.bdf:4; a part can have only one of them, remove the "
+                  "other");
+  }
+  EXPECT_EQ(
+      fault(bulk + "PARAM,CM1,2.\nPARAM,CM1,3.\n"),
+      "arm.bdf:11: PARAM: CM1 is '3.', but 2 in arm.bdf:10; a part can have only one of them, "
+      "remove the other");
+  EXPECT_DOUBLE_EQ(deck(subcases("CM1,2.0", "CM1,2.")).materials.at(0).density, 16000.0);
+}
+
+TEST(NastranRules, BeginAloneBeginsTheBulkData) {
+  const FeModel plain = deck(bulk);
+  for (const char* begin : {"BEGIN\n", "  begin $ bulk\n"}) {
+    const FeModel model = deck(std::string("SOL 103\nCEND\nPARAM,WTMASS,.5\n") + begin + bulk);
+    EXPECT_DOUBLE_EQ(model.materials.at(0).density, 0.5 * plain.materials.at(0).density);
+  }
+  EXPECT_EQ(fault("BEGIN\n" + bulk + "BEGIN\n"),
+            "arm.bdf:11: 'BEGIN' begins the bulk data of a superelement or of another model, which "
+            "is not read: write one model with one BEGIN BULK");
+}
+
+// Sets of large models are written out in the case control; its end is where it is.
+TEST(NastranRules, ControlOfAnyLengthIsRead) {
+  std::string control = "SOL 103\nCEND\nPARAM,WTMASS,.5\nSET 1 = 1";
+  while (control.size() < std::size_t{3} << 20) control += ",\n 1000, 1001, 1002, 1003, 1004";
+  const TemporaryFolder folder;
+  const auto file = folder.write("arm.bdf", control + "\nBEGIN BULK\n" + bulk);
+  EXPECT_DOUBLE_EQ(read_nastran(file, {}).materials.at(0).density, 4000.0);
+  EXPECT_DOUBLE_EQ(read_fe_file(file, {}, "").materials.at(0).density, 4000.0);
 }
 
 TEST(NastranRules, UnknownParametersStop) {

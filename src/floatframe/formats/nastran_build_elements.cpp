@@ -224,7 +224,12 @@ class ElementBuilder {
     } else if (*m.shear > 0.0) {
       result.poisson = *m.young / (2.0 * *m.shear) - 1.0;
     } else {
-      b_.source.fault(m.at, fmt::format("MAT1 {}: G is not positive", id));
+      // The same sentence for each use of the material would not help.
+      if (checked_.insert(id).second)
+        b_.source.fault(m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 where it gives "
+                                          "NU with E",
+                                          id, *m.shear));
+      return result;
     }
     if (given == 3 && std::abs(result.shear() - *m.shear) > 0.01 * std::abs(*m.shear) &&
         inconsistent_.insert(id).second) {
@@ -233,16 +238,23 @@ class ElementBuilder {
                                 id, *m.shear, result.shear()));
     }
     if (!checked_.insert(id).second) return scaled(result);
-    const auto expect = [&](bool valid, const char* what, double found, const char* expected) {
+    const auto expect = [&](bool valid, const char* what, double found, const std::string& origin,
+                            const char* expected) {
       if (!valid)
-        b_.source.fault(m.at,
-                        fmt::format("MAT1 {}: {} is {:g}, expected {}", id, what, found, expected));
+        b_.source.fault(m.at, fmt::format("MAT1 {}: {} is {:g}{}, expected {}", id, what, found,
+                                          origin, expected));
     };
-    expect(result.young > 0.0, "E", result.young, "more than 0");
+    const auto from = [](const std::optional<double>& own, const char* a, double x, const char* b,
+                         double y) {
+      return own ? "" : fmt::format(" (from {} = {:g} and {} = {:g})", a, x, b, y);
+    };
+    const double shear = m.shear.value_or(0.0);
+    expect(result.young > 0.0, "E", result.young, from(m.young, "G", shear, "NU", result.poisson),
+           "more than 0");
     expect(result.poisson > -1.0 && result.poisson < 0.5, "NU", result.poisson,
-           "more than -1 and less than 0.5");
+           from(m.poisson, "E", result.young, "G", shear), "more than -1 and less than 0.5");
     const double density = m.density.value_or(0.0);
-    expect(density >= 0.0, "RHO", density, "no negative density");
+    expect(density >= 0.0, "RHO", density, "", "no negative density");
     return scaled(result);
   }
 

@@ -12,16 +12,14 @@ namespace {
 
 constexpr std::size_t most_commands = 1000;
 
-/// BEGIN BULK, BEGIN SUPER=3, ...
-bool is_begin(std::string_view line) {
-  return same_word(next_word(line), "BEGIN") && !next_word(line).empty();
-}
+/// BEGIN, BEGIN BULK, BEGIN SUPER=3, ...
+bool is_begin(std::string_view line) { return same_word(next_word(line), "BEGIN"); }
 
-/// BEGIN BULK of the model itself, not of a superelement or of an auxiliary model.
+/// BEGIN BULK (or BEGIN alone) of the model itself, not of a superelement or of an auxiliary model.
 bool is_begin_bulk(std::string_view line) {
   if (!same_word(next_word(line), "BEGIN")) return false;
   const std::string_view second = next_word(line);
-  return same_word(second, "BULK") && trimmed(line).empty();
+  return second.empty() || (same_word(second, "BULK") && trimmed(line).empty());
 }
 
 constexpr const char* one_model =
@@ -42,7 +40,8 @@ bool is_continuation(std::string_view name) {
 bool has_begin_bulk(std::string_view beginning) {
   while (!beginning.empty()) {
     const std::size_t end = std::min(beginning.find('\n'), beginning.size());
-    if (is_begin(trimmed(beginning.substr(0, end)))) return true;
+    const std::string_view line = beginning.substr(0, end);
+    if (is_begin(line.substr(0, line.find('$')))) return true;
     beginning.remove_prefix(std::min(end + 1, beginning.size()));
   }
   return false;

@@ -81,7 +81,7 @@ class NastranCards {
 /// Does a card change neither stiffness nor mass nor geometry (loads, methods, tables, ...)?
 bool is_harmless_nastran_card(const std::string& name);
 
-/// Is there a line BEGIN BULK (or SUPER, ...) in the beginning of a file?
-bool has_begin_bulk(std::string_view beginning);
+/// Is there a line BEGIN (BULK, SUPER, ...) in a text or in the beginning of a file?
+bool has_begin_bulk(std::string_view text);
 
 }  // namespace floatframe

@@ -41,6 +41,12 @@ class ContentReader {
     }
   };
 
+  /// WTMASS, CM1 or CK1.
+  struct Factor {
+    double value = 1.0;
+    FeSource at;
+  };
+
   void one(F& f) {
     static const std::map<std::string_view, NastranCardReader> readers = {
         {"GRID", read_nastran_grid},      {"GRDSET", read_nastran_grid_default},
@@ -134,7 +140,8 @@ class ContentReader {
     }
   }
 
-  /// A positive factor; the last entry of a name counts.
+  /// A positive factor, 1 if an entry before has given it. Subcases may repeat it; two values
+  /// would be two parts.
   double factor(F& f, const std::string& name) {
     const double value = f.real(1, name.c_str());
     if (!(value > 0.0)) {
@@ -142,8 +149,16 @@ class ContentReader {
       return 1.0;
     }
     f.must_be_zero(2, "an imaginary part");
-    double& last = factors_.try_emplace(name, 1.0).first->second;
-    return value / std::exchange(last, value);
+    const auto [it, fresh] = factors_.try_emplace(name, Factor{value, f.at()});
+    if (fresh) return value;
+    if (value != it->second.value) {
+      const SourceMark first = source_.mark(it->second.at);
+      f.fault(
+          fmt::format("{} is {}, but {:g} in {}:{}; a part can have only one of them, remove "
+                      "the other",
+                      name, shown(f.text(1)), it->second.value, first.file, first.line));
+    }
+    return 1.0;
   }
 
   void finish() {
@@ -167,7 +182,8 @@ class ContentReader {
               "{} is not read and may change stiffness or mass{}", name.substr(0, 40),
               passed.number > 1 ? fmt::format(" ({} cards in the file)", passed.number) : ""));
     }
-    for (const auto& [name, value] : factors_) {
+    for (const auto& [name, factor] : factors_) {
+      const double value = factor.value;
       if (name == "WTMASS" || value == 1.0) continue;
       c_.notes.push_back(fmt::format("PARAM {}: the {} of the part is multiplied by {:g}", name,
                                      name == "CK1" ? "stiffness" : "mass", value));
@@ -187,7 +203,7 @@ class ContentReader {
   NastranContent c_;
   static constexpr std::size_t most_passed = 300;
   std::map<std::string, Passed> passed_, unknown_;
-  std::map<std::string, double> factors_;
+  std::map<std::string, Factor> factors_;
 };
 
 }  // namespace

@@ -58,10 +58,8 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
 }
 
 FeModel read_nastran(const std::filesystem::path& file, const FeReadOptions& options) {
-  // Control sections are short; BEGIN BULK is near the beginning if it is there.
-  const bool has_control = has_begin_bulk(read_beginning(file, std::size_t{1} << 20));
   TextSource source(file);
-  return read_nastran(source, has_control, options);
+  return read_nastran(source, has_begin_bulk(source.first_text()), options);
 }
 
 }  // namespace floatframe

@@ -56,6 +56,8 @@ class TextSource {
     again_ = true;
     std::swap(here_, before_);
   }
+  /// The whole first file.
+  std::string_view first_text() const noexcept { return *texts_.front(); }
   /// Place of the last line.
   FeSource here() const noexcept { return here_; }
 
