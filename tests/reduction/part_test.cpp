@@ -389,8 +389,8 @@ TEST(PartFaults, EachHasItsSentence) {
     held.method = method;
     const std::string moving = message(hinge, held);
     EXPECT_TRUE(
-        moving.starts_with("the part is a mechanism: beside the six rigid motions there is one "
-                           "without stiffness, which moves most at node "))
+        moving.starts_with("the part is a mechanism: beside the six rigid motions there is at "
+                           "least one without stiffness, which moves most at node "))
         << static_cast<int>(method) << moving;
   }
   // A node that does not move: the part is held.
@@ -406,6 +406,58 @@ TEST(PartFaults, EachHasItsSentence) {
   options = both_ends();
   options.markers = {{"A", {.by = NodeChoice::By::set, .set = "MIDDLE"}, std::nullopt, false}};
   EXPECT_EQ(message(beam(), options), "marker 'A': the name is given twice");
+}
+
+// Cubes that share an edge (a hinge) or a corner (a ball): so few elements that the seventh motion
+// is as simple as a motion of the whole.
+TEST(PartFaults, MechanismsOfTwoElementsNameNodes) {
+  for (const double size : {1.0, 1e-3}) {
+    for (const Vec3& shift : {Vec3(1, 0, 1), Vec3(1, 1, 1)}) {
+      FeModel model = brick_beam(1, 1, 1, size, size);
+      const int first = model.nodes();
+      Element other = model.elements[0];
+      for (int& node : other.nodes) {
+        const Vec3 p = model.positions[static_cast<std::size_t>(node)] + size * shift;
+        int same = -1;
+        for (int k = 0; k < first; ++k)
+          if ((model.positions[static_cast<std::size_t>(k)] - p).norm() < 1e-9 * size) same = k;
+        node = same < 0 ? model.nodes() : same;
+        if (same < 0) model.positions.push_back(p);
+        if (&node == &other.nodes[7]) break;
+      }
+      model.elements.push_back(other);
+      PartOptions options;
+      options.method = ModeMethod::free_free;
+      options.modes = 1;
+      const std::string text = message(model, options);
+      EXPECT_TRUE(text.starts_with(
+          "the part is a mechanism: beside the six rigid motions there is at least one without "
+          "stiffness, which moves most at node "))
+          << size << ' ' << shift.z() << ' ' << text;
+    }
+  }
+}
+
+// The reference of a coupling that holds some directions only is as loose at an interface as
+// inside.
+TEST(PartFaults, FreedomsThatNothingFollowsAreNamed) {
+  FeModel model = beam();
+  Spider coupling;
+  coupling.reference = model.nodes();
+  coupling.nodes = model.node_sets["B"];
+  coupling.mask = 1u;
+  model.positions.emplace_back(0.6, 0.015, 0.015);
+  model.spiders.push_back(coupling);
+  PartOptions options = both_ends(3);
+  for (const ModeMethod method : {ModeMethod::craig_bampton, ModeMethod::craig_chang}) {
+    options.method = method;
+    EXPECT_EQ(message(model, options),
+              "interface 'B': node 117 can move without resistance in uy, uz, rx: nothing of the "
+              "part follows it there");
+  }
+  options.interfaces = {bore("A")};
+  EXPECT_EQ(message(model, options),
+            "neither the stiffness nor the mass of the free part holds node 117 uy");
 }
 
 TEST(PartFaults, CombinationsWithoutMassAreRefused) {

@@ -25,7 +25,7 @@ MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& ori
   return R;
 }
 
-double elastic_estimate(const FeModel& model, const FeSystem& system) {
+double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* softest) {
   Eigen::AlignedBox3d box;
   for (const Vec3& p : model.positions) box.extend(p);
   const Vec3 centre = box.center();
@@ -65,11 +65,13 @@ double elastic_estimate(const FeModel& model, const FeSystem& system) {
   if (first == m.size()) return 0.0;
   const MatX Q = mass.vectors.rightCols(m.size() - first) *
                  m.tail(m.size() - first).cwiseSqrt().cwiseInverse().asDiagonal();
-  return std::max(symmetric_eigenvalues(Q.transpose() * Kr * Q)(0), 0.0);
+  const SymmetricEigen modes = symmetric_eigen(Q.transpose() * Kr * Q);
+  if (softest != nullptr) *softest = U * (Q * modes.vectors.col(0));
+  return std::max(modes.values(0), 0.0);
 }
 
 FreeStructure::FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX R, double estimate,
-                             SparseSolver solver)
+                             SparseSolver solver, const std::function<std::string(int)>& label)
     : K_(K),
       M_(M),
       R_(std::move(R)),
@@ -82,7 +84,9 @@ FreeStructure::FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX 
   if (!(estimate > 0.0))
     throw InputError("the free modes need a part with mass and with elasticity");
   if (factors_.singular() >= 0)
-    throw InputError("neither the stiffness nor the mass holds some motion of the free part");
+    throw InputError(
+        "neither the stiffness nor the mass of the free part holds " +
+        (label ? label(static_cast<int>(factors_.singular())) : std::string("some motion")));
   if (factors_.negative_pivots() > 0)
     throw InputError("the stiffness or the mass is not positive: an energy is negative");
 }

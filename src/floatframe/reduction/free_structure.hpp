@@ -5,6 +5,9 @@
 //   inertia relief    K u = f - M R (R^T M R)^-1 R^T f,   R^T M u = 0: elastic displacements of the
 //                     body that flies under the forces f
 // Load time: allocates and throws InputError.
+#include <functional>
+#include <string>
+
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/reduction/eigenmodes.hpp"
 
@@ -15,13 +18,16 @@ MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& ori
 
 /// A bound of the lowest elastic eigenvalue [rad2/s2] from above: Rayleigh-Ritz with displacements
 /// that are quadratic in the coordinates. 0 if there is no such (no mass).
-double elastic_estimate(const FeModel& model, const FeSystem& system);
+/// `softest`: the displacements that it belongs to; empty if there are none.
+double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* softest = nullptr);
 
 class FreeStructure {
  public:
-  /// R: rigid motions, n x 6. `estimate`: about the lowest elastic eigenvalue.
+  /// R: rigid motions, n x 6. `estimate`: about the lowest elastic eigenvalue. `label`: of a row,
+  /// for messages.
   FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX R, double estimate,
-                SparseSolver solver = SparseSolver::automatic);
+                SparseSolver solver = SparseSolver::automatic,
+                const std::function<std::string(int)>& label = {});
 
   const std::string& solver_name() const noexcept { return factors_.name(); }
   /// The `count` lowest, rigid motions among them.

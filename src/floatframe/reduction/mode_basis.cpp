@@ -11,6 +11,7 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/reduction/connectivity.hpp"
 #include "floatframe/reduction/mode_selection.hpp"
+#include "floatframe/reduction/rigid_check.hpp"
 
 namespace floatframe {
 namespace {
@@ -160,7 +161,16 @@ ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R
                      const std::vector<InterfacePlace>& interfaces,
                      const std::vector<MarkerPlace>& markers, const PartOptions& options,
                      std::optional<FreeStructure>& structure, Eigenpairs& elastic) {
-  structure.emplace(system.K, system.M, R, 0.01 * elastic_estimate(model, system), options.solver);
+  VecX softest;
+  const double estimate = elastic_estimate(model, system, &softest);
+  try {
+    structure.emplace(system.K, system.M, R, 0.01 * estimate, options.solver,
+                      [&](int row) { return row_label(model, system, row); });
+  } catch (const InputError&) {
+    // Of very few elements a mechanism moves as simply as the shapes of the estimate do.
+    if (softest.size() > 0) check_stiffness_of(model, system, softest);
+    throw;
+  }
   ModeBasis basis;
   basis.solver = structure->solver_name();
   elastic = select_free_modes(*structure, system, options, basis.modes);

@@ -302,7 +302,8 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   if (options.check_free_modes) {
     if (!structure) {
       const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system);
-      structure.emplace(system.K, system.M, R, 0.3 * first, options.solver);
+      structure.emplace(system.K, system.M, R, 0.3 * first, options.solver,
+                        [&](int row) { return row_label(model, system, row); });
     }
     const int count = static_cast<int>(std::min<Eigen::Index>(
         reduced.size(), std::clamp<Eigen::Index>(basis.frequencies.size(), 10, free_modes)));

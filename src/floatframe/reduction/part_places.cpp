@@ -44,6 +44,12 @@ double condition_of(const FeModel& model, const std::vector<int>& nodes) {
   return e(0) > 0.0 ? std::sqrt(e(5) / e(0)) : std::numeric_limits<double>::infinity();
 }
 
+/// By its number in the file: the name is that of the interface.
+std::string number_label(const FeModel& model, int node) {
+  const auto k = static_cast<std::size_t>(node);
+  return "node " + std::to_string(k < model.node_ids.size() ? model.node_ids[k] : node);
+}
+
 void append(Faults& faults, const InputError& error) {
   for (const InputFault& fault : error.faults()) faults.add(fault.mark, fault.message);
 }
@@ -124,8 +130,10 @@ void find_rows(const FeModel& model, const FeSystem& system,
                std::vector<InterfacePlace>& interfaces) {
   Faults faults;
   int count = 0;
+  const VecX stiffness = system.K.diagonal(), mass = system.M.diagonal();
   for (InterfacePlace& place : interfaces) {
     place.first = count;
+    std::string loose;
     for (int axis = 0; axis < 6; ++axis) {
       if (((place.mask >> axis) & 1u) == 0) continue;
       const int row = system.row(place.node, axis);
@@ -137,7 +145,14 @@ void find_rows(const FeModel& model, const FeSystem& system,
       place.rows.push_back(row);
       place.axes.push_back(axis);
       ++count;
+      if (stiffness(row) == 0.0 && mass(row) == 0.0)
+        loose += std::string(loose.empty() ? "" : ", ") + dof_names[axis];
     }
+    // As an inner node would be refused: the reference of a coupling of some directions only.
+    if (!loose.empty())
+      faults.add({}, fmt::format("interface '{}': {} can move without resistance in {}: nothing of "
+                                 "the part follows it there",
+                                 place.name, number_label(model, place.node), loose));
   }
   faults.throw_if_any();
 }
