@@ -54,6 +54,24 @@ simulation: {step: 0.01, duration: 2}
 """
 
 
+# A bar whose mass model needs inertia terms by projection.
+BAR = """\
+floatframe: 1
+points: {a: [0, 0, 0], b: [1, 0, 0]}
+bodies:
+  bar:
+    flexible:
+      material: {young: 70e9, poisson: 0.3, density: 2700}
+      bars: {b: {from: a, to: b, elements: 4, section: {round: 0.01}}}
+      clamped: [a]
+      static_modes: [{point: b, dofs: [y, z]}]
+      mass_model: six_dof
+joints:
+  weld: {type: weld, child: bar, at: a}
+simulation: {step: 0.01, duration: 0.5}
+"""
+
+
 class Page(html.parser.HTMLParser):
     """Checks that tags match and notes what the page refers to."""
     VOID = {"meta", "br", "link", "img"}
@@ -337,6 +355,12 @@ class CheckAndStatics(CommandLine):
         self.assertEqual(counts["degrees_of_freedom"], 1)
         self.assertEqual(counts["redundant_constraints"], 0)
         self.expect(0, "check", "pendulum.yaml", out="degrees of freedom: 1")
+
+    def test_mass_models_that_do_not_go_with_the_inertia_method_have_a_place(self):
+        pathlib.Path(self.folder, "bar.yaml").write_text(BAR)
+        for command in ("check", "statics", "run", "advise"):
+            self.expect(2, command, "bar.yaml", err="bar.yaml:10:19: bodies.bar.flexible.mass_model: found six_dof with inertia "
+                        "terms by preprocessing, expected isoparametric or hermite (or projection)")
 
     def test_statics(self):
         result = json.loads(self.expect(0, "statics", "pendulum.yaml", "--json").stdout)

@@ -422,6 +422,14 @@ TEST(Npy, FortranOrderAndOtherVersions) {
   EXPECT_EQ(std::get<0>(read_npy(two).values), std::get<0>(read_npy(c).values));
 }
 
+TEST(Health, FrequenciesHaveFourDigits) {
+  EXPECT_EQ(hertz_text(1234.5678), "1234.568");
+  EXPECT_EQ(hertz_text(1.0), "1.000");
+  EXPECT_EQ(hertz_text(0.123456), "0.1235");
+  EXPECT_EQ(hertz_text(1.234567e-6), "1.235e-06");
+  EXPECT_EQ(hertz_text(0.0), "-");
+}
+
 TEST(Health, JsonRoundTripAndText) {
   HealthReport h = bracket().part.health;
   h.interfaces[0].condition = std::numeric_limits<double>::infinity();

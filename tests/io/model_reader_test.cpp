@@ -197,6 +197,18 @@ TEST(Overrides, ChangeParametersAndWhatFollows) {
   EXPECT_EQ(flexible(d, "frame").points.at("b"), Vec3(2, 0, 0));
 }
 
+TEST(Names, HoldNoExpressions) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("model.yaml",
+                                        "floatframe: 1\nparameters: {t: tip}\n"
+                                        "bodies: {a: {rigid: {mass: 1}, position: [0, 0, 0]}}\n"
+                                        "outputs:\n  '${t}_x': {position: a, axis: x}\n");
+  EXPECT_EQ(test::error_of([&] { read_model(file); }),
+            file +
+                ":5:3: outputs: found the name '${t}_x', but expressions stand for values, not in "
+                "names");
+}
+
 TEST(Overrides, OfTextsAreTakenAsTheyAreWritten) {
   const test::TemporaryFolder folder;
   const std::string file =
@@ -211,6 +223,7 @@ TEST(Overrides, OfTextsAreTakenAsTheyAreWritten) {
   EXPECT_EQ(name("'true'"), "true");
   EXPECT_EQ(name("\"10\""), "10");
   EXPECT_EQ(name("${'a'}"), "a");
+  for (const char* value : {"null", "~", "Null"}) EXPECT_EQ(name(value), value);
   const auto fault = [&](const ParameterOverride& o) {
     return test::error_of([&] { read_model(file, {o}); }).substr(file.size() + 2);
   };
@@ -220,6 +233,7 @@ TEST(Overrides, OfTextsAreTakenAsTheyAreWritten) {
   EXPECT_EQ(fault({"on", "yes"}), "--set on=yes: found yes (write true)");
   EXPECT_EQ(fault({"on", "1"}), "--set.on: found 1, expected true or false");
   EXPECT_EQ(fault({"name", ""}), "--set name=: found nothing, expected a value");
+  EXPECT_EQ(fault({"n", "null"}), "--set n=null: found null (this is no value)");
   EXPECT_EQ(fault({"nam", "x"}), "--set: unknown parameter 'nam', did you mean 'name'?");
 }
 

@@ -84,6 +84,28 @@ TEST(SummaryJson, NotFiniteIsNullAndBrokenTextIsReplaced) {
   EXPECT_EQ(json["message"], "bad \xEF\xBF\xBD byte");
 }
 
+TEST(SummaryJson, WhatNobodyMeasuredIsLeftOut) {
+  const auto keys = [](const RunSummary& summary) {
+    std::vector<std::string> names;
+    const auto json = nlohmann::ordered_json::parse(summary_json(summary));
+    for (const auto& [key, value] : json.items()) names.push_back(key);
+    return names;
+  };
+  RunSummary lost;  // a run of a study that was stopped
+  lost.status = "failed";
+  lost.message = "longer than 2 s";
+  lost.settings = {"a=1"};
+  EXPECT_EQ(keys(lost), (std::vector<std::string>{"status", "message"}));
+  RunSummary never = lost;  // a start that cannot be
+  never.model = "m";
+  never.step = 0.01;
+  EXPECT_EQ(keys(never), (std::vector<std::string>{"model", "coordinates", "inertia", "step_s",
+                                                   "status", "message"}));
+  RunSummary ended = never;  // in its first step
+  ended.cpu = 1e-6;
+  EXPECT_EQ(keys(ended).size(), 18u);
+}
+
 TEST(CountsJson, HasTheDocumentedKeys) {
   ModelCounts counts;
   counts.bodies = 17;

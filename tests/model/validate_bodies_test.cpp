@@ -20,6 +20,9 @@ TEST(Validate, Model) {
   check({
       {[](D& d) { d.name = "a/b"; },
        "name: found 'a/b', expected a name without slashes and control characters"},
+      {[](D& d) { d.name = std::string(101, 'n'); },
+       "name: found '" + std::string(101, 'n') + "', expected a name of at most 100 characters"},
+      {[](D& d) { d.name = " "; }, "name: found ' ', expected a name without blanks at its ends"},
       {[](D& d) { d.gravity.z() = nan; },
        "gravity[3]: found nan, expected a number [m/s2] (numbers must be finite)"},
       {[](D& d) { d = ModelDescription(); }, "bodies: found none, expected at least one body"},

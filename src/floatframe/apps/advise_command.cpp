@@ -8,6 +8,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/io/advice_json.hpp"
+#include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
 
 namespace floatframe {
@@ -120,6 +121,7 @@ int advise(const AdviseArguments& a) {
                     simulation.duration, simulation.step));
   if (!(simulation.duration >= simulation.step))
     throw InputError("the run is shorter than one step; give a --duration");
+  check_inertia_method(description, simulation.inertia);
   const Model model = build_model(description);
   const ModeAdviceReport report = advise_modes(model, simulation, a.options);
   print(a.json ? advice_json(description.name, simulation.step, report, a.options)

@@ -14,6 +14,7 @@
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/io/model_reader.hpp"
+#include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 extern "C" [[gnu::noinline]] bool floatframe_counted_steps(floatframe::BenchStepper* stepper,
@@ -64,6 +65,7 @@ int run_steps(const StepArguments& a) {
   if (!a.coordinates.empty()) o.coordinates = coordinates_from(a.coordinates);
   if (!a.inertia.empty()) o.inertia = inertia_from(a.inertia);
   require_writable({{"--json", a.json_file}}, {a.model});
+  check_inertia_method(description, o.inertia);
   const Model model = build_model(description);
   const auto stepper = make_bench_stepper(model, o);
   const long steps = a.iterations > 0 ? 0 : std::max(1L, std::lround(o.duration / o.step));

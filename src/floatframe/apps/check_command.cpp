@@ -6,6 +6,7 @@
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/formats/health_text.hpp"
 #include "floatframe/io/check_json.hpp"
+#include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -52,6 +53,7 @@ std::string flexible_bodies_text(const Model& model) {
 
 int check_model(const ModelArguments& arguments, bool json) {
   const ModelDescription description = read_model(arguments);
+  check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
   const ModelCounts counts = count(model);
   if (json) {

@@ -11,6 +11,7 @@
 #include "floatframe/io/model_fingerprint.hpp"
 #include "floatframe/io/state_json.hpp"
 #include "floatframe/io/summary_json.hpp"
+#include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/simulation/range_watch.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
@@ -109,6 +110,7 @@ int show_statics(const StaticsArguments& a) {
   ModelFingerprint used;
   const ModelDescription description = read_model(a.model, false, &used);
   require_writable({{"--write-state", a.write_state}}, files_of(used));
+  check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
   const StaticsResult result = statics(model);
   if (!a.write_state.empty()) write_file(a.write_state, state_json(*result.state));

@@ -123,7 +123,7 @@ std::string list_text(const std::string& heading, const std::vector<std::string>
 
 std::string hertz_text(double x) {
   if (!(x > 0.0)) return "-";
-  return x < 1.0 ? fmt::format("{:.3g}", x) : fmt::format("{:.3f}", x);
+  return x < 1.0 ? fmt::format("{:.4g}", x) : fmt::format("{:.3f}", x);
 }
 
 std::string health_text(const HealthReport& r) {

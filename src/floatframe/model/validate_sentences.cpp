@@ -272,6 +272,8 @@ Complaint column_taken(const std::string& name, bool exists) {
 
 Complaint model_name(const std::string& name) {
   if (name.size() > 100) return "expected a name of at most 100 characters";  // it names a folder
+  if (name.starts_with(' ') || name.ends_with(' '))
+    return "expected a name without blanks at its ends";
   if (name.find_first_of("/\\") == std::string::npos && printable(name) == name && name != "." &&
       name != "..")
     return std::nullopt;
