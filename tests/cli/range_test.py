@@ -78,6 +78,39 @@ class Range(unittest.TestCase):
         little = statics("--set", "load=3.5", "--strict", "--json")
         self.assertEqual((little.returncode, little.stderr, json.loads(little.stdout)["warnings"]), (0, "", []))
 
+    def test_a_paced_run_out_of_range_says_so_at_its_end(self):
+        def realtime(*arguments):
+            done = subprocess.run([BINARY, "realtime", str(MODELS / "cantilever.yaml"), "--no-pace", "--report", "report.json",
+                                   *arguments], capture_output=True, text=True, timeout=300, cwd=self.folder)
+            return done, json.loads((self.folder / "report.json").read_text())["warnings"]
+        for options in ["--quiet"], ["--coordinates", "absolute"], ["--output", "udp"], ["--log", "log.csv"]:
+            done, warnings = realtime(*options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(len(warnings), 2, warnings)
+            self.assertRegex(warnings[0], "^body 'beam' deforms too far for small deformations: from t = ")
+            self.assertRegex(warnings[1], "^body 'beam' bends too far for small rotations: from t = ")
+            said = [line for line in done.stderr.splitlines() if "warning" in line]
+            self.assertEqual(said, [f"floatframe: warning: {w}" for w in warnings])
+        done, warnings = realtime("--set", "load=3.5")
+        self.assertEqual((done.returncode, warnings), (0, []))
+        self.assertNotIn("warning", done.stderr)
+
+    def test_advice_says_what_its_runs_left(self):
+        def advise(*arguments):
+            return subprocess.run([BINARY, "advise", str(MODELS / "cantilever.yaml"), "--repeat", "1", *arguments],
+                                  capture_output=True, text=True, timeout=300, cwd=self.folder)
+        text, done = advise(), advise("--json")
+        figures = json.loads(done.stdout)
+        full, reduced = figures["full"]["warnings"], figures["reduced"]["warnings"]
+        self.assertRegex(full[0], "^body 'beam' deforms too far for small deformations: from t = ")
+        self.assertEqual(len(reduced), 2 if figures["dropped"] else 0)
+        said = "".join(f"floatframe: warning: {w}\n" for w in full) + "".join(
+            f"floatframe: warning: without the modes that are dropped: {w}\n" for w in reduced)
+        self.assertEqual((done.returncode, done.stderr), (0, said))
+        self.assertEqual((text.returncode, text.stderr), (0, said))
+        little = advise("--json", "--set", "load=3.5")
+        self.assertEqual((little.stderr, json.loads(little.stdout)["full"]["warnings"]), ("", []))
+
     def test_balance_is_complete(self):
         self.assertEqual(self.run_model(MODELS / "springs.yaml", "--no-report").returncode, 0)
         energy = self.summary["energy"]

@@ -270,6 +270,8 @@ void check_allocations(bool paced) {
   RealTimeReport report;
   RealTimeRunner<F> runner(f, step_options, options, 0.001, 0.1, &port, report);
   runner.state() = state;
+  MotionWatch<F> watch(f, 0.001);
+  runner.watched_by(watch);
   const AllocationScope scope;
   const auto end = runner.run();
   EXPECT_EQ(scope.count(), 0u);

@@ -126,6 +126,9 @@ int advise(const AdviseArguments& a) {
   const ModeAdviceReport report = advise_modes(model, simulation, a.options);
   print(a.json ? advice_json(description.name, simulation.step, report, a.options)
                : advice_text(description.name, simulation, report, a.options));
+  for (const std::string& warning : report.full.warnings) say("warning: " + warning);
+  for (const std::string& warning : report.reduced.warnings)
+    say("warning: without the modes that are dropped: " + warning);
   return 0;
 }
 

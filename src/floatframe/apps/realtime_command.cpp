@@ -206,6 +206,7 @@ int run_paced(const RealTimeArguments& arguments) {
   if (!arguments.report.empty())
     write_file(arguments.report, realtime_json(report, options, model, port.get()));
   if (!arguments.quiet) print(realtime_text(report, options, model, port.get()));
+  for (const std::string& warning : report.warnings) say("warning: " + warning);
   if (report.status == "failed") say("the run failed: " + report.message);
   const bool log_failed = log && log->error() != 0;
   if (log_failed)

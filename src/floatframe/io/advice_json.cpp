@@ -15,7 +15,8 @@ Json cost(const RunSummary& s, double flops) {
   return {{"steps", s.steps},
           {"iterations_per_step", static_cast<double>(s.iterations) / steps},
           {"cpu_us_per_step", 1e6 * s.cpu / steps},
-          {"flops_per_step", flops}};
+          {"flops_per_step", flops},
+          {"warnings", s.warnings}};
 }
 
 }  // namespace

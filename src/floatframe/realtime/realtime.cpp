@@ -6,6 +6,7 @@
 #include "floatframe/realtime/denormals.hpp"
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/realtime/scheduling.hpp"
+#include "floatframe/simulation/forcing.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/light_motion.hpp"
 #include "floatframe/simulation/simulation.hpp"
@@ -42,6 +43,8 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
   start_accelerations(f, start, step_options.penalty_mass);
   RealTimeRunner<F> runner(f, step_options, options, d.step, d.duration, port, report);
   runner.state() = start;
+  MotionWatch<F> watch(f, d.step);
+  if (options.watch) runner.watched_by(watch);
   const RealTimeScheduling scheduling({options.priority, options.lock_memory});
   report.priority = scheduling.has_priority();
   report.memory_locked = scheduling.memory_locked();
@@ -77,6 +80,11 @@ void run_with(F& f, State start, const SimulationDescription& d, const RealTimeO
       report.message = fmt::format("no inputs came for {:g} s after t = {:.9g} s",
                                    options.input_timeout, report.last_inputs);
       break;
+  }
+  if (options.watch) {
+    report.warnings = unresolved_forcing(f.model(), d.step, start.t, report.time - start.t);
+    const auto left = watch.range().sentences(EnergySummary(), d.spectral_radius);
+    report.warnings.insert(report.warnings.end(), left.begin(), left.end());
   }
   const std::span<const double> row = runner.sample();
   report.outputs.assign(row.begin() + 1, row.end());

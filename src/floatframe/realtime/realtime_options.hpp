@@ -37,6 +37,7 @@ struct RealTimeOptions {
   /// Model time since when inputs have stayed away [s], negative while they come; likewise. It
   /// stays as it is when the run ends.
   std::atomic<double>* silent_since = nullptr;
+  bool watch = true;         ///< say where the run leaves the range of the method, but for energies
   SignalLog* log = nullptr;  ///< takes inputs and outputs of every step
 };
 

@@ -11,6 +11,7 @@
 #include "floatframe/realtime/input_watch.hpp"
 #include "floatframe/realtime/realtime.hpp"
 #include "floatframe/realtime/signal_log.hpp"
+#include "floatframe/simulation/motion_watch.hpp"
 #include "floatframe/simulation/runner.hpp"
 
 namespace floatframe {
@@ -33,6 +34,9 @@ class RealTimeRunner {
         report_(report) {}
 
   State& state() noexcept { return runner_.state(); }
+  /// Looks at the start and after every step whose end the formulation holds, else at two steps of
+  /// every `watch_every`. What it finds is read after `run`.
+  void watched_by(MotionWatch<F>& watch) noexcept { watch_ = &watch; }
   const InputBuffer& inputs() const noexcept { return inputs_; }
   /// The cause of a failed step (allocates: after `run`).
   std::string failure() const { return runner_.failure(); }
@@ -62,6 +66,9 @@ class RealTimeRunner {
 
  private:
   static constexpr double smallest_part = 0.125;
+  /// Evaluating the end of a step once more costs some per cent of a step. A number of steps that
+  /// hardly any vibration of four or five steps fits into.
+  static constexpr long watch_every = 17;
 
   static rusage usage() noexcept {
     rusage u{};
@@ -83,6 +90,7 @@ class RealTimeRunner {
                      port_ != nullptr && port_->gives_inputs() && inputs_.size() > 0, report_);
     f_.set_inputs(inputs_.values());
     send(0, steps == 0);
+    watch_start();
     const Nanoseconds start = wall_clock();
     Nanoseconds base = start;  // due time of step 0
     End end = End::completed;
@@ -137,7 +145,8 @@ class RealTimeRunner {
       if (good) {
         runner_.state().t = to;
         ++report_.steps;
-        send(static_cast<std::uint64_t>(k) + 1, k + 1 == steps);
+        const bool sampled = send(static_cast<std::uint64_t>(k) + 1, k + 1 == steps);
+        watch_step(k, sampled, !part);
       }
       const Nanoseconds cpu = thread_cpu_clock() - cpu_begin;
       const Nanoseconds wall_end = wall_clock();
@@ -175,17 +184,45 @@ class RealTimeRunner {
       ++report_.host_overruns;
   }
 
-  /// Outputs to the port and, once for each state, inputs and outputs to the log.
-  void send(std::uint64_t step, bool last) noexcept {
+  void watch_start() noexcept {
+    if (watch_ == nullptr) return;
+    evaluate();
+    watch_->look(state());
+    watch_->start(state());
+  }
+
+  /// After the outputs are gone: nobody waits for it. Phases are those of one step.
+  void watch_step(long step, bool evaluated, bool full) noexcept {
+    if (watch_ == nullptr) return;
+    // A step with constraints leaves positions and velocities of its end behind.
+    const bool held = evaluated || f_.constraints() > 0;
+    const long turn = held ? 1 : step % watch_every;
+    if (turn > 1) return;
+    if (!held) evaluate();
+    watch_->look(state());
+    if (turn == 0)
+      watch_->start(state());
+    else if (full)
+      watch_->follow(state());
+  }
+
+  void evaluate() noexcept {
+    f_.positions(state().t, state().q);
+    f_.velocities(state().v);
+  }
+
+  /// Outputs to the port and, once for each state, inputs and outputs to the log. True: sampled.
+  bool send(std::uint64_t step, bool last) noexcept {
     const bool wanted = port_ != nullptr && port_->wants_outputs();
     const bool logged = options_.log != nullptr && step == next_logged_;
-    if (!wanted && !logged) return;
+    if (!wanted && !logged) return false;
     runner_.sample(row_.data());
     const std::span<const double> outputs = std::span<const double>(row_).subspan(1);
     if (wanted) port_->send(step, row_[0], outputs, last);
-    if (!logged) return;
+    if (!logged) return true;
     options_.log->push(row_[0], inputs_.values(), outputs);
     ++next_logged_;
+    return true;
   }
 
   F& f_;
@@ -197,6 +234,7 @@ class RealTimeRunner {
   std::vector<double> row_;
   RealTimeReport& report_;
   std::uint64_t next_logged_ = 0;
+  MotionWatch<F>* watch_ = nullptr;
 };
 
 }  // namespace floatframe

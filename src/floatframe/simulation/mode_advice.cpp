@@ -163,6 +163,7 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
   }
   std::size_t good = 0, bad = steps.size();
   Model reduced = model;
+  std::vector<std::string> reduced_warnings;
   while (bad - good > 1) {
     // All of them first: most often that is the answer.
     const std::size_t at = bad == steps.size() ? bad - 1 : (good + bad) / 2;
@@ -171,10 +172,12 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
     ++report.trials;
     bool passed = false;
     std::vector<OutputDifference> differences;
+    std::vector<std::string> warnings;
     try {
       const RunResult result = run(trial, simulation);
       differences = output_differences(scale, table, result.table);
       passed = result.summary.status == "completed";
+      warnings = result.summary.warnings;
       for (const OutputDifference& d : differences)
         passed = passed && d.relative <= options.tolerance;
     } catch (const RunError&) {  // a model that cannot be assembled or moved without these modes
@@ -183,6 +186,7 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
       good = at;
       report.differences = std::move(differences);
       reduced = trial;
+      reduced_warnings = std::move(warnings);
     } else {
       bad = at;
       report.refused_by = differences.empty() ? "" : differences.front().name;
@@ -222,6 +226,8 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
     if (k == 0 || b.cpu < report.reduced.cpu) report.reduced = b;
   }
   if (report.dropped == 0) report.reduced = report.full;
+  report.full.warnings = full.summary.warnings;
+  report.reduced.warnings = reduced_warnings;
   for (std::size_t k = 0; k < report.bodies.size(); ++k) {
     report.flops_full += flops(static_cast<double>(report.bodies[k].modes.size()), report.full);
     report.flops_reduced += flops(kept_modes[k], report.full);

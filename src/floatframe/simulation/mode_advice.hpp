@@ -73,9 +73,10 @@ struct AdviceOptions {
 struct ModeAdviceReport {
   std::vector<BodyAdvice> bodies;
   int modes = 0, dropped = 0, quasi_static = 0, candidates = 0;
-  int trials = 0;            ///< reduced models that were run
-  double tolerance = 0;      ///< Newton tolerance of the runs compared, below that of the model
-  RunSummary full, reduced;  ///< quickest of the repeated runs
+  int trials = 0;        ///< reduced models that were run
+  double tolerance = 0;  ///< Newton tolerance of the runs compared, below that of the model
+  /// Quickest of the repeated runs; with the warnings of those compared.
+  RunSummary full, reduced;
   std::vector<OutputDifference> differences;  ///< the largest first
   std::string refused_by;  ///< the output that changed most in the smallest model refused ...
   double refused_difference =

@@ -7,7 +7,7 @@
 
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/simulation/energy_balance.hpp"
-#include "floatframe/simulation/range_watch.hpp"
+#include "floatframe/simulation/motion_watch.hpp"
 
 namespace floatframe {
 
@@ -16,12 +16,7 @@ class RunWatch {
  public:
   /// `records`: rows that will be recorded.
   RunWatch(F& formulation, double step, long records)
-      : f_(formulation),
-        watch_(formulation.model(), step),
-        every_(std::max(1L, records / energy_checks)) {
-    int modes = 0;
-    for (const Body& b : f_.model().bodies) modes = std::max(modes, b.modes());
-    y_ = VecX::Zero(modes);
+      : f_(formulation), motion_(formulation, step), every_(std::max(1L, records / energy_checks)) {
     double total = 0.0;
     for (const Body& b : f_.model().bodies) mass_.push_back(b.data->invariants.m);
     for (const double m : mass_) total += m;
@@ -32,9 +27,9 @@ class RunWatch {
   /// At the start of the run; `lambda` belongs to its accelerations.
   void start(const State& s) noexcept {
     evaluate(s);
-    balance_.start(s.t, flows(f_, s.v, s.lambda), energies(s), watch_.noise());
-    look(s);
-    meters(s, [](PhaseMeter& m, const Vec3& v) { m.start(v); });
+    balance_.start(s.t, flows(f_, s.v, s.lambda), energies(s), motion_.range().noise());
+    motion_.look(s);
+    motion_.start(s);
   }
 
   /// After a step; `sampled`: outputs have just been taken there.
@@ -47,9 +42,9 @@ class RunWatch {
         evaluate(s);
     }
     balance_.advance(s.t, flows(f_, s.v, reactions));
-    if (full) meters(s, [](PhaseMeter& m, const Vec3& v) { m.observe(v); });
+    if (full) motion_.follow(s);
     if (!sampled) return;
-    look(s);
+    motion_.look(s);
     if (++records_ % every_ == 0) balance_.check(s.t, energies(s));
   }
 
@@ -59,7 +54,7 @@ class RunWatch {
     balance_.check(s.t, energies(s));
     out.energy.balanced = true;
     balance_.write(out.energy);
-    out.warnings = watch_.sentences(out.energy, spectral_radius);
+    out.warnings = motion_.range().sentences(out.energy, spectral_radius);
   }
 
  private:
@@ -93,31 +88,9 @@ class RunWatch {
     return e;
   }
 
-  void look(const State& s) noexcept {
-    for (std::size_t i = 0; i < watch_.bodies().size(); ++i) {
-      const int body = static_cast<int>(i);
-      for (int k = 0; k < f_.model().bodies[i].modes(); ++k) y_[k] = f_.amplitude(s.q, body, k);
-      const Vec3 w = f_.body_rotation(body).transpose() * f_.body_angular_velocity(body);
-      watch_.bodies()[i].observe(s.t, watch_.step(), w, y_.data(), watch_.limits());
-    }
-  }
-
-  template <class Use>
-  void meters(const State& s, const Use& use) noexcept {
-    for (std::size_t i = 0; i < f_.model().bodies.size(); ++i) {
-      const int body = static_cast<int>(i);
-      std::vector<PhaseMeter>& m = watch_.meters(body);
-      use(m[0], f_.body_velocity(body));
-      use(m[1], f_.body_angular_velocity(body));
-      for (std::size_t k = 2; k < m.size(); ++k)
-        use(m[k], Vec3(f_.amplitude_rate(s.v, body, static_cast<int>(k) - 2), 0.0, 0.0));
-    }
-  }
-
   F& f_;
-  RangeWatch watch_;
+  MotionWatch<F> motion_;
   EnergyBalance balance_;
-  VecX y_;
   std::vector<double> mass_;  ///< of the bodies, for the energy of their motion [kg]
   long every_, records_ = 0;
 };

@@ -1,0 +1,59 @@
+#pragma once
+// Watches deformation, spin and phase of a run of any formulation, from a formulation whose
+// positions and velocities are those of the state. Nothing here allocates after construction; the
+// formulation and the state stay as they are.
+#include <vector>
+
+#include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/simulation/range_watch.hpp"
+
+namespace floatframe {
+
+template <class F>
+class MotionWatch {
+ public:
+  MotionWatch(F& formulation, double step) : f_(formulation), range_(formulation.model(), step) {
+    int modes = 0;
+    for (const Body& b : f_.model().bodies) modes = std::max(modes, b.modes());
+    y_ = VecX::Zero(modes);
+  }
+
+  const RangeWatch& range() const noexcept { return range_; }
+
+  /// Deformation, spin and turn of all bodies.
+  void look(const State& s) noexcept {
+    for (std::size_t i = 0; i < range_.bodies().size(); ++i) {
+      const int body = static_cast<int>(i);
+      for (int k = 0; k < f_.model().bodies[i].modes(); ++k) y_[k] = f_.amplitude(s.q, body, k);
+      const Vec3 w = f_.body_rotation(body).transpose() * f_.body_angular_velocity(body);
+      range_.bodies()[i].observe(s.t, range_.step(), w, y_.data(), range_.limits());
+    }
+  }
+
+  /// Velocities at the start, and after every full step since.
+  void start(const State& s) noexcept {
+    meters(s, [](PhaseMeter& m, const Vec3& v) { m.start(v); });
+  }
+  void follow(const State& s) noexcept {
+    meters(s, [](PhaseMeter& m, const Vec3& v) { m.observe(v); });
+  }
+
+ private:
+  template <class Use>
+  void meters(const State& s, const Use& use) noexcept {
+    for (std::size_t i = 0; i < f_.model().bodies.size(); ++i) {
+      const int body = static_cast<int>(i);
+      std::vector<PhaseMeter>& m = range_.meters(body);
+      use(m[0], f_.body_velocity(body));
+      use(m[1], f_.body_angular_velocity(body));
+      for (std::size_t k = 2; k < m.size(); ++k)
+        use(m[k], Vec3(f_.amplitude_rate(s.v, body, static_cast<int>(k) - 2), 0.0, 0.0));
+    }
+  }
+
+  F& f_;
+  RangeWatch range_;
+  VecX y_;
+};
+
+}  // namespace floatframe
