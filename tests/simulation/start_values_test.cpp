@@ -108,5 +108,35 @@ TEST(StartValues, KeptOnesThatCannotBeHeldAreNamed) {
   }
 }
 
+// Both cranks of a four-bar linkage are driven: one rate follows from the other.
+TEST(StartValues, MotionsThatContradictEachOther) {
+  const auto message = [&](const char* a, const char* d, const char* cut) {
+    const auto motion = [](const char* polynomial) {
+      return std::string(", motion: {polynomial: ") + polynomial + "}";
+    };
+    const Model model = model_of(four_bar(motion(a), motion(d), cut));
+    std::string first;
+    for (const Combination& c : combinations) {
+      const std::string m = message_of([&] { run_of(model, c); });
+      if (first.empty()) first = m;
+      EXPECT_EQ(m, first) << c.name();
+    }
+    return first;
+  };
+  for (const char* cut : {"a", "c", "d"}) {
+    // In the design position the rocker of 0.4 m goes at half the rate of the crank of 0.2 m.
+    EXPECT_EQ(message("[0, 2]", "[0, 5]", cut),
+              "the start velocities do not fit: the prescribed motions of joints 'a' and 'd' "
+              "contradict each other: joint 'a' misses its own by 8 rad/s if the rest is met")
+        << cut;
+    run_of(
+        model_of(four_bar(", motion: {polynomial: [0, 2]}", ", motion: {polynomial: [0, 1]}", cut)),
+        combinations[0]);
+    expect_in(message("[0, 0]", "[0.1, 0]", cut),
+              "the model cannot be assembled: the prescribed motions of joints 'a' and 'd' "
+              "contradict each other: joint 'a' misses its own by 0.2 rad if the rest is met");
+  }
+}
+
 }  // namespace
 }  // namespace floatframe::test

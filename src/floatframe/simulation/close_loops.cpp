@@ -8,6 +8,7 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/open_loops.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -17,15 +18,6 @@ namespace {
 using Given = RelativeFormulation::Given;
 
 double largest(const VecX& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
-
-/// Owner of the constraint with the largest magnitude.
-const ConstraintPart& worst_part(const RelativeFormulation& f, const VecX& phi) {
-  Eigen::Index row = 0;
-  phi.cwiseAbs().maxCoeff(&row);
-  std::size_t k = f.parts().size() - 1;
-  while (k > 0 && f.part_offset(k) > row) --k;
-  return f.parts()[k];
-}
 
 /// Least weighted change x with J x = b.
 VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
@@ -225,10 +217,6 @@ std::string keepers(const Model& model, bool rates) {
          " (keep: true)";
 }
 
-std::string open_part(const RelativeFormulation& f, const VecX& phi) {
-  return owner_name(f.model(), worst_part(f, phi).owner);
-}
-
 }  // namespace
 
 void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_positions, double t,
@@ -248,10 +236,10 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
             kept_positions, violation));
     }
     if (!(violation < closed)) {
-      violation = f.constraints() > 0 ? largest(f.constraint_values()) : violation;
-      throw RunError(fmt::format(
-          "the model cannot be assembled: {} stays open by {:.3g} m at the start",
-          f.constraints() > 0 ? open_part(f, f.constraint_values()) : "a joint", violation));
+      throw RunError(fmt::format("the model cannot be assembled: {} at the start",
+                                 f.constraints() > 0
+                                     ? open_loops_text(f, f.constraint_values(), false)
+                                     : fmt::format("a joint stays open by {:.3g} m", violation)));
     }
   }
   const auto closed = [&](double violation) { return violation < 1e-8 * (1.0 + largest(v)); };
@@ -269,9 +257,10 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
   }
   VecX rate(f.constraints());
   f.constraint_rates(rate);
-  throw RunError(fmt::format("the start velocities do not fit: {} opens at {:.3g} m/s",
-                             f.constraints() > 0 ? open_part(f, rate) : "a joint",
-                             f.constraints() > 0 ? largest(rate) : violation));
+  throw RunError(fmt::format("the start velocities do not fit: {}",
+                             f.constraints() > 0
+                                 ? open_loops_text(f, rate, true)
+                                 : fmt::format("a joint opens at {:.3g} m/s", violation)));
 }
 
 }  // namespace floatframe

@@ -1,0 +1,77 @@
+// What contradicts what: with the Jacobian J of the constraints the part e = (I - J J+) r of the
+// residual r is out of reach of all coordinates. Its rows belong to the constraints that contradict
+// each other. Where all but row i are met, row i misses by e_i / (I - J J+)_ii.
+#include "floatframe/simulation/open_loops.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/math/dense.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+
+namespace floatframe {
+namespace {
+
+/// The part whose row has the largest magnitude.
+std::size_t worst_part(const RelativeFormulation& f, const VecX& r) {
+  Eigen::Index row = 0;
+  r.cwiseAbs().maxCoeff(&row);
+  std::size_t k = f.parts().size() - 1;
+  while (k > 0 && f.part_offset(k) > row) --k;
+  return k;
+}
+
+const char* unit_of(const ConstraintPart& part, bool rates) {
+  if (part.kind == ConstraintPart::Kind::drive_angle) return rates ? "rad/s" : "rad";
+  return rates ? "m/s" : "m";
+}
+
+/// Rows of angles are lengths.
+double in_unit(const ConstraintPart& part, double x) {
+  return std::abs(part.kind == ConstraintPart::Kind::drive_angle ? x / part.scale : x);
+}
+
+std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rates) {
+  const MatX J = f.constraint_jacobian();
+  const LeastNorm solver(J, 1e-11);
+  const auto out_of_reach = [&](const VecX& r) { return VecX(r - J * solver.solve(r)); };
+  const VecX e = out_of_reach(residual);
+  const double counts = 1e-6 * e.lpNorm<Eigen::Infinity>();
+  std::vector<std::string> names;
+  std::size_t worst = f.parts().size();
+  double most = 0.0;
+  for (std::size_t k = 0; k < f.parts().size(); ++k) {
+    const double x = std::abs(e[f.part_offset(k)]);
+    if (f.parts()[k].motion == nullptr || !(x > counts)) continue;
+    names.push_back(f.model().joints[static_cast<std::size_t>(f.parts()[k].owner.index)].name);
+    if (x > (1.0 + 1e-6) * most) {  // of equal ones the first
+      most = x;
+      worst = k;
+    }
+  }
+  // Positions that one motion asks for may be out of the reach of its loop: that loop stays open.
+  if (names.empty() || (names.size() == 1 && !rates)) return {};
+  const Eigen::Index row = f.part_offset(worst);
+  const double own = out_of_reach(VecX::Unit(residual.size(), row))[row];
+  const ConstraintPart& part = f.parts()[worst];
+  return fmt::format("the prescribed {} of {} {}: {} misses its own by {:.3g} {} if {} met",
+                     names.size() == 1 ? "motion" : "motions", named_text("joint", "joints", names),
+                     names.size() == 1 ? "contradicts the constraints" : "contradict each other",
+                     owner_name(f.model(), part.owner), in_unit(part, e[row] / own),
+                     unit_of(part, rates),
+                     names.size() == 1 ? "the constraints are" : "the rest is");
+}
+
+}  // namespace
+
+std::string open_loops_text(RelativeFormulation& f, const VecX& residual, bool rates) {
+  if (std::string text = motions_text(f, residual, rates); !text.empty()) return text;
+  const ConstraintPart& part = f.parts()[worst_part(f, residual)];
+  return fmt::format("{} {} {:.3g} {}", owner_name(f.model(), part.owner),
+                     rates ? "opens at" : "stays open by",
+                     in_unit(part, residual.lpNorm<Eigen::Infinity>()), unit_of(part, rates));
+}
+
+}  // namespace floatframe
