@@ -33,8 +33,8 @@ test: build
 	cmake --build build --parallel $(JOBS)
 	@cd build && $(CTEST)
 
-# What takes longer than everyday work allows. Models close to a limit fall to one side or the other with the processor:
-# docs/validation.md says which of the thousand are open.
+# What takes longer than everyday work allows. Models close to a limit fall to one side or the other with the processor;
+# docs/validation.md has the figures.
 test-all: test
 	FLOATFRAME_MECHANISMS=1000 build/tests/mechanisms_tests --gtest_brief=1
 

@@ -57,6 +57,14 @@ TEST(RandomMechanisms, BothFormulationsAgreeToSecondOrder) {
   }
 }
 
+// The motion of a hinge is a table with points at 0.02, 0.08 and 0.14 s. With 238 steps they lie at
+// other places of their steps after each halving.
+TEST(RandomMechanisms, PointsOfTablesLieBetweenSteps) {
+  const Mechanism m = random_mechanism(518);
+  EXPECT_EQ(steps_on_kinks(build_model(m.description), 238.0), 240.0);
+  EXPECT_STREQ(word(judge(m).verdict), "second order");
+}
+
 TEST(RandomMechanisms, TheSameSeedGivesTheSameMechanism) {
   for (unsigned seed = 1; seed <= 20; ++seed)
     EXPECT_EQ(text_of(random_mechanism(seed).description),

@@ -2,6 +2,9 @@
 // formulations.
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "floatframe/simulation/light_motion.hpp"
 #include "simulation/figures.hpp"
 #include "support/model_text.hpp"
 
@@ -64,6 +67,37 @@ TEST(SpinningBars, GetTheSameSentenceInAllFormulations) {
   }
 }
 
+// A round bar that is bent can still turn about itself while its bend stays where it is: the modes
+// undo what the frame does, and the stiffness is the same all around. With a frame off the bar this
+// is a motion of all coordinates, along which elastic forces change and the direction turns.
+TEST(SpinningBars, GetItWhenTheyAreBent) {
+  for (const char* bend : {"[0.001, 0.002]", "[0.02, -0.01]"})
+    for (const char* motion : {"", ", velocity: [1, 0, 0, 0, 0, 2]"}) {
+      const Model model = model_of(std::string(R"(
+gravity: [0, 0, 0]
+points: {a: [1, 0, 0], b: [2, 0, 0]}
+bodies:
+  bar:
+    position: [1.3, 0.2, 0.1]
+    flexible:
+      material: {young: 2e11, poisson: 0.3, density: 7800}
+      bars: {bar: {from: a, to: b, elements: 4, section: {round: 0.02}}}
+      clamped: [a]
+      static_modes: [{point: b, dofs: [y, z]}]
+joints: {f: {type: free, child: bar, position: [0.1, 0.2, 0.3, 0, 0, 0.5])") +
+                                   motion + "}}\ninitial: {amplitudes: {bar: " + bend +
+                                   "}}\nsimulation: {step: 0.001, duration: 0.05}\n");
+      std::string first;
+      for (const Combination& c : combinations) {
+        const std::string m = message_of([&] { run_of(model, c); });
+        expect_in(m, "the mass matrix is singular where nothing holds it: body 'bar' can move");
+        if (first.empty()) first = m;
+        EXPECT_EQ(m, first) << c.name();
+      }
+      EXPECT_EQ(message_of([&] { count(model); }), first);
+    }
+}
+
 TEST(SpinningBars, TwoOfThemAreBothNamed) {
   const Model model = model_of(R"(
 points: {o: [0, 0, 0], e: [0.6, 0.3, 0.2], q: [1.1, -0.1, 0.2]}
@@ -92,6 +126,31 @@ simulation: {step: 1e-3, duration: 0.01}
       expect_in(message_of([&] { run_of(model, c); }),
                 "the mass matrix is singular where nothing holds it: body 'p' can move");
     }
+}
+
+// What a run says that stops where a freedom has almost no mass: how little that is depends on the
+// bodies alone, not on the coordinates.
+TEST(LightMotions, AreTheSameInBothFormulations) {
+  const auto notes = [](const char* tilt) {
+    const Model model = model_of(std::string(R"(
+bodies: {bar: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [0, 0.1, 0.1]}}}
+joints: {a: {type: universal, child: bar, at: [0, 0, 0], axis: [1, 0, )") +
+                                 tilt + "], axis_2: [0, 1, 0]}}\n");
+    RelativeFormulation relative(model, InertiaMethod::preprocessing);
+    const State r = relative_start(relative, Start::given);
+    AbsoluteFormulation absolute(model, InertiaMethod::preprocessing);
+    State a;
+    a.t = r.t;
+    absolute.start_from(relative, r.q, r.v, a.q, a.v);
+    return std::pair(light_motion_note(relative, r), light_motion_note(absolute, a));
+  };
+  // A turn about the first axis has the square of the tilt of the inertia across.
+  const auto [light, also_light] = notes("0.001");
+  expect_in(light, "body 'bar' can move there almost without mass");
+  EXPECT_EQ(also_light, light);
+  const auto [heavy, also_heavy] = notes("0.02");
+  EXPECT_EQ(heavy, "");
+  EXPECT_EQ(also_heavy, "");
 }
 
 TEST(SpinningBars, ABitOfInertiaIsEnough) {

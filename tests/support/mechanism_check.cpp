@@ -168,7 +168,8 @@ Judgement judge(const Mechanism& mechanism) {
   o.position_tolerance = 1e-10;
   o.velocity_tolerance = 1e-9;
   const double rate = std::min(fastest_rate(model, mechanism.relative), 2.0 * most_rate);
-  const double steps = std::ceil(o.duration / std::min(1e-3, 0.1 / std::max(rate, 1e-3)) - 1e-9);
+  const double steps = steps_on_kinks(
+      model, std::ceil(o.duration / std::min(1e-3, 0.1 / std::max(rate, 1e-3)) - 1e-9));
   j.step = o.step = o.output_interval = o.duration / steps;
   std::vector<double> relative_drift, absolute_drift;
   double scale = 0.0;

@@ -2,8 +2,9 @@
 // What must hold of every mechanism, judged by runs of 0.2 s in both formulations.
 //
 // First step: at most 1 ms and at most a tenth of the shortest time constant at the start
-// (fastest_rate); the same rule for all. Difference d(h): the largest over all positions of points,
-// joint coordinates and modal amplitudes at the instants of the first step.
+// (fastest_rate), such that the kinks of functions of time lie between steps where they can
+// (steps_on_kinks); the same rule for all. Difference d(h): the largest over all positions of
+// points, joint coordinates and modal amplitudes at the instants of the first step.
 //   equal          d < 1e-8 at some step
 //   second_order   d(h)/d(h/2) is 3 to 5 at the first step, and d(h/2) below 0.1 m or rad ...
 //   finer          ... or at one of the next two halvings: the first step was not small enough
@@ -55,6 +56,13 @@ struct Judgement {
 };
 
 Judgement judge(const Mechanism& mechanism);
+
+/// The number of steps, of `steps` and the next twenty, that puts most kinks of the accelerations
+/// that are known beforehand between two steps: where tables of motions (twice differentiable) and
+/// of loads (some with corners) go from piece to piece. A kink within a step leaves an error of
+/// h^2 x (1 - x) with its place x in the step, and x changes from halving to halving: 1/5, 2/5,
+/// 4/5. The difference of the formulations is then of second order with a factor that jumps.
+double steps_on_kinks(const Model& model, double steps);
 
 /// Whether a run passed from one smooth piece of a law to another.
 bool passes_kinks(const Model& model, const ResultTable& table);

@@ -1,5 +1,7 @@
 // Kinks of laws, functions of time and roads that a run passed.
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "floatframe/model/constraint_part.hpp"
 #include "support/mechanism_check.hpp"
@@ -26,6 +28,36 @@ int kinks_in_time(const TimeFunction& f, double end) {
 }
 
 }  // namespace
+
+double steps_on_kinks(const Model& model, double steps) {
+  const double end = model.simulation.duration;
+  std::vector<double> kinks;
+  const auto add = [&](const TimeFunction& f) {
+    for (const double at : f.pieces.breaks())
+      if (at > 0.0 && at < end) kinks.push_back(at);
+  };
+  for (const Joint& j : model.joints)
+    if (j.motion) add(*j.motion);
+  for (const Force& f : model.forces) {
+    add(f.magnitude);
+    add(f.target.function);
+    add(f.target_rate.function);
+  }
+  double best = steps;
+  std::ptrdiff_t most = 0;
+  for (int more = 0; more < 20; ++more) {
+    const double n = steps + more;
+    const std::ptrdiff_t met = std::count_if(kinks.begin(), kinks.end(), [&](double at) {
+      const double place = at / end * n;
+      return std::abs(place - std::round(place)) < 1e-9 * n;
+    });
+    if (met > most) {
+      most = met;
+      best = n;
+    }
+  }
+  return best;
+}
 
 // Forces come last in a row, with force, length and rate each.
 bool passes_kinks(const Model& model, const ResultTable& t) {

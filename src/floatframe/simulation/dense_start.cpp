@@ -59,12 +59,15 @@ MatX loose_directions(const MatX& mass, const MatX& J, const VecX& force, const 
   MatX H(k, k);
   const LeastNorm constraints(J, 1e-11);
   for (Eigen::Index j = 0; j < k; ++j) {
-    const Neighbour there = neighbour(step * Z.col(j), Z);
-    const VecX change = (there.r - r) / step;
+    // On both sides: along the bend of a bar that turns about itself the parts of H cancel, and
+    // what one side alone is off by, the lightest of the other motions would magnify.
+    const Neighbour there = neighbour(step * Z.col(j), Z), back = neighbour(-step * Z.col(j), Z);
+    const VecX change = (there.r - back.r) / (2.0 * step);
     for (Eigen::Index i = 0; i < k; ++i) {
       VecX turned = VecX::Zero(Z.rows());
-      if (J.rows() > 0) turned = constraints.solve(VecX((J * Z.col(i) - there.JZ.col(i)) / step));
-      const VecX moved = (there.MZ.col(i) - mass * Z.col(i)) / step + mass * turned;
+      if (J.rows() > 0)
+        turned = constraints.solve(VecX((back.JZ.col(i) - there.JZ.col(i)) / (2.0 * step)));
+      const VecX moved = (there.MZ.col(i) - back.MZ.col(i)) / (2.0 * step) + mass * turned;
       const VecX y = -(half_inverse * (half_inverse.transpose() * (N.transpose() * moved)));
       H(i, j) = Z.col(i).dot(change) + (turned + N * y).dot(r);
     }
@@ -144,17 +147,18 @@ std::string named_text(const char* one, const char* many, const std::vector<std:
   return text;
 }
 
-MatX light_directions(const MatX& mass, const VecX& possible, const MatX& J, double light) {
-  const Eigen::Index nv = mass.rows();
-  const MatX N = motions(J, VecX::Zero(J.rows()), possible).N;
-  if (N.cols() == 0) return MatX(nv, 0);
-  const MatX Mr = N.transpose() * mass * N;
-  const MatX Dr = N.transpose() * mass_scale(mass.diagonal(), possible).asDiagonal() * N;
-  const SymmetricEigen eig = generalised_eigen(0.5 * (Mr + Mr.transpose()), Dr);
-  if (!eig.found) return MatX(nv, 0);
+MatX free_motions(const MatX& J, const VecX& possible) {
+  return motions(J, VecX::Zero(J.rows()), possible).N;
+}
+
+MatX light_directions(const MatX& mass, const MatX& possible_mass, const MatX& motions,
+                      double light) {
+  const MatX own = motions.transpose() * mass * motions;
+  const SymmetricEigen eig = generalised_eigen(0.5 * (own + own.transpose()), possible_mass);
+  if (!eig.found) return MatX(mass.rows(), 0);
   Eigen::Index count = 0;  // ascending eigenvalues
-  while (count < N.cols() && eig.values[count] <= light) ++count;
-  return N * eig.vectors.leftCols(count);
+  while (count < motions.cols() && eig.values[count] <= light) ++count;
+  return motions * eig.vectors.leftCols(count);
 }
 
 void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const VecX& force,

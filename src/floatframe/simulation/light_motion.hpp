@@ -4,14 +4,49 @@
 // speed is then unbounded, or its place jumps, and no step is small enough.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 
 namespace floatframe {
 
-/// Directions (columns) that the constraints J leave free and along which the mass is less than
-/// `light` of what the coordinates have by themselves or could have (`possible_masses`).
-MatX light_directions(const MatX& mass, const VecX& possible, const MatX& J, double light);
+/// A basis (columns) of the motions that the constraints J leave free.
+MatX free_motions(const MatX& J, const VecX& possible);
+
+/// The mass that combinations of the `motions` (columns) could have: the quadratic form of the sum
+/// of m (v^2 + w^2 l^2) over the bodies, with the velocity v of the body frame and the
+/// characteristic length l, and m x^2 of modes. It speaks of bodies only: all coordinates that
+/// describe a motion give it the same.
+template <class F>
+MatX possible_mass_of(F& f, const State& state, const MatX& motions) {
+  const Model& model = f.model();
+  const std::size_t n = model.bodies.size();
+  Eigen::Index rows = 0;
+  for (std::size_t i = 0; i < n; ++i) rows += 6 + model.bodies[i].modes();
+  MatX moved(rows, motions.cols());
+  f.positions(state.t, state.q);
+  for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+    const VecX v = motions.col(k);
+    f.velocities(v);
+    Eigen::Index at = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const int body = static_cast<int>(i);
+      const double l = model.bodies[i].length, root = std::sqrt(possible_mass(model, i));
+      moved.block<3, 1>(at, k) = root * f.body_velocity(body);
+      moved.block<3, 1>(at + 3, k) = root * l * f.body_angular_velocity(body);
+      at += 6;
+      for (int m = 0; m < model.bodies[i].modes(); ++m, ++at)
+        moved(at, k) =
+            std::sqrt(possible_modal_mass(model, i, m, l * l)) * f.amplitude_rate(v, body, m);
+    }
+  }
+  return moved.transpose() * moved;
+}
+
+/// The combinations of `motions` whose mass is less than `light` of what it could be.
+MatX light_directions(const MatX& mass, const MatX& possible_mass, const MatX& motions,
+                      double light);
 
 /// The combinations of `directions` that move body frames. What is left out are modes without mass
 /// (torsion of a bar without spin inertia): their stiffness holds them.
@@ -37,8 +72,8 @@ MatX moving_frames(F& f, const State& state, const MatX& directions) {
 /// What the failure of a run at this state should add, beginning with "; ", or nothing.
 template <class F>
 std::string light_motion_note(F& f, const State& state) {
-  constexpr int most = 1000;  // dense linear algebra beyond would take minutes
-  constexpr double light = 1e-4;
+  constexpr int most = 1000;      // dense linear algebra beyond would take minutes
+  constexpr double light = 1e-6;  // a radius of gyration of a thousandth of the length
   const int nv = f.velocities(), nc = f.constraints();
   if (nv == 0 || nv > most || !state.q.allFinite() || !state.v.allFinite()) return {};
   const VecX possible = possible_masses(f, state);
@@ -56,7 +91,9 @@ std::string light_motion_note(F& f, const State& state) {
   }
   const MatX J = f.constraint_jacobian();
   if (!mass.allFinite() || !J.allFinite()) return {};
-  MatX loose = light_directions(mass, possible, J, light);
+  const MatX N = free_motions(J, possible);
+  if (N.cols() == 0) return {};
+  MatX loose = light_directions(mass, possible_mass_of(f, state, N), N, light);
   if (loose.cols() > 0) loose = moving_frames(f, state, loose);
   if (loose.cols() == 0) return {};
   return fmt::format(

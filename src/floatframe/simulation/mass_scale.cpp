@@ -7,14 +7,18 @@ namespace floatframe {
 
 namespace {
 
-/// That of a body without mass is the mean of the others.
-double mass_of(const Model& model, std::size_t body) {
+void fill_gaps(VecX& masses, const Model& model) {
+  for (double& m : masses)
+    if (!(m > 0.0)) m = model.mean_mass;
+}
+
+}  // namespace
+
+double possible_mass(const Model& model, std::size_t body) {
   const double m = model.bodies[body].data->invariants.m;
   return m > 0.0 ? m : model.mean_mass;
 }
 
-/// Inertia of one mode of a body: what it has, or its mass at the node that moves most, whose
-/// distance from the point that moments are taken about is at most sqrt(reach2).
 double possible_modal_mass(const Model& model, std::size_t body, int mode, double reach2) {
   const FlexibleBody& data = *model.bodies[body].data;
   double most = 0.0;
@@ -22,15 +26,8 @@ double possible_modal_mass(const Model& model, std::size_t body, int mode, doubl
     most = std::max(most, n.X.col(mode).squaredNorm() + reach2 * n.X_theta.col(mode).squaredNorm());
   double own = 0.0;
   for (std::size_t i = 0; i < 3; ++i) own += std::abs(data.invariants.Sij[i][i](mode, mode));
-  return std::max(own, mass_of(model, body) * most);
+  return std::max(own, possible_mass(model, body) * most);
 }
-
-void fill_gaps(VecX& masses, const Model& model) {
-  for (double& m : masses)
-    if (!(m > 0.0)) m = model.mean_mass;
-}
-
-}  // namespace
 
 VecX possible_masses(RelativeFormulation& f, const State& state) {
   const Model& model = f.model();
@@ -51,8 +48,9 @@ VecX possible_masses(RelativeFormulation& f, const State& state) {
     f.velocities(v);
     for (std::size_t i = 0; i < n; ++i) {
       const int body = static_cast<int>(i);
-      masses[j] += mass_of(model, i) * (f.body_velocity(body).squaredNorm() +
-                                        reach2[i] * f.body_angular_velocity(body).squaredNorm());
+      masses[j] +=
+          possible_mass(model, i) * (f.body_velocity(body).squaredNorm() +
+                                     reach2[i] * f.body_angular_velocity(body).squaredNorm());
       for (std::size_t k = 0; k < modal[i].size(); ++k)
         if (f.amplitude_rate(v, body, static_cast<int>(k)) != 0.0) masses[j] += modal[i][k];
     }
@@ -66,7 +64,7 @@ VecX possible_masses(AbsoluteFormulation& f, const State&) {
   VecX masses = VecX::Zero(f.velocities());
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const double m = mass_of(model, i), l = model.bodies[i].length;
+    const double m = possible_mass(model, i), l = model.bodies[i].length;
     const int modes = model.bodies[i].modes(), size = f.body_size(static_cast<int>(i));
     // Frame origin, axes, modes, points on the body.
     masses.segment(at, size).setConstant(m);

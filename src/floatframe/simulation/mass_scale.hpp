@@ -10,6 +10,13 @@
 
 namespace floatframe {
 
+/// The mass of a body; of one without mass, the mean of all.
+double possible_mass(const Model& model, std::size_t body);
+
+/// Inertia of one mode of a body: what it has, or its mass at the node that moves most, whose
+/// distance from the point that moments are taken about is at most sqrt(reach2).
+double possible_modal_mass(const Model& model, std::size_t body, int mode, double reach2);
+
 /// The mass or inertia that each coordinate could have at these positions: the sum of m (v^2 + w^2
 /// l^2) over the bodies that a unit velocity moves by v and turns by w, with the characteristic
 /// lengths l, and m x^2 for a mode that moves nodes by x. Leaves `f` at other velocities.
