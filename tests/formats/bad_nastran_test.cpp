@@ -98,6 +98,14 @@ TEST(BadNastran, Decks) {
        "give A, I1, I2 and J with PBAR"},
       {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2,0.,0.,1.\n,,,0.1",
        "arm.bdf:8: CBAR 2: an offset of the ends (WA, WB) is '0.1', which is not supported"},
+      {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBAR,2,1,-1.-3,1.-7",
+       "arm.bdf:9: PBAR 2: A is -0.001, expected more than 0\n"
+       "arm.bdf:9: PBAR 2: I2 is 0, expected more than 0\n"
+       "arm.bdf:9: PBAR 2: J is 0, expected more than 0"},
+      {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,4\nPSHELL,4,1,-.01,1\nCTRIA3,9,4,1,2,3",
+       "arm.bdf:7: PSHELL 4: the thickness is -0.01, expected more than 0"},
+      {"CONM2,7,2,,1.5", "CONM2,7,2,,-1.5",
+       "arm.bdf:11: CONM2 7: the mass is -1.5, expected no negative number"},
       {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2",
        "arm.bdf:7: CBAR 2: the orientation vector is missing"},
       {"CONM2,7,2,,1.5", "CONM2,7,4,,1.5,.1", "no error"},

@@ -145,10 +145,19 @@ class ElementBuilder {
   int section(int id, const NastranProperty& p) {
     const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
     if (!fresh) return it->second;
+    const std::pair<const char*, double> values[] = {
+        {"A", p.section.A}, {"I1", p.section.Iz}, {"I2", p.section.Iy}, {"J", p.section.J}};
+    for (const auto& [name, value] : values) must_be_positive(p, id, name, value);
     b_.model.sections.push_back(p.section);
     b_.model.sections.back().J *= own_shear(p.material);
     if (p.shear_factors && shears_++ == 0) first_shear_ = p.at;
     return it->second;
+  }
+
+  void must_be_positive(const NastranProperty& p, int id, const char* what, double value) {
+    if (!(value > 0.0))
+      b_.source.fault(
+          p.at, fmt::format("{} {}: {} is {:g}, expected more than 0", p.card, id, what, value));
   }
 
   /// G of a material over that of its E and NU: bars twist by the G of the card, whatever E and NU
@@ -168,7 +177,10 @@ class ElementBuilder {
 
   int shell(int id, const NastranProperty& p) {
     const auto [it, fresh] = shells_.try_emplace(id, static_cast<int>(b_.model.shells.size()));
-    if (fresh) b_.model.shells.push_back({p.thickness});
+    if (fresh) {
+      must_be_positive(p, id, "the thickness", p.thickness);
+      b_.model.shells.push_back({p.thickness});
+    }
     return it->second;
   }
 

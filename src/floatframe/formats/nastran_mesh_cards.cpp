@@ -146,6 +146,7 @@ void read_nastran_mass(NastranFields& f, NastranContent& c) {
   m.node = f.label(1, "the node");
   m.system = f.integer(2, "the coordinate system CID", 0);
   m.mass = f.real(3, "the mass");
+  if (m.mass < 0.0) f.fault(fmt::format("the mass is {:g}, expected no negative number", m.mass));
   m.offset = f.vector(4, "the offset");
   const double I11 = f.real(8, "I11", 0.0), I21 = f.real(9, "I21", 0.0);
   const double I22 = f.real(10, "I22", 0.0), I31 = f.real(11, "I31", 0.0);
