@@ -416,13 +416,13 @@ const Case cases[] = {
      "[s], expected a slope that is a finite number"},
     {"tag.yaml", "tag.yaml:4:19: tags (!name) are not allowed"},
     {"tolerances.yaml",
-     "tolerances.yaml:5:25: simulation.tolerance: found 1e-300, expected a number of at least 1e-15"
+     "tolerances.yaml:5:25: simulation.tolerance: found 1e-300, expected a number from 1e-15 to 1"
      "\n"
-     "tolerances.yaml:5:53: simulation.position_tolerance: found 1e-16, expected a number of at "
-     "least 1e-15 [m]"
+     "tolerances.yaml:5:53: simulation.position_tolerance: found 1e-16, expected a number from "
+     "1e-15 to 1 [m]"
      "\n"
-     "tolerances.yaml:5:80: simulation.velocity_tolerance: found 0, expected a number of at least "
-     "1e-15 [m/s]"},
+     "tolerances.yaml:5:80: simulation.velocity_tolerance: found 0, expected a number from "
+     "1e-15 to 1 [m/s]"},
     {"top_is_a_list.yaml",
      "top_is_a_list.yaml:1:1: found a list of 2, expected a map of keys such as 'bodies'"},
     {"tube.yaml",

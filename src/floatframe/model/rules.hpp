@@ -62,11 +62,12 @@ inline constexpr NumberRule duration = non_negative_number("s");
 inline constexpr NumberRule output_interval = non_negative_number("s");
 inline constexpr NumberRule min_step = non_negative_number("s");
 inline constexpr NumberRule spectral_radius{"a number from 0 to 1", "", 0.0, 1.0};
-// Smaller tolerances are below the rounding of coordinates of size 1: no step would converge.
-inline constexpr NumberRule tolerance{"a number of at least 1e-15", "", 1e-15};
+// Smaller tolerances are below the rounding of coordinates of size 1: no step would converge. With
+// larger ones (m, rad; m/s) nothing is iterated and loops stay open.
+inline constexpr NumberRule tolerance{"a number from 1e-15 to 1", "", 1e-15, 1.0};
 inline constexpr NumberRule penalty = non_negative_number("");
-inline constexpr NumberRule position_tolerance{"a number of at least 1e-15", "m", 1e-15};
-inline constexpr NumberRule velocity_tolerance{"a number of at least 1e-15", "m/s", 1e-15};
+inline constexpr NumberRule position_tolerance{"a number from 1e-15 to 1", "m", 1e-15, 1.0};
+inline constexpr NumberRule velocity_tolerance{"a number from 1e-15 to 1", "m/s", 1e-15, 1.0};
 inline constexpr WholeNumberRule max_iterations{"a number of iterations", 1, 1000};
 inline constexpr double most_steps = 1e9;
 inline constexpr std::size_t column_length = 200;
