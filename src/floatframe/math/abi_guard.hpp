@@ -4,19 +4,23 @@
 // for a function whose name holds the settings it was compiled with; the library defines the one of
 // its own settings, so that anything else does not link:
 //   undefined reference to `floatframe::abi::compile_with_the_settings_of_the_CMake_package<16, 16,
-//   131072, 3, 4, 0>()'
-// with EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_STACK_ALLOCATION_LIMIT and the
-// version of Eigen, as this file saw them.
+//   131072, 1, 8, 0, 3, 4, 0>()'
+// with EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_STACK_ALLOCATION_LIMIT,
+// EIGEN_MALLOC_ALREADY_ALIGNED, the bytes of EIGEN_DEFAULT_DENSE_INDEX_TYPE, whether matrices are
+// row-major (EIGEN_DEFAULT_TO_ROW_MAJOR) and the version of Eigen, as this file saw them.
 #include <Eigen/Core>
 
 namespace floatframe::abi {
 
 template <int max_align_bytes, int max_static_align_bytes, long stack_allocation_limit,
-          int eigen_world, int eigen_major, int eigen_minor>
+          int malloc_already_aligned, int index_bytes, int row_major, int eigen_world,
+          int eigen_major, int eigen_minor>
 void compile_with_the_settings_of_the_CMake_package() noexcept;
 
 #define FLOATFRAME_ABI_SETTINGS                                                      \
   EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_STACK_ALLOCATION_LIMIT, \
+      EIGEN_MALLOC_ALREADY_ALIGNED, static_cast<int>(sizeof(Eigen::Index)),          \
+      static_cast<int>(EIGEN_DEFAULT_MATRIX_STORAGE_ORDER_OPTION) & Eigen::RowMajor, \
       EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION
 
 // In every object file, also an optimised one or one whose unused sections are dropped: one

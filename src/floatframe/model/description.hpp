@@ -154,7 +154,9 @@ struct AttachmentDescription {
 struct JointDescription {
   std::string name;
   JointType type = JointType::free;
-  AttachmentDescription parent, child;  ///< the same design point unless a node says otherwise
+  /// Model files give one design point for both, or a node for either. Two that are apart in the
+  /// design configuration, points or nodes, are brought together at the start.
+  AttachmentDescription parent, child;
   Vec3 axis = Vec3::UnitZ();  ///< revolute, prismatic, cylindrical; first axis (fixed in parent) of
                               ///< universal
   Vec3 axis_2 = Vec3::UnitX();  ///< second axis (fixed in child) of universal, not parallel to axis
