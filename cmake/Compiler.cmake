@@ -13,11 +13,13 @@ endif()
 
 add_library(floatframe_compiler INTERFACE)
 target_compile_options(floatframe_compiler INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow
+  -Wall -Wextra -Wpedantic
+  # Compiled together, files see the unnamed namespaces of others.
+  $<IF:$<BOOL:${FLOATFRAME_UNITY}>,-Wshadow=local,-Wshadow>
   $<$<BOOL:${FLOATFRAME_WERROR}>:-Werror>
   # errno and floating-point traps are never looked at; results stay IEEE (no -ffast-math).
   -fno-math-errno -fno-trapping-math
-  $<$<CONFIG:Release>:-O3>)
+  $<$<CONFIG:Release>:$<IF:$<BOOL:$<TARGET_PROPERTY:FLOATFRAME_OPTIMISATION>>,$<TARGET_PROPERTY:FLOATFRAME_OPTIMISATION>,-O3>>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
   # These see through inlined Eigen expressions of dynamic size and inlined strings and report what cannot happen.
   target_compile_options(floatframe_compiler INTERFACE

@@ -15,7 +15,7 @@
 namespace floatframe::test {
 namespace {
 
-const std::string folder = FLOATFRAME_TEST_DATA "/fe/";
+const std::string deck_folder = FLOATFRAME_TEST_DATA "/fe/";
 
 /// n x n x n unit bricks, each divided into two wedges, or five tetrahedra, or left alone; as they
 /// would come from a file: node k of the file is number k + 1, its elements begin in line 11.
@@ -180,7 +180,7 @@ TEST(Warnings, QualityOfRegularAndCurvedElements) {
   EXPECT_NEAR(std::abs(q), 1.0, 1e-14);
   // The A-arm of the data set: minimal Jacobian at Gauss points and corners over the mean is 0.31,
   // so no element is near to being inverted.
-  const FeModel arm = read_fe_file(folder + "aarm_coarse_free.inp");
+  const FeModel arm = read_fe_file(deck_folder + "aarm_coarse_free.inp");
   EXPECT_TRUE(model_warnings(arm).empty());
   EXPECT_NEAR(volume(arm) / 701265.222794732, 1.0, 2e-6);
   EXPECT_NEAR(volume_times_density(arm) / 5.504932e-3, 1.0, 2e-6);
@@ -208,7 +208,7 @@ TEST(Surfaces, EncloseTheVolumeWithOutwardNormals) {
     EXPECT_EQ(s.nodes.size(), 56u);
   }
   for (const char* name : {"aarm_coarse", "conrod_coarse", "beam_c3d20"}) {
-    const FeModel model = read_fe_file(folder + name + "_free.inp");
+    const FeModel model = read_fe_file(deck_folder + name + "_free.inp");
     const Surface s = outer_surface(model);
     EXPECT_NEAR(enclosed_volume(model, s) / volume(model), 1.0, 3e-3) << name;
     // Closed: every edge runs once in each direction.
@@ -239,7 +239,7 @@ TEST(Surfaces, LinesOfBeams) {
 // elements and hex8i hold it exactly.
 TEST(Surfaces, StressesOfBending) {
   for (const char* name : {"beam_c3d20", "beam_c3d20r"}) {
-    FeModel model = read_fe_file(folder + name + "_free.inp");
+    FeModel model = read_fe_file(deck_folder + name + "_free.inp");
     for (Material& m : model.materials) m.poisson = 0.0;
     const double R = 2.0, E = model.materials[0].young;
     MatX u(3 * model.nodes(), 2);

@@ -19,8 +19,8 @@ const std::string tetrahedron =
     "*DENSITY\n7.85e-9\n"                               // 11, 12
     "*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL\n";     // 13
 
-FeModel deck(const std::string& text, DeckDialect dialect = DeckDialect::by_content,
-             DeckPart part = DeckPart::all) {
+FeModel parsed(const std::string& text, DeckDialect dialect = DeckDialect::by_content,
+               DeckPart part = DeckPart::all) {
   TextSource source(text, "deck.inp");
   FeReadOptions options;
   options.dialect = dialect;
@@ -28,7 +28,7 @@ FeModel deck(const std::string& text, DeckDialect dialect = DeckDialect::by_cont
 }
 
 std::string fault(const std::string& text, DeckDialect dialect = DeckDialect::by_content) {
-  return error_of([&] { deck(text, dialect); });
+  return error_of([&] { parsed(text, dialect); });
 }
 
 TEST(DeckKeywords, UnknownOnesStop) {
@@ -62,7 +62,7 @@ TEST(DeckKeywords, ThoseThatMatterStopWithAdvice) {
 }
 
 TEST(DeckKeywords, SurfaceSectionWithoutMassIsNoted) {
-  const FeModel model = deck(tetrahedron + "*SURFACE SECTION, ELSET=SKIN\n");
+  const FeModel model = parsed(tetrahedron + "*SURFACE SECTION, ELSET=SKIN\n");
   ASSERT_EQ(model.notes.size(), 1u);
   EXPECT_EQ(model.notes[0],
             "deck.inp:14: *SURFACE SECTION of 'SKIN' is passed over: it has no mass");
@@ -117,9 +117,9 @@ TEST(DeckKeywords, HarmlessOnesAreKnown) {
 }
 
 TEST(DeckKeywords, BesideMatricesOnlyNodesCount) {
-  const FeModel model =
-      deck(tetrahedron + "*SPECIAL LAYER\n1, 2\n*STEP\n*MODEL CHANGE, REMOVE, TYPE=ELEMENT\nBODY\n",
-           DeckDialect::by_content, DeckPart::nodes);
+  const FeModel model = parsed(
+      tetrahedron + "*SPECIAL LAYER\n1, 2\n*STEP\n*MODEL CHANGE, REMOVE, TYPE=ELEMENT\nBODY\n",
+      DeckDialect::by_content, DeckPart::nodes);
   EXPECT_EQ(model.nodes(), 4);
   EXPECT_EQ(model.notes.at(0), "deck.inp:14: *SPECIAL LAYER is not known and is passed over");
 }
@@ -166,27 +166,27 @@ TEST(DeckDialects, ARoundSectionWithoutClueIsRefused) {
 }
 
 TEST(DeckDialects, TheUserMayTell) {
-  EXPECT_NEAR(deck(beam("CIRC\n2."), DeckDialect::abaqus).sections.at(0).A, 4.0 * pi, 1e-14);
-  EXPECT_NEAR(deck(beam("CIRC\n2."), DeckDialect::calculix).sections.at(0).A, pi, 1e-14);
+  EXPECT_NEAR(parsed(beam("CIRC\n2."), DeckDialect::abaqus).sections.at(0).A, 4.0 * pi, 1e-14);
+  EXPECT_NEAR(parsed(beam("CIRC\n2."), DeckDialect::calculix).sections.at(0).A, pi, 1e-14);
   // Also against what the deck looks like.
-  EXPECT_NEAR(deck(beam("CIRC\n2.", abaqus_clue), DeckDialect::calculix).sections.at(0).A, pi,
+  EXPECT_NEAR(parsed(beam("CIRC\n2.", abaqus_clue), DeckDialect::calculix).sections.at(0).A, pi,
               1e-14);
 }
 
 TEST(DeckDialects, CluesTell) {
-  const FeModel calculix = deck(beam("CIRC\n2.", calculix_clue));
+  const FeModel calculix = parsed(beam("CIRC\n2.", calculix_clue));
   EXPECT_NEAR(calculix.sections.at(0).A, pi, 1e-14);
   EXPECT_EQ(calculix.notes.back(),
             "deck.inp:13: *BEAM SECTION, SECTION=CIRC: 2 is the diameter, as in CalculiX "
             "(*FREQUENCY, SOLVER=PARDISO in deck.inp:16)");
   EXPECT_NEAR(
-      deck(beam("CIRC\n2.", "*RIGID BODY, NSET=N, REF NODE=4, ROT NODE=1\n")).sections.at(0).A, pi,
-      1e-14);
-  const FeModel abaqus = deck(beam("CIRC\n2.", abaqus_clue));
+      parsed(beam("CIRC\n2.", "*RIGID BODY, NSET=N, REF NODE=4, ROT NODE=1\n")).sections.at(0).A,
+      pi, 1e-14);
+  const FeModel abaqus = parsed(beam("CIRC\n2.", abaqus_clue));
   EXPECT_NEAR(abaqus.sections.at(0).A, 4.0 * pi, 1e-14);
-  EXPECT_NEAR(deck("*PREPRINT, ECHO=NO\n" + beam("CIRC\n2.")).sections.at(0).A, 4.0 * pi, 1e-14);
+  EXPECT_NEAR(parsed("*PREPRINT, ECHO=NO\n" + beam("CIRC\n2.")).sections.at(0).A, 4.0 * pi, 1e-14);
   // CalculiX takes round sections for elements of three nodes only.
-  const FeModel linear = deck(beam("CIRC\n2.", "", "B31"));
+  const FeModel linear = parsed(beam("CIRC\n2.", "", "B31"));
   EXPECT_NEAR(linear.sections.at(0).A, 4.0 * pi, 1e-14);
   EXPECT_NE(linear.notes.front().find("2 is the radius, as in Abaqus (SECTION=CIRC for B31 in "),
             std::string::npos)
@@ -194,20 +194,20 @@ TEST(DeckDialects, CluesTell) {
 }
 
 TEST(DeckDialects, TwoNumbersAreAnEllipseOfCalculix) {
-  const BeamSection s = deck(beam("CIRC\n4., 2.")).sections.at(0);
+  const BeamSection s = parsed(beam("CIRC\n4., 2.")).sections.at(0);
   EXPECT_NEAR(s.A, 2.0 * pi, 1e-14);
   EXPECT_NEAR(s.Iz, pi * 64.0 * 2.0 / 64.0, 1e-14);  // 4 along direction 1, the local y
   EXPECT_NEAR(s.Iy, pi * 4.0 * 8.0 / 64.0, 1e-14);
   EXPECT_NEAR(s.J, pi * 64.0 * 8.0 / (16.0 * 20.0), 1e-13);
-  const BeamSection circle = deck(beam("CIRC\n2., 2.")).sections.at(0),
-                    round = BeamSection::solid_round(2.0);
-  EXPECT_NEAR(circle.Iy, round.Iy, 1e-14);
-  EXPECT_NEAR(circle.J, round.J, 1e-14);
+  const BeamSection circle = parsed(beam("CIRC\n2., 2.")).sections.at(0),
+                    round_bar = BeamSection::solid_round(2.0);
+  EXPECT_NEAR(circle.Iy, round_bar.Iy, 1e-14);
+  EXPECT_NEAR(circle.J, round_bar.J, 1e-14);
   // A square, and the clue that it is one of CalculiX for the round section.
-  const FeModel both = deck(beam("RECT\n3.",
-                                 "*ELEMENT, TYPE=B32, ELSET=F\n2, 1, 2, 3\n"
-                                 "*BEAM SECTION, ELSET=F, MATERIAL=M, SECTION=CIRC\n"
-                                 "2.\n"));
+  const FeModel both = parsed(beam("RECT\n3.",
+                                   "*ELEMENT, TYPE=B32, ELSET=F\n2, 1, 2, 3\n"
+                                   "*BEAM SECTION, ELSET=F, MATERIAL=M, SECTION=CIRC\n"
+                                   "2.\n"));
   EXPECT_NEAR(both.sections.at(0).A, 9.0, 1e-14);
   EXPECT_NEAR(both.sections.at(1).A, pi, 1e-14);
   EXPECT_EQ(fault(beam("CIRC\n4., 2."), DeckDialect::abaqus),

@@ -132,7 +132,7 @@ std::string fault_of(std::string_view text) {
   return "no fault";
 }
 
-struct Fault {
+struct FileFault {
   const char* from;
   const char* to;
   const char* sentence;
@@ -140,7 +140,7 @@ struct Fault {
 
 TEST(Gmsh, FaultsOfText) {
   ASSERT_EQ(fault_of(tiny), "no fault");
-  const Fault faults[] = {
+  const FileFault faults[] = {
       {"4.1 0 8", "4.0 0 8",
        "arm.msh:2: the version of the format is '4.0', expected 4.1 or 2.2 (Gmsh writes them with "
        "Mesh.MshFileVersion)"},
@@ -189,7 +189,7 @@ TEST(Gmsh, FaultsOfText) {
        "arm.msh:12: the mesh is partitioned; save it in one part (Mesh.PartitionSplitMeshFiles = 0 "
        "and no partitions)"},
   };
-  for (const Fault& fault : faults) {
+  for (const FileFault& fault : faults) {
     std::string text = tiny;
     const std::size_t at = text.find(fault.from);
     ASSERT_NE(at, std::string::npos) << fault.from;

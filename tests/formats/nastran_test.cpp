@@ -18,11 +18,11 @@
 namespace floatframe::test {
 namespace {
 
-std::string data(const std::string& name) {
+std::string nastran_file(const std::string& name) {
   return std::string(FLOATFRAME_TEST_DATA) + "/fe/" + name;
 }
 
-FeModel bulk(const std::string& text, const FeReadOptions& options = {}) {
+FeModel bulk_model(const std::string& text, const FeReadOptions& options = {}) {
   TextSource source(text, "deck.bdf");
   return read_nastran(source, has_begin_bulk(text), options);
 }
@@ -35,7 +35,7 @@ bool has_note(const FeModel& model, const std::string& note) {
 double assembled_mass(const std::string& name) {
   FeReadOptions options;
   options.material = Material{210000.0, 0.3, 7.85e-9};
-  const FeSystem system = assemble(read_fe_file(data(name), options));
+  const FeSystem system = assemble(read_fe_file(nastran_file(name), options));
   VecX u = VecX::Zero(system.size());
   for (int i = 0; i < system.size(); ++i) {
     if (system.dofs[static_cast<std::size_t>(i)].axis == 0) u(i) = 1.0;
@@ -51,8 +51,8 @@ TEST(Nastran, MassOfTheArmIsThatOfOtherFormats) {
 }
 
 TEST(Nastran, ArmOfGmsh) {
-  const FeModel msh = read_fe_file(data("aarm_coarse.msh.gz"));
-  const FeModel bdf = read_fe_file(data("aarm_coarse.bdf.gz"));
+  const FeModel msh = read_fe_file(nastran_file("aarm_coarse.msh.gz"));
+  const FeModel bdf = read_fe_file(nastran_file("aarm_coarse.bdf.gz"));
   EXPECT_EQ(bdf.nodes(), 5687);
   EXPECT_EQ(bdf.elements.size(), 2785u);
   // Gmsh cuts coordinates after eight characters: "-131.160" is -131.1609.
@@ -69,18 +69,18 @@ TEST(Nastran, ArmOfGmsh) {
   }
   EXPECT_EQ(found, ball);
   EXPECT_EQ(bdf.element_sets.at("PID 1").size(), 2785u);
-  EXPECT_TRUE(has_note(bdf, data("aarm_coarse.bdf.gz") +
+  EXPECT_TRUE(has_note(bdf, nastran_file("aarm_coarse.bdf.gz") +
                                 ":5689: 240 surfaces and lines of the mesh have no property: they "
                                 "only make node sets"));
 }
 
 TEST(Nastran, BricksAndWedgesOfSecondOrder) {
-  const FeModel bdf = read_fe_file(data("bricks.bdf.gz"));
-  expect_same_mesh(read_fe_file(data("bricks.msh")), bdf, 1e-7);
+  const FeModel bdf = read_fe_file(nastran_file("bricks.bdf.gz"));
+  expect_same_mesh(read_fe_file(nastran_file("bricks.msh")), bdf, 1e-7);
   expect_midside_nodes_near_edges(bdf);
   EXPECT_NEAR(corner_volume(bdf), 1.0, 1e-12);
   // The same mesh as a deck of Abaqus.
-  expect_same_mesh(read_fe_file(data("bricks.inp.gz")), bdf, 1e-7);
+  expect_same_mesh(read_fe_file(nastran_file("bricks.inp.gz")), bdf, 1e-7);
 }
 
 const char* const small_field =
@@ -146,10 +146,10 @@ TEST(Nastran, SmallLargeAndFreeField) {
       "BEGIN BULK\nGRID\t1\t\t0.\t0.\t0.\nGRID\t2\t\t1.5-1\t0.\t0.\nGRID\t3\t\t0.\t.2\t0.\n"
       "GRID\t4\t\t0.\t0.\t.3\t\t123\nCTETRA\t11\t7\t1\t2\t3\t4\nPSOLID\t7\t3\n"
       "MAT1\t3\t2.1+11\t\t.3\t7850.\nSPC1\t1\t123\t1\t2\n";
-  const FeModel first = bulk(small_field);
+  const FeModel first = bulk_model(small_field);
   for (const std::string& text : {std::string(small_field), large, free_right, tabs}) {
     SCOPED_TRACE(text.substr(0, 60));
-    const FeModel m = bulk(text);
+    const FeModel m = bulk_model(text);
     expect_same_mesh(first, m, 0.0);
     ASSERT_EQ(m.nodes(), 4);
     EXPECT_EQ(m.positions[1], Vec3(0.15, 0, 0));
@@ -176,7 +176,7 @@ TEST(Nastran, SmallLargeAndFreeField) {
 }
 
 TEST(Nastran, SetsOfPreprocessors) {
-  const FeModel m = bulk(
+  const FeModel m = bulk_model(
       "$HMSET        5        1 \"BORE\" 17\n"
       "SET     5       GRID    LIST\n"
       "+       3       1       THRU    2\n"
@@ -196,7 +196,7 @@ TEST(Nastran, SetsOfPreprocessors) {
 
 TEST(Nastran, CoordinateSystems) {
   // System 2 in system 1 (turned about z by 90 degrees, moved to (1, 0, 0)), cylindrical.
-  const FeModel m = bulk(
+  const FeModel m = bulk_model(
       "CORD2R,1,,1.,0.,0.,1.,0.,1.\n,1.,1.,0.\n"
       "CORD2C,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
       "CORD2S,3,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
@@ -210,7 +210,7 @@ TEST(Nastran, CoordinateSystems) {
 }
 
 TEST(Nastran, MaterialsBarsAndShells) {
-  const FeModel m = bulk(
+  const FeModel m = bulk_model(
       "PARAM,WTMASS,.001\n"
       "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\nGRID,5,,0.,0.,1.\n"
       "CBAR,1,1,1,2,0.,0.,1.\nCBAR,2,2,2,3,5\nCBEAM,3,3,3,4,0.,0.,1.\nCBAR,4,4,4,1,0.,0.,1.\n"
@@ -260,14 +260,15 @@ TEST(Nastran, HexahedraAsNastranIntegratesThem) {
       "GRID,5,,0.,0.,1.\nGRID,6,,1.,0.,1.\nGRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\n"
       "CHEXA,1,1,1,2,3,4,5,6\n,7,8\n";
   const std::string material = "MAT1,1,1.,,0.,1.\n";
-  EXPECT_EQ(bulk(nodes + "PSOLID,1,1\n" + material).elements[0].type, ElementType::hex8i);
-  EXPECT_EQ(bulk(nodes + "PSOLID,1,1,,TWO,,FULL\n" + material).elements[0].type, ElementType::hex8);
+  EXPECT_EQ(bulk_model(nodes + "PSOLID,1,1\n" + material).elements[0].type, ElementType::hex8i);
+  EXPECT_EQ(bulk_model(nodes + "PSOLID,1,1,,TWO,,FULL\n" + material).elements[0].type,
+            ElementType::hex8);
   // A mesh alone is as that of other formats.
-  EXPECT_EQ(bulk(nodes).elements[0].type, ElementType::hex8);
-  EXPECT_EQ(bulk(nodes).elements[0].material, -1);
+  EXPECT_EQ(bulk_model(nodes).elements[0].type, ElementType::hex8);
+  EXPECT_EQ(bulk_model(nodes).elements[0].material, -1);
   FeReadOptions options;
   options.material = Material{1.0, 0.3, 2.0};
-  EXPECT_EQ(bulk(nodes, options).materials[0].density, 2.0);
+  EXPECT_EQ(bulk_model(nodes, options).materials[0].density, 2.0);
 }
 
 const char* const bar_deck =
@@ -291,10 +292,10 @@ Mat6 rigid_mass(const FeModel& model) {
 }
 
 TEST(Nastran, MassesAndRigidElements) {
-  const Mat6 bar = rigid_mass(bulk(bar_deck));
+  const Mat6 bar = rigid_mass(bulk_model(bar_deck));
   // A mass of 2 kg, 0.1 beside node 2, with inertia about its centre; the bar weighs 8 kg.
-  const FeModel m =
-      bulk(std::string(bar_deck) + "CONM2,9,2,,2.,.1,.2,.3,,\n,.01,.002,.03,-.001,.004,.05\n");
+  const FeModel m = bulk_model(std::string(bar_deck) +
+                               "CONM2,9,2,,2.,.1,.2,.3,,\n,.01,.002,.03,-.001,.004,.05\n");
   const Mat6 with = rigid_mass(m) - bar;
   const Vec3 c(1.1, 0.2, 0.3);
   Mat3 J;
@@ -305,8 +306,8 @@ TEST(Nastran, MassesAndRigidElements) {
             1e-12);
 
   // The mass on two nodes that a rigid element ties to node 2.
-  const FeModel rigid =
-      bulk(std::string(bar_deck) + "RBE2,20,2,123456,3,4,1.2-5\nCONM2,9,3,,1.5\nCONM2,10,4,,1.5\n");
+  const FeModel rigid = bulk_model(std::string(bar_deck) +
+                                   "RBE2,20,2,123456,3,4,1.2-5\nCONM2,9,3,,1.5\nCONM2,10,4,,1.5\n");
   ASSERT_EQ(rigid.spiders.size(), 1u);
   EXPECT_EQ(rigid.spiders[0].reference, 1);
   EXPECT_EQ(rigid.spiders[0].nodes, (std::vector<int>{2, 3}));
@@ -317,7 +318,7 @@ TEST(Nastran, MassesAndRigidElements) {
 }
 
 TEST(Nastran, AveragingElementsAndEquations) {
-  const FeModel m = bulk(
+  const FeModel m = bulk_model(
       "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\nGRID,9,,.2,.2,.2\n"
       "CTETRA,1,1,1,2,3,4\nPSOLID,1,1\nMAT1,1,1.,,0.,1.\n"
       "RBE3,5,,9,123456,1.,123,1,2,\n,3,2.5,123,4,ALPHA,1.-5\n"
@@ -344,7 +345,7 @@ TEST(Nastran, IncludedFiles) {
   folder.write("arm.bdf",
                text.substr(0, begin) + "INCLUDE 'mesh/\n   nodes.dat'\n" + text.substr(end));
   const FeModel m = read_fe_file(folder / "arm.bdf");
-  expect_same_mesh(bulk(small_field), m, 0.0);
+  expect_same_mesh(bulk_model(small_field), m, 0.0);
   ASSERT_EQ(m.files.size(), 2u);
   EXPECT_EQ(m.node_sources[3].file, 1);
   EXPECT_EQ(m.node_sources[3].line, 4);

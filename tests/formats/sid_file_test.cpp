@@ -328,14 +328,14 @@ TEST(SidFile, WhatIsInDoubtIsSaid) {
   EXPECT_NE(read.notes[0].find("m1 of Oe does not give the modal masses"), std::string::npos);
 }
 
-struct Fault {
+struct SidFault {
   const char* from;
   const char* to;
   const char* sentence;
 };
 
 TEST(SidFile, Faults) {
-  const Fault faults[] = {
+  const SidFault faults[] = {
       {"    2   2    :No", "    two   2    :No",
        "arm.SID_FEM:1: found 'two   2    :No. nodes, No. modes: four p...', expected the numbers "
        "of "
@@ -367,7 +367,7 @@ TEST(SidFile, Faults) {
       {"m0( 2, 2)             = 7.50000000000D-01", "m0( 2, 1)             = 7.50000000000D-01",
        "arm.SID_FEM:301: 'm0(2,1)' in block De, whose structure 1 is diagonal"},
   };
-  for (const Fault& fault : faults) {
+  for (const SidFault& fault : faults) {
     std::string text = classical();
     const std::size_t at = text.find(fault.from);
     ASSERT_NE(at, std::string::npos) << fault.from;

@@ -10,7 +10,7 @@
 namespace floatframe::test {
 namespace {
 
-constexpr double tolerance = 1e-12;  // of the largest entry
+constexpr double reference_tolerance = 1e-12;  // of the largest entry
 
 struct State {
   Vec3 r0, omega, sdot;
@@ -43,32 +43,34 @@ void check_preprocessing(const InertiaInvariants& invariants, const Json& output
   MatX M(12 + nm, 12 + nm);
   VecX Qv(12 + nm);
   absolute_preprocessing(data, s.A, s.Adot, s.y.data(), s.ydot.data(), work, M, Qv);
-  EXPECT_LT(relative_error(work.deformed.m_bar, to_vector(outputs["m_bar"])), tolerance);
-  EXPECT_LT(relative_error(work.deformed.P_bar, to_matrix(outputs["P_bar"])), tolerance);
+  EXPECT_LT(relative_error(work.deformed.m_bar, to_vector(outputs["m_bar"])), reference_tolerance);
+  EXPECT_LT(relative_error(work.deformed.P_bar, to_matrix(outputs["P_bar"])), reference_tolerance);
   for (int i = 0; i < 3; ++i) {
     EXPECT_LT(relative_error(work.deformed.S_d.middleRows<3>(3 * i),
                              to_matrix(outputs["S_d"][static_cast<std::size_t>(i)])),
-              tolerance);
+              reference_tolerance);
   }
-  EXPECT_LT(relative_error(M, to_matrix(outputs["absolute"]["M"])), tolerance);
-  EXPECT_LT(relative_error(Qv, to_vector(outputs["absolute"]["Qv"])), tolerance);
+  EXPECT_LT(relative_error(M, to_matrix(outputs["absolute"]["M"])), reference_tolerance);
+  EXPECT_LT(relative_error(Qv, to_vector(outputs["absolute"]["Qv"])), reference_tolerance);
   const VecX qdot = to_vector(outputs["absolute"]["qdot"]);
-  EXPECT_NEAR(0.5 * qdot.dot(M * qdot) / outputs["kinetic_energy"].get<double>(), 1.0, tolerance);
+  EXPECT_NEAR(0.5 * qdot.dot(M * qdot) / outputs["kinetic_energy"].get<double>(), 1.0,
+              reference_tolerance);
 
   const Json& any = outputs["absolute_nonorthonormal"];
   absolute_preprocessing(data, to_matrix(any["A"]), to_matrix(any["Adot"]), s.y.data(),
                          s.ydot.data(), work, M, Qv);
-  EXPECT_LT(relative_error(M, to_matrix(any["M"])), tolerance);
-  EXPECT_LT(relative_error(Qv, to_vector(any["Qv"])), tolerance);
+  EXPECT_LT(relative_error(M, to_matrix(any["M"])), reference_tolerance);
+  EXPECT_LT(relative_error(Qv, to_vector(any["Qv"])), reference_tolerance);
 
   MatX Mr(6 + nm, 6 + nm);
   VecX Qr(6 + nm);
   relative_preprocessing(data, s.r0, s.A, s.omega, s.y.data(), s.ydot.data(), work, Mr, Qr);
   const Json& relative = outputs["relative"];
-  EXPECT_LT(relative_error(Mr, to_matrix(relative["M"])), tolerance);
-  EXPECT_LT(relative_error(Qr, to_vector(relative["Qv_sddot_material_paper"])), tolerance);
+  EXPECT_LT(relative_error(Mr, to_matrix(relative["M"])), reference_tolerance);
+  EXPECT_LT(relative_error(Qr, to_vector(relative["Qv_sddot_material_paper"])),
+            reference_tolerance);
   subtract_literal_correction(data, work.deformed, s.r0, s.A, s.omega, s.sdot, Qr);
-  EXPECT_LT(relative_error(Qr, to_vector(relative["Qv_sddot_literal"])), tolerance);
+  EXPECT_LT(relative_error(Qr, to_vector(relative["Qv_sddot_literal"])), reference_tolerance);
 }
 
 TEST_P(Reference, PreprocessingFromFileIntegrals) {
@@ -87,15 +89,15 @@ TEST_P(Reference, IntegralsFromElements) {
   const State s = to_state(file["state"]);
   if (hermite(file)) {
     const InertiaInvariants exact = invariants_hermite(model, X, section_inertia(file));
-    EXPECT_LT(relative_error(exact, to_invariants(file["invariants"])), tolerance);
+    EXPECT_LT(relative_error(exact, to_invariants(file["invariants"])), reference_tolerance);
     check_preprocessing(exact, file["outputs"], s);
     const Json& iso = file["isoparametric_approximation"];
     const InertiaInvariants linear = invariants_isoparametric(model, X);
-    EXPECT_LT(relative_error(linear, to_invariants(iso["invariants"])), tolerance);
+    EXPECT_LT(relative_error(linear, to_invariants(iso["invariants"])), reference_tolerance);
     check_preprocessing(linear, iso["outputs"], s);
   } else {
     const InertiaInvariants linear = invariants_isoparametric(model, X);
-    EXPECT_LT(relative_error(linear, to_invariants(file["invariants"])), tolerance);
+    EXPECT_LT(relative_error(linear, to_invariants(file["invariants"])), reference_tolerance);
     check_preprocessing(linear, file["outputs"], s);
     EXPECT_LT(
         relative_error(invariants_isoparametric(model, to_matrix(file["X_translation"])), linear),
@@ -107,11 +109,11 @@ TEST_P(Reference, MassMatrices) {
   const FeModel model = to_model(file);
   EXPECT_LT(
       relative_error(MatX(assemble_scalar_mass(model)), to_matrix(file["M_scalar_isoparametric"])),
-      tolerance);
+      reference_tolerance);
   if (file.contains("M_FE_6dof")) {
     EXPECT_LT(relative_error(MatX(assemble_mass(model, section_inertia(file), 6)),
                              to_matrix(file["M_FE_6dof"])),
-              tolerance);
+              reference_tolerance);
   }
 }
 
@@ -131,19 +133,19 @@ TEST_P(Reference, ProjectionOfIsoparametricBodies) {
   MatX M(12 + nm, 12 + nm);
   VecX Qv(12 + nm);
   absolute_projection(data, s.A, s.Adot, s.y.data(), s.ydot.data(), work, M, Qv);
-  EXPECT_LT(relative_error(M, to_matrix(outputs["absolute"]["M"])), tolerance);
-  EXPECT_LT(relative_error(Qv, to_vector(outputs["absolute"]["Qv"])), tolerance);
+  EXPECT_LT(relative_error(M, to_matrix(outputs["absolute"]["M"])), reference_tolerance);
+  EXPECT_LT(relative_error(Qv, to_vector(outputs["absolute"]["Qv"])), reference_tolerance);
   const Json& any = outputs["absolute_nonorthonormal"];
   absolute_projection(data, to_matrix(any["A"]), to_matrix(any["Adot"]), s.y.data(), s.ydot.data(),
                       work, M, Qv);
-  EXPECT_LT(relative_error(M, to_matrix(any["M"])), tolerance);
-  EXPECT_LT(relative_error(Qv, to_vector(any["Qv"])), tolerance);
+  EXPECT_LT(relative_error(M, to_matrix(any["M"])), reference_tolerance);
+  EXPECT_LT(relative_error(Qv, to_vector(any["Qv"])), reference_tolerance);
   MatX Mr(6 + nm, 6 + nm);
   VecX Qr(6 + nm);
   relative_projection(data, s.r0, s.A, s.omega, s.y.data(), s.ydot.data(), work, Mr, Qr);
-  EXPECT_LT(relative_error(Mr, to_matrix(outputs["relative"]["M"])), tolerance);
+  EXPECT_LT(relative_error(Mr, to_matrix(outputs["relative"]["M"])), reference_tolerance);
   EXPECT_LT(relative_error(Qr, to_vector(outputs["relative"]["Qv_sddot_material_paper"])),
-            tolerance);
+            reference_tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, Reference, ::testing::ValuesIn(reference_bodies()),

@@ -13,7 +13,7 @@ namespace {
 
 using std::string_literals::operator""s;
 
-const std::string good =
+const std::string good_model =
     "floatframe: 1\n"
     "points: {o: [0, 0, 0], a: [1, 0, 0]}\n"
     "bodies:\n"
@@ -29,22 +29,22 @@ std::string said(const std::string& text) {
 }
 
 std::string with(const std::string& before, const std::string& after) {
-  std::string text = good;
+  std::string text = good_model;
   const std::size_t at = text.find(before);
   EXPECT_NE(at, std::string::npos) << before;
   return text.replace(at, before.size(), after);
 }
 
 TEST(OneSentence, WhatIsRight) {
-  EXPECT_EQ(said(good), "no error");
-  EXPECT_EQ(said("\xEF\xBB\xBF" + good), "no error");
+  EXPECT_EQ(said(good_model), "no error");
+  EXPECT_EQ(said("\xEF\xBB\xBF" + good_model), "no error");
   std::string crlf;
-  for (const char c : good) crlf += c == '\n' ? "\r\n"s : std::string(1, c);
+  for (const char c : good_model) crlf += c == '\n' ? "\r\n"s : std::string(1, c);
   EXPECT_EQ(said(crlf), "no error");
   EXPECT_EQ(said(with("mass: 1", "mass:\t1")), "no error");
-  EXPECT_EQ(said(good + "name: \"it's \\\"quoted\\\"\"\n"), "no error");
-  EXPECT_EQ(said(good + "name: 'it''s quoted'"), "no error");
-  EXPECT_EQ(said(good + "name: |-\n  a block\n"), "no error");
+  EXPECT_EQ(said(good_model + "name: \"it's \\\"quoted\\\"\"\n"), "no error");
+  EXPECT_EQ(said(good_model + "name: 'it''s quoted'"), "no error");
+  EXPECT_EQ(said(good_model + "name: |-\n  a block\n"), "no error");
 }
 
 TEST(OneSentence, Files) {
@@ -56,14 +56,14 @@ TEST(OneSentence, Files) {
   EXPECT_EQ(said(with("pin", "p\xe9n")), "m:6:4: this is not a text file (UTF-8)");
   EXPECT_EQ(said(with("  arm:", "\tarm:")), "m:4:1: a tab in the indentation, use spaces");
   std::string cr;
-  for (const char c : good) cr += c == '\n' ? '\r' : c;
+  for (const char c : good_model) cr += c == '\n' ? '\r' : c;
   EXPECT_EQ(said(cr),
             "m:1:14: a carriage return without a line feed, expected lines that end with LF or "
             "CRLF");
   for (const std::string text : {"\"abc", "'abc''", "\"abc\\\"", "\"abc\nsecond line"}) {
-    EXPECT_EQ(said(good + "name: " + text + "\n"),
+    EXPECT_EQ(said(good_model + "name: " + text + "\n"),
               "m:8:7: the text in quotes that begins here is not closed");
-    const std::string end = said(good + "name: " + text);
+    const std::string end = said(good_model + "name: " + text);
     EXPECT_TRUE(end.starts_with("m:") && end.ends_with(": a text in quotes is not closed")) << end;
   }
 }
@@ -83,12 +83,12 @@ TEST(OneSentence, Scalars) {
   EXPECT_EQ(mass("${1/0}"), "m:4:23: bodies.arm.rigid.mass: in ${1/0}: division by zero");
   EXPECT_EQ(said(with("revolute", "\"\\e[31mred\"")),
             "m:6:15: found the text '\\x1b[31mred', expected no control characters");
-  EXPECT_EQ(said(good + "name: \"a\\x07\"\n"),
+  EXPECT_EQ(said(good_model + "name: \"a\\x07\"\n"),
             "m:8:7: found the text 'a\\x07', expected no control characters");
 }
 
 TEST(OneSentence, Names) {
-  std::string other = good;
+  std::string other = good_model;
   for (std::size_t at = other.find("arm"); at != std::string::npos; at = other.find("arm"))
     other.replace(at, 3, "\u00e4rm");
   EXPECT_EQ(said(other),
@@ -96,8 +96,9 @@ TEST(OneSentence, Names) {
             "letter first");
   EXPECT_EQ(said(with("child: arm", "child: amr")),
             "m:6:32: joints.pin.child: unknown body 'amr', did you mean 'arm'?");
-  EXPECT_EQ(said(good + "bodies: {}\n"), "m:8:1: duplicate key 'bodies', first used in line 3");
-  EXPECT_EQ(said(good + "outputs: {time: {position: arm, axis: x}}\n"),
+  EXPECT_EQ(said(good_model + "bodies: {}\n"),
+            "m:8:1: duplicate key 'bodies', first used in line 3");
+  EXPECT_EQ(said(good_model + "outputs: {time: {position: arm, axis: x}}\n"),
             "m:8:11: outputs: found the column 'time', the name of the first column, expected "
             "another");
 }

@@ -11,22 +11,22 @@
 namespace floatframe::test {
 namespace {
 
-constexpr int samples = 40;
+constexpr int force_samples = 40;
 
-struct Case {
+struct ForceCase {
   const ForceKind* kind;
   std::size_t regime;
   std::string name() const { return std::string(kind->name) + "_" + kind->regimes[regime].name; }
 };
 
-std::vector<Case> all_cases() {
-  std::vector<Case> all;
+std::vector<ForceCase> all_force_cases() {
+  std::vector<ForceCase> all;
   for (const ForceKind* kind : force_kinds())
     for (std::size_t k = 0; k < kind->regimes.size(); ++k) all.push_back({kind, k});
   return all;
 }
 
-class ForceOfKind : public ::testing::TestWithParam<Case> {
+class ForceOfKind : public ::testing::TestWithParam<ForceCase> {
  protected:
   ForceExample example() {
     const ForceExample x = GetParam().kind->example(GetParam().regime, numbers_);
@@ -57,7 +57,7 @@ class ForceOfKind : public ::testing::TestWithParam<Case> {
 };
 
 TEST_P(ForceOfKind, ActionEqualsReaction) {
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     const WrenchRow w = evaluate(x, {x.a, x.b}).wrench;
     if (!GetParam().kind->between_markers) {
@@ -72,7 +72,7 @@ TEST_P(ForceOfKind, ActionEqualsReaction) {
 
 TEST_P(ForceOfKind, WorkIsTheLossOfPotentialEnergy) {
   if (!regime().conservative || !regime().regular) return;
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     if (!regime().regular) continue;
     const MarkerPair p = with_velocity({x.a, x.b}, Vec12::Zero());
@@ -85,7 +85,7 @@ TEST_P(ForceOfKind, WorkIsTheLossOfPotentialEnergy) {
 
 TEST_P(ForceOfKind, MotionTakesEnergyOut) {
   if (!regime().conservative || !regime().regular) return;
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     const MarkerPair p{x.a, x.b};
     const ForceState s = evaluate(x, p), rest = evaluate(x, with_velocity(p, Vec12::Zero()));
@@ -101,7 +101,7 @@ TEST_P(ForceOfKind, MotionTakesEnergyOut) {
 // targets that move; tyres leave the account to their users.
 TEST_P(ForceOfKind, EnergyRateBelongsToTheEnergy) {
   if (!regime().regular || GetParam().kind->type == ForceType::tyre) return;
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     const MarkerPair p{x.a, x.b};
     const Vec12 v = velocity(p);
@@ -122,7 +122,7 @@ TEST_P(ForceOfKind, EnergyRateBelongsToTheEnergy) {
 }
 
 TEST_P(ForceOfKind, LengthAndRateBelongTogether) {
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     if (!regime().regular) continue;
     const MarkerPair p{x.a, x.b};
@@ -136,7 +136,7 @@ TEST_P(ForceOfKind, LengthAndRateBelongTogether) {
 
 TEST_P(ForceOfKind, TangentAgainstFiniteDifferences) {
   double worst = 0.0;
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     const MarkerPair p{x.a, x.b};
     const ForceTangent t = tangent(x, p);
@@ -156,7 +156,7 @@ TEST_P(ForceOfKind, TangentAgainstFiniteDifferences) {
 // regime says they leave out; and what it says is true.
 TEST_P(ForceOfKind, RowsHoldWhatTheySay) {
   double left_out = 0.0;
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     const MarkerPair p = with_velocity({x.a, x.b}, Vec12::Zero());
     const ForceTangent t = tangent(x, p);
@@ -183,7 +183,7 @@ TEST_P(ForceOfKind, RowsHoldWhatTheySay) {
 
 TEST_P(ForceOfKind, RegimeIsReached) {
   bool acts = false;
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     const ForceState s = evaluate(x, {x.a, x.b});
     acts = acts || stacked(s.wrench).norm() > 0.0;
@@ -193,7 +193,7 @@ TEST_P(ForceOfKind, RegimeIsReached) {
   EXPECT_EQ(acts, regime().acts);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, ForceOfKind, ::testing::ValuesIn(all_cases()),
+INSTANTIATE_TEST_SUITE_P(EveryKind, ForceOfKind, ::testing::ValuesIn(all_force_cases()),
                          [](const auto& c) { return c.param.name(); });
 
 TEST(ForceKinds, AreListedInTheOrderOfTheirTypes) {

@@ -17,8 +17,6 @@
 namespace floatframe::test {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
-
 TEST(IltisFlexible, Counts) {
   const ModelCounts c = count(build_model(iltis()));
   EXPECT_EQ(c.bodies, 17);
@@ -105,7 +103,8 @@ TEST(IltisFlexible, Equilibrium) {
   const StaticsBody& chassis = body_of(s, "chassis");
   expect_digits("flexible chassis z [m]", chassis.position.z(), 0.5629377531, 10);
   expect_digits("flexible chassis dz [mm]", 1e3 * (chassis.position.z() - 0.57), -7.062247, 6);
-  expect_digits("flexible pitch [deg]", chassis.roll_pitch_yaw[1] / degree, 0.145797, 6);
+  expect_digits("flexible pitch [deg]", chassis.roll_pitch_yaw[1] * 180.0 / std::numbers::pi,
+                0.145797, 6);
   for (const std::string side : {"left", "right"}) {
     const auto check = [&](const std::string& name, double front, double rear) {
       expect_digits("flexible front_" + side + "." + name + " [N]",

@@ -15,7 +15,7 @@ namespace {
 
 /// The bracket has markers foot, knee and eye, which mode 5 moves by 0, 0.02 and 0 m; a
 /// point of its surface moves by 1.09 m.
-class RangeOfParts : public testing::Test {
+class RangeOfParts : public ::testing::Test {
  protected:
   RangeOfParts() {
     std::filesystem::copy_file(FLOATFRAME_TEST_DATA "/body_files/bracket_v1.ffb",

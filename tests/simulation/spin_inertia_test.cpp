@@ -12,7 +12,7 @@ namespace floatframe::test {
 namespace {
 
 /// A flexible bar from g to e.
-std::string flexible_bar(const std::string& points, const std::string& more) {
+std::string bar_model(const std::string& points, const std::string& more) {
   return "points: {" + points + "}" + R"(
 bodies:
   bar:
@@ -27,8 +27,8 @@ bodies:
 
 // Round-off of such a bar passed for mass in one of the formulations.
 const std::string spinning_bars[] = {
-    flexible_bar("g: [0.138, 0.605, -0.874], e: [0.441, 1.277, -0.983], w: [0.17, 0.803, -1.266]",
-                 R"(  weight: {position: w, rigid: {mass: 8.5, inertia: [1, 1, 1]}}
+    bar_model("g: [0.138, 0.605, -0.874], e: [0.441, 1.277, -0.983], w: [0.17, 0.803, -1.266]",
+              R"(  weight: {position: w, rigid: {mass: 8.5, inertia: [1, 1, 1]}}
 joints:
   top: {type: spherical, child: bar, at: g}
   low: {type: spherical, parent: bar, child: weight, at: e}
@@ -49,8 +49,8 @@ joints:
   low: {type: spherical, parent: bar, child: weight, at: e}
   pin: {type: revolute, child: weight, at: w, axis: [0.872, 0.142, -0.434]}
 )",
-    flexible_bar("g: [0.485, 0.091, 0.424], e: [0.32, -0.647, -0.386]",
-                 "joints: {top: {type: spherical, child: bar, at: g}}\n")};
+    bar_model("g: [0.485, 0.091, 0.424], e: [0.32, -0.647, -0.386]",
+              "joints: {top: {type: spherical, child: bar, at: g}}\n")};
 
 TEST(SpinningBars, GetTheSameSentenceInAllFormulations) {
   for (const std::string& text : spinning_bars) {

@@ -6,7 +6,7 @@
 
 namespace floatframe::test {
 
-inline const Material steel{2e11, 0.3, 7500.0};
+inline const Material iltis_steel{2e11, 0.3, 7500.0};
 
 /// A-arm: two bars and the stub that carries the shock absorber; frame at the middle of the hinge
 /// axis.
@@ -14,7 +14,7 @@ inline BarFrame a_arm_frame(int elements) {
   const Vec3 origin(0.970, 0.259, -0.268);
   const auto local = [&](double x, double y, double z) { return Vec3(Vec3(x, y, z) - origin); };
   BarFrame frame;
-  frame.material = steel;
+  frame.material = iltis_steel;
   frame.points = {{"front", local(1.070, 0.259, -0.268)},
                   {"rear", local(0.870, 0.259, -0.268)},
                   {"ball", local(0.970, 0.572, -0.341)},
@@ -38,7 +38,7 @@ inline ReductionOptions a_arm_options() {
 /// Straight bar along x from "inner" to "outer".
 inline BarFrame straight_bar(double length, double diameter, int elements) {
   BarFrame frame;
-  frame.material = steel;
+  frame.material = iltis_steel;
   frame.points = {{"inner", Vec3::Zero()}, {"outer", Vec3(length, 0.0, 0.0)}};
   frame.bars.resize(1);
   frame.bars[0] = {

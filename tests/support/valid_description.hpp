@@ -195,14 +195,14 @@ inline FlexibleDescription& bars(ModelDescription& d) {
 }
 inline FlexibleBody& part(ModelDescription& d) { return std::get<FlexibleBody>(d.bodies[2].kind); }
 
-struct Case {
+struct DescriptionCase {
   std::function<void(ModelDescription&)> change;
   std::string expected;
 };
 using D = ModelDescription;
 
-inline void check(const std::vector<Case>& cases) {
-  for (const Case& c : cases) {
+inline void check(const std::vector<DescriptionCase>& cases) {
+  for (const DescriptionCase& c : cases) {
     ModelDescription d = valid_description();
     c.change(d);
     EXPECT_EQ(faults(d), c.expected);

@@ -6,13 +6,12 @@
 #include <map>
 
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
 namespace {
-
-constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
 using Terms = DependentDofs::Terms;
 
@@ -106,7 +105,7 @@ class Resolver {
   /// Once for a node, not for each of its dofs.
   void refuse(int owner, int node, int axis, const std::string& what) {
     if (refused_ != node || refused_owner_ != owner) {
-      faults_.add(mark_, owners_[static_cast<std::size_t>(owner)] + ": " + dof_names[axis] +
+      faults_.add(mark_, owners_[static_cast<std::size_t>(owner)] + ": " + node_dof_names[axis] +
                              " of " + model_.node_label(node) + what);
     }
     refused_ = node;
@@ -251,7 +250,7 @@ void add_equation(const FeModel& model, const DofTable& table, const LinearEquat
     if (dof < 0) {
       faults.add(resolver.mark(), "equation for " + model.node_label(first.node) + ": " +
                                       model.node_label(t.node) + " has no degree of freedom " +
-                                      dof_names[t.axis]);
+                                      node_dof_names[t.axis]);
       return;
     }
     if (&t != &first) terms.emplace_back(dof, -t.factor / first.factor);

@@ -76,7 +76,7 @@ const std::vector<Edge>& edges(ElementType type) {
   return all[static_cast<std::size_t>(type)];
 }
 
-Vec3 at(const FeModel& model, const Element& e, int local) {
+Vec3 position_of(const FeModel& model, const Element& e, int local) {
   const int node = e.nodes[static_cast<std::size_t>(local)];
   return model.positions[static_cast<std::size_t>(node)];
 }
@@ -86,9 +86,10 @@ Vec3 tangent(const FeModel& model, const Element& e, int a, int b) {
   for (const Edge& edge : edges(e.type)) {
     if (!((edge.a == a && edge.b == b) || (edge.a == b && edge.b == a))) continue;
     if (edge.middle < 0) break;
-    return 4.0 * at(model, e, edge.middle) - 3.0 * at(model, e, a) - at(model, e, b);
+    return 4.0 * position_of(model, e, edge.middle) - 3.0 * position_of(model, e, a) -
+           position_of(model, e, b);
   }
-  return at(model, e, b) - at(model, e, a);
+  return position_of(model, e, b) - position_of(model, e, a);
 }
 
 /// "12 elements ...: worst element 4 (tet10) 0.03, ..."
@@ -166,7 +167,7 @@ double corner_quality(const FeModel& model, const Element& e) {
 double aspect_ratio(const FeModel& model, const Element& e) {
   double shortest = INFINITY, longest = 0.0;
   for (const Edge& edge : edges(e.type)) {
-    const double length = (at(model, e, edge.a) - at(model, e, edge.b)).norm();
+    const double length = (position_of(model, e, edge.a) - position_of(model, e, edge.b)).norm();
     shortest = std::min(shortest, length);
     longest = std::max(longest, length);
   }

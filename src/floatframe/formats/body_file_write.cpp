@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/formats/body_arrays.hpp"
 #include "floatframe/formats/body_file.hpp"
 #include "floatframe/formats/health_text.hpp"
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -107,7 +107,7 @@ VecX mode_frequencies(const FlexibleBody& body) {
   VecX out(body.modes());
   for (Eigen::Index k = 0; k < out.size(); ++k) {
     const double m = v.Sij[0][0](k, k) + v.Sij[1][1](k, k) + v.Sij[2][2](k, k);
-    out[k] = std::sqrt(std::max(0.0, body.K(k, k)) / m) / (2.0 * std::numbers::pi);
+    out[k] = hertz(std::sqrt(std::max(0.0, body.K(k, k)) / m));
   }
   return out;
 }

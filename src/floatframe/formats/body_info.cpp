@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "floatframe/core/printable.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/formats/health_text.hpp"
+#include "floatframe/formats/json_vector.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/frequency.hpp"
 
 namespace floatframe {
 namespace {
@@ -26,8 +27,7 @@ std::vector<double> frequencies(const FlexibleBody& body) {
   if (M.rows() == 0) return out;
   const SymmetricEigen modes = generalised_eigenvalues(body.K, M);
   if (!modes.found) return out;
-  for (const double w2 : modes.values)
-    out.push_back(std::sqrt(std::max(0.0, w2)) / (2.0 * std::numbers::pi));
+  for (const double w2 : modes.values) out.push_back(hertz_of_eigenvalue(w2));
   return out;
 }
 
@@ -72,8 +72,6 @@ std::string tables_text(const FlexibleBody& body) {
   return text;
 }
 
-Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
 Json body_json(const FlexibleBody& body) {
   const InertiaInvariants& v = body.invariants;
   const Mat3 J = v.inertia_about_centre();
@@ -87,12 +85,12 @@ Json body_json(const FlexibleBody& body) {
   Json normal = Json::array();
   for (const double f : body.fixed_interface_frequencies) normal.push_back(f);
   for (const ModalNode& n : body.nodes)
-    markers.push_back({{"name", n.name}, {"position_m", vector_json(n.p)}});
+    markers.push_back({{"name", n.name}, {"position_m", json_vector(n.p)}});
   return {{"mass_kg", v.m},
-          {"centre_of_mass_m", vector_json(v.centre_of_mass())},
+          {"centre_of_mass_m", json_vector(v.centre_of_mass())},
           {"inertia_about_centre_kgm2",
-           {vector_json(J.row(0).transpose()), vector_json(J.row(1).transpose()),
-            vector_json(J.row(2).transpose())}},
+           {json_vector(J.row(0).transpose()), json_vector(J.row(1).transpose()),
+            json_vector(J.row(2).transpose())}},
           {"modes", modes},
           {"frequencies_frame_held_Hz", frequencies(body)},
           {"normal_mode_frequencies_Hz", normal},

@@ -11,6 +11,7 @@
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/unit_system.hpp"
+#include "floatframe/formats/json_vector.hpp"
 
 namespace floatframe {
 namespace {
@@ -80,7 +81,6 @@ void sets(const FeModel& model, FeFacts& out) {
 std::string vector_text(const Vec3& v) {
   return fmt::format("{:.6g} {:.6g} {:.6g}", v.x(), v.y(), v.z());
 }
-Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::string material_name(const FeModel& model, std::size_t k) {
   return k < model.material_names.size() ? model.material_names[k] : fmt::format("{}", k + 1);
@@ -226,8 +226,8 @@ std::string fe_info_json(const std::string& file, const FeModel& model) {
                      {"point_masses", f.point_masses},
                      {"equations", f.equations},
                      {"supported_nodes", f.supports},
-                     {"low", vector_json(f.low)},
-                     {"high", vector_json(f.high)},
+                     {"low", json_vector(f.low)},
+                     {"high", json_vector(f.high)},
                      {"volume", f.volume},
                      {"mass", f.mass},
                      {"materials", materials},

@@ -7,16 +7,16 @@ namespace {
 
 using E = ElementType;
 
-constexpr std::array<int, 20> same = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
-                                      10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
+constexpr std::array<int, 20> same_order = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
+                                            10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
 
 const GmshType types[] = {
     {1, "2-node line", 1, 2, {}, {}},
     {2, "3-node triangle", 2, 3, {}, {}},
     {3, "4-node quadrilateral", 2, 4, {}, {}},
-    {4, "4-node tetrahedron", 3, 4, E::tet4, same},
-    {5, "8-node hexahedron", 3, 8, E::hex8, same},
-    {6, "6-node wedge", 3, 6, E::wedge6, same},
+    {4, "4-node tetrahedron", 3, 4, E::tet4, same_order},
+    {5, "8-node hexahedron", 3, 8, E::hex8, same_order},
+    {6, "6-node wedge", 3, 6, E::wedge6, same_order},
     {7, "5-node pyramid", 3, 5, {}, {}},
     {8, "3-node line", 1, 3, {}, {}},
     {9, "6-node triangle", 2, 6, {}, {}},

@@ -7,7 +7,7 @@ namespace floatframe {
 namespace {
 
 /// Cards that change neither stiffness nor mass nor geometry; '*' stands for any end.
-const char* const harmless[] = {
+const char* const harmless_cards[] = {
     "PLOTEL*", "EIG*",   "FORCE*",   "MOMENT*", "PLOAD*",  "GRAV",   "RFORCE",  "ACCEL*",  "LOAD*",
     "TEMP*",   "SPCADD", "SPCD",     "SPCOFF*", "ASET*",   "BSET*",  "BNDFIX*", "BNDFRE*", "CSET*",
     "QSET*",   "USET*",  "OMIT*",    "SUPORT*", "SUPAX",   "TABLE*", "TABD*",   "DAREA",   "DELAY",
@@ -24,10 +24,11 @@ const char* const harmless[] = {
 }  // namespace
 
 bool is_harmless_nastran_card(const std::string& name) {
-  return std::any_of(std::begin(harmless), std::end(harmless), [&name](std::string_view known) {
-    return known.ends_with('*') ? name.starts_with(known.substr(0, known.size() - 1))
-                                : name == known;
-  });
+  return std::any_of(
+      std::begin(harmless_cards), std::end(harmless_cards), [&name](std::string_view known) {
+        return known.ends_with('*') ? name.starts_with(known.substr(0, known.size() - 1))
+                                    : name == known;
+      });
 }
 
 }  // namespace floatframe

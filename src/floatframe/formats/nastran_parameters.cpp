@@ -10,7 +10,7 @@ namespace {
 /// Parameters that change neither stiffness nor mass: results, methods of solution, checks,
 /// damping, loads, and factors of matrices that are refused (CK2 of K2GG, CM2 of M2GG). COUPMASS,
 /// K6ROT and SNORM are of elements that have a counterpart of their own here.
-const char* const harmless =
+const char* const harmless_names =
     "ACEXTMTD ACEXTSET ACLN ACOUT ACOWEAK ACSYM ADJMETH ADMPOST ADPCON ADSTAT AESDISC AESMAXIT "
     "AESMETH AESRNDM AESTOL ALPHA1 ALPHA1FL ALPHA2 ALPHA2FL ALTRED ALTSHAPE AMLS AMLSMAXR AMLSNCPU "
     "AMLSMEM AMLSUCON ARF ARS ASCOUP ASING AUNITS AUTOADJ AUTOGOUT AUTOMSET AUTOQSET AUTOSPC "
@@ -58,7 +58,7 @@ const char* const harmless =
 NastranParameter nastran_parameter(const std::string& name) {
   static const std::unordered_set<std::string> names = [] {
     std::unordered_set<std::string> set;
-    std::istringstream in(harmless);
+    std::istringstream in(harmless_names);
     for (std::string word; in >> word;) set.insert(word);
     return set;
   }();

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numbers>
 #include <set>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -117,7 +117,7 @@ SidFrame frame_of(const ModalNode& node, std::string number, int nq) {
 std::string mode_label(const FlexibleBody& body, const SidContent& c, int k) {
   const auto i = static_cast<std::size_t>(k);
   const double w2 = c.Me.m0(k, k) > 0.0 ? c.Ke.m0(k, k) / c.Me.m0(k, k) : 0.0;
-  const double f = w2 > 0.0 ? std::sqrt(w2) / (2.0 * std::numbers::pi) : 0.0;
+  const double f = hertz_of_eigenvalue(w2);
   const std::string name = i < body.mode_names.size() && !body.mode_names[i].empty()
                                ? body.mode_names[i]
                                : fmt::format("Eigen Mode {:4}", k + 1);

@@ -90,4 +90,6 @@ MatX lu_solve(const MatX& A, const MatX& B) { return A.partialPivLu().solve(B); 
 MatX ldlt_solve(const MatX& A, const MatX& B) { return A.ldlt().solve(B); }
 MatX qr_solve(const MatX& A, const MatX& B) { return A.colPivHouseholderQr().solve(B); }
 
+double largest(const VecX& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
+
 }  // namespace floatframe

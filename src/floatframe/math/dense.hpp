@@ -76,4 +76,7 @@ MatX lu_solve(const MatX& A, const MatX& B);
 MatX ldlt_solve(const MatX& A, const MatX& B);
 MatX qr_solve(const MatX& A, const MatX& B);
 
+/// The largest magnitude in x; 0 if x is empty.
+double largest(const VecX& x);
+
 }  // namespace floatframe

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/frequency.hpp"
 
 namespace floatframe {
 namespace {
@@ -227,7 +227,7 @@ Eigenmodes BarChains::normal_modes(int count) const {
 }
 
 int BarChains::count_below(double frequency) const {
-  const double omega = 2.0 * std::numbers::pi * frequency;
+  const double omega = omega_of(frequency);
   // Sylvester's law needs factors of K - w^2 M, which have no digits here: modes until one is
   // above.
   for (int count = 16;; count *= 2) {

@@ -7,11 +7,10 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
 
 namespace floatframe {
 namespace {
-
-constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
 /// Sets of tied nodes.
 class Pieces {
@@ -98,7 +97,7 @@ void check_connected(const FeModel& model) {
 
 std::string row_label(const FeModel& model, const FeSystem& system, int row) {
   const Dof& dof = system.dofs[static_cast<std::size_t>(row)];
-  return model.node_label(dof.node) + " " + dof_names[dof.axis];
+  return model.node_label(dof.node) + " " + node_dof_names[dof.axis];
 }
 
 }  // namespace floatframe

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
@@ -15,8 +16,6 @@
 
 namespace floatframe {
 namespace {
-
-constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
 enum class Role : char { inner, clamped, interface, inactive };
 
@@ -147,7 +146,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
   }
   Faults faults;
   const auto dof_text = [&](int node, int axis) {
-    return model.node_label(node) + " " + dof_names[axis];
+    return model.node_label(node) + " " + node_dof_names[axis];
   };
   for (const DofSelection& c : options.clamped) {
     const int node = node_of(model, c, "the body reference", faults);
@@ -188,7 +187,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
             (model.node_names.empty() || model.node_names[static_cast<std::size_t>(node)].empty()
                  ? std::to_string(node)
                  : model.node_names[static_cast<std::size_t>(node)]) +
-            " " + dof_names[axis]);
+            " " + node_dof_names[axis]);
       }
     }
   }

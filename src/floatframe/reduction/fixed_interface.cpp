@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/frequency.hpp"
 
 namespace floatframe {
 namespace {
@@ -126,7 +125,7 @@ Eigenmodes FixedInterface::normal_modes(int count) const {
 }
 
 int FixedInterface::count_below(double frequency) const {
-  return count_modes_below(Kii_, Mii_, 2.0 * std::numbers::pi * frequency, solver_);
+  return count_modes_below(Kii_, Mii_, omega_of(frequency), solver_);
 }
 
 }  // namespace floatframe

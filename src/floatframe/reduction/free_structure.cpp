@@ -3,10 +3,10 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/frequency.hpp"
 
 namespace floatframe {
 
@@ -126,7 +126,7 @@ MatX FreeStructure::relieved_response(const MatX& forces, const Eigenpairs& elas
 }
 
 int FreeStructure::count_below(double frequency) const {
-  const double omega = 2.0 * std::numbers::pi * frequency;
+  const double omega = omega_of(frequency);
   return SparseFactors(SparseMatrix(K_ - omega * omega * M_), solver_).negative_pivots();
 }
 

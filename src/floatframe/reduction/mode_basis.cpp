@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/reduction/connectivity.hpp"
@@ -15,8 +16,6 @@
 
 namespace floatframe {
 namespace {
-
-constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
 MatX forces_of(const std::vector<MarkerPlace>& markers, int n, std::vector<std::string>& names) {
   std::vector<const MarkerPlace*> loaded;
@@ -27,7 +26,7 @@ MatX forces_of(const std::vector<MarkerPlace>& markers, int n, std::vector<std::
     F.middleCols<3>(3 * static_cast<Eigen::Index>(k)) =
         MatX(SparseMatrix(loaded[k]->translation.transpose()));
     for (int axis = 0; axis < 3; ++axis)
-      names.push_back("attachment " + loaded[k]->name + " " + dof_names[axis]);
+      names.push_back("attachment " + loaded[k]->name + " " + node_dof_names[axis]);
   }
   return F;
 }
@@ -120,7 +119,7 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
   for (const InterfacePlace& place : interfaces) {
     boundary.insert(boundary.end(), place.rows.begin(), place.rows.end());
     for (const int axis : place.axes)
-      basis.names.push_back("static " + place.name + " " + dof_names[axis]);
+      basis.names.push_back("static " + place.name + " " + node_dof_names[axis]);
   }
   const auto nb = static_cast<Eigen::Index>(boundary.size());
   with_digits_hint(model, [&] {
@@ -182,7 +181,7 @@ ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R
   basis.K.diagonal().tail(count) = elastic.lambda;
   basis.first_normal = 6;
   basis.frequencies = elastic.lambda.cwiseSqrt() / (2.0 * std::numbers::pi);
-  for (const char* axis : dof_names) basis.names.push_back(std::string("rigid ") + axis);
+  for (const char* axis : node_dof_names) basis.names.push_back(std::string("rigid ") + axis);
   for (const ModeHealth& m : basis.modes) basis.names.push_back(m.name);
 
   std::vector<std::string> names;

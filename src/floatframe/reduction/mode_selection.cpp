@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/reduction/mode_basis.hpp"
 
 namespace floatframe {
@@ -29,8 +29,6 @@ MatX about_centre(const MatX& R, const SparseMatrix& M) {
   }
   return C;
 }
-
-double hertz(double omega) { return omega / (2.0 * std::numbers::pi); }
 
 }  // namespace
 

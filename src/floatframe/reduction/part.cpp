@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/body/check_invariants.hpp"
 #include "floatframe/body/fe_invariants.hpp"
@@ -15,6 +14,7 @@
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/model_checks.hpp"
 #include "floatframe/fe/strain_energy.hpp"
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/reduction/body_reference.hpp"
 #include "floatframe/reduction/connectivity.hpp"
 #include "floatframe/reduction/modal_damping.hpp"
@@ -45,8 +45,6 @@ class Stages {
   HealthReport& health_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-double hertz(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi); }
 
 /// Columns get the sign that makes their largest component positive.
 void fix_signs(const MatX& X, MatX& C) {
@@ -188,8 +186,8 @@ void free_frequencies(const VecX& reduced, const Eigenpairs* full, HealthReport&
       full ? full->lambda.size() - 6 : std::min<Eigen::Index>(reduced.size(), free_modes);
   for (Eigen::Index k = 0; k < std::min(count, reduced.size()); ++k) {
     FrequencyPair pair;
-    pair.reduced = hertz(reduced(k));
-    if (full) pair.full = hertz(full->lambda(k + 6));
+    pair.reduced = hertz_of_eigenvalue(reduced(k));
+    if (full) pair.full = hertz_of_eigenvalue(full->lambda(k + 6));
     health.free_frequencies.push_back(pair);
   }
   if (!full || full->lambda.size() <= 6) return;

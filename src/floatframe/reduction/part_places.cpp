@@ -8,13 +8,12 @@
 #include <set>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
 namespace {
-
-constexpr const char* dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
 const Vec3& position(const FeModel& model, int node) {
   return model.positions[static_cast<std::size_t>(node)];
@@ -139,14 +138,14 @@ void find_rows(const FeModel& model, const FeSystem& system,
       const int row = system.row(place.node, axis);
       if (row < 0) {
         faults.add({}, fmt::format("interface '{}': {} has no degree of freedom {} of its own",
-                                   place.name, model.node_label(place.node), dof_names[axis]));
+                                   place.name, model.node_label(place.node), node_dof_names[axis]));
         continue;
       }
       place.rows.push_back(row);
       place.axes.push_back(axis);
       ++count;
       if (stiffness(row) == 0.0 && mass(row) == 0.0)
-        loose += std::string(loose.empty() ? "" : ", ") + dof_names[axis];
+        loose += std::string(loose.empty() ? "" : ", ") + node_dof_names[axis];
     }
     // As an inner node would be refused: the reference of a coupling of some directions only.
     if (!loose.empty())

@@ -17,8 +17,6 @@ namespace {
 
 using Given = RelativeFormulation::Given;
 
-double largest(const VecX& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
-
 /// Least weighted change x with J x = b.
 VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
   if (J.cols() == 0) return VecX();

@@ -12,8 +12,6 @@ namespace floatframe {
 
 namespace {
 
-double largest(const VecX& x) { return x.size() == 0 ? 0.0 : x.lpNorm<Eigen::Infinity>(); }
-
 /// Residual, tangent and constraints of the statics at q, by finite differences; load time only.
 class Statics {
  public:

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace floatframe {
+
+/// Degrees of freedom of a node, as messages and mode names have them.
+inline constexpr const char* node_dof_names[6] = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+}  // namespace floatframe
