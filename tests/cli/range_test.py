@@ -129,6 +129,37 @@ class Range(unittest.TestCase):
             self.assertIn("the step of 1e+300 s is longer than the duration of 20 s", done.stderr)
         self.assertFalse((self.folder / "out").exists())
 
+    def test_sentences_about_the_clock_say_who_gave_it(self):
+        model = self.folder / "m.yaml"
+
+        def refused(command, *arguments, simulation):
+            model.write_text("floatframe: 1\nbodies: {b: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [1, 1, 1]}}}\n"
+                             "simulation:\n" + "".join(f"  {line}\n" for line in simulation))
+            done = subprocess.run([BINARY, command, "m.yaml", *arguments], capture_output=True, text=True, timeout=300,
+                                  cwd=self.folder)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+            return done.stderr.strip()
+        for command, arguments in ("run", ["--out", "out"]), ("realtime", ["--no-pace"]):
+            long = ": the step of 2 s is longer than the duration of 1 s: expected at least one step"
+            self.assertEqual(refused(command, *arguments, simulation=["duration: 1", "step: 2"]), "m.yaml:5:9" + long)
+            self.assertEqual(refused(command, *arguments, simulation=["duration: 1e-4"]),
+                             "m.yaml:4:13: the step of 0.001 s is longer than the duration of 0.0001 s: expected at least one step")
+            self.assertEqual(refused(command, *arguments, "--step", "2", simulation=["duration: 1", "step: 0.1"]),
+                             "floatframe: --step" + long)
+            self.assertEqual(refused(command, *arguments, "--duration", "1", simulation=["duration: 3", "step: 2"]),
+                             "floatframe: --duration" + long)
+        many = ": a duration of 1 s with a step of 1e-14 s takes more than 1e+"
+        for command, steps, arguments in ("run", "09", ["--out", "out"]), ("realtime", "12", ["--no-pace"]), ("advise", "07", []):
+            self.assertIn("m.yaml:4:9" + many + steps, refused(command, *arguments, simulation=["step: 1e-14", "duration: 1"]))
+            self.assertIn("floatframe: --step" + many + steps,
+                          refused(command, *arguments, "--step", "1e-14", simulation=["step: 1", "duration: 1"]))
+        self.assertEqual(refused("advise", simulation=["duration: 0.0001"]),
+                         "m.yaml:4:13: the run is shorter than one step; give a --duration")
+        self.assertEqual(refused("realtime", "--duration", "1e-8", simulation=["step: 1e-9"]),
+                         "m.yaml:4:9: found a step of 1e-09 s, expected at least 1e-6 s and at most 1e6 s in step with the wall clock")
+        self.assertEqual(refused("check", simulation=["tolerance: 1e300"]),
+                         "m.yaml:4:14: simulation.tolerance: found 1e300, expected a number from 1e-15 to 1")
+
     def test_the_summary_says_what_was_read(self):
         shutil.copy(EXAMPLES / "iltis" / "suspension.yaml", self.folder)
         shutil.copy(EXAMPLES / "iltis" / "iltis.yaml", self.folder)

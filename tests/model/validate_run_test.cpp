@@ -86,6 +86,37 @@ TEST(Validate, Simulation) {
   EXPECT_EQ(faults(d), "no fault");
 }
 
+/// Where a sentence about the step and the duration stands.
+TEST(Validate, PlaceOfStepAndDuration) {
+  SimulationDescription s;
+  s.duration = 1e30;
+  const auto place = [&] {
+    try {
+      require_valid_run(s);
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(0, std::string(error.what()).find("a duration"));
+    }
+    return std::string("no fault");
+  };
+  EXPECT_EQ(place(), "");
+  s.origin.mark = {"m.yaml", 3, 1};
+  EXPECT_EQ(place(), "m.yaml:3:1: ");
+  s.origin.keys["duration"] = {"m.yaml", 5, 13};
+  EXPECT_EQ(place(), "m.yaml:5:13: ");
+  s.origin.keys["step"] = {"m.yaml", 4, 9};
+  EXPECT_EQ(place(), "m.yaml:4:9: ");
+  s.given_by("", "duration");  // changed by a program
+  EXPECT_EQ(place(), "");
+  s.given_by("--duration", "duration");
+  EXPECT_EQ(place(), "--duration: ");
+  s.given_by("--step", "step");
+  EXPECT_EQ(place(), "--step: ");
+  s.given_by("", "step");
+  EXPECT_EQ(place(), "--duration: ");
+  s.given_by("", "duration");
+  EXPECT_EQ(place(), "");
+}
+
 TEST(Validate, AllFaultsAtOnce) {
   ModelDescription d = valid_description();
   d.simulation.step = nan;

@@ -9,6 +9,7 @@
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/io/advice_json.hpp"
 #include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
 
 namespace floatframe {
@@ -112,15 +113,15 @@ std::string advice_text(const std::string& model, const SimulationDescription& s
 int advise(const AdviseArguments& a) {
   ModelDescription description = read_model(a.model);
   SimulationDescription& simulation = description.simulation;
-  if (!a.step.empty()) simulation.step = positive_number("--step", a.step);
-  if (!a.duration.empty()) simulation.duration = positive_number("--duration", a.duration);
+  set_clock(simulation, a.step, a.duration);
   if (simulation.duration > 1e7 * simulation.step)
-    throw InputError(
-        fmt::format("a duration of {:g} s with a step of {:g} s takes more than 1e+07 "
-                    "steps; give a shorter --duration",
-                    simulation.duration, simulation.step));
+    throw InputError(place_of_clock(simulation),
+                     fmt::format("a duration of {:g} s with a step of {:g} s takes more than 1e+07 "
+                                 "steps; give a shorter --duration",
+                                 simulation.duration, simulation.step));
   if (!(simulation.duration >= simulation.step))
-    throw InputError("the run is shorter than one step; give a --duration");
+    throw InputError(place_of_clock(simulation),
+                     "the run is shorter than one step; give a --duration");
   check_inertia_method(description, simulation.inertia);
   const Model model = build_model(description);
   const ModeAdviceReport report = advise_modes(model, simulation, a.options);

@@ -72,8 +72,11 @@ BenchResult bench_iltis(const BenchOptions& options) {
   for (const int elements : options.elements) {
     const Clock::time_point start = Clock::now();
     ModelDescription description = read_model(options.model, {{"ne", std::to_string(elements)}});
-    if (options.step > 0.0) description.simulation.step = options.step;
-    if (options.duration > 0.0) description.simulation.duration = options.duration;
+    SimulationDescription& simulation = description.simulation;
+    if (options.step > 0.0) simulation.step = options.step;
+    if (options.step > 0.0) simulation.given_by("--step", "step");
+    if (options.duration > 0.0) simulation.duration = options.duration;
+    if (options.duration > 0.0) simulation.given_by("--duration", "duration");
     const Clock::time_point was_read = Clock::now();
     const Model model = build_model(description);
     result.builds.push_back({elements, seconds(start, was_read), seconds(was_read, Clock::now())});

@@ -85,6 +85,18 @@ double positive_number(const std::string& option, const std::string& text) {
   return option_number(option, text, positive_number("s"));
 }
 
+void set_clock(SimulationDescription& simulation, const std::string& step,
+               const std::string& duration) {
+  if (!step.empty()) {
+    simulation.step = positive_number("--step", step);
+    simulation.given_by("--step", "step");
+  }
+  if (!duration.empty()) {
+    simulation.duration = positive_number("--duration", duration);
+    simulation.given_by("--duration", "duration");
+  }
+}
+
 void require_writable(const std::vector<OutputFile>& outputs,
                       const std::vector<std::string>& inputs) {
   require_distinct(outputs, inputs);

@@ -51,6 +51,9 @@ int whole_option_number(const std::string& option, const std::string& text,
                         const WholeNumberRule& rule);
 /// A positive number of seconds.
 double positive_number(const std::string& option, const std::string& text);
+/// What --step and --duration say, where they are given.
+void set_clock(SimulationDescription& simulation, const std::string& step,
+               const std::string& duration);
 
 /// Proves that files that are to be written at the end can be, and that none is one of `inputs` or
 /// another output. Paths may be empty. Throws InputError.

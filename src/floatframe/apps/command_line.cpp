@@ -35,14 +35,13 @@ int report(const InputError& error) {
   std::size_t count = 0;
   for (const InputFault& fault : error.faults()) {
     count += faults_of_line(fault.message);
-    files.insert(fault.mark.file);
-    if (fault.mark.file.empty()) {
-      say(fault.message);
+    if (fault.mark.file.empty() || fault.mark.is_option()) {
+      say(fault.text());
     } else {
+      files.insert(fault.mark.file);
       say_line(fault.text());
     }
   }
-  files.erase("");
   if (error.faults().size() > 1) {
     const std::string where = files.empty()       ? "the input"
                               : files.size() == 1 ? *files.begin()

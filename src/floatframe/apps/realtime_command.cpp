@@ -63,9 +63,7 @@ void apply(const RealTimeArguments& arguments, SimulationDescription& simulation
   if (!arguments.coordinates.empty())
     simulation.coordinates = coordinates_from(arguments.coordinates);
   if (!arguments.inertia.empty()) simulation.inertia = inertia_from(arguments.inertia);
-  if (!arguments.step.empty()) simulation.step = positive_number("--step", arguments.step);
-  if (!arguments.duration.empty())
-    simulation.duration = positive_number("--duration", arguments.duration);
+  set_clock(simulation, arguments.step, arguments.duration);
 }
 
 RealTimeOptions options_from(const RealTimeArguments& arguments) {

@@ -33,10 +33,7 @@ void apply(const RunArguments& arguments, SimulationDescription& simulation) {
     simulation.coordinates = coordinates_from(arguments.coordinates);
   }
   if (!arguments.inertia.empty()) simulation.inertia = inertia_from(arguments.inertia);
-  if (!arguments.step.empty()) simulation.step = positive_number("--step", arguments.step);
-  if (!arguments.duration.empty()) {
-    simulation.duration = positive_number("--duration", arguments.duration);
-  }
+  set_clock(simulation, arguments.step, arguments.duration);
   require_valid_run(simulation);
   check_step(simulation);
 }

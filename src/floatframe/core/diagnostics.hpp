@@ -10,11 +10,13 @@
 
 namespace floatframe {
 
-/// A place in a file; line and column count from 1, 0 means unknown.
+/// A place in a file; line and column count from 1, 0 means unknown. Or, as the file, the option of
+/// the command line that gave a value: "--step".
 struct SourceMark {
   std::string file;
   int line = 0;
   int column = 0;
+  bool is_option() const { return line == 0 && file.starts_with("--"); }
 };
 
 /// Where an entity and its keys were written. Empty for models made in C++.

@@ -55,8 +55,7 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
     }
   }
   if (!offset) return;
-  if (!state && !on.value_or(false))
-    offset->fault(sentences::offset_alone());
+  if (!state && !on.value_or(false)) offset->fault(sentences::offset_alone());
   read_offset(self, *offset, d);
 }
 
@@ -71,6 +70,7 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
   if (!section) return;
   YamlSection& s = *section;
   SimulationDescription& d = model.description.simulation;
+  d.origin = s.origin();
   if (const auto v = s.get("coordinates"))
     if (const auto w = v->word(rules::coordinates)) d.coordinates = static_cast<Coordinates>(*w);
   if (const auto v = s.get("inertia"))

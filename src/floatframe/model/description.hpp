@@ -323,6 +323,12 @@ struct SimulationDescription {
   double penalty = 0.0;              ///< 0: chosen from masses and step
   double position_tolerance = 1e-9;  ///< constraint violation accepted after a step [m]
   double velocity_tolerance = 1e-8;  ///< after the projections [m/s]
+  /// Of the group in the model file; who changes `step` or `duration` afterwards calls `given_by`.
+  Origin origin;
+
+  /// The value of `key` is not that of the file any more but of an option of the command line
+  /// ("--step"), or of a place that is not known ("").
+  void given_by(const char* option, const char* key) { origin.keys[key] = SourceMark{option}; }
 };
 
 struct ModelDescription {

@@ -22,6 +22,9 @@ void validate(const SimulationDescription& simulation, Faults& faults);
 void require_valid(const SimulationDescription& simulation);
 /// The same, and the number of steps is one that a run can keep.
 void require_valid_run(const SimulationDescription& simulation);
+/// Of a sentence about the step and the duration together: the option of the command line that gave
+/// one of them, else where the file says the step, the duration or the group.
+SourceMark place_of_clock(const SimulationDescription& simulation);
 
 namespace validation {
 

@@ -25,8 +25,7 @@ void validate(const ModelDescription& d, Faults& faults) {
 }
 
 void validate(const SimulationDescription& s, Faults& faults) {
-  const Origin none;
-  const validation::Entity group{faults, none, "simulation"};
+  const validation::Entity group{faults, s.origin, "simulation"};
   group.word("coordinates", s.coordinates, rules::coordinates);
   group.word("inertia", s.inertia, rules::inertia_methods);
   group.word("start", s.start, {"given", "equilibrium", "{state: file}"});
@@ -60,7 +59,19 @@ void require_valid(const SimulationDescription& s) {
 
 void require_valid_run(const SimulationDescription& s) {
   require_valid(s);
-  if (const auto complaint = sentences::steps(s.duration, s.step)) throw InputError(*complaint);
+  if (const auto complaint = sentences::steps(s.duration, s.step))
+    throw InputError(place_of_clock(s), *complaint);
+}
+
+SourceMark place_of_clock(const SimulationDescription& s) {
+  const SourceMark &step = s.origin.of("step"), &duration = s.origin.of("duration");
+  // What the file says of one of them says little where the other came from elsewhere.
+  const auto from_file = [&](const SourceMark& mark) {
+    return &mark == &s.origin.mark || mark.line > 0;
+  };
+  if (!from_file(step) || !from_file(duration))
+    return step.is_option() || from_file(duration) ? step : duration;
+  return s.origin.keys.contains("step") ? step : duration;
 }
 
 }  // namespace floatframe

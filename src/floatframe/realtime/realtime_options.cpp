@@ -13,13 +13,15 @@ namespace {
 void check_clock(const RealTimeOptions& o, const SimulationDescription& s, Faults& faults) {
   namespace rules = realtime_rules;
   if (o.paced && !(s.step >= rules::shortest_step && s.step <= rules::longest_step))
-    faults.add({}, fmt::format("found a step of {:g} s, expected at least 1e-6 s and at most 1e6 s "
-                               "in step with the wall clock",
-                               s.step));
+    faults.add(s.origin.of("step"),
+               fmt::format("found a step of {:g} s, expected at least 1e-6 s and at most 1e6 s "
+                           "in step with the wall clock",
+                           s.step));
   if (!o.endless && s.duration > rules::most_steps * s.step)
-    faults.add({}, fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} "
-                               "steps",
-                               s.duration, s.step, rules::most_steps));
+    faults.add(place_of_clock(s),
+               fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} "
+                           "steps",
+                           s.duration, s.step, rules::most_steps));
 }
 
 }  // namespace

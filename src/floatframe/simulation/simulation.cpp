@@ -132,9 +132,11 @@ RunResult run_with(F& f, State start, StartReport start_report, const Simulation
 
 void check_step(const SimulationDescription& o) {
   if (o.duration > 0.0 && !(o.step <= o.duration * (1.0 + 1e-9)))
-    throw InputError(fmt::format(
-        "the step of {:g} s is longer than the duration of {:g} s: expected at least one step",
-        o.step, o.duration));
+    throw InputError(
+        place_of_clock(o),
+        fmt::format(
+            "the step of {:g} s is longer than the duration of {:g} s: expected at least one step",
+            o.step, o.duration));
 }
 
 double default_penalty_mass(const Model& model) { return 1e5 * model.mean_mass; }

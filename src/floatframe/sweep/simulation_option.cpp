@@ -73,6 +73,7 @@ std::string set_simulation_option(SimulationDescription& s, const std::string& n
     if (name == o.name) {
       if (!is_number || !o.rule.holds(scalar.number)) return found(value, o.rule.expectation());
       s.*o.field = scalar.number;
+      s.given_by("", o.name);
       return "";
     }
   return fmt::format("unknown option '{}'", name);
