@@ -180,6 +180,11 @@ class Misuse(CommandLine):
         lines = self.expect(2, "check", "bad.yaml").stderr.splitlines()
         self.assertLess(len(lines), 130)
         self.assertEqual(lines[-1], "130 faults in bad.yaml")
+        bodies = "".join(f"  b{k}: {{rigid: {{mass: -1, centre_of_mass: [0, 0, 0], inertia: [1, 1, 1]}}}}\n" for k in range(200))
+        (self.folder / "bad.yaml").write_text("floatframe: 1\nbodies:\n" + bodies)
+        lines = self.expect(2, "check", "bad.yaml").stderr.splitlines()
+        self.assertLess(len(lines), 30)
+        self.assertEqual(lines[-1], "200 faults in bad.yaml")
 
     def test_faults_are_listed_and_counted(self):
         (self.folder / "bad.yaml").write_text(PENDULUM.replace("step: 0.01", "stepp: 0.01").replace("type: rev", "typ: rev"))

@@ -5,10 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <new>
 #include <set>
-#include <string_view>
 
 #include "floatframe/apps/command_parser.hpp"
 #include "floatframe/apps/commands.hpp"
@@ -18,23 +16,10 @@
 namespace floatframe {
 namespace {
 
-/// The number of faults that a line stands for: "... and 180 more unknown keys", after a path or
-/// not, tells of those of one kind that are not shown.
-std::size_t faults_of_line(const std::string& message) {
-  static constexpr std::string_view rest = "... and ";
-  const std::size_t at = message.find(rest);
-  if (at == std::string::npos || (at != 0 && message.compare(at - 2, 2, ": ") != 0)) return 1;
-  char* end = nullptr;
-  const unsigned long n = std::strtoul(message.c_str() + at + rest.size(), &end, 10);
-  return n > 0 && std::string_view(end).starts_with(" more ") ? n : 1;
-}
-
 /// One fault a line, as compilers do; the number of faults last.
 int report(const InputError& error) {
   std::set<std::string> files;
-  std::size_t count = 0;
   for (const InputFault& fault : error.faults()) {
-    count += faults_of_line(fault.message);
     if (fault.mark.file.empty() || fault.mark.is_option()) {
       say(fault.text());
     } else {
@@ -46,7 +31,7 @@ int report(const InputError& error) {
     const std::string where = files.empty()       ? "the input"
                               : files.size() == 1 ? *files.begin()
                                                   : plural(static_cast<long>(files.size()), "file");
-    say_line(fmt::format("{} faults in {}", count, where));
+    say_line(fmt::format("{} faults in {}", error.count(), where));
   }
   return exit_code::bad_input;
 }

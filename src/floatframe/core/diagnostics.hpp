@@ -2,6 +2,7 @@
 // Faults in a user's input. Load-time code collects every fault and throws one InputError; each
 // fault is one sentence that names the entity, what was found and what was expected, with file,
 // line and column if known.
+#include <cstddef>
 #include <exception>
 #include <map>
 #include <string>
@@ -32,6 +33,7 @@ struct Origin {
 struct InputFault {
   SourceMark mark;
   std::string message;
+  std::size_t count = 1;  ///< of the faults it stands for: "... and 180 more unknown keys"
   /// "file:line:column: message", with what is known of the mark.
   std::string text() const {
     if (mark.file.empty()) return message;
@@ -49,6 +51,12 @@ class InputError : public std::exception {
       : InputError(std::vector<InputFault>{{std::move(mark), std::move(message)}}) {}
   explicit InputError(std::string message) : InputError(SourceMark{}, std::move(message)) {}
   const std::vector<InputFault>& faults() const noexcept { return faults_; }
+  /// Of the faults that all messages stand for.
+  std::size_t count() const noexcept {
+    std::size_t sum = 0;
+    for (const InputFault& f : faults_) sum += f.count;
+    return sum;
+  }
   const char* what() const noexcept override { return text_.c_str(); }
 
  private:
@@ -65,8 +73,9 @@ class InputError : public std::exception {
 /// Collects faults; `throw_if_any` ends a loading stage.
 class Faults {
  public:
-  void add(const SourceMark& mark, std::string message) {
-    faults_.push_back({mark, std::move(message)});
+  /// `count`: of the faults that the message stands for.
+  void add(const SourceMark& mark, std::string message, std::size_t count = 1) {
+    faults_.push_back({mark, std::move(message), count});
   }
   bool empty() const noexcept { return faults_.empty(); }
   std::size_t size() const noexcept { return faults_.size(); }

@@ -24,7 +24,8 @@ class LimitedFaults {
   void throw_if_any() {
     for (const auto& [kind, count] : count_) {
       if (count > most_of_a_kind) {
-        faults_.add({}, fmt::format("and {} more {}", count - most_of_a_kind, kind));
+        const int more = count - most_of_a_kind;
+        faults_.add({}, fmt::format("and {} more {}", more, kind), static_cast<std::size_t>(more));
       }
     }
     faults_.throw_if_any();

@@ -35,13 +35,13 @@ std::string skeleton(std::string_view message) {
   return out;
 }
 
-std::string more(std::size_t n, const char* what) {
-  return "... and " + std::to_string(n) + " more of " + what;
+InputFault more(const SourceMark& first, std::size_t n, const char* what) {
+  return {first, "... and " + std::to_string(n) + " more of " + what, n};
 }
 
 }  // namespace
 
-void ReadFaults::add(const SourceMark& mark, std::string message) {
+void ReadFaults::add(const SourceMark& mark, std::string message, std::size_t count) {
   ++added_;
   const std::string_view sentence = without_suggestion(message);
   const InputFault same{mark, std::string(sentence)};
@@ -62,18 +62,19 @@ void ReadFaults::add(const SourceMark& mark, std::string message) {
       text.resize(end);
       text += " ...";
     }
-    faults_.push_back({mark, std::move(text)});
+    faults_.push_back({mark, std::move(text), count});
     return;
   }
   if (kind->kept == 0) kind = &others_;  // of a kind that is not shown
-  if (kind->passed_over++ == 0) kind->first = mark;
+  if (kind->passed_over == 0) kind->first = mark;
+  kind->passed_over += count;
 }
 
 std::vector<InputFault> ReadFaults::take() {
   for (const auto& [key, kind] : kinds_)
-    if (kind.passed_over > 0) faults_.push_back({kind.first, more(kind.passed_over, "this kind")});
+    if (kind.passed_over > 0) faults_.push_back(more(kind.first, kind.passed_over, "this kind"));
   if (others_.passed_over > 0)
-    faults_.push_back({others_.first, more(others_.passed_over, "other kinds")});
+    faults_.push_back(more(others_.first, others_.passed_over, "other kinds"));
   return std::move(faults_);
 }
 

@@ -33,9 +33,10 @@ class ReadFaults {
  public:
   /// Kept unless it was added before (a file may be used many times) or enough of its kind are
   /// there: sentences that differ only in names, numbers and places are of one kind.
-  void add(const SourceMark& mark, std::string message);
+  /// `count`: of the faults that the message stands for.
+  void add(const SourceMark& mark, std::string message, std::size_t count = 1);
   bool empty() const noexcept { return added_ == 0; }
-  /// Number of faults added, kept or not.
+  /// Number of messages added, kept or not.
   std::size_t size() const noexcept { return added_; }
   /// Those kept, and where some were not, how many.
   std::vector<InputFault> take();

@@ -38,9 +38,9 @@ FlexibleRead known_part(ReducedPart part) {
 void add_faults(const YamlValue& value, const InputError& error) {
   for (const InputFault& fault : error.faults()) {
     if (fault.mark.line > 0)
-      value.context().faults->add(fault.mark, fault.message);
+      value.context().faults->add(fault.mark, fault.message, fault.count);
     else
-      value.fault(fault.text());
+      value.fault(fault.text(), fault.count);
   }
 }
 

@@ -51,7 +51,7 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
     try {
       d.state = std::make_shared<const SystemState>(read_state(beside(self, *file)));
     } catch (const InputError& error) {
-      for (const InputFault& f : error.faults()) state->fault(f.text());
+      for (const InputFault& f : error.faults()) state->fault(f.text(), f.count);
     }
   }
   if (!offset) return;

@@ -339,7 +339,8 @@ void YamlSection::finish(const std::vector<std::string>& elsewhere) {
   if (const std::size_t more = unknown.size() - shown; more > 0)
     faults.add(place(*unknown[shown]),
                path_prefix() + "... and " + std::to_string(more) +
-                   (more == 1 ? " more unknown key" : " more unknown keys"));
+                   (more == 1 ? " more unknown key" : " more unknown keys"),
+               more);
 }
 
 Origin YamlSection::origin() const {

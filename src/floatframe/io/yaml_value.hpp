@@ -54,8 +54,8 @@ class YamlValue {
   bool is_scalar() const { return node_->kind == YamlNode::Kind::scalar; }
 
   /// Adds the fault "path: sentence" at this value.
-  void fault(const std::string& sentence) const {
-    context_->faults->add(mark(), path_ + ": " + sentence);
+  void fault(const std::string& sentence, std::size_t count = 1) const {
+    context_->faults->add(mark(), path_ + ": " + sentence, count);
   }
   /// The same at the key of the value.
   void entity_fault(const std::string& sentence) const {

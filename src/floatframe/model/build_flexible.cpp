@@ -134,7 +134,7 @@ std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription
     } catch (const InputError& error) {
       for (const InputFault& fault : error.faults())
         faults.add(fault.mark.file.empty() ? body.origin.of("flexible") : fault.mark,
-                   "bodies." + body.name + ": " + fault.message);
+                   "bodies." + body.name + ": " + fault.message, fault.count);
       return nullptr;
     }
     known_.push_back({key.text(), plain});

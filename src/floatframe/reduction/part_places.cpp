@@ -50,7 +50,7 @@ std::string number_label(const FeModel& model, int node) {
 }
 
 void append(Faults& faults, const InputError& error) {
-  for (const InputFault& fault : error.faults()) faults.add(fault.mark, fault.message);
+  for (const InputFault& fault : error.faults()) faults.add(fault.mark, fault.message, fault.count);
 }
 
 }  // namespace
@@ -118,7 +118,8 @@ std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& 
       if (!place.p.allFinite()) throw InputError("its position is not finite");
       places.push_back(std::move(place));
     } catch (const InputError& error) {
-      for (const InputFault& fault : error.faults()) faults.add(fault.mark, label + fault.message);
+      for (const InputFault& fault : error.faults())
+        faults.add(fault.mark, label + fault.message, fault.count);
     }
   }
   faults.throw_if_any();

@@ -84,9 +84,10 @@ class Checker {
         if (seen.insert(f.text()).second) all.push_back(f);
     constexpr std::size_t most_shown = 20;
     if (all.size() > most_shown) {
-      const std::size_t more = all.size() - most_shown;
+      std::size_t more = 0;
+      for (std::size_t k = most_shown; k < all.size(); ++k) more += all[k].count;
       all.resize(most_shown);
-      all.push_back({{}, fmt::format("and {} more faults of other runs", more)});
+      all.push_back({{}, fmt::format("and {} more faults of other runs", more), more});
     }
     if (!all.empty()) throw InputError(std::move(all));
   }

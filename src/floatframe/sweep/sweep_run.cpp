@@ -21,7 +21,7 @@ namespace {
 /// A journal line holds one sentence: of several faults the first.
 std::string first_fault(const InputError& error) {
   std::string text = error.faults().front().text();
-  if (error.faults().size() > 1) text += fmt::format(" (and {} more)", error.faults().size() - 1);
+  if (error.count() > 1) text += fmt::format(" (and {} more)", error.count() - 1);
   return text;
 }
 

@@ -74,6 +74,7 @@ std::string encode(const ServiceAnswer& answer) {
     put(text, static_cast<std::size_t>(fault.mark.line));
     put(text, static_cast<std::size_t>(fault.mark.column));
     put(text, fault.message);
+    put(text, fault.count);
   }
   put(text, answer.files.size());
   for (const auto& [file, hash] : answer.files) {
@@ -96,6 +97,7 @@ bool decode(const std::string& text, ServiceAnswer& answer) {
     fault.mark.line = static_cast<int>(fields.number());
     fault.mark.column = static_cast<int>(fields.number());
     fault.message = fields.text();
+    fault.count = fields.number();
     answer.faults.push_back(std::move(fault));
   }
   for (std::size_t n = fields.count(); n > 0; --n) {
