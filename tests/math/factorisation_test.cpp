@@ -98,6 +98,20 @@ TEST(PartialLdlt, IndefiniteFrontsAreSolvedToo) {
   EXPECT_LT((b - expected).norm(), 1e-11 * expected.norm());
 }
 
+// A penalty that ties two light blocks: the first takes all that the second has, so that its pivot
+// is round-off, although it is not small beside what it starts with.
+TEST(BlockLdlt, NamesAPivotThatTheOtherFrontsHaveTakenAway) {
+  for (int trial = 1; trial <= 20; ++trial) {
+    const double g[2] = {1.0 / 3.0, 0.1 * trial}, penalty = 7.3e7, mass = 1e-8;
+    BlockLdlt sparse({1, 1}, {{0, 1}});
+    sparse.set_zero();
+    for (int a = 0; a < 2; ++a)
+      for (int b = 0; b <= a; ++b)
+        sparse.add(a, 0, b, 0, penalty * g[a] * g[b] + (a == b ? mass : 0.0));
+    EXPECT_GE(sparse.factorize(), 0) << trial;
+  }
+}
+
 struct Graph {
   std::vector<int> sizes;
   std::vector<std::pair<int, int>> edges;

@@ -24,7 +24,7 @@ inline constexpr int front_stride(int n) noexcept { return (n + 3) & ~3; }
 /// or the column whose pivot vanished.
 template <int W>
 inline int factorise_panel(double* c0, int j0, int ld, const double* original, double* d,
-                           double* inverse) noexcept {
+                           double* inverse, double tolerance) noexcept {
   double w[4][W] = {}, l[4][W] = {};  // the triangle: L D and L
   for (int j = 0; j < W; ++j) {
     double* cj = c0 + j * ld + j0;
@@ -34,8 +34,7 @@ inline int factorise_panel(double* c0, int j0, int ld, const double* original, d
       w[i][j] = x;
     }
     const double pivot = w[j][j];
-    if (!(std::abs(pivot) > pivot_tolerance * std::abs(original[j])) || !std::isfinite(pivot))
-      return j;
+    if (!(std::abs(pivot) > tolerance * std::abs(original[j])) || !std::isfinite(pivot)) return j;
     d[j] = pivot;
     inverse[j] = 1.0 / pivot;
     for (int i = j + 1; i < 4; ++i) cj[i] = l[i][j] = w[i][j] * inverse[j];
@@ -53,22 +52,23 @@ inline int factorise_panel(double* c0, int j0, int ld, const double* original, d
   return -1;
 }
 
-/// Returns -1, or the first column whose pivot vanished. `original` receives the diagonal before
-/// elimination (size ne). The leading dimension is `front_stride(n)`; rows n and beyond must be
-/// zero, and entries above the diagonal are scratch. The diagonal of eliminated columns receives
-/// 1/D.
-inline int partial_ldlt(double* f, int n, int ne, double* original) noexcept {
+/// Returns -1, or the first column whose pivot is no more than `tolerance` of `original` (size ne):
+/// what its diagonal was before anything was taken from it, also by fronts eliminated earlier. The
+/// leading dimension is `front_stride(n)`; rows n and beyond must be zero, and entries above the
+/// diagonal are scratch. The diagonal of eliminated columns receives 1/D.
+inline int partial_ldlt(double* f, int n, int ne, const double* original,
+                        double tolerance) noexcept {
   const int ld = front_stride(n);
-  for (int j = 0; j < ne; ++j) original[j] = f[j * ld + j];
   constexpr int width = 4;
   for (int j0 = 0; j0 < ne; j0 += width) {
     const int j1 = std::min(j0 + width, ne);
     double* c0 = f + j0 * ld;
     double inverse[width] = {}, d[width] = {};
-    const int failed = j1 - j0 == 4   ? factorise_panel<4>(c0, j0, ld, original + j0, d, inverse)
-                       : j1 - j0 == 3 ? factorise_panel<3>(c0, j0, ld, original + j0, d, inverse)
-                       : j1 - j0 == 2 ? factorise_panel<2>(c0, j0, ld, original + j0, d, inverse)
-                                      : factorise_panel<1>(c0, j0, ld, original + j0, d, inverse);
+    const int failed =
+        j1 - j0 == 4   ? factorise_panel<4>(c0, j0, ld, original + j0, d, inverse, tolerance)
+        : j1 - j0 == 3 ? factorise_panel<3>(c0, j0, ld, original + j0, d, inverse, tolerance)
+        : j1 - j0 == 2 ? factorise_panel<2>(c0, j0, ld, original + j0, d, inverse, tolerance)
+                       : factorise_panel<1>(c0, j0, ld, original + j0, d, inverse, tolerance);
     if (failed >= 0) return j0 + failed;
     // Trailing update, two columns at a time with the panel's four.
     if (j1 - j0 == width) {
@@ -109,6 +109,13 @@ inline int partial_ldlt(double* f, int n, int ne, double* original) noexcept {
     for (int j = j0; j < j1; ++j) f[j * ld + j] = inverse[j - j0];
   }
   return -1;
+}
+
+/// The same for a front that stands alone: `original` receives its diagonal.
+inline int partial_ldlt(double* f, int n, int ne, double* original) noexcept {
+  const int ld = front_stride(n);
+  for (int j = 0; j < ne; ++j) original[j] = f[j * ld + j];
+  return partial_ldlt(f, n, ne, original, pivot_tolerance);
 }
 
 /// b(0..n) with the front's L: forward substitution of the eliminated columns, then division by D.
