@@ -61,6 +61,16 @@ void in_line_curvature(const ConstraintPart&, const MarkerState& a, const Marker
   add_axis_curvature(a.R.col(1), a, b, lambda[1], K);
 }
 
+void in_plane(const ConstraintPart&, const MarkerState& a, const MarkerState& b, double,
+              ConstraintRow* rows) noexcept {
+  axis_row(a.R.col(2), a, b, rows[0]);
+}
+
+void in_plane_curvature(const ConstraintPart&, const MarkerState& a, const MarkerState& b,
+                        const double* lambda, Mat12& K) noexcept {
+  add_axis_curvature(a.R.col(2), a, b, lambda[0], K);
+}
+
 void perpendicular(const ConstraintPart& part, const MarkerState& a, const MarkerState& b, double,
                    ConstraintRow* rows) noexcept {
   const Vec3 e = a.R * part.e_a;
@@ -151,6 +161,7 @@ void drive_angle_curvature(const ConstraintPart& part, const MarkerState& a, con
 constexpr ConstraintKind kinds[] = {
     {Kind::coincident, "coincident", false, coincident, coincident_curvature},
     {Kind::in_line, "in_line", false, in_line, in_line_curvature},
+    {Kind::in_plane, "in_plane", false, in_plane, in_plane_curvature},
     {Kind::perpendicular, "perpendicular", false, perpendicular, perpendicular_curvature},
     {Kind::distance, "distance", false, distance, distance_curvature},
     {Kind::drive_position, "drive_position", false, drive_position, drive_position_curvature},

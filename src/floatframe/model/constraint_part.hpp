@@ -5,6 +5,7 @@
 // wrench row) and quad = Phi_q-dot q-dot without the markers' own bias accelerations:
 //   coincident     r_b - r_a = 0                              3 rows
 //   in_line        n1.d = 0, n2.d = 0       (n in a)          2 rows
+//   in_plane       z_a.d = 0                                  1 row
 //   perpendicular  l (e_a.n_b - c) = 0                        1 row
 //   distance       (d.d - L^2)/(2L) = 0                       1 row
 //   drive_position z_a.d - f(t) = 0                           1 row
@@ -22,7 +23,15 @@
 namespace floatframe {
 
 struct ConstraintPart {
-  enum class Kind { coincident, in_line, perpendicular, distance, drive_position, drive_angle };
+  enum class Kind {
+    coincident,
+    in_line,
+    in_plane,
+    perpendicular,
+    distance,
+    drive_position,
+    drive_angle
+  };
   Kind kind = Kind::coincident;
   int a = -1, b = -1;  ///< markers
   Vec3 e_a = Vec3::UnitZ(), n_b = Vec3::UnitX();

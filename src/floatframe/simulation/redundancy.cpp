@@ -37,6 +37,7 @@ std::string direction_text(const ConstraintPart& part, const ConstraintRow& row)
       return "rotation about " + line_text(row.gradient.Tb);
     case ConstraintPart::Kind::coincident:
     case ConstraintPart::Kind::in_line:
+    case ConstraintPart::Kind::in_plane:
       break;
   }
   return "translation along " + line_text(row.gradient.Fb);
