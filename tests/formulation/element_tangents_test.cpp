@@ -17,12 +17,12 @@ Model everything(unsigned seed) {
   RandomSystem s(seed);
   std::string previous = ground_name;
   std::vector<std::string> names;
-  for (const JointKind& kind : joint_kinds) {
-    const std::string name = std::string("body_") + kind.name;
-    s.add_body(name, kind.velocities % 2 == 0 ? 2 : 0);
-    s.add_joint(kind.name, kind.type, previous, 1, name, 0);
+  for (const JointType type : all_joint_types) {
+    const std::string name = std::string("body_") + joint_type_name(type);
+    s.add_body(name, joint_velocities(type) % 2 == 0 ? 2 : 0);
+    s.add_joint(joint_type_name(type), type, previous, 1, name, 0);
     names.push_back(name);
-    previous = kind.type == JointType::free ? std::string(ground_name) : name;
+    previous = joint_is_free(type) ? std::string(ground_name) : name;
   }
   s.add_joint("cut_ball", JointType::spherical, ground_name, 0, "body_spherical", 3).cut = true;
   s.add_joint("cut_universal", JointType::universal, "body_free", 2, "body_prismatic", 3).cut =

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
 namespace {
@@ -32,14 +33,15 @@ void expect_equal(const JointDescription& x, const JointDescription& y) {
   }
 }
 
+/// Every joint of the library's list, with start values.
 std::vector<JointDescription> all_joints() {
-  return {joint(JointType::weld, {}),
-          joint(JointType::revolute, {0.3}),
-          joint(JointType::prismatic, {0.3}),
-          joint(JointType::cylindrical, {0.3, 0.4}),
-          joint(JointType::universal, {0.3, 0.4}),
-          joint(JointType::spherical, {0.3, 0.4, 0.5}),
-          joint(JointType::free, {0.3, 0.4, 0.5, 0.6, 0.7, 0.8})};
+  std::vector<JointDescription> all;
+  for (const JointType type : joint_types) {
+    std::vector<double> q;
+    for (int k = 0; k < joint_velocities(type); ++k) q.push_back(0.3 + 0.1 * k);
+    all.push_back(joint(type, q));
+  }
+  return all;
 }
 
 TEST(Mirror, TwiceIsTheOriginal) {
@@ -82,38 +84,36 @@ TEST(Mirror, VectorsOfBothKinds) {
   EXPECT_EQ(m.axial(Vec3(1, 2, 3)), Vec3(-1, 2, -3));
 }
 
-/// The same coordinate must mean the mirrored motion: P R(axis, q) P = R(axis', q).
-TEST(Mirror, SameCoordinateMeansTheMirroredMotion) {
-  for (const Placement& m :
-       {reflection(0, 0.4), reflection(2, 0.0), reflection(0, 1.0) * reflection(1, 0.0)}) {
-    const double q = 0.7;
-    JointDescription j = joint(JointType::revolute, {q});
-    const Mat3 R = rotation_exp(q * j.axis);
-    place(j, m);
-    EXPECT_LT((m.P * R * m.P - rotation_exp(q * j.axis)).norm(), 1e-14);
+/// What a joint does in the world: R, p of the child and its twist against the parent.
+JointMotion motion_in_world(const JointDescription& j) {
+  const Mat3 R_WF = joint_frame(j);
+  double q[7] = {};
+  joint_configuration(j.type, j.position.data(), q);
+  JointMotion m;
+  joint_motion(j.type, {Vec3::UnitZ(), R_WF.transpose() * j.axis_2}, q, m);
+  m.R_FM = (R_WF * m.R_FM * R_WF.transpose()).eval();
+  m.p_FM = (R_WF * m.p_FM).eval();
+  Vec6 twist = Vec6::Zero();
+  for (int k = 0; k < joint_velocities(j.type); ++k)
+    twist += j.velocity[static_cast<std::size_t>(k)] * m.H.col(k);
+  m.bias << R_WF * twist.head<3>(), R_WF * twist.tail<3>();
+  return m;
+}
 
-    j = joint(JointType::universal, {q, 0.2});
-    const Mat3 U = rotation_exp(q * j.axis) * rotation_exp(0.2 * j.axis_2);
-    place(j, m);
-    EXPECT_LT((m.P * U * m.P - rotation_exp(q * j.axis) * rotation_exp(0.2 * j.axis_2)).norm(),
-              1e-14);
-
-    j = joint(JointType::cylindrical, {q, 0.2});
-    const Vec3 shift = q * j.axis;
-    const Mat3 C = rotation_exp(0.2 * j.axis);
-    place(j, m);
-    EXPECT_LT((m.P * shift - j.position[0] * j.axis).norm(), 1e-15);
-    EXPECT_LT((m.P * C * m.P - rotation_exp(j.position[1] * j.axis)).norm(), 1e-14);
-
-    j = joint(JointType::free, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
-    const Vec3 theta(0.4, 0.5, 0.6);
-    place(j, m);
-    const Vec3 image(j.position[3], j.position[4], j.position[5]);
-    EXPECT_LT((m.P * rotation_exp(theta) * m.P - rotation_exp(image)).norm(), 1e-14);
-    EXPECT_LT(
-        (m.polar(Vec3(0.1, 0.2, 0.3)) - Vec3(j.position[0], j.position[1], j.position[2])).norm(),
-        1e-15);
-  }
+/// The image of a joint with its start values moves as the mirror image of its motion.
+TEST(Mirror, ImageOfEveryJointMeansTheMirroredMotion) {
+  for (const Placement& x : {reflection(0, 0.4), reflection(1, 0.0), reflection(2, 0.0),
+                             reflection(0, 1.0) * reflection(1, 0.0),
+                             reflection(0, 1.0) * reflection(1, 0.0) * reflection(2, -0.3)})
+    for (const JointDescription& j : all_joints()) {
+      JointDescription image = j;
+      place(image, x);
+      const JointMotion m = motion_in_world(j), mirrored = motion_in_world(image);
+      EXPECT_LT((mirrored.R_FM - x.P * m.R_FM * x.P).norm(), 1e-14) << joint_type_name(j.type);
+      EXPECT_LT((mirrored.p_FM - x.polar(m.p_FM)).norm(), 1e-14) << joint_type_name(j.type);
+      EXPECT_LT((mirrored.bias.head<3>() - x.polar(m.bias.head<3>())).norm(), 1e-14);
+      EXPECT_LT((mirrored.bias.tail<3>() - x.axial(m.bias.tail<3>())).norm(), 1e-14);
+    }
 }
 
 TEST(Mirror, RigidBody) {

@@ -13,6 +13,7 @@
 
 #include "floatframe/simulation/simulation.hpp"
 #include "support/mechanism_check.hpp"
+#include "support/random_model.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -58,6 +59,25 @@ TEST(RandomMechanisms, BothFormulationsAgreeToSecondOrder) {
     EXPECT_GT(runs(Verdict::equal) + runs(Verdict::second_order) + runs(Verdict::finer),
               7 * count / 10);
   }
+}
+
+// Every joint that is drawn seldom or never, in place of others.
+TEST(RandomMechanisms, OtherJointsOfAsManyCoordinates) {
+  std::map<JointType, int> ran;
+  for (unsigned seed = 1; seed <= 20; ++seed)
+    for (const JointType type : all_joint_types) {
+      const Mechanism drawn = random_mechanism(seed), m = with_joints(drawn, type);
+      const bool other = joint_velocities(type) > 1 && joint_velocities(type) < 6;
+      if (!other || text_of(m.description) == text_of(drawn.description)) continue;
+      const Judgement j = judge(m);
+      EXPECT_FALSE(is_violation(j.verdict)) << fmt::format(
+          "seed {} with {}: {} {}", seed, joint_type_name(type), word(j.verdict), j.reason);
+      if (j.verdict == Verdict::equal || j.verdict == Verdict::second_order ||
+          j.verdict == Verdict::finer)
+        ++ran[type];
+    }
+  for (const auto& [type, count] : ran)
+    fmt::print("[ figure ] {} {}\n", joint_type_name(type), count);
 }
 
 // The motion of a hinge is a table with points at 0.02, 0.08 and 0.14 s. With 238 steps they lie at

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "support/random_model.hpp"
 
@@ -23,7 +24,8 @@ class JointMotionOf : public ::testing::TestWithParam<JointType> {
   }
   JointMotion motion(const VecX& q, const VecX& v) const {
     JointMotion m;
-    joint_motion(type_, Vec3::UnitZ(), axis_2_, q.data(), v.data(), m);
+    joint_motion(type_, {Vec3::UnitZ(), axis_2_}, q.data(), m);
+    joint_bias(type_, v.data(), m);
     return m;
   }
   VecX moved(const VecX& x) const {
@@ -98,12 +100,12 @@ TEST_P(JointMotionOf, CoordinatesAreReadBack) {
 // Seen from the child the same motion has the inverse pose and the opposite twist.
 TEST_P(JointMotionOf, ReversedJointIsTheInverseMotion) {
   VecX position = user_, velocity = v_;
-  joint_reverse(type_, position.data(), velocity.data());
+  JointDirections axes{Vec3::UnitZ(), axis_2_};
+  joint_kind(type_).reverse(axes, position.data(), velocity.data());
   VecX q = q_;
   joint_configuration(type_, position.data(), q.data());
   JointMotion r;
-  joint_motion(type_, type_ == JointType::universal ? axis_2_ : Vec3::UnitZ(), Vec3::UnitZ(),
-               q.data(), velocity.data(), r);
+  joint_motion(type_, axes, q.data(), r);
   const JointMotion m = motion(q_, v_);
   EXPECT_LT(largest(r.R_FM - m.R_FM.transpose()), 1e-14);
   EXPECT_LT((r.p_FM + m.R_FM.transpose() * m.p_FM).norm(), 1e-14);

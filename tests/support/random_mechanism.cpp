@@ -7,6 +7,16 @@
 
 namespace floatframe::test {
 
+namespace {
+
+/// What is drawn from. Fixed, so that a seed stays the same mechanism when the library gets more
+/// joints; those come in by `with_joints`.
+constexpr JointType drawn_joints[] = {
+    JointType::weld,      JointType::revolute,  JointType::prismatic, JointType::cylindrical,
+    JointType::universal, JointType::spherical, JointType::free};
+
+}  // namespace
+
 MechanismBuilder::MechanismBuilder(unsigned seed) : random(seed) {
   d.name = "mechanism_" + std::to_string(seed);
   const double kind = random(0.0, 1.0);
@@ -61,9 +71,7 @@ void MechanismBuilder::add_branch(int parent) {
   const int body = add_body(place.point);
   const double kind = random(0.0, 1.0);
   if (kind < 0.04) return;  // no joint at all: a free one is made by itself
-  const JointType type = kind < 0.12 ? JointType::weld
-                                     : all_joint_types[static_cast<std::size_t>(
-                                           1 + pick(static_cast<int>(all_joint_types.size()) - 1))];
+  const JointType type = kind < 0.12 ? JointType::weld : drawn_joints[1 + pick(6)];
   JointDescription& j = add_joint(type, place, at(body, place.point));
   if ((type == JointType::revolute || type == JointType::prismatic) && chance(0.12))
     j.motion = motion();
@@ -85,7 +93,7 @@ bool MechanismBuilder::close_somewhere() {
   }
   if (is_flexible(a) && is_flexible(b)) return false;
   const Vec3 point = is_flexible(a) ? on_a.point : on_b.point;
-  const JointType type = all_joint_types[static_cast<std::size_t>(pick(6))];
+  const JointType type = drawn_joints[pick(6)];
   JointDescription& j = add_joint(type, at(b, point), at(a, point));
   j.cut = chance(0.3);
   if ((type == JointType::revolute || type == JointType::prismatic) && chance(0.05))
@@ -161,7 +169,7 @@ void MechanismBuilder::spatial_loop() {
   std::vector<JointType> types;
   int sum = 0;
   while (sum < wanted || types.size() < 3) {
-    const JointType type = all_joint_types[static_cast<std::size_t>(1 + pick(5))];
+    const JointType type = drawn_joints[1 + pick(5)];
     types.push_back(type);
     sum += joint_velocities(type);
     if (sum > 9) {
@@ -274,6 +282,12 @@ Mechanism random_mechanism(unsigned seed) {
     }
     if (attempt == attempts) return m;
   }
+}
+
+Mechanism with_joints(Mechanism m, JointType type) {
+  for (JointDescription& j : m.description.joints)
+    if (joint_velocities(j.type) == joint_velocities(type) && !j.motion) j.type = type;
+  return m;
 }
 
 }  // namespace floatframe::test

@@ -30,6 +30,9 @@ struct Mechanism {
 Mechanism random_mechanism(unsigned seed);
 inline constexpr double most_rate = 2500.0;  ///< [1/s]
 
+/// With joints of `type` in place of those that have as many coordinates.
+Mechanism with_joints(Mechanism mechanism, JointType type);
+
 /// Largest rate at which a model can change at its start [1/s]: square root of the eigenvalues of
 /// (K, M) and norm of M^-1/2 C M^-1/2 on the motions that the constraints leave free and that have
 /// mass, twice the largest speed. Zero if it cannot start.

@@ -15,11 +15,7 @@
 namespace floatframe::test {
 
 /// Every joint of the library's list.
-inline constexpr auto all_joint_types = [] {
-  std::array<JointType, std::size(joint_kinds)> types{};
-  for (std::size_t k = 0; k < types.size(); ++k) types[k] = joint_kinds[k].type;
-  return types;
-}();
+inline constexpr auto all_joint_types = std::to_array(joint_types);
 
 inline std::string node_name(int k) {
   std::string name("n");

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "floatframe/math/partial_ldlt.hpp"
+#include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
 
@@ -28,9 +29,14 @@ void RelativeFormulation::build_bodies(InertiaMethod method) {
     b.reversed = link.reversed;
     b.frame_F = link.reversed ? joint.frame_M : joint.frame_F;
     b.frame_M = link.reversed ? joint.frame_F : joint.frame_M;
-    b.axis_1 = link.reversed ? joint.axis_2 : Vec3::UnitZ();
-    b.axis_2 = link.reversed ? Vec3::UnitZ() : joint.axis_2;
-    b.nj = joint_velocities(joint.type);
+    const JointKind& kind = joint_kind(joint.type);
+    b.axes.axis_2 = joint.axis_2;
+    if (link.reversed) {
+      double position[6] = {}, velocity[6] = {};
+      kind.reverse(b.axes, position, velocity);
+    }
+    b.nj = kind.coordinates.count();
+    b.ordered = kind.rotation_vector < 0 ? b.nj : kind.rotation_vector;
     b.nm = m.modes();
     b.nm_parent =
         link.parent < 0 ? 0 : model_.bodies[static_cast<std::size_t>(link.parent)].modes();
@@ -332,10 +338,13 @@ void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v)
       position[0] = f.f;
       velocity[0] = f.df;
     }
-    if (b.reversed) joint_reverse(b.type, position, velocity);
+    if (b.reversed) {
+      JointDirections axes;
+      joint_kind(b.type).reverse(axes, position, velocity);
+    }
     joint_configuration(b.type, position, q.data() + b.iq);
     for (int k = 0; k < b.nj; ++k) v[b.iv + k] = velocity[k];
-    if (b.type == JointType::free && b.parent < 0) v.segment<3>(b.iv) += values.simulation.velocity;
+    if (joint_is_free(b.type) && b.parent < 0) v.segment<3>(b.iv) += values.simulation.velocity;
     if (b.nm > 0 && values.amplitudes[i].size() == b.nm)
       q.segment(b.iyq, b.nm) = values.amplitudes[i];
     if (b.nm > 0 && values.amplitude_rates[i].size() == b.nm)

@@ -168,12 +168,14 @@ class RelativeFormulation {
     JointType type = JointType::free;
     bool reversed = false;
     int frame_F = -1, frame_M = -1;
-    Vec3 axis_1, axis_2;
+    JointDirections axes;
     int nj = 0, nm = 0, nm_parent = 0;
+    int ordered = 0;      // joint coordinates that move those after them: all but rotation vectors
     int iq = 0, iyq = 0;  // configuration offsets of joint and modes
     int iv = 0, iy = 0;   // velocity offsets
     int cluster = -1;
-    double angle = 0.0;  // coordinate of a revolute joint, in the sense of its own parent and child
+    double angle =
+        0.0;  // of a joint of one coordinate: it, in the sense of its own parent and child
     bool phi = false, psi = false, damped = false;
     JointMotion motion;
     Vec3 r0, w;

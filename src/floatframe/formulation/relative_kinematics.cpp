@@ -38,10 +38,9 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
     BodyData& b = body(i);
     b.y = q.segment(b.iyq, b.nm);
   }
-  static constexpr double at_rest[6] = {};
   {  // the origin of this evaluation: the first body's joint frame M
     BodyData& b = body(order_[0]);
-    joint_motion(b.type, b.axis_1, b.axis_2, q.data() + b.iq, at_rest, b.motion);
+    joint_motion(b.type, b.axes, q.data() + b.iq, b.motion);
     const Pose& X_WF = model_.markers[static_cast<std::size_t>(b.frame_F)].X_NM;
     origin_ = X_WF.p + X_WF.R * b.motion.p_FM;
   }
@@ -59,8 +58,8 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
     BodyData& b = body(i);
     MarkerData& M = mark(b.frame_M);
     const MarkerData& F = mark(b.frame_F);
-    joint_motion(b.type, b.axis_1, b.axis_2, q.data() + b.iq, at_rest, b.motion);
-    if (b.type == JointType::revolute) b.angle = b.reversed ? -q[b.iq] : q[b.iq];
+    joint_motion(b.type, b.axes, q.data() + b.iq, b.motion);
+    if (b.nj == 1) b.angle = b.reversed ? -q[b.iq] : q[b.iq];
     if (M.local) M.deform(b.y);
     const Mat3 R_WM = F.s.R * b.motion.R_FM;
     const Vec3 r_M = F.s.r + F.s.R * b.motion.p_FM;
@@ -89,8 +88,7 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
       marker_world_position(m);
     }
   }
-  // The joint motion's bias needs velocities: `velocities` evaluates it with the configuration kept
-  // in b.motion.
+  // The joint's bias needs velocities: `velocities` evaluates it from the H kept in b.motion.
 }
 
 void RelativeFormulation::velocities(const VecX& v) noexcept {
@@ -99,10 +97,7 @@ void RelativeFormulation::velocities(const VecX& v) noexcept {
     b.yd = v.segment(b.iy, b.nm);
     MarkerData& M = mark(b.frame_M);
     const MarkerData& F = mark(b.frame_F);
-    if (b.type == JointType::universal) {
-      const Vec3 e1 = b.motion.H.block<3, 1>(3, 0), e2 = b.motion.H.block<3, 1>(3, 1);
-      b.motion.bias.tail<3>() = v[b.iv] * v[b.iv + 1] * e1.cross(e2);
-    }
+    joint_bias(b.type, v.data() + b.iv, b.motion);
     // Marker M of the child through the joint.
     const Vec3 rho = F.s.R * b.motion.p_FM;
     Vec3 nu = Vec3::Zero(), eta = Vec3::Zero();

@@ -107,7 +107,7 @@ bool RelativeFormulation::is_elastic(int i) const noexcept {
 std::vector<int> RelativeFormulation::free_translations() const {
   std::vector<int> indices;
   for (const BodyData& b : bodies_)
-    if (b.type == JointType::free && b.parent < 0)
+    if (joint_is_free(b.type) && b.parent < 0)
       indices.insert(indices.end(), {b.iq, b.iq + 1, b.iq + 2});
   return indices;
 }

@@ -226,8 +226,7 @@ void RelativeFormulation::assemble_cluster(Cluster& c, MatX& front) noexcept {
     for (int j = 0; j < b.nm; ++j) Eigen::Map<Vec3>(U + 6 * (b.nj + j) + 3) += b.G_modal.col(j);
     for (int j = 0; j < b.nj; ++j) {
       // Coordinate j stands above l, but rotations of one ball have no order: symmetric part.
-      const bool above = (b.type == JointType::free && j < 3) || b.type == JointType::cylindrical ||
-                         b.type == JointType::universal;
+      const bool above = j < b.ordered;
       double* column = front.data() + static_cast<Eigen::Index>(at + j) * ld + at;
       for (int l = j; l < b.nj; ++l)
         column[l] += above ? dot6(S + 6 * j, U + 6 * l)

@@ -1,29 +1,8 @@
 #include "floatframe/io/mirror.hpp"
 
+#include "floatframe/model/joint_kind.hpp"
+
 namespace floatframe {
-namespace {
-
-void place_vector(std::vector<double>& v, std::size_t at, const Placement& x, bool axial) {
-  if (v.size() < at + 3) return;
-  const Vec3 a(v[at], v[at + 1], v[at + 2]);
-  const Vec3 b = axial ? x.axial(a) : x.polar(a);
-  for (std::size_t i = 0; i < 3; ++i) v[at + i] = b[static_cast<Eigen::Index>(i)];
-}
-
-}  // namespace
-
-Placement operator*(const Placement& outer, const Placement& inner) {
-  return {outer.P * inner.P, outer.P * inner.t + outer.t};
-}
-
-Placement reflection(int axis, double at) {
-  Placement x;
-  x.P(axis, axis) = -1.0;
-  x.t[axis] = 2.0 * at;
-  return x;
-}
-
-Placement translation(const Vec3& shift) { return {Mat3::Identity(), shift}; }
 
 void place(AttachmentDescription& a, const Placement& x) { a.point = x.point(a.point); }
 
@@ -41,35 +20,7 @@ void place(BodyDescription& b, const Placement& x) {
 void place(JointDescription& j, const Placement& x) {
   place(j.parent, x);
   place(j.child, x);
-  switch (j.type) {
-    case JointType::weld:
-      break;
-    case JointType::revolute:
-      j.axis = x.axial(j.axis);
-      break;
-    case JointType::prismatic:
-      j.axis = x.polar(j.axis);
-      break;
-    case JointType::cylindrical:
-      j.axis = x.polar(j.axis);
-      if (j.position.size() == 2) j.position[1] *= x.det();
-      if (j.velocity.size() == 2) j.velocity[1] *= x.det();
-      break;
-    case JointType::universal:
-      j.axis = x.axial(j.axis);
-      j.axis_2 = x.axial(j.axis_2);
-      break;
-    case JointType::spherical:
-      place_vector(j.position, 0, x, true);
-      place_vector(j.velocity, 0, x, true);
-      break;
-    case JointType::free:
-      for (auto* v : {&j.position, &j.velocity}) {
-        place_vector(*v, 0, x, false);
-        place_vector(*v, 3, x, true);
-      }
-      break;
-  }
+  joint_kind(j.type).mirror(j, x);
 }
 
 void place(RodDescription& r, const Placement& x) {

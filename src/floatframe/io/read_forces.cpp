@@ -3,6 +3,7 @@
 
 #include "floatframe/io/read_parts.hpp"
 #include "floatframe/io/read_table.hpp"
+#include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 
@@ -127,9 +128,9 @@ void joint_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
     d.joint = *joint;
     const auto it = model.joints.find(*joint);
     if (it != model.joints.end()) {
-      turning = it->second == JointType::revolute;
-      if (!turning && it->second != JointType::prismatic)
-        value->unexpected("a revolute or prismatic joint");
+      const bool one = joint_has_one_coordinate(it->second);
+      turning = one && joint_unit(it->second, 0) == JointUnit::rad;
+      if (!one) value->unexpected("a " + joints_of_one_coordinate() + " joint");
     }
   }
   int found = 0;

@@ -3,14 +3,12 @@
 #include <span>
 
 #include "floatframe/io/read_parts.hpp"
-#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 namespace {
-
-constexpr std::span joint_words(rules::joint_types);
 
 std::vector<double> start_values(YamlSection& s, const char* key, JointType type) {
   const auto v = s.get(key);
@@ -26,7 +24,7 @@ std::vector<double> start_values(YamlSection& s, const char* key, JointType type
   }
   const std::string what = n == 1 ? "a number"
                                   : "a list of " + std::to_string(n) + " numbers for a " +
-                                        joint_words[static_cast<std::size_t>(type)] + " joint";
+                                        joint_type_name(type) + " joint";
   return v->numbers(n, n, any_number(""), what.c_str()).value_or(std::vector<double>{});
 }
 
@@ -48,7 +46,7 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   j.name = self.prefix + name;
   j.origin = s.origin();
   const auto type_value = s.require("type");
-  const std::size_t unknown = joint_words.size();
+  const std::size_t unknown = std::size(joint_words);
   const std::size_t type = type_value ? type_value->word(joint_words).value_or(unknown) : unknown;
   const auto parent_value = s.get("parent");
   const auto parent =
@@ -71,7 +69,7 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   } else if (of_parent || of_child) {
     point = of_parent ? of_parent : of_child;
   } else if (!s.has("parent_node") && !s.has("child_node")) {
-    if (type < unknown && static_cast<JointType>(type) == JointType::free) {
+    if (type < unknown && joint_is_free(static_cast<JointType>(type))) {
       if (child) point = frame_origin(self, model, *child);
       if (point && parent) check_node(self, model, *parent, *point, s.value());
     } else if (type < unknown) {
@@ -92,38 +90,36 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
     return;
   }
   j.type = static_cast<JointType>(type);
-  const bool has_axis = j.type == JointType::revolute || j.type == JointType::prismatic ||
-                        j.type == JointType::cylindrical || j.type == JointType::universal;
-  if (has_axis) {
+  const JointAxes axes = joint_kind(j.type).axes;
+  if (axes != JointAxes::none) {
     const auto axis = s.require("axis");
     if (const auto a = axis ? read_direction(*axis) : std::nullopt) {
       j.axis = a->stableNormalized();
-      if (j.type == JointType::universal) {
+      if (axes == JointAxes::two) {
         const auto second = s.require("axis_2");
         if (const auto b = second ? read_direction(*second) : std::nullopt) {
           j.axis_2 = b->stableNormalized();
           second->complain(sentences::second_axis(j.axis, j.axis_2));
         }
       }
-    } else if (j.type == JointType::universal) {
+    } else if (axes == JointAxes::two) {
       if (const auto second = s.require("axis_2")) read_direction(*second);
     }
   }
   const auto unused = [&](const char* key) {
     if (const auto v = s.get(key)) v->fault(sentences::not_used_by_joint(joint_words[type]));
   };
-  if (!has_axis) unused("axis");
-  if (j.type != JointType::universal) unused("axis_2");
-  if (j.type != JointType::revolute && j.type != JointType::prismatic) unused("motion");
+  if (axes == JointAxes::none) unused("axis");
+  if (axes != JointAxes::two) unused("axis_2");
+  if (!joint_has_one_coordinate(j.type)) unused("motion");
   j.position = start_values(s, "position", j.type);
   j.velocity = start_values(s, "velocity", j.type);
   j.keep = s.boolean("keep", false);
   if (j.keep && !s.has("position") && !s.has("velocity"))
     s.get("keep")->fault(sentences::keep_alone());
-  if (j.type == JointType::revolute || j.type == JointType::prismatic)
+  if (joint_has_one_coordinate(j.type))
     if (const auto v = s.get("motion")) {
-      j.motion =
-          read_time_function(*v, j.type == JointType::revolute ? "rad" : "m", Interpolation::cubic);
+      j.motion = read_time_function(*v, joint_unit_name(j.type, 0), Interpolation::cubic);
       for (const char* key : {"position", "velocity"})
         if (s.has(key)) s.get(key)->fault(sentences::motion_and_start_value());
     }

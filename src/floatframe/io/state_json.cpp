@@ -49,10 +49,9 @@ class StateReader {
       j.name = name;
       const std::string type = text_of(value, "type", path);
       std::size_t k = 0;
-      while (k < std::size(rules::joint_types) && type != rules::joint_types[k]) ++k;
-      if (k == std::size(rules::joint_types))
-        fail(path + ".type: found '" + excerpt(type) + "', expected " +
-             alternatives(rules::joint_types));
+      while (k < std::size(joint_words) && type != joint_words[k]) ++k;
+      if (k == std::size(joint_words))
+        fail(path + ".type: found '" + excerpt(type) + "', expected " + alternatives(joint_words));
       j.type = static_cast<JointType>(k);
       j.position = list(value, "position", path);
       j.velocity = list(value, "velocity", path);
@@ -136,7 +135,7 @@ class StateReader {
 std::string state_json(const SystemState& s) {
   Json joints = Json::object(), bodies = Json::object();
   for (const SystemState::Joint& j : s.joints)
-    joints[j.name] = {{"type", rules::joint_types[static_cast<std::size_t>(j.type)]},
+    joints[j.name] = {{"type", joint_type_name(j.type)},
                       {"position", array_of(j.position)},
                       {"velocity", array_of(j.velocity)}};
   for (const SystemState::Body& b : s.bodies)

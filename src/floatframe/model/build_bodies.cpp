@@ -18,8 +18,8 @@ namespace {
 /// Twists at the origin of the body, in its axes, that a joint to the ground lets it have.
 Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
   JointMotion motion;
-  const double q[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, v[6] = {};
-  joint_motion(joint.type, Vec3::UnitZ(), joint.axis_2, q, v, motion);
+  const double q[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  joint_motion(joint.type, {Vec3::UnitZ(), joint.axis_2}, q, motion);
   const Vec3 p_BM =
       M.node < 0 ? M.X_NM.p : Vec3(body.data->nodes[static_cast<std::size_t>(M.node)].p + M.X_NM.p);
   Mat6X free = motion.H.leftCols(joint_velocities(joint.type));

@@ -64,7 +64,7 @@ struct ForceBuild {
     const Joint& joint = builder.model.joints[*k];
     force.a = joint.frame_F;
     force.b = joint.frame_M;
-    force.rotational = joint.type == JointType::revolute;
+    force.rotational = joint_unit(joint.type, 0) == JointUnit::rad;
     return true;
   }
 

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "floatframe/math/so3.hpp"
-#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/model_builder.hpp"
 
 namespace floatframe {
@@ -20,6 +20,11 @@ Mat3 frame_with_z(const Vec3& axis) {
 
 }  // namespace
 
+Mat3 joint_frame(const JointDescription& joint) {
+  return joint_kind(joint.type).axes == JointAxes::none ? Mat3::Identity().eval()
+                                                        : frame_with_z(joint.axis);
+}
+
 void ModelBuilder::joints() {
   for (const JointDescription& j : d.joints) {
     const std::string who = "joints." + j.name;
@@ -33,12 +38,11 @@ void ModelBuilder::joints() {
     joint.cut = j.cut;
     joint.parent = body_index(j.parent.body);
     joint.child = body_index(j.child.body);
-    const bool ball = j.type == JointType::spherical || j.type == JointType::free;
-    const Mat3 R =
-        ball || j.type == JointType::weld ? Mat3::Identity().eval() : frame_with_z(j.axis);
-    if (j.type == JointType::universal) joint.axis_2 = R.transpose() * unit_vector(j.axis_2);
-    joint.frame_F = add_marker(j.parent, R, !ball, j.origin.of("at"), who, "parent_node");
-    joint.frame_M = add_marker(j.child, R, !ball, j.origin.of("at"), who, "child_node");
+    const JointKind& kind = joint_kind(j.type);
+    const Mat3 R = joint_frame(j);
+    if (kind.axes == JointAxes::two) joint.axis_2 = R.transpose() * unit_vector(j.axis_2);
+    joint.frame_F = add_marker(j.parent, R, kind.oriented, j.origin.of("at"), who, "parent_node");
+    joint.frame_M = add_marker(j.child, R, kind.oriented, j.origin.of("at"), who, "child_node");
     if (joint.frame_F < 0 || joint.frame_M < 0) continue;
     joint_names.add(joint.name);
     model.joints.push_back(std::move(joint));

@@ -44,11 +44,7 @@ void ModelBuilder::outputs() {
         out.joint = joint_names.index(o.entity);
         if (out.joint < 0) continue;  // it has an error of its own
         const JointType type = model.joints[static_cast<std::size_t>(out.joint)].type;
-        const bool metres = type == JointType::prismatic ||
-                            ((type == JointType::cylindrical) && o.component == 0) ||
-                            (type == JointType::free && o.component < 3);
-        out.unit = metres ? "m" : "rad";
-        if (o.kind == OutputKind::joint_velocity) out.unit += "/s";
+        out.unit = joint_unit_name(type, o.component, o.kind == OutputKind::joint_velocity);
         break;
       }
       case OutputKind::force:

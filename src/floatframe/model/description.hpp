@@ -19,6 +19,7 @@
 #include "floatframe/math/piecewise_polynomial.hpp"
 #include "floatframe/math/pose.hpp"
 #include "floatframe/math/types.hpp"
+#include "floatframe/model/joint_list.hpp"
 
 namespace floatframe {
 
@@ -116,8 +117,6 @@ struct BodyDescription {
 // -------------------------------------------------------------------------------------------------------
 // joints
 
-enum class JointType { weld, revolute, prismatic, cylindrical, universal, spherical, free };
-
 /// A function of time: offset polynomial pieces plus a sine: f = pieces(t) + amplitude sin(2 pi
 /// frequency t + phase).
 struct TimeFunction {
@@ -157,17 +156,17 @@ struct JointDescription {
   /// Model files give one design point for both, or a node for either. Two that are apart in the
   /// design configuration, points or nodes, are brought together at the start.
   AttachmentDescription parent, child;
-  Vec3 axis = Vec3::UnitZ();  ///< revolute, prismatic, cylindrical; first axis (fixed in parent) of
-                              ///< universal
-  Vec3 axis_2 = Vec3::UnitX();  ///< second axis (fixed in child) of universal, not parallel to axis
-  /// Initial coordinates (start values where loops must close): revolute [rad], prismatic [m],
-  /// cylindrical [m, rad], universal [rad, rad], spherical rotation vector [rad] x 3, free [m] x 3
-  /// then rotation vector [rad] x 3.
+  /// Of joints that have one or two (JointKind::axes): what they mean is in
+  /// model/joints/<type>.cpp.
+  Vec3 axis = Vec3::UnitZ();
+  Vec3 axis_2 = Vec3::UnitX();  ///< not parallel to axis
+  /// Initial coordinates (start values where loops must close): JointKind::coordinates, in this
+  /// order [m] or [rad].
   std::vector<double> position;
   std::vector<double> velocity;
   /// The start values given must not move when loops are closed.
   bool keep = false;
-  std::optional<TimeFunction> motion;  ///< prescribed coordinate of a revolute or prismatic joint
+  std::optional<TimeFunction> motion;  ///< prescribed, if it is the only coordinate
   bool cut = false;                    ///< named as a cut joint of the relative formulation
   Origin origin;
 };

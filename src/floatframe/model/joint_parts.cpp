@@ -1,72 +1,44 @@
-// The constraint parts of every joint type, of prescribed motions and of rods.
-#include "floatframe/model/constraint_part.hpp"
+// The constraint parts of joints, of prescribed motions and of rods.
+#include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
 
 using Kind = ConstraintPart::Kind;
 
+JointParts::JointParts(const Joint& joint, int index, double length,
+                       std::vector<ConstraintPart>& parts)
+    : axis_2_(joint.axis_2), length_(length), parts_(parts) {
+  base_.a = joint.frame_F;
+  base_.b = joint.frame_M;
+  base_.owner = {ConstraintOwner::Kind::joint, index};
+}
+
+void JointParts::add(Kind kind) {
+  parts_.push_back(base_);
+  parts_.back().kind = kind;
+}
+
+void JointParts::perpendicular(const Vec3& e_F, const Vec3& n_M, double c) {
+  add(Kind::perpendicular);
+  ConstraintPart& p = parts_.back();
+  p.e_a = e_F;
+  p.n_b = n_M;
+  p.c = c;
+  p.scale = length_;
+}
+
 void append_joint_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
   const Joint& joint = model.joints[static_cast<std::size_t>(index)];
   const double length = model.bodies[static_cast<std::size_t>(joint.child)].length;
-  ConstraintPart base;
-  base.a = joint.frame_F;
-  base.b = joint.frame_M;
-  base.owner = {ConstraintOwner::Kind::joint, index};
-  const auto add = [&](Kind kind) {
-    ConstraintPart p = base;
-    p.kind = kind;
-    parts.push_back(p);
-  };
-  const auto add_perpendicular = [&](const Vec3& e_a, const Vec3& n_b, double c) {
-    ConstraintPart p = base;
-    p.kind = Kind::perpendicular;
-    p.e_a = e_a;
-    p.n_b = n_b;
-    p.c = c;
-    p.scale = length;
-    parts.push_back(p);
-  };
-  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
-  switch (joint.type) {
-    case JointType::weld:
-      add(Kind::coincident);
-      add_perpendicular(z, x, 0.0);
-      add_perpendicular(z, y, 0.0);
-      add_perpendicular(x, y, 0.0);
-      break;
-    case JointType::revolute:
-      add(Kind::coincident);
-      add_perpendicular(z, x, 0.0);
-      add_perpendicular(z, y, 0.0);
-      break;
-    case JointType::prismatic:
-      add(Kind::in_line);
-      add_perpendicular(z, x, 0.0);
-      add_perpendicular(z, y, 0.0);
-      add_perpendicular(x, y, 0.0);
-      break;
-    case JointType::cylindrical:
-      add(Kind::in_line);
-      add_perpendicular(z, x, 0.0);
-      add_perpendicular(z, y, 0.0);
-      break;
-    case JointType::universal:
-      add(Kind::coincident);
-      add_perpendicular(z, joint.axis_2, joint.axis_2.z());
-      break;
-    case JointType::spherical:
-      add(Kind::coincident);
-      break;
-    case JointType::free:
-      break;
-  }
+  JointParts collected(joint, index, length, parts);
+  joint_kind(joint.type).parts(collected);
 }
 
 void append_motion_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
   const Joint& joint = model.joints[static_cast<std::size_t>(index)];
   if (!joint.motion) return;
   ConstraintPart p;
-  p.kind = joint.type == JointType::prismatic ? Kind::drive_position : Kind::drive_angle;
+  p.kind = joint_unit(joint.type, 0) == JointUnit::m ? Kind::drive_position : Kind::drive_angle;
   p.a = joint.frame_F;
   p.b = joint.frame_M;
   p.scale = p.kind == Kind::drive_angle ? model.bodies[static_cast<std::size_t>(joint.child)].length

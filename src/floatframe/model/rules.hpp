@@ -6,8 +6,6 @@
 namespace floatframe::rules {
 
 // Enumerators by their words, in the order of the enumeration.
-inline constexpr const char* joint_types[] = {"weld",      "revolute",  "prismatic", "cylindrical",
-                                              "universal", "spherical", "free"};
 inline constexpr const char* tyre_laws[] = {"vertical", "radial"};
 inline constexpr const char* mass_models[] = {"isoparametric", "six_dof", "hermite"};
 inline constexpr const char* coordinates[] = {"relative", "absolute"};

@@ -53,8 +53,9 @@ struct ForceCheck {
   void operator()(const JointSpringDescription& s) const {
     if (entity.reference("joint", "joint", s.joint, names.joints)) {
       const JointType type = d.joints[*names.joints.find(s.joint)].type;
-      if (type != JointType::revolute && type != JointType::prismatic)
-        entity.fault("joint", "found '" + s.joint + "', expected a revolute or prismatic joint");
+      if (!joint_has_one_coordinate(type))
+        entity.fault("joint", "found '" + s.joint + "', expected a " + joints_of_one_coordinate() +
+                                  " joint");
     }
     laws(s.spring, s.damper, s.actuator, s.target || s.target_rate);
     const bool law = !is_zero(s.spring) || !is_zero(s.damper);

@@ -1,5 +1,5 @@
 // Joints, rods and inputs.
-#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model/validate.hpp"
@@ -7,11 +7,6 @@
 namespace floatframe::validation {
 
 namespace {
-
-bool has_axis(JointType type) {
-  return type == JointType::revolute || type == JointType::prismatic ||
-         type == JointType::cylindrical || type == JointType::universal;
-}
 
 void start_values(const Entity& joint, const char* key, const std::vector<double>& given,
                   JointType type) {
@@ -30,7 +25,7 @@ void start_values(const Entity& joint, const char* key, const std::vector<double
 }
 
 void joint(const JointDescription& j, const Names& names, const Entity& entity) {
-  const bool type = entity.word("type", j.type, rules::joint_types);
+  const bool type = entity.word("type", j.type, joint_words);
   if (j.parent.body != ground_name)
     entity.reference("parent", "body", j.parent.body, names.bodies);
   else if (j.parent.node)
@@ -42,7 +37,8 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
     entity.fault("child", sentences::child_is_parent());
   if (entity.vector("at", j.parent.point, "m")) entity.vector("at", j.child.point, "m");
   if (!type) return;
-  if (has_axis(j.type) && entity.direction("axis", j.axis) && j.type == JointType::universal &&
+  const JointAxes axes = joint_kind(j.type).axes;
+  if (axes != JointAxes::none && entity.direction("axis", j.axis) && axes == JointAxes::two &&
       entity.direction("axis_2", j.axis_2))
     entity.complain("axis_2", sentences::second_axis(j.axis, j.axis_2));
   start_values(entity, "position", j.position, j.type);
@@ -50,7 +46,7 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
   if (j.keep && j.position.empty() && j.velocity.empty())
     entity.fault("keep", sentences::keep_alone());
   if (!j.motion) return;
-  if (j.type != JointType::revolute && j.type != JointType::prismatic) {
+  if (!joint_has_one_coordinate(j.type)) {
     entity.fault("motion", sentences::not_used_by_joint(joint_type_name(j.type)));
     return;
   }

@@ -16,7 +16,7 @@ void joint_output(const OutputDescription& o, const ModelDescription& d, const N
                   const Entity& entity) {
   if (!entity.reference(quantity(o.kind), "joint", o.entity, names.joints)) return;
   const JointType type = d.joints[*names.joints.find(o.entity)].type;
-  if (word_complaint(static_cast<int>(type), rules::joint_types)) return;
+  if (word_complaint(static_cast<int>(type), joint_words)) return;
   const int n = joint_velocities(type);
   if (n == 0)
     entity.fault(quantity(o.kind), sentences::weld_does_not_move());

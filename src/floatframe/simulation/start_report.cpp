@@ -16,16 +16,8 @@ namespace {
 constexpr double noticeable = 1e-6;
 
 std::string quantity(JointType type, std::size_t component) {
-  if (type == JointType::revolute) return "angle";
-  if (type == JointType::prismatic) return "displacement";
+  if (joint_has_one_coordinate(type)) return joint_coordinate_name(type, 0);
   return fmt::format("coordinate {}", component + 1);
-}
-
-std::string unit(JointType type, std::size_t component, bool rate) {
-  const bool metres = type == JointType::prismatic ||
-                      (type == JointType::cylindrical && component == 0) ||
-                      (type == JointType::free && component < 3);
-  return fmt::format("{}{}", metres ? "m" : "rad", rate ? "/s" : "");
 }
 
 std::string sentence(const StartChange& c, const char* what_changed) {
@@ -48,14 +40,14 @@ class Changes {
       const int component = static_cast<int>(k);
       double wanted = given[k];
       // All free joints to the ground have the velocity of the simulation on top of their own.
-      if (rate && j.type == JointType::free && j.parent < 0 && k < 3)
+      if (rate && joint_is_free(j.type) && j.parent < 0 && k < 3)
         wanted += model.simulation.velocity[component];
       const double used =
           rate ? joint_velocity(j, F, M, component) : joint_position(j, F, M, component, wanted);
       if (!(std::abs(used - wanted) > noticeable * (1.0 + std::abs(wanted)))) continue;
       if (!rate && same_rotation(j, given, k, F, M)) continue;
       report_.changes.push_back({"joint '" + j.name + "'", quantity(j.type, k), rate,
-                                 unit(j.type, k, rate), wanted, used});
+                                 joint_unit_name(j.type, component, rate), wanted, used});
     }
   }
 

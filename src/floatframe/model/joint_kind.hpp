@@ -1,0 +1,166 @@
+#pragma once
+// What a joint must supply. A new joint is one file model/joints/<name>.cpp and one entry in
+// joint_list.hpp: reader, validation, mirror, outputs, both formulations, the table of the
+// documentation and the generic tests run over the list.
+//
+// A joint connects frame F on the parent and frame M on the child. Both have z along `axis` (world
+// axes where the joint has none) and coincide in the design configuration. Step time calls the
+// functions below by name, without a pointer; the pointers of a JointKind serve load time.
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <span>
+
+#include "floatframe/math/so3.hpp"
+#include "floatframe/model/constraint_part.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/placement.hpp"
+
+namespace floatframe {
+
+// ----------------------------------------------------------------------------------------------
+// step time: noexcept, no allocation
+
+/// Fills p_FM, R_FM and the columns of H, which come as zero motion.
+template <JointType type>
+void joint_motion_of(const JointDirections& axes, const double* q, JointMotion& m) noexcept;
+
+/// Fills bias = Hdot v, which comes as zero, from H of the same configuration. Empty where H is
+/// constant.
+template <JointType type>
+void joint_bias_of(const double* v, JointMotion& m) noexcept;
+
+/// M seen from F, in axes of F.
+struct JointPose {
+  const Vec3& axis_2;  ///< of the joint, in the joint frame
+  Mat3 R_FM;
+  Vec3 p_FM;
+  double reference;  ///< angles are returned within half a turn of it
+
+  double near_reference(double angle) const noexcept {
+    return reference + std::remainder(angle - reference, 2.0 * std::numbers::pi);
+  }
+  /// From x_F to x_M about z.
+  double angle_about_z() const noexcept {
+    return near_reference(std::atan2(R_FM(1, 0), R_FM(0, 0)));
+  }
+};
+
+struct JointTwist {
+  const Vec3& axis_2;
+  const MarkerState &F, &M;
+  Vec3 v_FM, w_FM;  ///< velocity of the origin of M and angular velocity of M in F, axes of F
+};
+
+/// Coordinate `component` in the form of the user (rotation vectors), and its rate as in H v.
+template <JointType type>
+double joint_position_of(const JointPose& pose, int component) noexcept;
+template <JointType type>
+double joint_velocity_of(const JointTwist& twist, int component) noexcept;
+
+inline Mat3 rotation_about_z(double angle) noexcept {
+  const double c = std::cos(angle), s = std::sin(angle);
+  Mat3 r;
+  r << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
+  return r;
+}
+
+/// Quaternions (w, x, y, z) of a configuration.
+inline Eigen::Quaterniond read_quaternion(const double* q) noexcept {
+  return {q[0], q[1], q[2], q[3]};
+}
+
+inline void write_quaternion(const Eigen::Quaterniond& r, double* q) noexcept {
+  q[0] = r.w();
+  q[1] = r.x();
+  q[2] = r.y();
+  q[3] = r.z();
+}
+
+// ----------------------------------------------------------------------------------------------
+// load time
+
+/// A velocity coordinate of a joint, in the order of start values.
+struct JointCoordinate {
+  const char* name;
+  JointUnit unit;
+};
+
+class JointCoordinates {
+ public:
+  constexpr JointCoordinates(std::initializer_list<JointCoordinate> list) {
+    for (const JointCoordinate& c : list) items_[count_++] = c;
+  }
+  constexpr int count() const noexcept { return static_cast<int>(count_); }
+  constexpr std::span<const JointCoordinate> all() const noexcept { return {items_, count_}; }
+
+ private:
+  JointCoordinate items_[6] = {};
+  std::size_t count_ = 0;
+};
+
+/// What model files must give: nothing, `axis`, or `axis` and an `axis_2` not parallel to it.
+enum class JointAxes { none, one, two };
+
+/// Collects the constraint parts that hold M to F; a direction row is scaled by a body length.
+class JointParts {
+ public:
+  JointParts(const Joint& joint, int index, double length, std::vector<ConstraintPart>& parts);
+  /// In the joint frame.
+  const Vec3& axis_2() const noexcept { return axis_2_; }
+  /// r_M = r_F.
+  void coincident() { add(ConstraintPart::Kind::coincident); }
+  /// The origin of M stays on the z axis of F.
+  void in_line() { add(ConstraintPart::Kind::in_line); }
+  /// The origin of M stays in the xy plane of F.
+  void in_plane() { add(ConstraintPart::Kind::in_plane); }
+  /// The direction e_F, fixed in F, keeps the product c with n_M, fixed in M.
+  void perpendicular(const Vec3& e_F, const Vec3& n_M, double c = 0.0);
+  /// The z axes stay parallel.
+  void parallel_z() {
+    perpendicular(Vec3::UnitZ(), Vec3::UnitX());
+    perpendicular(Vec3::UnitZ(), Vec3::UnitY());
+  }
+  /// All axes stay parallel.
+  void same_axes() {
+    parallel_z();
+    perpendicular(Vec3::UnitX(), Vec3::UnitY());
+  }
+
+ private:
+  void add(ConstraintPart::Kind kind);
+  const Vec3& axis_2_;
+  ConstraintPart base_;
+  double length_;
+  std::vector<ConstraintPart>& parts_;
+};
+
+struct JointKind {
+  const char* about;  ///< what moves: the documentation, a phrase in Markdown
+  JointCoordinates coordinates;
+  /// First of three coordinates that together are a rotation vector: the configuration holds
+  /// a quaternion in their place, their velocities are the angular velocity w_FM. -1 without one.
+  int rotation_vector = -1;
+  JointAxes axes = JointAxes::none;
+  /// F and M turn with the nodes they sit on. Only points matter to a joint that is not oriented:
+  /// its rotation is that of the body frames.
+  bool oriented = true;
+  /// The same joint as constraints: 6 - coordinates rows.
+  void (*parts)(JointParts& parts);
+  /// The mirrored joint: axes and start values of the description (not its places).
+  void (*mirror)(JointDescription& joint, const Placement& x);
+  /// The joint seen from the child: what R_MF, p_MF are in its coordinates and rates, in the user's
+  /// form, and the axes it then has.
+  void (*reverse)(JointDirections& axes, double* position, double* velocity);
+};
+
+const JointKind& joint_kind(JointType type) noexcept;
+
+/// Orientation of F and M in the design configuration.
+Mat3 joint_frame(const JointDescription& joint);
+
+#define FLOATFRAME_KIND(name) extern const JointKind name##_joint;
+FLOATFRAME_JOINTS(FLOATFRAME_KIND)
+#undef FLOATFRAME_KIND
+
+}  // namespace floatframe

@@ -1,0 +1,69 @@
+// The list of joints at work: facts for load time, direct calls for step time.
+#include <iterator>
+#include <utility>
+
+#include "floatframe/model/joint_kind.hpp"
+#include "floatframe/model/joint_measure.hpp"
+
+namespace floatframe {
+
+namespace {
+
+#define FLOATFRAME_KIND(name) &name##_joint,
+constexpr const JointKind* list[] = {FLOATFRAME_JOINTS(FLOATFRAME_KIND)};
+#undef FLOATFRAME_KIND
+
+/// Calls f with the type as a constant: comparisons and direct calls, no pointer.
+template <class F, std::size_t... I>
+void with_type(JointType type, std::index_sequence<I...>, F f) noexcept {
+  static_cast<void>(((type == static_cast<JointType>(I) &&
+                      (f(std::integral_constant<JointType, static_cast<JointType>(I)>{}), true)) ||
+                     ...));
+}
+
+constexpr std::make_index_sequence<std::size(list)> all_types;
+
+}  // namespace
+
+const JointKind& joint_kind(JointType type) noexcept {
+  return *list[static_cast<std::size_t>(type)];
+}
+
+void joint_motion(JointType type, const JointDirections& axes, const double* q,
+                  JointMotion& m) noexcept {
+  m.R_FM.setIdentity();
+  m.p_FM.setZero();
+  m.H.setZero();
+  m.bias.setZero();
+  with_type(type, all_types, [&](auto t) { joint_motion_of<t()>(axes, q, m); });
+}
+
+void joint_bias(JointType type, const double* v, JointMotion& m) noexcept {
+  with_type(type, all_types, [&](auto t) { joint_bias_of<t()>(v, m); });
+}
+
+double joint_position(const Joint& joint, const MarkerState& F, const MarkerState& M, int component,
+                      double reference) noexcept {
+  const JointPose pose{joint.axis_2, F.R.transpose() * M.R, F.R.transpose() * (M.r - F.r),
+                       reference};
+  double q = 0.0;
+  with_type(joint.type, all_types, [&](auto t) { q = joint_position_of<t()>(pose, component); });
+  return q;
+}
+
+double joint_velocity(const Joint& joint, const MarkerState& F, const MarkerState& M,
+                      int component) noexcept {
+  const Vec3 d = M.r - F.r;
+  const JointTwist twist{joint.axis_2, F, M, F.R.transpose() * (M.v - F.v - F.w.cross(d)),
+                         F.R.transpose() * (M.w - F.w)};
+  double v = 0.0;
+  with_type(joint.type, all_types, [&](auto t) { v = joint_velocity_of<t()>(twist, component); });
+  return v;
+}
+
+Vec3 roll_pitch_yaw(const Mat3& R) noexcept {
+  const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
+  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+}
+
+}  // namespace floatframe
