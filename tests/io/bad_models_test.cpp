@@ -147,7 +147,7 @@ const Case cases[] = {
      "prismatic joint"},
     {"joint_type.yaml",
      "joint_type.yaml:8:15: joints.pin.type: found 'hinge', expected weld, revolute, prismatic, "
-     "cylindrical, universal, spherical or free"},
+     "cylindrical, universal, spherical, planar or free"},
     {"keep_alone.yaml",
      "keep_alone.yaml:6:69: joints.pin.keep: found without 'position' and 'velocity', expected one "
      "of them to keep"

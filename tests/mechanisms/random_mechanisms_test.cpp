@@ -78,6 +78,7 @@ TEST(RandomMechanisms, OtherJointsOfAsManyCoordinates) {
     }
   for (const auto& [type, count] : ran)
     fmt::print("[ figure ] {} {}\n", joint_type_name(type), count);
+  EXPECT_GT(ran[JointType::planar], 3);
 }
 
 // The motion of a hinge is a table with points at 0.02, 0.08 and 0.14 s. With 238 steps they lie at

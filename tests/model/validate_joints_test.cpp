@@ -15,9 +15,9 @@ TEST(Validate, Joints) {
          d.outputs.clear();
        },
        "joints.slide: the name is taken, expected a name used once"},
-      {[](D& d) { d.joints[1].type = static_cast<JointType>(7); },
-       "joints.pin.type: found 7, expected weld, revolute, prismatic, cylindrical, universal, "
-       "spherical or free"},
+      {[](D& d) { d.joints[1].type = static_cast<JointType>(8); },
+       "joints.pin.type: found 8, expected weld, revolute, prismatic, cylindrical, universal, "
+       "spherical, planar or free"},
       {[](D& d) { d.joints[1].parent.body = "blok"; },
        "joints.pin.parent: unknown body 'blok', did you mean 'block'?"},
       {[](D& d) { d.joints[1].child.body = "x"; }, "joints.pin.child: unknown body 'x'"},

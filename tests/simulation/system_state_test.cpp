@@ -325,7 +325,7 @@ TEST(SystemState, DamagedFiles) {
             "joints: expected a map of names");
   EXPECT_EQ(read(head + "\"time\": 0, \"joints\": {\"a\": {\"type\": \"pin\"}}}"),
             "joints.a.type: found 'pin', expected weld, revolute, prismatic, cylindrical, "
-            "universal, spherical or free");
+            "universal, spherical, planar or free");
   EXPECT_EQ(read(head + "\"time\": 0, \"joints\": {\"a\": {\"type\": \"weld\", \"position\": "
                         "[\"1\"], \"velocity\": []}}}"),
             "joints.a.position: found \"1\", expected a number");

@@ -12,6 +12,7 @@
   entry(cylindrical)             \
   entry(universal)               \
   entry(spherical)               \
+  entry(planar)                  \
   entry(free)
 // clang-format on
 
