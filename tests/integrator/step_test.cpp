@@ -31,8 +31,8 @@ struct System {
   void run(double h, long steps) {
     AugmentedLagrangian<F> integrator(f, options);
     for (long k = 0; k < steps; ++k) {
-      const StepReport r = integrator.step(state, h);
-      ASSERT_EQ(r.status, StepStatus::converged) << "step " << k;
+      const StepAttempt r = integrator.step(state, h);
+      ASSERT_EQ(r.status, AttemptStatus::converged) << "step " << k;
       worst.position_violation = std::max(worst.position_violation, r.position_violation);
       worst.velocity_violation = std::max(worst.velocity_violation, r.velocity_violation);
     }
@@ -42,7 +42,7 @@ struct System {
   F f;
   StepOptions options;
   State state;
-  StepReport worst;
+  StepAttempt worst;
 };
 
 RigidDescription rod_body(double length) {
@@ -296,8 +296,8 @@ void expect_untouched() {
     System<F> s(m, o);
     const State before = s.state;
     AugmentedLagrangian<F> integrator(s.f, s.options);
-    const StepReport r = integrator.step(s.state, 1e-2);
-    EXPECT_EQ(r.status, StepStatus::not_converged);
+    const StepAttempt r = integrator.step(s.state, 1e-2);
+    EXPECT_EQ(r.status, AttemptStatus::not_converged);
     EXPECT_EQ(r.iterations, limit);
     EXPECT_EQ(r.factorizations, limit);
     EXPECT_TRUE(same_bits(s.state, before));
@@ -310,8 +310,8 @@ void expect_untouched() {
     System<F> fresh(m, StepOptions{});
     s.options = fresh.options;
     AugmentedLagrangian<F> again(s.f, s.options), first(fresh.f, fresh.options);
-    EXPECT_EQ(again.step(s.state, 1e-3).status, StepStatus::converged);
-    EXPECT_EQ(first.step(fresh.state, 1e-3).status, StepStatus::converged);
+    EXPECT_EQ(again.step(s.state, 1e-3).status, AttemptStatus::converged);
+    EXPECT_EQ(first.step(fresh.state, 1e-3).status, AttemptStatus::converged);
     EXPECT_TRUE(same_bits(s.state, fresh.state));
   }
 }
@@ -333,8 +333,8 @@ TEST(Failure, OpenConstraintIsNamed) {
   System<RelativeFormulation> s(m, o);
   const State before = s.state;
   AugmentedLagrangian<RelativeFormulation> integrator(s.f, s.options);
-  const StepReport r = integrator.step(s.state, 1e-2);
-  EXPECT_EQ(r.status, StepStatus::not_converged);
+  const StepAttempt r = integrator.step(s.state, 1e-2);
+  EXPECT_EQ(r.status, AttemptStatus::not_converged);
   EXPECT_EQ(r.coordinate, -1);
   EXPECT_GE(r.constraint, 0);
   EXPECT_LT(r.constraint, s.f.constraints());
@@ -352,8 +352,8 @@ TEST(Failure, MasslessFreedomIsASingularTangent) {
   state.lambda = VecX::Zero(0);
   const State before = state;
   AugmentedLagrangian<RelativeFormulation> integrator(f, StepOptions{});
-  const StepReport r = integrator.step(state, 1e-2);
-  EXPECT_EQ(r.status, StepStatus::singular_tangent);
+  const StepAttempt r = integrator.step(state, 1e-2);
+  EXPECT_EQ(r.status, AttemptStatus::singular_tangent);
   EXPECT_EQ(f.coordinate_owner(r.coordinate), "joint 'lower_hinge'");
   EXPECT_TRUE(same_bits(state, before));
 }
@@ -433,7 +433,7 @@ TEST(Failure, StateThatIsNotFiniteIsRefused) {
   s.state.v[0] = std::numeric_limits<double>::quiet_NaN();
   const State before = s.state;
   AugmentedLagrangian<RelativeFormulation> integrator(s.f, s.options);
-  EXPECT_NE(integrator.step(s.state, 1e-3).status, StepStatus::converged);
+  EXPECT_NE(integrator.step(s.state, 1e-3).status, AttemptStatus::converged);
   EXPECT_TRUE(same_bits(s.state, before));
 }
 

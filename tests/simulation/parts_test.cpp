@@ -177,7 +177,7 @@ Tumble tumble(BodyReference::Kind kind, double amplitude, double step, double du
   Tumble t;
   const long steps = std::lround(duration / step);
   for (long k = 0; k < steps; ++k) {
-    const StepReport r = integrator.step(s, step);
+    const StepAttempt r = integrator.step(s, step);
     if (!r.accepted()) {
       ADD_FAILURE() << "step " << k;
       return t;

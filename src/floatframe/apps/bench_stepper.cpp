@@ -4,12 +4,10 @@
 #include <ctime>
 #include <limits>
 #include <optional>
+#include <vector>
 
-#include "floatframe/formulation/absolute.hpp"
-#include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/runner.hpp"
-#include "floatframe/simulation/simulation.hpp"
-#include "floatframe/simulation/system_state.hpp"
+#include "floatframe/simulation/start_up.hpp"
 
 namespace floatframe {
 namespace {
@@ -18,22 +16,16 @@ template <class F>
 class Stepper final : public BenchStepper {
  public:
   Stepper(const Model& model, const SimulationDescription& options)
-      : model_(model), o_(options), step_options_(floatframe::step_options(model, options)) {
-    RelativeFormulation tree(model_, o_.inertia);
-    const State start = start_state(tree, o_);
-    begin();
-    if constexpr (std::is_same_v<F, RelativeFormulation>) {
-      start_ = start;
-    } else {
-      f_->start_from(tree, start.q, start.v, start_.q, start_.v);
-    }
-    start_accelerations(*f_, start_, step_options_.penalty_mass);
-    runner_->state() = start_;
+      : o_(options), start_(model, options), f_(start_.formulation()) {
+    angles_.assign(f_.spring_angles().begin(), f_.spring_angles().end());
+    restart();
   }
 
   void restart() override {
-    begin();
-    runner_->state() = start_;
+    runner_.emplace(f_, start_.step_options(), start_.min_step());
+    runner_->state() = start_.state();
+    f_.set_spring_angles(angles_);
+    work_ = VecX::Zero(f_.velocities());
     steps_ = 0;
   }
 
@@ -48,14 +40,14 @@ class Stepper final : public BenchStepper {
 
   void iterate(long iterations) noexcept override {
     const State& state = runner_->state();
-    const double s = 0.25 * o_.step * o_.step;
+    const double s = 0.25 * o_.step * o_.step, penalty = start_.step_options().penalty_mass;
     for (long k = 0; k < iterations; ++k) {
-      f_->positions(state.t, state.q);
-      f_->velocities(state.v);
-      f_->dynamics();
-      f_->residual(state.a, state.lambda, step_options_.penalty_mass / s, work_);
-      f_->factorize(1.0, 0.5 * o_.step, s, step_options_.penalty_mass / s);
-      f_->solve(work_);
+      f_.positions(state.t, state.q);
+      f_.velocities(state.v);
+      f_.dynamics();
+      f_.residual(state.a, state.lambda, penalty / s, work_);
+      f_.factorize(1.0, 0.5 * o_.step, s, penalty / s);
+      f_.solve(work_);
     }
   }
 
@@ -63,12 +55,14 @@ class Stepper final : public BenchStepper {
     return {steps_, runner_->iterations(), runner_->factorizations(), runner_->substeps()};
   }
 
-  int freedoms() const noexcept override { return f_->velocities(); }
+  int freedoms() const noexcept override { return f_.velocities(); }
 
-  double time() const noexcept override { return static_cast<double>(steps_) * o_.step; }
+  double time() const noexcept override {
+    return start_.state().t + static_cast<double>(steps_) * o_.step;
+  }
 
   VecX sample() override {
-    VecX row(static_cast<Eigen::Index>(model_.outputs.size()) + 1);
+    VecX row(static_cast<Eigen::Index>(start_.model().outputs.size()) + 1);
     runner_->sample(row.data());
     return row;
   }
@@ -84,19 +78,11 @@ class Stepper final : public BenchStepper {
   std::string failure() const override { return runner_->failure(); }
 
  private:
-  void begin() {
-    runner_.reset();
-    f_.emplace(model_, o_.inertia);
-    work_ = VecX::Zero(f_->velocities());
-    runner_.emplace(*f_, step_options_, o_.min_step > 0.0 ? o_.min_step : o_.step / 1024.0);
-  }
-
-  const Model& model_;
   const SimulationDescription o_;
-  const StepOptions step_options_;
-  State start_;
+  StartedModel<F> start_;
+  F& f_;
+  std::vector<double> angles_;  ///< of springs at the start: the turns they count from
   VecX work_;
-  std::optional<F> f_;
   std::optional<Runner<F>> runner_;
   long steps_ = 0;
 };

@@ -23,7 +23,7 @@ class BenchStepper {
  public:
   virtual ~BenchStepper() = default;
 
-  /// Back to the start of the run, with a workspace as new.
+  /// Back to the start of the run.
   virtual void restart() = 0;
   /// Steps of the size of the options. False if one did not converge; nothing more can be done
   /// then.

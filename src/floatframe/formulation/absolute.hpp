@@ -40,6 +40,13 @@ class AbsoluteFormulation {
   }
   std::span<const double> inputs() const noexcept { return inputs_; }
 
+  /// As in relative.hpp.
+  std::span<const double> spring_angles() const noexcept { return force_reference_; }
+  void set_spring_angles(std::span<const double> angles) noexcept {
+    assert(angles.size() == force_reference_.size());
+    std::copy(angles.begin(), angles.end(), force_reference_.begin());
+  }
+
   /// The same configuration and velocities as a relative state. Axes do not tell turns: the angles
   /// of joint springs go on from those of the tree.
   void start_from(RelativeFormulation& tree, const VecX& tree_q, const VecX& tree_v, VecX& q,

@@ -55,6 +55,14 @@ class RelativeFormulation {
     std::copy(values.begin(), values.end(), inputs_.begin());
   }
   std::span<const double> inputs() const noexcept { return inputs_; }
+
+  /// Angles of the joint springs at the last evaluation (a number for each force): they tell which
+  /// turn the next angle belongs to, so they are a part of the state that q does not hold.
+  std::span<const double> spring_angles() const noexcept { return force_reference_; }
+  void set_spring_angles(std::span<const double> angles) noexcept {
+    assert(angles.size() == force_reference_.size());
+    std::copy(angles.begin(), angles.end(), force_reference_.begin());
+  }
   const Topology& topology() const noexcept { return topology_; }
 
   /// Start values of the model in these coordinates (before loops are closed). Turns of the springs

@@ -51,10 +51,11 @@ struct StepOptions {
 };
 
 /// cut_short: accepted before it converged, because `fixed_iterations` or `time_budget` says so.
-enum class StepStatus { converged, cut_short, not_converged, singular_tangent, not_finite };
+enum class AttemptStatus { converged, cut_short, not_converged, singular_tangent, not_finite };
 
-struct StepReport {
-  StepStatus status = StepStatus::converged;
+/// What came of one attempt at a step.
+struct StepAttempt {
+  AttemptStatus status = AttemptStatus::converged;
   int iterations = 0, factorizations = 0;
   double position_violation = 0.0, velocity_violation = 0.0;
   int coordinate = -1;     ///< with the vanishing pivot or the largest residual
@@ -62,8 +63,14 @@ struct StepReport {
   double increment = 0.0;  ///< the last Newton increment, largest coordinate [m, rad, amplitudes]
   /// The state was replaced by that of the end of the step.
   bool accepted() const noexcept {
-    return status == StepStatus::converged || status == StepStatus::cut_short;
+    return status == AttemptStatus::converged || status == AttemptStatus::cut_short;
   }
+};
+
+/// What the next step takes over from the last one beside the state.
+struct IntegratorExperience {
+  double continues_at = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step [s]
+  double reuse_rate = 0.1;  ///< convergence with a tangent that was not new
 };
 
 template <class F>
@@ -78,14 +85,18 @@ class AugmentedLagrangian {
   }
 
   /// One step of size h from `state`, which is replaced only if the step is accepted.
-  StepReport step(State& state, double h) noexcept {
+  StepAttempt step(State& state, double h) noexcept {
     f_.stepping(true);
-    const StepReport report = advance(state, h);
+    const StepAttempt report = advance(state, h);
     f_.stepping(false, report.accepted());
     return report;
   }
 
   const StepOptions& options() const noexcept { return options_; }
+
+  /// With the same state and experience the next step is the same, bit for bit.
+  const IntegratorExperience& experience() const noexcept { return experience_; }
+  void set_experience(const IntegratorExperience& e) noexcept { experience_ = e; }
 
   /// Multipliers that go with the projected accelerations of the last accepted step. Those of the
   /// state belong to the accelerations before their projection, which are off by O(h).
@@ -102,22 +113,22 @@ class AugmentedLagrangian {
   static constexpr double softer = 1e-2;
   static constexpr int most_softer = 3;
 
-  StepReport advance(State& state, double h) noexcept {
+  StepAttempt advance(State& state, double h) noexcept {
     const Scheme k(options_, h);
-    StepReport report;
+    StepAttempt report;
     // Experience from another run must not matter (the caller may round t).
-    if (!(std::abs(state.t - continues_at_) < 1e-6 * h)) {
-      reuse_rate_ = 0.1;
+    if (!(std::abs(state.t - experience_.continues_at) < 1e-6 * h)) {
+      experience_.reuse_rate = 0.1;
     }
     predict(state, k);
     if (newton(state, k, report); !report.accepted()) {
-      continues_at_ = std::numeric_limits<double>::quiet_NaN();
+      experience_.continues_at = std::numeric_limits<double>::quiet_NaN();
       return report;
     }
     if (f_.constraints() > 0 && !project(k, report)) return report;
     a_alg_ = k.base * (x_ - h * state.v - (h * h * (0.5 - k.beta)) * state.a_alg);
     state.t += h;
-    continues_at_ = state.t;
+    experience_.continues_at = state.t;
     state.q.swap(q_);
     state.v.swap(v_);
     state.a.swap(a_);
@@ -168,7 +179,7 @@ class AugmentedLagrangian {
     lambda_ = state.lambda;
   }
 
-  void newton(const State& state, const Scheme& k, StepReport& report) noexcept {
+  void newton(const State& state, const Scheme& k, StepAttempt& report) noexcept {
     const bool constrained = f_.constraints() > 0;
     const auto begin = options_.time_budget > 0.0 ? Clock::now() : Clock::time_point{};
     bool renew = true;
@@ -185,19 +196,19 @@ class AugmentedLagrangian {
       if (report.iterations > 0) {
         if (constrained) report.position_violation = largest(f_.constraint_values());
         if (!std::isfinite(increment) || !std::isfinite(report.position_violation)) {
-          report.status = StepStatus::not_finite;
+          report.status = AttemptStatus::not_finite;
           return;
         }
         const bool converged = good_enough(report, error);
         if (options_.fixed_iterations > 0) {
           if (report.iterations >= options_.fixed_iterations) {
-            if (!converged) report.status = StepStatus::cut_short;
+            if (!converged) report.status = AttemptStatus::cut_short;
             break;
           }
         } else if (converged) {
           break;
         } else if (report.iterations >= options_.max_iterations) {
-          report.status = StepStatus::not_converged;
+          report.status = AttemptStatus::not_converged;
           if (error >= options_.tolerance)
             report.coordinate = index_of_largest(delta_);
           else
@@ -206,15 +217,15 @@ class AugmentedLagrangian {
         }
         if (options_.time_budget > 0.0 &&
             std::chrono::duration<double>(Clock::now() - begin).count() > options_.time_budget) {
-          if (!converged) report.status = StepStatus::cut_short;
+          if (!converged) report.status = AttemptStatus::cut_short;
           break;
         }
         // Would a fresh tangent get there sooner than the one at hand?
-        renew =
-            reuse_rate_ > 0.9 || std::log(options_.tolerance / increment) / std::log(reuse_rate_) >
-                                     1.0 + F::factorization_cost;
+        renew = experience_.reuse_rate > 0.9 ||
+                std::log(options_.tolerance / increment) / std::log(experience_.reuse_rate) >
+                    1.0 + F::factorization_cost;
         // An old experience is trusted less and less.
-        if (renew) reuse_rate_ *= 0.8;
+        if (renew) experience_.reuse_rate *= 0.8;
       }
       f_.dynamics();
       f_.residual(a_, lambda_, 0.0, rhs_);
@@ -228,7 +239,7 @@ class AugmentedLagrangian {
           ++report.factorizations;
         }
         if (pivot >= 0) {
-          report.status = StepStatus::singular_tangent;
+          report.status = AttemptStatus::singular_tangent;
           report.coordinate = pivot;
           return;
         }
@@ -255,11 +266,12 @@ class AugmentedLagrangian {
       // measured in this very step is trusted: the next step may meet a stop or a contact.
       const double rate = report.iterations > 1 && last > 0.0 ? increment / last : 1.0;
       error = rate < 0.5 ? increment * rate / (1.0 - rate) : increment;
-      if (report.iterations > 1 && last > 0.0 && !renew) reuse_rate_ = std::min(rate, 1.0);
+      if (report.iterations > 1 && last > 0.0 && !renew)
+        experience_.reuse_rate = std::min(rate, 1.0);
     }
   }
 
-  bool good_enough(const StepReport& report, double error) const noexcept {
+  bool good_enough(const StepAttempt& report, double error) const noexcept {
     // An increment below the tolerance leaves an error far smaller; an error as small as that which
     // can be foreseen does not need the increment that shows it.
     const bool small = report.increment < options_.tolerance && error < options_.tolerance;
@@ -269,7 +281,7 @@ class AugmentedLagrangian {
 
   /// Velocities and accelerations onto the constraints, orthogonal in W = M + 0.01 s K (the Newton
   /// tangent itself would feed energy into stiff modes). False if W is singular.
-  bool project(const Scheme& k, StepReport& report) noexcept {
+  bool project(const Scheme& k, StepAttempt& report) noexcept {
     double penalty = metric_penalty * k.penalty;
     int pivot = f_.factorize_metric(0.01 * k.s, penalty, projection_slot);
     ++report.factorizations;
@@ -279,7 +291,7 @@ class AugmentedLagrangian {
       ++report.factorizations;
     }
     if (pivot >= 0) {
-      report.status = StepStatus::singular_tangent;
+      report.status = AttemptStatus::singular_tangent;
       report.coordinate = pivot;
       return false;
     }
@@ -334,8 +346,7 @@ class AugmentedLagrangian {
 
   F& f_;
   StepOptions options_;
-  double continues_at_ = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step
-  double reuse_rate_ = 0.1;  ///< of the last one with an old tangent
+  IntegratorExperience experience_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, reactions_, rate_, work_, increments_;
 };

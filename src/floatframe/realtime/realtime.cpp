@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "floatframe/formulation/absolute.hpp"
 #include "floatframe/realtime/denormals.hpp"
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/realtime/scheduling.hpp"
@@ -10,7 +9,7 @@
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/light_motion.hpp"
 #include "floatframe/simulation/simulation.hpp"
-#include "floatframe/simulation/system_state.hpp"
+#include "floatframe/simulation/start_up.hpp"
 
 namespace floatframe {
 namespace {
@@ -37,10 +36,13 @@ void warm_up(const Model& model, const SimulationDescription& d, const StepOptio
 }
 
 template <class F>
-void run_with(F& f, State start, const SimulationDescription& d, const RealTimeOptions& options,
+void run_with(const Model& given, const SimulationDescription& d, const RealTimeOptions& options,
               SignalPort* port, RealTimeReport& report) {
-  const StepOptions step_options = bounded(floatframe::step_options(f.model(), d), options);
-  start_accelerations(f, start, step_options.penalty_mass);
+  StartedModel<F> started(given, d);
+  F& f = started.formulation();
+  const State& start = started.state();
+  report.start = started.report();
+  const StepOptions step_options = bounded(started.step_options(), options);
   RealTimeRunner<F> runner(f, step_options, options, d.step, d.duration, port, report);
   runner.state() = start;
   MotionWatch<F> watch(f, d.step);
@@ -107,17 +109,10 @@ RealTimeReport run_real_time(const Model& model, const SimulationDescription& d,
   report.inertia = d.inertia == InertiaMethod::preprocessing ? "preprocessing" : "projection";
   report.step = d.step;
   report.paced = options.paced;
-  RelativeFormulation tree(model, d.inertia);
-  const State start = start_state(tree, d, &report.start);
-  if (d.coordinates == Coordinates::relative) {
-    run_with(tree, start, d, options, port, report);
-  } else {
-    AbsoluteFormulation f(model, d.inertia);
-    State state;
-    state.t = start.t;
-    f.start_from(tree, start.q, start.v, state.q, state.v);
-    run_with(f, std::move(state), d, options, port, report);
-  }
+  if (d.coordinates == Coordinates::relative)
+    run_with<RelativeFormulation>(model, d, options, port, report);
+  else
+    run_with<AbsoluteFormulation>(model, d, options, port, report);
   return report;
 }
 

@@ -4,16 +4,15 @@
 #include <chrono>
 #include <limits>
 
-#include "floatframe/simulation/initial_state.hpp"
-#include "floatframe/simulation/system_state.hpp"
+#include "floatframe/simulation/start_up.hpp"
 
 namespace floatframe {
 
 double relative_iteration_seconds(const Model& model, const SimulationDescription& options) {
-  RelativeFormulation f(model, options.inertia);
-  State state = start_state(f, options);
-  const double penalty_mass = default_penalty_mass(model);
-  start_accelerations(f, state, penalty_mass);
+  StartedModel<RelativeFormulation> start(model, options);
+  RelativeFormulation& f = start.formulation();
+  const State& state = start.state();
+  const double penalty_mass = start.step_options().penalty_mass;
   const double s = 0.25 * options.step * options.step;
   VecX r(f.velocities());
   double best = std::numeric_limits<double>::infinity();
@@ -22,7 +21,7 @@ double relative_iteration_seconds(const Model& model, const SimulationDescriptio
     constexpr int repetitions = 20;
     const auto before = Clock::now();
     for (int k = 0; k < repetitions; ++k) {
-      f.positions(0.0, state.q);
+      f.positions(state.t, state.q);
       f.velocities(state.v);
       f.dynamics();
       f.residual(state.a, state.lambda, penalty_mass / s, r);

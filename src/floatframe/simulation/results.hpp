@@ -10,6 +10,7 @@
 
 #include "floatframe/formulation/counts.hpp"
 #include "floatframe/math/types.hpp"
+#include "floatframe/simulation/start_report.hpp"
 
 namespace floatframe {
 
@@ -63,31 +64,6 @@ struct EnergySummary {  ///< [J]
   double remainder = 0;   ///< change of the total less all work, at the end
   double largest_remainder = 0, largest_remainder_at = 0;  ///< by magnitude [J], and when [s]
   double exchanged = 0;                                    ///< what remainders are measured against
-};
-
-/// A start value that the user gave and that closing the loops has changed.
-struct StartChange {
-  std::string owner;     ///< "joint 'crank'", "body 'beam'"
-  std::string quantity;  ///< "angle", "displacement", "coordinate 2", "amplitude 3"
-  bool rate = false;
-  std::string unit;  ///< "rad", "m/s"; empty: amplitudes
-  double given = 0.0, used = 0.0;
-};
-
-/// A direction of a joint that the rest of the model prescribes already.
-struct RedundantDirection {
-  std::string owner;      ///< "joint 'hinge'", "rod 'tie'"
-  std::string direction;  ///< "translation along x", "rotation about [0.6, 0, 0.8]", "length"
-};
-
-/// "joint 'hinge': translation along x, translation along y; rod 'tie': length"
-std::string redundancy_text(const std::vector<RedundantDirection>& redundant);
-
-/// What a user should know of the state a run starts from.
-struct StartReport {
-  std::vector<StartChange> changes;
-  std::vector<RedundantDirection> redundant;
-  std::vector<std::string> notes;  ///< all of it in sentences
 };
 
 struct RunSummary {

@@ -8,46 +8,83 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/formulation/relative.hpp"
+#include "floatframe/formulation/absolute.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/simulation/overflow.hpp"
 #include "floatframe/simulation/results.hpp"
+#include "floatframe/simulation/step_report.hpp"
 
 namespace floatframe {
+
+/// An output that is an angle over turns goes on from its last sample.
+struct FollowedOutput {
+  bool started = false;
+  double time = 0.0, position = 0.0, rate = 0.0;
+};
+
+/// What a runner has beside the state and the formulation: with it, the next steps and outputs are
+/// the same, bit for bit.
+struct RunnerMemory {
+  IntegratorExperience experience;
+  std::vector<FollowedOutput> outputs;
+  StepCounters counters;
+};
+
+/// "joint 'hinge'", "rod 'tie'" that constraint row i belongs to.
+template <class F>
+std::string constraint_owner(const F& f, int i) {
+  std::size_t k = f.parts().size();
+  while (k-- > 0 && f.part_offset(k) > i) {
+  }
+  return k < f.parts().size() ? owner_name(f.model(), f.parts()[k].owner) : "the constraints";
+}
 
 template <class F>
 class Runner {
  public:
   Runner(F& formulation, const StepOptions& options, double min_step)
       : f_(formulation), integrator_(formulation, options), min_step_(min_step) {
-    follow_.resize(f_.model().outputs.size());
+    memory_.outputs.resize(f_.model().outputs.size());
   }
 
   State& state() noexcept { return state_; }
+  const State& state() const noexcept { return state_; }
   /// Multipliers that go with the accelerations of the last accepted step.
   const VecX& reactions() const noexcept { return integrator_.reactions(); }
+  /// The last attempt of the last `advance`.
+  const StepAttempt& last() const noexcept { return last_; }
+
+  RunnerMemory memory() const {
+    RunnerMemory m = memory_;
+    m.experience = integrator_.experience();
+    return m;
+  }
+  /// `m.outputs` has one entry for each output of the model.
+  void set_memory(const RunnerMemory& m) {
+    memory_ = m;
+    integrator_.set_experience(m.experience);
+  }
 
   /// Advances by h, in substeps if need be. False: the step did not converge at the smallest
   /// substep.
   bool advance(double h) noexcept {
     asked_ = h;
-    StepReport r = integrator_.step(state_, h);
+    StepAttempt r = integrator_.step(state_, h);
     count(r);
+    last_ = r;
     if (r.accepted()) return true;
     double remaining = h, sub = 0.5 * h;
     const double end = state_.t + h;
     while (remaining > 1e-9 * h) {
-      if (sub < min_step_ || !(sub > 0.0)) {
-        last_ = r;
-        return false;
-      }
+      if (sub < min_step_ || !(sub > 0.0)) return false;
       const double now = std::min(sub, remaining);
       r = integrator_.step(state_, now);
       count(r);
+      last_ = r;
       if (r.accepted()) {
         remaining -= now;
-        ++substeps_;
+        ++memory_.counters.substeps;
         if (remaining > 0.0 && sub < 0.5 * h) sub *= 2.0;
       } else {
         sub = 0.5 * now;
@@ -55,6 +92,11 @@ class Runner {
     }
     state_.t = end;
     return true;
+  }
+  /// The same with a smallest substep for this step and those after it.
+  bool advance(double h, double min_step) noexcept {
+    min_step_ = min_step;
+    return advance(h);
   }
 
   /// Writes one row of outputs (time first) at the present state.
@@ -66,7 +108,7 @@ class Runner {
     f_.set_accelerations(state_.a);
     *row++ = state_.t;
     for (std::size_t k = 0; k < model.outputs.size(); ++k)
-      *row++ = value(model.outputs[k], follow_[k]);
+      *row++ = value(model.outputs[k], memory_.outputs[k]);
   }
 
   double kinetic_energy() noexcept { return f_.kinetic_energy(state_.v); }
@@ -93,18 +135,26 @@ class Runner {
   std::string step_failure() const {
     if (const std::string text = unreachable_tolerance(); !text.empty()) return text;
     const char* what =
-        last_.status == StepStatus::singular_tangent ? "the tangent matrix is singular at "
-        : last_.status == StepStatus::not_finite     ? "the state is not finite any more; look at "
-                                                     : "no convergence; look at ";
-    std::string who = "the constraints";
-    if (last_.coordinate >= 0) who = f_.coordinate_owner(last_.coordinate);
-    if (last_.constraint >= 0) {
-      std::size_t k = f_.parts().size();
-      while (k-- > 0 && f_.part_offset(k) > last_.constraint) {
-      }
-      if (k < f_.parts().size()) who = owner_name(f_.model(), f_.parts()[k].owner);
-    }
+        last_.status == AttemptStatus::singular_tangent ? "the tangent matrix is singular at "
+        : last_.status == AttemptStatus::not_finite ? "the state is not finite any more; look at "
+                                                    : "no convergence; look at ";
+    const std::string who = last_.constraint >= 0   ? constraint_owner(f_, last_.constraint)
+                            : last_.coordinate >= 0 ? f_.coordinate_owner(last_.coordinate)
+                                                    : "the constraints";
     // A force that grew out of all proportion is a better hint than the coordinate it acts on.
+    const int force = largest_force();
+    std::string text =
+        fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}{}", state_.t,
+                    min_step_, what, who);
+    if (force >= 0)
+      text += fmt::format(" (largest force: '{}', {:.3g} N)",
+                          f_.model().forces[static_cast<std::size_t>(force)].name,
+                          f_.force(force).force);
+    return text;
+  }
+
+  /// Index of the force element with the largest force at the last evaluation; -1: there is none.
+  int largest_force() const noexcept {
     double worst = 0.0;
     int force = -1;
     for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
@@ -114,14 +164,7 @@ class Runner {
         force = static_cast<int>(k);
       }
     }
-    std::string text =
-        fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}{}", state_.t,
-                    min_step_, what, who);
-    if (force >= 0)
-      text += fmt::format(" (largest force: '{}', {:.3g} N)",
-                          f_.model().forces[static_cast<std::size_t>(force)].name,
-                          f_.force(force).force);
-    return text;
+    return force;
   }
 
   /// Why the last step failed if numbers of the model are beyond what can be computed with.
@@ -138,7 +181,7 @@ class Runner {
 
   /// Why the last step failed if a tolerance asks for more digits than double precision has.
   std::string unreachable_tolerance() const {
-    if (last_.status != StepStatus::not_converged) return {};
+    if (last_.status != AttemptStatus::not_converged) return {};
     const bool newton = last_.constraint < 0;
     const StepOptions& o = integrator_.options();
     const double tolerance = newton ? o.tolerance : o.position_tolerance;
@@ -152,19 +195,16 @@ class Runner {
         size - 1.0);
   }
 
-  /// Steps accepted before they had converged (`StepStatus::cut_short`).
-  long cut_short() const noexcept { return cut_short_; }
-  long substeps() const noexcept { return substeps_; }
-  long iterations() const noexcept { return iterations_; }
-  long factorizations() const noexcept { return factorizations_; }
-  double max_position_violation() const noexcept { return max_position_; }
-  double max_velocity_violation() const noexcept { return max_velocity_; }
+  const StepCounters& counters() const noexcept { return memory_.counters; }
+  /// Steps accepted before they had converged (`AttemptStatus::cut_short`).
+  long cut_short() const noexcept { return counters().cut_short; }
+  long substeps() const noexcept { return counters().substeps; }
+  long iterations() const noexcept { return counters().iterations; }
+  long factorizations() const noexcept { return counters().factorizations; }
+  double max_position_violation() const noexcept { return counters().max_position_violation; }
+  double max_velocity_violation() const noexcept { return counters().max_velocity_violation; }
 
  private:
-  struct Follow {
-    bool started = false;
-    double time = 0.0, position = 0.0, rate = 0.0;
-  };
   /// The start value or motion the user gave, so that an output begins at the turn he means.
   double start_position(const Joint& joint, int component) const noexcept {
     if (joint.motion) return evaluate(*joint.motion, state_.t).f;
@@ -172,17 +212,18 @@ class Runner {
     return k < joint.position.size() ? joint.position[k] : 0.0;
   }
 
-  void count(const StepReport& r) noexcept {
-    iterations_ += r.iterations;
-    factorizations_ += r.factorizations;
-    if (r.status == StepStatus::cut_short) ++cut_short_;
+  void count(const StepAttempt& r) noexcept {
+    StepCounters& c = memory_.counters;
+    c.iterations += r.iterations;
+    c.factorizations += r.factorizations;
+    if (r.status == AttemptStatus::cut_short) ++c.cut_short;
     if (r.accepted()) {
-      max_position_ = std::max(max_position_, r.position_violation);
-      max_velocity_ = std::max(max_velocity_, r.velocity_violation);
+      c.max_position_violation = std::max(c.max_position_violation, r.position_violation);
+      c.max_velocity_violation = std::max(c.max_velocity_violation, r.velocity_violation);
     }
   }
 
-  double value(const Output& o, Follow& follow) noexcept {
+  double value(const Output& o, FollowedOutput& follow) noexcept {
     switch (o.kind) {
       case OutputKind::position:
         return f_.marker(o.marker).r[o.component] + f_.origin()[o.component];
@@ -228,10 +269,14 @@ class Runner {
   AugmentedLagrangian<F> integrator_;
   State state_;
   double min_step_, asked_ = 0.0;
-  StepReport last_;
-  std::vector<Follow> follow_;
-  long cut_short_ = 0, substeps_ = 0, iterations_ = 0, factorizations_ = 0;
-  double max_position_ = 0.0, max_velocity_ = 0.0;
+  StepAttempt last_;
+  RunnerMemory memory_;
 };
+
+// Compiled once, in runner.cpp: every run of a formulation does the same arithmetic.
+extern template class AugmentedLagrangian<RelativeFormulation>;
+extern template class AugmentedLagrangian<AbsoluteFormulation>;
+extern template class Runner<RelativeFormulation>;
+extern template class Runner<AbsoluteFormulation>;
 
 }  // namespace floatframe

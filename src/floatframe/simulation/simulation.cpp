@@ -6,7 +6,6 @@
 #include <ctime>
 #include <optional>
 
-#include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/forcing.hpp"
@@ -15,6 +14,7 @@
 #include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/run_watch.hpp"
 #include "floatframe/simulation/runner.hpp"
+#include "floatframe/simulation/start_up.hpp"
 #include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
@@ -37,18 +37,18 @@ RunSummary summary_of(const std::string& model, const SimulationDescription& o) 
 }
 
 template <class F>
-RunResult run_with(F& f, State start, StartReport start_report, const SimulationDescription& o,
+RunResult run_with(const Model& given, const SimulationDescription& o,
                    const RunOptions& run_options) {
-  const Model& model = f.model();
+  StartedModel<F> start(given, o);
+  F& f = start.formulation();
+  const Model& model = start.model();
   RunResult result;
   RunSummary& s = result.summary;
   s = summary_of(model.name, o);
-  s.start = std::move(start_report);
+  s.start = start.report();
 
-  const StepOptions options = step_options(model, o);
-  Runner<F> runner(f, options, o.min_step > 0.0 ? o.min_step : o.step / 1024.0);
-  runner.state() = std::move(start);
-  start_accelerations(f, runner.state(), options.penalty_mass);
+  Runner<F> runner(f, start.step_options(), start.min_step());
+  runner.state() = start.state();
   s.energy.kinetic_start = runner.kinetic_energy();
   s.energy.potential_start = runner.potential_energy();
   s.energy.elastic_start = runner.elastic_energy();
@@ -180,22 +180,10 @@ RunSummary failed_summary(const std::string& model, const SimulationDescription&
 
 RunResult run(const Model& given, const SimulationDescription& o, const RunOptions& run_options) {
   require_valid_run(o);
-  const std::optional<Model> started = started_model(given, o);
-  const Model& model = started ? *started : given;
   check_step(o);
-  StartReport start_report;
-  if (o.coordinates == Coordinates::relative) {
-    RelativeFormulation f(model, o.inertia);
-    State state = start_state(f, o, &start_report);
-    return run_with(f, std::move(state), std::move(start_report), o, run_options);
-  }
-  RelativeFormulation tree(model, o.inertia);
-  const State start = start_state(tree, o, &start_report);
-  AbsoluteFormulation f(model, o.inertia);
-  State state;
-  state.t = start.t;
-  f.start_from(tree, start.q, start.v, state.q, state.v);
-  return run_with(f, std::move(state), std::move(start_report), o, run_options);
+  return o.coordinates == Coordinates::relative
+             ? run_with<RelativeFormulation>(given, o, run_options)
+             : run_with<AbsoluteFormulation>(given, o, run_options);
 }
 
 }  // namespace floatframe

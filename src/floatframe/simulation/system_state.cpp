@@ -169,6 +169,30 @@ JointFollower::JointFollower(const Model& model) {
   }
 }
 
+std::size_t JointFollower::size() const noexcept {
+  std::size_t n = 0;
+  for (const SystemState::Joint& j : joints_) n += j.position.size() + j.velocity.size();
+  return n;
+}
+
+std::vector<double> JointFollower::numbers() const {
+  std::vector<double> all;
+  for (const SystemState::Joint& j : joints_) {
+    all.insert(all.end(), j.position.begin(), j.position.end());
+    all.insert(all.end(), j.velocity.begin(), j.velocity.end());
+  }
+  return all;
+}
+
+void JointFollower::restore(std::span<const double> numbers, double t) noexcept {
+  auto from = numbers.begin();
+  for (SystemState::Joint& j : joints_)
+    for (std::vector<double>* values : {&j.position, &j.velocity})
+      for (double& x : *values) x = *from++;
+  time_ = t;
+  started_ = true;
+}
+
 void place_bodies(const Model& model, InertiaMethod inertia, SystemState& state) {
   const Model values = with_start_values(model, state);
   RelativeFormulation f(values, inertia);

@@ -1,6 +1,8 @@
 #pragma once
 // States that are kept, and runs that start from one or away from an equilibrium.
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
@@ -57,6 +59,13 @@ class JointFollower {
     started_ = true;
   }
   const std::vector<SystemState::Joint>& joints() const noexcept { return joints_; }
+
+  /// Coordinates and rates of all joints one after the other, to be kept with the time they are of.
+  std::vector<double> numbers() const;
+  std::size_t size() const noexcept;
+  double time() const noexcept { return time_; }
+  /// `numbers`: `size()` of them, taken at time t.
+  void restore(std::span<const double> numbers, double t) noexcept;
 
  private:
   std::vector<SystemState::Joint> joints_;

@@ -1,0 +1,144 @@
+#include "floatframe/model/model_hash.hpp"
+
+#include <bit>
+
+#include "floatframe/core/content_hash.hpp"
+
+namespace floatframe {
+namespace {
+
+// Every structure is taken apart by a structured binding: one that gets a new member does not
+// compile here until somebody has decided whether it belongs to the motion.
+class ModelHash {
+ public:
+  std::string text() const { return hash_.text(); }
+
+  void add(double x) { hash_.add(std::bit_cast<std::uint64_t>(x)); }
+  void add(int n) { hash_.add(static_cast<std::uint64_t>(n)); }
+  void add(bool b) { hash_.add(std::uint64_t{b}); }
+  void add(const std::string& text) { hash_.add(text); }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void add(Enum e) { add(static_cast<int>(e)); }
+  template <class Derived>
+  void add(const Eigen::MatrixBase<Derived>& m) {
+    add(static_cast<int>(m.rows()));
+    for (Eigen::Index j = 0; j < m.cols(); ++j)
+      for (Eigen::Index i = 0; i < m.rows(); ++i) add(static_cast<double>(m(i, j)));
+  }
+  template <class T>
+  void add(const std::vector<T>& list) {
+    add(static_cast<int>(list.size()));
+    for (const T& x : list) add(x);
+  }
+  template <class... T>
+  void all(const T&... x) {
+    (add(x), ...);
+  }
+
+  void add(const Pose& X) {
+    const auto& [p, R] = X;
+    all(p, R);
+  }
+  void add(const PiecewisePolynomial::Piece& piece) {
+    const auto& [centre, coefficients] = piece;
+    all(centre, coefficients);
+  }
+  void add(const PiecewisePolynomial& f) { all(f.breaks(), f.pieces()); }
+  void add(const TimeFunction& f) {
+    const auto& [pieces, amplitude, frequency, phase] = f;
+    all(pieces, amplitude, frequency, phase);
+  }
+  void add(const Signal& s) {
+    const auto& [function, input] = s;
+    all(function, input);
+  }
+  void add(const CosineBump& b) {
+    const auto& [start, length, height] = b;
+    all(start, length, height);
+  }
+  void add(const Road& r) {
+    const auto& [name, pieces, bumps] = r;
+    all(pieces, bumps);
+  }
+  void add(const Marker& m) {
+    const auto& [body, node, X_NM, rotates] = m;
+    all(body, node, X_NM, rotates);
+  }
+  void add(const Joint& j) {
+    const auto& [name, type, parent, child, F, M, axis_2, position, velocity, keep, motion, cut,
+                 automatic] = j;
+    all(name, type, parent, child, F, M, axis_2, motion.has_value(), cut, automatic);
+    if (motion) add(*motion);
+  }
+  void add(const Rod& r) {
+    const auto& [name, a, b, length] = r;
+    all(name, a, b, length);
+  }
+  void add(const Force& f) {
+    const auto& [name, type, a, b, spring, damper, axis, rotational, radius, stiffness, damping,
+                 law, road, magnitude, input, driven, target, target_rate, targeted, derived_rate,
+                 follows] = f;
+    all(name, type, a, b, spring, damper, axis, rotational, radius, stiffness, damping, law, road);
+    all(magnitude, input, driven, target, target_rate, targeted, derived_rate, follows);
+  }
+  void add(const Input& i) {
+    const auto& [name, unit, initial, low, high, clamp] = i;
+    all(name, low, high, clamp);
+  }
+  void add(const Output& o) {
+    const auto& [name, unit, kind, marker, body, joint, force, component] = o;
+    all(name, kind, marker, body, joint, force, component);
+  }
+  void add(const InertiaInvariants& v) {
+    const auto& [m, m_u, P_u, S, Si, Sij] = v;
+    all(m, m_u, P_u, S);
+    for (const Mat3X& s : Si) add(s);
+    for (const auto& row : Sij)
+      for (const MatX& s : row) add(s);
+  }
+  void add(const Eigen::SparseMatrix<double, Eigen::RowMajor>& matrix) {
+    all(static_cast<int>(matrix.rows()), static_cast<int>(matrix.nonZeros()));
+    for (int k = 0; k < matrix.outerSize(); ++k)
+      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(matrix, k); it; ++it)
+        all(static_cast<int>(it.col()), it.value());
+  }
+  void add(const ProjectionData& d) {
+    const auto& [p, X, M_s, X_theta, M_6] = d;
+    all(p, X, M_s, X_theta, M_6);
+  }
+  void add(const FlexibleBody& body) {
+    const auto& [invariants, K, D, nodes, projection, mass_model, frequencies, mode_names] = body;
+    all(invariants, K, D, projection != nullptr, mass_model);  // nodes: those with markers
+    if (projection) add(*projection);
+  }
+  void add(const Body& b) {
+    const auto& [name, data, X_WB, length] = b;
+    all(name, *data, X_WB, length);
+  }
+  void add(const ModalNode& n) {
+    const auto& [name, p, X, X_theta] = n;
+    all(p, X, X_theta);
+  }
+  void add(const Model& model) {
+    const auto& [name, gravity, bodies, joints, rods, forces, roads, inputs, markers, outputs,
+                 amplitudes, amplitude_rates, mean_mass, simulation] = model;
+    all(gravity, bodies, joints, rods, forces, roads, inputs, markers, outputs, mean_mass);
+    for (const Marker& m : markers)
+      if (m.body >= 0 && m.node >= 0)
+        add(bodies[static_cast<std::size_t>(m.body)].data->nodes[static_cast<std::size_t>(m.node)]);
+  }
+
+ private:
+  ContentHash hash_;
+};
+
+}  // namespace
+
+std::string model_hash(const Model& model) {
+  ModelHash hash;
+  hash.add(model);
+  return hash.text();
+}
+
+}  // namespace floatframe

@@ -1,0 +1,31 @@
+#pragma once
+// The content of a SimulationState.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "floatframe/simulation/runner.hpp"
+#include "floatframe/simulation/simulation_state.hpp"
+
+namespace floatframe {
+
+struct SimulationState::Data {
+  /// Of the model, and the options that decide the steps: what differs makes other steps.
+  std::string fingerprint;
+  std::int64_t coordinates = 0, inertia = 0, max_iterations = 0;
+  double step = 0.0, spectral_radius = 0.0, tolerance = 0.0, min_step = 0.0, penalty = 0.0;
+  double position_tolerance = 0.0, velocity_tolerance = 0.0;
+
+  /// Times of steps are base + k step, so that rounding does not add up.
+  double base = 0.0;
+  std::int64_t steps_since_base = 0;
+  State state;
+  std::vector<double> spring_angles;  ///< turns of joint springs
+  std::vector<double> inputs;
+  RunnerMemory memory;
+  std::vector<double> row;     ///< time and outputs
+  std::vector<double> joints;  ///< coordinates, turns counted, and rates
+  double joints_time = 0.0;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,37 @@
+#pragma once
+// What `Simulation::save` gives and `Simulation::restore` takes: all that decides the next steps,
+// so that a simulation that goes on from it makes the same steps, bit for bit, in the same program
+// or in another process.
+//
+// As bytes: the magic word and the version, then the content, then a checksum of all before it.
+// Numbers are little-endian; doubles are kept bit by bit. The model itself is not in them, only a
+// fingerprint of what decides its motion.
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace floatframe {
+
+class SimulationState {
+ public:
+  /// Of no simulation: `restore` refuses it.
+  SimulationState() = default;
+
+  bool empty() const noexcept { return data_ == nullptr; }
+  /// [s]; 0 if it is empty.
+  double time() const noexcept;
+
+  /// Throws InputError if it is empty.
+  std::vector<std::byte> to_bytes() const;
+  /// Throws InputError for bytes that are damaged, incomplete or of another version.
+  static SimulationState from_bytes(std::span<const std::byte> bytes);
+
+ private:
+  friend class Simulation;
+  struct Data;
+  explicit SimulationState(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace floatframe

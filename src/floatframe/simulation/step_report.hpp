@@ -1,0 +1,47 @@
+#pragma once
+// What a step of a simulation reports, and what all of them add up to.
+#include <cstdint>
+#include <string_view>
+
+namespace floatframe {
+
+enum class StepStatus : std::uint8_t {
+  completed,
+  not_converged,     ///< at the smallest substep
+  singular_tangent,  ///< a freedom without mass and stiffness
+  not_finite,        ///< numbers grew beyond all bounds
+  failed_before,     ///< a step after one that failed: nothing was done
+  invalid_step,   ///< a step size that is no positive number, or is lost in rounding: nothing done
+  invalid_input,  ///< the force callback gave a value that the input does not take: nothing done
+  callback_failed,  ///< the force callback threw an exception: nothing done
+  busy              ///< called from the force callback: nothing done
+};
+
+/// "completed", "not_converged", ...
+const char* step_status_name(StepStatus status) noexcept;
+
+struct StepReport {
+  StepStatus status = StepStatus::completed;
+  /// Of a step that failed, where to look: "joint 'crank'", "mode 2 of body 'beam'", "input 'f'".
+  /// Belongs to the simulation.
+  std::string_view where;
+  double time = 0.0;   ///< reached: the end of the step, or where it was given up [s]
+  int iterations = 0;  ///< Newton iterations of this step
+  int factorizations = 0;
+  int substeps = 0;                 ///< that it was divided into; 0: made in one
+  double position_violation = 0.0;  ///< largest of a constraint at the end [m]
+  double velocity_violation = 0.0;  ///< [m/s]
+  explicit operator bool() const noexcept { return status == StepStatus::completed; }
+};
+
+/// Sums and largest values since the start.
+struct StepCounters {
+  long steps = 0;     ///< asked for and completed
+  long substeps = 0;  ///< by halving of steps that did not converge
+  long iterations = 0, factorizations = 0;
+  long cut_short = 0;                   ///< accepted before they had converged (real time)
+  double max_position_violation = 0.0;  ///< [m] after steps
+  double max_velocity_violation = 0.0;  ///< [m/s] after the projections
+};
+
+}  // namespace floatframe

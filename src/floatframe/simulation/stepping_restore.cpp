@@ -1,0 +1,153 @@
+// Saving and restoring a simulation. A state may come from anywhere: nothing of it is used before
+// all of it has been checked.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floatframe/model/model_hash.hpp"
+#include "floatframe/simulation/stepping_engine.hpp"
+
+namespace floatframe {
+namespace {
+
+using Numbers = std::span<const double>;
+
+Numbers numbers(const VecX& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+
+bool all_finite(Numbers v) {
+  for (const double x : v)
+    if (!std::isfinite(x)) return false;
+  return true;
+}
+
+struct NamedNumbers {
+  const char* name;
+  Numbers given, own;
+};
+
+/// Options that decide the steps: name, found, expected.
+struct NamedOption {
+  const char* name;
+  double given, own;
+};
+
+/// The least that counters and times of a simulation have in common.
+bool consistent(double t, double base, std::int64_t steps, double step, const StepCounters& c,
+                const IntegratorExperience& e) {
+  constexpr std::int64_t most = std::int64_t{1} << 53;  // beyond, sums would not be exact
+  if (!std::isfinite(t) || !std::isfinite(base) || steps < 0 || steps > most) return false;
+  const double expected = base + static_cast<double>(steps) * step;
+  if (!(std::abs(expected - t) <= 1e-6 * step + 1e-12 * std::abs(t))) return false;
+  if (!(e.reuse_rate >= 0.0 && e.reuse_rate <= 1.0) || std::isinf(e.continues_at)) return false;
+  for (const long n : {c.steps, c.substeps, c.iterations, c.factorizations, c.cut_short})
+    if (n < 0 || n > most) return false;
+  return c.max_position_violation >= 0.0 && c.max_velocity_violation >= 0.0;
+}
+
+}  // namespace
+
+const std::string& Simulation::Engine::fingerprint() {
+  if (fingerprint_.empty()) fingerprint_ = model_hash(model_);
+  return fingerprint_;
+}
+
+std::shared_ptr<SimulationState::Data> Simulation::Engine::present() {
+  auto data = std::make_shared<SimulationState::Data>();
+  data->fingerprint = fingerprint();
+  data->coordinates = static_cast<std::int64_t>(o_.coordinates);
+  data->inertia = static_cast<std::int64_t>(o_.inertia);
+  data->max_iterations = o_.max_iterations;
+  data->step = o_.step;
+  data->spectral_radius = o_.spectral_radius;
+  data->tolerance = o_.tolerance;
+  data->min_step = o_.min_step;
+  data->penalty = o_.penalty;
+  data->position_tolerance = o_.position_tolerance;
+  data->velocity_tolerance = o_.velocity_tolerance;
+  data->base = base_;
+  data->steps_since_base = steps_since_base_;
+  data->inputs = inputs_;
+  data->row = row_;
+  collect(*data);
+  return data;
+}
+
+SimulationState Simulation::Engine::save() {
+  require_idle("save");
+  if (failed_)
+    throw InputError(
+        "found a simulation whose last step failed, expected one that can go on: save "
+        "before, or restore an earlier state");
+  return SimulationState(present());
+}
+
+std::string Simulation::Engine::complaint(const SimulationState::Data& d,
+                                          const SimulationState::Data& own) {
+  if (d.fingerprint != own.fingerprint) return "is of another model";
+  for (const NamedOption& x : std::initializer_list<NamedOption>{
+           {"coordinates", static_cast<double>(d.coordinates),
+            static_cast<double>(own.coordinates)},
+           {"inertia", static_cast<double>(d.inertia), static_cast<double>(own.inertia)},
+           {"max_iterations", static_cast<double>(d.max_iterations),
+            static_cast<double>(own.max_iterations)},
+           {"step", d.step, own.step},
+           {"spectral_radius", d.spectral_radius, own.spectral_radius},
+           {"tolerance", d.tolerance, own.tolerance},
+           {"min_step", d.min_step, own.min_step},
+           {"penalty", d.penalty, own.penalty},
+           {"position_tolerance", d.position_tolerance, own.position_tolerance},
+           {"velocity_tolerance", d.velocity_tolerance, own.velocity_tolerance}})
+    if (!(x.given == x.own))
+      return fmt::format("was made with another option '{}': found {:g}, this simulation has {:g}",
+                         x.name, x.given, x.own);
+  const auto damaged = [](const char* name, const char* what) {
+    return fmt::format("is damaged: {} {}", name, what);
+  };
+  for (const NamedNumbers& x : std::initializer_list<NamedNumbers>{
+           {"coordinates", numbers(d.state.q), numbers(own.state.q)},
+           {"velocities", numbers(d.state.v), numbers(own.state.v)},
+           {"accelerations", numbers(d.state.a), numbers(own.state.a)},
+           {"accelerations", numbers(d.state.a_alg), numbers(own.state.a_alg)},
+           {"multipliers", numbers(d.state.lambda), numbers(own.state.lambda)},
+           {"spring angles", d.spring_angles, own.spring_angles},
+           {"inputs", d.inputs, own.inputs},
+           {"joint coordinates", d.joints, own.joints},
+           {"outputs", d.row, own.row}}) {
+    if (x.given.size() != x.own.size()) return damaged(x.name, "of another number");
+    if (x.given.data() != d.row.data() && !all_finite(x.given))
+      return damaged(x.name, "that are not finite");
+  }
+  if (d.memory.outputs.size() != own.memory.outputs.size())
+    return damaged("outputs", "of another number");
+  for (const FollowedOutput& o : d.memory.outputs)
+    if (!std::isfinite(o.time) || !std::isfinite(o.position) || !std::isfinite(o.rate))
+      return damaged("outputs", "that are not finite");
+  for (std::size_t k = 0; k < d.inputs.size(); ++k)
+    if (accepted_value(model_.inputs[k], d.inputs[k]) != d.inputs[k])
+      return damaged("inputs", "outside of their limits");
+  if (!consistent(d.state.t, d.base, d.steps_since_base, d.step, d.memory.counters,
+                  d.memory.experience) ||
+      !std::isfinite(d.joints_time) || d.row[0] != d.state.t)
+    return damaged("times or counters", "that do not fit together");
+  return {};
+}
+
+void Simulation::Engine::restore(const SimulationState& state) {
+  require_idle("restore");
+  if (state.empty())
+    throw InputError("found a saved state that is empty, expected one of a simulation");
+  const SimulationState::Data& given = *state.data_;
+  if (const std::string text = complaint(given, *present()); !text.empty())
+    throw InputError("the saved state " + text);
+  base_ = given.base;
+  steps_since_base_ = given.steps_since_base;
+  inputs_ = given.inputs;
+  row_ = given.row;
+  apply(given);
+  inputs_to_formulation();
+  failed_ = false;
+  last_ = StepReport();
+  sentence_.clear();
+}
+
+}  // namespace floatframe
