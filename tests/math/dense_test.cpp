@@ -77,6 +77,15 @@ TEST(Dense, LeastNorm) {
   EXPECT_LT((two.pseudo_inverse() - MatX::Constant(2, 2, 0.25)).norm(), 1e-15);
 }
 
+TEST(Dense, LeastNormOfNothingIsZero) {
+  for (const auto& [rows, cols] : {std::pair{0, 3}, std::pair{2, 0}, std::pair{0, 0}}) {
+    const LeastNorm none(MatX(rows, cols), 1e-12);
+    EXPECT_EQ(none.solve(VecX(VecX::Ones(rows))), VecX::Zero(cols));
+    EXPECT_EQ(none.solve(MatX(MatX::Ones(rows, 2))), MatX::Zero(cols, 2));
+    EXPECT_EQ(none.pseudo_inverse(), MatX::Zero(cols, rows));
+  }
+}
+
 TEST(Dense, SingularValues) {
   const Singular s = singular_values(matrix({{3.0, 0.0, 0.0}, {0.0, 0.0, 4.0}}));
   ASSERT_EQ(s.values.size(), 2);

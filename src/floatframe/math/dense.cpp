@@ -71,20 +71,34 @@ Singular singular_values(const MatX& A) {
   return {svd.singularValues(), svd.matrixV()};
 }
 
+/// Eigen's decomposition cannot be made of a matrix without rows or columns, whose solution is
+/// zero.
 struct LeastNorm::Factors {
-  Eigen::CompleteOrthogonalDecomposition<MatX> cod;
+  Eigen::Index rows = 0, cols = 0;
+  std::optional<Eigen::CompleteOrthogonalDecomposition<MatX>> cod;
 };
 
 LeastNorm::LeastNorm(const MatX& A, std::optional<double> threshold)
-    : factors_(
-          new Factors{decomposed<Eigen::CompleteOrthogonalDecomposition<MatX>>(A, threshold)}) {}
+    : factors_(new Factors{A.rows(), A.cols(), std::nullopt}) {
+  if (A.size() > 0)
+    factors_->cod = decomposed<Eigen::CompleteOrthogonalDecomposition<MatX>>(A, threshold);
+}
 LeastNorm::~LeastNorm() = default;
 LeastNorm::LeastNorm(LeastNorm&&) noexcept = default;
 LeastNorm& LeastNorm::operator=(LeastNorm&&) noexcept = default;
 
-VecX LeastNorm::solve(const VecX& b) const { return factors_->cod.solve(b); }
-MatX LeastNorm::solve(const MatX& B) const { return factors_->cod.solve(B); }
-MatX LeastNorm::pseudo_inverse() const { return factors_->cod.pseudoInverse(); }
+VecX LeastNorm::solve(const VecX& b) const {
+  if (!factors_->cod) return VecX::Zero(factors_->cols);
+  return factors_->cod->solve(b);
+}
+MatX LeastNorm::solve(const MatX& B) const {
+  if (!factors_->cod) return MatX::Zero(factors_->cols, B.cols());
+  return factors_->cod->solve(B);
+}
+MatX LeastNorm::pseudo_inverse() const {
+  if (!factors_->cod) return MatX::Zero(factors_->cols, factors_->rows);
+  return factors_->cod->pseudoInverse();
+}
 
 MatX lu_solve(const MatX& A, const MatX& B) { return A.partialPivLu().solve(B); }
 MatX ldlt_solve(const MatX& A, const MatX& B) { return A.ldlt().solve(B); }
