@@ -121,7 +121,7 @@ class RangeWatch {
   std::vector<std::vector<PhaseMeter>> meters_;
 };
 
-/// Where an equilibrium leaves the range: bodies that deform too far, one sentence a kind. `bodies`
+/// Where an equilibrium leaves the range: bodies that deform too far, one sentence per kind. `bodies`
 /// are those of the model, in its order.
 std::vector<std::string> equilibrium_warnings(const Model& model,
                                               const std::vector<StaticsBody>& bodies,

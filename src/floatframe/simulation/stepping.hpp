@@ -2,7 +2,7 @@
 // A model one step at a time: set inputs, make a step, read outputs, save all that decides the next
 // step and go back to it.
 //
-//   const Model model = load_model("vehicle.yaml");
+//   const Model model = build_model(read_model("vehicle.yaml"));
 //   Simulation s(model, {.step = 1e-3});
 //   while (s.time() < 8.0) {
 //     s.set_input("damper", 300.0);
