@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "floatframe/io/model_reader.hpp"
 #include "floatframe/model/model.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "readers.hpp"
 
 namespace floatframe::fuzz {
@@ -29,8 +29,8 @@ class ModelFolder {
   }
   std::string write(const char* name, std::string_view content) const {
     const std::string path = (path_ / name).string();
-    std::ofstream(path, std::ios::binary).write(content.data(),
-                                                static_cast<std::streamsize>(content.size()));
+    std::ofstream(path, std::ios::binary)
+        .write(content.data(), static_cast<std::streamsize>(content.size()));
     return path;
   }
 

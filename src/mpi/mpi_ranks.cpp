@@ -40,7 +40,7 @@ class MpiRanks final : public Ranks {
     if (!there) return false;
     MPI_Get_count(&status, MPI_BYTE, &size);
     message.from = status.MPI_SOURCE;
-    message.text.resize(static_cast<std::size_t>(size));
+    message.text.resize(size);
     MPI_Recv(message.text.data(), size, MPI_BYTE, message.from, tag, MPI_COMM_WORLD,
              MPI_STATUS_IGNORE);
     return true;

@@ -68,14 +68,14 @@ class MumpsEngine final : public SparseEngine {
 
   void factorise(const LowerTriangle& A) {
     // 1-based coordinates; the array of values is only read.
-    const auto count = static_cast<std::size_t>(A.start[A.n]);
+    const std::size_t count = A.start[A.n];
     std::vector<int> rows(count), columns(count), order(static_cast<std::size_t>(A.n));
     for (int j = 0; j < A.n; ++j) {
       for (int k = A.start[j]; k < A.start[j + 1]; ++k) {
-        rows[static_cast<std::size_t>(k)] = A.row[k] + 1;
-        columns[static_cast<std::size_t>(k)] = j + 1;
+        rows[k] = A.row[k] + 1;
+        columns[k] = j + 1;
       }
-      order[static_cast<std::size_t>(j)] = A.order[j] + 1;
+      order[j] = A.order[j] + 1;
     }
     mumps_.n = A.n;
     mumps_.nnz = static_cast<MUMPS_INT8>(count);

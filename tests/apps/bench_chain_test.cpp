@@ -8,7 +8,7 @@
 #include "floatframe/apps/chain_model.hpp"
 #include "floatframe/apps/solid_link.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/reduction/reduction.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "support/temporary_folder.hpp"

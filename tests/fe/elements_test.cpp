@@ -39,16 +39,13 @@ ElementInput distorted(const ElementKernel& kernel, Random& random) {
   if (is_beam(kernel.type)) p = kernel.nodes == 3 ? bar : tet;
   corners = std::min(kernel.nodes, corners);
   for (int a = 0; a < corners; ++a) {
-    in.p[static_cast<std::size_t>(a)] = R * (p[a] + random.vec3(0.12)) + Vec3(1, 2, 3);
+    in.p[a] = R * (p[a] + random.vec3(0.12)) + Vec3(1, 2, 3);
   }
   for (const FaceNodes& face : element_faces(kernel.type)) {
     for (int i = face.corners; i < face.count; ++i) {
       const int from = i - face.corners, to = (from + 1) % face.corners;
-      const auto at = [&](int k) {
-        return in.p[static_cast<std::size_t>(face.nodes[static_cast<std::size_t>(k)])];
-      };
-      in.p[static_cast<std::size_t>(face.nodes[static_cast<std::size_t>(i)])] =
-          0.5 * (at(from) + at(to));
+      const auto at = [&](int k) { return in.p[face.nodes[k]]; };
+      in.p[face.nodes[i]] = 0.5 * (at(from) + at(to));
     }
   }
   if (kernel.type == ElementType::beam3) in.p[1] = 0.5 * (in.p[0] + in.p[2]);
@@ -65,7 +62,7 @@ MatX rigid_motions(const ElementInput& in, const ElementKernel& kernel) {
   MatX R = MatX::Zero(d * kernel.nodes, 6);
   for (int a = 0; a < kernel.nodes; ++a) {
     R.block<3, 3>(d * a, 0).setIdentity();
-    R.block<3, 3>(d * a, 3) = -skew(in.p[static_cast<std::size_t>(a)]);
+    R.block<3, 3>(d * a, 3) = -skew(in.p[a]);
     if (d == 6) R.block<3, 3>(d * a + 3, 3).setIdentity();
   }
   return R;
@@ -91,9 +88,7 @@ double volume(const ElementInput& in, const ElementKernel& kernel) {
   // Divergence theorem with bilinear faces: each face as the mean of its two triangulations.
   double sum = 0.0;
   for (const FaceNodes& f : element_faces(kernel.type)) {
-    const auto p = [&](int i) {
-      return in.p[static_cast<std::size_t>(f.nodes[static_cast<std::size_t>(i % f.corners)])];
-    };
+    const auto p = [&](int i) { return in.p[f.nodes[i % f.corners]]; };
     if (f.corners == 3) {
       sum += p(0).dot(p(1).cross(p(2))) / 6.0;
       continue;
@@ -140,7 +135,7 @@ TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
 /// Displacements u = G x of the nodes, and the strains.
 VecX linear_field(const ElementInput& in, int nodes, const Mat3& G, Vec6& strain) {
   VecX u(3 * nodes);
-  for (int a = 0; a < nodes; ++a) u.segment<3>(3 * a) = G * in.p[static_cast<std::size_t>(a)];
+  for (int a = 0; a < nodes; ++a) u.segment<3>(3 * a) = G * in.p[a];
   strain << G(0, 0), G(1, 1), G(2, 2), G(0, 1) + G(1, 0), G(1, 2) + G(2, 1), G(2, 0) + G(0, 2);
   return u;
 }
@@ -186,7 +181,7 @@ TEST(Elements, PatchTestOfBricks) {
     const Mat3 G = random.matrix(3, 3);
     VecX u(81);
     for (int k = 0; k < 27; ++k) {
-      u.segment<3>(3 * k) = G * model.positions[static_cast<std::size_t>(k)];
+      u.segment<3>(3 * k) = G * model.positions[k];
     }
     const VecX f = system.K * u;
     EXPECT_LT(f.segment<3>(39).norm(), 1e-12 * f.norm()) << element_kernel(type).name;
@@ -215,7 +210,7 @@ Vec3 face_position(const ElementInput& in, const FaceNodes& f, double x, double 
   }
   Vec3 p = Vec3::Zero();
   for (std::size_t i = 0; i < static_cast<std::size_t>(f.count); ++i) {
-    p += N[i] * in.p[static_cast<std::size_t>(f.nodes[i])];
+    p += N[i] * in.p[f.nodes[i]];
   }
   return p;
 }
@@ -239,7 +234,7 @@ TEST(Elements, MassOfCurvedElementsIsExact) {
     SCOPED_TRACE(kernel.name);
     ElementInput in = distorted(kernel, random);
     for (int a = brick(kernel) ? 8 : wedge(kernel) ? 6 : 4; a < kernel.nodes; ++a) {
-      in.p[static_cast<std::size_t>(a)] += random.vec3(0.02);
+      in.p[a] += random.vec3(0.02);
     }
     ASSERT_EQ(kernel.fault(in), "");
     MatX M;
@@ -288,7 +283,7 @@ TEST(Elements, DistortedBrickMassIsExact) {
           N(a) = fx * fy * fz / 8.0;
           const Vec3 d =
               Vec3(corner[a][0] * fy * fz, corner[a][1] * fx * fz, corner[a][2] * fx * fy) / 8.0;
-          J += d * in.p[static_cast<std::size_t>(a)].transpose();
+          J += d * in.p[a].transpose();
         }
         exact += 7500.0 * w[i] * w[j] * w[k] * J.determinant() * N * N.transpose();
       }

@@ -12,7 +12,7 @@
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/text_source.hpp"
+#include "floatframe/formats/text/text_source.hpp"
 #include "floatframe/math/so3.hpp"
 #include "support/random_body.hpp"
 
@@ -64,7 +64,7 @@ struct Comparison {
 Comparison compare(const FeModel& model, const FeSystem& system, const std::string& file) {
   std::map<int, int> index;
   for (int k = 0; k < model.nodes(); ++k) {
-    index[model.node_ids.empty() ? k + 1 : model.node_ids[static_cast<std::size_t>(k)]] = k;
+    index[model.node_ids.empty() ? k + 1 : model.node_ids[k]] = k;
   }
   std::map<int, int> turning;  // CalculiX keeps the rotations of a spider in a node of their own
   for (const Spider& s : model.spiders) turning[s.rotation_node] = s.reference;
@@ -113,7 +113,7 @@ TEST(FeSystem, RigidSpidersEqualCalculixRigidBodies) {
     EXPECT_LT(c.M, 1e-12);
     // The reference has its six rows, the nodes of the spider none.
     const Spider& s = model.spiders[0];
-    EXPECT_EQ(system.row(s.reference, 5), system.first[static_cast<std::size_t>(s.reference)] + 5);
+    EXPECT_EQ(system.row(s.reference, 5), system.first[s.reference] + 5);
     EXPECT_EQ(system.row(s.nodes[0], 0), -1);
   }
 }
@@ -148,9 +148,9 @@ MassProperties mass_properties(const PointModel& points) {
 MatX rigid_motions(const FeModel& model, const FeSystem& system) {
   MatX R(system.size(), 6);
   for (int i = 0; i < system.size(); ++i) {
-    const Dof& d = system.dofs[static_cast<std::size_t>(i)];
+    const Dof& d = system.dofs[i];
     Eigen::Matrix<double, 6, 6> A = Mat6::Identity();
-    A.topRightCorner<3, 3>() = -skew(model.positions[static_cast<std::size_t>(d.node)]);
+    A.topRightCorner<3, 3>() = -skew(model.positions[d.node]);
     R.row(i) = A.row(d.axis);
   }
   return R;
@@ -289,7 +289,7 @@ TEST(Spiders, MeanMovesAsTheLeastSquaresRigidMotion) {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   const Spider& s = model.spiders[0];
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vec3 r = model.positions[static_cast<std::size_t>(s.nodes[i])] - model.positions[12];
+    const Vec3 r = model.positions[s.nodes[i]] - model.positions[12];
     const Vec3 residual =
         u.segment<3>(3 * s.nodes[i]) - u.segment<3>(36) - Vec3(theta.segment<3>(36)).cross(r);
     force += s.weights[i] * residual;
@@ -369,7 +369,7 @@ TEST(Spiders, ChainsAndEquations) {
   EXPECT_NEAR(u(0), 0.5 * (u(3) + u(6)), 1e-14);
   const int r = system.first[14];
   for (const int node : {8, 9, 10, 11, 12, 13}) {
-    const Vec3 arm = model.positions[static_cast<std::size_t>(node)] - model.positions[14];
+    const Vec3 arm = model.positions[node] - model.positions[14];
     const Vec3 expected = q.segment<3>(r) + Vec3(q.segment<3>(r + 3)).cross(arm);
     EXPECT_LT((u.segment<3>(3 * node) - expected).norm(), 1e-13) << node;
   }
@@ -440,10 +440,9 @@ TEST(FeSystem, GivenMatricesAreReducedLikeElements) {
   ASSERT_EQ(n % 7 != 0, true);
   given.matrices->K = made.K.twistedBy(order);
   given.matrices->M = made.M.twistedBy(order);
-  given.matrices->dofs.resize(static_cast<std::size_t>(n));
+  given.matrices->dofs.resize(n);
   for (int i = 0; i < n; ++i) {
-    given.matrices->dofs[static_cast<std::size_t>(order.indices()(i))] =
-        made.dofs[static_cast<std::size_t>(i)];
+    given.matrices->dofs[order.indices()(i)] = made.dofs[i];
   }
   validate(given);
   const FeSystem a = assemble(elements), b = assemble(given);

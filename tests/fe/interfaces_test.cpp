@@ -33,7 +33,7 @@ FeModel tube() {
         e.type = ElementType::hex8;
         e.id = static_cast<int>(model.elements.size()) + 1;
         for (int k = 0; k < 2; ++k) {
-          const std::size_t at = static_cast<std::size_t>(4 * k);
+          const std::size_t at = 4 * k;
           e.nodes[at] = node(a, r, l + k);
           e.nodes[at + 1] = node(a, r + 1, l + k);
           e.nodes[at + 2] = node(a + 1, r + 1, l + k);
@@ -141,21 +141,21 @@ TEST(Interfaces, ReferencePoints) {
   const Vec3 centre(0, 0, 0.02);
   node = add_interface(model,
                        interface(shape(By::sphere, centre, Vec3::Zero(), std::hypot(0.02, 0.02))));
-  EXPECT_EQ(model.positions[static_cast<std::size_t>(node)], centre);
+  EXPECT_EQ(model.positions[node], centre);
   model = tube();
   node = add_interface(model,
                        interface(shape(By::plane, Vec3(7, 7, 0.0401), Vec3(0, 0, 1), 0, 0, 1e-3)));
-  EXPECT_LT((model.positions[static_cast<std::size_t>(node)] - Vec3(0, 0, 0.0401)).norm(), 1e-12);
+  EXPECT_LT((model.positions[node] - Vec3(0, 0, 0.0401)).norm(), 1e-12);
   model = tube();
   d = interface(by_set("BORE_TOP"), Spider::Kind::mean);
   d.at = Vec3(0.1, 0.2, 0.3);
   node = add_interface(model, d);
-  EXPECT_EQ(model.positions[static_cast<std::size_t>(node)], Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(model.positions[node], Vec3(0.1, 0.2, 0.3));
   // Again with the same nodes: the same reference, under a second name.
   d.name = "OTHER";
   EXPECT_EQ(add_interface(model, d), node);
   EXPECT_EQ(model.spiders.size(), 1u);
-  EXPECT_EQ(model.node_names[static_cast<std::size_t>(node)], "OTHER");
+  EXPECT_EQ(model.node_names[node], "OTHER");
   d.name = "THIRD";
   d.at = Vec3(0.1, 0.2, 0.31);
   EXPECT_EQ(refusal(model, d),

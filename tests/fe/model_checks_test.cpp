@@ -190,8 +190,8 @@ double enclosed_volume(const FeModel& model, const Surface& s) {
   double six = 0.0;
   for (const auto& t : s.triangles) {
     const auto p = [&](std::size_t i) {
-      const int node = s.nodes[static_cast<std::size_t>(t[i])];
-      return model.positions[static_cast<std::size_t>(node)];
+      const int node = s.nodes[t[i]];
+      return model.positions[node];
     };
     six += p(0).dot(p(1).cross(p(2)));
   }
@@ -244,7 +244,7 @@ TEST(Surfaces, StressesOfBending) {
     const double R = 2.0, E = model.materials[0].young;
     MatX u(3 * model.nodes(), 2);
     for (int k = 0; k < model.nodes(); ++k) {
-      const Vec3 p = model.positions[static_cast<std::size_t>(k)];
+      const Vec3 p = model.positions[k];
       u.block<3, 1>(3 * k, 0) << p(0) * p(2) / R, 0, -0.5 * p(0) * p(0) / R;
       u.block<3, 1>(3 * k, 1) = Vec3(p(0), 0, 0);
     }
@@ -253,7 +253,7 @@ TEST(Surfaces, StressesOfBending) {
     ASSERT_EQ(stress.rows(), 6 * static_cast<Eigen::Index>(s.nodes.size()));
     double bending = 0.0, rest = 0.0, tension = 0.0;
     for (std::size_t i = 0; i < s.nodes.size(); ++i) {
-      const double z = model.positions[static_cast<std::size_t>(s.nodes[i])](2);
+      const double z = model.positions[s.nodes[i]](2);
       const Eigen::Index row = 6 * static_cast<Eigen::Index>(i);
       bending = std::max(bending, std::abs(stress(row, 0) - E * z / R));
       rest = std::max(rest, stress.block<5, 1>(row + 1, 0).cwiseAbs().maxCoeff());
@@ -275,7 +275,7 @@ TEST(Solids, BendingOfOneBrick) {
     const FeSystem system = assemble(model);
     VecX u(24);
     for (int k = 0; k < 8; ++k) {
-      const Vec3 p = model.positions[static_cast<std::size_t>(k)] - Vec3::Constant(0.5);
+      const Vec3 p = model.positions[k] - Vec3::Constant(0.5);
       u.segment<3>(3 * k) = Vec3(p(0) * p(2), 0, 0);
     }
     const double energy = u.dot(system.K * u);

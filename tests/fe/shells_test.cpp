@@ -22,22 +22,21 @@ VecX solve(const FeModel& model, const std::vector<Held>& held, const VecX& f) {
   const FeSystem system = assemble(model);
   SparseMatrix K = system.K;
   const double large = 1e6 * K.coeffs().cwiseAbs().maxCoeff();
-  std::vector<char> fixed(static_cast<std::size_t>(system.size()), 0);
+  std::vector<char> fixed(system.size(), 0);
   for (const Held& h : held) {
     for (int axis = 0; axis < 6; ++axis) {
-      if ((h.mask >> axis) & 1u) fixed[static_cast<std::size_t>(system.row(h.node, axis))] = 1;
+      if ((h.mask >> axis) & 1u) fixed[system.row(h.node, axis)] = 1;
     }
   }
   for (int j = 0; j < K.outerSize(); ++j) {
     for (SparseMatrix::InnerIterator it(K, j); it; ++it) {
-      const bool out =
-          fixed[static_cast<std::size_t>(it.row())] != 0 || fixed[static_cast<std::size_t>(j)] != 0;
+      const bool out = fixed[it.row()] != 0 || fixed[j] != 0;
       if (out) it.valueRef() = it.row() == j ? large : 0.0;
     }
   }
   VecX load = f;
   for (int i = 0; i < load.size(); ++i) {
-    if (fixed[static_cast<std::size_t>(i)] != 0) load(i) = 0.0;
+    if (fixed[i] != 0) load(i) = 0.0;
   }
   return Eigen::SimplicialLDLT<SparseMatrix>(K).solve(load);
 }
@@ -86,11 +85,11 @@ TEST(Shells, PatchTests) {
         type, 3, 3, [](double x, double y) { return Vec3(x, 0.8 * y, 0); }, steel, 0.01);
     for (const int inner : {5, 6, 9, 10}) {
       const Vec3 shift = random.vec3(0.06);
-      model.positions[static_cast<std::size_t>(inner)] += Vec3(shift(0), shift(1), 0);
+      model.positions[inner] += Vec3(shift(0), shift(1), 0);
     }
     VecX flat(96), bent(96);
     for (int k = 0; k < 16; ++k) {
-      const Vec3 p = model.positions[static_cast<std::size_t>(k)];
+      const Vec3 p = model.positions[k];
       const double x = p(0), y = p(1);
       // u = a x + b y, v = c x + d y, rz = (v_x - u_y)/2
       flat.segment<6>(6 * k) << 0.3 * x + 0.2 * y, -0.1 * x + 0.5 * y, 0, 0, 0, -0.15;

@@ -104,9 +104,7 @@ TEST(ElementFaces, EncloseTheElement) {
     double six = 0.0;
     for (const FaceNodes& face : element_faces(c.type)) {
       EXPECT_EQ(face.count, c.edges == nullptr ? face.corners : 2 * face.corners);
-      const auto at = [&](int k) {
-        return p[static_cast<std::size_t>(face.nodes[static_cast<std::size_t>(k)])];
-      };
+      const auto at = [&](int k) { return p[face.nodes[k]]; };
       for (int k = 2; k < face.corners; ++k) six += at(0).dot(at(k - 1).cross(at(k)));
       for (int k = face.corners; k < face.count; ++k) {
         const int a = k - face.corners;

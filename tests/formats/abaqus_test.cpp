@@ -7,8 +7,8 @@
 #include <string>
 
 #include "floatframe/fe/element_faces.hpp"
+#include "floatframe/formats/abaqus/read_abaqus.hpp"
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/read_abaqus.hpp"
 
 namespace floatframe {
 namespace {
@@ -33,10 +33,7 @@ double volume_of_faces(const FeModel& model) {
   double six = 0.0;
   for (const Element& e : model.elements) {
     for (const FaceNodes& face : element_faces(e.type)) {
-      const auto p = [&](int k) {
-        return model.positions[static_cast<std::size_t>(
-            e.nodes[static_cast<std::size_t>(face.nodes[static_cast<std::size_t>(k)])])];
-      };
+      const auto p = [&](int k) { return model.positions[e.nodes[face.nodes[k]]]; };
       for (int k = 2; k < face.corners; ++k) six += p(0).dot(p(k - 1).cross(p(k)));
     }
   }
@@ -76,10 +73,10 @@ TEST(Abaqus, GmshsOwnDeckIsTheSameMesh) {
   ASSERT_EQ(b.elements.size(), a.elements.size());
   std::map<int, Vec3> of_id;
   for (int k = 0; k < a.nodes(); ++k) {
-    of_id[a.node_ids[static_cast<std::size_t>(k)]] = a.positions[static_cast<std::size_t>(k)];
+    of_id[a.node_ids[k]] = a.positions[k];
   }
   for (int k = 0; k < b.nodes(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(k);
+    const std::size_t i = k;
     EXPECT_LT((of_id.at(b.node_ids[i]) - b.positions[i]).norm(), 1e-8);
   }
   EXPECT_NEAR(volume_of_faces(a), volume_of_faces(b), 1e-6);
@@ -122,9 +119,9 @@ TEST(Abaqus, RigidBodiesBecomeSpiders) {
   EXPECT_EQ(ball.kind, Spider::Kind::rigid);
   EXPECT_EQ(ball.name, "BALL");
   EXPECT_EQ(ball.nodes, model.node_sets.at("BALL"));
-  EXPECT_EQ(model.node_ids[static_cast<std::size_t>(ball.reference)], 5692);
-  EXPECT_EQ(model.node_ids[static_cast<std::size_t>(ball.rotation_node)], 5693);
-  EXPECT_EQ(model.positions[static_cast<std::size_t>(ball.reference)], Vec3(-20, 330, 7));
+  EXPECT_EQ(model.node_ids[ball.reference], 5692);
+  EXPECT_EQ(model.node_ids[ball.rotation_node], 5693);
+  EXPECT_EQ(model.positions[ball.reference], Vec3(-20, 330, 7));
 }
 
 TEST(Abaqus, CouplingsToSurfacesBecomeSpiders) {
@@ -142,12 +139,9 @@ TEST(Abaqus, CouplingsToSurfacesBecomeSpiders) {
     // The weights are areas: their sum is the area of the flat faces.
     double area = 0.0;
     for (const ElementFace& f : model.surfaces.at("S_" + name)) {
-      const Element& e = model.elements[static_cast<std::size_t>(f.element)];
-      const FaceNodes& face = element_faces(e.type)[static_cast<std::size_t>(f.face)];
-      const auto p = [&](std::size_t k) {
-        return model
-            .positions[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(face.nodes[k])])];
-      };
+      const Element& e = model.elements[f.element];
+      const FaceNodes& face = element_faces(e.type)[f.face];
+      const auto p = [&](std::size_t k) { return model.positions[e.nodes[face.nodes[k]]]; };
       area += 0.5 * (p(1) - p(0)).cross(p(2) - p(0)).norm();
     }
     EXPECT_NEAR(std::accumulate(spider.weights.begin(), spider.weights.end(), 0.0), area,
@@ -170,8 +164,8 @@ TEST(Abaqus, BeamDecks) {
     EXPECT_EQ(model.elements[0].type, ElementType::beam3);
     // End, middle, end.
     const Element& e = model.elements[0];
-    EXPECT_NEAR(model.positions[static_cast<std::size_t>(e.nodes[1])].x(), 0.025, 1e-12);
-    EXPECT_NEAR(model.positions[static_cast<std::size_t>(e.nodes[2])].x(), 0.05, 1e-12);
+    EXPECT_NEAR(model.positions[e.nodes[1]].x(), 0.025, 1e-12);
+    EXPECT_NEAR(model.positions[e.nodes[2]].x(), 0.05, 1e-12);
   }
   const FeModel clamped = read_fe_file(folder + "beam_b32r_cant.inp");
   ASSERT_EQ(clamped.supports.size(), 1u);

@@ -4,10 +4,10 @@
 
 #include <string>
 
+#include "floatframe/formats/abaqus/read_abaqus.hpp"
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/matrix_model.hpp"
-#include "floatframe/formats/read_abaqus.hpp"
-#include "floatframe/formats/read_matrices.hpp"
+#include "floatframe/formats/matrices/matrix_model.hpp"
+#include "floatframe/formats/matrices/read_matrices.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 

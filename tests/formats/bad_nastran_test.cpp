@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/formats/nastran_cards.hpp"
-#include "floatframe/formats/read_dmig.hpp"
-#include "floatframe/formats/read_nastran.hpp"
+#include "floatframe/formats/matrices/read_dmig.hpp"
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/formats/nastran/read_nastran.hpp"
 #include "support/error_of.hpp"
 
 namespace floatframe::test {

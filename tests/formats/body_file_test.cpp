@@ -1,5 +1,5 @@
 // Body files: what is written is read again to the bit; every damage is one sentence.
-#include "floatframe/formats/body_file.hpp"
+#include "floatframe/formats/body_file/body_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/fe/bar_frame.hpp"
-#include "floatframe/formats/body_arrays.hpp"
-#include "floatframe/formats/health_text.hpp"
-#include "floatframe/formats/npy.hpp"
-#include "floatframe/formats/zip_store.hpp"
+#include "floatframe/formats/body_file/body_arrays.hpp"
+#include "floatframe/formats/body_file/health_text.hpp"
+#include "floatframe/formats/body_file/npy.hpp"
+#include "floatframe/formats/body_file/zip_store.hpp"
 #include "floatframe/reduction/reduction.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "floatframe/formats/abaqus/read_abaqus.hpp"
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/read_abaqus.hpp"
 #include "support/error_of.hpp"
 
 namespace floatframe::test {

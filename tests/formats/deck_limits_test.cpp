@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <string>
 
+#include "floatframe/formats/abaqus/read_abaqus.hpp"
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/nastran_cards.hpp"
-#include "floatframe/formats/read_abaqus.hpp"
-#include "floatframe/formats/read_gmsh.hpp"
-#include "floatframe/formats/read_nastran.hpp"
+#include "floatframe/formats/gmsh/read_gmsh.hpp"
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/formats/nastran/read_nastran.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 

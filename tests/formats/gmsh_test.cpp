@@ -10,8 +10,8 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/read_gmsh.hpp"
-#include "floatframe/formats/text_source.hpp"
+#include "floatframe/formats/gmsh/read_gmsh.hpp"
+#include "floatframe/formats/text/text_source.hpp"
 #include "formats/mesh_checks.hpp"
 
 namespace floatframe::test {
@@ -66,7 +66,7 @@ TEST(Gmsh, BricksAndWedgesOfSecondOrder) {
   EXPECT_NEAR(corner_volume(ascii), 1.0, 1e-12);
   const std::vector<int>& end = ascii.node_sets.at("END");
   EXPECT_EQ(end.size(), 13u);
-  for (const int node : end) EXPECT_EQ(ascii.positions[static_cast<std::size_t>(node)].x(), 0.0);
+  for (const int node : end) EXPECT_EQ(ascii.positions[node].x(), 0.0);
   EXPECT_EQ(ascii.node_sets.at("EDGE").size(), 5u);
   EXPECT_EQ(ascii.node_sets.at("CORNER"), std::vector<int>{0});
   EXPECT_EQ(ascii.elements[0].source.line, 328);

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/matrix_model.hpp"
-#include "floatframe/formats/read_matrices.hpp"
+#include "floatframe/formats/matrices/matrix_model.hpp"
+#include "floatframe/formats/matrices/read_matrices.hpp"
 
 namespace floatframe {
 namespace {
@@ -21,7 +21,7 @@ MatX rigid_motions(const FeModel& model) {
   MatX R = MatX::Zero(static_cast<Eigen::Index>(dofs.size()), 6);
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const Eigen::Index row = static_cast<Eigen::Index>(i);
-    const Vec3& p = model.positions[static_cast<std::size_t>(dofs[i].node)];
+    const Vec3& p = model.positions[dofs[i].node];
     if (dofs[i].axis >= 3) {
       R(row, dofs[i].axis) = 1.0;
       continue;
@@ -51,8 +51,7 @@ Texts written(const FeModel& model, Line line) {
   }
   texts.dofs = "node,dir\n# rows of the matrices\n";
   for (const Dof& d : model.matrices->dofs) {
-    texts.dofs +=
-        fmt::format("{},{}\n", model.node_ids[static_cast<std::size_t>(d.node)], d.axis + 1);
+    texts.dofs += fmt::format("{},{}\n", model.node_ids[d.node], d.axis + 1);
   }
   return texts;
 }
@@ -73,14 +72,13 @@ void expect_same(const FeModel& a, const FeModel& b) {
   ASSERT_EQ(x.dofs.size(), y.dofs.size());
   std::map<std::pair<int, int>, Eigen::Index> row;
   for (std::size_t i = 0; i < y.dofs.size(); ++i) {
-    row[{b.node_ids[static_cast<std::size_t>(y.dofs[i].node)], y.dofs[i].axis}] =
-        static_cast<Eigen::Index>(i);
+    row[{b.node_ids[y.dofs[i].node], y.dofs[i].axis}] = static_cast<Eigen::Index>(i);
   }
   ASSERT_EQ(x.K.nonZeros(), y.K.nonZeros());
   ASSERT_EQ(x.M.nonZeros(), y.M.nonZeros());
   const auto place = [&](Eigen::Index i) {
-    const Dof& d = x.dofs[static_cast<std::size_t>(i)];
-    return row.at({a.node_ids[static_cast<std::size_t>(d.node)], d.axis});
+    const Dof& d = x.dofs[i];
+    return row.at({a.node_ids[d.node], d.axis});
   };
   for (Eigen::Index j = 0; j < x.K.outerSize(); ++j) {
     for (SparseMatrix::InnerIterator it(x.K, j); it; ++it) {
@@ -100,7 +98,7 @@ TEST(Matrices, CalculixExportWithARigidSpider) {
   const FeMatrices& matrices = *model.matrices;
   ASSERT_EQ(matrices.dofs.size(), 30u);
   // Node 21 is the rotation node of node 20.
-  EXPECT_EQ(model.node_ids[static_cast<std::size_t>(matrices.dofs[27].node)], 20);
+  EXPECT_EQ(model.node_ids[matrices.dofs[27].node], 20);
   EXPECT_EQ(matrices.dofs[27].axis, 3);
   EXPECT_EQ(matrices.dofs[29].axis, 5);
   // The nodes that follow node 20 are not there, nor is node 21.
@@ -165,11 +163,9 @@ TEST(Matrices, AbaqusLabelsInOneTriangleOrBoth) {
   for (const int halves : {0, 1, 2}) {
     const Texts texts = written(model, [&](int i, int j, double v) {
       if ((halves == 0 && i > j) || (halves == 1 && i < j)) return std::string();
-      const Dof &a = model.matrices->dofs[static_cast<std::size_t>(i)],
-                &b = model.matrices->dofs[static_cast<std::size_t>(j)];
-      return fmt::format("{},{}, {},{}, {:.17e}\n",
-                         model.node_ids[static_cast<std::size_t>(a.node)], a.axis + 1,
-                         model.node_ids[static_cast<std::size_t>(b.node)], b.axis + 1, v);
+      const Dof &a = model.matrices->dofs[i], &b = model.matrices->dofs[j];
+      return fmt::format("{},{}, {},{}, {:.17e}\n", model.node_ids[a.node], a.axis + 1,
+                         model.node_ids[b.node], b.axis + 1, v);
     });
     TextSource K(texts.stiffness, "arm_STIF1.mtx"), M(texts.mass, "arm_MASS1.mtx");
     expect_same(model, read_abaqus_matrices(K, M, nullptr, nodes));

@@ -16,8 +16,8 @@ inline double corner_volume(const FeModel& model) {
   double volume = 0.0;
   for (const Element& e : model.elements) {
     const auto p = [&](const FaceNodes& f, int k) {
-      const int local = f.nodes[static_cast<std::size_t>(k)];
-      return model.positions[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(local)])];
+      const int local = f.nodes[k];
+      return model.positions[e.nodes[local]];
     };
     for (const FaceNodes& f : element_faces(e.type)) {
       for (int k = 1; k + 1 < f.corners; ++k) {
@@ -35,9 +35,9 @@ inline void expect_midside_nodes_near_edges(const FeModel& model) {
     for (const FaceNodes& f : element_faces(e.type)) {
       for (int k = 0; k < f.count - f.corners; ++k) {
         const auto p = [&](int index) {
-          const int local = f.nodes[static_cast<std::size_t>(index)];
-          const int node = e.nodes[static_cast<std::size_t>(local)];
-          return model.positions[static_cast<std::size_t>(node)];
+          const int local = f.nodes[index];
+          const int node = e.nodes[local];
+          return model.positions[node];
         };
         const Vec3 a = p(k), b = p((k + 1) % f.corners), m = p(f.corners + k);
         ASSERT_LT((m - 0.5 * (a + b)).norm(), 0.25 * (b - a).norm()) << "element " << i;

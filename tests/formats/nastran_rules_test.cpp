@@ -5,8 +5,8 @@
 #include <string>
 
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/nastran_cards.hpp"
-#include "floatframe/formats/read_nastran.hpp"
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/formats/nastran/read_nastran.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -8,9 +8,9 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/nastran_cards.hpp"
-#include "floatframe/formats/read_dmig.hpp"
-#include "floatframe/formats/read_nastran.hpp"
+#include "floatframe/formats/matrices/read_dmig.hpp"
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/formats/nastran/read_nastran.hpp"
 #include "formats/mesh_checks.hpp"
 #include "support/random_body.hpp"
 #include "support/temporary_folder.hpp"
@@ -38,7 +38,7 @@ double assembled_mass(const std::string& name) {
   const FeSystem system = assemble(read_fe_file(nastran_file(name), options));
   VecX u = VecX::Zero(system.size());
   for (int i = 0; i < system.size(); ++i) {
-    if (system.dofs[static_cast<std::size_t>(i)].axis == 0) u(i) = 1.0;
+    if (system.dofs[i].axis == 0) u(i) = 1.0;
   }
   return u.dot(system.M * u);
 }
@@ -225,12 +225,8 @@ TEST(Nastran, MaterialsBarsAndShells) {
       "PSHELL,5,1,.002,1,,1\n"
       "MAT1,1,2.1+11,,.3,7850.\nMAT1,2,7.+10,2.6923077+10,,2700.\nMAT1,3,,4.+10,.25,1000.\n");
   ASSERT_EQ(m.elements.size(), 8u);
-  const auto section = [&m](std::size_t e) {
-    return m.sections[static_cast<std::size_t>(m.elements[e].section)];
-  };
-  const auto material = [&m](std::size_t e) {
-    return m.materials[static_cast<std::size_t>(m.elements[e].material)];
-  };
+  const auto section = [&m](std::size_t e) { return m.sections[m.elements[e].section]; };
+  const auto material = [&m](std::size_t e) { return m.materials[m.elements[e].material]; };
   // I1 bends in the plane of the orientation vector: about the local z axis.
   EXPECT_EQ(section(0).Iz, 2e-8);
   EXPECT_EQ(section(0).Iy, 1e-8);
@@ -280,8 +276,8 @@ Mat6 rigid_mass(const FeModel& model) {
   const FeSystem system = assemble(model);
   MatX R(system.size(), 6);
   for (int i = 0; i < system.size(); ++i) {
-    const Dof d = system.dofs[static_cast<std::size_t>(i)];
-    const Vec3 p = model.positions[static_cast<std::size_t>(d.node)];
+    const Dof d = system.dofs[i];
+    const Vec3 p = model.positions[d.node];
     for (int k = 0; k < 3; ++k) {
       const Vec3 e = Vec3::Unit(k), u = e.cross(p);
       R(i, k) = d.axis < 3 ? e(d.axis) : 0.0;
@@ -376,13 +372,13 @@ Matrices random_matrices() {
 std::string punch(const std::string& name, const MatX& A, const Matrices& m) {
   std::string text = fmt::format("DMIG    {:<8}{:8}{:8}{:8}{:8}{:24}\n", name, 0, 6, 2, 0, 15);
   for (int j = 0; j < A.cols(); ++j) {
-    const auto& [node, component] = m.dofs[static_cast<std::size_t>(j)];
+    const auto& [node, component] = m.dofs[j];
     text += fmt::format("DMIG*   {:<16}{:16}{:16}\n", name, node, component);
     for (int i = 0; i <= j; ++i) {
       if (A(i, j) == 0.0) continue;
       std::string value = fmt::format("{:16.9E}", A(i, j));
       std::replace(value.begin(), value.end(), 'E', 'D');
-      const auto& [row, row_component] = m.dofs[static_cast<std::size_t>(i)];
+      const auto& [row, row_component] = m.dofs[i];
       text += fmt::format("*       {:16}{:16}{}\n", row, row_component, value);
     }
   }

@@ -1,6 +1,6 @@
 // SID_FEM: what is written comes back; the blocks are those of the kinetic energy and of the
 // velocity-dependent forces computed by the inertia room; the classical dialect; faults.
-#include "floatframe/formats/sid_file.hpp"
+#include "floatframe/formats/sid/sid_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/bar_frame.hpp"
-#include "floatframe/formats/sid_content.hpp"
+#include "floatframe/formats/sid/sid_content.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/reduction/reduction.hpp"
 #include "support/error_of.hpp"
@@ -181,7 +181,7 @@ TEST(SidFile, GyroscopicBlocksAreTheVelocityForces) {
     VecX ww(6);
     ww << w(0) * w(0), w(1) * w(1), w(2) * w(2), w(0) * w(1), w(1) * w(2), w(0) * w(2);
     MatX Oe = c.Oe.m0;
-    for (int k = 0; k < nm; ++k) Oe += c.Oe.m1[static_cast<std::size_t>(k)] * y(k);
+    for (int k = 0; k < nm; ++k) Oe += c.Oe.m1[k] * y(k);
     EXPECT_LT(relative_error(Oe * ww, forces(y, zero).tail(nm)), 1e-12);
 
     Mat3 Gr = Mat3::Zero();
@@ -206,7 +206,7 @@ TEST(SidFile, SelfTests) {
   for (Mat3X& X : points.X) X.leftCols<3>().setIdentity();
   const SidContent c = sid_content(body_of(points, 5));
   for (int k = 0; k < 5; ++k) {
-    EXPECT_LT((c.mdCM.m1[static_cast<std::size_t>(k)] - c.Ct.m0.row(k).transpose()).norm(), 1e-14);
+    EXPECT_LT((c.mdCM.m1[k] - c.Ct.m0.row(k).transpose()).norm(), 1e-14);
   }
   EXPECT_LT((c.Me.m0.topLeftCorner<3, 3>() - c.mass * Mat3::Identity()).norm(), 1e-13);
   EXPECT_LT((c.Ct.m0.topRows<3>() - c.mass * Mat3::Identity()).norm(), 1e-13);

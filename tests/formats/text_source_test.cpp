@@ -1,5 +1,5 @@
 // Texts of finite-element programs: numbers, gzip, includes.
-#include "floatframe/formats/text_source.hpp"
+#include "floatframe/formats/text/text_source.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "floatframe/formats/fe_file.hpp"
-#include "floatframe/formats/text_fields.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {

@@ -4,6 +4,7 @@
 // last: halving h must quarter the difference.
 #include <gtest/gtest.h>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/force_kind.hpp"
 #include "support/random_model.hpp"
@@ -92,7 +93,7 @@ Model with_exact_dampers(const Model& model, const VecX& q) {
     if (C.cwiseAbs().maxCoeff() < 1e-9) kept.forces.push_back(force);
   }
   std::vector<int> of_kind(force_kinds().size(), 0);
-  for (const Force& force : kept.forces) ++of_kind[static_cast<std::size_t>(force.type)];
+  for (const Force& force : kept.forces) ++of_kind[index_of(force.type)];
   for (std::size_t k = 0; k < of_kind.size(); ++k)
     EXPECT_GT(of_kind[k], 0) << force_kinds()[k]->name;
   return kept;

@@ -112,7 +112,7 @@ void expect_marker_rates(F& f, const VecX& q, const VecX& v, const VecX& a) {
   evaluate_at(f, 0.0, q, v);
   f.set_accelerations(a);
   for (int k = 0; k < markers; ++k) {
-    const auto i = static_cast<std::size_t>(k);
+    const std::size_t i = k;
     const MarkerState& s = f.marker(k);
     EXPECT_LT((s.v - (r_plus[i] - r_minus[i]) / (2 * dt)).norm(), 1e-7 * (1 + s.v.norm())) << k;
     const Mat3 Rdot = (plus[i].R - minus[i].R) / (2 * dt);
@@ -289,7 +289,7 @@ TEST_P(TwoFormulations, StartValuesAreReadBackFromTheMarkers) {
   evaluate_at(f, 0.0, q, v);
   for (const Joint& j : m.joints)
     for (int k = 0; k < static_cast<int>(j.position.size()); ++k) {
-      const auto i = static_cast<std::size_t>(k);
+      const std::size_t i = k;
       EXPECT_NEAR(joint_position(j, f.marker(j.frame_F), f.marker(j.frame_M), k, 0.0),
                   j.position[i], 1e-13)
           << j.name << ' ' << k;

@@ -46,8 +46,7 @@ void check_preprocessing(const InertiaInvariants& invariants, const Json& output
   EXPECT_LT(relative_error(work.deformed.m_bar, to_vector(outputs["m_bar"])), reference_tolerance);
   EXPECT_LT(relative_error(work.deformed.P_bar, to_matrix(outputs["P_bar"])), reference_tolerance);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_LT(relative_error(work.deformed.S_d.middleRows<3>(3 * i),
-                             to_matrix(outputs["S_d"][static_cast<std::size_t>(i)])),
+    EXPECT_LT(relative_error(work.deformed.S_d.middleRows<3>(3 * i), to_matrix(outputs["S_d"][i])),
               reference_tolerance);
   }
   EXPECT_LT(relative_error(M, to_matrix(outputs["absolute"]["M"])), reference_tolerance);
@@ -122,8 +121,7 @@ TEST_P(Reference, ProjectionOfIsoparametricBodies) {
   const State s = to_state(file["state"]);
   ProjectionData data;
   data.p.resize(3, model.nodes());
-  for (int k = 0; k < model.nodes(); ++k)
-    data.p.col(k) = model.positions[static_cast<std::size_t>(k)];
+  for (int k = 0; k < model.nodes(); ++k) data.p.col(k) = model.positions[k];
   data.X = to_matrix(file["X_translation"]);
   data.M_s = assemble_scalar_mass(model);
   const Json& outputs =

@@ -143,20 +143,19 @@ TEST(BlockLdlt, RandomPatternsAgainstDense) {
       MatX dense = MatX::Zero(n, n);
       sparse.set_zero();
       const auto add = [&](int a, int i, int b, int j, double x) {
-        const int r = start[static_cast<std::size_t>(a)] + i,
-                  c = start[static_cast<std::size_t>(b)] + j;
+        const int r = start[a] + i, c = start[b] + j;
         dense(r, c) += x;
         if (r != c) dense(c, r) += x;
         sparse.add(a, i, b, j, x);
       };
       for (int a = 0; a < static_cast<int>(g.sizes.size()); ++a) {
-        const int s = g.sizes[static_cast<std::size_t>(a)];
+        const int s = g.sizes[a];
         for (int i = 0; i < s; ++i)
           for (int j = 0; j <= i; ++j) add(a, i, a, j, i == j ? 60.0 + random() : random());
       }
       for (const auto& [a, b] : g.edges)
-        for (int i = 0; i < g.sizes[static_cast<std::size_t>(a)]; ++i)
-          for (int j = 0; j < g.sizes[static_cast<std::size_t>(b)]; ++j) add(a, i, b, j, random());
+        for (int i = 0; i < g.sizes[a]; ++i)
+          for (int j = 0; j < g.sizes[b]; ++j) add(a, i, b, j, random());
       VecX x = random.vector(n);
       const VecX expected = dense.llt().solve(x);
       ASSERT_EQ(sparse.factorize(), -1);

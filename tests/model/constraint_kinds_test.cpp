@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/example_numbers.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -61,27 +62,26 @@ class Constraint : public ::testing::TestWithParam<Case> {
   MarkerPair pair(const ConstraintPart& part) {
     MarkerPair p;
     p.a = numbers_.marker();
-    const bool on_axis = constraint_kinds()[static_cast<std::size_t>(part.kind)].on_axis;
+    const bool on_axis = constraint_kinds()[index_of(part.kind)].on_axis;
     p.b = on_axis ? numbers_.marker_on_axis(p.a) : numbers_.marker();
     return p;
   }
   static std::vector<ConstraintRow> rows(const ConstraintPart& part, const MarkerPair& p,
                                          double t = 0.3) {
-    std::vector<ConstraintRow> r(static_cast<std::size_t>(part.rows()));
+    std::vector<ConstraintRow> r(part.rows());
     evaluate_constraint(part, p.a, p.b, t, r.data());
     return r;
   }
   static VecX values(const ConstraintPart& part, const MarkerPair& p, double t = 0.3) {
     const auto r = rows(part, p, t);
     VecX phi(part.rows());
-    for (int k = 0; k < part.rows(); ++k) phi[k] = r[static_cast<std::size_t>(k)].phi;
+    for (int k = 0; k < part.rows(); ++k) phi[k] = r[k].phi;
     return phi;
   }
   static Vec12 push(const ConstraintPart& part, const MarkerPair& p, const VecX& lambda) {
     const auto r = rows(part, p);
     Vec12 sum = Vec12::Zero();
-    for (int k = 0; k < part.rows(); ++k)
-      sum += lambda[k] * stacked(r[static_cast<std::size_t>(k)].gradient);
+    for (int k = 0; k < part.rows(); ++k) sum += lambda[k] * stacked(r[k].gradient);
     return sum;
   }
   ExampleNumbers numbers_{3};
@@ -95,7 +95,7 @@ TEST_P(Constraint, GradientAgainstFiniteDifferences) {
       const MatX numeric = jacobian([&](const Vec12& x) { return values(part, moved(p, x)); });
       const auto r = rows(part, p);
       for (int i = 0; i < part.rows(); ++i) {
-        const Vec12 g = stacked(r[static_cast<std::size_t>(i)].gradient);
+        const Vec12 g = stacked(r[i].gradient);
         worst = std::max(worst, (g - numeric.row(i).transpose()).cwiseAbs().maxCoeff());
         EXPECT_GT(g.norm(), 1e-3);
       }
@@ -134,7 +134,7 @@ TEST_P(Constraint, VelocityTermAgainstFiniteDifferencesAndCurvature) {
         const VecX rate = derivative([&](double h) {
           return VecX::Constant(1, push(part, moved(p, h * v), unit).dot(v)).eval();
         });
-        const double quad = r[static_cast<std::size_t>(i)].quad;
+        const double quad = r[i].quad;
         EXPECT_NEAR(quad, rate[0], 1e-8 * (1.0 + std::abs(quad)));
         Mat12 K = Mat12::Zero();
         add_constraint_curvature(part, p.a, p.b, unit.data(), K);
@@ -151,12 +151,12 @@ TEST_P(Constraint, TimeDerivativesAgainstFiniteDifferences) {
     const VecX second = derivative([&](double h) {
       VecX rate(part.rows());
       const auto at = rows(part, p, 0.3 + h);
-      for (int i = 0; i < part.rows(); ++i) rate[i] = at[static_cast<std::size_t>(i)].phi_t;
+      for (int i = 0; i < part.rows(); ++i) rate[i] = at[i].phi_t;
       return rate;
     });
     for (int i = 0; i < part.rows(); ++i) {
-      EXPECT_NEAR(r[static_cast<std::size_t>(i)].phi_t, first[i], 1e-9);
-      EXPECT_NEAR(r[static_cast<std::size_t>(i)].phi_tt, second[i], 1e-8);
+      EXPECT_NEAR(r[i].phi_t, first[i], 1e-9);
+      EXPECT_NEAR(r[i].phi_tt, second[i], 1e-8);
     }
   }
 }

@@ -48,8 +48,7 @@ TEST(JointTable, EveryJointIsComplete) {
     const int first = kind.rotation_vector;
     if (first < 0) continue;
     ASSERT_LE(first + 3, kind.coordinates.count()) << joint_type_name(type);
-    for (int k = first; k < first + 3; ++k)
-      EXPECT_EQ(units[static_cast<std::size_t>(k)].unit, JointUnit::rad);
+    for (int k = first; k < first + 3; ++k) EXPECT_EQ(units[k].unit, JointUnit::rad);
   }
 }
 

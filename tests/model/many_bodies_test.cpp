@@ -83,9 +83,9 @@ TEST(ManyBodies, AreBuilt) {
   EXPECT_TRUE(t.cut_joints.empty());
   for (Output o : m.outputs) {
     if (o.kind == OutputKind::joint_position) {
-      EXPECT_EQ(m.joints[static_cast<std::size_t>(o.joint)].name, o.name.replace(0, 1, "j"));
+      EXPECT_EQ(m.joints[o.joint].name, o.name.replace(0, 1, "j"));
     } else if (o.kind == OutputKind::force) {
-      EXPECT_EQ(m.forces[static_cast<std::size_t>(o.force)].name, o.name.replace(0, 1, "spring"));
+      EXPECT_EQ(m.forces[o.force].name, o.name.replace(0, 1, "spring"));
     }
     if (HasFailure()) break;
   }

@@ -12,8 +12,7 @@ namespace {
 
 std::set<std::string> cut_names(const Model& m) {
   std::set<std::string> names;
-  for (const int j : find_topology(m).cut_joints)
-    names.insert(m.joints[static_cast<std::size_t>(j)].name);
+  for (const int j : find_topology(m).cut_joints) names.insert(m.joints[j].name);
   return names;
 }
 
@@ -41,7 +40,7 @@ void expect_tree(const Model& m) {
   for (const Topology::Link& l : t.links) {
     EXPECT_TRUE(seen.count(l.parent)) << "parents come before children";
     EXPECT_TRUE(seen.insert(l.body).second) << "every body once";
-    const Joint& j = m.joints[static_cast<std::size_t>(l.joint)];
+    const Joint& j = m.joints[l.joint];
     EXPECT_EQ(l.reversed ? j.parent : j.child, l.body);
     EXPECT_EQ(l.reversed ? j.child : j.parent, l.parent);
   }
@@ -60,7 +59,7 @@ TEST(Topology, SuspensionLoopIsCutAtItsFreestJoint) {
 /// The definition, word by word: of all joints that lead to a new body the best, again and again.
 std::vector<int> joints_of_tree(const Model& m) {
   std::vector<int> depth(m.bodies.size(), -1), tree;
-  const auto of = [&](int body) { return body < 0 ? 0 : depth[static_cast<std::size_t>(body)]; };
+  const auto of = [&](int body) { return body < 0 ? 0 : depth[body]; };
   for (;;) {
     int best = -1;
     std::pair<int, int> best_key{7, 0};
@@ -73,9 +72,9 @@ std::vector<int> joints_of_tree(const Model& m) {
       best = static_cast<int>(j);
     }
     if (best < 0) return tree;
-    const Joint& joint = m.joints[static_cast<std::size_t>(best)];
+    const Joint& joint = m.joints[best];
     const int end = of(joint.parent) < 0 ? joint.parent : joint.child;
-    depth[static_cast<std::size_t>(end)] = best_key.second + 1;
+    depth[end] = best_key.second + 1;
     tree.push_back(best);
   }
 }
@@ -92,9 +91,8 @@ TEST(Topology, IsThatOfTheDefinition) {
     for (int k = 0; k < 14; ++k) {
       const int child = whole(7), parent = whole(8);
       if (parent == child) continue;
-      s.add_joint("j" + std::to_string(k), all_joint_types[static_cast<std::size_t>(whole(6))],
-                  parent == 8 ? ground_name : names[static_cast<std::size_t>(parent)], 0,
-                  names[static_cast<std::size_t>(child)], 0)
+      s.add_joint("j" + std::to_string(k), all_joint_types[whole(6)],
+                  parent == 8 ? ground_name : names[parent], 0, names[child], 0)
           .cut = whole(5) == 0;
     }
     const Model m = build_model(s.d);
@@ -112,7 +110,7 @@ TEST(Topology, NamedCutsStayOutOfTheTree) {
   expect_tree(m);
   EXPECT_EQ(cut_names(m), std::set<std::string>{"ball"});
   for (const Topology::Link& l : find_topology(m).links)
-    if (m.joints[static_cast<std::size_t>(l.joint)].name == "rod_outer") {
+    if (m.joints[l.joint].name == "rod_outer") {
       EXPECT_TRUE(l.reversed);
     }
 }

@@ -119,7 +119,7 @@ TEST(Validate, AxesOfTinyNumbersAreDirections) {
     ModelDescription d = valid_description();
     d.joints[0].axis = axis;
     const Model model = build_model(d);
-    const auto frame = static_cast<std::size_t>(model.joints[0].frame_F);
+    const std::size_t frame = model.joints[0].frame_F;
     const Vec3 z = model.markers[frame].X_NM.R.col(2);
     EXPECT_LT((z - (axis / axis.cwiseAbs().maxCoeff()).normalized()).norm(), 1e-15);
   }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/realtime/realtime.hpp"
 #include "floatframe/realtime/udp_port.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/realtime/realtime.hpp"
 
 namespace floatframe::test {

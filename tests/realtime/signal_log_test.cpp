@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "floatframe/core/atomic_file.hpp"
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/realtime/realtime.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/temporary_folder.hpp"

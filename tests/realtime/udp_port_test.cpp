@@ -230,7 +230,7 @@ TEST(UdpPort, SendsOutputs) {
   ASSERT_EQ(n, static_cast<long>(packet_size(1)));
   PacketHeader h;
   double value = 0.0;
-  ASSERT_EQ(decode_packet(std::span(bytes).first(static_cast<std::size_t>(n)), PacketKind::outputs,
+  ASSERT_EQ(decode_packet(std::span(bytes).first(n), PacketKind::outputs,
                           output_layout(loop.model).hash(), h, std::span(&value, 1)),
             PacketFault::none);
   EXPECT_EQ(h.sequence, 7u);

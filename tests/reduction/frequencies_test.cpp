@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "floatframe/formats/text_source.hpp"
+#include "floatframe/formats/text/text_source.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/free_structure.hpp"

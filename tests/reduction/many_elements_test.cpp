@@ -81,9 +81,9 @@ TEST(ManyElements, StaticShapesAndStiffness) {
         << elements;
     EXPECT_LT(error(many.invariants.S, few.invariants.S), 1e-5) << elements;
     // Node in the middle of the first bar.
-    const Mat3X X = many.nodes[static_cast<std::size_t>(elements / 4)].X.leftCols(6);
+    const Mat3X X = many.nodes[elements / 4].X.leftCols(6);
     EXPECT_LT(error(X, few.nodes[25].X.leftCols(6)), 1e-7) << elements;
-    const Mat3X X_theta = many.nodes[static_cast<std::size_t>(elements / 4)].X_theta.leftCols(6);
+    const Mat3X X_theta = many.nodes[elements / 4].X_theta.leftCols(6);
     EXPECT_LT(error(X_theta, few.nodes[25].X_theta.leftCols(6)), 1e-7) << elements;
   }
 }
@@ -139,7 +139,7 @@ TEST(ManyElements, GivenBasis) {
     options.mass_model = MassModel::hermite;
     options.basis = MatX::Zero(6 * model.nodes(), 1);
     for (int k = 0; k < model.nodes(); ++k) {
-      const double x = model.positions[static_cast<std::size_t>(k)].x();
+      const double x = model.positions[k].x();
       (*options.basis)(6 * k + 2, 0) = x * x * (3.0 - x) / 2.0;
       (*options.basis)(6 * k + 4, 0) = -x * (6.0 - 3.0 * x) / 2.0;
     }

@@ -170,9 +170,7 @@ TEST(AnalyticBar, OrderAndSigns) {
                                                    "clamped-pinned 1 y", "clamped-pinned 1 z",
                                                    "clamped-pinned 2 y", "clamped-pinned 2 z"}));
     const int inner = model.find_node("inner"), tip = model.find_node("outer");
-    const Vec3 along = (model.positions[static_cast<std::size_t>(tip)] -
-                        model.positions[static_cast<std::size_t>(inner)])
-                           .normalized();
+    const Vec3 along = (model.positions[tip] - model.positions[inner]).normalized();
     const Vec3 y = (reference - along * along.dot(reference)).normalized(), z = along.cross(y);
     for (int a = 0; a < 6; ++a) {
       const Vec3 plane = a % 2 == 0 ? y : z;

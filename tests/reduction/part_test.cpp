@@ -89,7 +89,7 @@ TEST(PartReferences, HoldWhatTheySayAndSpanTheSame) {
         sum += weight(k) * x;
         // int r x X dV with r and X linear in the elements: the full matrix.
         for (SparseRows::InnerIterator it(M_v, k); it; ++it)
-          moment += it.value() * unit.positions[static_cast<std::size_t>(it.col())].cross(x);
+          moment += it.value() * unit.positions[it.col()].cross(x);
       }
       EXPECT_LT(sum.norm(), 1e-11 * weight.sum());
       EXPECT_LT(moment.norm(), 1e-11 * weight.sum());
@@ -417,10 +417,10 @@ TEST(PartFaults, MechanismsOfTwoElementsNameNodes) {
       const int first = model.nodes();
       Element other = model.elements[0];
       for (int& node : other.nodes) {
-        const Vec3 p = model.positions[static_cast<std::size_t>(node)] + size * shift;
+        const Vec3 p = model.positions[node] + size * shift;
         int same = -1;
         for (int k = 0; k < first; ++k)
-          if ((model.positions[static_cast<std::size_t>(k)] - p).norm() < 1e-9 * size) same = k;
+          if ((model.positions[k] - p).norm() < 1e-9 * size) same = k;
         node = same < 0 ? model.nodes() : same;
         if (same < 0) model.positions.push_back(p);
         if (&node == &other.nodes[7]) break;

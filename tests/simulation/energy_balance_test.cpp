@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "simulation/figures.hpp"
 
 namespace floatframe::test {

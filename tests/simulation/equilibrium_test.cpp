@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "simulation/iltis.hpp"
 

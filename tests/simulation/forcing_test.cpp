@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "support/temporary_folder.hpp"
 

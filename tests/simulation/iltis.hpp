@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/io/model_reader.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "simulation/figures.hpp"
 

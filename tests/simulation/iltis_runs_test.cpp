@@ -141,7 +141,7 @@ TEST(IltisRuns, GrowthOfAPerturbation) {
       }
     }
     for (const double t : {1.0, 2.0, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 7.0, 8.0}) {
-      const auto n = static_cast<std::size_t>(std::lround(t / h));
+      const std::size_t n = std::lround(t / h);
       double worst = 0.0;
       for (std::size_t i = 0; i < n; ++i) worst = std::max(worst, std::abs(z[0][i] - z[1][i]));
       char name[100];

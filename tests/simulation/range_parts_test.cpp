@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "floatframe/body/surface_points.hpp"
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "floatframe/formulation/absolute.hpp"
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/run_watch.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "floatframe/formulation/absolute.hpp"
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/runner.hpp"
 #include "simulation/figures.hpp"

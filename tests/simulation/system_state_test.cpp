@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "floatframe/io/model_reader.hpp"
-#include "floatframe/io/state_json.hpp"
 #include "floatframe/model/model.hpp"
+#include "floatframe/model_file/model_reader.hpp"
+#include "floatframe/model_file/state_json.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "support/temporary_folder.hpp"
 

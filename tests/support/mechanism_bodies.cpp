@@ -44,7 +44,7 @@ Vec3 MechanismBuilder::direction() {
 
 const std::string& MechanismBuilder::name(int body) const {
   static const std::string ground = ground_name;
-  return body < 0 ? ground : d.bodies[static_cast<std::size_t>(body)].name;
+  return body < 0 ? ground : d.bodies[body].name;
 }
 
 int MechanismBuilder::add_known(BodyDescription b, Nodes nodes, double mass) {
@@ -89,7 +89,7 @@ FlexibleDescription MechanismBuilder::bar_frame(double length, bool straight, No
   f.poisson = 0.3;
   f.density = random(200.0, 600.0);
   f.young = 1e8;
-  f.mass_model = mass_models[static_cast<std::size_t>(pick(static_cast<int>(mass_models.size())))];
+  f.mass_model = mass_models[pick(static_cast<int>(mass_models.size()))];
   f.section_inertia = f.mass_model != MassModel::isoparametric && chance(0.7);
   const double size = length * random(0.08, 0.14);
   SectionDescription section = SolidRound{size};
@@ -176,7 +176,7 @@ int MechanismBuilder::add_bars(const Vec3& point, const Vec3* to) {
     b.X_WB.R = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), axis).toRotationMatrix();
     b.X_WB.p = point;
   } else {
-    const auto k = static_cast<std::size_t>(pick(static_cast<int>(places.size())));
+    const std::size_t k = pick(static_cast<int>(places.size()));
     b.X_WB.p = point - b.X_WB.R * places[k].second;
   }
   if (b.mirror == Mat3::Identity()) b.X_WT = b.X_WB;
@@ -204,7 +204,7 @@ int MechanismBuilder::add_body(const Vec3& point) {
   if (chance(0.2)) b.mirror = Vec3(-1, 1, chance(0.5) ? -1 : 1).asDiagonal();
   add_given(b, nodes);
   b.X_WB.R = random.rotation();
-  b.X_WB.p = point - b.X_WB.R * nodes[static_cast<std::size_t>(pick(5))].second;
+  b.X_WB.p = point - b.X_WB.R * nodes[pick(5)].second;
   b.rigid = chance(0.1);
   const double mass = std::get<FlexibleBody>(b.kind).invariants.m;
   return add_known(std::move(b), std::move(nodes), mass);
@@ -220,12 +220,12 @@ AttachmentDescription MechanismBuilder::somewhere(int body) {
   if (body < 0) {
     a.point = random.vec3(0.6);
   } else if (is_flexible(body)) {
-    const Nodes& nodes = nodes_[static_cast<std::size_t>(body)];
-    const auto& [node, p] = nodes[static_cast<std::size_t>(pick(static_cast<int>(nodes.size())))];
-    a.point = d.bodies[static_cast<std::size_t>(body)].X_WB * p;
+    const Nodes& nodes = nodes_[body];
+    const auto& [node, p] = nodes[pick(static_cast<int>(nodes.size()))];
+    a.point = d.bodies[body].X_WB * p;
     if (chance(0.6)) a.node = node;
   } else {
-    a.point = d.bodies[static_cast<std::size_t>(body)].X_WB * random.vec3(0.3);
+    a.point = d.bodies[body].X_WB * random.vec3(0.3);
   }
   return a;
 }

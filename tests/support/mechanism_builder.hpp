@@ -29,7 +29,7 @@ class MechanismBuilder {
   Vec3 direction();
   int bodies() const { return static_cast<int>(d.bodies.size()); }
   const std::string& name(int body) const;
-  double mass(int body) const { return body < 0 ? 1.0 : masses_[static_cast<std::size_t>(body)]; }
+  double mass(int body) const { return body < 0 ? 1.0 : masses_[body]; }
 
   /// A body that has a place at the world point `at`; its index.
   int add_body(const Vec3& at);
@@ -41,9 +41,7 @@ class MechanismBuilder {
   AttachmentDescription somewhere(int body);
   /// At a point of the world, which must be a node of a flexible body.
   AttachmentDescription at(int body, const Vec3& point) const;
-  bool is_flexible(int body) const {
-    return body >= 0 && !nodes_[static_cast<std::size_t>(body)].empty();
-  }
+  bool is_flexible(int body) const { return body >= 0 && !nodes_[body].empty(); }
 
   /// A joint between places at one point; start values, a drive or a cut may be added.
   JointDescription& add_joint(JointType type, const AttachmentDescription& parent,

@@ -74,7 +74,7 @@ bool passes_kinks(const Model& model, const ResultTable& t) {
       if (f.type == ForceType::tyre) return force > 0.0 ? 1 : 0;
       if (f.targeted) {
         const auto input = [&](const Signal& s) {
-          return s.input < 0 ? 0.0 : model.inputs[static_cast<std::size_t>(s.input)].initial;
+          return s.input < 0 ? 0.0 : model.inputs[s.input].initial;
         };
         const PiecewisePolynomial::Value target = evaluate(f.target.function, time);
         length -= target.f + input(f.target);
@@ -87,7 +87,7 @@ bool passes_kinks(const Model& model, const ResultTable& t) {
       if (side(r) != side(0)) return true;
     if (f.type == ForceType::tyre && side(0) == 1) {
       // The centre of a wheel stays within its speed times the time; edges of a road are kinks.
-      const Road& road = model.roads[static_cast<std::size_t>(f.road)];
+      const Road& road = model.roads[f.road];
       if (kinks_below(road.pieces, 1e9) > 0) return true;
     }
   }

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/io/model_reader.hpp"
 #include "floatframe/model/model.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 
 namespace floatframe::test {
 

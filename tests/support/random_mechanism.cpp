@@ -208,7 +208,7 @@ void MechanismBuilder::add_outputs() {
     d.outputs.push_back(std::move(o));
   };
   for (int i = 0; i < bodies(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
+    const std::size_t k = i;
     std::vector<AttachmentDescription> points;
     for (const auto& [node, p] : nodes_[k]) {
       points.push_back(at(i, d.bodies[k].X_WB * p));
@@ -258,7 +258,7 @@ Mechanism draw(unsigned seed) {
     for (int k = b.pick(3); k > 0; --k) b.add_branch(b.pick(b.bodies()));
   for (int k = b.pick(5); k > 0; --k) b.add_force();
   for (int i = 0; i < b.bodies(); ++i) {
-    const BodyDescription& body = b.d.bodies[static_cast<std::size_t>(i)];
+    const BodyDescription& body = b.d.bodies[i];
     const auto* given = std::get_if<FlexibleBody>(&body.kind);
     if (!given || body.rigid || !b.chance(0.4)) continue;
     b.d.amplitudes[body.name] = b.random.vector(given->modes(), 0.03);

@@ -60,8 +60,8 @@ inline FlexibleBody reference_body(const json& b,
   p->X = MatX::Zero(3 * n, nm);
   std::vector<Eigen::Triplet<double>> triplets;
   for (int k = 0; k < n; ++k) {
-    p->p.col(k) = f.nodes[static_cast<std::size_t>(k)].p;
-    p->X.middleRows<3>(3 * k) = f.nodes[static_cast<std::size_t>(k)].X;
+    p->p.col(k) = f.nodes[k].p;
+    p->X.middleRows<3>(3 * k) = f.nodes[k].X;
   }
   for (const json& e : b["elements"]) {
     const int a = e["nodes"][0], c = e["nodes"][1];
@@ -74,17 +74,15 @@ inline FlexibleBody reference_body(const json& b,
   }
   for (const auto& [node, mass] : masses) {
     triplets.emplace_back(node, node, mass);
-    const ModalNode& m = f.nodes[static_cast<std::size_t>(node)];
+    const ModalNode& m = f.nodes[node];
     InertiaInvariants& w = f.invariants;
     w.m += mass;
     w.m_u += mass * m.p;
     w.P_u += mass * m.p * m.p.transpose();
     w.S += mass * m.X;
     for (int i = 0; i < 3; ++i) {
-      w.Si[static_cast<std::size_t>(i)] += mass * m.p[i] * m.X;
-      for (int j = 0; j < 3; ++j)
-        w.Sij[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] +=
-            mass * m.X.row(i).transpose() * m.X.row(j);
+      w.Si[i] += mass * m.p[i] * m.X;
+      for (int j = 0; j < 3; ++j) w.Sij[i][j] += mass * m.X.row(i).transpose() * m.X.row(j);
     }
   }
   p->M_s.resize(n, n);
@@ -128,7 +126,7 @@ inline TrajectoryCase pendulum(const std::string& variant) {
   hinge.child.body = "beam";
   d.joints.push_back(hinge);
   VecX y(6);
-  for (int i = 0; i < 6; ++i) y[i] = j["initial"]["z"][static_cast<std::size_t>(1 + i)];
+  for (int i = 0; i < 6; ++i) y[i] = j["initial"]["z"][1 + i];
   d.amplitudes["beam"] = y;
   add_point(d, c, "beam", "n10", "tip", "xyz");
   add_point(d, c, "beam", "n5", "mid", "xyz");

@@ -7,9 +7,9 @@
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/io/advice_json.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model/validate.hpp"
+#include "floatframe/report/advice_json.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
 
 namespace floatframe {

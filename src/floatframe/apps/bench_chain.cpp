@@ -138,7 +138,7 @@ long round_steps(long n) noexcept {
 }
 
 StepTime time_steps(BenchStepper& stepper, long steps, int runs, double seconds, int most_runs) {
-  const auto blocks = static_cast<std::size_t>((steps + steps_a_block - 1) / steps_a_block);
+  const std::size_t blocks = (steps + steps_a_block - 1) / steps_a_block;
   std::vector<std::vector<double>> times(blocks);
   StepTime result;
   double spent = 0.0;

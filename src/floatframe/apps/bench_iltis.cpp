@@ -8,7 +8,7 @@
 #include "floatframe/apps/bench_chain.hpp"
 #include "floatframe/apps/command.hpp"
 #include "floatframe/apps/dense_factorization.hpp"
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/iteration_timer.hpp"
 #include "floatframe/simulation/simulation.hpp"
 

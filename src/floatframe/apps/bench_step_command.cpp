@@ -13,8 +13,8 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/model_reader.hpp"
 #include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 extern "C" [[gnu::noinline]] bool floatframe_counted_steps(floatframe::BenchStepper* stepper,

@@ -4,9 +4,9 @@
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/notes.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/formats/health_text.hpp"
-#include "floatframe/io/check_json.hpp"
+#include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/report/check_json.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {

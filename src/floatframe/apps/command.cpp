@@ -13,8 +13,8 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/printable.hpp"
-#include "floatframe/io/model_fingerprint.hpp"
-#include "floatframe/io/model_reader.hpp"
+#include "floatframe/model_file/model_fingerprint.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 
 namespace floatframe {
 

@@ -5,10 +5,10 @@
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/part_arguments.hpp"
-#include "floatframe/formats/body_info.hpp"
-#include "floatframe/formats/fe_info.hpp"
-#include "floatframe/formats/sid_file.hpp"
-#include "floatframe/formats/text_source.hpp"
+#include "floatframe/formats/sid/sid_file.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+#include "floatframe/parts/body_info.hpp"
+#include "floatframe/parts/fe_info.hpp"
 
 namespace floatframe {
 namespace {

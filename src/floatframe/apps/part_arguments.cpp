@@ -83,7 +83,7 @@ class PlaceArgument {
     if (pieces.size() != 3)
       fail(fmt::format("{}: found '{}', expected three numbers x,y,z", key, text));
     Vec3 v;
-    for (int i = 0; i < 3; ++i) v[i] = number(key, pieces[static_cast<std::size_t>(i)], false);
+    for (int i = 0; i < 3; ++i) v[i] = number(key, pieces[i], false);
     return v;
   }
   Vec3 direction(const std::string& key, const std::string& text) const {

@@ -5,7 +5,7 @@
 // and nothing needs quotes in a shell. Lengths are in the units of the file.
 #include <string>
 
-#include "floatframe/formats/part_job.hpp"
+#include "floatframe/parts/part_job.hpp"
 
 namespace floatframe {
 

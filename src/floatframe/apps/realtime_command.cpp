@@ -11,8 +11,8 @@
 #include "floatframe/apps/realtime_progress.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/model_fingerprint.hpp"
 #include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/realtime/signal_log.hpp"
 #include "floatframe/simulation/simulation.hpp"
 

@@ -43,7 +43,7 @@ std::string histogram_text(const Histogram& h) {
   for (std::size_t k = first / row * row; k <= last; k += row) {
     std::uint64_t n = 0;
     for (std::size_t i = k; i < k + row; ++i) n += h.count(i);
-    const auto bar = static_cast<std::size_t>(scale * std::log2(static_cast<double>(n) + 1.0));
+    const std::size_t bar = scale * std::log2(static_cast<double>(n) + 1.0);
     text += fmt::format("  {:>9} to {:>9}  {:>9}  {}\n", duration_text(Histogram::lower(k)),
                         duration_text(Histogram::upper(k + row - 1)), n, std::string(bar, '#'));
   }

@@ -6,9 +6,9 @@
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/part_arguments.hpp"
 #include "floatframe/core/atomic_file.hpp"
-#include "floatframe/formats/fe_info.hpp"
-#include "floatframe/formats/health_text.hpp"
-#include "floatframe/formats/sid_file.hpp"
+#include "floatframe/formats/body_file/health_text.hpp"
+#include "floatframe/formats/sid/sid_file.hpp"
+#include "floatframe/parts/fe_info.hpp"
 
 namespace floatframe {
 namespace {

@@ -8,10 +8,10 @@
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/io/model_fingerprint.hpp"
-#include "floatframe/io/state_json.hpp"
-#include "floatframe/io/summary_json.hpp"
 #include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/model_file/model_fingerprint.hpp"
+#include "floatframe/model_file/state_json.hpp"
+#include "floatframe/report/summary_json.hpp"
 #include "floatframe/simulation/range_watch.hpp"
 #include "floatframe/simulation/simulation.hpp"
 

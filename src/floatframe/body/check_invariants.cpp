@@ -186,9 +186,9 @@ class Check {
       G = MatX::Zero(3 * nm_ + 4, 3 * nm_ + 4);
       const Eigen::Index r = 3 * nm_, one = 3 * nm_ + 3;
       for (Eigen::Index i = 0; i < 3; ++i) {
-        const auto a = static_cast<std::size_t>(i);
+        const std::size_t a = i;
         for (Eigen::Index j = 0; j < 3; ++j) {
-          const auto b = static_cast<std::size_t>(j);
+          const std::size_t b = j;
           G.block(i * nm_, j * nm_, nm_, nm_) = v_.Sij[a][b];
           G.block(r + i, j * nm_, 1, nm_) = v_.Si[a].row(j);
           G.block(j * nm_, r + i, nm_, 1) = v_.Si[a].row(j).transpose();

@@ -88,9 +88,9 @@ void add_isoparametric(const FeModel& model, const Element& element, const MatX&
   const int nm = static_cast<int>(X.cols());
   Z.resize(gram.width(), 2 * kernel.nodes);
   for (int k = 0; k < kernel.nodes; ++k) {
-    const int node = element.nodes[static_cast<std::size_t>(k)];
-    gram.fill(model.positions[static_cast<std::size_t>(node)],
-              X.block(nm > 0 ? node * rows : 0, 0, nm > 0 ? 3 : 0, nm), 1.0, Z.col(k));
+    const int node = element.nodes[k];
+    gram.fill(model.positions[node], X.block(nm > 0 ? node * rows : 0, 0, nm > 0 ? 3 : 0, nm), 1.0,
+              Z.col(k));
   }
   VecX z1(gram.width()), z2(gram.width());
   for (int k = 0; k < kernel.nodes; ++k) {
@@ -129,7 +129,7 @@ void add_hermite_beam(const FeModel& model, const Element& element, const MatX& 
   Eigen::Matrix<double, 12, Eigen::Dynamic> local(
       12, nm);  // end displacements and rotations, local axes
   for (int end = 0; end < 2; ++end) {
-    const int row = nm > 0 ? 6 * element.nodes[static_cast<std::size_t>(end)] : 0;
+    const int row = nm > 0 ? 6 * element.nodes[end] : 0;
     if (nm == 0) break;
     local.middleRows<3>(6 * end) = T.transpose() * X.middleRows<3>(row);
     local.middleRows<3>(6 * end + 3) = T.transpose() * X.middleRows<3>(row + 3);
@@ -178,8 +178,8 @@ InertiaInvariants invariants_isoparametric(const FeModel& model, const MatX& X) 
   }
   VecX z(gram.width());
   for (const PointMass& p : model.masses) {
-    gram.fill(model.positions[static_cast<std::size_t>(p.node)],
-              X.block(nm > 0 ? p.node * rows : 0, 0, nm > 0 ? 3 : 0, nm), 1.0, z);
+    gram.fill(model.positions[p.node], X.block(nm > 0 ? p.node * rows : 0, 0, nm > 0 ? 3 : 0, nm),
+              1.0, z);
     gram.add(p.mass, z);
   }
   return gram.invariants();
@@ -203,8 +203,7 @@ InertiaInvariants invariants_hermite(const FeModel& model, const MatX& X, bool s
   }
   for (const PointMass& p : model.masses) {
     const int row = nm > 0 ? p.node * rows : 0;
-    gram.fill(model.positions[static_cast<std::size_t>(p.node)],
-              X.block(row, 0, nm > 0 ? 3 : 0, nm), 1.0, z);
+    gram.fill(model.positions[p.node], X.block(row, 0, nm > 0 ? 3 : 0, nm), 1.0, z);
     gram.add(p.mass, z);
     if (p.J.cwiseAbs().maxCoeff() > 0.0) {
       const Mat3 P = 0.5 * p.J.trace() * Mat3::Identity() - p.J;  // (21)

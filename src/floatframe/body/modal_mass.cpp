@@ -80,8 +80,8 @@ double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free, const 
   MatX scaled(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
-      const Eigen::Index a = massive[static_cast<std::size_t>(i)];
-      const Eigen::Index b = massive[static_cast<std::size_t>(j)];
+      const Eigen::Index a = massive[i];
+      const Eigen::Index b = massive[j];
       scaled(i, j) = own(a, b) / std::sqrt(M_ff(a, a) * M_ff(b, b));
     }
   return symmetric_eigenvalues(scaled)[0];

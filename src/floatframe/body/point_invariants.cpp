@@ -32,7 +32,7 @@ InertiaInvariants invariants_points(const Mat3X& p,
     v.S.row(row) = G.block(one, row * nm, 1, nm);
     for (Eigen::Index k = 0; k < 3; ++k) {
       v.Si[i].row(k) = G.block(3 * nm + row, k * nm, 1, nm);
-      v.Sij[i][static_cast<std::size_t>(k)] = G.block(row * nm, k * nm, nm, nm);
+      v.Sij[i][k] = G.block(row * nm, k * nm, nm, nm);
     }
   }
   return v;

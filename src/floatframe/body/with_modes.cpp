@@ -43,7 +43,7 @@ FlexibleBody with_modes(const FlexibleBody& body, const std::vector<int>& keep) 
   out.mode_names.clear();
   for (const int k : keep)
     if (static_cast<std::size_t>(k) < body.mode_names.size())
-      out.mode_names.push_back(body.mode_names[static_cast<std::size_t>(k)]);
+      out.mode_names.push_back(body.mode_names[k]);
   if (keep.empty()) {
     out.projection = nullptr;
   } else if (body.projection) {

@@ -78,7 +78,7 @@ FeModel build_bar_frame(const BarFrame& frame) {
         const int elements = static_cast<int>(other->second.size()) - 1;
         const int k = elements > 0 ? node_at(bar.from_fraction, elements) : -1;
         if (k >= 0) {
-          first = other->second[static_cast<std::size_t>(k)];
+          first = other->second[k];
         } else if (elements > 0) {
           add(label + ": bar '" + bar.from_bar + "' with " + std::to_string(elements) +
               " elements has no node at the fraction " + number(bar.from_fraction) +
@@ -100,7 +100,7 @@ FeModel build_bar_frame(const BarFrame& frame) {
       continue;
     }
     if (first < 0) continue;
-    const Vec3 a = model.positions[static_cast<std::size_t>(first)];
+    const Vec3 a = model.positions[first];
     const Vec3 b = end->second;
     if (!((b - a).norm() > 1e-12 * (a.norm() + b.norm()))) {
       add(label + " has zero length");
@@ -114,8 +114,8 @@ FeModel build_bar_frame(const BarFrame& frame) {
       nodes.push_back(k == bar.elements ? end_node(bar, bar.to) : new_node(a + s * (b - a), ""));
       Element element;
       element.type = ElementType::beam2;
-      element.nodes[0] = nodes[static_cast<std::size_t>(k - 1)];
-      element.nodes[1] = nodes[static_cast<std::size_t>(k)];
+      element.nodes[0] = nodes[k - 1];
+      element.nodes[1] = nodes[k];
       element.section = section;
       element.reference = bar.reference;
       element.name = label + ", element " + std::to_string(k);

@@ -24,7 +24,7 @@ Station station(const ElementInput& in, double x, double weight) {
   s.N << 0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0);
   const Vec3 d(x - 0.5, -2.0 * x, x + 0.5);
   Vec3 tangent = Vec3::Zero();
-  for (int a = 0; a < 3; ++a) tangent += d(a) * in.p[static_cast<std::size_t>(a)];
+  for (int a = 0; a < 3; ++a) tangent += d(a) * in.p[a];
   s.metric = tangent.norm();
   s.dN = d / s.metric;
   s.ds = weight * s.metric;

@@ -18,15 +18,14 @@ BlockAssembly::BlockAssembly(const FeModel& model, const DofTable& table) : tabl
   const std::size_t n = model.positions.size();
   std::vector<int> first(n + 1, 0);  // elements of each node
   for (const Element& e : model.elements) {
-    for (const int node : nodes_of(e)) ++first[static_cast<std::size_t>(node) + 1];
+    for (const int node : nodes_of(e)) ++first[node + 1];
   }
   for (std::size_t i = 1; i <= n; ++i) first[i] += first[i - 1];
-  std::vector<int> elements(static_cast<std::size_t>(first.back()));
+  std::vector<int> elements(first.back());
   std::vector<int> next(first.begin(), first.end() - 1);
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     for (const int node : nodes_of(model.elements[e])) {
-      elements[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] =
-          static_cast<int>(e);
+      elements[next[node]++] = static_cast<int>(e);
     }
   }
   begin_.assign(n + 1, 0);
@@ -38,9 +37,9 @@ BlockAssembly::BlockAssembly(const FeModel& model, const DofTable& table) : tabl
       seen[k] = static_cast<int>(k);
     }
     for (int i = first[k]; i < first[k + 1]; ++i) {
-      const int e = elements[static_cast<std::size_t>(i)];
-      for (const int node : nodes_of(model.elements[static_cast<std::size_t>(e)])) {
-        int& s = seen[static_cast<std::size_t>(node)];
+      const int e = elements[i];
+      for (const int node : nodes_of(model.elements[e])) {
+        int& s = seen[node];
         if (s == static_cast<int>(k)) continue;
         s = static_cast<int>(k);
         neighbours_.push_back(node);
@@ -56,8 +55,8 @@ BlockAssembly::BlockAssembly(const FeModel& model, const DofTable& table) : tabl
   for (std::size_t k = 0; k < n; ++k) {
     int rows = 0;
     for (int i = begin_[k]; i < begin_[k + 1]; ++i) {
-      offset_[static_cast<std::size_t>(i)] = rows;
-      rows += table.count(neighbours_[static_cast<std::size_t>(i)]);
+      offset_[i] = rows;
+      rows += table.count(neighbours_[i]);
     }
     for (int c = table.begin[k]; c < table.begin[k + 1]; ++c) outer[c + 1] = outer[c] + rows;
   }
@@ -67,8 +66,8 @@ BlockAssembly::BlockAssembly(const FeModel& model, const DofTable& table) : tabl
     for (int c = table.begin[k]; c < table.begin[k + 1]; ++c) {
       int* inner = matrix_.innerIndexPtr() + outer[c];
       for (int i = begin_[k]; i < begin_[k + 1]; ++i) {
-        const int node = neighbours_[static_cast<std::size_t>(i)];
-        const int row = table.begin[static_cast<std::size_t>(node)];
+        const int node = neighbours_[i];
+        const int row = table.begin[node];
         for (int r = 0; r < table.count(node); ++r) *inner++ = row + r;
       }
     }
@@ -76,15 +75,15 @@ BlockAssembly::BlockAssembly(const FeModel& model, const DofTable& table) : tabl
 }
 
 double* BlockAssembly::block(int row_node, int column_node) {
-  const std::size_t k = static_cast<std::size_t>(column_node);
+  const std::size_t k = column_node;
   const auto from = neighbours_.begin() + begin_[k], to = neighbours_.begin() + begin_[k + 1];
   const auto at = std::lower_bound(from, to, row_node);
   return matrix_.valuePtr() + matrix_.outerIndexPtr()[table_.begin[k]] +
-         offset_[static_cast<std::size_t>(at - neighbours_.begin())];
+         offset_[at - neighbours_.begin()];
 }
 
 Eigen::Index BlockAssembly::stride(int node) const {
-  const int c = table_.begin[static_cast<std::size_t>(node)];
+  const int c = table_.begin[node];
   return matrix_.outerIndexPtr()[c + 1] - matrix_.outerIndexPtr()[c];
 }
 

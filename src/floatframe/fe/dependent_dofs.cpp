@@ -21,9 +21,9 @@ class Resolver {
  public:
   Resolver(const FeModel& model, const DofTable& table, Faults& faults)
       : model_(model), table_(table), faults_(faults) {
-    out_.dependent.assign(static_cast<std::size_t>(table.size()), 0);
-    out_.terms.resize(static_cast<std::size_t>(table.size()));
-    owner_.assign(static_cast<std::size_t>(table.size()), -1);
+    out_.dependent.assign(table.size(), 0);
+    out_.terms.resize(table.size());
+    owner_.assign(table.size(), -1);
   }
 
   int begin_owner(std::string name, const FeSource& source) {
@@ -41,21 +41,21 @@ class Resolver {
         sum[dof] += factor;
         continue;
       }
-      for (const auto& [inner, f] : reduce(out_.terms[static_cast<std::size_t>(dof)])) {
+      for (const auto& [inner, f] : reduce(out_.terms[dof])) {
         sum[inner] += factor * f;
       }
     }
     return {sum.begin(), sum.end()};
   }
 
-  bool dependent(int dof) const { return out_.dependent[static_cast<std::size_t>(dof)] != 0; }
+  bool dependent(int dof) const { return out_.dependent[dof] != 0; }
 
   /// dof = sum of terms.
   void add(int owner, int node, int axis, const Terms& terms) {
-    const std::size_t dof = static_cast<std::size_t>(table_.index(node, axis));
+    const std::size_t dof = table_.index(node, axis);
     if (out_.dependent[dof] != 0) {
       return refuse(owner, node, axis,
-                    " depends already on " + owners_[static_cast<std::size_t>(owner_[dof])] +
+                    " depends already on " + owners_[owner_[dof]] +
                         "; a degree of freedom can depend only once");
     }
     Terms reduced = reduce(terms);
@@ -74,9 +74,7 @@ class Resolver {
   /// Dofs that the matrices of another program leave out.
   void fix_missing(const std::vector<Dof>& present) {
     std::vector<char> there(out_.dependent.size(), 0);
-    const auto place = [&](const Dof& d) {
-      return static_cast<std::size_t>(table_.begin[static_cast<std::size_t>(d.node)] + d.axis);
-    };
+    const auto place = [&](const Dof& d) { return table_.begin[d.node] + d.axis; };
     for (const Dof& d : present) there[place(d)] = 1;
     for (const Spider& s : model_.spiders) {
       for (int k = 0; k < 6; ++k) {
@@ -105,8 +103,8 @@ class Resolver {
   /// Once for a node, not for each of its dofs.
   void refuse(int owner, int node, int axis, const std::string& what) {
     if (refused_ != node || refused_owner_ != owner) {
-      faults_.add(mark_, owners_[static_cast<std::size_t>(owner)] + ": " + node_dof_names[axis] +
-                             " of " + model_.node_label(node) + what);
+      faults_.add(mark_, owners_[owner] + ": " + node_dof_names[axis] + " of " +
+                             model_.node_label(node) + what);
     }
     refused_ = node;
     refused_owner_ = owner;
@@ -127,9 +125,7 @@ std::string spider_label(const FeModel& model, const Spider& s) {
   return "spider of " + model.node_label(s.reference);
 }
 
-const Vec3& position(const FeModel& model, int node) {
-  return model.positions[static_cast<std::size_t>(node)];
-}
+const Vec3& position(const FeModel& model, int node) { return model.positions[node]; }
 
 /// u_i = u_r + theta_r x (x_i - x_r), theta_i = theta_r
 void add_rigid(const FeModel& model, const DofTable& table, const Spider& s, Resolver& resolver) {
@@ -220,9 +216,8 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   std::array<int, 6> slave_dofs{};
   for (int k = 0; k < 6; ++k) {
     const int column = static_cast<int>(qr.pivots(k));
-    slaves[static_cast<std::size_t>(k)] = candidates[static_cast<std::size_t>(column)];
-    slave_dofs[static_cast<std::size_t>(k)] = table.index(slaves[static_cast<std::size_t>(k)].node,
-                                                          slaves[static_cast<std::size_t>(k)].axis);
+    slaves[k] = candidates[column];
+    slave_dofs[k] = table.index(slaves[k].node, slaves[k].axis);
     pivots.col(k) = C.col(column);
   }
   const Mat6 solve = -pivots.inverse();
@@ -263,7 +258,7 @@ void add_equation(const FeModel& model, const DofTable& table, const LinearEquat
 DofTable dof_table(const FeModel& model) {
   std::vector<int> count(model.positions.size() + 1, 0);
   const auto need = [&](int node, int dofs) {
-    int& c = count[static_cast<std::size_t>(node) + 1];
+    int& c = count[node + 1];
     c = std::max(c, dofs);
   };
   if (model.matrices) {
@@ -272,7 +267,7 @@ DofTable dof_table(const FeModel& model) {
   for (const Element& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     for (int a = 0; a < kernel.nodes; ++a) {
-      need(e.nodes[static_cast<std::size_t>(a)], kernel.dofs_per_node);
+      need(e.nodes[a], kernel.dofs_per_node);
     }
   }
   for (const PointMass& m : model.masses) need(m.node, m.J.isZero(0.0) ? 3 : 6);

@@ -13,12 +13,10 @@ namespace floatframe {
 struct DofTable {
   std::vector<int> begin;  ///< nodes + 1
   int size() const noexcept { return begin.back(); }
-  int count(int node) const noexcept {
-    return begin[static_cast<std::size_t>(node) + 1] - begin[static_cast<std::size_t>(node)];
-  }
+  int count(int node) const noexcept { return begin[node + 1] - begin[node]; }
   /// -1: there is no such dof.
   int index(int node, int axis) const noexcept {
-    return axis < count(node) ? begin[static_cast<std::size_t>(node)] + axis : -1;
+    return axis < count(node) ? begin[node] + axis : -1;
   }
 };
 DofTable dof_table(const FeModel& model);

@@ -41,16 +41,14 @@ constexpr std::array<FaceNodes, faces> quadratic(const std::array<Corners, faces
     FaceNodes& face = result[f];
     face.corners = corners[f][3] < 0 ? 3 : 4;
     for (int k = 0; k < face.corners; ++k) {
-      face.nodes[static_cast<std::size_t>(face.count++)] = corners[f][static_cast<std::size_t>(k)];
+      face.nodes[face.count++] = corners[f][k];
     }
     for (int k = 0; k < face.corners; ++k) {
-      const int a = face.nodes[static_cast<std::size_t>(k)],
-                b = face.nodes[static_cast<std::size_t>((k + 1) % face.corners)];
+      const int a = face.nodes[k], b = face.nodes[(k + 1) % face.corners];
       for (std::size_t e = 0; e < edges; ++e) {
         if ((edge_list[e][0] == a && edge_list[e][1] == b) ||
             (edge_list[e][0] == b && edge_list[e][1] == a)) {
-          face.nodes[static_cast<std::size_t>(face.count++)] =
-              element_corners + static_cast<int>(e);
+          face.nodes[face.count++] = element_corners + static_cast<int>(e);
         }
       }
     }

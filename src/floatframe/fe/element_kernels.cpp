@@ -22,11 +22,10 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
   input.integration = integration;
   const ElementKernel& kernel = element_kernel(element.type);
   for (int a = 0; a < kernel.nodes; ++a) {
-    input.p[static_cast<std::size_t>(a)] =
-        model.positions[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(a)])];
+    input.p[a] = model.positions[element.nodes[a]];
   }
-  input.material = model.materials[static_cast<std::size_t>(element.material)];
-  const std::size_t section = static_cast<std::size_t>(element.section);
+  input.material = model.materials[element.material];
+  const std::size_t section = element.section;
   if (is_beam(element.type)) input.section = model.sections[section];
   if (is_shell(element.type)) input.shell = model.shells[section];
   input.reference = element.reference;

@@ -41,13 +41,13 @@ int FeModel::find_node(const std::string& name) const noexcept {
 }
 
 std::string FeModel::node_label(int node) const {
-  const std::size_t k = static_cast<std::size_t>(node);
+  const std::size_t k = node;
   if (k < node_names.size() && !node_names[k].empty()) return "node '" + node_names[k] + "'";
   return "node " + std::to_string(k < node_ids.size() ? node_ids[k] : node);
 }
 
 std::string FeModel::element_label(int element) const {
-  const Element& e = elements[static_cast<std::size_t>(element)];
+  const Element& e = elements[element];
   if (!e.name.empty()) return e.name;
   return "element " + std::to_string(e.id > 0 ? e.id : element) + " (" +
          element_kernel(e.type).name + ")";
@@ -55,7 +55,7 @@ std::string FeModel::element_label(int element) const {
 
 SourceMark FeModel::mark(const FeSource& source) const {
   if (source.file < 0 || static_cast<std::size_t>(source.file) >= files.size()) return {};
-  return {files[static_cast<std::size_t>(source.file)], source.line, 0};
+  return {files[source.file], source.line, 0};
 }
 
 namespace {
@@ -65,9 +65,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 void scatter(const Element& element, const ElementKernel& kernel, int dofs_per_node,
              const MatX& matrix, Triplets& triplets) {
   const int d = kernel.dofs_per_node;
-  const auto row = [&](int i) {
-    return element.nodes[static_cast<std::size_t>(i / d)] * dofs_per_node + i % d;
-  };
+  const auto row = [&](int i) { return element.nodes[i / d] * dofs_per_node + i % d; };
   for (int i = 0; i < matrix.rows(); ++i) {
     for (int j = 0; j < matrix.cols(); ++j) {
       if (matrix(i, j) != 0.0) triplets.emplace_back(row(i), row(j), matrix(i, j));
@@ -121,8 +119,7 @@ SparseRows assemble_scalar_mass(const FeModel& model) {
     kernel.scalar_mass(gather(model, element), matrix);
     for (int i = 0; i < kernel.nodes; ++i) {
       for (int j = 0; j < kernel.nodes; ++j) {
-        triplets.emplace_back(element.nodes[static_cast<std::size_t>(i)],
-                              element.nodes[static_cast<std::size_t>(j)], matrix(i, j));
+        triplets.emplace_back(element.nodes[i], element.nodes[j], matrix(i, j));
       }
     }
   }

@@ -11,20 +11,20 @@ SparseRows transformation(const DofTable& table, const DependentDofs& dependence
   SparseRows T(table.size(), n);
   Eigen::Index entries = 0;
   for (int i = 0; i < table.size(); ++i) {
-    const std::size_t k = static_cast<std::size_t>(i);
+    const std::size_t k = i;
     entries +=
         dependences.dependent[k] != 0 ? static_cast<Eigen::Index>(dependences.terms[k].size()) : 1;
   }
   T.reserve(entries);
   for (int i = 0; i < table.size(); ++i) {
-    const std::size_t k = static_cast<std::size_t>(i);
+    const std::size_t k = i;
     T.startVec(i);
     if (dependences.dependent[k] == 0) {
       T.insertBack(i, row_of[k]) = 1.0;
       continue;
     }
     for (const auto& [dof, factor] : dependences.terms[k]) {
-      T.insertBack(i, row_of[static_cast<std::size_t>(dof)]) = factor;
+      T.insertBack(i, row_of[dof]) = factor;
     }
   }
   T.finalize();
@@ -66,7 +66,7 @@ Split split(const DependentDofs& dependences, const std::vector<int>& row_of, in
   for (std::size_t i = 0; i < row_of.size(); ++i) {
     if (dependences.dependent[i] == 0) continue;
     for (const auto& [dof, factor] : dependences.terms[i]) {
-      entries.emplace_back(s.slave_count, row_of[static_cast<std::size_t>(dof)], factor);
+      entries.emplace_back(s.slave_count, row_of[dof], factor);
     }
     s.slave[i] = s.slave_count++;
   }
@@ -81,10 +81,10 @@ SparseMatrix part(const SparseMatrix& A, const std::vector<int>& row, int rows,
   SparseMatrix out(rows, columns);
   const auto each = [&](auto&& use) {
     for (int j = 0; j < A.outerSize(); ++j) {
-      const int c = column[static_cast<std::size_t>(j)];
+      const int c = column[j];
       if (c < 0) continue;
       for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
-        const int r = row[static_cast<std::size_t>(it.row())];
+        const int r = row[it.row()];
         if (r >= 0) use(r, c, it.value());
       }
     }
@@ -119,9 +119,9 @@ SparseMatrix condense(SparseMatrix A, const Split& s) {
 }  // namespace
 
 int FeSystem::row(int node, int axis) const noexcept {
-  const std::size_t k = static_cast<std::size_t>(node);
+  const std::size_t k = node;
   for (int i = begin[k]; i < begin[k + 1]; ++i) {
-    if (dofs[static_cast<std::size_t>(i)].axis == axis) return i;
+    if (dofs[i].axis == axis) return i;
   }
   return -1;
 }
@@ -130,12 +130,12 @@ FeSystem assemble(const FeModel& model, Integration integration) {
   const DofTable table = dof_table(model);
   const DependentDofs dependences = resolve_dependences(model, table);
   FeSystem system;
-  std::vector<int> row_of(static_cast<std::size_t>(table.size()), -1);
+  std::vector<int> row_of(table.size(), -1);
   system.begin.push_back(0);
   for (int node = 0; node < model.nodes(); ++node) {
     const int first = static_cast<int>(system.dofs.size());
     for (int axis = 0; axis < table.count(node); ++axis) {
-      const std::size_t dof = static_cast<std::size_t>(table.index(node, axis));
+      const std::size_t dof = table.index(node, axis);
       if (dependences.dependent[dof] != 0) continue;
       row_of[dof] = static_cast<int>(system.dofs.size());
       system.dofs.push_back({node, axis});

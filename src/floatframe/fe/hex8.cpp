@@ -79,7 +79,7 @@ void incompatible(const ElementInput& in, MatX& K, Modes& amplitudes) {
     double detJ = 0.0;
     Eigen::Matrix<double, 6, 33> B;
     B.leftCols<24>() = solid::strain_matrix(solid::gradients(rule, q, P, detJ));
-    B.rightCols<9>() = incompatible_strains(J0, rule.points[static_cast<std::size_t>(q)], detJ);
+    B.rightCols<9>() = incompatible_strains(J0, rule.points[q], detJ);
     const Eigen::Matrix<double, 6, 33> DB = (rule.weight(q) * detJ) * (D * B);
     all.noalias() += B.transpose() * DB;
   }
@@ -106,7 +106,7 @@ void nodal_strains_i(const ElementInput& in, MatX& B) {
     double detJ = 0.0;
     solid::gradients(rule, q, P, detJ);
     const Eigen::Matrix<double, 6, 24> more =
-        incompatible_strains(J0, rule.points[static_cast<std::size_t>(q)], detJ) * amplitudes;
+        incompatible_strains(J0, rule.points[q], detJ) * amplitudes;
     for (int a = 0; a < 8; ++a) B.middleRows<6>(6 * a) += element().to_nodes(a, q) * more;
   }
 }
@@ -146,7 +146,7 @@ void stiffness_r(const ElementInput& in, MatX& K) {
   ElementInput block = in;
   const Mat3 J0 = centre_jacobian(P);
   for (int a = 0; a < 8; ++a) {
-    block.p[static_cast<std::size_t>(a)] = J0 * Vec3(corner[a][0], corner[a][1], corner[a][2]);
+    block.p[a] = J0 * Vec3(corner[a][0], corner[a][1], corner[a][2]);
   }
   MatX K_block;
   stiffness_i(block, K_block);

@@ -15,9 +15,7 @@
 namespace floatframe {
 namespace {
 
-const Vec3& position(const FeModel& model, int node) {
-  return model.positions[static_cast<std::size_t>(node)];
-}
+const Vec3& position(const FeModel& model, int node) { return model.positions[node]; }
 
 std::string lower(std::string s) {
   for (char& c : s) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -48,22 +46,22 @@ std::vector<int> nodes_of_set(const FeModel& model, const std::string& name) {
     // The order of the set, each node once.
     std::vector<char> seen(model.positions.size(), 0);
     for (const int node : *set) {
-      if (seen[static_cast<std::size_t>(node)]++ == 0) nodes.push_back(node);
+      if (seen[node]++ == 0) nodes.push_back(node);
     }
   } else if (const auto* elements = find_set(model.element_sets, name)) {
     for (const int e : *elements) {
-      const Element& element = model.elements[static_cast<std::size_t>(e)];
+      const Element& element = model.elements[e];
       const int count = element_kernel(element.type).nodes;
       nodes.insert(nodes.end(), element.nodes.begin(), element.nodes.begin() + count);
     }
     ascending(nodes);
   } else if (const auto* surface = find_set(model.surfaces, name)) {
     for (const ElementFace& f : *surface) {
-      const Element& element = model.elements[static_cast<std::size_t>(f.element)];
-      const FaceNodes& face = element_faces(element.type)[static_cast<std::size_t>(f.face)];
+      const Element& element = model.elements[f.element];
+      const FaceNodes& face = element_faces(element.type)[f.face];
       for (int i = 0; i < face.count; ++i) {
-        const int a = face.nodes[static_cast<std::size_t>(i)];
-        nodes.push_back(element.nodes[static_cast<std::size_t>(a)]);
+        const int a = face.nodes[i];
+        nodes.push_back(element.nodes[a]);
       }
     }
     ascending(nodes);
@@ -93,14 +91,14 @@ std::vector<int> nodes_of_set(const FeModel& model, const std::string& name) {
 double size_of(const FeModel& model, const std::vector<char>& used) {
   Eigen::AlignedBox3d box;
   for (int k = 0; k < model.nodes(); ++k) {
-    if (used[static_cast<std::size_t>(k)] != 0) box.extend(position(model, k));
+    if (used[k] != 0) box.extend(position(model, k));
   }
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
 double size_of_used(const FeModel& model, const DofTable& table) {
   std::vector<char> used(model.positions.size(), 0);
-  for (int k = 0; k < model.nodes(); ++k) used[static_cast<std::size_t>(k)] = table.count(k) > 0;
+  for (int k = 0; k < model.nodes(); ++k) used[k] = table.count(k) > 0;
   return size_of(model, used);
 }
 
@@ -138,7 +136,7 @@ std::string describe(const NodeChoice& c) {
 std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
   std::vector<char> used(model.positions.size(), 0);
   const DofTable table = dof_table(model);
-  for (int k = 0; k < model.nodes(); ++k) used[static_cast<std::size_t>(k)] = table.count(k) > 0;
+  for (int k = 0; k < model.nodes(); ++k) used[k] = table.count(k) > 0;
   const bool round = c.by == NodeChoice::By::cylinder || c.by == NodeChoice::By::sphere;
   if (round && !(c.radius > 0.0)) {
     throw InputError(fmt::format("the radius must be positive, not {:.6g}", c.radius));
@@ -154,7 +152,7 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < model.nodes(); ++k) {
-    if (used[static_cast<std::size_t>(k)] == 0) continue;
+    if (used[k] == 0) continue;
     const double d = distance(c, axis, position(model, k));
     if (d < (1.0 - 1e-9) * least) least = d, best = k;  // of equal ones the first
     if (d <= tolerance) nodes.push_back(k);
@@ -213,7 +211,7 @@ std::string spider_label(const FeModel& model, const Spider& s) {
 
 void name_node(FeModel& model, int node, const std::string& name) {
   model.node_names.resize(model.positions.size());
-  model.node_names[static_cast<std::size_t>(node)] = name;
+  model.node_names[node] = name;
 }
 
 /// A node that has six dofs of its own, or one alone.
@@ -312,7 +310,7 @@ std::vector<int> choose_nodes(const FeModel& model, const NodeChoice& choice) {
   if (choice.by == NodeChoice::By::set) return nodes_of_set(model, choice.set);
   if (choice.by != NodeChoice::By::node) return nodes_of_shape(model, choice);
   for (int k = 0; k < model.nodes(); ++k) {
-    const int id = model.node_ids.empty() ? k + 1 : model.node_ids[static_cast<std::size_t>(k)];
+    const int id = model.node_ids.empty() ? k + 1 : model.node_ids[k];
     if (id == choice.number) return {k};
   }
   throw InputError(fmt::format("there is no node {}", choice.number));

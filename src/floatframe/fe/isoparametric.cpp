@@ -24,7 +24,7 @@ bool positive(const SampledRule& rule, const Positions& P, double limit) {
 
 Positions positions(const ElementInput& in, int nodes) {
   Positions P(3, nodes);
-  for (int a = 0; a < nodes; ++a) P.col(a) = in.p[static_cast<std::size_t>(a)];
+  for (int a = 0; a < nodes; ++a) P.col(a) = in.p[a];
   return P;
 }
 
@@ -49,7 +49,7 @@ SampledRule sample(int nodes, ShapeFunctions functions, const QuadratureRule& ru
   Shape N(nodes);
   ShapeGradients dN(3, nodes);
   for (int q = 0; q < nq; ++q) {
-    const QuadraturePoint& point = rule[static_cast<std::size_t>(q)];
+    const QuadraturePoint& point = rule[q];
     functions(point.xi, N, dN);
     s.weight(q) = point.weight;
     s.N.col(q) = N;
@@ -73,10 +73,10 @@ IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
   const int terms = static_cast<int>(stress.functions(Vec3::Zero()).size());
   MatX at_points(element.stress.size(), terms), at_nodes(nodes, terms);
   for (int q = 0; q < element.stress.size(); ++q) {
-    at_points.row(q) = stress.functions(stress.points[static_cast<std::size_t>(q)].xi);
+    at_points.row(q) = stress.functions(stress.points[q].xi);
   }
   for (int a = 0; a < nodes; ++a) {
-    at_nodes.row(a) = stress.functions(stress.nodes[static_cast<std::size_t>(a)]);
+    at_nodes.row(a) = stress.functions(stress.nodes[a]);
   }
   element.to_nodes = at_nodes * LeastNorm(at_points).pseudo_inverse();
   return element;

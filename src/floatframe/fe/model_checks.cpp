@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
@@ -53,9 +54,8 @@ std::vector<Edge> edges_of(ElementType type) {
   std::vector<Edge> edges;
   for (const FaceNodes& f : element_faces(type)) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(f.corners); ++i) {
-      const int a = f.nodes[i], b = f.nodes[(i + 1) % static_cast<std::size_t>(f.corners)];
-      const int middle =
-          f.count > f.corners ? f.nodes[i + static_cast<std::size_t>(f.corners)] : -1;
+      const int a = f.nodes[i], b = f.nodes[(i + 1) % f.corners];
+      const int middle = f.count > f.corners ? f.nodes[i + f.corners] : -1;
       const bool known = std::any_of(edges.begin(), edges.end(), [&](const Edge& e) {
         return (e.a == a && e.b == b) || (e.a == b && e.b == a);
       });
@@ -73,12 +73,12 @@ const std::vector<Edge>& edges(ElementType type) {
     }
     return made;
   }();
-  return all[static_cast<std::size_t>(type)];
+  return all[index_of(type)];
 }
 
 Vec3 position_of(const FeModel& model, const Element& e, int local) {
-  const int node = e.nodes[static_cast<std::size_t>(local)];
-  return model.positions[static_cast<std::size_t>(node)];
+  const int node = e.nodes[local];
+  return model.positions[node];
 }
 
 /// Direction of the edge from corner a to b at a.
@@ -156,7 +156,7 @@ double corner_quality(const FeModel& model, const Element& e) {
   for (std::size_t c = 0; c < corners.size(); ++c) {
     Mat3 t;
     for (int i = 0; i < 3; ++i) {
-      t.col(i) = tangent(model, e, static_cast<int>(c), corners[c][static_cast<std::size_t>(i)]);
+      t.col(i) = tangent(model, e, static_cast<int>(c), corners[c][i]);
     }
     const double lengths = t.colwise().norm().prod();
     worst = std::min(worst, lengths > 0.0 ? t.determinant() / (lengths * regular) : 0.0);
@@ -193,13 +193,13 @@ std::vector<std::string> shape_warnings(const FeModel& model) {
 std::vector<int> unreferenced_nodes(const FeModel& model) {
   const DofTable table = dof_table(model);
   std::vector<char> used(model.positions.size(), 0);
-  for (int k = 0; k < model.nodes(); ++k) used[static_cast<std::size_t>(k)] = table.count(k) > 0;
+  for (int k = 0; k < model.nodes(); ++k) used[k] = table.count(k) > 0;
   for (const Spider& s : model.spiders) {
-    if (s.rotation_node >= 0) used[static_cast<std::size_t>(s.rotation_node)] = 1;
+    if (s.rotation_node >= 0) used[s.rotation_node] = 1;
   }
   std::vector<int> out;
   for (int k = 0; k < model.nodes(); ++k) {
-    if (used[static_cast<std::size_t>(k)] == 0) out.push_back(k);
+    if (used[k] == 0) out.push_back(k);
   }
   return out;
 }
@@ -207,7 +207,7 @@ std::vector<int> unreferenced_nodes(const FeModel& model) {
 std::vector<std::string> model_warnings(const FeModel& model) {
   std::vector<std::string> out = shape_warnings(model);
   std::vector<int> elements(model.materials.size(), 0);
-  for (const Element& e : model.elements) ++elements[static_cast<std::size_t>(e.material)];
+  for (const Element& e : model.elements) ++elements[e.material];
   for (std::size_t i = 0; i < model.materials.size(); ++i) {
     if (elements[i] == 0 || model.materials[i].density > 0.0) continue;
     const bool has_name = i < model.material_names.size() && !model.material_names[i].empty();

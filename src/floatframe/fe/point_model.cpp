@@ -20,7 +20,7 @@ void blocks_of(const SparseMatrix& M, const DofTable& table, const std::vector<D
   for (int c = 0; c < table.count(column); ++c) {
     std::size_t at = 0;  // rows ascend
     for (SparseMatrix::InnerIterator it(M, table.index(column, c)); it; ++it) {
-      const Dof& row = dofs[static_cast<std::size_t>(it.row())];
+      const Dof& row = dofs[it.row()];
       while (at < blocks.size() && blocks[at].node < row.node) ++at;
       if (at == blocks.size() || blocks[at].node != row.node) {
         blocks.insert(blocks.begin() + static_cast<std::ptrdiff_t>(at), {row.node, Mat6::Zero()});
@@ -65,8 +65,7 @@ struct PointMasses {
 double arm_length(const FeModel& model) {
   Eigen::AlignedBox3d box;
   for (const Element& e : model.elements)
-    for (int a = 0; a < element_kernel(e.type).nodes; ++a)
-      box.extend(model.positions[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(a)])]);
+    for (int a = 0; a < element_kernel(e.type).nodes; ++a) box.extend(model.positions[e.nodes[a]]);
   if (box.isEmpty())
     for (const Vec3& p : model.positions) box.extend(p);
   const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
@@ -84,7 +83,7 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
     for (int axis = 0; axis < table.count(k); ++axis) dofs.push_back({k, axis});
   }
   // Nodes whose rotation carries mass get three more points, behind those of the nodes.
-  std::vector<int> extra(static_cast<std::size_t>(nodes), -1);
+  std::vector<int> extra(nodes, -1);
   int points = nodes;
   for (int k = 0; k < nodes; ++k) {
     bool heavy = false;
@@ -94,16 +93,16 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
       }
     }
     if (!heavy) continue;
-    extra[static_cast<std::size_t>(k)] = points;
+    extra[k] = points;
     points += 3;
   }
   PointModel out;
   const double h = arm_length(model);
   out.p.resize(3, points);
   for (int k = 0; k < nodes; ++k) {
-    const Vec3& p = model.positions[static_cast<std::size_t>(k)];
+    const Vec3& p = model.positions[k];
     out.p.col(k) = p;
-    const int e = extra[static_cast<std::size_t>(k)];
+    const int e = extra[k];
     for (int i = 0; i < 3 && e >= 0; ++i) out.p.col(e + i) = p + h * Vec3::Unit(i);
   }
 
@@ -117,7 +116,7 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
       const PointMasses m(block.M, h);
       largest = std::max(largest, block.M.topLeftCorner<3, 3>().cwiseAbs().maxCoeff());
       deviation = std::max(deviation, m.deviation(block.M, h));
-      const int ea = extra[static_cast<std::size_t>(a)], eb = extra[static_cast<std::size_t>(b)];
+      const int ea = extra[a], eb = extra[b];
       double rest = m.mu;
       for (int l = 0; l < 3 && eb >= 0; ++l) {
         const double value = m.s_b(l) - (ea >= 0 ? m.P.col(l).sum() : 0.0);
@@ -147,7 +146,7 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
     }
   };
   for (int k = 0; k < nodes; ++k) {
-    const int e = extra[static_cast<std::size_t>(k)];
+    const int e = extra[k];
     for (int i = 0; i < 3; ++i) {
       copy(system.T, 3 * k + i, 3 * k + i, 1.0);
       for (int j = 0; j < 3 && e >= 0; ++j) {

@@ -23,7 +23,7 @@ std::span<const Part> parts() {
 
 std::array<Vec3, 3> corners(const ElementInput& in, const Part& part) {
   std::array<Vec3, 3> p;
-  for (std::size_t i = 0; i < 3; ++i) p[i] = in.p[static_cast<std::size_t>(part.nodes[i])];
+  for (std::size_t i = 0; i < 3; ++i) p[i] = in.p[part.nodes[i]];
   return p;
 }
 
@@ -51,7 +51,7 @@ template <int nodes, class Add>
 void for_blocks(const Part& part, const Add& add) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      add(part.nodes[static_cast<std::size_t>(i)], part.nodes[static_cast<std::size_t>(j)], i, j);
+      add(part.nodes[i], part.nodes[j], i, j);
     }
   }
 }

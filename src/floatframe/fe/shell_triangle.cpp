@@ -100,7 +100,7 @@ Mat39 curvatures(const Plane& t, double xi, double eta) {
   std::array<double, 3> a{}, b{}, c{}, d{}, e{};
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const std::size_t s = static_cast<std::size_t>(k);
+    const std::size_t s = k;
     const double x = t.dx(i, j), y = t.dy(i, j), l = t.square(i, j);
     a[s] = -x / l;
     b[s] = 0.75 * x * y / l;
@@ -120,8 +120,8 @@ Mat39 curvatures(const Plane& t, double xi, double eta) {
   Mat39 B;
   for (int i = 0; i < 3; ++i) {
     // The side before the corner and the one after it: 5 and 6 for corner 1.
-    const std::size_t p = static_cast<std::size_t>((i + 1) % 3);
-    const std::size_t q = static_cast<std::size_t>((i + 2) % 3);
+    const std::size_t p = (i + 1) % 3;
+    const std::size_t q = (i + 2) % 3;
     const Vec2 Hx[3] = {1.5 * (a[q] * side[q] - a[p] * side[p]), b[p] * side[p] + b[q] * side[q],
                         corner[i] - c[p] * side[p] - c[q] * side[q]};
     const Vec2 Hy[3] = {1.5 * (d[q] * side[q] - d[p] * side[p]),

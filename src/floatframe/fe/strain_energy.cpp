@@ -27,16 +27,16 @@ void each_element(const FeModel& model, const MatX& U, const MatX& Theta, Integr
     Mat3X u = Mat3X::Zero(3, U.cols()), w = u;
     Vec3 centre = Vec3::Zero();
     for (int k = 0; k < n; ++k) {
-      const Eigen::Index row = 3 * e.nodes[static_cast<std::size_t>(k)];
+      const Eigen::Index row = 3 * e.nodes[k];
       u += U.middleRows<3>(row) / n;
       if (d == 6) w += Theta.middleRows<3>(row) / n;
-      centre += in.p[static_cast<std::size_t>(k)] / n;
+      centre += in.p[k] / n;
     }
     for (int k = 0; k < n; ++k) {
-      const Eigen::Index row = 3 * e.nodes[static_cast<std::size_t>(k)];
+      const Eigen::Index row = 3 * e.nodes[k];
       q.middleRows<3>(d * k) = U.middleRows<3>(row) - u;
       if (d != 6) continue;
-      const Vec3 r = in.p[static_cast<std::size_t>(k)] - centre;
+      const Vec3 r = in.p[k] - centre;
       for (Eigen::Index a = 0; a < U.cols(); ++a)
         q.col(a).segment<3>(6 * k) -= Vec3(w.col(a)).cross(r);
       q.middleRows<3>(6 * k + 3) = Theta.middleRows<3>(row) - w;
@@ -79,7 +79,7 @@ void check_digits(const FeModel& model, const MatX& U, const MatX& Theta, const 
       "and its strain energy differ by {:.1e}, at most {:.0e} is accepted (six digits of a "
       "frequency; rounding grows with the fourth power of the number of elements in a row); use "
       "fewer elements",
-      model.elements.size(), names[static_cast<std::size_t>(worst)], error(worst), sixth_digit));
+      model.elements.size(), names[worst], error(worst), sixth_digit));
 }
 
 void with_digits_hint(const FeModel& model, const std::function<void()>& factor) {

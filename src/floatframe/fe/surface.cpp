@@ -26,8 +26,8 @@ void divide(const Element& element, const FaceNodes& face, std::vector<Triangle>
   if (face.count == 4) parts = quad4;
   if (face.count == 8) parts = quad8;
   const auto node = [&](int i) {
-    const int local = face.nodes[static_cast<std::size_t>(i)];
-    return element.nodes[static_cast<std::size_t>(local)];
+    const int local = face.nodes[i];
+    return element.nodes[local];
   };
   for (const Triangle& t : parts) out.push_back({node(t[0]), node(t[1]), node(t[2])});
 }
@@ -51,7 +51,7 @@ Surface outer_surface(const FeModel& model) {
       for (std::size_t f = 0; f < faces.size(); ++f) {
         Candidate c{{-1, -1, -1, -1}, static_cast<int>(e), static_cast<int>(f)};
         for (std::size_t i = 0; i < static_cast<std::size_t>(faces[f].corners); ++i) {
-          c.key[i] = element.nodes[static_cast<std::size_t>(faces[f].nodes[i])];
+          c.key[i] = element.nodes[faces[f].nodes[i]];
         }
         std::sort(c.key.begin(), c.key.end());
         candidates.push_back(c);
@@ -72,17 +72,16 @@ Surface outer_surface(const FeModel& model) {
     return std::tie(a.element, a.face) < std::tie(b.element, b.face);
   });
   for (const Candidate& c : outer) {
-    const Element& element = model.elements[static_cast<std::size_t>(c.element)];
-    divide(element, element_faces(element.type)[static_cast<std::size_t>(c.face)],
-           surface.triangles);
+    const Element& element = model.elements[c.element];
+    divide(element, element_faces(element.type)[c.face], surface.triangles);
   }
 
   std::vector<int> place(model.positions.size(), -1);
   for (const Triangle& t : surface.triangles) {
-    for (const int node : t) place[static_cast<std::size_t>(node)] = 0;
+    for (const int node : t) place[node] = 0;
   }
   for (const auto& line : surface.lines) {
-    for (const int node : line) place[static_cast<std::size_t>(node)] = 0;
+    for (const int node : line) place[node] = 0;
   }
   for (std::size_t k = 0; k < place.size(); ++k) {
     if (place[k] < 0) continue;
@@ -90,10 +89,10 @@ Surface outer_surface(const FeModel& model) {
     surface.nodes.push_back(static_cast<int>(k));
   }
   for (Triangle& t : surface.triangles) {
-    for (int& node : t) node = place[static_cast<std::size_t>(node)];
+    for (int& node : t) node = place[node];
   }
   for (auto& line : surface.lines) {
-    for (int& node : line) node = place[static_cast<std::size_t>(node)];
+    for (int& node : line) node = place[node];
   }
   return surface;
 }
@@ -102,7 +101,7 @@ MatX surface_stresses(const FeModel& model, const Surface& surface, const MatX& 
   const Eigen::Index fields = translations.cols();
   std::vector<int> place(model.positions.size(), -1);
   for (std::size_t i = 0; i < surface.nodes.size(); ++i) {
-    place[static_cast<std::size_t>(surface.nodes[i])] = static_cast<int>(i);
+    place[surface.nodes[i]] = static_cast<int>(i);
   }
   // Fields as rows, so that what belongs to a node lies together.
   const MatX u = translations.transpose();
@@ -115,8 +114,8 @@ MatX surface_stresses(const FeModel& model, const Surface& surface, const MatX& 
     std::array<int, 20> wanted{};
     int count = 0;
     for (int a = 0; a < kernel.nodes; ++a) {
-      const int node = element.nodes[static_cast<std::size_t>(a)];
-      if (place[static_cast<std::size_t>(node)] >= 0) wanted[static_cast<std::size_t>(count++)] = a;
+      const int node = element.nodes[a];
+      if (place[node] >= 0) wanted[count++] = a;
     }
     if (count == 0) continue;
     const ElementInput input = gather(model, element);
@@ -124,20 +123,18 @@ MatX surface_stresses(const FeModel& model, const Surface& surface, const MatX& 
     kernel.nodal_strains(input, B);
     S.resize(6 * count, 3 * kernel.nodes);
     for (int i = 0; i < count; ++i) {
-      S.middleRows<6>(6 * i).noalias() =
-          D * B.middleRows<6>(6 * wanted[static_cast<std::size_t>(i)]);
+      S.middleRows<6>(6 * i).noalias() = D * B.middleRows<6>(6 * wanted[i]);
     }
     u_element.resize(fields, 3 * kernel.nodes);
     for (int a = 0; a < kernel.nodes; ++a) {
-      u_element.middleCols<3>(3 * a) =
-          u.middleCols<3>(3 * element.nodes[static_cast<std::size_t>(a)]);
+      u_element.middleCols<3>(3 * a) = u.middleCols<3>(3 * element.nodes[a]);
     }
     stresses.noalias() = u_element * S.transpose();
     for (int i = 0; i < count; ++i) {
-      const int a = wanted[static_cast<std::size_t>(i)];
-      const int at = place[static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(a)])];
+      const int a = wanted[i];
+      const int at = place[element.nodes[a]];
       sum.middleCols<6>(6 * at) += stresses.middleCols<6>(6 * i);
-      ++elements[static_cast<std::size_t>(at)];
+      ++elements[at];
     }
   }
   for (std::size_t i = 0; i < elements.size(); ++i) {

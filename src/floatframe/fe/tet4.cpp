@@ -9,7 +9,7 @@ namespace {
 
 Mat3 edges(const ElementInput& in) {
   Mat3 J;
-  for (int i = 0; i < 3; ++i) J.col(i) = in.p[static_cast<std::size_t>(i + 1)] - in.p[0];
+  for (int i = 0; i < 3; ++i) J.col(i) = in.p[i + 1] - in.p[0];
   return J;
 }
 

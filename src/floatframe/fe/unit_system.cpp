@@ -109,9 +109,7 @@ void to_si(FeModel& model, const UnitSystem& units) {
   // q^T K q and dq^T M dq are energies; translations are lengths, rotations are radians.
   FeMatrices& matrices = *model.matrices;
   const double energy = units.force() * l, inertia = units.mass * l2;
-  const auto unit = [&](Eigen::Index i) {
-    return matrices.dofs[static_cast<std::size_t>(i)].axis < 3 ? l : 1.0;
-  };
+  const auto unit = [&](Eigen::Index i) { return matrices.dofs[i].axis < 3 ? l : 1.0; };
   const auto scale = [&](SparseMatrix& matrix, double whole) {
     for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {
       for (SparseMatrix::InnerIterator it(matrix, column); it; ++it) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 
@@ -50,7 +51,7 @@ void check_nodes(const FeModel& model, LimitedFaults& faults) {
   lengths(model.node_ids.size(), "node numbers");
   lengths(model.node_sources.size(), "places of nodes");
   for (int k = 0; k < model.nodes(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(k);
+    const std::size_t i = k;
     if (model.positions[i].allFinite()) continue;
     const bool known = i < model.node_sources.size();
     faults.add("nodes", known ? model.mark(model.node_sources[i]) : SourceMark{},
@@ -89,14 +90,14 @@ void check_materials(const FeModel& model, LimitedFaults& faults) {
 void check_elements(const FeModel& model, LimitedFaults& faults) {
   const bool sound_so_far = faults.empty();
   for (int e = 0; e < static_cast<int>(model.elements.size()); ++e) {
-    const Element& element = model.elements[static_cast<std::size_t>(e)];
+    const Element& element = model.elements[e];
     const ElementKernel& kernel = element_kernel(element.type);
     const auto add = [&](const char* kind, const std::string& text) {
       faults.add(kind, model.mark(element.source), model.element_label(e) + text);
     };
     bool sound = sound_so_far;
     for (int a = 0; a < kernel.nodes; ++a) {
-      const int node = element.nodes[static_cast<std::size_t>(a)];
+      const int node = element.nodes[a];
       if (!in_range(node, model.positions.size())) {
         add("node indices",
             fmt::format(": node index {} is out of range 0..{}", node, model.nodes() - 1));
@@ -124,8 +125,8 @@ void check_elements(const FeModel& model, LimitedFaults& faults) {
     bool twice = false;
     for (int a = 0; a < kernel.nodes && !twice; ++a) {
       for (int b = 0; b < a && !twice; ++b) {
-        const int node = element.nodes[static_cast<std::size_t>(a)];
-        twice = node == element.nodes[static_cast<std::size_t>(b)];
+        const int node = element.nodes[a];
+        twice = node == element.nodes[b];
         if (twice)
           add("elements with a repeated node", " names " + model.node_label(node) + " twice");
       }
@@ -140,12 +141,12 @@ void check_elements(const FeModel& model, LimitedFaults& faults) {
 std::vector<char> nodes_with_rotations(const FeModel& model) {
   std::vector<char> with(model.positions.size(), 0);
   const auto mark = [&](int node) {
-    if (in_range(node, with.size())) with[static_cast<std::size_t>(node)] = 1;
+    if (in_range(node, with.size())) with[node] = 1;
   };
   for (const Element& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     for (int a = 0; a < kernel.nodes && kernel.dofs_per_node == 6; ++a) {
-      mark(e.nodes[static_cast<std::size_t>(a)]);
+      mark(e.nodes[a]);
     }
   }
   for (const Spider& s : model.spiders) {
@@ -185,7 +186,7 @@ void check_masses(const FeModel& model, LimitedFaults& faults) {
     if (least < -1e-12 * m.J.trace()) {
       add(at + ": the principal moments of inertia break the triangle inequality");
     }
-    if (m.J.cwiseAbs().maxCoeff() > 0.0 && rotations[static_cast<std::size_t>(m.node)] == 0) {
+    if (m.J.cwiseAbs().maxCoeff() > 0.0 && rotations[m.node] == 0) {
       add(at + " has rotary inertia, but the nodes of solid elements have no rotations");
     }
   }
@@ -265,9 +266,7 @@ void check_sets(const FeModel& model, LimitedFaults& faults) {
   for (const auto& [name, faces] : model.surfaces) {
     for (const ElementFace& f : faces) {
       if (in_range(f.element, model.elements.size()) &&
-          in_range(
-              f.face,
-              element_faces(model.elements[static_cast<std::size_t>(f.element)].type).size())) {
+          in_range(f.face, element_faces(model.elements[f.element].type).size())) {
         continue;
       }
       faults.add("sets", {}, "surface '" + name + "' holds a face that does not exist");

@@ -5,13 +5,13 @@
 #include <algorithm>
 
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/formats/read_abaqus.hpp"
-#include "floatframe/formats/read_dmig.hpp"
-#include "floatframe/formats/read_gmsh.hpp"
-#include "floatframe/formats/read_matrices.hpp"
-#include "floatframe/formats/read_nastran.hpp"
-#include "floatframe/formats/text_fields.hpp"
-#include "floatframe/formats/text_source.hpp"
+#include "floatframe/formats/abaqus/read_abaqus.hpp"
+#include "floatframe/formats/gmsh/read_gmsh.hpp"
+#include "floatframe/formats/matrices/read_dmig.hpp"
+#include "floatframe/formats/matrices/read_matrices.hpp"
+#include "floatframe/formats/nastran/read_nastran.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+#include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
 namespace {

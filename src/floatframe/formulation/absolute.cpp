@@ -28,12 +28,12 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
   for (const ConstraintPart& p : parts_) {
     if (!needs_position(p.kind)) continue;
     for (const int marker : {p.a, p.b}) {
-      MarkerData& m = markers_[static_cast<std::size_t>(marker)];
+      MarkerData& m = markers_[marker];
       if (m.body < 0 || !m.local || m.point >= 0) continue;
       BodyData& b = body(m.body);
       int local = -1;
       for (std::size_t k = 0; k < b.point_marker.size(); ++k) {
-        const MarkerData& other = markers_[static_cast<std::size_t>(b.point_marker[k])];
+        const MarkerData& other = markers_[b.point_marker[k]];
         if ((other.node_p - m.node_p).isZero(0.0) && (other.X - m.X).isZero(0.0) &&
             other.X_NM.p.isZero(0.0) && m.X_NM.p.isZero(0.0))
           local = static_cast<int>(k);
@@ -69,8 +69,7 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
   std::vector<std::pair<int, int>> edges;
   const auto couple = [&](int a, int b) {
     if (a < 0 || b < 0) return;
-    const int ba = markers_[static_cast<std::size_t>(a)].body,
-              bb = markers_[static_cast<std::size_t>(b)].body;
+    const int ba = markers_[a].body, bb = markers_[b].body;
     if (ba >= 0 && bb >= 0) edges.emplace_back(ba, bb);
   };
   for (const ConstraintPart& p : parts_) {
@@ -87,12 +86,12 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
       most += static_cast<std::size_t>(6 * 6 + 3 * b.points * (13 + b.nm));
     for (const ConstraintPart& p : parts_)
       for (const int marker : {p.a, p.b})
-        if (const int i = markers_[static_cast<std::size_t>(marker)].body; i >= 0)
+        if (const int i = markers_[marker].body; i >= 0)
           most += static_cast<std::size_t>(p.rows() * body(i).size());
     l.column.assign(most, 0);
     l.value.assign(most, 0.0);
   }
-  rows_.resize(static_cast<std::size_t>(nc_ - part_rows_));
+  rows_.resize(nc_ - part_rows_);
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);
   kept_reference_ = force_reference_;
@@ -105,8 +104,8 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
   int widest = 12;
   for (int s : sizes) widest = std::max(widest, s);
   for (Gradient* g : {&ga_, &gb_}) {
-    g->index.resize(static_cast<std::size_t>(widest));
-    g->value.resize(static_cast<std::size_t>(widest));
+    g->index.resize(widest);
+    g->value.resize(widest);
   }
 }
 
@@ -134,7 +133,7 @@ void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree
       v[b.offset + 12 + m] = tree.amplitude_rate(tree_v, k, m);
     }
     for (int p = 0; p < b.points; ++p) {
-      const MarkerState& s = tree.marker(b.point_marker[static_cast<std::size_t>(p)]);
+      const MarkerState& s = tree.marker(b.point_marker[p]);
       q.segment<3>(b.offset + 12 + b.nm + 3 * p) = s.r + tree.origin();
       v.segment<3>(b.offset + 12 + b.nm + 3 * p) = s.v;
     }
@@ -177,8 +176,7 @@ void AbsoluteFormulation::velocities(const VecX& v) noexcept {
       phi_[b.row + k] = b.length * (k < 3 ? 0.5 * (dot - 1.0) : dot);
     }
     for (int p = 0; p < b.points; ++p) {
-      const MarkerData& m =
-          markers_[static_cast<std::size_t>(b.point_marker[static_cast<std::size_t>(p)])];
+      const MarkerData& m = markers_[b.point_marker[p]];
       phi_.segment<3>(b.row + 6 + 3 * p) = m.r_P - m.s.r;
     }
   }
@@ -207,8 +205,8 @@ void AbsoluteFormulation::velocities(const VecX& v) noexcept {
   }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const ConstraintPart& p = parts_[k];
-    const MarkerState a = constraint_state(markers_[static_cast<std::size_t>(p.a)]);
-    const MarkerState b = constraint_state(markers_[static_cast<std::size_t>(p.b)]);
+    const MarkerState a = constraint_state(markers_[p.a]);
+    const MarkerState b = constraint_state(markers_[p.b]);
     ConstraintRow* rows = rows_.data() + (part_offset_[k] - part_rows_);
     evaluate_constraint(p, a, b, time_, rows);
     for (int r = 0; r < p.rows(); ++r) phi_[part_offset_[k] + r] = rows[r].phi;

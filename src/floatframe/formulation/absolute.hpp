@@ -93,25 +93,19 @@ class AbsoluteFormulation {
 
   // -- outputs
   // -----------------------------------------------------------------------------------------------------
-  const MarkerState& marker(int index) const noexcept {
-    return markers_[static_cast<std::size_t>(index)].s;
-  }
+  const MarkerState& marker(int index) const noexcept { return markers_[index].s; }
   Vec3 origin() const noexcept { return Vec3::Zero(); }
-  const ForceState& force(int index) const noexcept {
-    return force_states_[static_cast<std::size_t>(index)];
-  }
+  const ForceState& force(int index) const noexcept { return force_states_[index]; }
   void set_accelerations(const VecX& a) noexcept { a_ = a; }
   Vec3 marker_acceleration(int index) const noexcept;
-  const Mat3& body_rotation(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)].A; }
-  Vec3 body_angular_velocity(int i) const noexcept {
-    return bodies_[static_cast<std::size_t>(i)].w;
-  }
+  const Mat3& body_rotation(int i) const noexcept { return bodies_[i].A; }
+  Vec3 body_angular_velocity(int i) const noexcept { return bodies_[i].w; }
   double amplitude(const VecX& q, int i, int mode) const noexcept {
-    return q[bodies_[static_cast<std::size_t>(i)].offset + 12 + mode];
+    return q[bodies_[i].offset + 12 + mode];
   }
-  Vec3 body_velocity(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)].r0_dot; }
+  Vec3 body_velocity(int i) const noexcept { return bodies_[i].r0_dot; }
   double amplitude_rate(const VecX& v, int i, int mode) const noexcept {
-    return v[bodies_[static_cast<std::size_t>(i)].offset + 12 + mode];
+    return v[bodies_[i].offset + 12 + mode];
   }
   /// Power that modal damping takes out at these velocities [W].
   double modal_damping_power(const VecX& v) const noexcept;
@@ -131,7 +125,7 @@ class AbsoluteFormulation {
   /// Coordinates and own constraints of a body; those of all bodies follow each other.
   int body_size(int i) const noexcept { return body(i).size(); }
   int body_rows(int i) const noexcept { return 6 + 3 * body(i).points; }
-  const MatX& body_mass(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)].M; }
+  const MatX& body_mass(int i) const noexcept { return bodies_[i].M; }
 
  private:
   // Pairs of axes of the orthonormality rows: u.u, v.v, w.w, u.v, u.w, v.w.
@@ -181,8 +175,8 @@ class AbsoluteFormulation {
   void keep_row(Linearization& l, int row, const Gradient& a, const Gradient& b) noexcept;
   void add_part_forces(const VecX& w, VecX& out) const noexcept;
   void add_body_constraint_forces(const VecX& w, VecX& out) const noexcept;
-  BodyData& body(int i) noexcept { return bodies_[static_cast<std::size_t>(i)]; }
-  const BodyData& body(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)]; }
+  BodyData& body(int i) noexcept { return bodies_[i]; }
+  const BodyData& body(int i) const noexcept { return bodies_[i]; }
 
   const Model& model_;
   std::vector<BodyData> bodies_;

@@ -11,8 +11,8 @@ void AbsoluteFormulation::dynamics() noexcept {
 void AbsoluteFormulation::forces() noexcept {
   for (std::size_t k = 0; k < model_.forces.size(); ++k) {
     const Force& f = model_.forces[k];
-    const MarkerState& b = markers_[static_cast<std::size_t>(f.b)].s;
-    const MarkerState& a = f.a >= 0 ? markers_[static_cast<std::size_t>(f.a)].s : b;
+    const MarkerState& b = markers_[f.b].s;
+    const MarkerState& a = f.a >= 0 ? markers_[f.a].s : b;
     evaluate_force(model_, f, a, b, Vec3::Zero(), time_, force_reference_[k], force_states_[k],
                    inputs_);
     if (f.type == ForceType::joint_spring) force_reference_[k] = force_states_[k].length;
@@ -21,7 +21,7 @@ void AbsoluteFormulation::forces() noexcept {
 
 void AbsoluteFormulation::add_wrench(int marker, bool through_point, const Vec3& force,
                                      const Vec3& torque, VecX& out) const noexcept {
-  const MarkerData& m = markers_[static_cast<std::size_t>(marker)];
+  const MarkerData& m = markers_[marker];
   if (m.body < 0) return;
   const BodyData& b = body(m.body);
   if (through_point && m.point >= 0) {
@@ -43,7 +43,7 @@ void AbsoluteFormulation::add_part_forces(const VecX& w, VecX& out) const noexce
     Vec3 fa = Vec3::Zero(), ta = fa, fb = fa, tb = fa;
     for (int r = 0; r < p.rows(); ++r) {
       const int i = part_offset_[k] + r;
-      const WrenchRow& g = rows_[static_cast<std::size_t>(i - part_rows_)].gradient;
+      const WrenchRow& g = rows_[i - part_rows_].gradient;
       fa += w[i] * g.Fa;
       ta += w[i] * g.Ta;
       fb += w[i] * g.Fb;
@@ -62,7 +62,7 @@ void AbsoluteFormulation::add_body_constraint_forces(const VecX& w, VecX& out) c
       if (k >= 3) out.segment<3>(b.offset + 3 + 3 * pair_b[k]) += x * b.A.col(pair_a[k]);
     }
     for (int p = 0; p < b.points; ++p) {
-      const int marker = b.point_marker[static_cast<std::size_t>(p)];
+      const int marker = b.point_marker[p];
       const Vec3 x = w.segment<3>(b.row + 6 + 3 * p);
       add_wrench(marker, false, -x, Vec3::Zero(), out);
       out.segment<3>(b.offset + 12 + b.nm + 3 * p) += x;
@@ -114,18 +114,17 @@ void AbsoluteFormulation::constraint_rates(VecX& out) noexcept {
       out[b.row + k] = b.length * (k < 3 ? u.dot(u_dot) : u.dot(v_dot) + v.dot(u_dot));
     }
     for (int p = 0; p < b.points; ++p) {
-      const MarkerData& m =
-          markers_[static_cast<std::size_t>(b.point_marker[static_cast<std::size_t>(p)])];
+      const MarkerData& m = markers_[b.point_marker[p]];
       out.segment<3>(b.row + 6 + 3 * p) = m.v_P - m.s.v;
     }
   }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const ConstraintPart& p = parts_[k];
-    const MarkerState a = constraint_state(markers_[static_cast<std::size_t>(p.a)]);
-    const MarkerState b = constraint_state(markers_[static_cast<std::size_t>(p.b)]);
+    const MarkerState a = constraint_state(markers_[p.a]);
+    const MarkerState b = constraint_state(markers_[p.b]);
     for (int r = 0; r < p.rows(); ++r) {
       const int i = part_offset_[k] + r;
-      const ConstraintRow& row = rows_[static_cast<std::size_t>(i - part_rows_)];
+      const ConstraintRow& row = rows_[i - part_rows_];
       const WrenchRow& g = row.gradient;
       out[i] = g.Fa.dot(a.v) + g.Ta.dot(a.w) + g.Fb.dot(b.v) + g.Tb.dot(b.w) + row.phi_t;
     }
@@ -148,13 +147,12 @@ void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) no
                                          : b.A.col(pair_a[k]).dot(dv) + b.A.col(pair_b[k]).dot(du));
     }
     for (int p = 0; p < b.points; ++p) {
-      const MarkerData& m =
-          markers_[static_cast<std::size_t>(b.point_marker[static_cast<std::size_t>(p)])];
+      const MarkerData& m = markers_[b.point_marker[p]];
       out.segment<3>(b.row + 6 + 3 * p) = delta.segment<3>(b.offset + 12 + b.nm + 3 * p) - point(m);
     }
   }
   const auto motion = [&](int marker, Vec3& linear, Vec3& angular) {
-    const MarkerData& m = markers_[static_cast<std::size_t>(marker)];
+    const MarkerData& m = markers_[marker];
     linear.setZero();
     angular.setZero();
     if (m.body < 0) return;
@@ -171,14 +169,14 @@ void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) no
     motion(p.b, rb, wb);
     for (int r = 0; r < p.rows(); ++r) {
       const int i = part_offset_[k] + r;
-      const WrenchRow& g = rows_[static_cast<std::size_t>(i - part_rows_)].gradient;
+      const WrenchRow& g = rows_[i - part_rows_].gradient;
       out[i] = g.Fa.dot(ra) + g.Ta.dot(wa) + g.Fb.dot(rb) + g.Tb.dot(wb);
     }
   }
 }
 
 Vec3 AbsoluteFormulation::marker_acceleration(int index) const noexcept {
-  const MarkerData& m = markers_[static_cast<std::size_t>(index)];
+  const MarkerData& m = markers_[index];
   if (m.body < 0) return Vec3::Zero();
   const BodyData& b = body(m.body);
   Vec3 x = m.s.a_bias + a_.segment<3>(b.offset);
@@ -199,13 +197,13 @@ void AbsoluteFormulation::constraint_accelerations(const VecX& a, VecX& out) noe
                                          : u.dot(v_ddot) + v.dot(u_ddot) + 2.0 * u_dot.dot(v_dot));
     }
     for (int p = 0; p < b.points; ++p) {
-      const int marker = b.point_marker[static_cast<std::size_t>(p)];
+      const int marker = b.point_marker[p];
       out.segment<3>(b.row + 6 + 3 * p) =
           a.segment<3>(b.offset + 12 + b.nm + 3 * p) - marker_acceleration(marker);
     }
   }
   const auto motion = [&](int marker, Vec3& linear, Vec3& angular) {
-    const MarkerData& m = markers_[static_cast<std::size_t>(marker)];
+    const MarkerData& m = markers_[marker];
     angular = m.s.alpha_bias;
     linear = m.point >= 0 ? Vec3(a.segment<3>(m.point)) : marker_acceleration(marker);
     if (m.body < 0) return;
@@ -221,7 +219,7 @@ void AbsoluteFormulation::constraint_accelerations(const VecX& a, VecX& out) noe
     motion(p.b, ab, wb);
     for (int r = 0; r < p.rows(); ++r) {
       const int i = part_offset_[k] + r;
-      const ConstraintRow& row = rows_[static_cast<std::size_t>(i - part_rows_)];
+      const ConstraintRow& row = rows_[i - part_rows_];
       const WrenchRow& g = row.gradient;
       out[i] = g.Fa.dot(aa) + g.Ta.dot(wa) + g.Fb.dot(ab) + g.Tb.dot(wb) + row.quad + row.phi_tt;
     }

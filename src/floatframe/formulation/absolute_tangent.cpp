@@ -8,14 +8,14 @@ void AbsoluteFormulation::gradient(int marker, bool through_point, const Vec3& f
   g.body = -1;
   g.count = 0;
   if (marker < 0) return;
-  const MarkerData& m = markers_[static_cast<std::size_t>(marker)];
+  const MarkerData& m = markers_[marker];
   if (m.body < 0) return;
   g.body = m.body;
   const BodyData& b = body(m.body);
   const auto put = [&](int index, double value) {
     if (value == 0.0) return;
-    g.index[static_cast<std::size_t>(g.count)] = index;
-    g.value[static_cast<std::size_t>(g.count++)] = value;
+    g.index[g.count] = index;
+    g.value[g.count++] = value;
   };
   const bool on_body = !(through_point && m.point >= 0);
   if (on_body)
@@ -41,11 +41,9 @@ void AbsoluteFormulation::add_rank_one(BlockLdlt& matrix, const Gradient& a, con
     if (g.body < 0) return;
     MatX& f = matrix.front(g.body);
     for (int j = 0; j < g.count; ++j) {
-      const double w = weight * g.value[static_cast<std::size_t>(j)];
-      double* column =
-          f.data() + static_cast<Eigen::Index>(g.index[static_cast<std::size_t>(j)]) * f.rows();
-      for (int i = j; i < g.count; ++i)
-        column[g.index[static_cast<std::size_t>(i)]] += w * g.value[static_cast<std::size_t>(i)];
+      const double w = weight * g.value[j];
+      double* column = f.data() + static_cast<Eigen::Index>(g.index[j]) * f.rows();
+      for (int i = j; i < g.count; ++i) column[g.index[i]] += w * g.value[i];
     }
   };
   own(a);
@@ -58,19 +56,15 @@ void AbsoluteFormulation::add_rank_one(BlockLdlt& matrix, const Gradient& a, con
   const Gradient& second = a_first ? b : a;
   const int of = std::min(oa, ob), os = std::max(oa, ob);
   for (int j = 0; j < first.count; ++j) {
-    const double w = weight * first.value[static_cast<std::size_t>(j)];
-    double* column =
-        f.data() +
-        static_cast<Eigen::Index>(of + first.index[static_cast<std::size_t>(j)]) * f.rows() + os;
-    for (int i = 0; i < second.count; ++i)
-      column[second.index[static_cast<std::size_t>(i)]] +=
-          w * second.value[static_cast<std::size_t>(i)];
+    const double w = weight * first.value[j];
+    double* column = f.data() + static_cast<Eigen::Index>(of + first.index[j]) * f.rows() + os;
+    for (int i = 0; i < second.count; ++i) column[second.index[i]] += w * second.value[i];
   }
 }
 
 void AbsoluteFormulation::keep_row(Linearization& l, int row, const Gradient& a,
                                    const Gradient& b) noexcept {
-  auto at = static_cast<std::size_t>(l.row_start[static_cast<std::size_t>(row)]);
+  auto at = static_cast<std::size_t>(l.row_start[row]);
   for (const Gradient* g : {&a, &b}) {
     if (g->body < 0) continue;
     const int offset = body(g->body).offset;
@@ -79,7 +73,7 @@ void AbsoluteFormulation::keep_row(Linearization& l, int row, const Gradient& a,
       l.value[at] = g->value[k];
     }
   }
-  l.row_start[static_cast<std::size_t>(row) + 1] = static_cast<int>(at);
+  l.row_start[row + 1] = static_cast<int>(at);
 }
 
 int AbsoluteFormulation::eliminate(double mass, double damping, double s, double penalty,
@@ -113,7 +107,7 @@ int AbsoluteFormulation::eliminate(double mass, double damping, double s, double
       gb_.body = -1;
       ga_.count = 0;
       for (int c = 0; c < 3; ++c) {
-        const auto at = static_cast<std::size_t>(ga_.count);
+        const std::size_t at = ga_.count;
         ga_.index[at] = ia + c;
         ga_.value[at] = b.length * v[c];
         ++ga_.count;
@@ -125,8 +119,7 @@ int AbsoluteFormulation::eliminate(double mass, double damping, double s, double
       keep_row(linear, b.row + k, ga_, gb_);
     }
     for (int p = 0; p < b.points; ++p) {
-      const MarkerData& m =
-          markers_[static_cast<std::size_t>(b.point_marker[static_cast<std::size_t>(p)])];
+      const MarkerData& m = markers_[b.point_marker[p]];
       const int at = 12 + b.nm + 3 * p;
       // The tip definition is bilinear in A and y: geometric stiffness of its multipliers.
       for (int c = 0; c < 3 && geometric; ++c)
@@ -134,10 +127,9 @@ int AbsoluteFormulation::eliminate(double mass, double damping, double s, double
           for (int i2 = 0; i2 < 3; ++i2)
             f(12 + k, 3 + 3 * c + i2) -= s * lambda_[b.row + 6 + 3 * p + i2] * m.X(c, k);
       for (int c = 0; c < 3; ++c) {
-        gradient(b.point_marker[static_cast<std::size_t>(p)], false, -Vec3::Unit(c), Vec3::Zero(),
-                 ga_);
-        ga_.index[static_cast<std::size_t>(ga_.count)] = at + c;
-        ga_.value[static_cast<std::size_t>(ga_.count++)] = 1.0;
+        gradient(b.point_marker[p], false, -Vec3::Unit(c), Vec3::Zero(), ga_);
+        ga_.index[ga_.count] = at + c;
+        ga_.value[ga_.count++] = 1.0;
         gb_.body = -1;
         add_rank_one(matrix, ga_, gb_, penalty);
         keep_row(linear, b.row + 6 + 3 * p + c, ga_, gb_);
@@ -161,8 +153,7 @@ int AbsoluteFormulation::eliminate(double mass, double damping, double s, double
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const ConstraintPart& p = parts_[k];
     for (int r = 0; r < p.rows(); ++r) {
-      const WrenchRow& g =
-          rows_[static_cast<std::size_t>(part_offset_[k] + r - part_rows_)].gradient;
+      const WrenchRow& g = rows_[part_offset_[k] + r - part_rows_].gradient;
       gradient(p.a, true, g.Fa, g.Ta, ga_);
       gradient(p.b, true, g.Fb, g.Tb, gb_);
       add_rank_one(matrix, ga_, gb_, penalty);
@@ -184,15 +175,11 @@ int AbsoluteFormulation::eliminate(double mass, double damping, double s, double
 void AbsoluteFormulation::solve(VecX& b, const VecX& w, VecX& increments, int slot) noexcept {
   Linearization& l = linearizations_[slot];
   for (int i = 0; i < nc_; ++i)
-    for (int k = l.row_start[static_cast<std::size_t>(i)];
-         k < l.row_start[static_cast<std::size_t>(i) + 1]; ++k)
-      b[l.column[static_cast<std::size_t>(k)]] += w[i] * l.value[static_cast<std::size_t>(k)];
+    for (int k = l.row_start[i]; k < l.row_start[i + 1]; ++k) b[l.column[k]] += w[i] * l.value[k];
   l.matrix.solve(b);
   for (int i = 0; i < nc_; ++i) {
     double sum = 0.0;
-    for (int k = l.row_start[static_cast<std::size_t>(i)];
-         k < l.row_start[static_cast<std::size_t>(i) + 1]; ++k)
-      sum += l.value[static_cast<std::size_t>(k)] * b[l.column[static_cast<std::size_t>(k)]];
+    for (int k = l.row_start[i]; k < l.row_start[i + 1]; ++k) sum += l.value[k] * b[l.column[k]];
     increments[i] = sum;
   }
 }

@@ -27,10 +27,10 @@ struct LocalMarker {
     p_B = m.X_NM.p;
     R_B = m.X_NM.R;
     if (m.body < 0) return;
-    const FlexibleBody& data = *model.bodies[static_cast<std::size_t>(m.body)].data;
+    const FlexibleBody& data = *model.bodies[m.body].data;
     X = X_theta = HX = Jr = Jw = Mat3X::Zero(3, data.modes());
     if (m.node < 0) return;
-    const ModalNode& node = data.nodes[static_cast<std::size_t>(m.node)];
+    const ModalNode& node = data.nodes[m.node];
     node_p = node.p;
     p_B = node.p + m.X_NM.p;
     X = node.X;

@@ -21,8 +21,8 @@ void RelativeFormulation::build_bodies(InertiaMethod method) {
   bodies_.resize(model_.bodies.size());
   for (const Topology::Link& link : topology_.links) {
     BodyData& b = body(link.body);
-    const Joint& joint = model_.joints[static_cast<std::size_t>(link.joint)];
-    const Body& m = model_.bodies[static_cast<std::size_t>(link.body)];
+    const Joint& joint = model_.joints[link.joint];
+    const Body& m = model_.bodies[link.body];
     b.parent = link.parent;
     b.joint = link.joint;
     b.type = joint.type;
@@ -38,13 +38,11 @@ void RelativeFormulation::build_bodies(InertiaMethod method) {
     b.nj = kind.coordinates.count();
     b.ordered = kind.rotation_vector < 0 ? b.nj : kind.rotation_vector;
     b.nm = m.modes();
-    b.nm_parent =
-        link.parent < 0 ? 0 : model_.bodies[static_cast<std::size_t>(link.parent)].modes();
+    b.nm_parent = link.parent < 0 ? 0 : model_.bodies[link.parent].modes();
     const auto moves = [&](int marker) {
-      const Marker& k = model_.markers[static_cast<std::size_t>(marker)];
+      const Marker& k = model_.markers[marker];
       if (k.body < 0 || k.node < 0) return false;
-      const ModalNode& node = model_.bodies[static_cast<std::size_t>(k.body)]
-                                  .data->nodes[static_cast<std::size_t>(k.node)];
+      const ModalNode& node = model_.bodies[k.body].data->nodes[k.node];
       return !node.X.isZero(0.0) || (k.rotates && !node.X_theta.isZero(0.0));
     };
     b.phi = link.parent >= 0 && b.nm_parent > 0 && moves(b.frame_F);
@@ -82,10 +80,10 @@ void RelativeFormulation::build_clusters() {
 
   // Union-find over bodies that one two-marker element ties together below their lowest common
   // ancestor.
-  std::vector<int> set(static_cast<std::size_t>(n));
+  std::vector<int> set(n);
   std::iota(set.begin(), set.end(), 0);
   const auto find = [&](int i) {
-    while (set[static_cast<std::size_t>(i)] != i) i = set[static_cast<std::size_t>(i)];
+    while (set[i] != i) i = set[i];
     return i;
   };
   const auto path_to_root = [&](int i) {
@@ -100,8 +98,7 @@ void RelativeFormulation::build_clusters() {
       pb.pop_back();
     }
     pa.insert(pa.end(), pb.begin(), pb.end());
-    for (std::size_t i = 1; i < pa.size(); ++i)
-      set[static_cast<std::size_t>(find(pa[i]))] = find(pa[0]);
+    for (std::size_t i = 1; i < pa.size(); ++i) set[find(pa[i])] = find(pa[0]);
   };
   for (const ConstraintPart& p : parts_) tie(p.a, p.b);
   for (const Force& f : model_.forces)
@@ -109,28 +106,27 @@ void RelativeFormulation::build_clusters() {
 
   // Clusters in the order of their first body, which keeps parents before children; coordinates
   // cluster by cluster.
-  std::vector<int> cluster_of_set(static_cast<std::size_t>(n), -1);
+  std::vector<int> cluster_of_set(n, -1);
   for (const Topology::Link& link : topology_.links) {
-    const auto root = static_cast<std::size_t>(find(link.body));
+    const std::size_t root = find(link.body);
     if (cluster_of_set[root] < 0) {
       cluster_of_set[root] = static_cast<int>(clusters_.size());
       clusters_.emplace_back();
     }
-    clusters_[static_cast<std::size_t>(cluster_of_set[root])].bodies.push_back(link.body);
+    clusters_[cluster_of_set[root]].bodies.push_back(link.body);
     body(link.body).cluster = cluster_of_set[root];
   }
   // A cluster found early may hang from a body of one found later: sort by depth of the parent
   // body.
-  std::vector<int> depth(static_cast<std::size_t>(n), 0);
+  std::vector<int> depth(n, 0);
   for (const Topology::Link& link : topology_.links)
-    depth[static_cast<std::size_t>(link.body)] =
-        link.parent < 0 ? 1 : depth[static_cast<std::size_t>(link.parent)] + 1;
+    depth[link.body] = link.parent < 0 ? 1 : depth[link.parent] + 1;
   for (Cluster& c : clusters_) {
     int best = n + 2;
     for (int i : c.bodies) {
       const int p = body(i).parent;
       if (p >= 0 && find(p) == find(i)) continue;
-      const int d = p < 0 ? 0 : depth[static_cast<std::size_t>(p)];
+      const int d = p < 0 ? 0 : depth[p];
       if (d < best) {
         best = d;
         c.parent = p;
@@ -148,11 +144,10 @@ void RelativeFormulation::build_clusters() {
   cluster_order_.resize(clusters_.size());
   std::iota(cluster_order_.begin(), cluster_order_.end(), 0);
   for (std::size_t k = 0; k < clusters_.size(); ++k) cluster_level(cluster_level, k);
-  std::stable_sort(cluster_order_.begin(), cluster_order_.end(), [&](int a, int b) {
-    return level[static_cast<std::size_t>(a)] < level[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(cluster_order_.begin(), cluster_order_.end(),
+                   [&](int a, int b) { return level[a] < level[b]; });
   for (int k : cluster_order_) {
-    Cluster& c = clusters_[static_cast<std::size_t>(k)];
+    Cluster& c = clusters_[k];
     c.offset = nv_;
     for (int i : c.bodies) {
       BodyData& b = body(i);
@@ -196,7 +191,7 @@ RelativeFormulation::Element RelativeFormulation::make_element(int a, int b) {
   if (lead < 0) return e;
   // Both markers on one body: only its modes see the element; its front is that of its cluster.
   e.cluster = body(lead).cluster;
-  const Cluster& c = clusters_[static_cast<std::size_t>(e.cluster)];
+  const Cluster& c = clusters_[e.cluster];
   const auto add = [&](PathEntry::What what, int i, int marker, bool side_b, int front, int count) {
     if (count > 0) e.path.push_back({what, i, marker, side_b, front, count});
   };
@@ -231,8 +226,7 @@ void RelativeFormulation::build_elements() {
     Element e = make_element(parts_[k].a, parts_[k].b);
     e.gradient = gradients;
     gradients += e.width * parts_[k].rows();
-    if (e.cluster >= 0)
-      clusters_[static_cast<std::size_t>(e.cluster)].parts.push_back(static_cast<int>(k));
+    if (e.cluster >= 0) clusters_[e.cluster].parts.push_back(static_cast<int>(k));
     part_elements_.push_back(std::move(e));
     part_offset_.push_back(nc_);
     nc_ += parts_[k].rows();
@@ -240,7 +234,7 @@ void RelativeFormulation::build_elements() {
   for (Linearization& l : linearizations_) {
     for (const BodyData& b : bodies_) l.bodies.push_back({b.S, b.Phi});
     for (const Cluster& c : clusters_) l.fronts.push_back(MatX::Zero(front_stride(c.n), c.n));
-    l.gradients.assign(static_cast<std::size_t>(gradients), 0.0);
+    l.gradients.assign(gradients, 0.0);
   }
   for (const Force& f : model_.forces) {
     const bool two_bodies = f.a >= 0 && mark(f.a).body >= 0 && mark(f.b).body >= 0;
@@ -258,7 +252,7 @@ void RelativeFormulation::build_elements() {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     omega2_.segment(bodies_[i].iy, bodies_[i].nm) =
         bodies_[i].inertia.own_frequencies_squared(model_.bodies[i].data->K);
-  rows_.resize(static_cast<std::size_t>(nc_));
+  rows_.resize(nc_);
   force_states_.resize(model_.forces.size());
   force_reference_.assign(model_.forces.size(), 0.0);
   count_turns_from(model_, 0.0);
@@ -286,7 +280,7 @@ void RelativeFormulation::build_elements() {
   // Markers grouped by body; a body's own joint marker is handled with the joint.
   std::vector<char> needed(markers_.size(), 0);
   const auto need = [&](int marker) {
-    if (marker >= 0) needed[static_cast<std::size_t>(marker)] = 1;
+    if (marker >= 0) needed[marker] = 1;
   };
   for (const BodyData& b : bodies_) need(b.frame_F);
   for (const ConstraintPart& p : parts_) {
@@ -327,7 +321,7 @@ void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v)
   v = VecX::Zero(nv_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyData& b = bodies_[i];
-    const Joint& joint = values.joints[static_cast<std::size_t>(b.joint)];
+    const Joint& joint = values.joints[b.joint];
     double position[6] = {}, velocity[6] = {};
     for (std::size_t k = 0; k < static_cast<std::size_t>(b.nj); ++k) {
       if (k < joint.position.size()) position[k] = joint.position[k];
@@ -353,16 +347,15 @@ void RelativeFormulation::start(const Model& values, double t, VecX& q, VecX& v)
 }
 
 std::vector<RelativeFormulation::Given> RelativeFormulation::given_coordinates(bool rates) const {
-  std::vector<Given> given(static_cast<std::size_t>(nv_), Given::no);
+  std::vector<Given> given(nv_, Given::no);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyData& b = bodies_[i];
-    const Joint& joint = model_.joints[static_cast<std::size_t>(b.joint)];
+    const Joint& joint = model_.joints[b.joint];
     if (!(rates ? joint.velocity : joint.position).empty())
-      for (int k = 0; k < b.nj; ++k)
-        given[static_cast<std::size_t>(b.iv + k)] = joint.keep ? Given::kept : Given::yes;
+      for (int k = 0; k < b.nj; ++k) given[b.iv + k] = joint.keep ? Given::kept : Given::yes;
     const VecX& amplitudes = rates ? model_.amplitude_rates[i] : model_.amplitudes[i];
     if (b.nm > 0 && amplitudes.size() == b.nm)
-      for (int k = 0; k < b.nm; ++k) given[static_cast<std::size_t>(b.iy + k)] = Given::yes;
+      for (int k = 0; k < b.nm; ++k) given[b.iy + k] = Given::yes;
   }
   return given;
 }

@@ -124,13 +124,9 @@ class RelativeFormulation {
 
   // -- what outputs, energies and other formulations want
   // ---------------------------------------------------------
-  const MarkerState& marker(int index) const noexcept {
-    return markers_[static_cast<std::size_t>(index)].s;
-  }
+  const MarkerState& marker(int index) const noexcept { return markers_[index].s; }
   const Vec3& origin() const noexcept { return origin_; }
-  const ForceState& force(int index) const noexcept {
-    return force_states_[static_cast<std::size_t>(index)];
-  }
+  const ForceState& force(int index) const noexcept { return force_states_[index]; }
   /// The accelerations that `marker_acceleration` uses (`residual` and `constraint_accelerations`
   /// set them too).
   void set_accelerations(const VecX& a) noexcept { accelerations(a); }
@@ -155,9 +151,7 @@ class RelativeFormulation {
 
   const std::vector<ConstraintPart>& parts() const noexcept { return parts_; }
   int part_offset(std::size_t part) const noexcept { return part_offset_[part]; }
-  const ConstraintRow& constraint_row(int i) const noexcept {
-    return rows_[static_cast<std::size_t>(i)];
-  }
+  const ConstraintRow& constraint_row(int i) const noexcept { return rows_[i]; }
   bool is_elastic(int i) const noexcept;
   /// Indices into q of the translations of free joints to the ground.
   std::vector<int> free_translations() const;
@@ -265,16 +259,16 @@ class RelativeFormulation {
   void assemble_cluster(Cluster& c, MatX& front) noexcept;
   void solve_with(Linearization& l, VecX& b, const VecX* w, VecX* increments) noexcept;
   void spread(const VecX& x) noexcept;  // coordinates -> h = [Z; y] of each body
-  BodyData& body(int i) noexcept { return bodies_[static_cast<std::size_t>(i)]; }
-  const BodyData& body(int i) const noexcept { return bodies_[static_cast<std::size_t>(i)]; }
+  BodyData& body(int i) noexcept { return bodies_[i]; }
+  const BodyData& body(int i) const noexcept { return bodies_[i]; }
   /// The six-row columns of a path entry that is not the marker's own.
   const double* directions(const PathEntry& p) const noexcept {
     const BodyData& b = body(p.body);
     if (p.what == PathEntry::What::parent_modes) return b.Phi.data();
     return b.S.data() + (p.what == PathEntry::What::own_modes ? 6 * b.nj : 0);
   }
-  MarkerData& mark(int i) noexcept { return markers_[static_cast<std::size_t>(i)]; }
-  const MarkerData& mark(int i) const noexcept { return markers_[static_cast<std::size_t>(i)]; }
+  MarkerData& mark(int i) noexcept { return markers_[i]; }
+  const MarkerData& mark(int i) const noexcept { return markers_[i]; }
 
   const Model& model_;
   Topology topology_;

@@ -82,7 +82,7 @@ void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alp
     add_product(b.M.data(), n, 6, zdot.data(), b.h.data());
     if (b.nm == 0) continue;
     add_product(b.M.data() + 6 * n, n, b.nm, b.ydd.data(), b.h.data());
-    const FlexibleBody& data = *model_.bodies[static_cast<std::size_t>(i)].data;
+    const FlexibleBody& data = *model_.bodies[i].data;
     add_product(data.K.data(), b.nm, b.nm, b.y.data(), b.h.data() + 6);
     if (b.damped) add_product(data.D.data(), b.nm, b.nm, b.yd.data(), b.h.data() + 6);
   }
@@ -117,7 +117,7 @@ void RelativeFormulation::sum_rows(std::size_t part, const VecX& w, WrenchRow& s
   }
   for (int r = 0; r < parts_[part].rows(); ++r) {
     const int i = part_offset_[part] + r;
-    const WrenchRow& g = rows_[static_cast<std::size_t>(i)].gradient;
+    const WrenchRow& g = rows_[i].gradient;
     sum.Fa += w[i] * g.Fa;
     sum.Ta += w[i] * g.Ta;
     sum.Fb += w[i] * g.Fb;
@@ -144,7 +144,7 @@ void RelativeFormulation::constraint_rates(VecX& out) noexcept {
     const MarkerState& b = mark(p.b).s;
     for (int r = 0; r < p.rows(); ++r) {
       const int i = part_offset_[k] + r;
-      const ConstraintRow& row = rows_[static_cast<std::size_t>(i)];
+      const ConstraintRow& row = rows_[i];
       const WrenchRow& g = row.gradient;
       out[i] = g.Fa.dot(a.v) + g.Ta.dot(a.w) + g.Fb.dot(b.v) + g.Tb.dot(b.w) + row.phi_t;
     }
@@ -188,7 +188,7 @@ void RelativeFormulation::constraint_increments(const VecX& delta, VecX& out) no
     motion(p.b, rb, wb);
     for (int r = 0; r < p.rows(); ++r) {
       const int i = part_offset_[k] + r;
-      const WrenchRow& g = rows_[static_cast<std::size_t>(i)].gradient;
+      const WrenchRow& g = rows_[i].gradient;
       out[i] = g.Fa.dot(ra) + g.Ta.dot(wa) + g.Fb.dot(rb) + g.Tb.dot(wb);
     }
   }
@@ -216,7 +216,7 @@ void RelativeFormulation::constraint_accelerations(const VecX& a, VecX& out) noe
     motion(p.b, ab, wb);
     for (int r = 0; r < p.rows(); ++r) {
       const int i = part_offset_[k] + r;
-      const ConstraintRow& row = rows_[static_cast<std::size_t>(i)];
+      const ConstraintRow& row = rows_[i];
       const WrenchRow& g = row.gradient;
       out[i] = g.Fa.dot(aa) + g.Ta.dot(wa) + g.Fb.dot(ab) + g.Tb.dot(wb) + row.quad + row.phi_tt;
     }

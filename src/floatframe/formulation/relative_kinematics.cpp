@@ -41,12 +41,12 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
   {  // the origin of this evaluation: the first body's joint frame M
     BodyData& b = body(order_[0]);
     joint_motion(b.type, b.axes, q.data() + b.iq, b.motion);
-    const Pose& X_WF = model_.markers[static_cast<std::size_t>(b.frame_F)].X_NM;
+    const Pose& X_WF = model_.markers[b.frame_F].X_NM;
     origin_ = X_WF.p + X_WF.R * b.motion.p_FM;
   }
   for (MarkerData& m : markers_)
     if (m.body < 0) {
-      const Pose& X = model_.markers[static_cast<std::size_t>(&m - markers_.data())].X_NM;
+      const Pose& X = model_.markers[&m - markers_.data()].X_NM;
       m.s.r = X.p - origin_;
       m.s.R = X.R;
       m.s.v.setZero();
@@ -81,7 +81,7 @@ void RelativeFormulation::positions(double t, const VecX& q) noexcept {
         b.S.block<3, 1>(3, b.nj + k) = -M.Jw.col(k);
         b.S.block<3, 1>(0, b.nj + k) = M.Jw.col(k).cross(r_M) - M.Jr.col(k);
       }
-    const UsedMarkers& used = used_markers_[static_cast<std::size_t>(i)];
+    const UsedMarkers& used = used_markers_[i];
     for (const int u : stepping_ ? used.dynamic : used.all) {
       MarkerData& m = mark(u);
       if (m.local) m.deform(b.y);
@@ -130,7 +130,7 @@ void RelativeFormulation::velocities(const VecX& v) noexcept {
         a_M - alpha.cross(r_M) - b.w.cross(b.w.cross(r_M)) - 2.0 * b.w.cross(chi) - chi_dot;
     b.D.tail<3>() = alpha;
     marker_world_velocity(M);
-    const UsedMarkers& used = used_markers_[static_cast<std::size_t>(i)];
+    const UsedMarkers& used = used_markers_[i];
     for (const int u : stepping_ ? used.dynamic : used.all) {
       MarkerData& m = mark(u);
       if (m.local) m.deform_rate(b.yd);
@@ -145,8 +145,7 @@ void RelativeFormulation::evaluate_constraints() noexcept {
     const ConstraintPart& p = parts_[k];
     const int offset = part_offset_[k];
     evaluate_constraint(p, mark(p.a).s, mark(p.b).s, time_, rows_.data() + offset);
-    for (int r = 0; r < p.rows(); ++r)
-      phi_[offset + r] = rows_[static_cast<std::size_t>(offset + r)].phi;
+    for (int r = 0; r < p.rows(); ++r) phi_[offset + r] = rows_[offset + r].phi;
   }
 }
 

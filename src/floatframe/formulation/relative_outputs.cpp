@@ -5,7 +5,7 @@
 namespace floatframe {
 
 Vec3 RelativeFormulation::marker_acceleration(int index) const noexcept {
-  const MarkerData& m = markers_[static_cast<std::size_t>(index)];
+  const MarkerData& m = markers_[index];
   Vec3 a = m.s.a_bias + model_.gravity;  // the ground accelerates with -g in this formulation
   if (m.body < 0) return a;
   const BodyData& b = body(m.body);
@@ -55,7 +55,7 @@ double RelativeFormulation::elastic_energy(const VecX& q) const noexcept {
   double sum = 0.0;
   for (const int i : order_) {
     const BodyData& b = body(i);
-    const MatX& K = model_.bodies[static_cast<std::size_t>(i)].data->K;
+    const MatX& K = model_.bodies[i].data->K;
     for (int k = 0; k < b.nm; ++k) sum += 0.5 * q[b.iyq + k] * K.col(k).dot(q.segment(b.iyq, b.nm));
   }
   return sum;
@@ -65,7 +65,7 @@ double RelativeFormulation::modal_damping_power(const VecX& v) const noexcept {
   double sum = 0.0;
   for (const int i : order_) {
     const BodyData& b = body(i);
-    const MatX& D = model_.bodies[static_cast<std::size_t>(i)].data->D;
+    const MatX& D = model_.bodies[i].data->D;
     const double* rate = v.data() + b.iy;
     for (int k = 0; k < b.nm; ++k)
       for (int l = 0; l < b.nm; ++l) sum += rate[k] * D(l, k) * rate[l];
@@ -93,7 +93,7 @@ void RelativeFormulation::tree_joint_wrench(int joint, Vec3& force, Vec3& torque
   if (i < 0) return;
   const BodyData& b = body(i);
   const double sign = b.reversed ? -1.0 : 1.0;  // on the joint's own child
-  const Vec3& r = markers_[static_cast<std::size_t>(b.frame_M)].s.r;
+  const Vec3& r = markers_[b.frame_M].s.r;
   force = sign * b.wrench.head<3>();
   torque = sign * (b.wrench.tail<3>() - r.cross(b.wrench.head<3>()));
 }
@@ -121,8 +121,7 @@ double RelativeFormulation::total_mass() const noexcept {
 std::string RelativeFormulation::coordinate_owner(int i) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const BodyData& b = bodies_[k];
-    if (i >= b.iv && i < b.iv + b.nj)
-      return "joint '" + model_.joints[static_cast<std::size_t>(b.joint)].name + "'";
+    if (i >= b.iv && i < b.iv + b.nj) return "joint '" + model_.joints[b.joint].name + "'";
     if (i >= b.iy && i < b.iy + b.nm)
       return "mode " + std::to_string(i - b.iy + 1) + " of body '" + model_.bodies[k].name + "'";
   }
@@ -134,10 +133,10 @@ MatX RelativeFormulation::constraint_jacobian() {
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Element& e = part_elements_[k];
     if (e.cluster < 0) continue;
-    const Cluster& c = clusters_[static_cast<std::size_t>(e.cluster)];
+    const Cluster& c = clusters_[e.cluster];
     for (int r = 0; r < parts_[k].rows(); ++r) {
       const int row = part_offset_[k] + r;
-      fill_gradient(e, rows_[static_cast<std::size_t>(row)].gradient, slots_.data());
+      fill_gradient(e, rows_[row].gradient, slots_.data());
       for (int j = 0; j < e.width; ++j) {
         const int front = e.first + j;
         // Never touched: the parent's twist, and the rows that fill up the last lanes.

@@ -137,8 +137,7 @@ void RelativeFormulation::assemble_elements(double damping, double s, double pen
       if (weight == 0.0) continue;
       if (e.cluster >= 0) {
         fill_gradient(e, row.g, slots_.data());
-        add_outer(l.fronts[static_cast<std::size_t>(e.cluster)], e.first, e.width, slots_.data(),
-                  weight);
+        add_outer(l.fronts[e.cluster], e.first, e.width, slots_.data(), weight);
       } else if (e.body >= 0) {  // a body against the ground: into its own matrix
         BodyData& b = body(e.body);
         const bool side_b = mark(e.b).body >= 0;
@@ -160,7 +159,7 @@ void RelativeFormulation::assemble_elements(double damping, double s, double pen
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Element& e = part_elements_[k];
     if (e.cluster < 0) continue;
-    MatX& front = l.fronts[static_cast<std::size_t>(e.cluster)];
+    MatX& front = l.fronts[e.cluster];
     double* g = l.gradients.data() + e.gradient;
     if (parts_[k].kind == ConstraintPart::Kind::coincident) {
       fill_distance(e, g);
@@ -168,7 +167,7 @@ void RelativeFormulation::assemble_elements(double damping, double s, double pen
       continue;
     }
     for (int r = 0; r < parts_[k].rows(); ++r, g += e.width) {
-      fill_gradient(e, rows_[static_cast<std::size_t>(part_offset_[k] + r)].gradient, g);
+      fill_gradient(e, rows_[part_offset_[k] + r].gradient, g);
       add_outer(front, e.first, e.width, g, penalty);
     }
     if (geometric &&
@@ -315,8 +314,8 @@ int RelativeFormulation::eliminate(double mass, double damping, double s, double
   for (MatX& front : linear.fronts) clear_lower(front);
   assemble_elements(damping, s, penalty, geometric, linear);
   for (std::size_t k = cluster_order_.size(); k-- > 0;) {
-    Cluster& c = clusters_[static_cast<std::size_t>(cluster_order_[k])];
-    MatX& front = linear.fronts[static_cast<std::size_t>(cluster_order_[k])];
+    Cluster& c = clusters_[cluster_order_[k]];
+    MatX& front = linear.fronts[cluster_order_[k]];
     assemble_cluster(c, front);
     const int failed = partial_ldlt(front.data(), c.n, c.size, c.original.data());
     if (failed >= 0) return c.offset + failed;
@@ -351,14 +350,14 @@ void RelativeFormulation::solve_with(Linearization& linear, VecX& x, const VecX*
   for (BodyData& b : bodies_) b.h.setZero();
   if (increments) increments->setZero();
   for (std::size_t k = cluster_order_.size(); k-- > 0;) {
-    Cluster& c = clusters_[static_cast<std::size_t>(cluster_order_[k])];
-    const MatX& front = linear.fronts[static_cast<std::size_t>(cluster_order_[k])];
+    Cluster& c = clusters_[cluster_order_[k]];
+    const MatX& front = linear.fronts[cluster_order_[k]];
     double* work = c.work.data();
     for (int j = 0; j < c.size; ++j) work[j] = x[c.offset + j];
     for (int j = c.size; j < c.work.size(); ++j) work[j] = 0.0;
     if (w)
       for (const int part : c.parts) {
-        const auto q = static_cast<std::size_t>(part);
+        const std::size_t q = part;
         const Element& e = part_elements_[q];
         const double* g = linear.gradients.data() + e.gradient;
         double* out = work + e.first;
@@ -374,7 +373,7 @@ void RelativeFormulation::solve_with(Linearization& linear, VecX& x, const VecX*
         }
       }
     for (std::size_t l = c.bodies.size(); l-- > 0;) {
-      const auto i = static_cast<std::size_t>(c.bodies[l]);
+      const std::size_t i = c.bodies[l];
       BodyData& b = bodies_[i];
       const Linearization::Directions& d = linear.bodies[i];
       const Vec6 hz = b.h.head<6>();
@@ -394,8 +393,8 @@ void RelativeFormulation::solve_with(Linearization& linear, VecX& x, const VecX*
   }
   // Root to leaves: h now holds the increments [Z; y] of each body.
   for (const int k : cluster_order_) {
-    Cluster& c = clusters_[static_cast<std::size_t>(k)];
-    const MatX& front = linear.fronts[static_cast<std::size_t>(k)];
+    Cluster& c = clusters_[k];
+    const MatX& front = linear.fronts[k];
     double* work = c.work.data();
     if (c.parent >= 0) {
       const double* up = body(c.parent).h.data();
@@ -405,7 +404,7 @@ void RelativeFormulation::solve_with(Linearization& linear, VecX& x, const VecX*
     for (int j = 0; j < c.size; ++j) x[c.offset + j] = work[j];
     if (increments)
       for (const int part : c.parts) {
-        const auto q = static_cast<std::size_t>(part);
+        const std::size_t q = part;
         const Element& e = part_elements_[q];
         const double* g = linear.gradients.data() + e.gradient;
         const double* in = work + e.first;
@@ -417,7 +416,7 @@ void RelativeFormulation::solve_with(Linearization& linear, VecX& x, const VecX*
       }
     for (const int i : c.bodies) {
       BodyData& b = body(i);
-      const Linearization::Directions& d = linear.bodies[static_cast<std::size_t>(i)];
+      const Linearization::Directions& d = linear.bodies[i];
       Vec6 z = Vec6::Zero();
       if (b.parent >= 0) {
         const BodyData& p = body(b.parent);

@@ -207,10 +207,10 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
 
 ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data)
     : modes(static_cast<int>(data.X.cols())), stride(padded(13 + modes)) {
-  const std::size_t n = static_cast<std::size_t>(data.nodes());
+  const std::size_t n = data.nodes();
   const std::size_t rows = data.six_dof() ? 6 : 3;
-  const std::size_t nm = static_cast<std::size_t>(modes);
-  const std::size_t width = static_cast<std::size_t>(stride);
+  const std::size_t nm = modes;
+  const std::size_t width = stride;
   B.assign(n * rows * width, 0.0);
   MB.assign(rows * width, 0.0);
   upper.assign((12 + nm) * width, 0.0);

@@ -23,8 +23,8 @@ BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<
   std::vector<std::set<int>> neighbours(n);
   for (const auto& [a, b] : edges) {
     if (a == b) continue;
-    neighbours[static_cast<std::size_t>(a)].insert(b);
-    neighbours[static_cast<std::size_t>(b)].insert(a);
+    neighbours[a].insert(b);
+    neighbours[b].insert(a);
   }
   nodes_.resize(n);
   int offset = 0;
@@ -38,37 +38,34 @@ BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<
   std::vector<long> degree(n, 0);
   std::set<std::pair<long, int>> left;
   for (std::size_t k = 0; k < n; ++k) {
-    for (int j : neighbours[k]) degree[k] += sizes[static_cast<std::size_t>(j)];
+    for (int j : neighbours[k]) degree[k] += sizes[j];
     left.emplace(degree[k], static_cast<int>(k));
   }
   while (!left.empty()) {
     const int best = left.begin()->second;
     left.erase(left.begin());
-    const auto b = static_cast<std::size_t>(best);
+    const std::size_t b = best;
     nodes_[b].rank = static_cast<int>(order_.size());
     order_.push_back(best);
     nodes_[b].blocks.assign(neighbours[b].begin(), neighbours[b].end());
     for (int i : neighbours[b]) {
-      const auto k = static_cast<std::size_t>(i);
+      const std::size_t k = i;
       left.erase({degree[k], i});
       for (int j : neighbours[b])
-        if (i != j && neighbours[k].insert(j).second)
-          degree[k] += sizes[static_cast<std::size_t>(j)];
+        if (i != j && neighbours[k].insert(j).second) degree[k] += sizes[j];
       neighbours[k].erase(best);
       degree[k] -= sizes[b];
       left.emplace(degree[k], i);
     }
   }
   for (Node& node : nodes_) {
-    std::sort(node.blocks.begin(), node.blocks.end(), [&](int a, int b) {
-      return nodes_[static_cast<std::size_t>(a)].rank < nodes_[static_cast<std::size_t>(b)].rank;
-    });
+    std::sort(node.blocks.begin(), node.blocks.end(),
+              [&](int a, int b) { return nodes_[a].rank < nodes_[b].rank; });
     int start = node.size;
     for (int b : node.blocks) {
       node.start.push_back(start);
-      for (int i = 0; i < sizes[static_cast<std::size_t>(b)]; ++i)
-        node.rows.push_back(nodes_[static_cast<std::size_t>(b)].offset + i);
-      start += sizes[static_cast<std::size_t>(b)];
+      for (int i = 0; i < sizes[b]; ++i) node.rows.push_back(nodes_[b].offset + i);
+      start += sizes[b];
     }
     node.total = start;
     node.matrix = MatX::Zero(front_stride(start), start);
@@ -78,17 +75,16 @@ BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<
   for (Node& node : nodes_) {
     if (node.blocks.empty()) continue;
     node.parent = node.blocks.front();
-    const Node& p = nodes_[static_cast<std::size_t>(node.parent)];
+    const Node& p = nodes_[node.parent];
     for (int b : node.blocks) {
       const int at = start_of(p, b);
-      for (int i = 0; i < sizes[static_cast<std::size_t>(b)]; ++i)
-        node.parent_rows.push_back(at + i);
+      for (int i = 0; i < sizes[b]; ++i) node.parent_rows.push_back(at + i);
     }
   }
 }
 
 int BlockLdlt::start_of(const Node& n, int block) const noexcept {
-  if (&n == &nodes_[static_cast<std::size_t>(block)]) return 0;
+  if (&n == &nodes_[block]) return 0;
   for (std::size_t k = 0; k < n.blocks.size(); ++k)
     if (n.blocks[k] == block) return n.start[k];
   return -1;
@@ -99,8 +95,8 @@ void BlockLdlt::set_zero() noexcept {
 }
 
 MatX& BlockLdlt::front(int a, int b, int& offset_a, int& offset_b) noexcept {
-  Node& na = nodes_[static_cast<std::size_t>(a)];
-  Node& nb = nodes_[static_cast<std::size_t>(b)];
+  Node& na = nodes_[a];
+  Node& nb = nodes_[b];
   Node& first = na.rank <= nb.rank ? na : nb;
   offset_a = start_of(first, a);
   offset_b = start_of(first, b);
@@ -120,18 +116,17 @@ int BlockLdlt::factorize() noexcept {
   for (Node& n : nodes_)
     for (int j = 0; j < n.size; ++j) n.original[j] = std::abs(n.matrix(j, j));
   for (const int k : order_) {
-    Node& n = nodes_[static_cast<std::size_t>(k)];
+    Node& n = nodes_[k];
     const int total = n.total, ld = static_cast<int>(n.matrix.rows());
     const int failed = partial_ldlt(n.matrix.data(), total, n.size, n.original.data(), vanishing);
     if (failed >= 0) return n.offset + failed;
     if (n.parent < 0) continue;
-    MatX& p = nodes_[static_cast<std::size_t>(n.parent)].matrix;
+    MatX& p = nodes_[n.parent].matrix;
     const int m = total - n.size;
     for (int j = 0; j < m; ++j) {
       const double* from = n.matrix.data() + static_cast<Eigen::Index>(n.size + j) * ld + n.size;
-      double* to = p.data() +
-                   static_cast<Eigen::Index>(n.parent_rows[static_cast<std::size_t>(j)]) * p.rows();
-      for (int i = j; i < m; ++i) to[n.parent_rows[static_cast<std::size_t>(i)]] += from[i];
+      double* to = p.data() + static_cast<Eigen::Index>(n.parent_rows[j]) * p.rows();
+      for (int i = j; i < m; ++i) to[n.parent_rows[i]] += from[i];
     }
   }
   return -1;
@@ -139,7 +134,7 @@ int BlockLdlt::factorize() noexcept {
 
 void BlockLdlt::solve(VecX& x) noexcept {
   for (const int k : order_) {
-    Node& n = nodes_[static_cast<std::size_t>(k)];
+    Node& n = nodes_[k];
     const int total = n.total;
     n.work.head(n.size) = x.segment(n.offset, n.size);
     n.work.tail(n.work.size() - n.size).setZero();
@@ -149,7 +144,7 @@ void BlockLdlt::solve(VecX& x) noexcept {
       x[n.rows[i]] += n.work[n.size + static_cast<int>(i)];
   }
   for (std::size_t l = order_.size(); l-- > 0;) {
-    Node& n = nodes_[static_cast<std::size_t>(order_[l])];
+    Node& n = nodes_[order_[l]];
     const int total = n.total;
     n.work.head(n.size) = x.segment(n.offset, n.size);
     for (std::size_t i = 0; i < n.rows.size(); ++i)

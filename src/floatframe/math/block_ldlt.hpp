@@ -22,7 +22,7 @@ class BlockLdlt {
   void add(int a, int i, int b, int j, double x) noexcept;
   /// The front that holds the pair (a, b), and where each block starts in it.
   MatX& front(int a, int b, int& offset_a, int& offset_b) noexcept;
-  MatX& front(int a) noexcept { return nodes_[static_cast<std::size_t>(a)].matrix; }
+  MatX& front(int a) noexcept { return nodes_[a].matrix; }
 
   /// Returns -1 or the unknown (global index, blocks in their given order) whose pivot vanished.
   int factorize() noexcept;

@@ -37,8 +37,7 @@ class PiecewisePolynomial {
 
   /// Index of the piece that holds at x; at a break the right-hand piece.
   std::size_t piece_index(double x) const noexcept {
-    return static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), x) -
-                                    breaks_.begin());
+    return std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin();
   }
   Value piece_value(std::size_t k, double x) const noexcept {
     const Piece& p = pieces_[k];

@@ -39,8 +39,7 @@ class EigenEngine final : public SparseEngine {
     for (int first = 0; first < columns; first += width) {
       const int count = std::min(width, columns - first);
       if (count < x.cols()) x.resize(n, count);
-      for (Eigen::Index k = 0; k < n; ++k)
-        x.row(order_[static_cast<std::size_t>(k)]) = all.block(k, first, 1, count);
+      for (Eigen::Index k = 0; k < n; ++k) x.row(order_[k]) = all.block(k, first, 1, count);
       if (count == width) {
         substitute<width>(x);
       } else if (count == 1) {
@@ -48,8 +47,7 @@ class EigenEngine final : public SparseEngine {
       } else {
         substitute<Eigen::Dynamic>(x);
       }
-      for (Eigen::Index k = 0; k < n; ++k)
-        all.block(k, first, 1, count) = x.row(order_[static_cast<std::size_t>(k)]);
+      for (Eigen::Index k = 0; k < n; ++k) all.block(k, first, 1, count) = x.row(order_[k]);
     }
   }
 
@@ -60,11 +58,11 @@ class EigenEngine final : public SparseEngine {
   /// Lower triangle of P A P^T.
   void permute(const LowerTriangle& A, Eigen::SparseMatrix<double>& out) const {
     std::vector<Eigen::Triplet<double>> entry;
-    entry.reserve(static_cast<std::size_t>(A.start[A.n]));
+    entry.reserve(A.start[A.n]);
     for (int j = 0; j < A.n; ++j) {
       for (int k = A.start[j]; k < A.start[j + 1]; ++k) {
-        const int r = order_[static_cast<std::size_t>(A.row[k])];
-        const int c = order_[static_cast<std::size_t>(j)];
+        const int r = order_[A.row[k]];
+        const int c = order_[j];
         entry.emplace_back(std::max(r, c), std::min(r, c), A.value[k]);
       }
     }

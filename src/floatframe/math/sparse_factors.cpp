@@ -48,13 +48,13 @@ const Module& mumps() {
 /// Nested dissection: place of each row in the elimination.
 std::vector<int> nested_dissection(const Eigen::SparseMatrix<double>& A) {
   static_assert(sizeof(idx_t) == sizeof(int));
-  const auto n = static_cast<std::size_t>(A.rows());
+  const std::size_t n = A.rows();
   std::vector<idx_t> start(n + 1, 0), neighbours, order(n), place(n);
-  neighbours.reserve(static_cast<std::size_t>(A.nonZeros()));
+  neighbours.reserve(A.nonZeros());
   for (int j = 0; j < A.outerSize(); ++j) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
       if (it.row() != j) neighbours.push_back(static_cast<idx_t>(it.row()));
-    start[static_cast<std::size_t>(j) + 1] = static_cast<idx_t>(neighbours.size());
+    start[j + 1] = static_cast<idx_t>(neighbours.size());
   }
   if (neighbours.empty()) {
     for (std::size_t k = 0; k < n; ++k) place[k] = static_cast<idx_t>(k);

@@ -20,8 +20,7 @@ Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
   JointMotion motion;
   const double q[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   joint_motion(joint.type, {Vec3::UnitZ(), joint.axis_2}, q, motion);
-  const Vec3 p_BM =
-      M.node < 0 ? M.X_NM.p : Vec3(body.data->nodes[static_cast<std::size_t>(M.node)].p + M.X_NM.p);
+  const Vec3 p_BM = M.node < 0 ? M.X_NM.p : Vec3(body.data->nodes[M.node].p + M.X_NM.p);
   Mat6X free = motion.H.leftCols(joint_velocities(joint.type));
   for (Eigen::Index k = 0; k < free.cols(); ++k) {
     const Vec3 w = M.X_NM.R * free.col(k).tail<3>();
@@ -65,7 +64,7 @@ void ModelBuilder::modal_masses() {
   std::vector<const Joint*> on_ground(model.bodies.size(), nullptr);
   for (const Joint& j : model.joints) {
     if (j.parent != ground_index) continue;
-    const Joint*& tightest = on_ground[static_cast<std::size_t>(j.child)];
+    const Joint*& tightest = on_ground[j.child];
     if (joint_velocities(j.type) < (tightest ? joint_velocities(tightest->type) : 6)) tightest = &j;
   }
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
@@ -91,7 +90,7 @@ void ModelBuilder::finish() {
   std::vector<double> reach(model.bodies.size(), 0.0);  // of markers that belong to no node
   for (const Marker& m : model.markers)
     if (m.body >= 0 && m.node < 0) {
-      double& r = reach[static_cast<std::size_t>(m.body)];
+      double& r = reach[m.body];
       r = std::max(r, m.X_NM.p.norm());
     }
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {

@@ -54,13 +54,13 @@ void ModelBuilder::free_joints() {
   std::vector<std::vector<int>> neighbours(model.bodies.size());
   std::vector<int> next;
   const auto reach = [&](int body) {
-    if (std::exchange(reached[static_cast<std::size_t>(body)], 1) == 0) next.push_back(body);
+    if (std::exchange(reached[body], 1) == 0) next.push_back(body);
   };
   const auto spread = [&] {
     while (!next.empty()) {
       const int body = next.back();
       next.pop_back();
-      for (const int other : neighbours[static_cast<std::size_t>(body)]) reach(other);
+      for (const int other : neighbours[body]) reach(other);
     }
   };
   for (const Joint& j : model.joints) {
@@ -69,8 +69,8 @@ void ModelBuilder::free_joints() {
       reach(j.child);
       continue;
     }
-    neighbours[static_cast<std::size_t>(j.parent)].push_back(j.child);
-    neighbours[static_cast<std::size_t>(j.child)].push_back(j.parent);
+    neighbours[j.parent].push_back(j.child);
+    neighbours[j.child].push_back(j.parent);
   }
   spread();
   for (std::size_t i = 0; i < reached.size(); ++i) {

@@ -16,8 +16,8 @@ namespace {
 std::array<double, 15> place_of(const Marker& m) {
   std::array<double, 15> place{static_cast<double>(m.body), static_cast<double>(m.node),
                                m.rotates ? 1.0 : 0.0};
-  for (Eigen::Index i = 0; i < 3; ++i) place[3 + static_cast<std::size_t>(i)] = m.X_NM.p[i];
-  for (Eigen::Index i = 0; i < 9; ++i) place[6 + static_cast<std::size_t>(i)] = m.X_NM.R(i);
+  for (Eigen::Index i = 0; i < 3; ++i) place[3 + i] = m.X_NM.p[i];
+  for (Eigen::Index i = 0; i < 9; ++i) place[6 + i] = m.X_NM.R(i);
   return place;
 }
 
@@ -45,7 +45,7 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
     model.markers.push_back(m);
     return static_cast<int>(model.markers.size()) - 1;
   }
-  const Body& b = model.bodies[static_cast<std::size_t>(body)];
+  const Body& b = model.bodies[body];
   Pose X_BM = b.X_WB.inverse() * Pose{at.point, R_design};
   const std::vector<ModalNode>& nodes = b.data->nodes;
   if (at.node) {
@@ -55,7 +55,7 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
       faults.add(mark, who + "." + node_key + ": " + no_node_named(b, *at.node));
       return -1;
     }
-    X_BM.p = nodes[static_cast<std::size_t>(m.node)].p;
+    X_BM.p = nodes[m.node].p;
   } else if (b.modes() > 0) {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -70,7 +70,7 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
       m.node = -1;  // the body frame itself, whatever the body reference: no mode moves it
     } else if (best > rules::node_tolerance) {
       Vec3 nearest = Vec3::Zero();
-      if (m.node >= 0) nearest = b.X_WB * nodes[static_cast<std::size_t>(m.node)].p;
+      if (m.node >= 0) nearest = b.X_WB * nodes[m.node].p;
       faults.add(
           mark,
           who + ".at: " + sentences::no_node_at(at.point, b.name, m.node < 0 ? nullptr : &nearest));
@@ -78,7 +78,7 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
     }
   }
   if (m.node >= 0) {
-    m.X_NM = {X_BM.p - nodes[static_cast<std::size_t>(m.node)].p, X_BM.R};
+    m.X_NM = {X_BM.p - nodes[m.node].p, X_BM.R};
     if (m.X_NM.p.norm() <= rules::node_tolerance) m.X_NM.p.setZero();
     m.rotates = oriented;
   } else {
@@ -94,9 +94,8 @@ int ModelBuilder::add_marker(const AttachmentDescription& at, const Mat3& R_desi
 Vec3 ModelBuilder::design_point(int marker) const {
   const Marker& m = this->marker(marker);
   if (m.body < 0) return m.X_NM.p;
-  const Body& b = model.bodies[static_cast<std::size_t>(m.body)];
-  const Vec3 node =
-      m.node < 0 ? Vec3::Zero().eval() : b.data->nodes[static_cast<std::size_t>(m.node)].p;
+  const Body& b = model.bodies[m.body];
+  const Vec3 node = m.node < 0 ? Vec3::Zero().eval() : b.data->nodes[m.node].p;
   return b.X_WB * Vec3(node + m.X_NM.p);
 }
 

@@ -28,7 +28,7 @@ void ModelBuilder::rods() {
 
 const std::string& Model::body_name(int body) const {
   static const std::string ground = ground_name;
-  return body < 0 ? ground : bodies[static_cast<std::size_t>(body)].name;
+  return body < 0 ? ground : bodies[body].name;
 }
 
 Model build_model(const ModelDescription& description) {

@@ -1,4 +1,5 @@
 // Result columns: what they measure and their units.
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/rules.hpp"
@@ -21,7 +22,7 @@ void ModelBuilder::outputs() {
       case OutputKind::velocity:
       case OutputKind::acceleration:
         out.marker = add_marker(o.at, Mat3::Identity(), false, o.origin.mark,
-                                who + "." + rules::quantities[static_cast<std::size_t>(o.kind)]);
+                                who + "." + rules::quantities[index_of(o.kind)]);
         if (out.marker < 0) continue;
         break;
       case OutputKind::rotation:
@@ -29,7 +30,7 @@ void ModelBuilder::outputs() {
       case OutputKind::modal_amplitude:
         out.body = body_index(o.at.body);
         if (o.kind == OutputKind::modal_amplitude) {
-          const int nm = model.bodies[static_cast<std::size_t>(out.body)].modes();
+          const int nm = model.bodies[out.body].modes();
           if (o.component < 0 || o.component >= nm) {
             faults.add(
                 o.origin.mark,
@@ -43,7 +44,7 @@ void ModelBuilder::outputs() {
       case OutputKind::joint_velocity: {
         out.joint = joint_names.index(o.entity);
         if (out.joint < 0) continue;  // it has an error of its own
-        const JointType type = model.joints[static_cast<std::size_t>(out.joint)].type;
+        const JointType type = model.joints[out.joint].type;
         out.unit = joint_unit_name(type, o.component, o.kind == OutputKind::joint_velocity);
         break;
       }
@@ -52,7 +53,7 @@ void ModelBuilder::outputs() {
       case OutputKind::rate: {
         out.force = force_names.index(o.entity);
         if (out.force < 0) continue;  // it has an error of its own
-        const Force& f = model.forces[static_cast<std::size_t>(out.force)];
+        const Force& f = model.forces[out.force];
         if (f.rotational || f.type == ForceType::torque)
           out.unit = o.kind == OutputKind::force    ? "N m"
                      : o.kind == OutputKind::length ? "rad"

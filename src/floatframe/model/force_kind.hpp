@@ -21,9 +21,7 @@ struct ForceInput {
   double reference_angle;          ///< picks the turn of a joint angle [rad]
   std::span<const double> inputs;  ///< values of model.inputs
 
-  double input(int index) const noexcept {
-    return index < 0 ? 0.0 : inputs[static_cast<std::size_t>(index)];
-  }
+  double input(int index) const noexcept { return index < 0 ? 0.0 : inputs[index]; }
   /// Of a load.
   double magnitude() const noexcept { return evaluate(force.magnitude, t).f + input(force.input); }
   /// Force of the actuator; zero for elements without one.

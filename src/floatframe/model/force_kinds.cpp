@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/force_kind.hpp"
 
 namespace floatframe {
@@ -32,9 +33,7 @@ using Types = std::make_index_sequence<std::size(list)>;
 
 std::span<const ForceKind* const> force_kinds() noexcept { return list; }
 
-const char* force_type_name(ForceType type) noexcept {
-  return list[static_cast<std::size_t>(type)]->name;
-}
+const char* force_type_name(ForceType type) noexcept { return list[index_of(type)]->name; }
 
 void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,

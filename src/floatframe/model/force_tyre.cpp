@@ -30,7 +30,7 @@ Contact contact(const ForceInput& in) noexcept {
   const Force& t = in.force;
   const Vec3 centre = in.b.r + in.origin;
   Contact c;
-  c.road = road_at(in.model.roads[static_cast<std::size_t>(t.road)], centre.x());
+  c.road = road_at(in.model.roads[t.road], centre.x());
   c.h = centre.z() - c.road.z;
   c.rate = in.b.v.z() - c.road.slope * in.b.v.x();
   const bool radial = t.law == TyreLaw::radial;

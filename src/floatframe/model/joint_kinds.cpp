@@ -2,6 +2,7 @@
 #include <iterator>
 #include <utility>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_measure.hpp"
 
@@ -25,9 +26,7 @@ constexpr std::make_index_sequence<std::size(list)> all_types;
 
 }  // namespace
 
-const JointKind& joint_kind(JointType type) noexcept {
-  return *list[static_cast<std::size_t>(type)];
-}
+const JointKind& joint_kind(JointType type) noexcept { return *list[index_of(type)]; }
 
 void joint_motion(JointType type, const JointDirections& axes, const double* q,
                   JointMotion& m) noexcept {

@@ -2,7 +2,7 @@
 // All joints. One entry is the enumerator of JointType, the word of model files and the name of the
 // file model/joints/<name>.cpp, which ends in the joint's JointKind `<name>_joint`
 // (joint_kind.hpp). Everything else runs over this list. Numbers and messages follow its order.
-#include <cstddef>
+#include "floatframe/core/enum_index.hpp"
 
 // clang-format off
 #define FLOATFRAME_JOINTS(entry) \
@@ -31,7 +31,7 @@ inline constexpr const char* joint_words[] = {FLOATFRAME_JOINTS(FLOATFRAME_WORD)
 #undef FLOATFRAME_WORD
 
 constexpr const char* joint_type_name(JointType type) noexcept {
-  return joint_words[static_cast<std::size_t>(type)];
+  return joint_words[index_of(type)];
 }
 
 }  // namespace floatframe

@@ -27,13 +27,13 @@ std::string joints_of_one_coordinate() {
 
 const char* joint_coordinate_name(JointType type, int component) noexcept {
   const auto all = joint_kind(type).coordinates.all();
-  const auto k = static_cast<std::size_t>(component);
+  const std::size_t k = component;
   return k < all.size() ? all[k].name : "";
 }
 
 JointUnit joint_unit(JointType type, int component) noexcept {
   const auto all = joint_kind(type).coordinates.all();
-  const auto k = static_cast<std::size_t>(component);
+  const std::size_t k = component;
   return k < all.size() ? all[k].unit : JointUnit::rad;
 }
 

@@ -28,28 +28,27 @@ void JointParts::perpendicular(const Vec3& e_F, const Vec3& n_M, double c) {
 }
 
 void append_joint_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
-  const Joint& joint = model.joints[static_cast<std::size_t>(index)];
-  const double length = model.bodies[static_cast<std::size_t>(joint.child)].length;
+  const Joint& joint = model.joints[index];
+  const double length = model.bodies[joint.child].length;
   JointParts collected(joint, index, length, parts);
   joint_kind(joint.type).parts(collected);
 }
 
 void append_motion_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
-  const Joint& joint = model.joints[static_cast<std::size_t>(index)];
+  const Joint& joint = model.joints[index];
   if (!joint.motion) return;
   ConstraintPart p;
   p.kind = joint_unit(joint.type, 0) == JointUnit::m ? Kind::drive_position : Kind::drive_angle;
   p.a = joint.frame_F;
   p.b = joint.frame_M;
-  p.scale = p.kind == Kind::drive_angle ? model.bodies[static_cast<std::size_t>(joint.child)].length
-                                        : 1.0;
+  p.scale = p.kind == Kind::drive_angle ? model.bodies[joint.child].length : 1.0;
   p.motion = &*joint.motion;
   p.owner = {ConstraintOwner::Kind::joint, index};
   parts.push_back(p);
 }
 
 void append_rod_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
-  const Rod& rod = model.rods[static_cast<std::size_t>(index)];
+  const Rod& rod = model.rods[index];
   ConstraintPart p;
   p.kind = Kind::distance;
   p.a = rod.a;
@@ -60,7 +59,7 @@ void append_rod_parts(const Model& model, int index, std::vector<ConstraintPart>
 }
 
 std::string owner_name(const Model& model, const ConstraintOwner& owner) {
-  const auto i = static_cast<std::size_t>(owner.index);
+  const std::size_t i = owner.index;
   if (owner.kind == ConstraintOwner::Kind::rod) return "rod '" + model.rods[i].name + "'";
   return "joint '" + model.joints[i].name + "'";
 }

@@ -52,7 +52,7 @@ struct ModelBuilder {
   /// or of "who.node_key".
   int add_marker(const AttachmentDescription& at, const Mat3& R_design, bool oriented,
                  const SourceMark& mark, const std::string& who, const char* node_key = "node");
-  const Marker& marker(int index) const { return model.markers[static_cast<std::size_t>(index)]; }
+  const Marker& marker(int index) const { return model.markers[index]; }
   /// World place of a marker in the design configuration.
   Vec3 design_point(int marker) const;
 };

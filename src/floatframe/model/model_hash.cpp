@@ -125,8 +125,7 @@ class ModelHash {
                  amplitudes, amplitude_rates, mean_mass, simulation] = model;
     all(gravity, bodies, joints, rods, forces, roads, inputs, markers, outputs, mean_mass);
     for (const Marker& m : markers)
-      if (m.body >= 0 && m.node >= 0)
-        add(bodies[static_cast<std::size_t>(m.body)].data->nodes[static_cast<std::size_t>(m.node)]);
+      if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);
   }
 
  private:

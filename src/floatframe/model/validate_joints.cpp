@@ -10,7 +10,7 @@ namespace {
 
 void start_values(const Entity& joint, const char* key, const std::vector<double>& given,
                   JointType type) {
-  const auto n = static_cast<std::size_t>(joint_velocities(type));
+  const std::size_t n = joint_velocities(type);
   if (given.empty()) return;
   if (n == 0) {
     joint.fault(key, sentences::weld_has_no_coordinates());

@@ -1,6 +1,7 @@
 // Result columns: names, what they measure, which component.
 #include <set>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -10,7 +11,7 @@ namespace floatframe::validation {
 
 namespace {
 
-const char* quantity(OutputKind kind) { return rules::quantities[static_cast<std::size_t>(kind)]; }
+const char* quantity(OutputKind kind) { return rules::quantities[index_of(kind)]; }
 
 void joint_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
                   const Entity& entity) {

@@ -42,7 +42,7 @@ class InputWatch {
 
  private:
   void end(double time, bool came_again) noexcept {
-    const auto k = static_cast<std::size_t>(report_.input_timeouts - 1);
+    const std::size_t k = report_.input_timeouts - 1;
     if (k < report_.silences.size()) report_.silences[k] = {last_, time, came_again};
     silent_ = false;
     // Whoever looks on takes a silence that lasts to the end for no more than that.

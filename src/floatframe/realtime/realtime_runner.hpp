@@ -172,7 +172,7 @@ class RealTimeRunner {
       report_.worst_cpu_iterations = iterations;
     }
     const auto most = static_cast<long>(report_.by_iterations.size()) - 1;
-    StepsOfWork& work = report_.by_iterations[static_cast<std::size_t>(std::min(iterations, most))];
+    StepsOfWork& work = report_.by_iterations[std::min(iterations, most)];
     ++work.steps;
     work.cpu_sum += seconds;
     work.cpu_max = std::max(work.cpu_max, seconds);

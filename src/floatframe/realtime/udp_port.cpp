@@ -47,7 +47,7 @@ bool UdpPort::drain() noexcept {
   for (int k = 0; k < most_packets; ++k) {
     const long n = socket_.receive(incoming_, from);
     if (n < 0) break;
-    const auto length = static_cast<std::size_t>(n);
+    const std::size_t length = n;
     filter_.take(std::span(incoming_).first(std::min(length, incoming_.size())), length, from);
   }
   return filter_.fresh();

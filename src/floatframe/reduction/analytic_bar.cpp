@@ -84,19 +84,18 @@ ModeSet analytic_bar_modes(const FeModel& model, int dynamic_per_plane) {
   ModeSet set;
   set.X = MatX::Zero(6 * model.nodes(), 2 * per_plane);
   set.K = MatX::Zero(2 * per_plane, 2 * per_plane);
-  set.names.resize(static_cast<std::size_t>(2 * per_plane));
+  set.names.resize(2 * per_plane);
   for (int mode = 0; mode < per_plane; ++mode) {
     const double beta = mode > 0 ? clamped_pinned_root(mode) : 0.0;
     for (int plane = 0; plane < 2; ++plane) {
       const int a = 2 * mode + plane;
       const double EI = E * (plane == 0 ? section.Iz : section.Iy);
       set.K(a, a) = EI * (mode == 0 ? 3.0 : std::pow(beta, 4)) / (L * L * L);
-      set.names[static_cast<std::size_t>(a)] =
-          (mode == 0 ? std::string("static tip ")
-                     : "clamped-pinned " + std::to_string(mode) + " ") +
-          (plane == 0 ? "y" : "z");
+      set.names[a] = (mode == 0 ? std::string("static tip ")
+                                : "clamped-pinned " + std::to_string(mode) + " ") +
+                     (plane == 0 ? "y" : "z");
       for (int k = 0; k < model.nodes(); ++k) {
-        const double s = (model.positions[static_cast<std::size_t>(k)] - start).dot(axis) / L;
+        const double s = (model.positions[k] - start).dot(axis) / L;
         const Shape shape = mode == 0 ? static_tip(s) : clamped_pinned(beta, s);
         const double slope = shape.slope / L;
         // rz = v', ry = -w'

@@ -34,15 +34,14 @@ bool continues(const FeModel& model, const Element& a, const Element& b) {
 std::vector<Chain> chains_of(const FeModel& model, std::vector<char> special) {
   std::vector<int> uses(model.positions.size(), 0);
   for (const Element& e : model.elements)
-    for (int a = 0; a < 2; ++a)
-      ++uses[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(a)])];
+    for (int a = 0; a < 2; ++a) ++uses[e.nodes[a]];
   for (std::size_t k = 0; k < uses.size(); ++k)
     if (uses[k] != 2) special[k] = 1;
   std::vector<Chain> chains;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const Element& element = model.elements[e];
-    const bool on = e > 0 && special[static_cast<std::size_t>(element.nodes[0])] == 0 &&
-                    continues(model, model.elements[e - 1], element);
+    const bool on =
+        e > 0 && special[element.nodes[0]] == 0 && continues(model, model.elements[e - 1], element);
     if (!on) chains.push_back({{element.nodes[0]}, static_cast<int>(e)});
     chains.back().nodes.push_back(element.nodes[1]);
   }
@@ -53,8 +52,7 @@ std::vector<Chain> chains_of(const FeModel& model, std::vector<char> special) {
 std::vector<std::size_t> cuts(const Chain& chain, std::size_t elements) {
   const std::size_t n = chain.nodes.size() - 1;
   const double length = std::sqrt(static_cast<double>(elements));
-  const auto beams =
-      static_cast<std::size_t>(std::max(1.0, std::round(static_cast<double>(n) / length)));
+  const std::size_t beams = std::max(1.0, std::round(static_cast<double>(n) / length));
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i <= beams; ++i) places.push_back(i * n / beams);
   return places;
@@ -85,13 +83,12 @@ Eigen::Matrix<double, 6, 12> interpolation(double s, double L) {
 
 SparseMatrix pick(const SparseMatrix& A, const std::vector<int>& rows,
                   const std::vector<int>& columns) {
-  std::vector<int> place(static_cast<std::size_t>(A.rows()), -1);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    place[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
+  std::vector<int> place(A.rows(), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) place[rows[i]] = static_cast<int>(i);
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t c = 0; c < columns.size(); ++c)
     for (SparseMatrix::InnerIterator it(A, columns[c]); it; ++it)
-      if (const int r = place[static_cast<std::size_t>(it.row())]; r >= 0)
+      if (const int r = place[it.row()]; r >= 0)
         entries.emplace_back(r, static_cast<int>(c), it.value());
   SparseMatrix out(static_cast<Eigen::Index>(rows.size()),
                    static_cast<Eigen::Index>(columns.size()));
@@ -111,11 +108,10 @@ std::optional<BarChains> BarChains::make(const FeModel& model, const SparseMatri
     if (e.type != ElementType::beam2) return std::nullopt;
   std::vector<char> kept(model.positions.size(), 0);
   for (const auto* list : {&boundary, &zero})
-    for (const int dof : *list) kept[static_cast<std::size_t>(dof / 6)] = 1;
+    for (const int dof : *list) kept[dof / 6] = 1;
   std::size_t beams = 0;
   for (const Chain& chain : chains_of(model, kept)) {
-    for (const std::size_t place : cuts(chain, n))
-      kept[static_cast<std::size_t>(chain.nodes[place])] = 1;
+    for (const std::size_t place : cuts(chain, n)) kept[chain.nodes[place]] = 1;
     beams += cuts(chain, n).size() - 1;
   }
   if (2 * beams > n) return std::nullopt;
@@ -144,10 +140,10 @@ BarChains::BarChains(const FeModel& model, const SparseMatrix& K, const SparseMa
     for (int i = 0; i < 6; ++i)
       entries.emplace_back(6 * old_of[c] + i, 6 * static_cast<int>(c) + i, 1.0);
   for (const Chain& chain : chains_of(model, kept)) {
-    Element beam = model.elements[static_cast<std::size_t>(chain.first_element)];
+    Element beam = model.elements[chain.first_element];
     const std::size_t n = chain.nodes.size() - 1;
-    beam.nodes[0] = new_of[static_cast<std::size_t>(chain.nodes.front())];
-    beam.nodes[1] = new_of[static_cast<std::size_t>(chain.nodes.back())];
+    beam.nodes[0] = new_of[chain.nodes.front()];
+    beam.nodes[1] = new_of[chain.nodes.back()];
     coarse.elements.push_back(beam);
     const ElementInput in = gather(coarse, beam);
     const double L = (in.p[1] - in.p[0]).norm();
@@ -157,7 +153,7 @@ BarChains::BarChains(const FeModel& model, const SparseMatrix& K, const SparseMa
       for (int a = 0; a < 2; ++a)
         for (int b = 0; b < 4; ++b) {
           const Mat3 block = T * N.block<3, 3>(3 * a, 3 * b) * T.transpose();
-          const int column = 6 * beam.nodes[static_cast<std::size_t>(b / 2)] + 3 * (b % 2);
+          const int column = 6 * beam.nodes[b / 2] + 3 * (b % 2);
           for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
               if (block(i, j) != 0.0)
@@ -168,16 +164,14 @@ BarChains::BarChains(const FeModel& model, const SparseMatrix& K, const SparseMa
   P_.resize(size_, 6 * static_cast<Eigen::Index>(old_of.size()));
   P_.setFromTriplets(entries.begin(), entries.end());
 
-  std::vector<char> held(static_cast<std::size_t>(size_), 0);
+  std::vector<char> held(size_, 0);
   for (const auto* list : {&boundary, &zero})
-    for (const int dof : *list) held[static_cast<std::size_t>(dof)] = 1;
-  const auto coarse_dof = [&](int dof) {
-    return 6 * new_of[static_cast<std::size_t>(dof / 6)] + dof % 6;
-  };
+    for (const int dof : *list) held[dof] = 1;
+  const auto coarse_dof = [&](int dof) { return 6 * new_of[dof / 6] + dof % 6; };
   std::vector<int> coarse_inner, coarse_boundary, coarse_zero, inside;
   for (int dof = 0; dof < size_; ++dof) {
-    if (held[static_cast<std::size_t>(dof)] != 0) continue;
-    const bool is_kept = kept[static_cast<std::size_t>(dof / 6)] != 0;
+    if (held[dof] != 0) continue;
+    const bool is_kept = kept[dof / 6] != 0;
     if (is_kept) coarse_inner.push_back(coarse_dof(dof));
     if (!is_kept) inside_.push_back(static_cast<int>(inner_.size())), inside.push_back(dof);
     inner_.push_back(dof);
@@ -188,9 +182,8 @@ BarChains::BarChains(const FeModel& model, const SparseMatrix& K, const SparseMa
   M_inner_ = pick(M, inner_, inner_);
   const SparseMatrix K_c = assemble_stiffness(coarse);
   const SparseMatrix no_mass(K_c.rows(), K_c.cols());
-  coarse_.emplace(K_c, no_mass, coarse_boundary, coarse_zero, [&](int dof) {
-    return label(6 * old_of[static_cast<std::size_t>(dof / 6)] + dof % 6);
-  });
+  coarse_.emplace(K_c, no_mass, coarse_boundary, coarse_zero,
+                  [&](int dof) { return label(6 * old_of[dof / 6] + dof % 6); });
   coarse_factors_ = SparseFactors(pick(K_c, coarse_inner, coarse_inner));
   inside_factors_ = SparseFactors(pick(K, inside, inside));
 }

@@ -18,12 +18,12 @@ class Pieces {
   explicit Pieces(int nodes) : parent_(static_cast<std::size_t>(nodes)), used_(parent_.size(), 0) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
-  void use(int node) { used_[static_cast<std::size_t>(node)] = 1; }
-  bool used(int node) const { return used_[static_cast<std::size_t>(node)] != 0; }
+  void use(int node) { used_[node] = 1; }
+  bool used(int node) const { return used_[node] != 0; }
   int root(int node) {
     auto k = static_cast<std::size_t>(node);
     while (parent_[k] != static_cast<int>(k)) {
-      parent_[k] = parent_[static_cast<std::size_t>(parent_[k])];
+      parent_[k] = parent_[parent_[k]];
       k = static_cast<std::size_t>(parent_[k]);
     }
     return static_cast<int>(k);
@@ -32,7 +32,7 @@ class Pieces {
     use(a);
     use(b);
     const int ra = root(a), rb = root(b);
-    if (ra != rb) parent_[static_cast<std::size_t>(std::max(ra, rb))] = std::min(ra, rb);
+    if (ra != rb) parent_[std::max(ra, rb)] = std::min(ra, rb);
   }
 
  private:
@@ -43,8 +43,7 @@ class Pieces {
 Pieces pieces_of(const FeModel& model) {
   Pieces pieces(model.nodes());
   for (const Element& e : model.elements) {
-    for (int a = 0; a < element_nodes(e.type); ++a)
-      pieces.tie(e.nodes[0], e.nodes[static_cast<std::size_t>(a)]);
+    for (int a = 0; a < element_nodes(e.type); ++a) pieces.tie(e.nodes[0], e.nodes[a]);
   }
   for (const PointMass& m : model.masses) pieces.use(m.node);
   for (const Spider& s : model.spiders)
@@ -54,10 +53,10 @@ Pieces pieces_of(const FeModel& model) {
   if (model.matrices) {
     const FeMatrices& m = *model.matrices;
     for (int j = 0; j < m.K.outerSize(); ++j) {
-      const int node = m.dofs[static_cast<std::size_t>(j)].node;
+      const int node = m.dofs[j].node;
       pieces.use(node);
       for (SparseMatrix::InnerIterator it(m.K, j); it; ++it)
-        if (it.value() != 0.0) pieces.tie(m.dofs[static_cast<std::size_t>(it.row())].node, node);
+        if (it.value() != 0.0) pieces.tie(m.dofs[it.row()].node, node);
     }
   }
   return pieces;
@@ -80,7 +79,7 @@ void check_connected(const FeModel& model) {
   Pieces pieces = pieces_of(model);
   std::vector<std::vector<int>> of_root(model.positions.size());
   for (int k = 0; k < model.nodes(); ++k)
-    if (pieces.used(k)) of_root[static_cast<std::size_t>(pieces.root(k))].push_back(k);
+    if (pieces.used(k)) of_root[pieces.root(k)].push_back(k);
   std::erase_if(of_root, [](const auto& nodes) { return nodes.empty(); });
   if (of_root.size() < 2) return;
   std::stable_sort(of_root.begin(), of_root.end(),
@@ -96,7 +95,7 @@ void check_connected(const FeModel& model) {
 }
 
 std::string row_label(const FeModel& model, const FeSystem& system, int row) {
-  const Dof& dof = system.dofs[static_cast<std::size_t>(row)];
+  const Dof& dof = system.dofs[row];
   return model.node_label(dof.node) + " " + node_dof_names[dof.axis];
 }
 

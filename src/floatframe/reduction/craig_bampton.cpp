@@ -47,7 +47,7 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
   for (std::size_t i = 0; i < roles.size(); ++i) {
     if (roles[i] != Role::clamped) continue;
     const int k = static_cast<int>(i) / d;
-    if (node < 0) node = k, centre = model.positions[static_cast<std::size_t>(k)];
+    if (node < 0) node = k, centre = model.positions[k];
     ++count;
   }
   if (count == 0) {
@@ -60,7 +60,7 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
   for (std::size_t i = 0; i < roles.size(); ++i) {
     if (roles[i] != Role::clamped) continue;
     const int axis = static_cast<int>(i) % d;
-    const Vec3 p = (model.positions[i / static_cast<std::size_t>(d)] - centre) / size;
+    const Vec3 p = (model.positions[i / d] - centre) / size;
     if (axis < 3) {
       R.block<1, 3>(row, 0) = Vec3::Unit(axis).transpose();
       R.block<1, 3>(row, 3) = -skew(p).row(axis);
@@ -137,12 +137,11 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
   const int d = model.dofs_per_node();
   const int total = d * model.nodes();
   const SparseMatrix K = assemble_stiffness(model);
-  std::vector<Role> roles(static_cast<std::size_t>(total), Role::inner);
+  std::vector<Role> roles(total, Role::inner);
   // Rotations of nodes that belong to solid elements only have no stiffness: they take no part.
   const VecX diagonal = K.diagonal();
   for (int i = 0; i < total; ++i) {
-    if (d == 6 && i % 6 >= 3 && diagonal(i) == 0.0)
-      roles[static_cast<std::size_t>(i)] = Role::inactive;
+    if (d == 6 && i % 6 >= 3 && diagonal(i) == 0.0) roles[i] = Role::inactive;
   }
   Faults faults;
   const auto dof_text = [&](int node, int axis) {
@@ -152,7 +151,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
     const int node = node_of(model, c, "the body reference", faults);
     for (int axis = 0; axis < d && node >= 0; ++axis) {
       if (((c.mask >> axis) & 1u) == 0) continue;
-      Role& role = roles[static_cast<std::size_t>(node * d + axis)];
+      Role& role = roles[node * d + axis];
       if (role != Role::inactive) role = Role::clamped;
     }
   }
@@ -170,7 +169,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
                            ", but the nodes of solid elements have no rotations");
         continue;
       }
-      Role& role = roles[static_cast<std::size_t>(node * d + axis)];
+      Role& role = roles[node * d + axis];
       if (role == Role::clamped) {
         faults.add({},
                    dof_text(node, axis) + " is both clamped and an interface degree of freedom");
@@ -182,12 +181,11 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
       } else {
         role = Role::interface;
         interface_dofs.push_back(node * d + axis);
-        names.push_back(
-            "static " +
-            (model.node_names.empty() || model.node_names[static_cast<std::size_t>(node)].empty()
-                 ? std::to_string(node)
-                 : model.node_names[static_cast<std::size_t>(node)]) +
-            " " + node_dof_names[axis]);
+        names.push_back("static " +
+                        (model.node_names.empty() || model.node_names[node].empty()
+                             ? std::to_string(node)
+                             : model.node_names[node]) +
+                        " " + node_dof_names[axis]);
       }
     }
   }
@@ -196,7 +194,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
 
   std::vector<int> zero;
   for (int i = 0; i < total; ++i) {
-    const Role role = roles[static_cast<std::size_t>(i)];
+    const Role role = roles[i];
     if (role == Role::clamped || role == Role::inactive) zero.push_back(i);
   }
   const SparseMatrix M = eigen_mass(model, options);

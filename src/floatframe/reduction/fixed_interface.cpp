@@ -18,7 +18,7 @@ SparseMatrix select(const SparseMatrix& A, const std::vector<int>& row_of, std::
   for (std::size_t c = 0; c < columns.size(); ++c) {
     out.startVec(static_cast<Eigen::Index>(c));
     for (SparseMatrix::InnerIterator it(A, columns[c]); it; ++it) {
-      const int r = row_of[static_cast<std::size_t>(it.row())];
+      const int r = row_of[it.row()];
       if (r >= 0) out.insertBack(r, static_cast<Eigen::Index>(c)) = it.value();
     }
   }
@@ -35,12 +35,12 @@ FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
       solver_(solver),
       boundary_(boundary),
       factors_(SparseMatrix(0, 0)) {
-  const auto n = static_cast<std::size_t>(size_);
+  const std::size_t n = size_;
   std::vector<int> inner_of(n, 0), boundary_of(n, -1);
-  for (const int row : zero) inner_of[static_cast<std::size_t>(row)] = -1;
+  for (const int row : zero) inner_of[row] = -1;
   for (std::size_t b = 0; b < boundary.size(); ++b) {
-    inner_of[static_cast<std::size_t>(boundary[b])] = -1;
-    boundary_of[static_cast<std::size_t>(boundary[b])] = static_cast<int>(b);
+    inner_of[boundary[b]] = -1;
+    boundary_of[boundary[b]] = static_cast<int>(b);
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (inner_of[i] < 0) continue;
@@ -54,7 +54,7 @@ FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
   std::vector<Eigen::Triplet<double>> entry;
   for (std::size_t b = 0; b < boundary.size(); ++b) {
     for (SparseMatrix::InnerIterator it(K, boundary[b]); it; ++it) {
-      const int r = boundary_of[static_cast<std::size_t>(it.row())];
+      const int r = boundary_of[it.row()];
       if (r >= 0) entry.emplace_back(r, static_cast<int>(b), it.value());
     }
   }
@@ -70,7 +70,7 @@ FixedInterface::FixedInterface(const SparseMatrix& K, const SparseMatrix& M,
     throw InputError(fmt::format(
         "the stiffness is singular: {} can move without resistance (a part that is not connected, "
         "or a mechanism)",
-        label(inner_[static_cast<std::size_t>(row)])));
+        label(inner_[row])));
   }
 }
 

@@ -13,12 +13,12 @@ namespace floatframe {
 MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& origin) {
   MatX R = MatX::Zero(system.size(), 6);
   for (int row = 0; row < system.size(); ++row) {
-    const Dof& dof = system.dofs[static_cast<std::size_t>(row)];
+    const Dof& dof = system.dofs[row];
     if (dof.axis >= 3) {
       R(row, dof.axis) = 1.0;
       continue;
     }
-    const Vec3 p = model.positions[static_cast<std::size_t>(dof.node)] - origin;
+    const Vec3 p = model.positions[dof.node] - origin;
     R(row, dof.axis) = 1.0;
     for (int k = 0; k < 3; ++k) R(row, 3 + k) = Vec3::Unit(k).cross(p)(dof.axis);
   }
@@ -33,8 +33,8 @@ double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* soft
   // u = e_i r_a r_b; the rotation of a node is half the curl.
   MatX U = MatX::Zero(system.size(), 18);
   for (int row = 0; row < system.size(); ++row) {
-    const Dof& dof = system.dofs[static_cast<std::size_t>(row)];
-    const Vec3 r = (model.positions[static_cast<std::size_t>(dof.node)] - centre) / size;
+    const Dof& dof = system.dofs[row];
+    const Vec3 r = (model.positions[dof.node] - centre) / size;
     int column = 0;
     for (int a = 0; a < 3; ++a) {
       for (int b = a; b < 3; ++b) {

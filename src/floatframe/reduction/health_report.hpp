@@ -1,6 +1,6 @@
 #pragma once
 // What an engineer wants to know before trusting a reduced body. Plain data, SI units; written as
-// text and JSON by formats/health_text.hpp.
+// text and JSON by formats/body_file/health_text.hpp.
 #include <optional>
 #include <string>
 #include <vector>

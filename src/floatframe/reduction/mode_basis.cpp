@@ -45,10 +45,10 @@ MatX independent(const MatX& X, const MatX& energy, const VecX& full,
   const auto n = static_cast<Eigen::Index>(kept.size());
   MatX Y(X.rows(), n), E(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index a = kept[static_cast<std::size_t>(i)];
+    const Eigen::Index a = kept[i];
     Y.col(i) = X.col(a) / std::sqrt(energy(a, a));
     for (Eigen::Index j = 0; j < n; ++j) {
-      const Eigen::Index b = kept[static_cast<std::size_t>(j)];
+      const Eigen::Index b = kept[j];
       E(i, j) = 0.5 * (energy(a, b) + energy(b, a)) / std::sqrt(energy(a, a) * energy(b, b));
     }
   }
@@ -151,8 +151,7 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
     append(basis, added, MatX::Identity(added.cols(), added.cols()), names);
   }
   basis.rigid = MatX::Zero(basis.X.cols(), 6);
-  for (Eigen::Index b = 0; b < nb; ++b)
-    basis.rigid.row(b) = R.row(boundary[static_cast<std::size_t>(b)]);
+  for (Eigen::Index b = 0; b < nb; ++b) basis.rigid.row(b) = R.row(boundary[b]);
   return basis;
 }
 

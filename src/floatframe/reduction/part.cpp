@@ -121,8 +121,7 @@ MatX reference_conditions(const FeModel& model, const ModeBasis& basis,
       for (const InterfacePlace& place : interfaces) {
         if (place.name != options.reference.node) continue;
         MatX B(6, basis.X.cols());
-        for (Eigen::Index i = 0; i < 6; ++i)
-          B.row(i) = basis.X.row(place.rows[static_cast<std::size_t>(i)]);
+        for (Eigen::Index i = 0; i < 6; ++i) B.row(i) = basis.X.row(place.rows[i]);
         return B;
       }
       break;
@@ -134,7 +133,7 @@ ModalNode interface_node(const FeModel& model, const FeSystem& system, const Int
                          const MatX& X) {
   ModalNode node;
   node.name = place.name;
-  node.p = model.positions[static_cast<std::size_t>(place.node)];
+  node.p = model.positions[place.node];
   node.X = system.T.middleRows(3 * place.node, 3) * X;
   node.X_theta = system.T_theta.middleRows(3 * place.node, 3) * X;
   return node;
@@ -148,8 +147,8 @@ void add_surface(const FeModel& model, const FeSystem& system, const MatX& X,
   part.surface_positions.resize(3, n);
   part.surface_modes.resize(3 * n, X.cols());
   for (Eigen::Index k = 0; k < n; ++k) {
-    const int node = part.surface.nodes[static_cast<std::size_t>(k)];
-    part.surface_positions.col(k) = model.positions[static_cast<std::size_t>(node)];
+    const int node = part.surface.nodes[k];
+    part.surface_positions.col(k) = model.positions[node];
     part.surface_modes.middleRows<3>(3 * k) = U.middleRows<3>(3 * node);
   }
   if (options.stresses) part.surface_stress = surface_stresses(model, part.surface, U);

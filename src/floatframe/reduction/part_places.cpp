@@ -15,9 +15,7 @@
 namespace floatframe {
 namespace {
 
-const Vec3& position(const FeModel& model, int node) {
-  return model.positions[static_cast<std::size_t>(node)];
-}
+const Vec3& position(const FeModel& model, int node) { return model.positions[node]; }
 
 Vec3 centre_of(const FeModel& model, const std::vector<int>& nodes) {
   Vec3 c = Vec3::Zero();
@@ -45,7 +43,7 @@ double condition_of(const FeModel& model, const std::vector<int>& nodes) {
 
 /// By its number in the file: the name is that of the interface.
 std::string number_label(const FeModel& model, int node) {
-  const auto k = static_cast<std::size_t>(node);
+  const std::size_t k = node;
   return "node " + std::to_string(k < model.node_ids.size() ? model.node_ids[k] : node);
 }
 

@@ -69,7 +69,7 @@ std::shared_ptr<const ProjectionData> projection_data(const FeModel& model, cons
   const bool six = options.mass_model == MassModel::six_dof;
   if (six) data->X_theta = MatX::Zero(3 * n, X.cols());
   for (int k = 0; k < n; ++k) {
-    data->p.col(k) = model.positions[static_cast<std::size_t>(k)];
+    data->p.col(k) = model.positions[k];
     data->X.middleRows<3>(3 * k) = X.middleRows<3>(d * k);
     if (six && d == 6) data->X_theta.middleRows<3>(3 * k) = X.middleRows<3>(6 * k + 3);
   }
@@ -121,11 +121,11 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
   body.projection = projection_data(model, set.X, options);
   const int d = model.dofs_per_node();
   const Eigen::Index nm = set.X.cols();
-  body.nodes.resize(static_cast<std::size_t>(model.nodes()));
+  body.nodes.resize(model.nodes());
   for (int k = 0; k < model.nodes(); ++k) {
-    ModalNode& node = body.nodes[static_cast<std::size_t>(k)];
-    if (!model.node_names.empty()) node.name = model.node_names[static_cast<std::size_t>(k)];
-    node.p = model.positions[static_cast<std::size_t>(k)];
+    ModalNode& node = body.nodes[k];
+    if (!model.node_names.empty()) node.name = model.node_names[k];
+    node.p = model.positions[k];
     node.X = set.X.middleRows<3>(d * k);
     node.X_theta = Mat3X::Zero(3, nm);
     if (d == 6) node.X_theta = set.X.middleRows<3>(6 * k + 3);

@@ -42,7 +42,7 @@ double part_size(const FeModel& model, const FeSystem& system) {
   Eigen::AlignedBox3d box;
   for (int k = 0; k < model.nodes(); ++k) {
     const int* const start = system.T.outerIndexPtr();
-    if (start[3 * k] != start[3 * k + 3]) box.extend(model.positions[static_cast<std::size_t>(k)]);
+    if (start[3 * k] != start[3 * k + 3]) box.extend(model.positions[k]);
   }
   return box.isEmpty() ? 0.0 : 0.5 * box.diagonal().norm();
 }
@@ -50,14 +50,13 @@ double part_size(const FeModel& model, const FeSystem& system) {
 VecX row_lengths(const FeSystem& system, double size) {
   VecX s = VecX::Ones(system.size());
   for (int row = 0; row < system.size(); ++row)
-    if (system.dofs[static_cast<std::size_t>(row)].axis >= 3 && size > 0.0) s(row) = size;
+    if (system.dofs[row].axis >= 3 && size > 0.0) s(row) = size;
   return s;
 }
 
 double check_rigid_motions(const FeModel& model, const FeSystem& system) {
   Eigen::AlignedBox3d box;
-  for (const Dof& dof : system.dofs)
-    box.extend(model.positions[static_cast<std::size_t>(dof.node)]);
+  for (const Dof& dof : system.dofs) box.extend(model.positions[dof.node]);
   if (box.isEmpty()) return 0.0;
   const double size = part_size(model, system);
   const VecX s = row_lengths(system, size);
@@ -70,7 +69,7 @@ double check_rigid_motions(const FeModel& model, const FeSystem& system) {
   if (residual <= largest_rigid_residual) return residual;
   VecX of_node = VecX::Zero(model.nodes());
   for (int row = 0; row < system.size(); ++row) {
-    double& f = of_node(system.dofs[static_cast<std::size_t>(row)].node);
+    double& f = of_node(system.dofs[row].node);
     f = std::max(f, force(row));
   }
   throw InputError(fmt::format(

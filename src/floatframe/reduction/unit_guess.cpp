@@ -31,7 +31,7 @@ Numbers numbers_of(const FeModel& model, double mass) {
   for (const Vec3& p : model.positions) box.extend(p);
   x.size = box.isEmpty() ? 0.0 : box.diagonal().norm();
   for (const Element& e : model.elements) {
-    const Material& m = model.materials[static_cast<std::size_t>(e.material)];
+    const Material& m = model.materials[e.material];
     if (m.density == 0.0) continue;
     x.density = m.density;
     x.young = m.young;

@@ -67,7 +67,7 @@ class Loops {
     const Eigen::Index nv = f_.velocities();
     VecX w = VecX::Ones(nv + changes_.size());
     for (int i = 0; i < nv; ++i) {
-      const Given given = given_[static_cast<std::size_t>(i)];
+      const Given given = given_[i];
       if (f_.is_elastic(i)) w[i] = stage >= 1 ? 1e-4 : 0.0;
       if (given != Given::no) w[i] = stage >= 2 ? 1e-4 : 0.0;
       if (given == Given::kept && keeps_) w[i] = 0.0;
@@ -122,7 +122,7 @@ class Loops {
     VecX m(static_cast<Eigen::Index>(cut_.size()));
     for (std::size_t k = 0; k < cut_.size(); ++k) {
       const CutValue& c = cut_[k];
-      const Joint& joint = f_.model().joints[static_cast<std::size_t>(c.joint)];
+      const Joint& joint = f_.model().joints[c.joint];
       const MarkerState& F = f_.marker(joint.frame_F);
       const MarkerState& M = f_.marker(joint.frame_M);
       const double x = rates_ ? joint_velocity(joint, F, M, c.component)

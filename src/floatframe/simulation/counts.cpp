@@ -18,7 +18,7 @@ ModelCounts count(const Model& model) {
   c.joints = static_cast<int>(model.joints.size());
   c.cut_joints = static_cast<int>(relative.topology().cut_joints.size());
   for (const int j : relative.topology().cut_joints)
-    c.cut_joint_names.push_back(model.joints[static_cast<std::size_t>(j)].name);
+    c.cut_joint_names.push_back(model.joints[j].name);
   c.relative = relative.counts();
   c.absolute = absolute.counts();
   // Rank at the assembled start, with position constraints only.
@@ -69,10 +69,10 @@ StaticsResult statics(const Model& model) {
       const double lambda = e.lambda[f.part_offset(k) + row];
       const WrenchRow& g = f.constraint_row(f.part_offset(k) + row).gradient;
       if (p.owner.kind == ConstraintOwner::Kind::rod) {
-        const Rod& rod = model.rods[static_cast<std::size_t>(p.owner.index)];
+        const Rod& rod = model.rods[p.owner.index];
         s.forces.push_back({rod.name, "rod", lambda, rod.length});
       } else {
-        StaticsJoint& joint = s.joints[static_cast<std::size_t>(p.owner.index)];
+        StaticsJoint& joint = s.joints[p.owner.index];
         joint.force -= lambda * g.Fb;
         joint.torque -= lambda * g.Tb;
       }

@@ -60,7 +60,7 @@ Passed passed_value(const PiecewisePolynomial& table, double step, double begin,
     if (std::min(*b - from, to - *b) < 1e-6 * step) continue;  // the end of a step
     const double before = table(from).f, after = table(to).f;
     // Both sides of a jump.
-    const auto k = static_cast<std::size_t>(b - breaks.begin());
+    const std::size_t k = b - breaks.begin();
     for (const double f : {table.piece_value(k, *b).f, table(*b).f}) {
       const double part =
           std::max(f - std::max(before, after), std::min(before, after) - f) / (high - low);

@@ -77,7 +77,7 @@ Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep) 
   std::vector<Output> outputs;
   for (Output o : model.outputs) {
     if (o.kind == OutputKind::modal_amplitude) {
-      const std::vector<int>& modes = keep[static_cast<std::size_t>(o.body)];
+      const std::vector<int>& modes = keep[o.body];
       const auto it = std::find(modes.begin(), modes.end(), o.component);
       if (it == modes.end()) continue;
       o.component = static_cast<int>(it - modes.begin());
@@ -149,7 +149,7 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
     std::vector<std::vector<int>> keep(model.bodies.size());
     for (const BodyAdvice& body : report.bodies)
       for (const ModeAdvice& m : body.modes)
-        if (!gone.contains(&m)) keep[static_cast<std::size_t>(body.body)].push_back(m.mode);
+        if (!gone.contains(&m)) keep[body.body].push_back(m.mode);
     return with_modes(model, keep);
   };
   // Modes of equal shares go together: to drop one on the left of a vehicle and keep that on the

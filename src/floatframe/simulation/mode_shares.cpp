@@ -54,7 +54,7 @@ VecX frequencies(const MatX& K, const MatX& M) {
 std::set<int> loaded_markers(const Model& model, int body) {
   std::set<int> markers;
   const auto add = [&](int m) {
-    if (m >= 0 && model.markers[static_cast<std::size_t>(m)].body == body) markers.insert(m);
+    if (m >= 0 && model.markers[m].body == body) markers.insert(m);
   };
   for (const Joint& j : model.joints) add(j.frame_F), add(j.frame_M);
   for (const Rod& r : model.rods) add(r.a), add(r.b);
@@ -64,12 +64,12 @@ std::set<int> loaded_markers(const Model& model, int body) {
 
 /// One column for each unit load.
 MatX unit_loads(const Model& model, int index) {
-  const Body& body = model.bodies[static_cast<std::size_t>(index)];
+  const Body& body = model.bodies[index];
   std::vector<VecX> columns;
   for (const int m : loaded_markers(model, index)) {
-    const Marker& marker = model.markers[static_cast<std::size_t>(m)];
+    const Marker& marker = model.markers[m];
     if (marker.node < 0) continue;
-    const ModalNode& node = body.data->nodes[static_cast<std::size_t>(marker.node)];
+    const ModalNode& node = body.data->nodes[marker.node];
     const Mat3X X = node.X - skew(marker.X_NM.p) * node.X_theta;
     for (int i = 0; i < 3; ++i) columns.emplace_back(X.row(i).transpose());
     if (!marker.rotates) continue;
@@ -94,7 +94,7 @@ VecX shares(const MatX& K, const MatX& K_inverse, const MatX& y) {
 }  // namespace
 
 BodyAdvice body_advice(const Model& model, int index, const MatX& y, const VecX& times, double h) {
-  const Body& body = model.bodies[static_cast<std::size_t>(index)];
+  const Body& body = model.bodies[index];
   const FlexibleBody& data = *body.data;
   const MatX M = modal_mass(data.invariants), M_free = recoil_mass(data.invariants);
   const MatX K_inverse = LeastNorm(data.K).pseudo_inverse();
@@ -107,7 +107,7 @@ BodyAdvice body_advice(const Model& model, int index, const MatX& y, const VecX&
   for (int k = 0; k < body.modes(); ++k) {
     ModeAdvice m;
     m.mode = k;
-    const auto n = static_cast<std::size_t>(k);
+    const std::size_t n = k;
     m.name = n < data.mode_names.size() ? data.mode_names[n] : "mode " + std::to_string(k + 1);
     m.frequency = frequency_of(data.K(k, k), M(k, k));
     m.free_frequency = frequency_of(data.K(k, k), std::max(M_free(k, k), 1e-12 * M(k, k)));

@@ -45,7 +45,7 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
   for (std::size_t k = 0; k < f.parts().size(); ++k) {
     const double x = std::abs(e[f.part_offset(k)]);
     if (f.parts()[k].motion == nullptr || !(x > counts)) continue;
-    names.push_back(f.model().joints[static_cast<std::size_t>(f.parts()[k].owner.index)].name);
+    names.push_back(f.model().joints[f.parts()[k].owner.index].name);
     if (x > (1.0 + 1e-6) * most) {  // of equal ones the first
       most = x;
       worst = k;

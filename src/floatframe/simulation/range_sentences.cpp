@@ -129,7 +129,7 @@ class Writer {
       worst.offer(static_cast<int>(i), furthest / limits_.phase);
     }
     if (!worst) return;
-    const PhaseMeter& m = meters[static_cast<std::size_t>(worst.body)][what];
+    const PhaseMeter& m = meters[worst.body][what];
     const std::string motion = what == 0   ? "the motion of "
                                : what == 1 ? "the turning of "
                                            : fmt::format("mode {} of ", what - 1);
@@ -178,15 +178,14 @@ class Writer {
       if (limit(bodies_[i]) > 0.0)
         worst.offer(static_cast<int>(i), (bodies_[i].*measure)().value / limit(bodies_[i]));
     if (!worst) return;
-    const BodyRange& b = bodies_[static_cast<std::size_t>(worst.body)];
+    const BodyRange& b = bodies_[worst.body];
     out.push_back(sentence(subject(worst), b, (b.*measure)()));
   }
 
   bool at_rest() const { return step_ == 0.0; }
 
   std::string subject(const Worst& worst) const {
-    const std::string name =
-        "body '" + model_.bodies[static_cast<std::size_t>(worst.body)].name + "'";
+    const std::string name = "body '" + model_.bodies[worst.body].name + "'";
     if (worst.others == 0) return name;
     return fmt::format("{} (and {} more)", name, worst.others);
   }

@@ -35,8 +35,7 @@ Mat3 central_moments(const InertiaInvariants& v) {
 
 }  // namespace
 
-BodyRange::BodyRange(const Model& model, int index)
-    : data_(*model.bodies[static_cast<std::size_t>(index)].data) {
+BodyRange::BodyRange(const Model& model, int index) : data_(*model.bodies[index].data) {
   if (data_.modes() == 0) return;
   const Mat3 P = central_moments(data_.invariants);
   if (data_.invariants.m > 0.0 && P.trace() > 0.0) {
@@ -88,7 +87,7 @@ void BodyRange::choose_nodes(const Model& model, int index) {
 
 std::string BodyRange::node_name(int node) const {
   if (node < 0) return "";
-  const ModalNode& n = data_.nodes[static_cast<std::size_t>(node)];
+  const ModalNode& n = data_.nodes[node];
   if (is_surface_point(n))
     return fmt::format("the surface point at ({:.4g}, {:.4g}, {:.4g}) m", n.p.x(), n.p.y(),
                        n.p.z());
@@ -110,7 +109,7 @@ void BodyRange::observe(double t, double h, const Vec3& w, const double* y,
   }
   if (move <= displacement_.value && turn <= rotation_.value) return;
   for (const int n : nodes_) {
-    const ModalNode& node = data_.nodes[static_cast<std::size_t>(n)];
+    const ModalNode& node = data_.nodes[n];
     Vec3 u = Vec3::Zero(), theta = Vec3::Zero();
     for (Eigen::Index k = 0; k < modes; ++k) {
       u += y[k] * node.X.col(k);

@@ -102,9 +102,7 @@ class RangeWatch {
 
   std::vector<BodyRange>& bodies() noexcept { return bodies_; }
   /// Two per body, its motion and its turning, then one per mode.
-  std::vector<PhaseMeter>& meters(int body) noexcept {
-    return meters_[static_cast<std::size_t>(body)];
-  }
+  std::vector<PhaseMeter>& meters(int body) noexcept { return meters_[body]; }
   double step() const noexcept { return step_; }
   /// Energy of all bodies moving by `least_motion` per step [J].
   double noise() const noexcept;

@@ -85,7 +85,7 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
     row += own;
     motions += N.cols();
   }
-  rows_.resize(static_cast<std::size_t>(J_.rows()));
+  rows_.resize(J_.rows());
   for (std::size_t k = 0; k < f_.parts().size(); ++k) {
     const ConstraintPart& p = f_.parts()[k];
     evaluate_constraint(p, f_.marker(p.a), f_.marker(p.b), 0.0,
@@ -108,8 +108,7 @@ std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
       if (rank < basis.cols() && x.norm() > dependent * size)
         basis.col(rank++) = x.normalized();
       else
-        found.push_back({owner_name(model_, part.owner),
-                         direction_text(part, rows_[static_cast<std::size_t>(i)])});
+        found.push_back({owner_name(model_, part.owner), direction_text(part, rows_[i])});
     }
   }
   return found;
@@ -131,10 +130,10 @@ bool ConstraintAnalysis::set_reactions(StaticsResult& statics) {
   }
   for (std::size_t k = 0; k < f_.parts().size(); ++k) {
     const ConstraintPart& p = f_.parts()[k];
-    const auto owner = static_cast<std::size_t>(p.owner.index);
+    const std::size_t owner = p.owner.index;
     for (int r = 0; r < p.rows(); ++r) {
       const Eigen::Index i = row_of(k) + r;
-      const WrenchRow& g = rows_[static_cast<std::size_t>(i)].gradient;
+      const WrenchRow& g = rows_[i].gradient;
       if (p.owner.kind == ConstraintOwner::Kind::rod) {
         for (StaticsForce& f : statics.forces)
           if (f.type == "rod" && f.name == model_.rods[owner].name) {
@@ -150,9 +149,9 @@ bool ConstraintAnalysis::set_reactions(StaticsResult& statics) {
     }
   }
   for (std::size_t j = 0; j < joints; ++j) {
-    const double length = model_.bodies[static_cast<std::size_t>(model_.joints[j].child)].length;
+    const double length = model_.bodies[model_.joints[j].child].length;
     for (int c = 0; c < 3; ++c) {
-      const auto i = static_cast<std::size_t>(c);
+      const std::size_t i = c;
       statics.joints[j].unique_force[i] = !(force[j].row(c).norm() > 1e-7);
       statics.joints[j].unique_torque[i] = !(torque[j].row(c).norm() > 1e-7 * length);
     }

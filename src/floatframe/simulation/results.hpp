@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/formulation/counts.hpp"
 #include "floatframe/math/types.hpp"
 #include "floatframe/simulation/start_report.hpp"
@@ -46,8 +47,8 @@ inline constexpr std::array<const char*, 6> energy_flow_names{"loads", "actuator
 /// Power [W] or work [J] of each, positive into the system.
 struct EnergyFlows {
   std::array<double, energy_flow_names.size()> value{};
-  double& operator[](EnergyFlow k) noexcept { return value[static_cast<std::size_t>(k)]; }
-  double operator[](EnergyFlow k) const noexcept { return value[static_cast<std::size_t>(k)]; }
+  double& operator[](EnergyFlow k) noexcept { return value[index_of(k)]; }
+  double operator[](EnergyFlow k) const noexcept { return value[index_of(k)]; }
   static constexpr std::size_t size() noexcept { return energy_flow_names.size(); }
   double total() const noexcept {
     double sum = 0.0;

@@ -147,8 +147,7 @@ class Runner {
         fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}{}", state_.t,
                     min_step_, what, who);
     if (force >= 0)
-      text += fmt::format(" (largest force: '{}', {:.3g} N)",
-                          f_.model().forces[static_cast<std::size_t>(force)].name,
+      text += fmt::format(" (largest force: '{}', {:.3g} N)", f_.model().forces[force].name,
                           f_.force(force).force);
     return text;
   }
@@ -208,7 +207,7 @@ class Runner {
   /// The start value or motion the user gave, so that an output begins at the turn he means.
   double start_position(const Joint& joint, int component) const noexcept {
     if (joint.motion) return evaluate(*joint.motion, state_.t).f;
-    const auto k = static_cast<std::size_t>(component);
+    const std::size_t k = component;
     return k < joint.position.size() ? joint.position[k] : 0.0;
   }
 
@@ -232,14 +231,14 @@ class Runner {
       case OutputKind::acceleration:
         return f_.marker_acceleration(o.marker)[o.component];
       case OutputKind::rotation: {
-        const Mat3& design = f_.model().bodies[static_cast<std::size_t>(o.body)].X_WB.R;
+        const Mat3& design = f_.model().bodies[o.body].X_WB.R;
         return roll_pitch_yaw(f_.body_rotation(o.body) * design.transpose())[o.component];
       }
       case OutputKind::angular_velocity:
         return f_.body_angular_velocity(o.body)[o.component];
       case OutputKind::joint_position: {
         // Angles are followed over turns with the mean joint velocity since the last sample.
-        const Joint& j = f_.model().joints[static_cast<std::size_t>(o.joint)];
+        const Joint& j = f_.model().joints[o.joint];
         const MarkerState& parent = f_.marker(j.frame_F);
         const MarkerState& child = f_.marker(j.frame_M);
         const double rate = joint_velocity(j, parent, child, o.component);
@@ -250,7 +249,7 @@ class Runner {
         return follow.position;
       }
       case OutputKind::joint_velocity: {
-        const Joint& j = f_.model().joints[static_cast<std::size_t>(o.joint)];
+        const Joint& j = f_.model().joints[o.joint];
         return joint_velocity(j, f_.marker(j.frame_F), f_.marker(j.frame_M), o.component);
       }
       case OutputKind::modal_amplitude:

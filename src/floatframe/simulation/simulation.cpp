@@ -6,6 +6,7 @@
 #include <ctime>
 #include <optional>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/forcing.hpp"
@@ -30,8 +31,8 @@ double cpu_seconds() noexcept {
 RunSummary summary_of(const std::string& model, const SimulationDescription& o) {
   RunSummary s;
   s.model = model;
-  s.coordinates = rules::coordinates[static_cast<std::size_t>(o.coordinates)];
-  s.inertia = rules::inertia_methods[static_cast<std::size_t>(o.inertia)];
+  s.coordinates = rules::coordinates[index_of(o.coordinates)];
+  s.inertia = rules::inertia_methods[index_of(o.inertia)];
   s.step = o.step;
   return s;
 }

@@ -121,7 +121,7 @@ class StateReader {
   std::size_t count(std::size_t size_of_one) {
     const std::uint64_t n = number();
     if (n > left_.size() / size_of_one) short_of();
-    return static_cast<std::size_t>(n);
+    return n;
   }
   std::span<const std::byte> left_;
 };

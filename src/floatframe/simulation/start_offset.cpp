@@ -71,9 +71,7 @@ class OffsetGoal {
     }
     return J;
   }
-  const std::string& first() const {
-    return f_.model().bodies[static_cast<std::size_t>(targets_.front().body)].name;
-  }
+  const std::string& first() const { return f_.model().bodies[targets_.front().body].name; }
 
  private:
   struct Target {

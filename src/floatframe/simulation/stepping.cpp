@@ -156,7 +156,7 @@ std::size_t place_of(const std::vector<Entity>& list, const char* kind, std::str
 template <class Entity>
 std::size_t place_of(const std::vector<Entity>& list, const char* kind, std::ptrdiff_t index) {
   const auto n = static_cast<std::ptrdiff_t>(list.size());
-  if (index >= 0 && index < n) return static_cast<std::size_t>(index);
+  if (index >= 0 && index < n) return index;
   if (n == 0)
     throw InputError(
         fmt::format("found index {} of an {}, but the model has no {}s", index, kind, kind));

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "floatframe/core/enum_index.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -39,7 +41,7 @@ const char* step_status_name(StepStatus status) noexcept {
   static constexpr const char* names[] = {"completed",     "not_converged",   "singular_tangent",
                                           "not_finite",    "failed_before",   "invalid_step",
                                           "invalid_input", "callback_failed", "busy"};
-  const auto k = static_cast<std::size_t>(status);
+  const std::size_t k = index_of(status);
   return k < std::size(names) ? names[k] : "unknown";
 }
 
@@ -132,7 +134,7 @@ StepReport Simulation::Engine::made(double h, bool regular) noexcept {
   const Place p = place();
   last_.status = p.status;
   last_.time = p.time;
-  if (p.owner >= 0) last_.where = owners_[static_cast<std::size_t>(p.owner)];
+  if (p.owner >= 0) last_.where = owners_[p.owner];
   return last_;
 }
 

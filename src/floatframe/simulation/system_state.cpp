@@ -104,7 +104,7 @@ Model with_start_values(const Model& model, const SystemState& state) {
   out.simulation.velocity.setZero();  // the state holds all velocities
   for (Joint& j : out.joints) {
     const SystemState::Joint& kept = named(state.joints, j.name);
-    const auto n = static_cast<std::size_t>(joint_velocities(j.type));
+    const std::size_t n = joint_velocities(j.type);
     if (kept.type != j.type || kept.position.size() != n || kept.velocity.size() != n)
       refuse(model, state,
              fmt::format("found joint '{}' of another type or with {} coordinates and {} "
@@ -162,7 +162,7 @@ State start_state(RelativeFormulation& f, const SimulationDescription& o, StartR
 
 JointFollower::JointFollower(const Model& model) {
   for (const Joint& j : model.joints) {
-    const auto n = static_cast<std::size_t>(joint_velocities(j.type));
+    const std::size_t n = joint_velocities(j.type);
     SystemState::Joint s{j.name, j.type, j.position, std::vector<double>(n, 0.0)};
     s.position.resize(n, 0.0);
     joints_.push_back(std::move(s));

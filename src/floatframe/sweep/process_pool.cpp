@@ -24,7 +24,7 @@ RunError cannot_start(const std::string& why) {
 }  // namespace
 
 ProcessPool::ProcessPool(int workers, const WorkerLimits& limits, const Work& work) {
-  const auto count = static_cast<std::size_t>(std::max(1, workers));
+  const std::size_t count = std::max(1, workers);
   memory_size_ = sizeof(WorkerState) * (1 + count);
   static_assert(sizeof(SharedFlags) <= sizeof(WorkerState));
   memory_ =
@@ -84,7 +84,7 @@ bool ProcessPool::all_idle() const {
 }
 
 void ProcessPool::give(int worker, const std::string& request) {
-  Worker& w = workers_[static_cast<std::size_t>(worker)];
+  Worker& w = workers_[worker];
   w.request = request;
   w.start = std::chrono::steady_clock::now();
   if (!send_message(w.socket, request_kind, request))

@@ -42,7 +42,7 @@ class ProcessPool {
   ProcessPool& operator=(const ProcessPool&) = delete;
 
   int size() const noexcept { return static_cast<int>(workers_.size()); }
-  bool idle(int worker) const { return workers_[static_cast<std::size_t>(worker)].request.empty(); }
+  bool idle(int worker) const { return workers_[worker].request.empty(); }
   bool all_idle() const;
   /// To an idle worker. Throws RunError if it is not there any more.
   void give(int worker, const std::string& request);

@@ -5,7 +5,7 @@
 namespace floatframe {
 
 std::optional<std::size_t> RunQueue::take(int worker) {
-  auto& runs = own_[static_cast<std::size_t>(worker)];
+  auto& runs = own_[worker];
   if (runs.empty()) return take();
   const std::size_t run = runs.front();
   runs.pop_front();

@@ -13,7 +13,7 @@ class RunQueue {
   explicit RunQueue(int workers) : own_(static_cast<std::size_t>(workers)) {}
 
   /// A run that `worker` has checked.
-  void push(std::size_t run, int worker) { own_[static_cast<std::size_t>(worker)].push_back(run); }
+  void push(std::size_t run, int worker) { own_[worker].push_back(run); }
   /// For a worker.
   std::optional<std::size_t> take(int worker);
   /// For whoever has checked nothing: from the worker that has most to do, its last.

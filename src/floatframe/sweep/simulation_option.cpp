@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "floatframe/io/yaml_value.hpp"
 #include "floatframe/model/rules.hpp"
+#include "floatframe/yaml/yaml_value.hpp"
 
 namespace floatframe {
 namespace {

@@ -114,7 +114,7 @@ class Coordinator {
   /// False if the sender was interrupted.
   bool take(const RankMessage& message) {
     const std::string word = word_of(message.text);
-    long& credit = credit_[static_cast<std::size_t>(message.from)];
+    long& credit = credit_[message.from];
     if (word == "hello") {
       if (rest_of(message.text) != study_)
         throw RunError(fmt::format(

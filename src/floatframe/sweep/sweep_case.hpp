@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/model_reader.hpp"
 #include "floatframe/model/description.hpp"
+#include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/sweep/sweep_plan.hpp"
 
 namespace floatframe {

@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/io/expression.hpp"
-#include "floatframe/io/yaml_tree.hpp"
+#include "floatframe/yaml/expression.hpp"
+#include "floatframe/yaml/yaml_tree.hpp"
 
 namespace floatframe {
 namespace {
@@ -56,7 +56,7 @@ std::vector<std::string> range(const std::string& variation,
   if (logarithmic && !(*lo * *hi > 0.0))
     refuse(variation, "equal ratios need two ends of the same sign, neither of them zero");
   std::vector<std::string> values;
-  const auto count = static_cast<std::size_t>(*n);
+  const std::size_t count = *n;
   for (std::size_t k = 0; k < count; ++k) {
     const double s = static_cast<double>(k) / (*n - 1.0);
     double x = logarithmic ? *lo * std::pow(*hi / *lo, s) : *lo + (*hi - *lo) * s;

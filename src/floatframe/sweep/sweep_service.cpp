@@ -24,7 +24,7 @@ class Fields {
   std::string text() {
     std::size_t size = 0;
     const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), size);
-    const auto colon = static_cast<std::size_t>(end - rest_.data());
+    const std::size_t colon = end - rest_.data();
     if (error != std::errc() || colon >= rest_.size() || rest_[colon] != ':' ||
         size > rest_.size() - colon - 1) {
       whole_ = false;

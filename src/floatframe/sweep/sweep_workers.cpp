@@ -32,7 +32,7 @@ SweepWorkers::SweepWorkers(const SweepOptions& options)
       run_of_(static_cast<std::size_t>(pool_.size())) {}
 
 void SweepWorkers::give(int worker, const ServiceRequest& request) {
-  run_of_[static_cast<std::size_t>(worker)] = request.run;
+  run_of_[worker] = request.run;
   pool_.give(worker, encode(request));
 }
 
@@ -43,7 +43,7 @@ SweepWorkers::Answer SweepWorkers::understood(ProcessPool::Answer&& raw) {
     raw.lost = "gave an answer that cannot be read";
   }
   answer.worker = raw.worker;
-  answer.run = run_of_[static_cast<std::size_t>(raw.worker)];
+  answer.run = run_of_[raw.worker];
   answer.lost = std::move(raw.lost);
   answer.seconds = raw.seconds;
   for (const auto& [file, hash] : answer.files)
@@ -62,7 +62,7 @@ std::vector<SweepWorkers::Answer> SweepWorkers::answers(std::chrono::millisecond
 
 std::optional<SweepWorkers::Answer> SweepWorkers::ask(int worker, const ServiceRequest& request,
                                                       const std::atomic<bool>& stop) {
-  run_of_[static_cast<std::size_t>(worker)] = request.run;
+  run_of_[worker] = request.run;
   auto raw = pool_.ask(worker, encode(request), stop);
   if (!raw) return std::nullopt;
   return understood(std::move(*raw));

@@ -1,0 +1,8 @@
+#pragma once
+// Characters of the languages we read, whatever the locale of the process.
+
+namespace floatframe {
+
+constexpr bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
+
+}  // namespace floatframe

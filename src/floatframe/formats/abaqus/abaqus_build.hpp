@@ -1,0 +1,56 @@
+#pragma once
+// From the content of an Abaqus deck to the model.
+#include "floatframe/formats/abaqus/abaqus_resolve.hpp"
+#include "floatframe/formats/fe_file.hpp"
+
+namespace floatframe {
+
+/// What both halves of the building use.
+struct AbaqusBuild {
+  const AbaqusContent& content;
+  TextSource& source;
+  AbaqusResolver nodes, elements;
+  std::vector<int> element_index;  ///< of each element of the deck: in the model, -1 if it has none
+  FeModel model;
+  DialectClues clues;  ///< of the deck, and of what its sections are used for
+
+  AbaqusBuild(const AbaqusContent& c, TextSource& s)
+      : content(c),
+        source(s),
+        nodes(c, s, AbaqusResolver::Of::nodes),
+        elements(c, s, AbaqusResolver::Of::elements),
+        clues(c.clues) {}
+  /// Nodes of elements of the deck, each once.
+  std::vector<int> nodes_of_elements(const std::vector<int>& list);
+  void note(const FeSource& at, const std::string& text);
+
+ private:
+  std::vector<int> list_of_node_;  // the last list of nodes_of_elements that got it
+  int node_list_ = 0;
+};
+
+/// What the elements of a section have in the model.
+struct AbaqusProperties {
+  int material = -1, section = 0;
+  Vec3 reference = Vec3::UnitZ();
+};
+
+// abaqus_build_sections.cpp
+/// "element 7 (C3D4)"
+std::string abaqus_label(const AbaqusElement& element);
+/// Of each element of the deck the index of the section whose set names it; -1: none.
+std::vector<int> sections_of_elements(AbaqusBuild& build,
+                                      const std::vector<AbaqusSection>& sections);
+/// Notes elements with a section that CalculiX does not take for them: a clue whose deck it is.
+void look_at_abaqus_beams(AbaqusBuild& build, const std::vector<int>& section_of);
+/// Of each section; its material and its shape get into the model.
+std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build);
+// abaqus_build_mesh.cpp
+void build_abaqus_nodes(AbaqusBuild& build);
+void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);
+/// With `only_nodes` element sets become node sets.
+void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
+// abaqus_build_constraints.cpp
+void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes);
+
+}  // namespace floatframe

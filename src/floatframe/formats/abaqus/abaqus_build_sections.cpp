@@ -1,0 +1,177 @@
+// Sections and materials of an Abaqus deck: which elements have which, and what they are in the
+// model. Round sections depend on whose deck it is.
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+
+using Family = AbaqusType::Family;
+
+namespace {
+
+/// Index of the section's material in the model, which gets it if it is not there yet.
+int material_of(AbaqusBuild& build, const AbaqusSection& section,
+                std::unordered_map<std::string, int>& index) {
+  const AbaqusContent& c = build.content;
+  FeModel& model = build.model;
+  const auto [place, fresh] =
+      index.emplace(section.material, static_cast<int>(model.materials.size()));
+  if (!fresh) return place->second;
+  const auto it = c.materials.find(section.material);
+  Material material;
+  if (it == c.materials.end()) {
+    build.source.fault(section.at,
+                       fmt::format("{} names the material {}, which is not there{}", section.shown,
+                                   shown(section.material),
+                                   c.material_order.size() > most_known
+                                       ? ""
+                                       : did_you_mean(section.material, c.material_order)));
+  } else {
+    const AbaqusMaterial& m = it->second;
+    if (!m.young) {
+      build.source.fault(m.at, fmt::format("material {} has no *ELASTIC", shown(section.material)));
+    }
+    if (!m.density) {
+      build.source.fault(m.at, fmt::format("material {} has no *DENSITY", shown(section.material)));
+    }
+    material = {m.young.value_or(0.0), m.poisson.value_or(0.0), m.density.value_or(0.0)};
+  }
+  model.materials.push_back(material);
+  model.material_names.push_back(section.material);
+  return place->second;
+}
+
+/// The section of CIRC with one number: a radius in Abaqus, a diameter in CalculiX.
+BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
+  const DialectClues& clues = build.clues;
+  DeckDialect dialect = build.content.dialect;
+  if (dialect == DeckDialect::by_content &&
+      clues.abaqus.has_value() != clues.calculix.has_value()) {
+    dialect = clues.abaqus ? DeckDialect::abaqus : DeckDialect::calculix;
+    const DialectClues::Clue& clue = clues.abaqus ? *clues.abaqus : *clues.calculix;
+    const SourceMark mark = build.source.mark(clue.at);
+    build.note(section.at, fmt::format("{}, SECTION=CIRC: {:g} is the {}, as in {} ({} in {}:{})",
+                                       section.shown, section.round,
+                                       dialect == DeckDialect::abaqus ? "radius" : "diameter",
+                                       program_of(dialect), clue.what, mark.file, mark.line));
+  }
+  if (dialect == DeckDialect::by_content) {
+    build.source.fault(
+        section.at,
+        fmt::format("{}, SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and "
+                    "{}: give --dialect abaqus or --dialect calculix (in a model file 'dialect:')",
+                    section.shown, section.round,
+                    clues.abaqus ? fmt::format("the deck has things of both ({}, {})",
+                                               clues.abaqus->what, clues.calculix->what)
+                                 : "nothing in the deck shows whose it is"));
+  }
+  return BeamSection::solid_round(section.round * (dialect == DeckDialect::abaqus ? 2.0 : 1.0));
+}
+
+/// Numbers of a section that only CalculiX takes, in a deck of Abaqus.
+void check_form(AbaqusBuild& build, const AbaqusSection& section) {
+  const DialectClues& clues = build.clues;
+  if (!section.calculix_form || !clues.abaqus || build.content.dialect == DeckDialect::calculix) {
+    return;
+  }
+  const SourceMark mark = build.source.mark(clues.abaqus->at);
+  build.source.fault(
+      section.at,
+      fmt::format("{}, SECTION={} has dimensions as in CalculiX, but the deck has {} ({}:{}), "
+                  "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
+                  section.shown, section.shape, clues.abaqus->what, mark.file, mark.line));
+}
+
+}  // namespace
+
+std::string abaqus_label(const AbaqusElement& e) {
+  return fmt::format("element {} ({})", e.id, e.type->name);
+}
+
+std::vector<int> sections_of_elements(AbaqusBuild& build,
+                                      const std::vector<AbaqusSection>& sections) {
+  const AbaqusContent& c = build.content;
+  std::vector<int> section_of(c.elements.size(), -1);
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    const AbaqusSection& section = sections[s];
+    bool reported = false;
+    for (const int e : build.elements.resolve(section.elements)) {
+      const AbaqusElement& element = c.elements[e];
+      int& at = section_of[e];
+      // Sets of parts hold masses beside the elements of a section.
+      if (element.type->family != section.family &&
+          (element.type->family == Family::mass || element.type->family == Family::rotary ||
+           element.type->family == Family::coupling)) {
+        continue;
+      }
+      if (reported) {
+        at = static_cast<int>(s);
+        continue;
+      }
+      std::string fault;
+      if (element.type->family != section.family) {
+        fault = element.type->family == Family::skin
+                    ? fmt::format(
+                          "{} names {}; elements of this type are read as skins only, "
+                          "without a section",
+                          section.shown, abaqus_label(element))
+                    : fmt::format("{} names {}, for which it is not supported", section.shown,
+                                  abaqus_label(element));
+      } else if (at >= 0) {
+        const SourceMark first = build.source.mark(sections[at].at);
+        fault = fmt::format("{} names {}, which has one already ({}:{})", section.shown,
+                            abaqus_label(element), first.file, first.line);
+      }
+      if (!fault.empty()) {
+        reported = true;
+        build.source.fault(section.at, fault);
+      }
+      at = static_cast<int>(s);
+    }
+  }
+  return section_of;
+}
+
+void look_at_abaqus_beams(AbaqusBuild& build, const std::vector<int>& section_of) {
+  DialectClues& clues = build.clues;
+  const AbaqusContent& c = build.content;
+  for (std::size_t e = 0; e < c.elements.size() && !clues.abaqus; ++e) {
+    if (section_of[e] < 0) continue;
+    const AbaqusSection& section = c.sections[section_of[e]];
+    const std::string_view type = c.elements[e].type->name;
+    if (section.family != Family::beam || section.shape == "RECT" || type == "B32R" ||
+        (section.shape == "CIRC" && type == "B32")) {
+      continue;
+    }
+    clues.add(DeckDialect::abaqus, fmt::format("SECTION={} for {}", section.shape, type),
+              section.at);
+  }
+}
+
+std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
+  std::vector<AbaqusProperties> list;
+  std::unordered_map<std::string, int> material_index;
+  FeModel& model = build.model;
+  for (const AbaqusSection& section : build.content.sections) {
+    AbaqusProperties p;
+    p.material = material_of(build, section, material_index);
+    if (section.family == Family::beam) {
+      p.section = static_cast<int>(model.sections.size());
+      check_form(build, section);
+      model.sections.push_back(section.round > 0.0 ? round_section(build, section) : section.beam);
+      p.reference = build.content.placement.R * section.n1;
+    } else if (section.family == Family::shell) {
+      p.section = static_cast<int>(model.shells.size());
+      model.shells.push_back({section.thickness});
+    }
+    list.push_back(p);
+  }
+  return list;
+}
+
+}  // namespace floatframe

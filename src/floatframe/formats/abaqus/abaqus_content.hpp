@@ -1,0 +1,227 @@
+#pragma once
+// What stands in an Abaqus or CalculiX deck, before names and numbers are resolved. The handlers of
+// keywords fill it, `build_abaqus_model` makes the model.
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "floatframe/fe/fe_model.hpp"
+#include "floatframe/formats/abaqus/abaqus_dialect.hpp"
+#include "floatframe/formats/abaqus/abaqus_lines.hpp"
+
+namespace floatframe {
+
+/// What an element type of the deck is to us.
+struct AbaqusType {
+  enum class Family {
+    solid,
+    shell,
+    beam,
+    skin,      ///< faces and edges of meshes: harmless without a section, not supported with one
+    mass,      ///< MASS
+    rotary,    ///< ROTARYI
+    coupling,  ///< DCOUP3D: names the reference of a distributing coupling
+  };
+  const char* name;
+  Family family;
+  int nodes;
+  ElementType type = ElementType::beam2;  ///< of solids, shells and beams
+  const char* remark = nullptr;           ///< how it is read if that is not the same
+};
+
+/// Null if the type is not known.
+const AbaqusType* find_abaqus_type(std::string_view name) noexcept;
+/// For messages.
+std::vector<std::string> abaqus_type_names();
+
+/// Flat decks have one space of numbers and names; decks with a part and an instance have two.
+enum class AbaqusScope { part, assembly };
+
+struct AbaqusNode {
+  int id = 0;
+  AbaqusScope scope = AbaqusScope::part;
+  Vec3 p = Vec3::Zero();
+  FeSource at;
+};
+
+struct AbaqusElement {
+  int id = 0;
+  AbaqusScope scope = AbaqusScope::part;
+  const AbaqusType* type = nullptr;
+  std::size_t first = 0;  ///< in AbaqusContent::element_nodes
+  FeSource at;
+};
+
+/// A number, a range of numbers or a name in a set or another place that names nodes or elements.
+struct AbaqusReference {
+  int first = 0, last = 0, step = 1;  ///< one number: first = last
+  int name = -1;                      ///< index in AbaqusContent::names; -1: numbers
+  AbaqusScope scope = AbaqusScope::part;
+  FeSource at;
+};
+
+struct AbaqusSet {
+  std::vector<AbaqusReference> items;
+  bool internal = false;  ///< made by Abaqus/CAE for itself
+  FeSource at;
+};
+
+struct AbaqusSurface {
+  struct Item {
+    AbaqusReference where;
+    int face = -1;        ///< from 0; -1 for nodes
+    double weight = 1.0;  ///< of nodes
+  };
+  bool of_nodes = false, internal = false;
+  std::vector<Item> items;
+  FeSource at;
+};
+
+struct AbaqusMaterial {
+  std::optional<double> young, poisson, density;
+  FeSource at;
+};
+
+struct AbaqusSection {
+  AbaqusType::Family family = AbaqusType::Family::solid;
+  std::string shown;  ///< for messages: "*SOLID SECTION"
+  AbaqusReference elements;
+  std::string material;
+  double thickness = 0.0;
+  BeamSection beam;
+  std::string shape;  ///< of beams: "CIRC"
+  double round =
+      0.0;  ///< of CIRC with one number: that number, whose meaning depends on the dialect
+  bool calculix_form = false;  ///< fewer or more numbers than Abaqus takes
+  Vec3 n1 = -Vec3::UnitZ();
+  double mass = 0.0;  ///< of *MASS
+  Mat3 J = Mat3::Zero();
+  FeSource at;
+};
+
+struct AbaqusSpider {
+  Spider::Kind kind = Spider::Kind::rigid;
+  std::string name;
+  AbaqusReference reference;
+  std::optional<AbaqusReference> rotation;  ///< ROT NODE
+  std::vector<AbaqusReference> nodes, elements;
+  std::vector<double> weights;  ///< one an entry of `nodes`; empty: 1
+  int surface = -1;             ///< index in AbaqusContent::names
+  AbaqusScope surface_scope = AbaqusScope::part;
+  unsigned mask = 63u;
+  bool reference_by_element = false;  ///< `reference` is the element set of a DCOUP3D
+  FeSource at;
+};
+
+struct AbaqusEquation {
+  struct Term {
+    AbaqusReference nodes;
+    int axis = 0;
+    double factor = 0.0;
+  };
+  std::vector<Term> terms;
+  FeSource at;
+};
+
+struct AbaqusSupport {
+  AbaqusReference nodes;
+  unsigned mask = 0;
+  FeSource at;
+};
+
+/// Where the instance is: x = R (p + t - a) + a.
+struct AbaqusPlacement {
+  Vec3 t = Vec3::Zero(), a = Vec3::Zero();
+  Mat3 R = Mat3::Identity();
+};
+
+struct AbaqusContent {
+  using Key = std::pair<AbaqusScope, int>;  ///< scope, index in `names`
+
+  std::vector<AbaqusNode> nodes;
+  std::unordered_map<std::int64_t, int> node_of_label, element_of_label;  ///< by `label`
+  std::vector<AbaqusElement> elements;
+  std::vector<int> element_nodes;
+  std::vector<std::string> names;
+  std::unordered_map<std::string, int> name_of_text;
+  std::map<Key, AbaqusSet> node_sets, element_sets;
+  std::map<Key, AbaqusSurface> surfaces;
+  std::map<std::string, AbaqusMaterial> materials;
+  std::vector<std::string> material_order;
+  std::vector<AbaqusSection> sections, masses;
+  std::vector<AbaqusSpider> spiders;
+  std::vector<AbaqusEquation> equations;
+  std::vector<AbaqusSupport> supports;
+  std::vector<std::string> notes;
+  DeckDialect dialect = DeckDialect::by_content;  ///< as the user says
+  DialectClues clues;
+  /// Only nodes, sets and spiders are wanted: matrices hold what the rest would change.
+  bool only_nodes = false;
+
+  // Where reading is.
+  AbaqusScope scope = AbaqusScope::part;
+  std::string part, instance;  ///< names; empty in flat decks
+  AbaqusPlacement placement;
+  std::string material;  ///< the last *MATERIAL
+
+  static std::int64_t label(AbaqusScope scope, int id) noexcept {
+    return static_cast<std::int64_t>(scope) << 32 | static_cast<std::int64_t>(id);
+  }
+  int intern(std::string name);
+  /// A number, a name, or either with the instance before it: "PART-1-1.12".
+  AbaqusReference reference(std::string_view field, const FeSource& at);
+  /// "node 12" or "node set 'BALL'" with `what` = "node".
+  std::string text(const AbaqusReference& reference, std::string_view what) const;
+};
+
+/// A keyword's handler: reads its data lines into the content.
+using AbaqusHandler = void (*)(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+
+// abaqus_mesh.cpp
+void read_abaqus_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_elements(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_node_set(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_element_set(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_surface(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_assembly.cpp
+void read_abaqus_part(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_end_part(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_assembly(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_instance(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_end_instance(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_properties.cpp
+void read_abaqus_material(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_elastic(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_density(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_solid_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_shell_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_surface_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_mass(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_rotary_inertia(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+/// What all sections have; false if the section cannot be used.
+bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
+                          AbaqusType::Family family, AbaqusSection& section);
+/// The value; one error at the last line if it is no positive number.
+double positive_real(AbaqusLines& lines, std::string_view field, std::string_view what);
+// abaqus_beam_section.cpp
+void read_abaqus_beam_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_constraints.cpp
+void read_abaqus_rigid_body(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_kinematic_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_distributing_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_equation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_boundary(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+
+/// Degrees of freedom "first, last" (1..6; `last` may be missing) of the fields from `index` on, as
+/// a mask; 0 and a fault if they are none.
+unsigned abaqus_dofs(AbaqusLines& lines, const std::vector<std::string_view>& fields,
+                     std::size_t index, std::string_view what);
+
+}  // namespace floatframe

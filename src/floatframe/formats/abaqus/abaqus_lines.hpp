@@ -1,0 +1,67 @@
+#pragma once
+// The lines of an Abaqus or CalculiX deck: keyword lines with parameters, data lines, comments,
+// continuation lines and *INCLUDE. Keywords, parameters and names do not depend on case or blanks.
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "floatframe/formats/text/text_source.hpp"
+
+namespace floatframe {
+
+struct AbaqusKeyword {
+  struct Parameter {
+    std::string name;   ///< upper case without blanks: "REFNODE"
+    std::string value;  ///< as written, trimmed; empty for a flag
+  };
+  std::string name;   ///< upper case without blanks: "SOLIDSECTION"
+  std::string shown;  ///< for messages: "*SOLID SECTION"
+  std::vector<Parameter> parameters;
+  FeSource at;
+
+  bool has(std::string_view parameter) const noexcept;
+  /// Value of a parameter; empty if it is not there.
+  std::string_view value(std::string_view parameter) const noexcept;
+};
+
+/// A name as Abaqus compares it: upper case without blanks, or between quotes as it is.
+std::string abaqus_name(std::string_view text);
+
+class AbaqusLines {
+ public:
+  explicit AbaqusLines(TextSource& source) : source_(source) {}
+
+  /// The next keyword line; data lines before it are skipped. False at the end of the deck.
+  bool next_keyword(AbaqusKeyword& keyword);
+  /// The next data line of the present keyword, trimmed; false if there are no more.
+  bool next_data(std::string_view& line);
+  /// Fields of the next data line, without the empty one after a comma at the end of the line.
+  bool next_fields(std::vector<std::string_view>& fields);
+  void skip_data();
+
+  /// The value of a parameter ("REF NODE") that must be there; a fault and empty if it is not.
+  std::string_view required(const AbaqusKeyword& keyword, std::string_view parameter);
+  /// A fault for each parameter that is not among those known.
+  void allow_only(const AbaqusKeyword& keyword, std::initializer_list<std::string_view> known);
+  /// Data lines come from the file of the parameter INPUT, if it is there.
+  void take_input(const AbaqusKeyword& keyword);
+  /// A real field of the last data line; a fault that begins with `what` if it is none.
+  double real(std::string_view field, std::string_view what);
+  /// The same; an empty or missing field is `otherwise`.
+  double real_or(const std::vector<std::string_view>& fields, std::size_t index, double otherwise,
+                 std::string_view what);
+  int integer(std::string_view field, std::string_view what);
+
+  TextSource& source() noexcept { return source_; }
+  /// A fault at a keyword: "*SOLID SECTION " + text.
+  void fault(const AbaqusKeyword& keyword, std::string_view text);
+
+ private:
+  bool next_line(std::string_view& line);
+  void parse_keyword(std::string_view line, AbaqusKeyword& keyword);
+
+  TextSource& source_;
+};
+
+}  // namespace floatframe

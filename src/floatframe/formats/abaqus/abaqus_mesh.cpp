@@ -1,0 +1,312 @@
+// Nodes, elements, sets and surfaces of Abaqus decks.
+#include <fmt/format.h>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+
+int AbaqusContent::intern(std::string name) {
+  const auto [it, added] = name_of_text.emplace(std::move(name), static_cast<int>(names.size()));
+  if (added) names.push_back(it->first);
+  return it->second;
+}
+
+AbaqusReference AbaqusContent::reference(std::string_view field, const FeSource& at) {
+  AbaqusReference r;
+  r.at = at;
+  r.scope = scope;
+  if (const std::optional<int> id = parse_label(field)) {
+    r.first = r.last = *id;
+    return r;
+  }
+  const std::string name = abaqus_name(field);
+  if (!instance.empty() && name.size() > instance.size() + 1 && name[instance.size()] == '.' &&
+      name.starts_with(instance)) {
+    r.scope = AbaqusScope::part;
+    const std::string rest = name.substr(instance.size() + 1);
+    if (const std::optional<int> id = parse_label(rest)) {
+      r.first = r.last = *id;
+    } else {
+      r.name = intern(rest);
+    }
+    return r;
+  }
+  r.name = intern(name);
+  return r;
+}
+
+std::string AbaqusContent::text(const AbaqusReference& r, std::string_view what) const {
+  if (r.name < 0) return fmt::format("{} {}", what, r.first);
+  return fmt::format("{} set {}", what, shown(names[r.name]));
+}
+
+namespace {
+
+AbaqusReference number(int id, AbaqusScope scope, const FeSource& at) {
+  return {id, id, 1, -1, scope, at};
+}
+
+/// The set that a parameter names, for elements and nodes that are put into it as they are read.
+AbaqusSet* set_of_parameter(std::map<AbaqusContent::Key, AbaqusSet>& sets,
+                            const AbaqusKeyword& keyword, std::string_view parameter,
+                            AbaqusContent& content) {
+  const std::string_view name = keyword.value(parameter);
+  if (name.empty()) return nullptr;
+  AbaqusSet& set = sets[{content.scope, content.intern(abaqus_name(name))}];
+  if (set.at.line == 0) set.at = keyword.at;
+  return &set;
+}
+
+/// Fields of an element: id, nodes. A line that ends with a comma, or that has fifteen nodes and
+/// more, goes on in the next one. False at the end of the data.
+bool element_fields(AbaqusLines& lines, std::size_t count, std::vector<std::string_view>& fields,
+                    FeSource& at) {
+  std::string_view line;
+  if (!lines.next_data(line)) return false;
+  at = lines.source().here();
+  split_commas(line, fields);
+  std::vector<std::string_view> more;
+  for (;;) {
+    const bool comma = fields.size() > 1 && fields.back().empty();
+    if (comma) fields.pop_back();
+    if (fields.size() >= count || (!comma && fields.size() < 16) || !lines.next_data(line)) {
+      return true;
+    }
+    split_commas(line, more);
+    fields.insert(fields.end(), more.begin(), more.end());
+  }
+}
+
+void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
+              bool of_nodes) {
+  const std::string_view parameter = of_nodes ? "NSET" : "ELSET";
+  lines.allow_only(keyword,
+                   {parameter, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED", "ELSET", "INPUT"});
+  const std::string_view name = lines.required(keyword, parameter);
+  if (name.empty()) return lines.skip_data();
+  AbaqusSet& set =
+      (of_nodes ? content.node_sets
+                : content.element_sets)[{content.scope, content.intern(abaqus_name(name))}];
+  if (set.at.line == 0) set.at = keyword.at;
+  set.internal = keyword.has("INTERNAL");
+  if (of_nodes && keyword.has("ELSET")) {
+    lines.fault(keyword,
+                "has the parameter 'ELSET', which is not supported; an element set can be "
+                "used wherever its nodes are wanted");
+  }
+  AbaqusScope scope = content.scope;
+  if (const std::string_view instance = keyword.value("INSTANCE"); !instance.empty()) {
+    scope = AbaqusScope::part;
+    if (abaqus_name(instance) != content.instance) {
+      lines.fault(keyword,
+                  fmt::format("names the instance {}, which is not there", shown(instance)));
+    }
+  }
+  const std::string_view what = of_nodes ? "node number" : "element number";
+  lines.take_input(keyword);
+  std::vector<std::string_view> fields;
+  while (lines.next_fields(fields)) {
+    const FeSource at = lines.source().here();
+    if (keyword.has("GENERATE")) {
+      if (fields.size() < 2 || fields.size() > 3) {
+        lines.source().fault(
+            fmt::format("a line of GENERATE has {} numbers, expected first, last "
+                        "and increment",
+                        fields.size()));
+        continue;
+      }
+      AbaqusReference range;
+      range.first = lines.integer(fields[0], "first number");
+      range.last = lines.integer(fields[1], "last number");
+      range.step = fields.size() == 3 ? lines.integer(fields[2], "increment") : 1;
+      range.scope = scope;
+      range.at = at;
+      if (range.first < 1 || range.last < range.first || range.step < 1) {
+        lines.source().fault(fmt::format("GENERATE from {} to {} by {} gives no numbers",
+                                         range.first, range.last, range.step));
+        continue;
+      }
+      set.items.push_back(range);
+      continue;
+    }
+    for (const std::string_view field : fields) {
+      if (field.empty()) continue;
+      AbaqusReference item = content.reference(field, at);
+      if (scope != content.scope) item.scope = scope;
+      const bool letter = field.front() == '"' || field.front() == '_' ||
+                          (field.front() >= 'A' && field.front() <= 'Z') ||
+                          (field.front() >= 'a' && field.front() <= 'z');
+      // "1.5", "-3" and "0" are no names.
+      if (item.name >= 0 && !letter && parse_real(field).has_value()) {
+        lines.source().fault(fmt::format("{}: {}", what, not_an_integer(field)));
+        continue;
+      }
+      set.items.push_back(item);
+    }
+  }
+}
+
+}  // namespace
+
+void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  lines.allow_only(keyword, {"NSET", "SYSTEM", "INPUT"});
+  if (keyword.has("SYSTEM") && !same_word(keyword.value("SYSTEM"), "R")) {
+    lines.fault(keyword, "has coordinates that are not rectangular, which is not supported");
+  }
+  AbaqusSet* const set = set_of_parameter(content.node_sets, keyword, "NSET", content);
+  lines.take_input(keyword);
+  std::vector<std::string_view> fields;
+  while (lines.next_fields(fields)) {
+    const FeSource at = lines.source().here();
+    const std::optional<int> id = parse_label(fields[0]);
+    if (!id) {
+      lines.source().fault("node number: " + not_an_integer(fields[0]));
+      continue;
+    }
+    if (fields.size() > 4) {
+      lines.source().fault(
+          fmt::format("node {} has {} fields, expected its number and three "
+                      "coordinates",
+                      *id, fields.size()));
+      continue;
+    }
+    AbaqusNode node{*id, content.scope, Vec3::Zero(), at};
+    for (std::size_t k = 1; k < fields.size(); ++k) {
+      if (fields[k].empty()) continue;
+      const std::optional<double> value = parse_real(fields[k]);
+      if (!value) {
+        lines.source().fault(
+            fmt::format("coordinate {} of node {}: {}", k, *id, not_a_real(fields[k])));
+        continue;
+      }
+      node.p[static_cast<Eigen::Index>(k) - 1] = *value;
+    }
+    const auto [it, added] = content.node_of_label.emplace(AbaqusContent::label(content.scope, *id),
+                                                           static_cast<int>(content.nodes.size()));
+    if (!added) {
+      const SourceMark first = lines.source().mark(content.nodes[it->second].at);
+      lines.source().fault(
+          fmt::format("node {} is there already ({}:{})", *id, first.file, first.line));
+      continue;
+    }
+    content.nodes.push_back(node);
+    if (set != nullptr) set->items.push_back(number(*id, content.scope, at));
+  }
+}
+
+void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                          AbaqusContent& content) {
+  lines.allow_only(keyword, {"TYPE", "ELSET", "INPUT"});
+  const std::string_view type_name = lines.required(keyword, "TYPE");
+  if (type_name.empty()) return lines.skip_data();
+  const AbaqusType* const type = find_abaqus_type(type_name);
+  if (type == nullptr) {
+    lines.fault(keyword, fmt::format("has the type {}, which is not supported{}", shown(type_name),
+                                     did_you_mean(type_name, abaqus_type_names())));
+    return lines.skip_data();
+  }
+  content.clues.look_at_type(type->name, keyword.at);
+  AbaqusSet* const set = set_of_parameter(content.element_sets, keyword, "ELSET", content);
+  lines.take_input(keyword);
+  std::vector<std::string_view> fields;
+  const std::size_t count = static_cast<std::size_t>(type->nodes) + 1;
+  FeSource at;
+  while (element_fields(lines, count, fields, at)) {
+    const std::optional<int> id = parse_label(fields[0]);
+    if (!id) {
+      lines.source().fault(at, "element number: " + not_an_integer(fields[0]));
+      continue;
+    }
+    const bool third_node = type->family == AbaqusType::Family::beam && fields.size() == count + 1;
+    if (third_node) {
+      lines.source().fault(at, fmt::format("element {} ({}) has a node for its orientation, which "
+                                           "is not supported: give the direction in *BEAM SECTION",
+                                           *id, type->name));
+      continue;
+    }
+    if (fields.size() != count) {
+      lines.source().fault(at, fmt::format("element {} ({}) has {} nodes, expected {}", *id,
+                                           type->name, fields.size() - 1, type->nodes));
+      continue;
+    }
+    AbaqusElement element{*id, content.scope, type, content.element_nodes.size(), at};
+    bool sound = true;
+    for (std::size_t k = 1; k < count && sound; ++k) {
+      const std::optional<int> node = parse_label(fields[k]);
+      if (!node) {
+        lines.source().fault(
+            at, fmt::format("node {} of element {}: {}", k, *id, not_an_integer(fields[k])));
+      }
+      sound = node.has_value();
+      content.element_nodes.push_back(node.value_or(0));
+    }
+    const auto [it, added] = content.element_of_label.emplace(
+        AbaqusContent::label(content.scope, *id), static_cast<int>(content.elements.size()));
+    if (!added) {
+      const SourceMark first = lines.source().mark(content.elements[it->second].at);
+      lines.source().fault(
+          at, fmt::format("element {} is there already ({}:{})", *id, first.file, first.line));
+      continue;
+    }
+    content.elements.push_back(element);
+    if (set != nullptr) set->items.push_back(number(*id, content.scope, at));
+  }
+}
+
+void read_abaqus_node_set(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                          AbaqusContent& content) {
+  read_set(lines, keyword, content, true);
+}
+
+void read_abaqus_element_set(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                             AbaqusContent& content) {
+  read_set(lines, keyword, content, false);
+}
+
+void read_abaqus_surface(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  lines.allow_only(keyword, {"NAME", "TYPE", "INTERNAL"});
+  const std::string_view name = lines.required(keyword, "NAME");
+  const std::string_view type = keyword.value("TYPE");
+  const bool of_nodes = same_word(type, "NODE");
+  if (!type.empty() && !of_nodes && !same_word(type, "ELEMENT")) {
+    lines.fault(keyword, fmt::format("has the type {}, expected ELEMENT or NODE", shown(type)));
+  }
+  if (name.empty()) return lines.skip_data();
+  AbaqusSurface& surface = content.surfaces[{content.scope, content.intern(abaqus_name(name))}];
+  if (surface.at.line != 0) {
+    lines.fault(keyword, fmt::format("names the surface {} a second time", shown(name)));
+    return lines.skip_data();
+  }
+  surface.at = keyword.at;
+  surface.of_nodes = of_nodes;
+  surface.internal = keyword.has("INTERNAL");
+  std::vector<std::string_view> fields;
+  while (lines.next_fields(fields)) {
+    AbaqusSurface::Item item;
+    item.where = content.reference(fields[0], lines.source().here());
+    if (of_nodes) {
+      item.weight = lines.real_or(fields, 1, 1.0, "area of a node");
+    } else {
+      const std::string_view face = fields.size() > 1 ? fields[1] : std::string_view{};
+      if (same_word(face, "SPOS")) {
+        item.face = 0;
+      } else if (same_word(face, "SNEG")) {
+        item.face = 1;
+      } else if (face.size() == 2 && (face[0] == 'S' || face[0] == 's') && face[1] >= '1' &&
+                 face[1] <= '6') {
+        item.face = face[1] - '1';
+      } else {
+        lines.source().fault(
+            fmt::format("surface {}: the face is {}, expected S1 to S6, SPOS or "
+                        "SNEG",
+                        shown(name), face.empty() ? "missing" : shown(face)));
+        continue;
+      }
+    }
+    surface.items.push_back(item);
+  }
+}
+
+}  // namespace floatframe

@@ -1,0 +1,222 @@
+// Materials, sections and masses of Abaqus decks.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+using Family = AbaqusType::Family;
+
+/// The material that *ELASTIC and *DENSITY belong to; null and a fault if there is none.
+AbaqusMaterial* present_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                 AbaqusContent& content) {
+  const auto it = content.materials.find(content.material);
+  if (it != content.materials.end()) return &it->second;
+  lines.fault(keyword, "belongs to no *MATERIAL");
+  return nullptr;
+}
+
+/// One line of values; more of them mean a dependence on temperature, which a linear model does not
+/// have.
+bool one_line(AbaqusLines& lines, const AbaqusKeyword& keyword,
+              std::vector<std::string_view>& fields) {
+  if (!lines.next_fields(fields)) {
+    lines.fault(keyword, "has no data line");
+    return false;
+  }
+  std::string_view more;
+  if (lines.next_data(more)) {
+    lines.source().fault(
+        fmt::format("{} depends on temperature or fields (a second line), which is "
+                    "not supported",
+                    keyword.shown));
+    lines.skip_data();
+  }
+  return true;
+}
+
+}  // namespace
+
+bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
+                          Family family, AbaqusSection& section) {
+  const std::size_t before = lines.source().faults();
+  section.family = family;
+  section.shown = keyword.shown;
+  section.at = keyword.at;
+  const std::string_view elements = lines.required(keyword, "ELSET");
+  section.elements.name = content.intern(abaqus_name(elements));
+  section.elements.scope = content.scope;
+  section.elements.at = keyword.at;
+  if (family == Family::solid || family == Family::shell || family == Family::beam) {
+    section.material = abaqus_name(lines.required(keyword, "MATERIAL"));
+  }
+  if (keyword.has("ORIENTATION")) {
+    lines.fault(keyword, "has the parameter 'ORIENTATION', which is not supported");
+  }
+  if (lines.source().faults() == before) return true;
+  lines.skip_data();
+  return false;
+}
+
+double positive_real(AbaqusLines& lines, std::string_view field, std::string_view what) {
+  const std::size_t before = lines.source().faults();
+  const double value = lines.real(field, what);
+  if (!(value > 0.0) && lines.source().faults() == before)
+    lines.source().fault(fmt::format("{} is {:g}, expected more than 0", what, value));
+  return value;
+}
+
+void read_abaqus_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                          AbaqusContent& content) {
+  const std::string name = abaqus_name(lines.required(keyword, "NAME"));
+  content.material = name;
+  const auto [it, added] = content.materials.emplace(name, AbaqusMaterial{});
+  if (!added) {
+    const SourceMark first = lines.source().mark(it->second.at);
+    lines.fault(keyword, fmt::format("names the material {} a second time ({}:{})", shown(name),
+                                     first.file, first.line));
+  } else {
+    it->second.at = keyword.at;
+    content.material_order.push_back(name);
+  }
+  lines.skip_data();
+}
+
+void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  lines.allow_only(keyword, {"TYPE", "MODULI", "DEPENDENCIES"});
+  AbaqusMaterial* const material = present_material(lines, keyword, content);
+  const std::string type = abaqus_name(keyword.value("TYPE"));
+  if (!type.empty() && type != "ISO" && type != "ISOTROPIC") {
+    lines.fault(keyword, fmt::format("has the type {}; only isotropic elasticity is supported",
+                                     shown(keyword.value("TYPE"))));
+    return lines.skip_data();
+  }
+  std::vector<std::string_view> fields;
+  const std::size_t before = lines.source().faults();
+  if (!one_line(lines, keyword, fields) || material == nullptr) return;
+  if (material->young) {
+    lines.fault(keyword, "is given a second time for its material");
+    return;
+  }
+  material->young = lines.real(fields[0], "Young's modulus");
+  material->poisson = lines.real_or(fields, 1, 0.0, "Poisson's ratio");
+  if (lines.source().faults() != before) return;
+  if (!(*material->young > 0.0)) {
+    lines.fault(keyword,
+                fmt::format("has Young's modulus {:g}, expected more than 0", *material->young));
+  }
+  if (!(*material->poisson > -1.0 && *material->poisson < 0.5)) {
+    lines.fault(keyword,
+                fmt::format("has Poisson's ratio {:g}, expected more than -1 and less than "
+                            "0.5",
+                            *material->poisson));
+  }
+}
+
+void read_abaqus_density(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  lines.allow_only(keyword, {"DEPENDENCIES"});
+  AbaqusMaterial* const material = present_material(lines, keyword, content);
+  std::vector<std::string_view> fields;
+  if (!one_line(lines, keyword, fields) || material == nullptr) return;
+  if (material->density) {
+    lines.fault(keyword, "is given a second time for its material");
+    return;
+  }
+  material->density = lines.real(fields[0], "density");
+  if (!(*material->density >= 0.0)) {
+    lines.fault(keyword, fmt::format("is {:g}, expected no negative density", *material->density));
+  }
+}
+
+void read_abaqus_solid_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                               AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"});
+  if (!begin_abaqus_section(lines, keyword, content, Family::solid, section)) return;
+  content.sections.push_back(section);
+  lines.skip_data();
+}
+
+void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                               AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET",
+                             "SECTIONINTEGRATION", "TEMPERATURE", "POISSON"});
+  const std::string offset = abaqus_name(keyword.value("OFFSET"));
+  if (!offset.empty() && parse_real(offset).value_or(1.0) != 0.0) {
+    lines.fault(keyword, fmt::format("has the offset {}, which is not supported", shown(offset)));
+  }
+  if (!begin_abaqus_section(lines, keyword, content, Family::shell, section)) return;
+  std::vector<std::string_view> fields;
+  if (!lines.next_fields(fields)) return lines.fault(keyword, "has no thickness");
+  section.thickness = positive_real(lines, fields[0], "thickness of the shell");
+  std::string_view more;
+  if (lines.next_data(more)) {
+    lines.source().fault("*SHELL SECTION has a second line, which is not supported");
+    lines.skip_data();
+  }
+  content.sections.push_back(section);
+}
+
+/// Surface elements carry mass only if the section gives them some.
+void read_abaqus_surface_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                 AbaqusContent& content) {
+  const std::string_view density = keyword.value("DENSITY");
+  if (keyword.has("DENSITY") && parse_real(density).value_or(1.0) != 0.0) {
+    lines.fault(keyword, fmt::format("has the density {}: the mass of surface elements is not "
+                                     "read, use *MASS or shells",
+                                     shown(density)));
+  } else {
+    const SourceMark mark = lines.source().mark(keyword.at);
+    const std::string elements = abaqus_name(keyword.value("ELSET"));
+    content.notes.push_back(
+        fmt::format("{}:{}: *SURFACE SECTION of {} is passed over: it has no "
+                    "mass",
+                    mark.file, mark.line, shown(elements)));
+  }
+  lines.skip_data();
+}
+
+void read_abaqus_mass(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "TYPE", "ALPHA", "COMPOSITE"});
+  const std::string_view type = keyword.value("TYPE");
+  if (!type.empty() && !same_word(type, "ISOTROPIC")) {
+    lines.fault(keyword, fmt::format("has the type {}, expected ISOTROPIC", shown(type)));
+  }
+  if (!begin_abaqus_section(lines, keyword, content, Family::mass, section)) return;
+  std::vector<std::string_view> fields;
+  if (!one_line(lines, keyword, fields)) return;
+  section.mass = lines.real(fields[0], "mass");
+  if (section.mass < 0.0)
+    lines.fault(keyword, fmt::format("is {:g}, expected no negative mass", section.mass));
+  content.masses.push_back(section);
+}
+
+void read_abaqus_rotary_inertia(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "ORIENTATION", "ALPHA", "COMPOSITE"});
+  if (!begin_abaqus_section(lines, keyword, content, Family::rotary, section)) return;
+  std::vector<std::string_view> fields;
+  if (!one_line(lines, keyword, fields)) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    section.J(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) =
+        lines.real_or(fields, k, 0.0, "moment of inertia");
+  }
+  for (std::size_t k = 3; k < 6; ++k) {
+    if (lines.real_or(fields, k, 0.0, "product of inertia") != 0.0) {
+      lines.fault(keyword,
+                  "has products of inertia, whose sign is not the same in all programs: "
+                  "not supported");
+      break;
+    }
+  }
+  content.masses.push_back(section);
+}
+
+}  // namespace floatframe

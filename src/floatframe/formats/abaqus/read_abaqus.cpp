@@ -1,0 +1,209 @@
+#include "floatframe/formats/abaqus/read_abaqus.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <unordered_map>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_keywords.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+void skip(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent&) { lines.skip_data(); }
+
+struct Known {
+  const char* name;
+  AbaqusHandler read;
+};
+
+constexpr std::array handlers{
+    Known{"HEADING", skip},
+    Known{"NODE", read_abaqus_nodes},
+    Known{"ELEMENT", read_abaqus_elements},
+    Known{"NSET", read_abaqus_node_set},
+    Known{"ELSET", read_abaqus_element_set},
+    Known{"SURFACE", read_abaqus_surface},
+    Known{"PART", read_abaqus_part},
+    Known{"END PART", read_abaqus_end_part},
+    Known{"ASSEMBLY", read_abaqus_assembly},
+    Known{"END ASSEMBLY", read_abaqus_assembly},
+    Known{"INSTANCE", read_abaqus_instance},
+    Known{"END INSTANCE", read_abaqus_end_instance},
+    Known{"MATERIAL", read_abaqus_material},
+    Known{"ELASTIC", read_abaqus_elastic},
+    Known{"DENSITY", read_abaqus_density},
+    Known{"SOLID SECTION", read_abaqus_solid_section},
+    Known{"SHELL SECTION", read_abaqus_shell_section},
+    Known{"BEAM SECTION", read_abaqus_beam_section},
+    Known{"SURFACE SECTION", read_abaqus_surface_section},
+    Known{"MASS", read_abaqus_mass},
+    Known{"ROTARY INERTIA", read_abaqus_rotary_inertia},
+    Known{"RIGID BODY", read_abaqus_rigid_body},
+    Known{"COUPLING", read_abaqus_coupling},
+    Known{"KINEMATIC COUPLING", read_abaqus_kinematic_coupling},
+    Known{"DISTRIBUTING COUPLING", read_abaqus_distributing_coupling},
+    Known{"EQUATION", read_abaqus_equation},
+    Known{"BOUNDARY", read_abaqus_boundary},
+};
+
+/// A keyword that is one or two letters away from one that is read.
+std::string nearly(const std::string& name) {
+  if (name.size() > 40) return {};
+  for (const Known& k : handlers) {
+    const std::string known = abaqus_name(k.name);
+    const std::size_t letters = known.size();
+    if (letters >= 4 && edit_distance(name, known) <= (letters >= 8 ? 2 : 1)) return k.name;
+  }
+  return {};
+}
+
+AbaqusHandler handler_of(const std::string& name) {
+  static const std::unordered_map<std::string, AbaqusHandler> map = [] {
+    std::unordered_map<std::string, AbaqusHandler> all;
+    for (const Known& k : handlers) all.emplace(abaqus_name(k.name), k.read);
+    return all;
+  }();
+  const auto it = map.find(name);
+  return it == map.end() ? nullptr : it->second;
+}
+
+/// The keywords of a deck in turn.
+class DeckReader {
+ public:
+  DeckReader(AbaqusLines& lines, AbaqusContent& content) : lines_(lines), content_(content) {}
+
+  void read() {
+    std::string_view first;
+    if (lines_.next_data(first)) {
+      lines_.source().stop(
+          lines_.source().here(),
+          fmt::format("the deck begins with {}, expected a keyword line (*...)", shown(first)));
+    }
+    AbaqusKeyword keyword;
+    while (lines_.next_keyword(keyword)) one(keyword);
+  }
+
+ private:
+  void one(const AbaqusKeyword& keyword) {
+    content_.clues.look_at(keyword);
+    if (const AbaqusHandler handler = handler_of(keyword.name); handler != nullptr) {
+      return handler(lines_, keyword, content_);
+    }
+    if (keyword.name == "STEP") {
+      note(keyword, "and what follows up to *END STEP is passed over");
+      return step(keyword);
+    }
+    using Use = AbaqusKeywordRule::Use;
+    const AbaqusKeywordRule rule = abaqus_keyword_rule(keyword.name);
+    if (rule.use == Use::harmless) {
+      note(keyword, "is passed over");
+    } else if (rule.use == Use::refused) {
+      fault(keyword, fmt::format("is not supported: {}", rule.advice));
+    } else {
+      unknown(keyword);
+    }
+    lines_.skip_data();
+  }
+
+  /// *STEP to *END STEP: loads and results.
+  void step(const AbaqusKeyword& begin) {
+    AbaqusKeyword keyword;
+    while (lines_.next_keyword(keyword) && keyword.name != "ENDSTEP") {
+      content_.clues.look_at(keyword);
+      // Elements that go change the part; contact pairs and equations that go do not.
+      const bool removes = keyword.name == "MODELCHANGE" &&
+                           abaqus_name(keyword.value("TYPE")) != "CONTACTPAIR" &&
+                           !keyword.has("ACTIVATE");
+      const bool changes =
+          changes_part_in_step(keyword.name) && !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
+      if (content_.only_nodes || (!removes && !changes)) continue;
+      fault(keyword, fmt::format("stands in the *STEP of line {}, but the part must be complete "
+                                 "before the first step",
+                                 begin.at.line));
+    }
+  }
+
+  /// Each keyword once: there may be millions of them.
+  void fault(const AbaqusKeyword& keyword, const std::string& text) {
+    if (faults_.insert(keyword.name).second) lines_.fault(keyword, text);
+  }
+
+  void unknown(const AbaqusKeyword& keyword) {
+    if (faults_.contains(keyword.name) || noted_.contains(keyword.name)) return;
+    if (content_.only_nodes && noted_.size() >= most_notes) return;
+    const std::string near = nearly(keyword.name);
+    if (!near.empty()) {
+      fault(keyword, fmt::format("is not known, did you mean '*{}'?", near));
+    } else if (content_.only_nodes) {
+      note(keyword, "is not known and is passed over");
+    } else {
+      fault(keyword,
+            "is not known and may change stiffness, mass or constraints: take it out of the deck "
+            "if it does not");
+    }
+  }
+
+  void note(const AbaqusKeyword& keyword, std::string_view text) {
+    if (!noted_.insert(keyword.name).second) return;
+    const SourceMark m = lines_.source().mark(keyword.at);
+    content_.notes.push_back(fmt::format("{}:{}: {} {}", m.file, m.line, keyword.shown, text));
+  }
+
+  static constexpr std::size_t most_notes = 500;  // the harmless ones are fewer
+  AbaqusLines& lines_;
+  AbaqusContent& content_;
+  std::set<std::string> noted_, faults_;
+};
+
+}  // namespace
+
+bool looks_like_abaqus(std::string_view beginning) {
+  // The first line that is no comment is a keyword.
+  while (!beginning.empty()) {
+    const std::size_t end = beginning.find('\n');
+    const std::string_view line = trimmed(beginning.substr(0, end));
+    beginning.remove_prefix(end == std::string_view::npos ? beginning.size() : end + 1);
+    if (line.empty() || line.starts_with("**")) continue;
+    return line.size() > 1 && line[0] == '*' &&
+           ((line[1] >= 'A' && line[1] <= 'Z') || (line[1] >= 'a' && line[1] <= 'z') ||
+            line[1] == ' ');
+  }
+  return false;
+}
+
+FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart part) {
+  AbaqusContent content;
+  content.dialect = options.dialect;
+  content.only_nodes = part == DeckPart::nodes;
+  AbaqusLines lines(source);
+  DeckReader(lines, content).read();
+  if (content.nodes.empty() && source.faults() == 0) {
+    source.fault({0, 0}, "the deck has no nodes");
+  }
+  source.throw_if_any();
+  const bool only_nodes = content.only_nodes;
+  AbaqusBuild build(content, source);
+  build.element_index.assign(content.elements.size(), -1);
+  build.model.notes = content.notes;
+  build_abaqus_nodes(build);
+  if (!only_nodes) build_abaqus_elements(build, options);
+  build_abaqus_sets(build, only_nodes);
+  build_abaqus_constraints(build, only_nodes);
+  source.throw_if_any();
+  build.model.files = source.files();
+  return std::move(build.model);
+}
+
+FeModel read_abaqus(const std::filesystem::path& file, const FeReadOptions& options) {
+  TextSource source(file);
+  return read_abaqus(source, options);
+}
+
+}  // namespace floatframe

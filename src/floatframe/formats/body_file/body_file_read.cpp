@@ -1,0 +1,276 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/json_text.hpp"
+#include "floatframe/core/printable.hpp"
+#include "floatframe/core/regular_file.hpp"
+#include "floatframe/formats/body_file/body_arrays.hpp"
+#include "floatframe/formats/body_file/body_file.hpp"
+#include "floatframe/formats/body_file/body_numbers.hpp"
+#include "floatframe/formats/body_file/health_text.hpp"
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
+/// CSR of n rows and columns, written as data, indices, indptr.
+SparseRows read_sparse(ArrayReader& arrays, const std::string& name, Eigen::Index n) {
+  const Eigen::Index entries = arrays.length(name + "_data");
+  const VecX data = arrays.list(name + "_data", entries);
+  const std::vector<int> columns = arrays.integers(name + "_indices", std::nullopt, n);
+  const std::vector<int> starts = arrays.integers(name + "_indptr", std::nullopt, entries + 1);
+  SparseRows out(n, n);
+  const bool sound = columns.size() == static_cast<std::size_t>(entries) &&
+                     starts.size() == static_cast<std::size_t>(n) + 1 && starts.front() == 0 &&
+                     starts.back() == entries && std::is_sorted(starts.begin(), starts.end());
+  if (!sound) {
+    arrays.fault(name + "_indptr",
+                 fmt::format("found {} rows for {} values in {} columns, expected the {} rows of a "
+                             "sparse matrix",
+                             starts.empty() ? 0 : starts.size() - 1, entries, columns.size(), n));
+    return out;
+  }
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (Eigen::Index r = 0; r < n; ++r)
+    for (int k = starts[r]; k < starts[r + 1]; ++k)
+      triplets.emplace_back(static_cast<int>(r), columns[k], data[k]);
+  out.setFromTriplets(triplets.begin(), triplets.end());
+  return out;
+}
+
+class BodyReader {
+ public:
+  BodyReader(std::string_view bytes, const std::string& name)
+      : name_(name), members_(read_zip(bytes, name)), arrays_(members_, name, faults_) {}
+
+  BodyFile read() {
+    header();
+    invariants();
+    nodes();
+    surface();
+    if (arrays_.has("projection_p")) projection();
+    faults_.throw_if_any();
+    check_body_numbers(out_, header_, arrays_, faults_, name_);
+    faults_.throw_if_any();
+    return std::move(out_);
+  }
+
+ private:
+  FlexibleBody& body() { return out_.part.body; }
+  void fault(const std::string& sentence) {
+    faults_.add({name_, 0, 0}, "member 'header.json': " + sentence);
+  }
+
+  /// Nothing else can be read without it.
+  void header() {
+    const auto it = std::find_if(members_.begin(), members_.end(),
+                                 [](const ZipMember& m) { return m.name == "header.json"; });
+    if (it == members_.end())
+      throw InputError({name_, 0, 0}, "this is not a body file (it has no member 'header.json')");
+    std::string why;
+    const Json json = read_json(it->content, why);
+    if (json.is_discarded())
+      throw InputError({name_, 0, 0},
+                       "this is not a body file (member 'header.json' is no header: " + why + ")");
+    if (!json.is_object() || text_of(json, "format") != "floatframe body")
+      throw InputError({name_, 0, 0},
+                       "this is not a body file (member 'header.json' does not say format "
+                       "'floatframe body')");
+    const auto version = json.find("format_version");
+    if (version == json.end() || *version != body_file_version)
+      throw InputError(
+          {name_, 0, 0},
+          fmt::format("member 'header.json': found format version {}, this program reads version "
+                      "{} (the file was written by Floatframe {})",
+                      version == json.end() ? "none" : json_excerpt(*version), body_file_version,
+                      excerpt(text_of(json, "floatframe"))));
+    if (const auto units = json.find("units"); units != json.end() && *units != body_file_units)
+      fault(fmt::format("found the units {}, expected \"{}\": all members are in SI units",
+                        json_excerpt(*units), body_file_units));
+    if (const auto m = json.find("modes"); m != json.end() && m->is_array())
+      for (const Json& mode : *m) {
+        body().mode_names.push_back(name_of(mode, "mode"));
+        const auto f = mode.is_object() ? mode.find("frequency_Hz") : mode.end();
+        const bool given = mode.is_object() && f != mode.end() && !f->is_null();
+        if (given && !f->is_number())
+          fault(fmt::format("found the frequency_Hz {} of mode {}, expected a number [Hz]",
+                            json_excerpt(*f), header_.frequencies.size() + 1));
+        header_.frequencies.push_back(given && f->is_number() ? f->get<double>() : -1.0);
+      }
+    else
+      fault("found no list of 'modes', expected one entry a mode");
+    std::set<std::string> names;
+    if (const auto m = json.find("markers"); m != json.end() && m->is_array())
+      for (const Json& marker : *m) {
+        const std::string name = name_of(marker, "marker");
+        body().nodes.emplace_back().name = name;
+        if (name.empty() || !names.insert(name).second)
+          fault("found the marker name '" + excerpt(name) +
+                "', expected names that are not empty and differ");
+        followers(marker, name);
+      }
+    else
+      fault("found no list of 'markers', expected one");
+    const std::string mass_model = text_of(json, "mass_model");
+    const std::vector<std::string> models{"isoparametric", "six_dof", "hermite"};
+    const auto model = std::find(models.begin(), models.end(), mass_model);
+    if (model == models.end())
+      fault("found the mass model '" + excerpt(mass_model) +
+            "', expected isoparametric, six_dof or hermite");
+    else
+      body().mass_model = static_cast<MassModel>(model - models.begin());
+    if (const auto from = json.find("provenance"); from != json.end() && from->is_object())
+      provenance(*from, text_of(json, "floatframe"));
+    try {
+      if (const auto health = json.find("health"); health != json.end())
+        out_.part.health = health_from_json(health->dump());
+    } catch (const InputError& error) {
+      fault(std::string("health: ") + error.what());
+    }
+  }
+
+  /// As in model files: no control characters, which a terminal would obey.
+  std::string name_of(const Json& object, const char* what) {
+    std::string name = text_of(object, "name");
+    if (printable(name) != name)
+      fault(fmt::format("found the {} name '{}', expected one without control characters", what,
+                        printable(excerpt(name))));
+    return name;
+  }
+
+  /// Points of the surface that move with a marker.
+  void followers(const Json& marker, const std::string& name) {
+    std::vector<std::int64_t>& list = header_.moves_with.emplace_back();
+    const auto given = marker.is_object() ? marker.find("moves_with") : marker.end();
+    if (!marker.is_object() || given == marker.end()) return;
+    bool right = given->is_array();
+    for (const Json& point : *given) {
+      right = right && point.is_number_integer();
+      if (right) list.push_back(point.get<std::int64_t>());
+    }
+    if (right) return;
+    list.clear();
+    fault(fmt::format("found moves_with {} of marker '{}', expected a list of surface points",
+                      json_excerpt(*given), excerpt(name)));
+  }
+
+  void provenance(const Json& json, const std::string& version) {
+    Provenance& from = out_.provenance;
+    from.source = text_of(json, "source");
+    from.source_hash = text_of(json, "source_hash");
+    from.units = text_of(json, "units");
+    from.date = text_of(json, "date");
+    from.version = version;
+    if (const auto list = json.find("options"); list != json.end() && list->is_array())
+      for (const Json& pair : *list)
+        if (pair.is_array() && pair.size() == 2 && pair[0].is_string() && pair[1].is_string())
+          from.options.emplace_back(pair[0].get<std::string>(), pair[1].get<std::string>());
+    if (const auto list = json.find("files"); list != json.end() && list->is_array())
+      for (const Json& entry : *list)
+        from.files.emplace_back(text_of(entry, "file"), text_of(entry, "hash"));
+  }
+
+  void invariants() {
+    const auto nm = static_cast<Eigen::Index>(body().mode_names.size());
+    InertiaInvariants& v = body().invariants;
+    v.m = arrays_.number("m");
+    v.m_u = arrays_.list("m_u", 3);
+    v.P_u = arrays_.matrix("P_u", 3, 3);
+    v.S = arrays_.matrix("S", 3, nm);
+    for (std::size_t i = 0; i < 3; ++i) v.Si[i] = arrays_.matrix(fmt::format("S{}", i + 1), 3, nm);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        const std::string name = fmt::format("S{}{}", i + 1, j + 1);
+        v.Sij[i][j] = arrays_.matrix(name, nm, nm);
+      }
+    body().K = arrays_.matrix("K", nm, nm);
+    body().D = arrays_.matrix("D", nm, nm);
+    body().fixed_interface_frequencies = arrays_.list("frequencies", arrays_.length("frequencies"));
+  }
+
+  void nodes() {
+    const auto n = static_cast<Eigen::Index>(body().nodes.size());
+    const Eigen::Index nm = body().modes();
+    const MatX p = arrays_.matrix("marker_p", n, 3);
+    const MatX X = arrays_.grouped("marker_X", n, 3, nm);
+    const MatX X_theta = arrays_.grouped("marker_X_theta", n, 3, nm);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      ModalNode& node = body().nodes[k];
+      node.p = p.row(k).transpose();
+      node.X = node.X_theta = Mat3X::Zero(3, nm);
+      if (nm == 0) continue;
+      node.X = X.middleRows<3>(3 * k);
+      node.X_theta = X_theta.middleRows<3>(3 * k);
+    }
+  }
+
+  template <std::size_t N>
+  std::vector<std::array<int, N>> cells(const std::string& name, Eigen::Index nodes) {
+    const std::vector<int> flat = arrays_.integers(name, N, nodes);
+    std::vector<std::array<int, N>> out(flat.size() / N);
+    for (std::size_t k = 0; k < flat.size(); ++k) out[k / N][k % N] = flat[k];
+    return out;
+  }
+
+  void surface() {
+    ReducedPart& part = out_.part;
+    part.surface.nodes = arrays_.integers("surface_nodes", std::nullopt, 2147483647);
+    const Eigen::Index n = arrays_.length("surface_nodes"), nm = body().modes();
+    part.surface.triangles = cells<3>("surface_triangles", n);
+    part.surface.lines = cells<2>("surface_lines", n);
+    part.surface_positions = arrays_.matrix("surface_positions", n, 3).transpose();
+    // Without modes nothing can be missing; files of parts without modes were written empty once.
+    part.surface_modes =
+        nm > 0 ? arrays_.grouped("surface_modes", n, 3, nm) : MatX(MatX::Zero(3 * n, 0));
+    if (arrays_.has("surface_stress"))
+      part.surface_stress = arrays_.grouped("surface_stress", n, 6, nm);
+  }
+
+  void projection() {
+    auto data = std::make_shared<ProjectionData>();
+    const Eigen::Index n = arrays_.length("projection_p"), nm = body().modes();
+    data->p = arrays_.matrix("projection_p", n, 3).transpose();
+    data->X = arrays_.grouped("projection_X", n, 3, nm);
+    if (arrays_.has("projection_X_theta")) {
+      data->X_theta = arrays_.grouped("projection_X_theta", n, 3, nm);
+      data->M_6 = read_sparse(arrays_, "projection_M_6", 6 * n);
+    } else {
+      data->M_s = read_sparse(arrays_, "projection_M_s", n);
+    }
+    body().projection = data;
+  }
+
+  std::string name_;
+  Faults faults_;
+  BodyHeader header_;
+  std::vector<ZipMember> members_;
+  ArrayReader arrays_;
+  BodyFile out_;
+};
+
+}  // namespace
+
+BodyFile read_body_bytes(std::string_view bytes, const std::string& name) {
+  return BodyReader(bytes, name).read();
+}
+
+BodyFile read_body_file(const std::filesystem::path& file) {
+  return read_body_bytes(regular_file(file), file.string());
+}
+
+bool is_body_file(const std::filesystem::path& file) {
+  std::string beginning;
+  return read_regular_beginning(file, 2, beginning).empty() && beginning == "PK";
+}
+
+}  // namespace floatframe

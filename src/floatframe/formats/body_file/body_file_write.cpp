@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/enum_index.hpp"
+#include "floatframe/formats/body_file/body_arrays.hpp"
+#include "floatframe/formats/body_file/body_file.hpp"
+#include "floatframe/formats/body_file/health_text.hpp"
+#include "floatframe/math/frequency.hpp"
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string header_of(const BodyFile& content) {
+  const FlexibleBody& body = content.part.body;
+  const HealthReport& health = content.part.health;
+  const Provenance& from = content.provenance;
+  Json modes = Json::array(), markers = Json::array(), options = Json::array(),
+       files = Json::array();
+  const VecX frequencies = mode_frequencies(body);
+  for (int k = 0; k < body.modes(); ++k) {
+    const auto name = static_cast<std::size_t>(k) < body.mode_names.size()
+                          ? body.mode_names[k]
+                          : fmt::format("mode {}", k + 1);
+    modes.push_back(
+        {{"name", name},
+         {"frequency_Hz", std::isfinite(frequencies[k]) ? Json(frequencies[k]) : Json()}});
+  }
+  for (const ModalNode& node : body.nodes) {
+    const auto it = std::find_if(health.interfaces.begin(), health.interfaces.end(),
+                                 [&](const InterfaceHealth& h) { return h.name == node.name; });
+    const bool interface = it != health.interfaces.end();
+    markers.push_back({{"name", node.name},
+                       {"interface", interface},
+                       {"kind", interface ? Json(it->kind) : Json()}});
+    const std::vector<int> points = surface_points_that_follow(content.part, node);
+    if (!points.empty()) markers.back()["moves_with"] = points;
+  }
+  for (const auto& [key, value] : from.options) options.push_back({key, value});
+  for (const auto& [file, hash] : from.files) files.push_back({{"file", file}, {"hash", hash}});
+  const char* mass_models[] = {"isoparametric", "six_dof", "hermite"};
+  const Json header = {{"format", "floatframe body"},
+                       {"format_version", body_file_version},
+                       {"floatframe", from.version},
+                       {"units", body_file_units},
+                       {"mass_model", mass_models[index_of(body.mass_model)]},
+                       {"modes", modes},
+                       {"markers", markers},
+                       {"provenance",
+                        {{"source", from.source},
+                         {"source_hash", from.source_hash},
+                         {"units", from.units},
+                         {"options", options},
+                         {"files", files},
+                         {"date", from.date}}},
+                       {"health", Json::parse(health_json(health))}};
+  return header.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+template <class Sparse>
+void add_sparse(const Sparse& m, const std::string& name,
+                std::vector<std::pair<std::string, std::string>>& out) {
+  std::vector<double> values;
+  std::vector<std::int32_t> columns;
+  std::vector<std::int64_t> starts{0};
+  for (Eigen::Index r = 0; r < m.outerSize(); ++r) {
+    for (typename Sparse::InnerIterator it(m, r); it; ++it) {
+      values.push_back(it.value());
+      columns.push_back(static_cast<std::int32_t>(it.col()));
+    }
+    starts.push_back(static_cast<std::int64_t>(values.size()));
+  }
+  const std::size_t n = values.size(), rows = starts.size();
+  out.emplace_back(name + "_data", npy_bytes({{n}, std::move(values)}));
+  out.emplace_back(name + "_indices", npy_bytes({{n}, std::move(columns)}));
+  out.emplace_back(name + "_indptr", npy_bytes({{rows}, std::move(starts)}));
+}
+
+}  // namespace
+
+double distance_from_rigid(const ReducedPart& part, const ModalNode& node, int point) {
+  const Eigen::Index k = point;
+  const Vec3 r = part.surface_positions.col(k) - node.p;
+  const Mat3X rigid = node.X - skew(r) * node.X_theta;
+  return (part.surface_modes.middleRows<3>(3 * k) - rigid).cwiseAbs().maxCoeff();
+}
+
+std::vector<int> surface_points_that_follow(const ReducedPart& part, const ModalNode& node) {
+  std::vector<int> all;
+  const Eigen::Index n = part.surface_positions.cols(), nm = part.body.modes();
+  if (nm == 0 || n == 0 || part.surface_modes.rows() != 3 * n || part.surface_modes.cols() != nm)
+    return all;
+  const double limit = 1e-9 * part.surface_modes.cwiseAbs().maxCoeff();
+  for (int k = 0; k < n; ++k)
+    if (distance_from_rigid(part, node, k) <= limit) all.push_back(k);
+  if (all.size() > 3) all = {all.front(), all[all.size() / 2], all.back()};
+  return all;
+}
+
+VecX mode_frequencies(const FlexibleBody& body) {
+  const InertiaInvariants& v = body.invariants;
+  VecX out(body.modes());
+  for (Eigen::Index k = 0; k < out.size(); ++k) {
+    const double m = v.Sij[0][0](k, k) + v.Sij[1][1](k, k) + v.Sij[2][2](k, k);
+    out[k] = hertz(std::sqrt(std::max(0.0, body.K(k, k)) / m));
+  }
+  return out;
+}
+
+std::string body_file_bytes(const BodyFile& content) {
+  const ReducedPart& part = content.part;
+  const FlexibleBody& body = part.body;
+  const InertiaInvariants& v = body.invariants;
+  const Eigen::Index nm = body.modes(), markers = static_cast<Eigen::Index>(body.nodes.size());
+  std::vector<std::pair<std::string, std::string>> arrays;
+  const auto add = [&](const std::string& name, const NpyArray& array) {
+    arrays.emplace_back(name, npy_bytes(array));
+  };
+  add("m", {{}, std::vector<double>{v.m}});
+  add("m_u", list_of(v.m_u));
+  add("P_u", array_of(v.P_u));
+  add("S", array_of(v.S));
+  for (std::size_t i = 0; i < 3; ++i) add(fmt::format("S{}", i + 1), array_of(v.Si[i]));
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      add(fmt::format("S{}{}", i + 1, j + 1), array_of(v.Sij[i][j]));
+  add("K", array_of(body.K));
+  add("D", array_of(body.D.size() > 0 ? body.D : MatX(MatX::Zero(nm, nm))));
+  add("frequencies", list_of(body.fixed_interface_frequencies));
+  MatX p(markers, 3), X(3 * markers, nm), X_theta(3 * markers, nm);
+  for (Eigen::Index k = 0; k < markers; ++k) {
+    const ModalNode& node = body.nodes[k];
+    p.row(k) = node.p.transpose();
+    if (nm == 0) continue;
+    X.middleRows<3>(3 * k) = node.X;
+    X_theta.middleRows<3>(3 * k) = node.X_theta;
+  }
+  add("marker_p", array_of(p));
+  add("marker_X", grouped_array(X, 3));
+  add("marker_X_theta", grouped_array(X_theta, 3));
+  const Surface& surface = part.surface;
+  add("surface_nodes", {{surface.nodes.size()},
+                        std::vector<std::int32_t>(surface.nodes.begin(), surface.nodes.end())});
+  add("surface_triangles", array_of(surface.triangles));
+  add("surface_lines", array_of(surface.lines));
+  add("surface_positions", array_of(part.surface_positions.transpose()));
+  // Without modes it has rows all the same; a file without a surface has none.
+  const Eigen::Index rows = 3 * static_cast<Eigen::Index>(surface.nodes.size());
+  const bool given = part.surface_modes.rows() == rows && part.surface_modes.cols() == nm;
+  add("surface_modes", grouped_array(given ? part.surface_modes : MatX(MatX::Zero(rows, nm)), 3));
+  if (part.surface_stress.size() > 0) add("surface_stress", grouped_array(part.surface_stress, 6));
+  if (body.projection) {
+    const ProjectionData& data = *body.projection;
+    add("projection_p", array_of(data.p.transpose()));
+    add("projection_X", grouped_array(data.X, 3));
+    if (data.six_dof()) {
+      add("projection_X_theta", grouped_array(data.X_theta, 3));
+      add_sparse(data.M_6, "projection_M_6", arrays);
+    } else {
+      add_sparse(data.M_s, "projection_M_s", arrays);
+    }
+  }
+  const std::string header = header_of(content);
+  std::vector<ZipMember> members{{"header.json", header}};
+  for (const auto& [name, bytes] : arrays) members.push_back({name + ".npy", bytes});
+  return zip_archive(members);
+}
+
+void write_body_file(const std::filesystem::path& file, const BodyFile& content) {
+  write_file(file.string(), body_file_bytes(content));
+}
+
+}  // namespace floatframe

@@ -1,0 +1,173 @@
+#include "floatframe/formats/body_file/body_numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/body/check_invariants.hpp"
+#include "floatframe/core/json_text.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr double same = 1e-6;  // numbers that were printed and read again
+
+class Check {
+ public:
+  Check(const BodyFile& content, const BodyHeader& header, ArrayReader& arrays, Faults& faults,
+        const std::string& name)
+      : file_(content), header_(header), arrays_(arrays), faults_(faults), name_(name) {}
+
+  /// What the numbers must satisfy, and whether they are those of the header.
+  void run() {
+    // Of points only if the file says so: see check_invariants.hpp.
+    const auto source = file_.part.health.rotary_inertia == false ? InvariantSource::integrals
+                                                                  : InvariantSource::rotary;
+    for (const InvariantFault& f : check_invariants(file_.part.body, source))
+      arrays_.fault(f.quantity, f.sentence);
+    if (!faults_.empty()) return;
+    const InertiaInvariants& v = file_.part.body.invariants;
+    if (const auto& p = file_.part.body.projection) {
+      double m = 0.0;
+      if (p->six_dof()) {
+        for (Eigen::Index r = 0; r < p->M_6.rows(); r += 6)
+          for (SparseRows::InnerIterator it(p->M_6, r); it; ++it)
+            if (it.col() % 6 == 0) m += it.value();
+      } else {
+        m = p->M_s.sum();
+      }
+      if (!(std::abs(m - v.m) <= same * v.m))
+        arrays_.fault(p->six_dof() ? "projection_M_6_data" : "projection_M_s_data",
+                      fmt::format("found {:g} kg in all, expected the mass of member 'm.npy', {:g} "
+                                  "kg",
+                                  m, v.m));
+    }
+    const VecX own = mode_frequencies(file_.part.body);
+    for (std::size_t k = 0; k < header_.frequencies.size(); ++k) {
+      const double f = own(static_cast<Eigen::Index>(k));
+      if (header_.frequencies[k] < 0.0 || !std::isfinite(f)) continue;
+      if (std::abs(f - header_.frequencies[k]) <= same * std::max(f, header_.frequencies[k]))
+        continue;
+      fault(
+          fmt::format("found {:.6g} Hz for mode {}, but K and the modal mass S11 + S22 + S33 give "
+                      "{:.6g} Hz",
+                      header_.frequencies[k], k + 1, f));
+      break;
+    }
+    health(v);
+    markers_on_the_surface();
+  }
+
+ private:
+  /// What the file says of the same points twice.
+  void markers_on_the_surface() {
+    const ReducedPart& part = file_.part;
+    if (part.surface_modes.size() == 0) return;
+    const double scale = part.surface_modes.cwiseAbs().maxCoeff();
+    for (std::size_t k = 0; k < header_.moves_with.size(); ++k)
+      for (const std::int64_t point : header_.moves_with[k]) {
+        const ModalNode& node = file_.part.body.nodes[k];
+        if (point < 0 || point >= part.surface_positions.cols()) {
+          fault(
+              fmt::format("found the surface point {} for marker '{}', expected a number from 0 "
+                          "to {}",
+                          point, excerpt(node.name), part.surface_positions.cols() - 1));
+          return;
+        }
+        const double off = distance_from_rigid(part, node, static_cast<int>(point));
+        if (off <= same * scale) continue;
+        arrays_.fault("marker_X",
+                      fmt::format("marker '{}' moves {:.3g} m per modal amplitude away from point "
+                                  "{} of the surface, which moves with it (largest mode of the "
+                                  "surface: {:.3g} m)",
+                                  excerpt(node.name), off, point, scale));
+        return;
+      }
+  }
+
+  /// The report was made of these integrals.
+  void health(const InertiaInvariants& v) {
+    const HealthReport& h = file_.part.health;
+    const MassProperties& said = h.from_invariants;
+    if (!(said.mass > 0.0)) return;  // no report
+    if (h.modes != v.modes())
+      fault(
+          fmt::format("health: found {} modes, expected the {} of this file", h.modes, v.modes()));
+    if (!(std::abs(v.m - said.mass) <= same * said.mass)) {
+      arrays_.fault("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg", v.m,
+                                     said.mass));
+      return;
+    }
+    if (h.rotary_inertia) of_the_part(v, h);
+    const Mat3 J = v.inertia_about_origin();
+    const double length = std::sqrt(J.trace() / v.m);
+    const Vec3 c = v.centre_of_mass();
+    if (!((c - said.centre).norm() <= same * length))
+      arrays_.fault("m_u", fmt::format("found the centre of mass ({:.6g}, {:.6g}, {:.6g}) m, but "
+                                       "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
+                                       c.x(), c.y(), c.z(), said.centre.x(), said.centre.y(),
+                                       said.centre.z()));
+    if (!((J - said.J_origin).norm() <= same * J.norm()))
+      arrays_.fault("P_u", fmt::format("found moments of inertia ({:.6g}, {:.6g}, {:.6g}) kg m2 "
+                                       "about the origin, but the health report says ({:.6g}, "
+                                       "{:.6g}, {:.6g}) kg m2",
+                                       J(0, 0), J(1, 1), J(2, 2), said.J_origin(0, 0),
+                                       said.J_origin(1, 1), said.J_origin(2, 2)));
+    for (const InterfaceHealth& interface : h.interfaces)
+      for (const ModalNode& node : file_.part.body.nodes)
+        if (node.name == interface.name &&
+            !((node.p - interface.p).norm() <= same * (length + node.p.norm())))
+          arrays_.fault("marker_p", fmt::format("found ({:.6g}, {:.6g}, {:.6g}) m for '{}', but "
+                                                "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
+                                                node.p.x(), node.p.y(), node.p.z(), node.name,
+                                                interface.p.x(), interface.p.y(), interface.p.z()));
+  }
+
+  /// What earlier programs wrote was not checked.
+  void of_the_part(const InertiaInvariants& v, const HealthReport& h) {
+    const double m = h.from_elements.mass;
+    if (m > 0.0 && !(std::abs(v.m - m) <= same * m))
+      arrays_.fault("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg of the "
+                                     "elements",
+                                     v.m, m));
+    normal_modes(h);
+  }
+
+  /// The list of the file is that of the modes that were kept.
+  void normal_modes(const HealthReport& h) {
+    const VecX& f = file_.part.body.fixed_interface_frequencies;
+    std::vector<double> kept;
+    for (const ModeHealth& m : h.normal_modes)
+      if (m.kept) kept.push_back(m.frequency);
+    if (static_cast<Eigen::Index>(kept.size()) != f.size()) return;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      const double own = f(static_cast<Eigen::Index>(k));
+      if (!std::isfinite(kept[k]) || std::abs(own - kept[k]) <= same * std::max(own, kept[k]))
+        continue;
+      arrays_.fault("frequencies", fmt::format("found {:.6g} Hz for normal mode {}, but the health "
+                                               "report says {:.6g} Hz",
+                                               own, k + 1, kept[k]));
+      return;
+    }
+  }
+
+  void fault(const std::string& sentence) {
+    faults_.add({name_, 0, 0}, "member 'header.json': " + sentence);
+  }
+
+  const BodyFile& file_;
+  const BodyHeader& header_;
+  ArrayReader& arrays_;
+  Faults& faults_;
+  const std::string& name_;
+};
+
+}  // namespace
+
+void check_body_numbers(const BodyFile& content, const BodyHeader& header, ArrayReader& arrays,
+                        Faults& faults, const std::string& name) {
+  Check(content, header, arrays, faults, name).run();
+}
+
+}  // namespace floatframe

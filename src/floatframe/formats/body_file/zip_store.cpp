@@ -1,0 +1,193 @@
+// Layout (all numbers little-endian): for each member a local header, its name and its bytes; then
+// the directory with one entry a member; then the end record with the place of the directory.
+#include "floatframe/formats/body_file/zip_store.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <set>
+
+#include "floatframe/core/diagnostics.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr std::uint32_t local_mark = 0x04034b50, entry_mark = 0x02014b50, end_mark = 0x06054b50;
+constexpr std::size_t local_size = 30, entry_size = 46, end_size = 22;
+constexpr std::uint16_t needed_version = 20, first_january_1980 = 0x21, utf8_names = 0x0800;
+constexpr std::size_t largest = std::numeric_limits<std::uint32_t>::max();
+
+void put16(std::string& out, std::size_t x) {
+  out += static_cast<char>(x & 0xff);
+  out += static_cast<char>((x >> 8) & 0xff);
+}
+void put32(std::string& out, std::size_t x) {
+  put16(out, x & 0xffff);
+  put16(out, x >> 16);
+}
+
+std::uint32_t crc_of(std::string_view bytes) {
+  uLong crc = crc32(0L, Z_NULL, 0);
+  while (!bytes.empty()) {  // zlib counts in 32 bits
+    const std::size_t piece = std::min(bytes.size(), std::size_t{1} << 30);
+    crc = crc32(crc, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(piece));
+    bytes.remove_prefix(piece);
+  }
+  return static_cast<std::uint32_t>(crc);
+}
+
+/// What the local header and the directory entry have in common: version to checksum, sizes, name.
+void put_common(std::string& out, const ZipMember& m, std::uint32_t crc) {
+  put16(out, needed_version);
+  put16(out, utf8_names);
+  put16(out, 0);  // stored
+  put16(out, 0);  // midnight
+  put16(out, first_january_1980);
+  put32(out, crc);
+  put32(out, m.content.size());
+  put32(out, m.content.size());
+  put16(out, m.name.size());
+  put16(out, 0);  // no extra field
+}
+
+class ArchiveReader {
+ public:
+  ArchiveReader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+
+  std::vector<ZipMember> read() {
+    if (bytes_.size() < 4 || (u32(0) != local_mark && u32(0) != end_mark))
+      fail("this is not a zip archive (it does not begin with PK)");
+    const std::size_t end = find_end();
+    const std::size_t count = u16(end + 10), size = u32(end + 12), start = u32(end + 16);
+    if (u16(end + 4) != 0 || u16(end + 8) != count)
+      fail("the archive has several volumes, expected one file");
+    if (count == 0xffff || start == largest || size == largest)
+      fail("the archive is a zip64 archive, expected less than 4 GB and 65535 members");
+    if (start > end || size > end - start || start + size != end)
+      fail(
+          fmt::format("the directory of the archive is damaged: found {} bytes at {} of it, "
+                      "expected them to end at {}",
+                      size, start, end));
+    std::vector<ZipMember> out;
+    std::set<std::string> names;
+    std::size_t at = start;
+    for (std::size_t k = 0; k < count; ++k) {
+      out.push_back(member(at, end));
+      if (!names.insert(out.back().name).second)
+        fail("member '" + out.back().name + "': found twice, expected once");
+    }
+    if (at != end) fail("the directory of the archive is longer than its number of members says");
+    return out;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& sentence) const {
+    throw InputError(SourceMark{file_, 0, 0}, sentence);
+  }
+  std::size_t u16(std::size_t at) const {
+    return static_cast<unsigned char>(bytes_[at]) |
+           static_cast<std::size_t>(static_cast<unsigned char>(bytes_[at + 1])) << 8;
+  }
+  std::size_t u32(std::size_t at) const { return u16(at) | u16(at + 2) << 16; }
+
+  /// The last end record whose comment reaches to the end of the file.
+  std::size_t find_end() const {
+    if (bytes_.size() >= end_size) {
+      const std::size_t last = bytes_.size() - end_size;
+      const std::size_t first = last > 0xffff ? last - 0xffff : 0;
+      for (std::size_t at = last + 1; at-- > first;)
+        if (u32(at) == end_mark && at + end_size + u16(at + 20) == bytes_.size()) return at;
+    }
+    fail("the archive has no directory at its end: it is truncated or damaged");
+  }
+
+  /// The member whose directory entry is at `at`, which moves to the next one.
+  ZipMember member(std::size_t& at, std::size_t end) const {
+    if (end - at < entry_size || u32(at) != entry_mark)
+      fail("the directory of the archive is damaged: an entry is missing or cut off");
+    const std::size_t flags = u16(at + 8), method = u16(at + 10), crc = u32(at + 16);
+    const std::size_t packed = u32(at + 20), size = u32(at + 24), name_size = u16(at + 28);
+    const std::size_t rest = name_size + u16(at + 30) + u16(at + 32), local = u32(at + 42);
+    if (end - at - entry_size < rest)
+      fail("the directory of the archive is damaged: the name of a member is cut off");
+    ZipMember m;
+    m.name = std::string(bytes_.substr(at + entry_size, name_size));
+    at += entry_size + rest;
+    const std::string who = "member '" + m.name + "': ";
+    if (flags & 1u) fail(who + "is encrypted, expected plain bytes");
+    if (method != 0)
+      fail(fmt::format("{}is compressed (method {}), expected a stored member", who, method));
+    if (packed != size)
+      fail(fmt::format("{}found {} stored bytes for a size of {}, expected as many", who, packed,
+                       size));
+    if (local > end || end - local < local_size || u32(local) != local_mark)
+      fail(fmt::format("{}found no header at byte {}, expected one", who, local));
+    const std::size_t data = local + local_size + u16(local + 26) + u16(local + 28);
+    if (u16(local + 26) != name_size || bytes_.substr(local + local_size, name_size) != m.name)
+      fail(who + "found another name in its own header, expected the same");
+    if (data > end || size > end - data)
+      fail(fmt::format("{}found {} bytes of {}: it is truncated", who, data > end ? 0 : end - data,
+                       size));
+    m.content = bytes_.substr(data, size);
+    const std::uint32_t found = crc_of(m.content);
+    if (found != crc)
+      fail(fmt::format("{}found the checksum {:08x}, expected {:08x}: its bytes were changed", who,
+                       found, crc));
+    return m;
+  }
+
+  std::string_view bytes_;
+  const std::string& file_;
+};
+
+}  // namespace
+
+std::string zip_archive(const std::vector<ZipMember>& members) {
+  std::string out, directory;
+  std::size_t total = end_size;
+  for (const ZipMember& m : members)
+    total += local_size + entry_size + 2 * m.name.size() + m.content.size();
+  if (total > largest || members.size() >= 0xffff)
+    throw InputError(fmt::format(
+        "the archive would have {} bytes, expected less than 4 GB: keep fewer modes, or leave the "
+        "projection data out",
+        total));
+  out.reserve(total);
+  for (const ZipMember& m : members) {
+    const std::uint32_t crc = crc_of(m.content);
+    const std::size_t place = out.size();
+    put32(out, local_mark);
+    put_common(out, m, crc);
+    out += m.name;
+    out += m.content;
+    put32(directory, entry_mark);
+    put16(directory, needed_version);
+    put_common(directory, m, crc);
+    put16(directory, 0);  // no comment
+    put16(directory, 0);  // first volume
+    put16(directory, 0);  // attributes
+    put32(directory, 0);
+    put32(directory, place);
+    directory += m.name;
+  }
+  const std::size_t start = out.size();
+  out += directory;
+  put32(out, end_mark);
+  put16(out, 0);
+  put16(out, 0);
+  put16(out, members.size());
+  put16(out, members.size());
+  put32(out, directory.size());
+  put32(out, start);
+  put16(out, 0);
+  return out;
+}
+
+std::vector<ZipMember> read_zip(std::string_view bytes, const std::string& file) {
+  return ArchiveReader(bytes, file).read();
+}
+
+}  // namespace floatframe

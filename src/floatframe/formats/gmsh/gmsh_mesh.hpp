@@ -1,0 +1,45 @@
+#pragma once
+// What a .msh file says, before it is a model: nodes, elements of any type, physical groups.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "floatframe/formats/gmsh/gmsh_stream.hpp"
+#include "floatframe/formats/gmsh/gmsh_types.hpp"
+
+namespace floatframe {
+
+struct GmshGroup {
+  int dimension = 0, tag = 0;
+  std::string name;
+  GmshStream::Place at;
+};
+
+struct GmshNode {
+  int id = 0;
+  Vec3 p = Vec3::Zero();
+  GmshStream::Place at;
+};
+
+struct GmshElement {
+  const GmshType* type = nullptr;
+  int id = 0;
+  int groups = 0;         ///< in GmshMesh::group_lists
+  std::size_t first = 0;  ///< its nodes in GmshMesh::element_nodes
+  GmshStream::Place at;
+};
+
+struct GmshMesh {
+  std::vector<GmshGroup> groups;  ///< those that have names
+  std::vector<GmshNode> nodes;
+  std::vector<GmshElement> elements;
+  std::vector<int> element_nodes;             ///< numbers of nodes, in the order of the file
+  std::vector<std::vector<int>> group_lists;  ///< tags of the groups of an element
+  bool element_per_group = false;             ///< format 2: an element of two groups is there twice
+  std::vector<std::string> passed_over;       ///< sections that are not used
+};
+
+/// Throws InputError at the first fault: what follows it cannot be understood.
+GmshMesh parse_gmsh_mesh(GmshStream& in);
+
+}  // namespace floatframe

@@ -1,0 +1,296 @@
+#include "floatframe/formats/gmsh/read_gmsh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "floatframe/formats/gmsh/gmsh_mesh.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+
+namespace floatframe {
+namespace {
+
+class GmshModel {
+ public:
+  GmshModel(const GmshMesh& mesh, const GmshStream& in, const FeReadOptions& options,
+            const std::string& name)
+      : mesh_(mesh), in_(in), options_(options) {
+    model_.files.push_back(name);
+  }
+
+  FeModel build() {
+    nodes();
+    material();
+    elements();
+    group_names();
+    sets();
+    for (const std::string& section : mesh_.passed_over) {
+      model_.notes.push_back(
+          fmt::format("{}: section ${} is passed over", model_.files[0], section));
+    }
+    if (!faults_.empty()) throw InputError(std::move(faults_));
+    return std::move(model_);
+  }
+
+ private:
+  using Place = GmshStream::Place;
+
+  void fault(const Place& at, std::string message) {
+    faults_.push_back(in_.fault(at, std::move(message)));
+    if (faults_.size() >= TextSource::most_faults) throw InputError(std::move(faults_));
+  }
+  FeSource source(const Place& at) const { return {0, in_.binary() ? 0 : at.line}; }
+  std::string where(const Place& at) const {
+    return in_.binary() ? fmt::format("at byte {}", at.byte) : fmt::format("in line {}", at.line);
+  }
+
+  void nodes() {
+    const std::size_t n = mesh_.nodes.size();
+    model_.positions.reserve(n);
+    model_.node_ids.reserve(n);
+    model_.node_sources.reserve(n);
+    index_.reserve(n);
+    for (const GmshNode& node : mesh_.nodes) {
+      const auto [it, fresh] = index_.try_emplace(node.id, model_.nodes());
+      if (!fresh) {
+        const GmshNode& first = mesh_.nodes[it->second];
+        fault(node.at,
+              fmt::format("node {} is in the file twice, first {}", node.id, where(first.at)));
+      }
+      model_.positions.push_back(node.p);
+      model_.node_ids.push_back(node.id);
+      model_.node_sources.push_back(source(node.at));
+    }
+  }
+
+  void material() {
+    if (options_.material) {
+      model_.materials.push_back(*options_.material);
+      model_.material_names.emplace_back();
+      material_ = 0;
+    } else {
+      model_.notes.push_back(
+          fmt::format("{}: the format has no material; give Young's modulus, Poisson's ratio and "
+                      "density with the file",
+                      model_.files[0]));
+    }
+  }
+
+  /// The element's nodes as indices, in the order of the file; false if there is a fault.
+  bool gather(const GmshElement& e, std::vector<int>& nodes) {
+    nodes.clear();
+    for (int k = 0; k < e.type->nodes; ++k) {
+      const int id = mesh_.element_nodes[e.first + k];
+      const auto it = index_.find(id);
+      if (it == index_.end()) {
+        fault(e.at, fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
+                                e.type->name, id));
+        return false;
+      }
+      nodes.push_back(it->second);
+    }
+    return true;
+  }
+
+  void elements() {
+    int dimension = -1;
+    for (const GmshElement& e : mesh_.elements) dimension = std::max(dimension, e.type->dimension);
+    if (dimension < 3) {
+      const auto what = dimension < 0    ? std::string("no elements")
+                        : dimension == 2 ? std::string("no solid elements, only surfaces")
+                        : dimension == 1 ? std::string("no solid elements, only lines")
+                                         : std::string("no solid elements, only points");
+      throw InputError({{model_.files[0], 0, 0},
+                        fmt::format("the mesh has {}; a part needs tetrahedra, hexahedra or wedges "
+                                    "(in Gmsh: mesh in 3D and give the volume a physical group)",
+                                    what)});
+    }
+    const bool repeats = mesh_.element_per_group && several_groups();
+    std::map<int, std::pair<const GmshElement*, int>> unsupported;  // first of a type, number
+    std::unordered_map<int, Place> seen;
+    std::map<std::vector<int>, int> same_nodes;
+    std::vector<int> nodes, key;
+    element_index_.assign(mesh_.elements.size(), -1);
+    int repeated = 0;
+    for (std::size_t i = 0; i < mesh_.elements.size(); ++i) {
+      const GmshElement& e = mesh_.elements[i];
+      const auto [it, fresh] = seen.try_emplace(e.id, e.at);
+      if (!fresh) {
+        fault(e.at,
+              fmt::format("element {} is in the file twice, first {}", e.id, where(it->second)));
+      }
+      if (e.type->dimension < 3) continue;
+      if (!e.type->solid) {
+        auto& [first, number] = unsupported[e.type->number];
+        if (number++ == 0) first = &e;
+        continue;
+      }
+      if (!gather(e, nodes)) continue;
+      key = nodes;
+      std::sort(key.begin(), key.end());
+      if (const auto twice = std::adjacent_find(key.begin(), key.end()); twice != key.end()) {
+        fault(e.at, fmt::format("element {} ({}) has node {} twice", e.id, e.type->name,
+                                model_.node_ids[*twice]));
+        continue;
+      }
+      if (repeats) {
+        const auto [known, first] =
+            same_nodes.try_emplace(key, static_cast<int>(model_.elements.size()));
+        if (!first) {
+          element_index_[i] = known->second;
+          ++repeated;
+          continue;
+        }
+      }
+      element_index_[i] = static_cast<int>(model_.elements.size());
+      Element element;
+      element.type = *e.type->solid;
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        element.nodes[k] = nodes[e.type->order[k]];
+      }
+      element.material = material_;
+      element.id = e.id;
+      element.source = source(e.at);
+      model_.elements.push_back(element);
+    }
+    for (const auto& [number, first] : unsupported) {
+      const GmshElement& e = *first.first;
+      fault(e.at, fmt::format("element {} is a {} (there are {}), which is not supported{}", e.id,
+                              e.type->name, first.second, advice(number)));
+    }
+    if (repeated > 0) {
+      model_.notes.push_back(fmt::format(
+          "{}: {} elements are in the file again for a second physical group and are taken once",
+          model_.files[0], repeated));
+    }
+  }
+
+  bool several_groups() const {
+    int group = -1;
+    for (const GmshElement& e : mesh_.elements) {
+      if (e.type->dimension < 3) continue;
+      if (group >= 0 && e.groups != group) return true;
+      group = e.groups;
+    }
+    return false;
+  }
+
+  static const char* advice(int type) {
+    switch (type) {
+      case 12:
+      case 13:
+        return "; save the mesh with Mesh.SecondOrderIncomplete = 1";
+      case 7:
+      case 14:
+      case 19:
+        return "; mesh the volumes with tetrahedra or hexahedra only";
+      default:
+        return "; use elements of first or second order (Mesh.ElementOrder)";
+    }
+  }
+
+  void group_names() {
+    for (const GmshGroup& group : mesh_.groups) {
+      if (!names_.try_emplace({group.dimension, group.tag}, group.name).second) {
+        fault(group.at, fmt::format("physical group {} of dimension {} has a second name {}",
+                                    group.tag, group.dimension, shown(group.name)));
+      }
+    }
+  }
+
+  const std::string& name_of(int dimension, int tag) {
+    static const char* const kinds[] = {"point", "curve", "surface", "volume"};
+    auto [it, fresh] = names_.try_emplace({dimension, tag});
+    if (fresh) it->second = fmt::format("{} {}", kinds[dimension], tag);
+    return it->second;
+  }
+
+  /// A few bytes can put all elements into many groups.
+  void limit_members() {
+    const std::size_t most = 10'000'000 + 100 * (mesh_.nodes.size() + mesh_.elements.size());
+    std::size_t named = 0;
+    for (const GmshElement& e : mesh_.elements) {
+      named += mesh_.group_lists[e.groups].size() *
+               (e.type->dimension < 3 ? static_cast<std::size_t>(e.type->nodes) : 1);
+      if (named <= most) continue;
+      fault(e.at, fmt::format("the physical groups have more than {} members in all, too many for "
+                              "a mesh of {} nodes and {} elements",
+                              most, mesh_.nodes.size(), mesh_.elements.size()));
+      throw InputError(std::move(faults_));
+    }
+  }
+
+  void sets() {
+    limit_members();
+    std::map<std::string, std::set<int>> members;  // of the node sets
+    std::map<std::string, int> dimension_of;       // of the first group of a name
+    std::set<std::pair<int, int>> used;
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < mesh_.elements.size(); ++i) {
+      const GmshElement& e = mesh_.elements[i];
+      const int dimension = e.type->dimension;
+      const auto& groups = mesh_.group_lists[e.groups];
+      if (groups.empty() || (dimension == 3 && element_index_[i] < 0)) continue;
+      if (dimension < 3 && !gather(e, nodes)) continue;
+      for (const int tag : groups) {
+        const std::string& name = name_of(dimension, tag);
+        used.insert({dimension, tag});
+        const auto [it, fresh] = dimension_of.try_emplace(name, dimension);
+        if (!fresh && it->second != dimension && it->second >= 0) {
+          model_.notes.push_back(fmt::format(
+              "{}: there are physical groups of several dimensions with the name '{}'; those below "
+              "volumes make one node set",
+              model_.files[0], name));
+          it->second = -1;
+        }
+        if (dimension == 3) {
+          model_.element_sets[name].push_back(element_index_[i]);
+          continue;
+        }
+        std::vector<int>& set = model_.node_sets[name];
+        std::set<int>& known = members[name];
+        for (const int node : nodes) {
+          if (known.insert(node).second) set.push_back(node);
+        }
+      }
+    }
+    for (const GmshGroup& group : mesh_.groups) {
+      if (used.count({group.dimension, group.tag}) == 0) {
+        model_.notes.push_back(
+            fmt::format("{}: physical group '{}' has no elements", model_.files[0], group.name));
+      }
+    }
+  }
+
+  const GmshMesh& mesh_;
+  const GmshStream& in_;
+  const FeReadOptions& options_;
+  FeModel model_;
+  std::vector<InputFault> faults_;
+  std::unordered_map<int, int> index_;  // of a node number
+  std::vector<int> element_index_;      // in the model, of each element of the mesh
+  std::map<std::pair<int, int>, std::string> names_;
+  int material_ = -1;
+};
+
+}  // namespace
+
+bool looks_like_gmsh(std::string_view beginning) {
+  return trimmed(beginning.substr(0, beginning.find('\n'))) == "$MeshFormat";
+}
+
+FeModel parse_gmsh(std::string_view bytes, const std::string& name, const FeReadOptions& options) {
+  GmshStream in(bytes, name);
+  const GmshMesh mesh = parse_gmsh_mesh(in);
+  return GmshModel(mesh, in, options, name).build();
+}
+
+FeModel read_gmsh(const std::filesystem::path& file, const FeReadOptions& options) {
+  return parse_gmsh(read_whole_file(file), file.string(), options);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,284 @@
+#include "floatframe/formats/matrices/matrix_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/formats/abaqus/read_abaqus.hpp"
+#include "floatframe/formats/matrices/matrix_entries.hpp"
+#include "floatframe/formats/matrices/read_dmig.hpp"
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/formats/nastran/read_nastran.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+/// A first line of words, like "node,x,y,z".
+bool is_heading(std::string_view line) {
+  std::vector<std::string_view> fields;
+  split_blanks(line, fields);
+  return !fields.empty() && std::none_of(fields.begin(), fields.end(), [](std::string_view f) {
+    return f.find_first_of("0123456789") != std::string_view::npos;
+  });
+}
+
+/// Calls `use` for each line that is neither empty nor a comment nor a heading.
+template <typename Use>
+void each_row(TextSource& source, Use use) {
+  std::string_view line;
+  bool first = true;
+  while (source.next(line)) {
+    line = trimmed(line);
+    if (line.empty() || line.front() == '#') continue;
+    const bool heading = first && is_heading(line);
+    first = false;
+    if (!heading) use(line);
+  }
+}
+
+/// Elements stand for nothing beside matrices: their sets become node sets.
+void keep_nodes(FeModel& model) {
+  std::vector<int> list_of(model.positions.size(), 0);  // the last list that got the node
+  int list = 0;
+  for (const auto& [name, elements] : model.element_sets) {
+    std::vector<int> nodes;
+    ++list;
+    for (const int e : elements) {
+      const Element& element = model.elements[e];
+      for (int k = 0; k < element_nodes(element.type); ++k) {
+        const int node = element.nodes[k];
+        int& last = list_of[node];
+        if (last != list) nodes.push_back(node);
+        last = list;
+      }
+    }
+    model.node_sets.emplace(name, std::move(nodes));
+  }
+  model.element_sets.clear();
+  model.surfaces.clear();
+  model.elements.clear();
+  model.masses.clear();
+  model.materials.clear();
+  model.material_names.clear();
+  model.sections.clear();
+  model.shells.clear();
+}
+
+/// Leaves nodes out: indices of the others move up; sets without nodes go.
+void remove_nodes(FeModel& model, const std::vector<char>& gone, std::vector<Dof>& dofs) {
+  std::vector<int> index(gone.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < gone.size(); ++k) {
+    if (gone[k] != 0) continue;
+    index[k] = static_cast<int>(kept);
+    model.positions[kept] = model.positions[k];
+    model.node_ids[kept] = model.node_ids[k];
+    if (!model.node_sources.empty()) model.node_sources[kept] = model.node_sources[k];
+    if (!model.node_names.empty()) model.node_names[kept] = model.node_names[k];
+    ++kept;
+  }
+  model.positions.resize(kept);
+  model.node_ids.resize(kept);
+  if (!model.node_sources.empty()) model.node_sources.resize(kept);
+  if (!model.node_names.empty()) model.node_names.resize(kept);
+  const auto place = [&](int node) { return index[node]; };
+  for (auto it = model.node_sets.begin(); it != model.node_sets.end();) {
+    std::vector<int>& nodes = it->second;
+    std::erase_if(nodes, [&](int node) { return place(node) < 0; });
+    for (int& node : nodes) node = place(node);
+    it = nodes.empty() ? model.node_sets.erase(it) : std::next(it);
+  }
+  std::erase_if(model.supports, [&](const Support& s) { return place(s.node) < 0; });
+  for (Support& s : model.supports) s.node = place(s.node);
+  for (Dof& d : dofs) d.node = place(d.node);
+}
+
+/// Spiders of the deck are in the matrices: the nodes that follow them have no rows, and neither
+/// have the rotation nodes. Notes say so.
+void remove_spiders(FeModel& model, std::vector<Dof>& dofs) {
+  std::vector<char> with_row(model.positions.size(), 0), gone(model.positions.size(), 0);
+  for (const Dof& d : dofs) with_row[d.node] = 1;
+  for (const Spider& s : model.spiders) {
+    std::vector<int> nodes = s.nodes;
+    if (s.rotation_node >= 0) nodes.push_back(s.rotation_node);
+    int without = 0;
+    for (const int node : nodes) {
+      const std::size_t k = node;
+      if (with_row[k] != 0) continue;
+      gone[k] = 1;
+      if (node != s.rotation_node) ++without;
+    }
+    const std::size_t reference = s.reference;
+    const SourceMark mark = model.mark(s.source);
+    model.notes.push_back(
+        fmt::format("{}:{}: {} is in the matrices already: its {} nodes have no rows{}", mark.file,
+                    mark.line, s.name.empty() ? "the spider" : "spider " + shown(s.name), without,
+                    with_row[reference] != 0
+                        ? fmt::format(", its reference is node {}", model.node_ids[reference])
+                        : ""));
+  }
+  model.spiders.clear();
+  model.equations.clear();
+  remove_nodes(model, gone, dofs);
+}
+
+}  // namespace
+
+std::vector<DofLabel> read_dof_labels(TextSource& source) {
+  std::vector<DofLabel> labels;
+  std::vector<std::string_view> fields;
+  each_row(source, [&](std::string_view line) {
+    split_blanks(line, fields);
+    if (fields.size() == 1) {
+      const std::size_t dot = line.find('.');
+      fields = {line.substr(0, dot),
+                dot == std::string_view::npos ? std::string_view{} : line.substr(dot + 1)};
+    }
+    // A line of commas alone has no field.
+    const std::optional<int> node = fields.empty() ? std::optional<int>{} : parse_label(fields[0]);
+    const std::optional<int> direction =
+        fields.size() > 1 ? parse_label(fields[1]) : std::optional<int>{};
+    if (!node || !direction || fields.size() != 2 || *direction > 6) {
+      source.fault(fmt::format("{} is no degree of freedom, expected node and direction 1 to 6",
+                               shown(line)));
+      return;
+    }
+    labels.push_back({*node, *direction, source.here()});
+  });
+  if (labels.empty()) source.fault(FeSource{0, 0}, "there are no degrees of freedom in the file");
+  return labels;
+}
+
+std::vector<std::string> dof_names(const std::vector<DofLabel>& labels) {
+  std::vector<std::string> names;
+  names.reserve(labels.size());
+  for (const DofLabel& d : labels) names.push_back(fmt::format("{}.{}", d.node, d.direction));
+  return names;
+}
+
+FeModel read_node_table(TextSource& source) {
+  FeModel model;
+  std::unordered_map<int, int> lines;
+  std::vector<std::string_view> fields;
+  each_row(source, [&](std::string_view line) {
+    split_blanks(line, fields);
+    if (fields.size() != 4) {
+      source.fault(fmt::format("the line has {} fields, expected node, x, y, z", fields.size()));
+      return;
+    }
+    const std::optional<int> id = parse_label(fields[0]);
+    if (!id) return source.fault("node number: " + not_an_integer(fields[0]));
+    Vec3 p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::optional<double> value = parse_real(fields[k + 1]);
+      if (!value) {
+        source.fault(
+            fmt::format("coordinate {} of node {}: {}", k + 1, *id, not_a_real(fields[k + 1])));
+        return;
+      }
+      p[static_cast<Eigen::Index>(k)] = *value;
+    }
+    const auto [it, added] = lines.emplace(*id, source.here().line);
+    if (!added) {
+      source.fault(fmt::format("node {} is there already (line {})", *id, it->second));
+      return;
+    }
+    model.positions.push_back(p);
+    model.node_ids.push_back(*id);
+    model.node_sources.push_back(source.here());
+  });
+  if (model.positions.empty()) source.fault(FeSource{0, 0}, "there are no nodes in the file");
+  source.throw_if_any();
+  model.files = source.files();
+  return model;
+}
+
+FeModel read_nodes(const std::filesystem::path& file) {
+  std::string name = lower_case(file.filename().string());
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  if (name.ends_with(".csv")) {
+    TextSource source(file);
+    return read_node_table(source);
+  }
+  if (looks_like_abaqus(read_beginning(file, std::size_t{1} << 16))) {
+    TextSource source(file);
+    return read_abaqus(source, {}, DeckPart::nodes);
+  }
+  const std::string beginning = read_beginning(file, std::size_t{1} << 20);
+  if (looks_like_nastran(beginning) || looks_like_dmig(beginning)) {
+    TextSource source(file);
+    return read_nastran(source, has_begin_bulk(beginning), {}, NastranPart::nodes);
+  }
+  FeModel model = read_fe_file(file);
+  keep_nodes(model);
+  return model;
+}
+
+FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseMatrix K,
+                     SparseMatrix M, TextSource& labels_source,
+                     const std::vector<std::string>& other_files) {
+  std::unordered_map<int, int> index_of_id;
+  for (std::size_t k = 0; k < model.node_ids.size(); ++k) {
+    index_of_id.emplace(model.node_ids[k], static_cast<int>(k));
+  }
+  std::unordered_map<int, int> reference_of_rotation;
+  for (const Spider& s : model.spiders) {
+    if (s.rotation_node >= 0) reference_of_rotation.emplace(s.rotation_node, s.reference);
+  }
+  FeMatrices matrices;
+  std::map<std::pair<int, int>, FeSource> seen;
+  for (const DofLabel& label : labels) {
+    const auto node = index_of_id.find(label.node);
+    if (node == index_of_id.end()) {
+      labels_source.fault(label.at,
+                          fmt::format("node {} is not among the nodes of {}", label.node,
+                                      model.files.empty() ? "the model" : model.files.front()));
+      continue;
+    }
+    Dof dof{node->second, label.direction - 1};
+    const auto reference = reference_of_rotation.find(node->second);
+    if (reference != reference_of_rotation.end() && dof.axis < 3) {
+      dof = {reference->second, dof.axis + 3};
+    }
+    const auto [first, added] = seen.emplace(std::pair(dof.node, dof.axis), label.at);
+    if (!added) {
+      labels_source.stop(
+          label.at, fmt::format("degree of freedom {}.{} is there already (line {}); matrices in "
+                                "which beams and shells are expanded to solids cannot be read: "
+                                "read the deck",
+                                label.node, label.direction, first->second.line));
+    }
+    matrices.dofs.push_back(dof);
+  }
+  labels_source.throw_if_any();
+  if (K.nonZeros() == 0) labels_source.stop({0, 0}, "the stiffness is zero");
+  remove_spiders(model, matrices.dofs);
+  matrices.K = std::move(K);
+  matrices.M = std::move(M);
+  model.matrices = std::move(matrices);
+  // Those of the nodes come first, to which the places of nodes point.
+  model.files.insert(model.files.end(), labels_source.files().begin(), labels_source.files().end());
+  model.files.insert(model.files.end(), other_files.begin(), other_files.end());
+  return model;
+}
+
+FeModel matrix_model_of_triples(TextSource& stiffness, TextSource& mass, TextSource& dofs,
+                                FeModel nodes, bool mass_diagonal) {
+  const std::vector<DofLabel> labels = read_dof_labels(dofs);
+  dofs.throw_if_any();
+  const std::vector<std::string> names = dof_names(labels);
+  const int n = static_cast<int>(labels.size());
+  const std::string& map = dofs.files().front();
+  SparseMatrix K = read_triples(stiffness, "stiffness", n, map).finish(n, names, true);
+  stiffness.throw_if_any();
+  SparseMatrix M = read_triples(mass, "mass", n, map).finish(n, names, mass_diagonal);
+  mass.throw_if_any();
+  return matrix_model(std::move(nodes), labels, std::move(K), std::move(M), dofs,
+                      {stiffness.files().front(), mass.files().front()});
+}
+
+}  // namespace floatframe

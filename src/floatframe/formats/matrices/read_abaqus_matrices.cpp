@@ -1,0 +1,143 @@
+// Matrices that Abaqus writes with *MATRIX GENERATE and *MATRIX OUTPUT.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "floatframe/formats/matrices/matrix_entries.hpp"
+#include "floatframe/formats/matrices/matrix_files.hpp"
+#include "floatframe/formats/matrices/matrix_model.hpp"
+#include "floatframe/formats/matrices/read_matrices.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+bool is_quintuple(std::string_view line) {
+  std::vector<std::string_view> fields;
+  split_blanks(line, fields);
+  return fields.size() == 5 && parse_integer(fields[0]) && parse_integer(fields[1]) &&
+         parse_integer(fields[2]) && parse_integer(fields[3]) && parse_real(fields[4]);
+}
+
+/// Degrees of freedom in the order in which they are met.
+class LabelTable {
+ public:
+  int row(int node, int direction, const FeSource& at) {
+    const auto [it, added] =
+        row_.emplace(std::pair(node, direction), static_cast<int>(labels.size()));
+    if (added) labels.push_back({node, direction, at});
+    return it->second;
+  }
+  std::vector<DofLabel> labels;
+
+ private:
+  std::map<std::pair<int, int>, int> row_;
+};
+
+/// Lines "node, direction, node, direction, value".
+SymmetricEntries read_quintuples(TextSource& source, const std::string& what, LabelTable& table) {
+  SymmetricEntries entries(source, what);
+  std::vector<std::string_view> fields;
+  std::string_view line;
+  while (source.next(line)) {
+    line = trimmed(line);
+    if (line.empty() || line.front() == '*') continue;
+    split_blanks(line, fields);
+    if (fields.size() != 5) {
+      source.fault(
+          fmt::format("the line has {} fields, expected node, direction, node, direction, "
+                      "value",
+                      fields.size()));
+      continue;
+    }
+    std::array<int, 4> number{};
+    bool sound = true;
+    for (std::size_t k = 0; k < 4 && sound; ++k) {
+      const std::optional<int> value = parse_integer(fields[k]);
+      if (!value) source.fault(fmt::format("label {}: {}", k + 1, not_an_integer(fields[k])));
+      sound = value.has_value();
+      number[k] = value.value_or(0);
+    }
+    const std::optional<double> value = parse_real(fields[4]);
+    if (sound && !value) source.fault("value: " + not_a_real(fields[4]));
+    if (!sound || !value) continue;
+    for (std::size_t k = 0; k < 4 && sound; k += 2) {
+      if (number[k] < 1) {
+        source.stop(source.here(),
+                    fmt::format("node {} is internal to Abaqus (Lagrange multipliers of "
+                                "distributing couplings, connectors or hybrid elements): write the "
+                                "matrices without them and give the interfaces here",
+                                number[k]));
+      }
+      if (number[k + 1] < 1 || number[k + 1] > 6) {
+        source.fault(
+            fmt::format("direction {} of node {}: expected 1 to 6", number[k + 1], number[k]));
+        sound = false;
+      }
+    }
+    if (!sound) continue;
+    const FeSource at = source.here();
+    const int row = table.row(number[0], number[1], at);
+    entries.add(row, table.row(number[2], number[3], at), *value);
+  }
+  if (entries.size() == 0) source.fault(FeSource{0, 0}, fmt::format("the {} has no entries", what));
+  source.throw_if_any();
+  return entries;
+}
+
+}  // namespace
+
+bool looks_like_abaqus_matrix(std::string_view beginning) {
+  const std::string_view line = first_line(beginning, "*");
+  return is_quintuple(line) || (is_triple(line) && !looks_like_calculix_matrix(beginning));
+}
+
+FeModel read_abaqus_matrices(TextSource& stiffness, TextSource& mass, TextSource* dofs,
+                             FeModel nodes) {
+  if (dofs != nullptr) {
+    return matrix_model_of_triples(stiffness, mass, *dofs, std::move(nodes), false);
+  }
+  LabelTable table;
+  SymmetricEntries K = read_quintuples(stiffness, "stiffness", table);
+  const std::size_t n = table.labels.size();
+  SymmetricEntries M = read_quintuples(mass, "mass", table);
+  if (table.labels.size() != n) {
+    const DofLabel& label = table.labels[n];
+    mass.stop(label.at, fmt::format("degree of freedom {}.{} is not in the stiffness", label.node,
+                                    label.direction));
+  }
+  const std::vector<std::string> names = dof_names(table.labels);
+  SparseMatrix stiff = K.finish(static_cast<int>(n), names, true);
+  stiffness.throw_if_any();
+  SparseMatrix heavy = M.finish(static_cast<int>(n), names, false);
+  mass.throw_if_any();
+  return matrix_model(std::move(nodes), table.labels, std::move(stiff), std::move(heavy), stiffness,
+                      {mass.files().front()});
+}
+
+FeModel read_abaqus_matrices(const std::filesystem::path& file, const FeReadOptions& options) {
+  // arm_STIF2.mtx has arm_MASS2.mtx beside it and belongs to arm.inp.
+  const std::filesystem::path mass_name = with_word(file, "STIF", "MASS");
+  const std::filesystem::path job = before_word(file, "_STIF");
+  Faults faults;
+  const std::filesystem::path mass = companion(file, options.mass, {with_ending(mass_name, ".mtx")},
+                                               "the mass matrix is", "mass", faults);
+  const std::filesystem::path nodes =
+      companion(file, options.nodes, {with_ending(job, ".inp"), with_ending(job, "_nodes.csv")},
+                "the coordinates of the nodes are", "nodes", faults);
+  const bool labels = !is_triple(first_line(read_beginning(file, 65536), "*"));
+  std::filesystem::path map;
+  if (!labels) {
+    map = companion(file, options.dofs, {with_ending(job, "_dofs.csv")},
+                    "the map of degrees of freedom is", "dofs", faults);
+  }
+  faults.throw_if_any();
+  TextSource stiffness_source(file), mass_source(mass);
+  if (labels) {
+    return read_abaqus_matrices(stiffness_source, mass_source, nullptr, read_nodes(nodes));
+  }
+  TextSource dofs(map);
+  return read_abaqus_matrices(stiffness_source, mass_source, &dofs, read_nodes(nodes));
+}
+
+}  // namespace floatframe

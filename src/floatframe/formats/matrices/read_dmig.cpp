@@ -1,0 +1,225 @@
+#include "floatframe/formats/matrices/read_dmig.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "floatframe/formats/matrices/matrix_entries.hpp"
+#include "floatframe/formats/matrices/matrix_files.hpp"
+#include "floatframe/formats/matrices/matrix_model.hpp"
+#include "floatframe/formats/nastran/nastran_fields.hpp"
+#include "floatframe/formats/nastran/read_nastran.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+using Row = std::pair<int, int>;  // node, component from 1
+
+struct DmigEntry {
+  Row row, column;
+  double value = 0.0;
+  FeSource at;
+};
+
+/// The matrices of one file. Stiffness and mass are read, others only named.
+class DmigFile {
+ public:
+  explicit DmigFile(TextSource& source) : source_(source) {
+    NastranCards cards(source, false);
+    NastranCard card;
+    while (cards.next(card)) {
+      if (card.name != "DMIG") continue;
+      NastranFields fields(source, card);
+      const std::string name = upper_case(card.field(0));
+      if (card.field(1) == "0") {
+        header(name, fields);
+      } else if (wanted(name)) {
+        column(name, fields, card);
+      }
+    }
+    source.throw_if_any();
+  }
+
+  /// The entries of the only matrix whose name begins with a letter; a fault if there are none or
+  /// several.
+  const std::vector<DmigEntry>& matrix(char letter, const char* what, const char* advice) {
+    std::vector<std::string> found;
+    for (const auto& [name, entries] : matrices_) {
+      if (name[0] == letter) found.push_back(name);
+    }
+    if (found.size() != 1) {
+      std::string all;
+      for (const std::string& name : names_) all += (all.empty() ? "" : ", ") + name;
+      source_.stop({0, 0}, fmt::format("the file has {} {} matrix (its matrices: {}); expected one "
+                                       "whose name begins with {}{}",
+                                       found.empty() ? "no" : "more than one", what,
+                                       all.empty() ? "none" : all, letter, advice));
+    }
+    name_ = found[0];
+    return matrices_[name_];
+  }
+  const std::string& name() const { return name_; }
+  /// Matrices that are not used.
+  std::string others() const {
+    std::string text;
+    for (const std::string& name : names_) {
+      if (!wanted(name)) text += (text.empty() ? "" : ", ") + name;
+    }
+    return text;
+  }
+
+ private:
+  /// K4AAX is structural damping.
+  static bool wanted(const std::string& name) {
+    return (name.starts_with('K') && !name.starts_with("K4")) || name.starts_with('M');
+  }
+
+  void header(const std::string& name, NastranFields& f) {
+    const int form = f.integer(2, "the form IFO", 0), type = f.integer(3, "the type TIN", 0);
+    if (!names_.insert(name).second) {
+      f.fault("the matrix has a second header");
+    }
+    if (!wanted(name)) return;
+    matrices_[name];
+    if (form != 1 && form != 6) {
+      f.fault(fmt::format("IFO is {}, expected 1 (square) or 6 (symmetric)", form));
+    }
+    if (type != 1 && type != 2) {
+      f.fault(fmt::format("TIN is {}, expected 1 or 2 (real)", type));
+    }
+  }
+
+  void column(const std::string& name, NastranFields& f, const NastranCard& card) {
+    const auto it = matrices_.find(name);
+    if (it == matrices_.end()) {
+      f.fault("the matrix has no header before its first column");
+      matrices_[name];
+      names_.insert(name);
+      return;
+    }
+    const Row column = row(f, card, 1);
+    for (std::size_t i = 4; i < f.size(); i += 4) {
+      if (f.blank(i)) continue;
+      const Row r = row(f, card, i);
+      it->second.push_back({r, column, f.real(i + 2, "an entry"), card.place(i)});
+    }
+  }
+
+  Row row(NastranFields& f, const NastranCard& card, std::size_t i) {
+    const int node = f.label(i, "a node");
+    const int component = f.integer(i + 1, "a component", 0);
+    if (component == 0 && node > 0) {
+      source_.stop(card.place(i),
+                   fmt::format("row {} of matrix {} is a scalar point, as reduced models have for "
+                               "their modes; write matrices without modal degrees of freedom (no "
+                               "QSET and SPOINT): the reduction is made here",
+                               node, upper_case(card.field(0))));
+    }
+    if (component < 1 || component > 6) {
+      f.fault(fmt::format("component {} of node {}, expected 1 to 6", component, node));
+    }
+    return {node, component};
+  }
+
+  TextSource& source_;
+  std::map<std::string, std::vector<DmigEntry>> matrices_;
+  std::set<std::string> names_;
+  std::string name_;
+};
+
+SparseMatrix matrix_of(TextSource& source, const char* what, const std::vector<DmigEntry>& entries,
+                       const std::map<Row, int>& rows, const std::vector<std::string>& names,
+                       bool whole_diagonal) {
+  SymmetricEntries matrix(source, what);
+  for (const DmigEntry& e : entries) matrix.add(rows.at(e.row), rows.at(e.column), e.value, e.at);
+  return matrix.finish(static_cast<int>(rows.size()), names, whole_diagonal);
+}
+
+}  // namespace
+
+bool looks_like_dmig(std::string_view beginning) {
+  while (!beginning.empty()) {
+    const std::size_t end = std::min(beginning.find('\n'), beginning.size());
+    std::string_view line = beginning.substr(0, end);
+    beginning.remove_prefix(std::min(end + 1, beginning.size()));
+    line = line.substr(0, std::min(line.find_first_of(", *\t"), line.size()));
+    if (same_word(line, "DMIG")) return true;
+  }
+  return false;
+}
+
+FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes) {
+  DmigFile first(stiffness);
+  const std::vector<DmigEntry>& K = first.matrix('K', "stiffness", "");
+  std::map<Row, int> rows;
+  for (const DmigEntry& e : K) {
+    rows.emplace(e.row, 0);
+    rows.emplace(e.column, 0);
+  }
+  if (rows.empty())
+    stiffness.stop(FeSource{0, 0},
+                   fmt::format("matrix {} has no entries, expected a stiffness", first.name()));
+  std::vector<DofLabel> labels;
+  for (auto& [row, index] : rows) {
+    index = static_cast<int>(labels.size());
+    labels.push_back({row.first, row.second, {0, 0}});
+  }
+  std::optional<DmigFile> second;
+  if (mass != nullptr) second.emplace(*mass);
+  TextSource& mass_source = mass != nullptr ? *mass : stiffness;
+  DmigFile& mass_file = mass != nullptr ? *second : first;
+  const std::string K_name = first.name();
+  const std::vector<DmigEntry>& M = mass_file.matrix('M', "mass", "; or give the mass file");
+  for (const DmigEntry& e : M) {
+    for (const Row& row : {e.row, e.column}) {
+      if (rows.count(row) > 0) continue;
+      mass_source.stop(e.at, fmt::format("degree of freedom {}.{} of {} is not in {}", row.first,
+                                         row.second, mass_file.name(), K_name));
+    }
+  }
+  const std::vector<std::string> names = dof_names(labels);
+  SparseMatrix stiff = matrix_of(stiffness, "stiffness", K, rows, names, true);
+  stiffness.throw_if_any();
+  SparseMatrix heavy = matrix_of(mass_source, "mass", M, rows, names, false);
+  mass_source.throw_if_any();
+  std::vector<std::string> other_files;
+  if (mass != nullptr) other_files.push_back(mass->files().front());
+  FeModel model = matrix_model(std::move(nodes), labels, std::move(stiff), std::move(heavy),
+                               stiffness, other_files);
+  if (!first.others().empty()) {
+    model.notes.push_back(
+        fmt::format("{}: matrices that are neither stiffness nor mass are passed "
+                    "over: {}",
+                    stiffness.files().front(), first.others()));
+  }
+  return model;
+}
+
+FeModel read_dmig(const std::filesystem::path& file, const FeReadOptions& options) {
+  const std::filesystem::path stem = stem_of(file);
+  std::filesystem::path nodes = options.nodes;
+  if (nodes.empty()) {
+    TextSource cards(file);
+    NastranCards reader(cards, false);
+    NastranCard card;
+    while (nodes.empty() && reader.next(card)) {
+      if (card.name == "GRID") nodes = file;
+    }
+  }
+  Faults faults;
+  nodes =
+      companion(file, nodes,
+                {with_ending(stem, ".bdf"), with_ending(stem, ".dat"), with_ending(stem, ".nas"),
+                 with_ending(stem, ".fem"), with_ending(stem, "_nodes.csv")},
+                "the coordinates of the nodes are", "nodes", faults);
+  faults.throw_if_any();
+  TextSource stiffness(file);
+  if (options.mass.empty()) return read_dmig(stiffness, nullptr, read_nodes(nodes));
+  TextSource mass(options.mass);
+  return read_dmig(stiffness, &mass, read_nodes(nodes));
+}
+
+}  // namespace floatframe

@@ -1,0 +1,17 @@
+#pragma once
+// Direct input matrices that Nastran and OptiStruct punch (.pch): stiffness KAAX and mass MAAX (any
+// names that begin with K and M) of PARAM,EXTOUT,DMIGPCH or EXTSEOUT. Nodes come from GRID cards in
+// the same file, from the deck given in the options, or from a deck beside it with the same name.
+#include <string_view>
+
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+
+namespace floatframe {
+
+bool looks_like_dmig(std::string_view beginning);
+FeModel read_dmig(const std::filesystem::path& file, const FeReadOptions& options);
+/// `mass` may be null: then the mass is in the first source.
+FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes);
+
+}  // namespace floatframe

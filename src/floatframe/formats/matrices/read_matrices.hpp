@@ -1,0 +1,33 @@
+#pragma once
+// Stiffness and mass as matrices of other programs, with a map of degrees of freedom and the nodes.
+//   CalculiX       job.sti, job.mas, job.dof of *FREQUENCY, SOLVER=MATRIXSTORAGE
+//   Abaqus         job_STIF1.mtx, job_MASS1.mtx of *MATRIX GENERATE: lines "node, direction, node,
+//                  direction, value"; or "row column value" with a map
+//   Matrix Market  arm_K.mtx, arm_M.mtx with arm_dofs.csv ("node,dir") and arm_nodes.csv
+//                  ("node,x,y,z")
+// FeReadOptions names the files that do not lie beside the stiffness under these names. The nodes
+// may also come from any finite-element file.
+#include <string_view>
+
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+
+namespace floatframe {
+
+bool looks_like_calculix_matrix(std::string_view beginning);
+bool looks_like_abaqus_matrix(std::string_view beginning);
+bool looks_like_matrix_market(std::string_view beginning);
+
+FeModel read_calculix_matrices(const std::filesystem::path& file, const FeReadOptions& options);
+FeModel read_abaqus_matrices(const std::filesystem::path& file, const FeReadOptions& options);
+FeModel read_matrix_market(const std::filesystem::path& file, const FeReadOptions& options);
+
+/// The same from texts. `dofs` may be null for Abaqus matrices with labels.
+FeModel read_calculix_matrices(TextSource& stiffness, TextSource& mass, TextSource& dofs,
+                               FeModel nodes);
+FeModel read_abaqus_matrices(TextSource& stiffness, TextSource& mass, TextSource* dofs,
+                             FeModel nodes);
+FeModel read_matrix_market(TextSource& stiffness, TextSource& mass, TextSource& dofs,
+                           FeModel nodes);
+
+}  // namespace floatframe

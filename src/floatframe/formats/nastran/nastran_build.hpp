@@ -1,0 +1,65 @@
+#pragma once
+// From the content of Nastran bulk data to the model.
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/nastran/nastran_content.hpp"
+
+namespace floatframe {
+
+/// Axes of a coordinate system in basic coordinates: x = origin + R x_local.
+struct NastranFrame {
+  Mat3 R = Mat3::Identity();
+  Vec3 origin = Vec3::Zero();
+  char kind = 'R';  ///< rectangular, cylindrical, spherical
+};
+
+struct NastranBuild {
+  const NastranContent& content;
+  TextSource& source;
+  FeModel model;
+  std::unordered_map<int, int> node_of;  ///< index of a node number
+  std::vector<char> turned;              ///< nodes whose displacements are in a turned system
+
+  NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
+  /// Index of a node; a fault and -1 if it is not there.
+  int node(int id, const FeSource& at, const std::string& who);
+  /// The system in basic coordinates; a fault (once a system) and basic axes if it is not there.
+  const NastranFrame& frame(int id, const FeSource& at);
+  void note(const FeSource& at, const std::string& text);
+  /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if
+  /// there are too many in all.
+  void spend(std::size_t members, const FeSource& at);
+
+ private:
+  std::uint64_t spent_ = 0;
+  NastranFrame made(int id, const FeSource& at);
+  std::map<int, NastranFrame> frames_;
+  std::set<int> open_;  // systems being made, to find circles
+};
+
+// nastran_build.cpp
+void build_nastran_nodes(NastranBuild& build);
+// nastran_build_elements.cpp
+void build_nastran_elements(NastranBuild& build, const FeReadOptions& options);
+// nastran_build_constraints.cpp
+void build_nastran_constraints(NastranBuild& build);
+void build_nastran_supports(NastranBuild& build);
+// nastran_build_sets.cpp
+void build_nastran_sets(NastranBuild& build, bool only_nodes);
+
+/// Numbers with their index, to look up ranges.
+class NastranNumbers {
+ public:
+  explicit NastranNumbers(std::vector<std::pair<int, int>> number_and_index);
+  /// Appends the indices from `first` to `last`; false if there are none.
+  bool append(int first, int last, std::vector<int>& indices) const;
+
+ private:
+  std::vector<std::pair<int, int>> sorted_;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,243 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "floatframe/formats/nastran/nastran_build.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr unsigned all_six = 63u, translations = 7u;
+
+/// Directions of a node with a turned system matter unless all three of a kind are meant.
+bool any_axes(unsigned mask) {
+  const unsigned low = mask & 7u, high = mask >> 3;
+  return (low == 0u || low == 7u) && (high == 0u || high == 7u);
+}
+
+class ConstraintBuilder {
+ public:
+  explicit ConstraintBuilder(NastranBuild& build) : b_(build) {
+    rotates_.assign(b_.model.nodes(), 0);
+    rigid_of_.assign(b_.model.nodes(), -1);
+    for (const Element& e : b_.model.elements) {
+      const int n = e.type == ElementType::beam2   ? 2
+                    : e.type == ElementType::tri3  ? 3
+                    : e.type == ElementType::quad4 ? 4
+                                                   : 0;
+      for (int k = 0; k < n; ++k) rotates_[index(e.nodes[k])] = 1;
+    }
+  }
+
+  void build() {
+    for (const int id : b_.model.node_ids) largest_id_ = std::max(largest_id_, id);
+    for (const NastranSpider& s : b_.content.spiders) spider(s);
+    for (const NastranMass& m : b_.content.masses) mass(m);
+    equations();
+  }
+
+ private:
+  static std::size_t index(int node) { return node; }
+
+  void turned(int node, unsigned mask, const FeSource& at, const std::string& who) {
+    if (b_.turned[index(node)] != 0 && !any_axes(mask)) {
+      b_.source.fault(at,
+                      fmt::format("{}: directions of node {} are in its turned system CD, which "
+                                  "is not supported",
+                                  who, b_.model.node_ids[index(node)]));
+    }
+  }
+
+  void spider(const NastranSpider& s) {
+    const std::string who = fmt::format("{} {}", s.card, s.id);
+    if (s.nodes.empty()) {
+      b_.source.fault(s.at, fmt::format("{} has no nodes", who));
+      return;
+    }
+    if (s.mask == 0) {
+      b_.source.fault(s.at, fmt::format("{} has no components", who));
+      return;
+    }
+    Spider spider;
+    spider.kind = s.kind;
+    spider.name = who;
+    spider.mask = s.mask;
+    spider.source = s.at;
+    spider.reference = b_.node(s.reference, s.at, who);
+    if (spider.reference < 0) return;
+    for (const int id : s.nodes) {
+      const int node = b_.node(id, s.at, who);
+      if (node < 0) return;
+      turned(node, s.kind == Spider::Kind::mean ? all_six : s.mask, s.at, who);
+      if (s.weighs_rotations && rotates_[index(node)] != 0) {
+        b_.source.fault(s.at, fmt::format("{}: node {} has rotations, whose weights (components "
+                                          "456) are not supported; give 123",
+                                          who, id));
+        return;
+      }
+      spider.nodes.push_back(node);
+      if (s.kind == Spider::Kind::rigid) {
+        if ((s.mask >> 3) != 0) rotates_[index(node)] = 1;
+        if (s.mask == all_six) rigid_of_[index(node)] = static_cast<int>(b_.model.spiders.size());
+      }
+    }
+    rotates_[index(spider.reference)] = 1;
+    if (std::any_of(s.weights.begin(), s.weights.end(), [](double w) { return w != 1.0; })) {
+      spider.weights = s.weights;
+    }
+    b_.model.spiders.push_back(std::move(spider));
+  }
+
+  void mass(const NastranMass& m) {
+    const std::string who = fmt::format("CONM2 {}", m.id);
+    const int node = b_.node(m.node, m.at, who);
+    if (node < 0) return;
+    const NastranFrame axes = m.system > 0 ? b_.frame(m.system, m.at) : NastranFrame{};
+    if (axes.kind != 'R') {
+      b_.source.fault(m.at, fmt::format("{}: its system {} is not rectangular", who, m.system));
+      return;
+    }
+    PointMass point;
+    point.node = node;
+    point.mass = m.mass * b_.content.mass_factor;
+    point.J = b_.content.mass_factor * axes.R * m.J * axes.R.transpose();
+    const Vec3 p = b_.model.positions[index(node)];
+    // CID -1: the offset is the place of the mass in basic coordinates.
+    const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(axes.R * m.offset);
+    if (rotates_[index(node)] == 0) {
+      if (offset.norm() > 0.0) {
+        b_.source.fault(m.at, fmt::format("{} has an offset, but node {} has no rotations; tie the "
+                                          "mass to several nodes (RBE2, RBE3)",
+                                          who, m.node));
+        return;
+      }
+      if (point.J.cwiseAbs().maxCoeff() > 0.0) {
+        b_.note(m.at,
+                fmt::format("{}: node {} has no rotations, so the inertia has no effect and is "
+                            "left out",
+                            who, m.node));
+        point.J.setZero();
+      }
+    }
+    if (offset.norm() > 0.0) point.node = add_rigid_node(node, p + offset, who, m.at);
+    b_.model.masses.push_back(point);
+  }
+
+  /// A new node that moves rigidly with another.
+  int add_rigid_node(int node, const Vec3& p, const std::string& who, const FeSource& at) {
+    FeModel& model = b_.model;
+    const int fresh = model.nodes();
+    model.positions.push_back(p);
+    if (largest_id_ == std::numeric_limits<int>::max()) {
+      b_.source.stop(at, fmt::format("{} needs a node of its own, but there is no number above {}",
+                                     who, largest_id_));
+    }
+    model.node_ids.push_back(++largest_id_);
+    model.node_sources.push_back(at);
+    b_.turned.push_back(0);
+    rotates_.push_back(1);
+    rigid_of_.push_back(-1);
+    const int spider = rigid_of_[index(node)];
+    if (spider >= 0) {
+      model.spiders[index(spider)].nodes.push_back(fresh);
+    } else {
+      Spider rigid;
+      rigid.name = who;
+      rigid.reference = node;
+      rigid.nodes = {fresh};
+      rigid.source = at;
+      model.spiders.push_back(std::move(rigid));
+    }
+    return fresh;
+  }
+
+  /// The sets that the case control selects, with those that MPCADD joins.
+  std::set<int> selected_sets() {
+    std::set<int> sets;
+    const auto& selected = b_.content.control.mpc;
+    for (const auto& [id, at] : selected) {
+      if (id != selected.front().first) {
+        b_.source.fault(at, fmt::format("the case control selects MPC sets {} and {}; only one can "
+                                        "be read, remove the other",
+                                        selected.front().first, id));
+        return sets;
+      }
+      const auto added = b_.content.added_mpc_sets.find(id);
+      if (added == b_.content.added_mpc_sets.end()) {
+        sets.insert(id);
+      } else {
+        sets.insert(added->second.begin(), added->second.end());
+      }
+    }
+    return sets;
+  }
+
+  void equations() {
+    const bool by_control = b_.content.control.there;
+    const std::set<int> selected = by_control ? selected_sets() : std::set<int>{};
+    int set = 0, passed_over = 0;
+    FeSource first;
+    for (const NastranEquation& e : b_.content.equations) {
+      if (by_control && !selected.contains(e.set)) {
+        if (passed_over++ == 0) first = e.at;
+        continue;
+      }
+      if (!by_control && set != 0 && e.set != set) {
+        b_.source.fault(e.at, fmt::format("the file has MPC sets {} and {}; only one can be read, "
+                                          "remove the other",
+                                          set, e.set));
+        return;
+      }
+      set = e.set;
+      LinearEquation equation;
+      equation.source = e.at;
+      for (const NastranEquation::Term& term : e.terms) {
+        const int node = b_.node(term.node, e.at, fmt::format("MPC {}", e.set));
+        if (node < 0) return;
+        turned(node, 1u << term.component, e.at, fmt::format("MPC {}", e.set));
+        equation.terms.push_back({node, term.component, term.factor});
+      }
+      b_.model.equations.push_back(std::move(equation));
+    }
+    if (passed_over > 0) {
+      b_.note(first, fmt::format("{} MPC equations are in sets that the case control does not "
+                                 "select: they are not applied",
+                                 passed_over));
+    }
+    if (by_control && !selected.empty() && b_.model.equations.empty() && b_.source.faults() == 0) {
+      b_.source.fault(b_.content.control.mpc.front().second,
+                      fmt::format("the case control selects MPC set {}, which is not in the file",
+                                  b_.content.control.mpc.front().first));
+    }
+  }
+
+  NastranBuild& b_;
+  std::vector<char> rotates_;  // nodes that have rotations
+  std::vector<int> rigid_of_;  // rigid spider that a node follows
+  int largest_id_ = 0;
+};
+
+}  // namespace
+
+void build_nastran_constraints(NastranBuild& build) { ConstraintBuilder(build).build(); }
+
+void build_nastran_supports(NastranBuild& build) {
+  const NastranNumbers numbers({build.node_of.begin(), build.node_of.end()});
+  std::vector<int> nodes;
+  for (const NastranSupport& s : build.content.supports) {
+    nodes.clear();
+    if (s.first == s.last) {
+      const int node = build.node(s.first, s.at, "a support (SPC)");
+      if (node >= 0) nodes.push_back(node);
+    } else if (!numbers.append(s.first, s.last, nodes)) {
+      build.source.fault(s.at,
+                         fmt::format("SPC1: there is no node from {} to {}", s.first, s.last));
+    }
+    build.spend(nodes.size(), s.at);
+    for (const int node : nodes) build.model.supports.push_back({node, s.mask, s.at});
+  }
+}
+
+}  // namespace floatframe

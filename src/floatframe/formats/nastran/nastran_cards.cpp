@@ -1,0 +1,259 @@
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr std::size_t most_commands = 1000;
+
+/// BEGIN, BEGIN BULK, BEGIN SUPER=3, ...
+bool is_begin(std::string_view line) { return same_word(next_word(line), "BEGIN"); }
+
+/// BEGIN BULK (or BEGIN alone) of the model itself, not of a superelement or of an auxiliary model.
+bool is_begin_bulk(std::string_view line) {
+  if (!same_word(next_word(line), "BEGIN")) return false;
+  const std::string_view second = next_word(line);
+  return second.empty() || (same_word(second, "BULK") && trimmed(line).empty());
+}
+
+constexpr const char* one_model =
+    "{} begins the bulk data of a superelement or of another model, which is not read: write one "
+    "model with one BEGIN BULK";
+
+/// Continuation marks are compared without the sign that begins them.
+std::string_view without_sign(std::string_view mark) {
+  return !mark.empty() && (mark[0] == '+' || mark[0] == '*') ? mark.substr(1) : mark;
+}
+
+bool is_continuation(std::string_view name) {
+  return name.empty() || name[0] == '+' || name[0] == '*';
+}
+
+}  // namespace
+
+bool has_begin_bulk(std::string_view beginning) {
+  while (!beginning.empty()) {
+    const std::size_t end = std::min(beginning.find('\n'), beginning.size());
+    const std::string_view line = beginning.substr(0, end);
+    if (is_begin(line.substr(0, line.find('$')))) return true;
+    beginning.remove_prefix(std::min(end + 1, beginning.size()));
+  }
+  return false;
+}
+
+NastranCards::NastranCards(TextSource& source, bool has_control)
+    : source_(source), begun_(has_control) {
+  if (has_control) read_control();
+}
+
+void NastranCards::read_control() {
+  control_.there = true;
+  std::string_view line;
+  while (source_.next(line)) {
+    line = trimmed(line.substr(0, line.find('$')));
+    if (is_begin_bulk(line)) return;
+    if (is_begin(line)) source_.stop(source_.here(), fmt::format(one_model, shown(line)));
+    std::string_view rest = line;
+    if (same_word(next_word(rest), "INCLUDE")) {
+      include(line);
+    } else {
+      command(line);
+    }
+  }
+}
+
+void NastranCards::command(std::string_view line) {
+  const std::size_t end = std::min(line.find_first_of("=(, \t"), line.size());
+  const std::string_view word = line.substr(0, end);
+  // Alters of the executive control have lines PARAM // that are something else.
+  if (same_word(word, "PARAM") && trimmed(line.substr(end)).starts_with(',') &&
+      cards_of_control_.size() < most_commands) {
+    NastranCard card;
+    card.name = "PARAM";
+    split_commas(line, card.fields);
+    card.fields.erase(card.fields.begin());
+    card.at = source_.here();
+    cards_of_control_.push_back(std::move(card));
+    return;
+  }
+  const std::size_t equals = line.find('=');
+  if (equals == std::string_view::npos) return;
+  const std::string_view value = trimmed(line.substr(equals + 1));
+  if (same_word(word, "MPC")) {
+    const auto id = parse_label(value);
+    if (id && control_.mpc.size() < most_commands) control_.mpc.emplace_back(*id, source_.here());
+    return;
+  }
+  for (const char* known : {"K2GG", "M2GG", "K2PP", "M2PP", "A2GG", "NSM", "MFLUID"}) {
+    if (!same_word(word, known) || same_word(value, "NONE")) continue;
+    if (control_.additions.size() < most_commands) {
+      control_.additions.emplace_back(fmt::format("{} = {}", known, value.substr(0, 40)),
+                                      source_.here());
+    }
+  }
+}
+
+/// The next line that is neither blank nor a comment, without the comment at its end.
+bool NastranCards::next_text(std::string_view& text) {
+  while (source_.next(text)) {
+    const std::size_t dollar = text.find('$');
+    if (dollar != std::string_view::npos) {
+      comment(text.substr(dollar + 1));
+      text = text.substr(0, dollar);
+    }
+    if (!trimmed(text).empty()) return true;
+  }
+  return false;
+}
+
+/// "$HMNAME PROP 3"bracket" 4" and "$HMSET 5 1 "bores"" (HyperMesh), "$ FEMAP Property 3 :
+/// bracket".
+void NastranCards::comment(std::string_view text) {
+  std::string_view rest = text;
+  const std::string_view first = next_word(rest);
+  const bool set = same_word(first, "HMSET"), hypermesh = set || same_word(first, "HMNAME");
+  if (!hypermesh && !same_word(first, "FEMAP")) return;
+  std::map<int, std::string>* names = &set_names_;
+  if (!set) {
+    const std::string_view kind = next_word(rest);
+    names = begins_with(kind, "PROP")  ? &property_names_
+            : begins_with(kind, "MAT") ? &material_names_
+                                       : nullptr;
+  }
+  const std::size_t open = rest.find(hypermesh ? '"' : ':');
+  if (names == nullptr || open == std::string_view::npos) return;
+  std::string_view before = rest.substr(0, open), name = rest.substr(open + 1);
+  const auto number = parse_label(next_word(before));
+  if (hypermesh) name = name.substr(0, name.find('"'));
+  name = trimmed(name);
+  if (number && !name.empty()) names->try_emplace(*number, name);
+}
+
+void NastranCards::split(std::string_view text, Line& line) {
+  line.data.clear();
+  line.mark = {};
+  if (text.find(',') != std::string_view::npos) {
+    std::vector<std::string_view> fields;
+    split_commas(text, fields);
+    line.name = fields[0];
+    line.large = line.name.ends_with('*') || line.name.starts_with('*');
+    const std::size_t width = line.large ? 4 : 8;
+    if (fields.size() > width + 2) {
+      source_.fault(fmt::format("the line has {} fields; a line in free field has at most {}",
+                                fields.size(), width + 2));
+    }
+    for (std::size_t i = 1; i <= width; ++i) {
+      line.data.push_back(i < fields.size() ? fields[i] : std::string_view{});
+    }
+    if (fields.size() > width + 1) line.mark = fields[width + 1];
+    return;
+  }
+  if (text.find('\t') != std::string_view::npos) {
+    std::string wide;  // up to the last column that counts
+    for (const char c : text) {
+      if (wide.size() >= 80) break;
+      if (c == '\t') {
+        wide.append(8 - wide.size() % 8, ' ');
+      } else {
+        wide += c;
+      }
+    }
+    text = expanded_.emplace_back(std::move(wide));
+  }
+  const auto columns = [text](std::size_t from, std::size_t width) {
+    return from < text.size() ? trimmed(text.substr(from, width)) : std::string_view{};
+  };
+  line.name = columns(0, 8);
+  line.large = line.name.ends_with('*') || line.name.starts_with('*');
+  const std::size_t width = line.large ? 16 : 8;
+  for (std::size_t from = 8; from < 72; from += width) line.data.push_back(columns(from, width));
+  line.mark = columns(72, 8);
+}
+
+/// INCLUDE 'file', also over several lines.
+void NastranCards::include(std::string_view text) {
+  const FeSource at = source_.here();
+  std::string path(trimmed(trimmed(text).substr(7)));
+  const char quote = !path.empty() && (path[0] == '\'' || path[0] == '"') ? path[0] : '\0';
+  std::string_view line;
+  while (quote != '\0' && path.find(quote, 1) == std::string::npos) {
+    if (path.size() > 4096 || !source_.next(line)) {
+      source_.stop(at, "the name of the included file has no closing quote");
+    }
+    path += trimmed(line);
+  }
+  if (quote != '\0') path = path.substr(1, path.find(quote, 1) - 1);
+  source_.include(path, at);
+}
+
+bool NastranCards::next(NastranCard& card) {
+  if (!cards_of_control_.empty()) {
+    card = std::move(cards_of_control_.front());
+    cards_of_control_.pop_front();
+    return true;
+  }
+  expanded_.clear();
+  std::string_view text;
+  while (true) {
+    if (!next_text(text)) return false;
+    if (begins_with(trimmed(text), "INCLUDE") && text.find(',') == std::string_view::npos) {
+      include(text);
+      continue;
+    }
+    if (is_begin(text)) {
+      if (is_begin_bulk(trimmed(text)) && !std::exchange(begun_, true)) continue;
+      source_.stop(source_.here(), fmt::format(one_model, shown(trimmed(text))));
+    }
+    break;
+  }
+  if (begins_with(text, "ENDDATA")) return false;
+  Line line;
+  split(text, line);
+  if (is_continuation(line.name)) {
+    source_.stop(source_.here(),
+                 fmt::format("found a continuation {}, expected a card", shown(line.name)));
+  }
+  if (line.name[0] == '=') {
+    source_.stop(source_.here(), "repeated cards ('=') are not read; write them out");
+  }
+  card.name = upper_case(line.name);
+  if (card.name.back() == '*') card.name.pop_back();
+  card.name = std::string(trimmed(card.name));
+  card.fields = line.data;
+  card.continuations.clear();
+  card.at = source_.here();
+  std::string_view mark = line.mark;
+  while (next_text(text)) {
+    if (begins_with(trimmed(text), "INCLUDE")) {
+      source_.put_back();
+      break;
+    }
+    split(text, line);
+    if (!is_continuation(line.name)) {
+      source_.put_back();
+      break;
+    }
+    const std::string_view expected = without_sign(mark), found = without_sign(line.name);
+    if (!expected.empty() && !found.empty() && expected != found) {
+      source_.fault(
+          fmt::format("the continuation {} does not follow the card with this mark; the "
+                      "card before ({} in line {}) has {}",
+                      shown(line.name), card.name, card.at.line, shown(mark)));
+    }
+    const std::size_t width = line.large ? 4 : 8;
+    while (card.fields.size() % width != 0) card.fields.emplace_back();
+    card.continuations.emplace_back(card.fields.size(), source_.here());
+    card.fields.insert(card.fields.end(), line.data.begin(), line.data.end());
+    mark = line.mark;
+  }
+  while (!card.fields.empty() && card.fields.back().empty()) card.fields.pop_back();
+  return true;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,87 @@
+#pragma once
+// Cards of Nastran bulk data from lines in small field (8 columns), large field (16) or free field
+// (commas), with their continuations and includes. A continuation follows its card; if both carry
+// marks, these must agree. Of executive and case control before BEGIN BULK only what changes the
+// part is kept: PARAM entries come as cards, matrices and sets that are selected are in `control`.
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "floatframe/formats/text/text_source.hpp"
+
+namespace floatframe {
+
+struct NastranCard {
+  std::string name;                      ///< upper case, without '*'
+  std::vector<std::string_view> fields;  ///< trimmed, from field 2; those of continuations follow
+  FeSource at;
+  /// First field of each continuation and where it stands.
+  std::vector<std::pair<std::size_t, FeSource>> continuations;
+
+  /// Where a field stands.
+  FeSource place(std::size_t i) const {
+    const auto next = std::upper_bound(continuations.begin(), continuations.end(), i,
+                                       [](std::size_t k, const auto& c) { return k < c.first; });
+    return next == continuations.begin() ? at : std::prev(next)->second;
+  }
+  std::string_view field(std::size_t i) const {
+    return i < fields.size() ? fields[i] : std::string_view{};
+  }
+};
+
+/// What the case control selects.
+struct NastranControl {
+  bool there = false;  ///< there is a case control
+  std::vector<std::pair<int, FeSource>> mpc;
+  /// Commands that add stiffness or mass: "K2GG = STIF".
+  std::vector<std::pair<std::string, FeSource>> additions;
+};
+
+class NastranCards {
+ public:
+  /// `has_control`: there is a BEGIN BULK to look for.
+  NastranCards(TextSource& source, bool has_control);
+
+  /// The next card; false at ENDDATA or at the end of the file.
+  bool next(NastranCard& card);
+
+  const NastranControl& control() const { return control_; }
+  /// Names that pre-processors leave in comments, by number.
+  const std::map<int, std::string>& property_names() const { return property_names_; }
+  const std::map<int, std::string>& material_names() const { return material_names_; }
+  const std::map<int, std::string>& set_names() const { return set_names_; }
+
+ private:
+  struct Line {
+    std::string_view name;  ///< field 1 as it stands
+    std::string_view mark;  ///< field 10
+    std::vector<std::string_view> data;
+    bool large = false;
+  };
+  bool next_text(std::string_view& text);
+  void comment(std::string_view text);
+  void split(std::string_view text, Line& line);
+  void include(std::string_view text);
+  void read_control();
+  void command(std::string_view line);
+
+  TextSource& source_;
+  bool begun_ = false;  // BEGIN BULK was there
+  NastranControl control_;
+  std::deque<NastranCard> cards_of_control_;
+  std::deque<std::string> expanded_;  // lines of the card that had tabs
+  std::map<int, std::string> property_names_, material_names_, set_names_;
+};
+
+/// Does a card change neither stiffness nor mass nor geometry (loads, methods, tables, ...)?
+bool is_harmless_nastran_card(const std::string& name);
+
+/// Is there a line BEGIN (BULK, SUPER, ...) in a text or in the beginning of a file?
+bool has_begin_bulk(std::string_view text);
+
+}  // namespace floatframe

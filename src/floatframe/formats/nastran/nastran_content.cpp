@@ -1,0 +1,219 @@
+#include "floatframe/formats/nastran/nastran_content.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "floatframe/formats/nastran/nastran_fields.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+class ContentReader {
+ public:
+  ContentReader(TextSource& source, bool only_nodes) : source_(source), only_nodes_(only_nodes) {}
+
+  NastranContent read(bool has_control) {
+    NastranCards cards(source_, has_control);
+    c_.control = cards.control();
+    NastranCard card;
+    while (cards.next(card)) {
+      NastranFields fields(source_, card);
+      one(fields);
+    }
+    finish();
+    c_.property_names = cards.property_names();
+    c_.material_names = cards.material_names();
+    c_.set_names = cards.set_names();
+    return std::move(c_);
+  }
+
+ private:
+  using F = NastranFields;
+
+  struct Passed {
+    int number = 0;
+    FeSource at;
+    void add(const FeSource& where) {
+      if (number++ == 0) at = where;
+    }
+  };
+
+  /// WTMASS, CM1 or CK1.
+  struct Factor {
+    double value = 1.0;
+    FeSource at;
+  };
+
+  void one(F& f) {
+    static const std::map<std::string_view, NastranCardReader> readers = {
+        {"GRID", read_nastran_grid},      {"GRDSET", read_nastran_grid_default},
+        {"CORD2R", read_nastran_system},  {"CORD2C", read_nastran_system},
+        {"CORD2S", read_nastran_system},  {"CTETRA", read_nastran_solid},
+        {"CHEXA", read_nastran_solid},    {"CPENTA", read_nastran_solid},
+        {"CTRIA3", read_nastran_surface}, {"CQUAD4", read_nastran_surface},
+        {"CTRIA6", read_nastran_surface}, {"CQUAD8", read_nastran_surface},
+        {"CTRIAR", read_nastran_surface}, {"CQUADR", read_nastran_surface},
+        {"CBAR", read_nastran_bar},       {"CBEAM", read_nastran_bar},
+        {"MAT1", read_nastran_material},  {"CONM2", read_nastran_mass},
+        {"RBE2", read_nastran_rbe2},      {"RBE3", read_nastran_rbe3},
+        {"RBAR", read_nastran_rbar},      {"MPC", read_nastran_mpc},
+        {"MPCADD", read_nastran_mpc_add}, {"SPC", read_nastran_spc},
+        {"SPC1", read_nastran_spc1},
+    };
+    const std::string& name = f.name();
+    if (only_nodes_ && name != "GRID" && name != "GRDSET" && !name.starts_with("CORD") &&
+        !name.starts_with("SPC") && !name.starts_with("SET")) {
+      return;
+    }
+    if (const auto it = readers.find(name); it != readers.end()) return it->second(f, c_);
+    if (name == "PARAM") return parameter(f);
+    if (name == "SET" || name == "SET1" || name == "SET3") return set(f);
+    NastranProperty property;
+    if (read_nastran_property(f, property)) {
+      const int id = f.label(0, "the number of the property");
+      const auto [it, fresh] = c_.properties.try_emplace(id, property);
+      if (!fresh && id > 0) nastran_twice(f, it->second.at);
+      return;
+    }
+    const bool units = name == "DTI" && same_word(f.text(0), "UNITS");
+    if (!units && !is_harmless_nastran_card(name)) {
+      unknown_[name].add(f.at());
+      if (unknown_.size() > TextSource::most_faults) finish();  // throws
+      return;
+    }
+    if (name.starts_with("CORD1")) {
+      if (const auto id = parse_label(f.text(0))) c_.other_systems[*id] = name;
+    } else if (name.starts_with("MAT") && !name.starts_with("MATT")) {
+      if (const auto id = parse_label(f.text(0))) c_.other_materials[*id] = name;
+    }
+    pass(name, f.at());
+  }
+
+  void pass(const std::string& name, const FeSource& at) {
+    const bool known = passed_.contains(name);
+    if (known || passed_.size() < most_passed) passed_[known ? name : name.substr(0, 40)].add(at);
+  }
+
+  void set(F& f) {
+    NastranSet s;
+    s.at = f.at();
+    s.id = f.label(0, "the number of the set");
+    s.strict = f.name() != "SET1";
+    s.elements = same_word(f.text(1), "ELEM");
+    const bool nodes = f.name() == "SET1" || same_word(f.text(1), "GRID");
+    const bool list = f.name() != "SET" || same_word(f.text(2), "LIST");
+    if ((!nodes && !s.elements) || !list) {
+      pass(f.name() + " of other things", f.at());
+      return;
+    }
+    for (std::size_t i = f.name() == "SET" ? 8 : f.name() == "SET3" ? 2 : 1; i < f.size(); ++i) {
+      if (f.blank(i) || same_word(f.text(i), "SKIN")) continue;
+      const int first = f.label(i, "a member");
+      int last = first;
+      if (same_word(f.text(i + 1), "THRU")) {
+        last = f.label(i + 2, "the last member");
+        i += 2;
+      }
+      s.ranges.emplace_back(first, last);
+    }
+    c_.sets.push_back(std::move(s));
+  }
+
+  void parameter(F& f) {
+    const std::string name = upper_case(f.text(0)).substr(0, 40);
+    switch (nastran_parameter(name)) {
+      case NastranParameter::mass_factor:
+        c_.mass_factor *= factor(f, name);
+        break;
+      case NastranParameter::stiffness_factor:
+        c_.stiffness_factor *= factor(f, name);
+        break;
+      case NastranParameter::harmless:
+        pass("PARAM", f.at());
+        break;
+      case NastranParameter::unknown:
+        unknown_["PARAM " + name].add(f.at());
+        if (unknown_.size() > TextSource::most_faults) finish();  // throws
+    }
+  }
+
+  /// A positive factor, 1 if an entry before has given it. Subcases may repeat it; two values
+  /// would be two parts.
+  double factor(F& f, const std::string& name) {
+    const double value = f.real(1, name.c_str());
+    if (!(value > 0.0)) {
+      f.fault(fmt::format("{} is {}, expected more than 0", name, shown(f.text(1))));
+      return 1.0;
+    }
+    f.must_be_zero(2, "an imaginary part");
+    const auto [it, fresh] = factors_.try_emplace(name, Factor{value, f.at()});
+    if (fresh) return value;
+    if (value != it->second.value) {
+      const SourceMark first = source_.mark(it->second.at);
+      f.fault(
+          fmt::format("{} is {}, but {:g} in {}:{}; a part can have only one of them, remove "
+                      "the other",
+                      name, shown(f.text(1)), it->second.value, first.file, first.line));
+    }
+    return 1.0;
+  }
+
+  void finish() {
+    for (NastranGrid& g : c_.grids) {
+      if (g.cp == -1) g.cp = c_.grid_default.cp;
+      if (g.cd == -1) g.cd = c_.grid_default.cd;
+      const unsigned held = g.held.value_or(c_.grid_default.held.value_or(0u));
+      if (held != 0) c_.supports.push_back({g.id, g.id, held, g.at});
+    }
+    if (!only_nodes_) {
+      for (const auto& [command, at] : c_.control.additions) {
+        source_.fault(at, fmt::format("the case control has {}, which adds stiffness or mass and "
+                                      "is not read",
+                                      command));
+      }
+    }
+    for (const auto& [name, passed] : unknown_) {
+      source_.fault(
+          passed.at,
+          fmt::format(
+              "{} is not read and may change stiffness or mass{}", name.substr(0, 40),
+              passed.number > 1 ? fmt::format(" ({} cards in the file)", passed.number) : ""));
+    }
+    for (const auto& [name, factor] : factors_) {
+      const double value = factor.value;
+      if (name == "WTMASS" || value == 1.0) continue;
+      c_.notes.push_back(fmt::format("PARAM {}: the {} of the part is multiplied by {:g}", name,
+                                     name == "CK1" ? "stiffness" : "mass", value));
+    }
+    std::string list;
+    for (const auto& [name, passed] : passed_) {
+      list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
+    }
+    if (!list.empty()) {
+      c_.notes.push_back(
+          fmt::format("cards that change neither stiffness nor mass are passed over: {}", list));
+    }
+  }
+
+  TextSource& source_;
+  bool only_nodes_;
+  NastranContent c_;
+  static constexpr std::size_t most_passed = 300;
+  std::map<std::string, Passed> passed_, unknown_;
+  std::map<std::string, Factor> factors_;
+};
+
+}  // namespace
+
+void nastran_twice(NastranFields& f, const FeSource& first) {
+  f.fault(fmt::format("this number is in the file twice, first in line {}", first.line));
+}
+
+NastranContent read_nastran_content(TextSource& source, bool has_control, bool only_nodes) {
+  return ContentReader(source, only_nodes).read(has_control);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,163 @@
+#pragma once
+// What the cards of Nastran bulk data say, by kind and with the user's numbers, before it is a
+// model.
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+
+namespace floatframe {
+
+struct NastranGrid {
+  int id = 0, cp = 0, cd = 0;    ///< while reading -1: not given, GRDSET decides
+  std::optional<unsigned> held;  ///< PS
+  Vec3 x = Vec3::Zero();
+  FeSource at;
+};
+
+/// CORD2R, CORD2C, CORD2S: origin, a point on z, a point in the xz plane, in the system `rid`.
+struct NastranSystem {
+  char kind = 'R';
+  int rid = 0;
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero(), c = Vec3::Zero();
+  FeSource at;
+};
+
+struct NastranElement {
+  ElementType type = ElementType::tet4;
+  const char* card = "";
+  int id = 0, property = 0;
+  std::array<int, 20> nodes{};  ///< in the order of ElementType
+  int count = 0;
+  bool surface = false;             ///< a triangle or quadrilateral
+  bool other = false;               ///< surface that no shell element can be: only a skin
+  Vec3 orientation = Vec3::Zero();  ///< bars: in the system of the first node's cd
+  int orientation_node = 0;         ///< bars: or a node
+  FeSource at;
+};
+
+struct NastranMaterial {
+  std::optional<double> young, shear, poisson;
+  std::optional<double> density;
+  FeSource at;
+};
+
+struct NastranProperty {
+  const char* card = "";
+  int material = 0;
+  bool full_integration = false;  ///< PSOLID: of CHEXA with 8 nodes
+  double thickness = 0.0;         ///< PSHELL
+  BeamSection section;            ///< PBAR, PBARL, PBEAM, PBEAML
+  double nonstructural = 0.0;     ///< mass over length or area
+  bool shear_factors = false;     ///< PBAR: K1 or K2 make it flexible in shear
+  FeSource at;
+};
+
+struct NastranMass {
+  int id = 0, node = 0, system = 0;
+  double mass = 0.0;
+  Vec3 offset = Vec3::Zero();
+  Mat3 J = Mat3::Zero();
+  FeSource at;
+};
+
+struct NastranSpider {
+  const char* card = "";
+  Spider::Kind kind = Spider::Kind::rigid;
+  int id = 0, reference = 0;
+  unsigned mask = 63u;
+  std::vector<int> nodes;
+  std::vector<double> weights;
+  bool weighs_rotations = false;  ///< RBE3: components 456 of the nodes have weights
+  FeSource at;
+};
+
+struct NastranEquation {
+  int set = 0;
+  struct Term {
+    int node = 0, component = 0;
+    double factor = 0.0;
+  };
+  std::vector<Term> terms;
+  FeSource at;
+};
+
+struct NastranSupport {
+  int first = 0, last = 0;  ///< node, or a range in which some may be missing
+  unsigned mask = 0;
+  FeSource at;
+};
+
+/// SET (OptiStruct), SET1, SET3: numbers and ranges of nodes or elements.
+struct NastranSet {
+  int id = 0;
+  bool elements = false;
+  bool strict = true;  ///< SET1 may mean other things: it is a set only if all its nodes are there
+  std::vector<std::pair<int, int>> ranges;
+  FeSource at;
+};
+
+struct NastranContent {
+  std::vector<NastranGrid> grids;
+  NastranGrid grid_default;  ///< GRDSET
+  std::map<int, NastranSystem> systems;
+  std::map<int, std::string> other_systems, other_materials;  ///< card, of what is not read
+  std::vector<NastranElement> elements;
+  std::map<int, NastranMaterial> materials;
+  std::map<int, NastranProperty> properties;
+  std::vector<NastranMass> masses;
+  std::vector<NastranSpider> spiders;
+  std::vector<NastranEquation> equations;
+  std::vector<NastranSupport> supports;
+  std::vector<NastranSet> sets;
+  std::map<int, std::vector<int>> added_mpc_sets;  ///< MPCADD
+  NastranControl control;
+  double mass_factor = 1.0;       ///< PARAM,WTMASS times PARAM,CM1
+  double stiffness_factor = 1.0;  ///< PARAM,CK1
+  std::map<int, std::string> property_names, material_names, set_names;
+  std::vector<std::string> notes;
+};
+
+/// Faults are collected in the source. With `only_nodes` all but nodes, coordinate systems and
+/// supports is passed over.
+NastranContent read_nastran_content(TextSource& source, bool has_control, bool only_nodes);
+
+/// What a PARAM entry does to the part.
+enum class NastranParameter {
+  unknown,
+  harmless,
+  mass_factor,      ///< WTMASS, CM1
+  stiffness_factor  ///< CK1
+};
+NastranParameter nastran_parameter(const std::string& name);
+
+class NastranFields;
+/// Reads a card into the content.
+using NastranCardReader = void (*)(NastranFields&, NastranContent&);
+// nastran_mesh_cards.cpp
+void read_nastran_grid(NastranFields&, NastranContent&);
+void read_nastran_grid_default(NastranFields&, NastranContent&);
+void read_nastran_system(NastranFields&, NastranContent&);
+void read_nastran_solid(NastranFields&, NastranContent&);
+void read_nastran_surface(NastranFields&, NastranContent&);
+void read_nastran_bar(NastranFields&, NastranContent&);
+void read_nastran_material(NastranFields&, NastranContent&);
+void read_nastran_mass(NastranFields&, NastranContent&);
+// nastran_constraint_cards.cpp
+void read_nastran_rbe2(NastranFields&, NastranContent&);
+void read_nastran_rbe3(NastranFields&, NastranContent&);
+void read_nastran_rbar(NastranFields&, NastranContent&);
+void read_nastran_mpc(NastranFields&, NastranContent&);
+void read_nastran_mpc_add(NastranFields&, NastranContent&);
+void read_nastran_spc(NastranFields&, NastranContent&);
+void read_nastran_spc1(NastranFields&, NastranContent&);
+/// Says that a number is in the file twice.
+void nastran_twice(NastranFields& card, const FeSource& first);
+/// PSOLID, PSHELL, PBAR, PBARL, PBEAM, PBEAML; false if the card is none of them.
+bool read_nastran_property(NastranFields& card, NastranProperty& property);
+
+}  // namespace floatframe

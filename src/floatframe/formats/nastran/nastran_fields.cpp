@@ -1,0 +1,73 @@
+#include "floatframe/formats/nastran/nastran_fields.hpp"
+
+#include <fmt/format.h>
+
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+
+void NastranFields::fault_at(const FeSource& at, const std::string& message) {
+  const std::string_view id = card_.field(0);
+  source_.fault(at, parse_label(id) ? fmt::format("{} {}: {}", card_.name, id, message)
+                                    : fmt::format("{}: {}", card_.name, message));
+}
+
+int NastranFields::label(std::size_t i, const char* what) {
+  const auto value = parse_label(card_.field(i));
+  if (!value) {
+    fault_in(i, blank(i) ? fmt::format("{} is missing", what)
+                         : fmt::format("{} is {}, expected a whole number from 1", what,
+                                       shown(card_.field(i))));
+  }
+  return value.value_or(0);
+}
+
+int NastranFields::integer(std::size_t i, const char* what, int otherwise) {
+  if (blank(i)) return otherwise;
+  const auto value = parse_integer(card_.field(i));
+  if (!value) fault_in(i, fmt::format("{}: {}", what, not_an_integer(card_.field(i))));
+  return value.value_or(otherwise);
+}
+
+double NastranFields::real(std::size_t i, const char* what) {
+  if (blank(i)) {
+    fault_in(i, fmt::format("{} is missing", what));
+    return 1.0;
+  }
+  return real(i, what, 1.0);
+}
+
+double NastranFields::real(std::size_t i, const char* what, double otherwise) {
+  if (blank(i)) return otherwise;
+  const auto value = parse_real(card_.field(i));
+  if (!value) fault_in(i, fmt::format("{}: {}", what, not_a_real(card_.field(i))));
+  return value.value_or(otherwise);
+}
+
+Vec3 NastranFields::vector(std::size_t i, const char* what) {
+  const double x = real(i, what, 0.0), y = real(i + 1, what, 0.0), z = real(i + 2, what, 0.0);
+  return {x, y, z};
+}
+
+unsigned NastranFields::components(std::size_t i, const char* what) {
+  unsigned mask = 0;
+  for (const char c : card_.field(i)) {
+    if (c == '0') continue;
+    const unsigned bit = c >= '1' && c <= '6' ? 1u << (c - '1') : 0u;
+    if (bit == 0 || (mask & bit) != 0) {
+      fault_in(i, fmt::format("{} are {}, expected some of the digits 1 to 6", what,
+                              shown(card_.field(i))));
+      return 0;
+    }
+    mask |= bit;
+  }
+  return mask;
+}
+
+void NastranFields::must_be_zero(std::size_t i, const char* what) {
+  if (real(i, what, 0.0) != 0.0) {
+    fault_in(i, fmt::format("{} is {}, which is not supported", what, shown(card_.field(i))));
+  }
+}
+
+}  // namespace floatframe

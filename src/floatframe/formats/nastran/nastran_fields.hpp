@@ -1,0 +1,45 @@
+#pragma once
+// Fields of one Nastran card as numbers, with faults that name the card and what is expected.
+#include <optional>
+#include <string>
+
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+class NastranFields {
+ public:
+  NastranFields(TextSource& source, const NastranCard& card) : source_(source), card_(card) {}
+
+  bool blank(std::size_t i) const { return card_.field(i).empty(); }
+  std::size_t size() const { return card_.fields.size(); }
+  std::string_view text(std::size_t i) const { return card_.field(i); }
+  FeSource at() const { return card_.at; }
+  const std::string& name() const { return card_.name; }
+
+  /// A number that names something; 0 with a fault if it is none.
+  int label(std::size_t i, const char* what);
+  int integer(std::size_t i, const char* what, int otherwise);
+  double real(std::size_t i, const char* what);  ///< must be there
+  double real(std::size_t i, const char* what, double otherwise);
+  Vec3 vector(std::size_t i, const char* what);  ///< three fields, blank: 0
+  /// Components such as "123456"; 0 and blank: none.
+  unsigned components(std::size_t i, const char* what);
+
+  /// "CTETRA 12: ..." at the card, or at the line of a field.
+  void fault(const std::string& message) { fault_at(card_.at, message); }
+  /// Fault if the field is neither blank nor zero.
+  void must_be_zero(std::size_t i, const char* what);
+
+ private:
+  void fault_at(const FeSource& at, const std::string& message);
+  void fault_in(std::size_t field, const std::string& message) {
+    fault_at(card_.place(field), message);
+  }
+
+  TextSource& source_;
+  const NastranCard& card_;
+};
+
+}  // namespace floatframe

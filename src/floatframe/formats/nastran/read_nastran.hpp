@@ -1,0 +1,26 @@
+#pragma once
+// Nastran bulk data (.bdf, .dat, .nas, .fem): nodes with coordinate systems, solids, flat shells,
+// bars, point masses, rigid and averaging elements, multi-point constraints, supports;
+// docs/fe-files.md lists the cards. A card that may change stiffness or mass and is not read is a
+// fault; others are listed in the notes. WTMASS is applied. A file without properties and materials
+// is a mesh: surfaces in it are skins that make node sets. Sets are "PID 3" and
+// "SET 5"; names that pre-processors leave in comments take their place or come beside them.
+#include <string_view>
+
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+
+namespace floatframe {
+
+enum class NastranPart {
+  all,
+  nodes  ///< nodes and supports; for matrices
+};
+
+bool looks_like_nastran(std::string_view beginning);
+FeModel read_nastran(const std::filesystem::path& file, const FeReadOptions& options);
+/// `has_control`: executive and case control come first.
+FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& options,
+                     NastranPart part = NastranPart::all);
+
+}  // namespace floatframe

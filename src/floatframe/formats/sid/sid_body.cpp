@@ -1,0 +1,389 @@
+// A body from the blocks of a SID_FEM file; sid_content.hpp has their meaning. What the file says
+// twice is compared: mdCM m1 and Ct must agree, the others give notes.
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/formats/sid/sid_content.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+#include "floatframe/math/dense.hpp"
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr double same = 1e-6;        // numbers of a file have 12 digits
+constexpr double own_digits = 1e-5;  // of a moment of inertia about the centre of mass
+constexpr double close = 0.05;       // lumped masses of some writers against consistent ones
+constexpr int axes_of_Oe[3][2] = {{0, 1}, {1, 2}, {0, 2}};
+constexpr int axes_of_J[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+/// Component c of a cross product: first(c) x second(c).
+constexpr int axes_of_cross[3][2] = {{1, 2}, {2, 0}, {0, 1}};
+
+class BodyOfSid {
+ public:
+  BodyOfSid(const SidContent& content, const std::string& name)
+      : c_(content), nq_(content.modes), name_(name) {}
+
+  SidBody build() {
+    InertiaInvariants& v = out_.body.invariants = InertiaInvariants::zero(nq_);
+    v.m = c_.mass;
+    v.m_u = c_.mdCM.m0;
+    const Mat3 J = inertia(c_.J.m0);
+    v.P_u = 0.5 * J.trace() * Mat3::Identity() - J;  // (21)
+    static_moments(v);
+    first_moments(v);
+    second_moments(v);
+    out_.body.K = symmetric(c_.Ke, "Ke");
+    out_.body.D = symmetric(c_.De, "De");
+    out_.body.mode_names = c_.mode_names;
+    for (const SidFrame& f : c_.frames) add_node(f);
+    left_out();
+    if (faults_.empty()) check_inertia(v);
+    if (faults_.empty()) check_mass_matrix(v);
+    if (faults_.empty()) check_energy();
+    faults_.throw_if_any();
+    return std::move(out_);
+  }
+
+ private:
+  SourceMark mark(int line) const { return {name_, line, 0}; }
+  void note(int line, const std::string& text) {
+    out_.notes.push_back(InputFault{mark(line), text}.text());
+  }
+
+  static Mat3 inertia(const MatX& j) {
+    Mat3 J = Mat3::Zero();
+    if (j.rows() == 3) {
+      J = j;
+    } else {
+      for (int a = 0; a < 3; ++a) {
+        J(a, a) = j(a, 0);
+        J(axes_of_J[a][0], axes_of_J[a][1]) = J(axes_of_J[a][1], axes_of_J[a][0]) = j(3 + a, 0);
+      }
+    }
+    return 0.5 * (J + J.transpose());
+  }
+
+  MatX symmetric(const SidTaylor& block, const char* name) {
+    const double scale = block.m0.size() > 0 ? block.m0.cwiseAbs().maxCoeff() : 0.0;
+    const double skew = scale > 0.0 ? (block.m0 - block.m0.transpose()).cwiseAbs().maxCoeff() : 0.0;
+    if (skew > same * scale) {
+      faults_.add(mark(block.line),
+                  fmt::format("block {} is not symmetric: entries differ by {:.3g} of the largest",
+                              name, skew / scale));
+    }
+    return 0.5 * (block.m0 + block.m0.transpose());
+  }
+
+  void static_moments(InertiaInvariants& v) {
+    v.S = c_.Ct.m0.transpose();
+    if (c_.mdCM.m1.empty()) return;
+    for (int k = 0; k < nq_; ++k) {
+      const Vec3 m1 = c_.mdCM.m1[k];
+      const double scale = std::max(m1.norm(), v.S.norm());
+      if ((m1 - v.S.col(k)).norm() > same * scale) {
+        faults_.add(
+            mark(c_.Ct.line),
+            fmt::format("row {} of block Ct is ({:.6g} {:.6g} {:.6g}), but m1 of mdCM in "
+                        "line {} is ({:.6g} {:.6g} {:.6g}): they must be equal",
+                        k + 1, v.S(0, k), v.S(1, k), v.S(2, k), c_.mdCM.line, m1(0), m1(1), m1(2)));
+      }
+    }
+  }
+
+  /// S^i_(j) = int r_i phi_j dm: symmetric sums from J m1 (or Oe), differences from Cr.
+  void first_moments(InertiaInvariants& v) {
+    const bool from_Oe = c_.J.m1.empty() && nq_ > 0;
+    if (from_Oe) {
+      note(c_.J.line,
+           c_.Oe.line > 0
+               ? "block J has no first-order terms; they are taken from Oe"
+               : "block J has no first-order terms and there is no Oe: the inertia tensor "
+                 "does not change with the deformation");
+    }
+    double of_Gr = 0.0, of_Oe = 0.0, scale_Gr = 0.0, scale_Oe = 0.0;
+    for (int k = 0; k < nq_; ++k) {
+      const std::size_t q = k;
+      const auto Oe = c_.Oe.m0.row(k);
+      Mat3 sum;  // int r_i phi_j + r_j phi_i dm
+      if (from_Oe) {
+        const double trace = -0.5 * (Oe(0) + Oe(1) + Oe(2));
+        for (int a = 0; a < 3; ++a) {
+          sum(a, a) = 2.0 * (trace + Oe(a));
+          const auto [i, j] = axes_of_Oe[a];
+          sum(i, j) = sum(j, i) = Oe(3 + a);
+        }
+      } else {
+        const Mat3 J1 = inertia(c_.J.m1[q]);
+        sum = 0.5 * J1.trace() * Mat3::Identity() - J1;  // of P (21)
+      }
+      Mat3 s = 0.5 * sum;
+      for (int a = 0; a < 3; ++a) {
+        const auto [i, j] = axes_of_cross[a];
+        s(i, j) += 0.5 * c_.Cr.m0(k, a);
+        s(j, i) -= 0.5 * c_.Cr.m0(k, a);
+      }
+      for (int i = 0; i < 3; ++i) v.Si[i].col(k) = s.row(i).transpose();
+
+      const Mat3 Gr = 2.0 * (s.trace() * Mat3::Identity() - s.transpose());
+      of_Gr = std::max(of_Gr, (c_.Gr.m0.middleCols<3>(3 * k) - Gr).cwiseAbs().maxCoeff());
+      scale_Gr = std::max(scale_Gr, Gr.cwiseAbs().maxCoeff());
+      for (int a = 0; a < 3; ++a) {
+        const auto [i, j] = axes_of_Oe[a];
+        of_Oe = std::max({of_Oe, std::abs(Oe(a) - s(a, a) + s.trace()),
+                          std::abs(Oe(3 + a) - s(i, j) - s(j, i))});
+      }
+      scale_Oe = std::max(scale_Oe, Oe.cwiseAbs().maxCoeff());
+    }
+    if (c_.Gr.line > 0 && of_Gr > same * scale_Gr) {
+      note(c_.Gr.line,
+           fmt::format("block Gr differs from what J and Cr imply by {:.2g} of its largest entry; "
+                       "J and Cr are used",
+                       of_Gr / scale_Gr));
+    }
+    if (c_.Oe.line > 0 && !from_Oe && of_Oe > same * scale_Oe) {
+      note(c_.Oe.line,
+           fmt::format("block Oe differs from what J implies by {:.2g} of its largest entry; J is "
+                       "used",
+                       of_Oe / std::max(scale_Oe, 1e-300)));
+    }
+  }
+
+  /// int phi_l x phi_k dm, component a, as (l, k); antisymmetric.
+  std::array<MatX, 3> differences() {
+    std::array<MatX, 3> D;
+    D.fill(MatX::Zero(nq_, nq_));
+    const bool from_Ge = c_.Cr.m1.empty();
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto column = static_cast<Eigen::Index>(a);
+      for (int l = 0; l < nq_; ++l) {
+        for (int k = 0; k < nq_; ++k) {
+          D[a](l, k) = from_Ge ? 0.5 * c_.Ge.m0(k, 3 * l + column) : c_.Cr.m1[l](k, column);
+        }
+      }
+    }
+    double even = 0.0, odd = 0.0;
+    for (MatX& d : D) {
+      even = std::max(even, 0.5 * (d + d.transpose()).cwiseAbs().maxCoeff());
+      d = 0.5 * (d - d.transpose()).eval();
+      odd = std::max(odd, d.cwiseAbs().maxCoeff());
+    }
+    const double scale = std::max(odd, c_.Me.m0.cwiseAbs().maxCoeff());
+    if (even > same * scale) {
+      note(
+          from_Ge ? c_.Ge.line : c_.Cr.line,
+          fmt::format("the terms of {} of two modes must change sign when the modes are exchanged; "
+                      "a part of {:.2g} of the modal mass that does not is left out",
+                      from_Ge ? "Ge" : "m1 of Cr", even / scale));
+    }
+    return D;
+  }
+
+  /// S^ij from Me, the differences and, if it is of inertia alone, Oe m1.
+  void second_moments(InertiaInvariants& v) {
+    if (nq_ == 0) return;
+    const MatX Me = symmetric(c_.Me, "Me");
+    const std::array<MatX, 3> D = differences();
+    std::array<MatX, 6> O;  // Oe m1 as (l, k), symmetric part
+    O.fill(MatX::Zero(nq_, nq_));
+    if (!c_.Oe.m1.empty()) {
+      for (std::size_t a = 0; a < 6; ++a) {
+        for (int l = 0; l < nq_; ++l) {
+          O[a].row(l) = c_.Oe.m1[l].col(static_cast<Eigen::Index>(a));
+        }
+        O[a] = 0.5 * (O[a] + O[a].transpose()).eval();
+      }
+    }
+    const MatX trace = -0.5 * (O[0] + O[1] + O[2]);
+    const double off = (trace - Me).norm() / std::max(Me.norm(), 1e-300);
+    const bool known = c_.Oe.first_order() && off <= close;
+    for (std::size_t a = 0; a < 3; ++a) {
+      v.Sij[a][a] = Me / 3.0;
+      if (known) v.Sij[a][a] += trace + O[a] - trace / 3.0;
+    }
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t i = axes_of_cross[a][0];
+      const std::size_t j = axes_of_cross[a][1];
+      const MatX sum = known ? O[3 + (a == 0 ? 1u : a == 1 ? 2u : 0u)] : MatX::Zero(nq_, nq_);
+      v.Sij[i][j] = 0.5 * (sum + D[a]);
+      v.Sij[j][i] = v.Sij[i][j].transpose();
+    }
+    if (known && off > same) {
+      note(c_.Oe.line,
+           fmt::format("second-order inertia terms are taken from m1 of Oe, which gives the modal "
+                       "masses with a deviation of {:.2g} from Me; Me is kept",
+                       off));
+    } else if (!known) {
+      note(
+          c_.Oe.first_order() ? c_.Oe.line : c_.Me.line,
+          std::string(c_.Oe.first_order()
+                          ? fmt::format("m1 of Oe does not give the modal masses (deviation {:.2g} "
+                                        "from Me), so it holds more than inertia and is not used. ",
+                                        off)
+                          : "") +
+              "The file has no second-order inertia terms: the mass matrix at zero deformation and "
+              "its first derivative are exact, its second derivative and softening by spin are "
+              "not (S^11, S^22 and S^33 are each taken as a third of Me)");
+    }
+  }
+
+  void add_node(const SidFrame& f) {
+    ModalNode node;
+    node.name = f.node;
+    node.p = f.origin.m0;
+    node.X = f.phi.m0;
+    node.X_theta = f.psi.m0;
+    if (f.AP.line > 0 && !f.AP.m0.isIdentity(same) && !f.AP.m0.isZero(0.0)) {
+      note(f.AP.line, fmt::format("node {} has axes that are turned against the body's (AP); its "
+                                  "own orientation is left out",
+                                  f.node));
+    }
+    for (std::size_t k = 0; k < f.origin.m1.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const double scale = std::max(f.origin.m1[k].norm(), f.phi.m0.norm());
+      if ((f.origin.m1[k] - f.phi.m0.col(column)).norm() > same * scale) {
+        faults_.add(mark(f.phi.line),
+                    fmt::format("column {} of phi of node {} differs from m1 of origin in line {}: "
+                                "they must be equal",
+                                k + 1, f.node, f.origin.line));
+        break;
+      }
+    }
+    if (f.phi.first_order()) ++stiffening_nodes_;
+    out_.body.nodes.push_back(std::move(node));
+  }
+
+  void left_out() {
+    if (c_.ksigma.m0.size() > 0 && c_.ksigma.m0.cwiseAbs().maxCoeff() > 0.0) {
+      faults_.add(mark(c_.ksigma.line),
+                  "block ksigma holds forces of an initial stress, which a body cannot have; write "
+                  "the file about the unstressed state");
+    }
+    std::string names;
+    for (const auto& [block, name] :
+         {std::pair{&c_.Ct, "Ct"}, std::pair{&c_.Me, "Me"}, std::pair{&c_.Gr, "Gr"},
+          std::pair{&c_.Ge, "Ge"}, std::pair{&c_.ksigma, "ksigma"}, std::pair{&c_.Ke, "Ke"},
+          std::pair{&c_.De, "De"}}) {
+      if (block->first_order()) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+    }
+    if (stiffening_nodes_ > 0) names += fmt::format("{}phi", names.empty() ? "" : ", ");
+    if (!names.empty()) {
+      note(0, fmt::format("terms of first order in {} (geometric stiffening, foreshortening) are "
+                          "left out: modes are linear",
+                          names));
+    }
+  }
+
+  /// Moments of inertia about the centre of mass, which a large distance from the origin may hide.
+  void check_inertia(const InertiaInvariants& v) {
+    if (!(v.m > 0.0)) return;
+    const Mat3 J_c = v.inertia_about_centre();
+    const Vec3 moments =
+        Eigen::SelfAdjointEigenSolver<Mat3>(J_c, Eigen::EigenvaluesOnly).eigenvalues();
+    const double size = moments.cwiseAbs().maxCoeff();
+    const double digits = 1e-12 * v.inertia_about_origin().cwiseAbs().maxCoeff();
+    if (moments(0) < -own_digits * size - digits) {
+      faults_.add(
+          mark(c_.J.line),
+          fmt::format("block J gives a moment of inertia of {:.6g} about the centre of mass "
+                      "(with mass and mdCM), expected none below zero",
+                      moments(0)));
+      return;
+    }
+    const double excess = moments(2) - moments(0) - moments(1);
+    if (excess <= own_digits * size + digits) return;
+    const std::string text = fmt::format(
+        "the moments of inertia about the centre of mass are {:.6g}, {:.6g} and {:.6g}: "
+        "the largest is more than the sum of the others, which no body has",
+        moments(0), moments(1), moments(2));
+    if (excess > close * size)
+      faults_.add(mark(c_.J.line), text);
+    else
+      note(c_.J.line, text);
+  }
+
+  /// Stiffness and damping must not give energy.
+  void check_energy() {
+    for (const auto& [block, matrix, what] :
+         {std::tuple{&c_.Ke, &out_.body.K, "stiffness"}, {&c_.De, &out_.body.D, "damping"}}) {
+      if (nq_ == 0) continue;
+      const VecX unit =
+          matrix->diagonal().unaryExpr([](double x) { return x > 0.0 ? 1.0 / std::sqrt(x) : 0.0; });
+      Eigen::Index k = 0;
+      const double least =
+          matrix->diagonal().minCoeff(&k) < 0.0
+              ? (*matrix)(k, k)
+              : symmetric_eigenvalues(unit.asDiagonal() * *matrix * unit.asDiagonal())(0);
+      if (least < -same)
+        faults_.add(mark(block->line),
+                    fmt::format("block {} holds a negative {} ({:.3g}), expected none below zero",
+                                block == &c_.Ke ? "Ke" : "De", what, least));
+    }
+    if (nq_ > 0 && out_.body.K.isZero(0.0))
+      note(c_.Ke.line, "the modes have no stiffness: block Ke is missing or zero");
+  }
+
+  /// The mass matrix at zero deformation, scaled to a unit diagonal, must not be indefinite.
+  void check_mass_matrix(const InertiaInvariants& v) {
+    MatX M = MatX::Zero(6 + nq_, 6 + nq_);
+    M.topLeftCorner<3, 3>() = v.m * Mat3::Identity();
+    M.block<3, 3>(3, 0) = skew(v.m_u);
+    M.block<3, 3>(0, 3) = -skew(v.m_u);
+    M.block<3, 3>(3, 3) = v.inertia_about_origin();
+    M.topRightCorner(3, nq_) = v.S;
+    M.bottomLeftCorner(nq_, 3) = v.S.transpose();
+    M.block(6, 3, nq_, 3) = c_.Cr.m0;
+    M.block(3, 6, 3, nq_) = c_.Cr.m0.transpose();
+    for (int i = 0; i < 3; ++i) {
+      M.bottomRightCorner(nq_, nq_) += v.Sij[i][i];
+    }
+    for (int i = 0; i < 6 + nq_; ++i) {
+      if (M(i, i) >= 0.0) continue;
+      const int line = i < 3 ? c_.mass_line : i < 6 ? c_.J.line : c_.Me.line;
+      faults_.add(mark(line),
+                  fmt::format("a diagonal entry of the mass matrix is negative: {:.6g}", M(i, i)));
+      return;
+    }
+    const VecX d = M.diagonal().cwiseSqrt().cwiseInverse().unaryExpr(
+        [](double x) { return std::isfinite(x) ? x : 0.0; });
+    const MatX scaled = d.asDiagonal() * M * d.asDiagonal();
+    const double least = symmetric_eigenvalues(scaled)(0);
+    if (!(least >= -same)) {
+      faults_.add(
+          mark(c_.Me.line),
+          fmt::format("the mass matrix at zero deformation is not positive: scaled to a unit "
+                      "diagonal its smallest eigenvalue is {:.3g}; mass, mdCM, J, Ct, Cr "
+                      "and Me contradict each other",
+                      least));
+    }
+  }
+
+  const SidContent& c_;
+  int nq_;
+  std::string name_;
+  SidBody out_;
+  Faults faults_;
+  int stiffening_nodes_ = 0;
+};
+
+}  // namespace
+
+SidBody sid_body(const SidContent& content, const std::string& name) {
+  return BodyOfSid(content, name).build();
+}
+
+SidBody parse_sid(std::string_view text, const std::string& name) {
+  return sid_body(parse_sid_content(text, name), name);
+}
+
+SidBody read_sid(const std::filesystem::path& file) {
+  return parse_sid(read_whole_file(file), file.string());
+}
+
+}  // namespace floatframe

@@ -1,0 +1,77 @@
+#pragma once
+// The blocks of a SID_FEM file and how they follow from the inertia integrals of a body.
+//
+// A point moves with v = v_O + w x r + phi qdot in body axes, r = r_u + phi q, phi = X. From the
+// kinetic energy 1/2 int v.v dm and the virtual power of the remaining accelerations w x (w x r)
+// and 2 w x (phi qdot), with a~ b = a x b and the accelerations (a_O, wdot, qddot):
+//
+//   [ m I     mc~^T  Ct^T ] [a_O  ]   [ w x (w x mc) + 2 w x (Ct^T qdot)       ]
+//   [ mc~     J      Cr^T ] [wdot ] + [ w x J w + (sum_k Gr_k qdot_k) w        ] = forces
+//   [ Ct      Cr     Me   ] [qddot]   [ (sum_k Ge_k qdot_k) w + Oe (w w)       ]
+//
+//   mdCM  3 x 1       mc = int r dm                                    m_u;  m1: S
+//   J     6 x 1       int r~^T r~ dm: 11 22 33 12 13 23, J12 = - int x y dm (also read: 3 x 3)
+//                     m1: 2 sum_(i != a) S^i_(i) for aa, -(S^a_(b) + S^b_(a)) for ab
+//   Ct    nq x 3      int phi^T dm                                     S^T
+//   Cr    nq x 3      int phi^T r~^T dm, row k = int r x phi_k dm;     m1(k, l) = int phi_l x phi_k
+//   Me    nq x nq     int phi^T phi dm                                 S^11 + S^22 + S^33
+//   Gr    3 x 3nq     block k: -2 int r~ phi_k~ dm = 2 (int r.phi_k dm I - int phi_k r^T dm)
+//   Ge    nq x 3nq    row k, block l: -2 int phi_k^T phi_l~ dm = 2 Cr m1(k, l)
+//   Oe    nq x 6      int phi_k . w x (w x r) dm by w1w1 w2w2 w3w3 w1w2 w2w3 w1w3:
+//                     -int (r.phi_k - r_a phi_ka) for aa, int r_a phi_kb + r_b phi_ka for ab;
+//                     m1(k, l): the same with phi_l for r
+//   origin, phi, psi, AP of a frame: p and m1 = X;  X;  X_theta;  I and m1(q) = skew(X_theta(q))
+//
+// Signs of Cr, Gr and Oe are those of the file of PY_SID that EMBSlib uses as an example. Indices
+// of m1 in the file: (row, mode, column). ksigma is zero, Ke and De are the modal stiffness and
+// damping of first order.
+#include <string>
+#include <vector>
+
+#include "floatframe/body/flexible_body.hpp"
+#include "floatframe/formats/sid/sid_file.hpp"
+
+namespace floatframe {
+
+/// m0 + sum_q m1[q] y_q.
+struct SidTaylor {
+  MatX m0;
+  std::vector<MatX> m1;  ///< one a mode; empty: order 0
+  int line = 0;          ///< of the block's name in the file; 0: not there
+
+  SidTaylor() = default;
+  SidTaylor(int rows, int columns, int modes_of_m1)
+      : m0(MatX::Zero(rows, columns)),
+        m1(static_cast<std::size_t>(modes_of_m1), MatX::Zero(rows, columns)) {}
+  bool first_order() const;  ///< is any entry of m1 not zero?
+};
+
+struct SidFrame {
+  std::string node;
+  SidTaylor origin, phi, psi, AP;
+};
+
+struct SidContent {
+  double mass = 0.0;
+  int mass_line = 0;
+  int modes = 0;
+  std::string comment;
+  std::vector<std::string> mode_names;
+  std::vector<SidFrame> frames;
+  SidTaylor mdCM, J, Ct, Cr, Me, Gr, Ge, Oe, ksigma, Ke, De;
+};
+
+/// The blocks of a body. Me, Ke and De are symmetrised.
+SidContent sid_content(const FlexibleBody& body);
+
+/// The text of a file.
+std::string sid_text(const SidContent& content);
+
+/// Throws InputError with every fault of the text. Dimensions are checked; blocks that are missing
+/// have the right size and line 0.
+SidContent parse_sid_content(std::string_view text, const std::string& name);
+
+/// The body that has these blocks. Throws InputError if they contradict each other.
+SidBody sid_body(const SidContent& content, const std::string& name);
+
+}  // namespace floatframe

@@ -1,0 +1,134 @@
+#include "floatframe/model_file/instance_parameters.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "floatframe/core/printable.hpp"
+
+namespace floatframe {
+namespace {
+
+/// True if an expression in `text` uses `name`.
+bool mentions(std::string_view text, std::string_view name) {
+  const auto part_of_name = [&](std::size_t k) {
+    return k < text.size() && is_identifier(std::string("_") + text[k]);
+  };
+  for (std::size_t open = text.find("${"); open != std::string_view::npos;
+       open = text.find("${", open)) {
+    const std::size_t close = std::min(text.find('}', open), text.size());
+    for (std::size_t k = text.find(name, open); k < close; k = text.find(name, k + 1))
+      if (!part_of_name(k - 1) && !part_of_name(k + name.size())) return true;
+    open = close;
+  }
+  return false;
+}
+
+std::string shown(const ParameterValue& v) {
+  std::string text = value_text(v);
+  if (v.index() == 2) {
+    text.insert(text.begin(), '\'');
+    text += '\'';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<GivenParameter> read_override(const ParameterOverride& o, const std::string& path,
+                                            ReadFaults& faults) {
+  const SourceMark mark{path, 0, 0};
+  const auto refuse = [&](const std::string& why) {
+    faults.add(mark, "--set " + o.name + "=" + o.value.substr(0, 100) + ": " + why);
+    return std::nullopt;
+  };
+  if (o.value.size() > longest_text)
+    return refuse("found a text of " + std::to_string(o.value.size()) +
+                  " characters, expected at most " + std::to_string(longest_text));
+  if (printable(o.value) != o.value)
+    return refuse("expected UTF-8 text without control characters");
+  GivenParameter given{o.name, {}, mark, "--set", {}, {}};
+  const std::size_t n = o.value.size();
+  if (n > 2 && (o.value[0] == '\'' || o.value[0] == '"') && o.value[n - 1] == o.value[0]) {
+    given.raw = o.value.substr(1, n - 2);
+    given.value = given.raw;
+    return given;
+  }
+  if (o.value.find("${") != std::string::npos) {
+    try {
+      given.value = substitute_parameters(o.value, {});
+    } catch (const ExpressionError& error) {
+      return refuse(error.what());
+    }
+    return given;
+  }
+  const PlainScalar p = classify_plain_scalar(o.value);
+  if (o.value.empty()) return refuse("found nothing, expected a value");
+  given.raw = o.value;
+  given.value = given.raw;
+  if (p.kind == PlainScalar::Kind::number) given.value = p.number;
+  if (p.kind == PlainScalar::Kind::boolean) given.value = p.boolean;
+  given.complaint =
+      p.kind == PlainScalar::Kind::null ? std::string("this is no value") : p.complaint;
+  return given;
+}
+
+void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& given) {
+  ReadFaults& faults = *self.context.faults;
+  std::multimap<std::string, std::size_t> by_name;  // in the order given
+  for (std::size_t i = 0; i < given.size(); ++i) by_name.emplace(given[i].name, i);
+  std::vector<bool> used(given.size(), false);
+  std::vector<std::string> known;
+  if (const auto list = self.root->get("parameters")) {
+    const auto declared = list->named("a map of names to values");
+    std::set<std::string> hiding;  // not declared yet, but will hide a constant
+    for (const auto& [name, value] : declared) {
+      known.push_back(name);
+      if (is_constant_name(name)) hiding.insert(name);
+    }
+    for (const auto& [name, value] : declared) {
+      if (is_reserved_name(name)) {
+        value.entity_fault("the name is used by the expression language");
+        continue;
+      }
+      if (!is_identifier(name)) {
+        value.entity_fault("found a hyphen, expected letters, digits and _ in a parameter name");
+        continue;
+      }
+      for (const std::string& later : hiding)
+        if (value.is_scalar() && mentions(value.node().text, later))
+          value.fault("found " + value.found() + ", but the parameter '" + later +
+                      "', which takes the place of the constant, is declared later; expected it "
+                      "before its uses");
+      hiding.erase(name);
+      auto v = value.parameter();
+      for (auto [it, end] = by_name.equal_range(name); it != end; ++it) {
+        const GivenParameter& g = given[it->second];
+        used[it->second] = true;
+        if (v && v->index() == 2 && !g.raw.empty())
+          v = g.raw;
+        else if (!g.complaint.empty())
+          faults.add(g.mark, g.subject + " " + name + "=" + g.raw + ": found " + g.raw + " (" +
+                                 g.complaint + ")");
+        else if (v && v->index() != g.value.index())
+          faults.add(g.mark, g.subject + "." + name + ": found " + shown(g.value) + ", expected " +
+                                 type_name(*v));
+        else
+          v = g.value;
+      }
+      // A parameter that is wrong still exists, so that its uses are not errors too.
+      if (v && v->index() == 2 &&
+          !faults.take_of("characters in the texts of all parameters",
+                          std::get<std::string>(*v).size(), limits::parameter_text, value.mark(),
+                          value.path()))
+        v = std::string("?");
+      self.scope.emplace(name, v.value_or(1.0));
+    }
+  }
+  for (std::size_t i = 0; i < given.size(); ++i)
+    if (!used[i])
+      faults.add(given[i].mark, given[i].subject + ": unknown parameter '" + given[i].name + "'" +
+                                    faults.suggestion(given[i].name, [&] { return known; }));
+}
+
+}  // namespace floatframe

@@ -1,0 +1,35 @@
+#pragma once
+// From the model file to the tree of its instances: the files of subsystems, their parameters,
+// points, names and connections.
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "floatframe/model_file/model_instance.hpp"
+
+namespace floatframe {
+
+/// Files already parsed, each once.
+class ModelFiles {
+ public:
+  explicit ModelFiles(ReadFaults& faults) : faults_(faults) {}
+  /// nullptr and an error if the file cannot be read. `where`, `subject`: the place that names the
+  /// file.
+  const YamlDocument* load(const std::string& file, const SourceMark& where,
+                           const std::string& subject);
+  /// Position of the file in the order of loading (for sorting faults).
+  std::size_t order(const std::string& file) const;
+
+ private:
+  ReadFaults& faults_;
+  std::vector<std::pair<std::string, std::unique_ptr<YamlDocument>>> documents_;
+};
+
+/// Reads the file and, recursively, its subsystems: parameters, points and the names of all
+/// entities. nullptr if the model file itself cannot be read.
+std::unique_ptr<ModelInstance> load_instances(const std::string& path,
+                                              const std::vector<ParameterOverride>& overrides,
+                                              ModelFiles& files, ReadFaults& faults);
+
+}  // namespace floatframe

@@ -1,0 +1,108 @@
+#include "floatframe/model_file/model_reader.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model_file/load_instances.hpp"
+#include "floatframe/model_file/read_parts.hpp"
+
+namespace floatframe {
+namespace {
+
+const char* const top_keys[] = {"floatframe", "parameters", "points",  "bodies", "joints",
+                                "rods",       "forces",     "roads",   "inputs", "outputs",
+                                "initial",    "subsystems", "external"};
+
+/// All instances, outer ones first.
+void every(const ModelInstance& self, const std::function<void(const ModelInstance&)>& action) {
+  action(self);
+  for (const auto& [name, child] : self.children) every(*child, action);
+}
+
+void check_keys(const ModelInstance& self) {
+  if (!self.root) return;
+  YamlSection root = *self.root;
+  for (const char* key : top_keys) root.get(key);
+  root.get("name");
+  if (!self.outer) {
+    root.get("gravity");
+    root.get("simulation");
+  } else {
+    for (const char* key : {"gravity", "simulation"})
+      if (const auto v = root.get(key))
+        self.context.faults->add(
+            v->entity_mark(),
+            std::string(key) + ": found in a subsystem file, expected it in the model file only");
+  }
+  root.finish();
+}
+
+void read_top(const ModelInstance& self, const std::string& path, ReadModel& model) {
+  model.description.name = std::filesystem::path(path).stem().string();
+  if (!self.root) return;
+  YamlSection root = *self.root;
+  if (const auto v = root.get("name"))
+    if (const auto name = v->text("the name of the model")) {
+      const auto complaint = sentences::model_name(*name);
+      if (complaint)
+        v->fault("found " + v->found() + ", " + *complaint);
+      else
+        model.description.name = *name;
+    }
+  if (const auto v = root.get("gravity"))
+    if (const auto g = v->vector("m/s2")) model.description.gravity = *g;
+  if (!root.has("bodies") && self.children.empty() && !root.has("subsystems"))
+    root.fault("missing key 'bodies'");
+}
+
+/// Faults by file (in the order of loading), line and column, each once.
+std::vector<InputFault> sorted(std::vector<InputFault> faults, const ModelFiles& files) {
+  std::set<std::tuple<std::string, int, int, std::string>> seen;
+  std::erase_if(faults, [&](const InputFault& f) {
+    return !seen.insert({f.mark.file, f.mark.line, f.mark.column, f.message}).second;
+  });
+  std::stable_sort(faults.begin(), faults.end(), [&](const InputFault& a, const InputFault& b) {
+    return std::make_tuple(files.order(a.mark.file), a.mark.line, a.mark.column) <
+           std::make_tuple(files.order(b.mark.file), b.mark.line, b.mark.column);
+  });
+  return faults;
+}
+
+}  // namespace
+
+ModelDescription read_model(const std::string& path,
+                            const std::vector<ParameterOverride>& overrides, ModelFingerprint* used,
+                            const ReadOptions& options) {
+  std::optional<FilesRead> record;
+  if (used) record.emplace(used->files);
+  ReadFaults faults;
+  ModelFiles files(faults);
+  ReadModel model;
+  model.options = options;
+  const auto root = load_instances(path, overrides, files, faults);
+  if (faults.exhausted()) throw InputError(sorted(faults.take(), files));
+  if (root && used) {
+    for (const auto& [name, value] : root->scope) used->parameters.push_back(name);
+    fingerprint(*root, *used);
+  }
+  if (root && root->root) {
+    read_top(*root, path, model);
+    every(*root, check_keys);
+    for (const auto part : {read_bodies, read_joints, read_rods, read_roads, read_inputs,
+                            read_forces, read_initial, read_outputs})
+      every(*root, [&](const ModelInstance& self) { part(self, model); });
+    read_simulation(*root, model);
+    if (model.description.outputs.empty()) default_outputs(model);
+    if (faults.empty() && model.description.bodies.empty())
+      faults.add({path, 1, 1}, "bodies: found none, expected at least one body");
+  }
+  if (!faults.empty()) throw InputError(sorted(faults.take(), files));
+  return std::move(model.description);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,32 @@
+#pragma once
+// Reads a model file (YAML 1.2 subset, `floatframe: 1`) into a ModelDescription. docs/model-file.md
+// is its reference.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "floatframe/model/description.hpp"
+#include "floatframe/model_file/model_fingerprint.hpp"
+
+namespace floatframe {
+
+/// "name=value" parameter overrides, as the command line's --set gives them.
+struct ParameterOverride {
+  std::string name, value;
+};
+
+/// What takes time while a model is read, and what is remembered of it.
+struct ReadOptions {
+  /// Is told in one line what is going on: parts that are reduced or taken from the cache, what
+  /// their health reports warn of.
+  std::function<void(const std::string& line)> say;
+};
+
+/// Throws InputError with every fault found (file:line:column: sentence). `path` may hold subsystem
+/// references, which are read relative to its folder. `used`, if given, is told what was read, as
+/// far as the reading came.
+ModelDescription read_model(const std::string& path,
+                            const std::vector<ParameterOverride>& overrides = {},
+                            ModelFingerprint* used = nullptr, const ReadOptions& options = {});
+
+}  // namespace floatframe

@@ -1,0 +1,241 @@
+// Bodies: position and orientation, rigid data, the choice between rigid and flexible.
+#include <cmath>
+
+#include "floatframe/body/surface_points.hpp"
+#include "floatframe/core/enum_index.hpp"
+#include "floatframe/math/so3.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model_file/read_parts.hpp"
+
+namespace floatframe {
+namespace {
+
+Mat3 read_orientation(const YamlValue& value) {
+  const char* what =
+      "a rotation vector [rx, ry, rz] [rad], a quaternion [w, x, y, z] or {roll, pitch, yaw} [rad]";
+  if (value.is_map()) {
+    auto s = value.section();
+    const double roll = s->number("roll", any_number("rad"), 0.0);
+    const double pitch = s->number("pitch", any_number("rad"), 0.0);
+    const double yaw = s->number("yaw", any_number("rad"), 0.0);
+    s->finish();
+    return rotation_exp(yaw * Vec3::UnitZ()) * rotation_exp(pitch * Vec3::UnitY()) *
+           rotation_exp(roll * Vec3::UnitX());
+  }
+  const auto v = value.numbers(3, 4, any_number(""), what);
+  if (!v) return Mat3::Identity();
+  if (v->size() == 3) return rotation_exp(Vec3((*v)[0], (*v)[1], (*v)[2]));
+  const Eigen::Quaterniond q((*v)[0], (*v)[1], (*v)[2], (*v)[3]);
+  if (std::abs(q.norm() - 1.0) > 1e-6) {
+    value.fault("found a quaternion of length " + number_text(std::round(q.norm() * 1e6) / 1e6) +
+                ", expected length 1");
+    return Mat3::Identity();
+  }
+  return q.normalized().toRotationMatrix();
+}
+
+Mat3 read_inertia(const YamlValue& value) {
+  const char* what = "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] [kg m2]";
+  if (value.is_list() && value.node().items.size() != 3 && value.node().items.size() != 6) {
+    value.unexpected(what);
+    return Mat3::Zero();
+  }
+  const auto v = value.numbers(3, 6, any_number("kg m2"), what);
+  if (!v) return Mat3::Zero();
+  Mat3 J = Vec3((*v)[0], (*v)[1], (*v)[2]).asDiagonal();
+  if (v->size() == 6) {
+    J(0, 1) = J(1, 0) = (*v)[3];
+    J(0, 2) = J(2, 0) = (*v)[4];
+    J(1, 2) = J(2, 1) = (*v)[5];
+  }
+  value.complain(sentences::inertia(J));
+  return J;
+}
+
+struct RigidRead {
+  RigidDescription description;
+  std::optional<Vec3> centre;
+};
+
+RigidRead read_rigid(const ModelInstance& self, YamlSection s) {
+  RigidRead r;
+  r.description.mass = s.required_number("mass", rules::mass, 1.0);
+  if (const auto v = s.get("centre_of_mass")) r.centre = self.read_point(*v);
+  if (const auto v = s.get("inertia")) r.description.J_C = read_inertia(*v);
+  s.finish();
+  return r;
+}
+
+/// Which part, and whether it bends.
+struct PartChoice {
+  std::optional<YamlValue> value;  ///< of `part`, or of `flexible` alone
+  bool on = true;                  ///< flexible: true or false beside `part`
+  bool sound = true;
+};
+
+PartChoice read_choice(YamlSection& s) {
+  PartChoice out;
+  out.value = s.get("part");
+  const auto flexible = s.get("flexible");
+  if (!flexible) return out;
+  // A switch is true or false, also as the value of an expression.
+  std::optional<bool> on;
+  const std::size_t before = flexible->context().faults->size();
+  if (flexible->is_scalar())
+    if (const auto v = flexible->parameter())
+      if (const auto* truth = std::get_if<bool>(&*v)) on = *truth;
+  if (flexible->context().faults->size() > before) {
+    out.sound = false;
+    return out;
+  }
+  if (out.value) {
+    if (on)
+      out.on = *on;
+    else
+      flexible->fault("found " + flexible->found() +
+                      " beside 'part', expected true or false (or one of the two keys)");
+  } else if (on) {
+    flexible->fault("found " + flexible->found() +
+                    " without 'part', expected a part: bars, a finite-element file or the name "
+                    "of a body file");
+    out.sound = false;
+  } else {
+    out.value = flexible;
+  }
+  return out;
+}
+
+/// The design pose of a part and, with it, the world places of its nodes.
+void place_part(const ModelInstance& self, YamlSection& s, FlexibleRead& part,
+                const std::optional<Vec3>& position, const std::optional<YamlValue>& align,
+                double tolerance, BodyDescription& body) {
+  if (!part.body) {  // bars are written in the coordinates of the model file
+    if (align && part.sound)
+      align->fault("found with bars, which are in place already, expected a part from a file");
+    body.X_WB.p = position.value_or(part.first_point);
+    return;
+  }
+  body.X_WB.p = position.value_or(Vec3::Zero());
+  if (align) {
+    for (const char* key : {"position", "orientation"})
+      if (s.has(key)) align->fault(std::string("found with '") + key + "', expected one of them");
+    if (const auto X = read_alignment(self, *align, tolerance, *part.body))
+      body.X_WB = *X;
+    else
+      part.sound = false;
+  }
+  for (Vec3& p : part.nodes) p = body.X_WB * p;
+}
+
+void read_body(const ModelInstance& self, const std::string& name, YamlSection& s,
+               ReadModel& model) {
+  BodyDescription body;
+  KnownBody known;
+  body.name = self.prefix + name;
+  body.origin = s.origin();
+  std::optional<Vec3> position;
+  const auto position_value = s.get("position");
+  if (position_value) position = self.read_point(*position_value);
+  if (const auto v = s.get("orientation")) body.X_WB.R = read_orientation(*v);
+  const auto rigid_value = s.get("rigid");
+  const PartChoice part = read_choice(s);
+  const double tolerance = s.number("align_tolerance", positive_number("m"), 1e-6);
+  const auto align = s.get("align");
+  std::optional<std::size_t> use;
+  if (const auto v = s.get("use")) {
+    use = v->word({"rigid", "flexible"});
+    if (use && ((*use == 0 && !rigid_value) || (*use == 1 && !part.value)))
+      v->fault("found " + std::string(*use == 0 ? "rigid" : "flexible") +
+               ", but the body has no such group");
+  } else if (rigid_value && part.value) {
+    s.fault("found both rigid and flexible, expected a key 'use' that says which");
+  }
+  s.finish({"rigid.mass", "rigid.centre_of_mass", "rigid.inertia", "flexible.material",
+            "flexible.bars", "flexible.masses", "flexible.clamped", "flexible.static_modes",
+            "flexible.normal_modes", "flexible.mass_model", "flexible.damping"});
+  if (!rigid_value && !part.value) {
+    if (part.sound) s.fault("missing key 'rigid' or 'flexible'");
+    known.sound = false;
+  }
+
+  std::optional<RigidRead> rigid;
+  std::optional<FlexibleRead> flexible;
+  if (rigid_value)
+    if (auto group = rigid_value->section("a map with mass, centre_of_mass, inertia")) {
+      for (const auto& [key, mark] : group->origin().keys) body.origin.keys.emplace(key, mark);
+      rigid = read_rigid(self, *group);
+    }
+  if (part.value) {
+    if (part.value->is_map())
+      for (const auto& [key, mark] : YamlSection(*part.value).origin().keys)
+        body.origin.keys.emplace(key, mark);
+    flexible = read_part(self, model, body.name, *part.value);
+  }
+  const bool take_part = part.value && (!rigid_value || (use && *use == 1));
+  if (take_part) {
+    known.flexible = part.on;
+    body.rigid = !part.on;
+    place_part(self, s, *flexible, position, align, tolerance, body);
+    known.sound = flexible->sound;
+    known.nodes = std::move(flexible->nodes);
+    known.named_nodes = std::move(flexible->named_nodes);
+    known.modes = flexible->modes;
+    if (flexible->body && !part.on) remove_surface_points(*flexible->body);
+    if (flexible->body)
+      body.kind = std::move(*flexible->body);
+    else
+      body.kind = std::move(flexible->description);
+  } else if (rigid) {
+    const Vec3 centre = rigid->centre.value_or(position.value_or(Vec3::Zero()));
+    if (!rigid->centre && !position_value && rigid_value && !rigid_value->node().entries.empty() &&
+        !s.has("position")) {
+      bool given = false;
+      for (const YamlEntry& e : rigid_value->node().entries)
+        given = given || e.key == "centre_of_mass";
+      if (!given) s.fault("found neither position nor rigid.centre_of_mass, expected at least one");
+    }
+    if (align) align->fault("found on a rigid body, expected a part with markers");
+    body.X_WB.p = position.value_or(centre);
+    rigid->description.p_BC = body.X_WB.R.transpose() * (centre - body.X_WB.p);
+    body.kind = rigid->description;
+  } else {
+    known.sound = false;
+    body.kind = RigidDescription{};
+  }
+  body.X_WT = body.X_WB;
+  place(body, self.world);
+  known.origin = body.X_WB.p;
+  known.index = model.description.bodies.size();
+  for (Vec3& p : known.nodes) p = self.world.point(p);
+  model.bodies.emplace(body.name, std::move(known));
+  model.description.bodies.push_back(std::move(body));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInstance& self,
+                                                                 EntityKind kind) {
+  std::vector<std::pair<std::string, YamlSection>> out;
+  if (!self.root) return out;
+  YamlSection root = *self.root;
+  const auto list = root.get(entity_keys[index_of(kind)]);
+  if (!list || !list->is_map()) return out;
+  for (const auto& [name, value] : list->named("a map of names")) {
+    const auto& names = self.names[index_of(kind)];
+    const auto it = names.find(name);
+    if (it == names.end() || !it->second) continue;
+    auto section = value.section();
+    if (!section) continue;
+    section->get("when");
+    out.emplace_back(name, std::move(*section));
+  }
+  return out;
+}
+
+void read_bodies(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, section] : active_entities(self, EntityKind::body))
+    read_body(self, name, section, model);
+}
+
+}  // namespace floatframe

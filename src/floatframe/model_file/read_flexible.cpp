@@ -1,0 +1,251 @@
+// The group of a flexible body made of bars: material, masses, reference, modes; with the checks
+// that need the geometry.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model_file/read_parts.hpp"
+
+namespace floatframe {
+namespace {
+
+const std::vector<std::string> dof_names{"x", "y", "z", "rx", "ry", "rz"};
+
+class FlexibleReader {
+ public:
+  FlexibleReader(const ModelInstance& self, YamlSection& section)
+      : self_(self), section_(section) {}
+
+  FlexibleRead read() {
+    material();
+    read_bars(self_, section_, out_);
+    masses();
+    modes();
+    section_.finish();
+    return std::move(out_);
+  }
+
+ private:
+  FlexibleDescription& f() { return out_.description; }
+
+  void material() {
+    const auto value = section_.require("material");
+    if (!value) return;
+    auto m = value->section("a map with young, poisson, density");
+    if (!m) return;
+    f().young = m->required_number("young", rules::young, 1.0);
+    f().poisson = m->required_number("poisson", rules::poisson, 0.3);
+    f().density = m->required_number("density", rules::density, 1.0);
+    m->finish();
+  }
+
+  /// A node of this body by the name of its point.
+  std::optional<std::string> node_name(const YamlValue& value) {
+    const auto name = value.text("the name of an end point of a bar");
+    if (!name) return std::nullopt;
+    if (out_.named_nodes.count(*name)) return name;
+    if (!out_.sound) return std::nullopt;
+    const auto known = [&] { return keys_of(out_.named_nodes); };
+    value.fault(sentences::no_end_point(*name) + value.context().faults->suggestion(*name, known));
+    return std::nullopt;
+  }
+
+  void masses() {
+    const auto value = section_.get("masses");
+    if (!value) return;
+    for (const YamlValue& item : value->list("a list of masses {point, mass}")) {
+      auto s = item.section("a mass {point, mass}");
+      if (!s) continue;
+      NodeMass m;
+      m.origin = s->origin();
+      const auto point = s->require("point");
+      const auto name = point ? node_name(*point) : std::nullopt;
+      m.mass = s->required_number("mass", rules::mass, 0.0);
+      s->finish();
+      if (!name) continue;
+      m.node = *name;
+      f().masses.push_back(std::move(m));
+    }
+  }
+
+  /// One entry per dof, so that the order of the modes is that of the file.
+  std::vector<NodeDofs> dofs(const char* key) {
+    std::vector<NodeDofs> out;
+    const auto value = section_.get(key);
+    if (!value) return out;
+    for (const YamlValue& item : value->list("a list of points or {point, dofs}")) {
+      NodeDofs d;
+      std::vector<unsigned> bits;
+      std::optional<std::string> name;
+      if (item.is_map()) {
+        auto s = item.section();
+        d.origin = s->origin();
+        const auto point = s->require("point");
+        name = point ? node_name(*point) : std::nullopt;
+        if (const auto v = s->require("dofs")) {
+          if (v->is_list()) {
+            for (const YamlValue& w : v->list())
+              if (const auto k = w.word(dof_names)) bits.push_back(static_cast<unsigned>(*k));
+            if (v->node().items.empty())
+              v->fault("found an empty list, expected directions such as [x, y, z]");
+          } else if (const auto t = v->text("all or a list of x, y, z, rx, ry, rz")) {
+            if (*t == "all")
+              bits = {0, 1, 2, 3, 4, 5};
+            else
+              v->unexpected("all or a list of x, y, z, rx, ry, rz");
+          }
+        }
+        s->finish();
+      } else {
+        d.origin.mark = item.mark();
+        name = node_name(item);
+        bits = {0, 1, 2, 3, 4, 5};
+      }
+      if (!name) continue;
+      for (unsigned k : bits) {
+        const auto [it, fresh] = taken_.insert({*name, k});
+        if (!fresh) item.fault(sentences::dof_twice(*name, k));
+        d.node = *name;
+        d.mask = 1u << k;
+        if (fresh) out.push_back(d);
+      }
+    }
+    return out;
+  }
+
+  void modes() {
+    if (const auto v = section_.get("mass_model"))
+      if (const auto w = v->word(rules::mass_models)) f().mass_model = static_cast<MassModel>(*w);
+    f().orthonormalise = section_.boolean("orthonormal", false);
+    f().section_inertia = section_.boolean("section_inertia", false);
+    if (const auto v = section_.get("section_inertia"))
+      v->complain(sentences::section_inertia(f().section_inertia,
+                                             f().mass_model == MassModel::isoparametric));
+    f().damping_ratio = section_.number("damping", rules::damping_ratio, 0.0);
+    const std::size_t faults_before = self_.context.faults->size();
+    f().clamped = dofs("clamped");
+    f().interfaces = dofs("static_modes");
+    const auto normal = section_.get("normal_modes");
+    const auto analytic = section_.get("analytic");
+    const auto basis = section_.get("basis");
+    if (analytic) {
+      if (auto s = analytic->section("a map with dynamic_per_plane")) {
+        const auto n = s->require("dynamic_per_plane");
+        f().analytic.emplace();
+        f().analytic->dynamic_per_plane = n ? n->integer(rules::analytic_shapes).value_or(0) : 0;
+        s->finish();
+        out_.modes = 2 * (1 + f().analytic->dynamic_per_plane);
+      }
+      analytic->complain(sentences::analytic_shapes(f().bars.size(), f().masses.size()));
+    }
+    for (const char* key : {"clamped", "static_modes", "normal_modes"}) {
+      if (!section_.has(key) || (!analytic && !basis)) continue;
+      if (analytic || std::string(key) != "clamped")
+        section_.get(key)->fault(std::string("is not used with ") +
+                                 (analytic ? "analytic shapes" : "a given basis") +
+                                 ", expected no such key");
+    }
+    if (analytic && basis) basis->fault("found with analytic shapes, expected one of the two");
+    if (analytic) return;
+    if (basis) {
+      read_basis(*basis);
+      return;
+    }
+    if (normal && normal->is_map()) {
+      auto s = normal->section();
+      f().max_frequency = s->required_number("below", rules::mode_frequency, 1.0);
+      s->finish();
+    } else if (normal) {
+      const auto n = normal->integer(rules::normal_modes);
+      f().normal_modes = n.value_or(0);
+      if (n && out_.sound)
+        normal->complain(sentences::more_modes_than_dofs(
+            *n, out_.nodes.size(), f().mass_model == MassModel::isoparametric));
+    }
+    out_.modes =
+        f().max_frequency > 0.0 ? -1 : static_cast<int>(f().interfaces.size()) + f().normal_modes;
+    if (out_.modes == 0 && self_.context.faults->size() == faults_before)
+      section_.fault(sentences::no_modes());
+    if (!section_.has("clamped"))
+      section_.fault("missing key 'clamped'");
+    else if (out_.sound)
+      reference_removes_rigid_motion();
+  }
+
+  /// The clamped dofs must leave no rigid motion.
+  void reference_removes_rigid_motion() {
+    std::vector<std::pair<Vec3, unsigned>> clamped;
+    for (const NodeDofs& d : f().clamped)
+      clamped.emplace_back(f().points.at(d.node), static_cast<unsigned>(std::countr_zero(d.mask)));
+    section_.get("clamped")->complain(sentences::body_reference(clamped));
+  }
+
+  /// A CSV file without header: 6 rows a node (ux uy uz rx ry rz), one column a mode, in the body
+  /// frame.
+  void read_basis(const YamlValue& value) {
+    const auto name = value.text("the name of a CSV file");
+    if (!name) return;
+    const std::string file = beside(self_, *name);
+    std::string text;
+    if (!read_text_file(file, text, *value.context().faults, value.mark(), value.path())) return;
+    std::vector<std::vector<double>> rows;
+    std::istringstream in(text);
+    std::string line;
+    int number = 0;
+    const auto complain = [&](const std::string& sentence) {
+      value.context().faults->add({file, number, 1}, sentence);
+    };
+    while (std::getline(in, line)) {
+      ++number;
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      if (line.empty() || line[0] == '#') continue;
+      std::vector<double> row;
+      std::istringstream cells(line);
+      std::string cell;
+      while (std::getline(cells, cell, ',')) {
+        const std::size_t a = cell.find_first_not_of(" \t"), b = cell.find_last_not_of(" \t");
+        const std::string word = a == std::string::npos ? "" : cell.substr(a, b - a + 1);
+        const PlainScalar p = classify_plain_scalar(word);
+        if (p.kind != PlainScalar::Kind::number)
+          return complain("found '" + word.substr(0, 40) +
+                          "', expected numbers separated by commas");
+        row.push_back(p.number);
+      }
+      if (!rows.empty() && row.size() != rows.front().size())
+        return complain("found " + std::to_string(row.size()) + " columns, expected " +
+                        std::to_string(rows.front().size()) + " as in the first row");
+      rows.push_back(std::move(row));
+    }
+    if (out_.sound && rows.size() != 6 * out_.nodes.size()) {
+      value.fault("'" + file + "' has " + std::to_string(rows.size()) +
+                  " rows, expected 6 for each of the " + std::to_string(out_.nodes.size()) +
+                  " nodes");
+      return;
+    }
+    if (rows.empty() || rows.front().empty()) return;
+    MatX basis(static_cast<Eigen::Index>(rows.size()),
+               static_cast<Eigen::Index>(rows.front().size()));
+    for (Eigen::Index i = 0; i < basis.rows(); ++i)
+      for (Eigen::Index j = 0; j < basis.cols(); ++j) basis(i, j) = rows[i][j];
+    out_.modes = static_cast<int>(basis.cols());
+    f().basis = std::move(basis);
+  }
+
+  const ModelInstance& self_;
+  YamlSection& section_;
+  FlexibleRead out_;
+  std::set<std::pair<std::string, unsigned>> taken_;
+};
+
+}  // namespace
+
+FlexibleRead read_flexible(const ModelInstance& self, YamlSection section) {
+  return FlexibleReader(self, section).read();
+}
+
+}  // namespace floatframe

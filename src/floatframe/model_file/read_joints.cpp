@@ -1,0 +1,262 @@
+// Joints and rods, and the places on bodies that they and the forces use.
+#include <algorithm>
+#include <span>
+
+#include "floatframe/core/enum_index.hpp"
+#include "floatframe/model/joint_kind.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model_file/read_parts.hpp"
+
+namespace floatframe {
+namespace {
+
+std::vector<double> start_values(YamlSection& s, const char* key, JointType type) {
+  const auto v = s.get(key);
+  if (!v) return {};
+  const std::size_t n = joint_velocities(type);
+  if (n == 0) {
+    v->fault(sentences::weld_has_no_coordinates());
+    return {};
+  }
+  if (n == 1 && !v->is_list()) {
+    const auto x = v->number(any_number(""));
+    return x ? std::vector<double>{*x} : std::vector<double>{};
+  }
+  const std::string what = n == 1 ? "a number"
+                                  : "a list of " + std::to_string(n) + " numbers for a " +
+                                        joint_type_name(type) + " joint";
+  return v->numbers(n, n, any_number(""), what.c_str()).value_or(std::vector<double>{});
+}
+
+/// A node named for one side of a joint; its design point in coordinates of this file.
+std::optional<Vec3> joint_node(const ModelInstance& self, const ReadModel& model, YamlSection& s,
+                               const char* key, AttachmentDescription& side) {
+  const auto v = s.get(key);
+  const auto name = v ? v->text("the name of a node") : std::nullopt;
+  if (!name || !check_named_node(self, model, side.body, *name, *v)) return std::nullopt;
+  side.node = *name;
+  const KnownBody& body = model.bodies.at(side.body);
+  const Placement& w = self.world;
+  return w.P * (body.nodes[body.named_nodes.at(*name)] - w.t);
+}
+
+void read_joint(const ModelInstance& self, const std::string& name, YamlSection& s,
+                ReadModel& model) {
+  JointDescription j;
+  j.name = self.prefix + name;
+  j.origin = s.origin();
+  const auto type_value = s.require("type");
+  const std::size_t unknown = std::size(joint_words);
+  const std::size_t type = type_value ? type_value->word(joint_words).value_or(unknown) : unknown;
+  const auto parent_value = s.get("parent");
+  const auto parent =
+      parent_value ? self.reference(EntityKind::body, *parent_value) : std::string(ground_name);
+  const auto child_value = s.require("child");
+  const auto child = child_value ? self.reference(EntityKind::body, *child_value) : std::nullopt;
+  if (child && *child == ground_name)
+    child_value->fault(sentences::ground_as_child());
+  else if (parent && child && *parent == *child)
+    child_value->fault(sentences::child_is_parent());
+  j.parent.body = parent.value_or(ground_name);
+  j.child.body = child.value_or(ground_name);
+  j.parent.origin = j.child.origin = j.origin;
+  const auto of_parent = joint_node(self, model, s, "parent_node", j.parent);
+  const auto of_child = joint_node(self, model, s, "child_node", j.child);
+  const auto at = s.get("at");
+  std::optional<Vec3> point;
+  if (at) {
+    point = self.read_point(*at);
+  } else if (of_parent || of_child) {
+    point = of_parent ? of_parent : of_child;
+  } else if (!s.has("parent_node") && !s.has("child_node")) {
+    if (type < unknown && joint_is_free(static_cast<JointType>(type))) {
+      if (child) point = frame_origin(self, model, *child);
+      if (point && parent) check_node(self, model, *parent, *point, s.value());
+    } else if (type < unknown) {
+      s.fault("missing key 'at'");
+    }
+  }
+  j.parent.point = j.child.point = point.value_or(Vec3::Zero());
+  if (const auto place = at ? at : s.get(of_parent ? "parent_node" : "child_node");
+      point && place) {
+    bool good = true;
+    if (parent && !j.parent.node) good = check_node(self, model, *parent, *point, *place);
+    if (good && child && !j.child.node) check_node(self, model, *child, *point, *place);
+  }
+  if (type >= unknown) {
+    for (const char* key : {"axis", "axis_2", "position", "velocity", "keep", "motion", "cut"})
+      s.get(key);
+    s.finish();
+    return;
+  }
+  j.type = static_cast<JointType>(type);
+  const JointAxes axes = joint_kind(j.type).axes;
+  if (axes != JointAxes::none) {
+    const auto axis = s.require("axis");
+    if (const auto a = axis ? read_direction(*axis) : std::nullopt) {
+      j.axis = a->stableNormalized();
+      if (axes == JointAxes::two) {
+        const auto second = s.require("axis_2");
+        if (const auto b = second ? read_direction(*second) : std::nullopt) {
+          j.axis_2 = b->stableNormalized();
+          second->complain(sentences::second_axis(j.axis, j.axis_2));
+        }
+      }
+    } else if (axes == JointAxes::two) {
+      if (const auto second = s.require("axis_2")) read_direction(*second);
+    }
+  }
+  const auto unused = [&](const char* key) {
+    if (const auto v = s.get(key))
+      v->fault(sentences::not_used_by_joint(joint_words[type]));
+  };
+  if (axes == JointAxes::none) unused("axis");
+  if (axes != JointAxes::two) unused("axis_2");
+  if (!joint_has_one_coordinate(j.type)) unused("motion");
+  j.position = start_values(s, "position", j.type);
+  j.velocity = start_values(s, "velocity", j.type);
+  j.keep = s.boolean("keep", false);
+  if (j.keep && !s.has("position") && !s.has("velocity"))
+    s.get("keep")->fault(sentences::keep_alone());
+  if (joint_has_one_coordinate(j.type))
+    if (const auto v = s.get("motion")) {
+      j.motion = read_time_function(*v, joint_unit_name(j.type, 0), Interpolation::cubic);
+      for (const char* key : {"position", "velocity"})
+        if (s.has(key)) s.get(key)->fault(sentences::motion_and_start_value());
+    }
+  j.cut = s.boolean("cut", false);
+  s.finish();
+  model.joints.emplace(j.name, j.type);
+  place(j, self.world);
+  model.description.joints.push_back(std::move(j));
+}
+
+}  // namespace
+
+std::optional<Vec3> read_direction(const YamlValue& value) {
+  if (value.is_scalar()) {
+    const auto w = value.word({"x", "y", "z", "-x", "-y", "-z"});
+    if (!w) return std::nullopt;
+    return (*w < 3 ? 1.0 : -1.0) * Vec3::Unit(static_cast<Eigen::Index>(*w % 3));
+  }
+  const auto v = value.vector("");
+  const auto complaint = v ? sentences::direction(*v) : std::nullopt;
+  value.complain(complaint);
+  return complaint ? std::nullopt : v;
+}
+
+std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& model,
+                                 const std::string& body) {
+  const auto it = model.bodies.find(body);
+  if (it == model.bodies.end()) return std::nullopt;
+  const Placement& w = self.world;  // P is its own inverse
+  return Vec3(w.P * (it->second.origin - w.t));
+}
+
+bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
+                const Vec3& point, const YamlValue& value) {
+  const auto it = model.bodies.find(body);
+  if (it == model.bodies.end() || !it->second.flexible || !it->second.sound) return true;
+  const Vec3 p = self.world.point(point);
+  const std::vector<Vec3>& nodes = it->second.nodes;
+  const auto nearer = [&](const Vec3& a, const Vec3& b) { return (a - p).norm() < (b - p).norm(); };
+  const auto nearest = std::min_element(nodes.begin(), nodes.end(), nearer);
+  if (nearest != nodes.end() && (*nearest - p).norm() <= rules::node_tolerance) return true;
+  const Placement& w = self.world;
+  const Vec3 there = nearest != nodes.end() ? Vec3(w.P * (*nearest - w.t)) : Vec3::Zero().eval();
+  value.fault(
+      sentences::no_node_at(point, self.written(body), nearest != nodes.end() ? &there : nullptr));
+  return false;
+}
+
+bool check_named_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
+                      const std::string& node, const YamlValue& value) {
+  const auto it = model.bodies.find(body);
+  if (it == model.bodies.end()) {
+    if (body == ground_name) value.fault(sentences::node_on_ground());
+    return false;
+  }
+  if (!it->second.sound) return false;
+  if (!it->second.flexible && it->second.named_nodes.empty()) {
+    value.fault(sentences::node_on_rigid_body(self.written(body)));
+    return false;
+  }
+  if (it->second.named_nodes.count(node)) return true;
+  const auto known = [&] { return keys_of(it->second.named_nodes); };
+  value.fault(sentences::no_node_named(self.written(body), it->second.flexible, node) +
+              self.context.faults->suggestion(node, known));
+  return false;
+}
+
+std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
+                                                     const ReadModel& model, YamlSection s) {
+  AttachmentDescription a;
+  a.origin = s.origin();
+  const auto body_value = s.require("body");
+  const auto body = body_value ? self.reference(EntityKind::body, *body_value) : std::nullopt;
+  const auto at = s.get("at");
+  const auto node = s.get("node");
+  s.finish();
+  if (at && node) {
+    node->fault("found with 'at', expected one of the two");
+    return std::nullopt;
+  }
+  const auto point = at ? self.read_point(*at) : std::nullopt;
+  if (!body || (at && !point)) return std::nullopt;
+  a.body = *body;
+  if (node) {
+    const auto name = node->text("the name of a node");
+    if (!name || !check_named_node(self, model, *body, *name, *node)) return std::nullopt;
+    a.node = *name;
+    const auto it = model.bodies.find(*body);
+    const Placement& w = self.world;
+    a.point = w.P * (it->second.nodes[it->second.named_nodes.at(*name)] - w.t);
+    return a;
+  }
+  if (point) {
+    a.point = *point;
+    if (!check_node(self, model, *body, *point, *at)) return std::nullopt;
+    return a;
+  }
+  const auto origin = frame_origin(self, model, *body);
+  if (!origin) {
+    s.fault("missing key 'at'");  // the ground has no frame origin of its own
+    return std::nullopt;
+  }
+  a.point = *origin;
+  return a;
+}
+
+void read_joints(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, section] : active_entities(self, EntityKind::joint))
+    read_joint(self, name, section, model);
+}
+
+void read_rods(const ModelInstance& self, ReadModel& model) {
+  for (auto& [name, s] : active_entities(self, EntityKind::rod)) {
+    RodDescription r;
+    r.name = self.prefix + name;
+    r.origin = s.origin();
+    std::optional<AttachmentDescription> ends[2];
+    const char* keys[2] = {"from", "to"};
+    for (int i = 0; i < 2; ++i)
+      if (const auto v = s.require(keys[i]))
+        if (auto end = v->section("a place {body, at}"))
+          ends[i] = read_attachment(self, model, *end);
+    if (const auto v = s.get("length")) r.length = v->number(rules::rod_length);
+    s.finish();
+    if (!ends[0] || !ends[1]) continue;
+    r.a = *ends[0];
+    r.b = *ends[1];
+    if (r.a.body == r.b.body)
+      s.fault(sentences::both_ends_on(self.written(r.a.body)));
+    else if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point);
+             complaint && !s.has("length"))
+      s.fault(*complaint);
+    place(r, self.world);
+    model.description.rods.push_back(std::move(r));
+  }
+}
+
+}  // namespace floatframe

@@ -1,0 +1,210 @@
+// Laws of springs, dampers and loads: functions of a length, rate, angle or time.
+#include <cmath>
+
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model_file/read_parts.hpp"
+#include "floatframe/yaml/read_table.hpp"
+
+namespace floatframe {
+namespace {
+
+std::vector<double> coefficients(const YamlValue& value) {
+  const auto c = value.numbers(1, rules::most_coefficients, any_number(""), rules::coefficients);
+  return c.value_or(std::vector<double>{0.0});
+}
+
+PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units) {
+  std::vector<double> breaks;
+  std::vector<PiecewisePolynomial::Piece> pieces;
+  const std::vector<YamlValue> items = value.list("a list of pieces {below: x, polynomial: [...]}");
+  if (value.is_list() && items.empty())
+    value.unexpected("a list of pieces {below: x, polynomial: [...]}");
+  bool good = !items.empty();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    auto piece = items[i].section("a piece {below: x, polynomial: [...]}");
+    if (!piece) return {};
+    const bool last = i + 1 == items.size();
+    if (!last) {
+      const auto below = piece->require("below");
+      const auto x = below ? below->number(any_number(units.x)) : std::nullopt;
+      if (!x) good = false;
+      if (x && !breaks.empty() && *x <= breaks.back())
+        below->unexpected("a number above the previous one, " + number_text(breaks.back())),
+            good = false;
+      breaks.push_back(x.value_or(breaks.empty() ? 0.0 : breaks.back() + 1.0));
+    } else if (const auto below = piece->get("below")) {
+      below->fault("the last piece has no upper end, expected no key 'below'");
+    }
+    const auto p = piece->require("polynomial");
+    good = good && p;
+    const double about = piece->number("about", any_number(units.x), 0.0);
+    pieces.push_back({about, p ? coefficients(*p) : std::vector<double>{0.0}});
+    piece->finish();
+  }
+  if (!good) return {};
+  const PiecewisePolynomial f(breaks, std::move(pieces));
+  if (const auto jump = sentences::jump(f)) items[jump->first].fault(jump->second);
+  return f;
+}
+
+PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Interpolation usual,
+                               Beyond beyond, const char* x_unit) {
+  Interpolation interpolation = usual;
+  if (const auto i = section.get("interpolation"))
+    if (const auto w = i->word({"linear", "cubic"}))
+      interpolation = *w == 0 ? Interpolation::linear : Interpolation::cubic;
+  const TableRows table = read_table_rows(value, any_number(""), "a point [x, f]");
+  bool good = table.good;
+  if (value.is_list() && value.node().items.size() < 2) {
+    value.unexpected("a table of at least 2 points [x, f]");
+    good = false;
+  } else if (good && table.rows.size() < 2) {
+    value.fault("found " + std::to_string(table.rows.size()) +
+                (table.rows.size() == 1 ? " row in '" : " rows in '") + table.file +
+                "', expected a table of at least 2 points");
+    good = false;
+  }
+  std::vector<TablePoint> points;
+  for (const TableRow& row : table.rows) {
+    if (!points.empty() && row.point.x <= points.back().x) {
+      table.fault(row, "found x = " + number_text(row.point.x) + " after " +
+                           number_text(points.back().x) + ", expected ascending x [" + x_unit +
+                           "]");
+      good = false;
+    }
+    points.push_back(row.point);
+  }
+  if (!good) return {};
+  PiecewisePolynomial f = table_function(points, interpolation, beyond);
+  for (std::size_t k = 1; k < points.size(); ++k)  // the piece between points k - 1 and k
+    for (const double c : f.pieces()[k].coefficients)
+      if (!std::isfinite(c)) {
+        table.fault(table.rows[k], "found the step from " + number_text(points[k - 1].f) + " to " +
+                                       number_text(points[k].f) + " over " +
+                                       number_text(points[k].x - points[k - 1].x) + " [" + x_unit +
+                                       "], expected a slope that is a finite number");
+        return {};
+      }
+  return f;
+}
+
+constexpr const char* time_laws =
+    "a number or a map with one of polynomial, piecewise, table, and sine";
+
+/// The keys of a function of time; a fault with `expected` if there are none, unless it is null.
+TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation table,
+                        const char* expected) {
+  TimeFunction f;
+  int laws = 0;
+  if (const auto v = section.get("polynomial")) {
+    ++laws;
+    f.pieces = PiecewisePolynomial(
+        {}, {{section.number("about", any_number("s"), 0.0), coefficients(*v)}});
+  }
+  if (const auto v = section.get("piecewise")) {
+    ++laws;
+    f.pieces = read_piecewise(*v, {"s", unit, unit});
+  }
+  if (const auto v = section.get("table")) {
+    ++laws;
+    f.pieces = read_table(section, *v, table, Beyond::hold, "s");
+  }
+  bool sine = false;
+  if (const auto v = section.get("sine")) {
+    sine = true;
+    if (auto s = v->section("a map with amplitude, frequency, phase")) {
+      f.amplitude = s->required_number("amplitude", any_number(unit), 0.0);
+      f.frequency = s->required_number("frequency", rules::sine_frequency, 1.0);
+      f.phase = s->number("phase", any_number("rad"), 0.0);
+      s->finish();
+    }
+  }
+  section.finish();
+  if (laws > 1 || (laws == 0 && !sine && expected != nullptr))
+    section.fault("found " + std::to_string(laws) + " laws, expected " +
+                  (expected != nullptr ? expected : time_laws));
+  return f;
+}
+
+TimeFunction constant(const YamlValue& value, const char* unit) {
+  TimeFunction f;
+  if (const auto c = value.number(any_number(unit)))
+    f.pieces = PiecewisePolynomial::polynomial({*c});
+  return f;
+}
+
+}  // namespace
+
+PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units) {
+  const std::string forms = "a number [" + std::string(units.slope) +
+                            "] or a map with one of linear, polynomial, piecewise, table";
+  if (!value.is_map()) {
+    const NumberRule rule{"a number", units.slope};
+    if (value.is_list() ||
+        (value.is_scalar() && !value.looks_like_number() &&
+         value.node().text.find("${") == std::string::npos &&
+         classify_plain_scalar(value.node().text).kind == PlainScalar::Kind::text)) {
+      value.unexpected(forms);
+      return {};
+    }
+    const auto k = value.number(rule);
+    return k ? PiecewisePolynomial::linear(*k, free) : PiecewisePolynomial();
+  }
+  auto section = value.section();
+  PiecewisePolynomial f;
+  int laws = 0;
+  if (const auto v = section->get("linear")) {
+    ++laws;
+    if (auto s = v->section("a map with stiffness, free, preload")) {
+      const double k = s->required_number("stiffness", any_number(units.slope), 0.0);
+      const double x0 = s->number("free", any_number(units.x), free);
+      const double f0 = s->number("preload", any_number(units.f), 0.0);
+      f = PiecewisePolynomial({}, {{x0, {f0, k}}});
+      s->finish();
+    }
+  }
+  if (const auto v = section->get("polynomial")) {
+    ++laws;
+    const double about = section->number("about", any_number(units.x), 0.0);
+    f = PiecewisePolynomial({}, {{about, coefficients(*v)}});
+  }
+  if (const auto v = section->get("piecewise")) {
+    ++laws;
+    f = read_piecewise(*v, units);
+  }
+  if (const auto v = section->get("table")) {
+    ++laws;
+    f = read_table(*section, *v, Interpolation::linear, Beyond::tangent, units.x);
+  }
+  section->finish();
+  if (laws != 1) section->fault("found " + std::to_string(laws) + " laws, expected " + forms);
+  return f;
+}
+
+TimeFunction read_time_function(const YamlValue& value, const char* unit, Interpolation table) {
+  if (!value.is_map()) return constant(value, unit);
+  auto section = value.section();
+  return time_terms(*section, unit, table, time_laws);
+}
+
+SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
+                              Interpolation table) {
+  SignalDescription signal;
+  TimeFunction& function = signal;
+  if (!value.is_map()) {
+    function = constant(value, unit);
+    return signal;
+  }
+  auto section = value.section();
+  const auto input = section->get("input");
+  if (input)
+    if (const auto name = self.reference(EntityKind::input, *input)) signal.input = *name;
+  function = time_terms(*section, unit, table,
+                        input ? nullptr
+                              : "a number or a map with input or one of polynomial, piecewise, "
+                                "table, and sine");
+  return signal;
+}
+
+}  // namespace floatframe

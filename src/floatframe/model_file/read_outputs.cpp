@@ -1,0 +1,265 @@
+// Result columns and initial modal amplitudes.
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "floatframe/core/enum_index.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model_file/read_parts.hpp"
+
+namespace floatframe {
+namespace {
+
+struct Quantity {
+  OutputKind kind;
+  enum class Of { point, body, joint, mode, force } of;
+  const char* key() const { return rules::quantities[index_of(kind)]; }
+};
+constexpr Quantity quantities[] = {
+    {OutputKind::position, Quantity::Of::point},
+    {OutputKind::velocity, Quantity::Of::point},
+    {OutputKind::acceleration, Quantity::Of::point},
+    {OutputKind::rotation, Quantity::Of::body},
+    {OutputKind::angular_velocity, Quantity::Of::body},
+    {OutputKind::joint_position, Quantity::Of::joint},
+    {OutputKind::joint_velocity, Quantity::Of::joint},
+    {OutputKind::modal_amplitude, Quantity::Of::mode},
+    {OutputKind::force, Quantity::Of::force},
+    {OutputKind::length, Quantity::Of::force},
+    {OutputKind::rate, Quantity::Of::force},
+};
+
+class OutputReader {
+ public:
+  OutputReader(const ModelInstance& self, ReadModel& model) : self_(self), model_(model) {}
+
+  void read(const std::string& name, const YamlValue& value) {
+    if (const auto complaint = sentences::column_name(name)) {
+      value.entity_fault(*complaint);
+      return;
+    }
+    auto s = value.section("a quantity, for example {position: body, axis: z}");
+    if (!s) return;
+    if (const auto when = s->get("when"))
+      if (!when->boolean().value_or(true)) return;
+    const Quantity* quantity = nullptr;
+    int found = 0;
+    for (const Quantity& q : quantities)
+      if (s->get(q.key())) ++found, quantity = &q;
+    if (found != 1) {
+      for (const char* k : {"axis", "angle", "mode", "coordinate"}) s->get(k);
+      s->finish();
+      s->fault("found " + std::to_string(found) +
+               " quantities, expected one of position, velocity, acceleration, rotation, "
+               "angular_velocity, "
+               "joint_position, joint_velocity, modal_amplitude, force, length, rate");
+      return;
+    }
+    OutputDescription o;
+    o.kind = quantity->kind;
+    o.origin = s->origin();
+    const YamlValue what = *s->get(quantity->key());
+    switch (quantity->of) {
+      case Quantity::Of::point:
+        point(name, *s, what, o);
+        break;
+      case Quantity::Of::body:
+        if (const auto body = moving_body(what)) {
+          o.at.body = *body;
+          components(name, *s, o, o.kind == OutputKind::rotation);
+        } else {
+          s->get(o.kind == OutputKind::rotation ? "angle" : "axis");
+        }
+        break;
+      case Quantity::Of::joint:
+        joint(name, *s, what, o);
+        break;
+      case Quantity::Of::mode:
+        mode(name, *s, what, o);
+        break;
+      case Quantity::Of::force:
+        if (const auto f = self_.reference(EntityKind::force, what)) {
+          o.entity = *f;
+          const auto type = model_.force_types.find(*f);
+          const bool measured = type == model_.force_types.end() ||
+                                (type->second != "force" && type->second != "torque");
+          if (o.kind != OutputKind::force && !measured)
+            what.fault(sentences::load_without(type->second, quantity->key()));
+          add(name, o);
+        }
+        break;
+    }
+    s->finish();
+  }
+
+ private:
+  void add(const std::string& name, OutputDescription o) {
+    o.name = self_.prefix + name;
+    place(o, self_.world);
+    ReadFaults& faults = *self_.context.faults;
+    const bool exists = !model_.columns.insert(o.name).second;
+    if (const auto complaint = sentences::column_taken(o.name, exists)) {
+      faults.add(o.origin.mark, "outputs: " + *complaint);
+      return;
+    }
+    if (!faults.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
+    model_.description.outputs.push_back(std::move(o));
+  }
+
+  /// One component named by `axis` or `angle`, or all three.
+  void components(const std::string& name, YamlSection& s, OutputDescription o, bool angles) {
+    const std::span<const char* const> words = angles ? rules::angles : rules::axes;
+    if (const auto v = s.get(angles ? "angle" : "axis")) {
+      if (const auto w = v->word(words)) {
+        o.component = static_cast<int>(*w);
+        add(name, o);
+      }
+      return;
+    }
+    for (int k = 0; k < 3; ++k) {
+      o.component = k;
+      add(name + "." + words[k], o);
+    }
+  }
+
+  std::optional<std::string> moving_body(const YamlValue& value) {
+    const auto body = self_.reference(EntityKind::body, value);
+    if (body && *body == ground_name) {
+      value.fault(sentences::ground_is_no_body());
+      return std::nullopt;
+    }
+    return body;
+  }
+
+  void point(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    std::optional<AttachmentDescription> at;
+    if (what.is_map()) {
+      if (auto place_section = what.section()) at = read_attachment(self_, model_, *place_section);
+    } else if (const auto body = moving_body(what)) {
+      if (const auto origin = frame_origin(self_, model_, *body)) {
+        at.emplace();
+        at->body = *body;
+        at->point = *origin;
+      }
+    }
+    if (!at) {
+      s.get("axis");
+      return;
+    }
+    o.at = *at;
+    components(name, s, o, false);
+  }
+
+  void joint(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    const auto j = self_.reference(EntityKind::joint, what);
+    const auto coordinate = s.get("coordinate");
+    if (!j) return;
+    o.entity = *j;
+    const auto it = model_.joints.find(*j);
+    if (it == model_.joints.end()) return;
+    const int n = joint_velocities(it->second);
+    if (n == 0) {
+      what.fault(sentences::weld_does_not_move());
+      return;
+    }
+    if (coordinate) {
+      const auto k = coordinate->integer(1, n, "the number of a coordinate");
+      if (!k) return;
+      o.component = *k - 1;
+    } else if (n > 1) {
+      s.fault("missing key 'coordinate'");
+      return;
+    }
+    add(name, o);
+  }
+
+  void mode(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    const auto body = moving_body(what);
+    const auto number = s.require("mode");
+    if (!body || !number) return;
+    o.at.body = *body;
+    const auto it = model_.bodies.find(*body);
+    if (it == model_.bodies.end() || !it->second.sound) return;
+    if (!it->second.flexible) {
+      what.fault(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
+      return;
+    }
+    const auto k =
+        number->integer(1, it->second.modes < 0 ? 10000 : it->second.modes, "the number of a mode");
+    if (!k) return;
+    o.component = *k - 1;
+    add(name, o);
+  }
+
+  const ModelInstance& self_;
+  ReadModel& model_;
+};
+
+void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValue& value,
+                     const char* key, std::map<std::string, VecX>& out) {
+  for (const auto& [name, v] : value.named("a map of bodies to lists of modal amplitudes", true)) {
+    const auto body = self.moving_body(name, v);
+    if (!body) continue;
+    const auto it = model.bodies.find(*body);
+    if (it == model.bodies.end() || !it->second.sound) continue;
+    if (!it->second.flexible) {
+      v.entity_fault(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
+      continue;
+    }
+    const int n = it->second.modes;
+    const std::size_t most = n < 0 ? 10000 : n;
+    const std::string what = "a list of " + std::to_string(n) + " amplitudes, one a mode";
+    const auto a = v.numbers(n < 0 ? 1 : most, most, any_number(""),
+                             n < 0 ? "a list of amplitudes" : what.c_str());
+    if (!a) continue;
+    out[*body] = Eigen::Map<const VecX>(a->data(), static_cast<Eigen::Index>(a->size()));
+    // With normal modes below a frequency their number is known only when the body is reduced.
+    model.description.bodies[it->second.index].origin.keys[key] = v.mark();
+  }
+}
+
+}  // namespace
+
+void read_initial(const ModelInstance& self, ReadModel& model) {
+  if (!self.root) return;
+  YamlSection root = *self.root;
+  const auto value = root.get("initial");
+  if (!value) return;
+  auto s = value->section("a map with amplitudes and amplitude_rates");
+  if (!s) return;
+  if (const auto v = s->get("amplitudes"))
+    read_amplitudes(self, model, *v, "initial.amplitudes", model.description.amplitudes);
+  if (const auto v = s->get("amplitude_rates"))
+    read_amplitudes(self, model, *v, "initial.amplitude_rates", model.description.amplitude_rates);
+  s->finish();
+}
+
+void read_outputs(const ModelInstance& self, ReadModel& model) {
+  if (!self.root) return;
+  YamlSection root = *self.root;
+  const auto value = root.get("outputs");
+  if (!value) return;
+  OutputReader reader(self, model);
+  for (const auto& [name, v] : value->named("a map of column names to quantities", true))
+    reader.read(name, v);
+}
+
+void default_outputs(ReadModel& model) {
+  for (const BodyDescription& b : model.description.bodies) {
+    if (!b.rigid && !std::holds_alternative<RigidDescription>(b.kind)) continue;
+    for (int k = 0; k < 3; ++k) {
+      OutputDescription o;
+      o.name = b.name + "." + "xyz"[k];
+      o.kind = OutputKind::position;
+      o.at.body = b.name;
+      o.at.point = b.X_WB.p;
+      o.component = k;
+      o.origin.mark = b.origin.mark;
+      model.description.outputs.push_back(std::move(o));
+    }
+  }
+}
+
+}  // namespace floatframe

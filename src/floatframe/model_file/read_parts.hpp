@@ -1,0 +1,116 @@
+#pragma once
+// The parts of the model reader, one subject a file. Each reads one key of a model file from one
+// instance, in the coordinates of that file, places the result in the world and appends it to the
+// description.
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "floatframe/math/piecewise_build.hpp"
+#include "floatframe/model_file/model_instance.hpp"
+
+namespace floatframe {
+
+struct PartJob;
+
+/// What joints, forces and outputs need to know of a body that has been read.
+struct KnownBody {
+  Vec3 origin = Vec3::Zero();  ///< of the body frame, world [m]
+  bool flexible = false;       ///< has modes; a rigid part has none and keeps its named nodes
+  bool sound = true;           ///< its nodes are known (no fault in its bars or its file)
+  std::vector<Vec3> nodes;     ///< world design positions [m]
+  std::map<std::string, std::size_t> named_nodes;
+  int modes = 0;          ///< -1: decided by a frequency limit
+  std::size_t index = 0;  ///< in the description
+};
+
+struct ReadModel {
+  ModelDescription description;
+  std::map<std::string, KnownBody> bodies;         ///< by full name
+  std::map<std::string, JointType> joints;         ///< by full name
+  std::map<std::string, std::string> force_types;  ///< by full name
+  std::set<std::string> columns;                   ///< names of outputs
+  ReadOptions options;
+};
+
+void read_bodies(const ModelInstance& self, ReadModel& model);
+void read_joints(const ModelInstance& self, ReadModel& model);
+void read_rods(const ModelInstance& self, ReadModel& model);
+void read_roads(const ModelInstance& self, ReadModel& model);
+void read_inputs(const ModelInstance& self, ReadModel& model);
+void read_forces(const ModelInstance& self, ReadModel& model);
+void read_initial(const ModelInstance& self, ReadModel& model);
+void read_outputs(const ModelInstance& self, ReadModel& model);
+void read_simulation(const ModelInstance& self, ReadModel& model);
+/// x, y, z of every rigid body.
+void default_outputs(ReadModel& model);
+
+/// A flexible body as it is described: bars, or a part that is reduced already.
+struct FlexibleRead {
+  FlexibleDescription description;
+  std::optional<FlexibleBody> body;  ///< from a file: takes the place of the description
+  bool sound = false;
+  Vec3 first_point = Vec3::Zero();  ///< of the first bar
+  std::vector<Vec3> nodes;          ///< coordinates of this file; of `body`: of the part
+  std::map<std::string, std::size_t> named_nodes;
+  int modes = 0;  ///< -1: decided by a frequency limit
+};
+/// A group of bars.
+FlexibleRead read_flexible(const ModelInstance& self, YamlSection section);
+/// The key `bars` of such a group: bars, points, nodes.
+void read_bars(const ModelInstance& self, YamlSection& section, FlexibleRead& out);
+/// What stands after `flexible` or `part`: a group of bars, a group with a finite-element file, the
+/// name of a body file. `body` is for messages.
+FlexibleRead read_part(const ModelInstance& self, const ReadModel& model, const std::string& body,
+                       const YamlValue& value);
+/// A group with a finite-element file as a job. nullopt and faults if something in it is wrong.
+std::optional<PartJob> read_part_job(const ModelInstance& self, YamlSection section);
+/// align: {marker: point}: the motion of the part that brings its markers to the points of this
+/// file, in the least-squares sense. nullopt and faults at markers that stay away from their
+/// points.
+std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& value,
+                                   double tolerance, const FlexibleBody& part);
+/// `file` as written in a file of the model: relative to the folder of that file.
+std::string beside(const ModelInstance& self, const std::string& file);
+
+/// Entities of a kind that are not switched off, as sections with `when` already asked for.
+std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInstance& self,
+                                                                 EntityKind kind);
+
+/// A direction: [x, y, z] of any length but zero, or x, y, z, -x, -y, -z. Returned as given (not
+/// normalised).
+std::optional<Vec3> read_direction(const YamlValue& value);
+
+/// {body: name, at: point} or {body: name, node: name}; without either it is the origin of the body
+/// frame. Points of flexible bodies are checked to be nodes. Coordinates of this file.
+std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
+                                                     const ReadModel& model, YamlSection section);
+/// Origin of the frame of a body in coordinates of this file; nullopt for the ground. On a flexible
+/// body it need not be a node: a marker there belongs to the frame itself.
+std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& model,
+                                 const std::string& body);
+/// Fault at `value` if a flexible body has no node at `point` (coordinates of this file).
+bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
+                const Vec3& point, const YamlValue& value);
+/// Fault at `value` if the body has no node of that name.
+bool check_named_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
+                      const std::string& node, const YamlValue& value);
+
+/// A law f(x): a number k: k (x - free); {linear: {stiffness, free, preload}}; {polynomial: [c0,
+/// c1, ...], about: x0}; {piecewise: [...]}; {table: [...], interpolation: ...}. `free` is the
+/// default of the free value.
+struct LawUnits {
+  const char* x = "m";
+  const char* f = "N";
+  const char* slope = "N/m";
+};
+PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units);
+/// A function of time: a number is a constant, tables hold their end values, `sine` may be added.
+TimeFunction read_time_function(const YamlValue& value, const char* unit, Interpolation table);
+/// The same, or {input: name}, or both in one map: then they add up.
+SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
+                              Interpolation table);
+
+}  // namespace floatframe

@@ -1,0 +1,98 @@
+// The `simulation` group: how the model is run.
+#include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
+#include "floatframe/model_file/read_parts.hpp"
+#include "floatframe/model_file/state_json.hpp"
+
+namespace floatframe {
+namespace {
+
+/// {chassis: [0, 0, 0.05]}: translation [m], or translation and rotation vector [m, rad].
+void read_offset(const ModelInstance& self, const YamlValue& value, SimulationDescription& d) {
+  for (const auto& [name, v] : value.named("a map of bodies to offsets [x, y, z]", true)) {
+    const auto body = self.moving_body(name, v);
+    if (!body) continue;
+    const char* what = "[x, y, z] [m], or [x, y, z, rx, ry, rz] with a rotation vector [m, rad]";
+    if (v.is_list() && v.node().items.size() != 3 && v.node().items.size() != 6) {
+      v.unexpected(what);
+      continue;
+    }
+    const auto x = v.numbers(3, 6, any_number(""), what);
+    if (!x) continue;
+    StartOffset offset;
+    offset.translation = Vec3((*x)[0], (*x)[1], (*x)[2]);
+    if (x->size() == 6) offset.rotation = Vec3((*x)[3], (*x)[4], (*x)[5]);
+    d.offset[*body] = offset;
+  }
+}
+
+/// given, equilibrium, {equilibrium: true, offset: ...} or {state: file, offset: ...}
+void read_start(const ModelInstance& self, const YamlValue& value, SimulationDescription& d) {
+  if (!value.is_map()) {
+    if (const auto w = value.word({"given", "equilibrium"})) d.start = static_cast<Start>(*w);
+    return;
+  }
+  auto s = value.section();
+  const auto equilibrium = s->get("equilibrium"), state = s->get("state");
+  const auto offset = s->get("offset");
+  s->finish();
+  if (equilibrium && state) {
+    state->fault("found with 'equilibrium', expected one of the two");
+    return;
+  }
+  if (!equilibrium && !state && !offset) {
+    value.unexpected("given, equilibrium, or a map with equilibrium or state");
+    return;
+  }
+  const auto on = equilibrium ? equilibrium->boolean() : std::nullopt;
+  if (on) d.start = *on ? Start::equilibrium : Start::given;
+  if (const auto file = state ? state->text("the name of a state file") : std::nullopt) {
+    d.start = Start::state;
+    try {
+      d.state = std::make_shared<const SystemState>(read_state(beside(self, *file)));
+    } catch (const InputError& error) {
+      for (const InputFault& f : error.faults()) state->fault(f.text(), f.count);
+    }
+  }
+  if (!offset) return;
+  if (!state && !on.value_or(false)) offset->fault(sentences::offset_alone());
+  read_offset(self, *offset, d);
+}
+
+}  // namespace
+
+void read_simulation(const ModelInstance& self, ReadModel& model) {
+  if (!self.root) return;
+  YamlSection root = *self.root;
+  const auto value = root.get("simulation");
+  if (!value) return;
+  auto section = value->section("a map with step, duration, ...");
+  if (!section) return;
+  YamlSection& s = *section;
+  SimulationDescription& d = model.description.simulation;
+  d.origin = s.origin();
+  if (const auto v = s.get("coordinates"))
+    if (const auto w = v->word(rules::coordinates)) d.coordinates = static_cast<Coordinates>(*w);
+  if (const auto v = s.get("inertia"))
+    if (const auto w = v->word(rules::inertia_methods)) d.inertia = static_cast<InertiaMethod>(*w);
+  if (const auto v = s.get("start")) read_start(self, *v, d);
+  if (const auto v = s.get("velocity"))
+    if (const auto x = v->vector("m/s")) d.velocity = *x;
+  d.step = s.number("step", rules::step, d.step);
+  d.duration = s.number("duration", rules::duration, d.duration);
+  d.output_interval = s.number("output_interval", rules::output_interval, d.output_interval);
+  d.spectral_radius = s.number("spectral_radius", rules::spectral_radius, d.spectral_radius);
+  d.tolerance = s.number("tolerance", rules::tolerance, d.tolerance);
+  if (const auto v = s.get("max_iterations"))
+    d.max_iterations = v->integer(rules::max_iterations).value_or(d.max_iterations);
+  d.min_step = s.number("min_step", rules::min_step, d.min_step);
+  if (const auto v = s.get("min_step")) v->complain(sentences::min_step(d.min_step, d.step));
+  d.penalty = s.number("penalty", rules::penalty, d.penalty);
+  d.position_tolerance =
+      s.number("position_tolerance", rules::position_tolerance, d.position_tolerance);
+  d.velocity_tolerance =
+      s.number("velocity_tolerance", rules::velocity_tolerance, d.velocity_tolerance);
+  s.finish();
+}
+
+}  // namespace floatframe

@@ -1,0 +1,240 @@
+#include "floatframe/parts/fe_info.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "floatframe/core/text_table.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/unit_system.hpp"
+#include "floatframe/parts/json_vector.hpp"
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Volume and mass: elements of unit density, so that they exist without a material too.
+void measure(FeModel model, FeFacts& out) {
+  std::vector<double> densities;
+  for (const Material& m : model.materials) densities.push_back(m.density);
+  if (model.materials.empty()) model.materials.push_back({1.0, 0.3, 1.0});
+  for (Material& m : model.materials) m = {1.0, 0.3, 1.0};
+  MatX M;
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    Element& element = model.elements[e];
+    const int material = element.material;
+    if (material < 0 || material >= static_cast<int>(model.materials.size())) element.material = 0;
+    const ElementInput input = gather(model, element);
+    const ElementKernel& kernel = element_kernel(element.type);
+    if (!kernel.fault(input).empty()) {
+      out.bad_elements.push_back(model.element_label(static_cast<int>(e)));
+      continue;
+    }
+    kernel.scalar_mass(input, M);
+    const double volume = M.sum();
+    out.volume += volume;
+    if (material >= 0 && material < static_cast<int>(densities.size()))
+      out.mass += volume * densities[material];
+  }
+  for (const PointMass& m : model.masses) out.mass += m.mass;
+}
+
+void sets(const FeModel& model, FeFacts& out) {
+  const auto add = [&](const std::string& name, const char* kind, std::size_t size,
+                       const std::set<int>& nodes) {
+    out.sets.push_back({name, kind, static_cast<int>(size), static_cast<int>(nodes.size())});
+    // A set of everything is not a place, two nodes leave a rotation open.
+    if (!nodes.empty() && nodes.size() != 2 && static_cast<int>(nodes.size()) < model.nodes())
+      out.interfaces.push_back("set:" + name);
+  };
+  for (const auto& [name, nodes] : model.node_sets)
+    add(name, "nodes", nodes.size(), {nodes.begin(), nodes.end()});
+  for (const auto& [name, elements] : model.element_sets) {
+    std::set<int> nodes;
+    for (const int e : elements) {
+      const Element& element = model.elements[e];
+      for (int k = 0; k < element_nodes(element.type); ++k) nodes.insert(element.nodes[k]);
+    }
+    add(name, "elements", elements.size(), nodes);
+  }
+  for (const auto& [name, faces] : model.surfaces) {
+    std::set<int> nodes;
+    for (const ElementFace& f : faces) {
+      const Element& element = model.elements[f.element];
+      const auto all = element_faces(element.type);
+      if (f.face < 0 || f.face >= static_cast<int>(all.size())) continue;
+      const FaceNodes& face = all[f.face];
+      for (int k = 0; k < face.count; ++k) nodes.insert(element.nodes[face.nodes[k]]);
+    }
+    add(name, "surface", faces.size(), nodes);
+  }
+}
+
+std::string vector_text(const Vec3& v) {
+  return fmt::format("{:.6g} {:.6g} {:.6g}", v.x(), v.y(), v.z());
+}
+
+std::string material_name(const FeModel& model, std::size_t k) {
+  return k < model.material_names.size() ? model.material_names[k] : fmt::format("{}", k + 1);
+}
+
+}  // namespace
+
+std::vector<std::string> likely_units(const FeModel& model) {
+  std::vector<std::string> out;
+  if (model.materials.empty() || model.positions.empty()) return out;
+  Vec3 low = model.positions.front(), high = low;
+  for (const Vec3& p : model.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  for (const std::string& name : unit_system_names()) {
+    const auto units = find_unit_system(name);
+    if (!units || name == "si") continue;  // another name of m-kg-s
+    const double size = (high - low).norm() * units->length;
+    bool likely = size > 1e-3 && size < 50.0;
+    for (const Material& m : model.materials) {
+      const double E = m.young * units->pressure(), density = m.density * units->density();
+      likely = likely && E > 1e8 && E < 2e12 && density > 50.0 && density < 25000.0;
+    }
+    if (likely) out.push_back(name);
+  }
+  return out;
+}
+
+FeFacts fe_facts(const FeModel& model) {
+  FeFacts out;
+  out.nodes = model.nodes();
+  std::map<std::string, int> types;
+  for (const Element& e : model.elements) ++types[element_kernel(e.type).name];
+  out.elements.assign(types.begin(), types.end());
+  out.point_masses = static_cast<int>(model.masses.size());
+  out.equations = static_cast<int>(model.equations.size());
+  std::set<int> supported;
+  for (const Support& s : model.supports) supported.insert(s.node);
+  out.supports = static_cast<int>(supported.size());
+  if (model.matrices) out.matrix_rows = static_cast<int>(model.matrices->dofs.size());
+  if (!model.positions.empty()) {
+    out.low = out.high = model.positions.front();
+    for (const Vec3& p : model.positions) {
+      out.low = out.low.cwiseMin(p);
+      out.high = out.high.cwiseMax(p);
+    }
+  }
+  measure(model, out);
+  sets(model, out);
+  for (const Spider& s : model.spiders) {
+    const std::string reference = s.reference >= 0 ? model.node_label(s.reference) : "";
+    out.spiders.push_back({s.name, s.kind == Spider::Kind::rigid ? "rigid" : "mean", reference,
+                           static_cast<int>(s.nodes.size())});
+    if (s.reference >= 0 && s.reference < static_cast<int>(model.node_ids.size()))
+      out.interfaces.push_back(fmt::format("node:{}", model.node_ids[s.reference]));
+  }
+  out.likely_units = likely_units(model);
+  return out;
+}
+
+std::string fe_info_text(const std::string& file, const FeModel& model) {
+  const FeFacts f = fe_facts(model);
+  std::string text =
+      fmt::format("{}: finite-element model (numbers in the units of the file)\n", file);
+  text += fmt::format("\n  nodes         {}\n", f.nodes);
+  for (const auto& [type, count] : f.elements) text += fmt::format("  {:<12}  {}\n", type, count);
+  if (f.matrix_rows > 0) text += fmt::format("  matrices      {} rows\n", f.matrix_rows);
+  if (f.point_masses > 0) text += fmt::format("  point masses  {}\n", f.point_masses);
+  if (f.equations > 0) text += fmt::format("  equations     {}\n", f.equations);
+  if (f.supports > 0)
+    text += fmt::format("  supports      on {} nodes (a hint, not applied)\n", f.supports);
+  text += fmt::format("  from          {}\n  to            {}\n", vector_text(f.low),
+                      vector_text(f.high));
+  if (!f.elements.empty()) {
+    text += fmt::format("  volume        {:.8g}\n", f.volume);
+    if (!model.materials.empty()) text += fmt::format("  mass          {:.8g}\n", f.mass);
+  }
+  if (!model.materials.empty()) {
+    TextTable table({"material", "Young", "Poisson", "density"});
+    for (std::size_t k = 0; k < model.materials.size(); ++k) {
+      const Material& m = model.materials[k];
+      table.add({material_name(model, k), fmt::format("{:g}", m.young),
+                 fmt::format("{:g}", m.poisson), fmt::format("{:g}", m.density)});
+    }
+    text += '\n' + table.text(2);
+    text += f.likely_units.empty()
+                ? "  no unit system makes these values those of a usual material\n"
+                : fmt::format("  units: these values look like {}\n",
+                              fmt::join(f.likely_units, " or "));
+  } else if (f.matrix_rows == 0) {
+    text += "\n  no material: give one with --material young,poisson,density\n";
+  }
+  if (!f.sets.empty()) {
+    TextTable table({"set", "of", "size", "nodes"}, {1});
+    for (const FeFacts::Set& s : f.sets)
+      table.add({s.name, s.kind, std::to_string(s.size), std::to_string(s.nodes)});
+    text += '\n' + table.text(2);
+  }
+  if (!f.spiders.empty()) {
+    TextTable table({"spider", "kind", "reference", "nodes"}, {1, 2});
+    for (const FeFacts::SpiderFacts& s : f.spiders)
+      table.add({s.name, s.kind, s.reference, std::to_string(s.nodes)});
+    text += '\n' + table.text(2);
+  }
+  if (!f.interfaces.empty())
+    text += fmt::format("\n  interfaces could be: {}\n", fmt::join(f.interfaces, ", "));
+  if (!model.notes.empty()) {
+    text += "\nPassed over in the file\n";
+    for (const std::string& note : model.notes) text += "  - " + note + '\n';
+  }
+  if (!f.bad_elements.empty()) {
+    const std::size_t shown = std::min<std::size_t>(f.bad_elements.size(), 10);
+    text +=
+        fmt::format("\nWARNING: {} elements are inverted or flat: {}{}\n", f.bad_elements.size(),
+                    fmt::join(f.bad_elements.begin(),
+                              f.bad_elements.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                    shown < f.bad_elements.size() ? ", ..." : "");
+  }
+  return text;
+}
+
+std::string fe_info_json(const std::string& file, const FeModel& model) {
+  const FeFacts f = fe_facts(model);
+  Json elements = Json::object(), materials = Json::array(), all_sets = Json::array(),
+       spiders = Json::array();
+  for (const auto& [type, count] : f.elements) elements[type] = count;
+  for (std::size_t k = 0; k < model.materials.size(); ++k) {
+    const Material& m = model.materials[k];
+    materials.push_back({{"name", material_name(model, k)},
+                         {"young", m.young},
+                         {"poisson", m.poisson},
+                         {"density", m.density}});
+  }
+  for (const FeFacts::Set& s : f.sets)
+    all_sets.push_back({{"name", s.name}, {"of", s.kind}, {"size", s.size}, {"nodes", s.nodes}});
+  for (const FeFacts::SpiderFacts& s : f.spiders)
+    spiders.push_back(
+        {{"name", s.name}, {"kind", s.kind}, {"reference", s.reference}, {"nodes", s.nodes}});
+  const Json json = {{"file", file},
+                     {"kind", "finite-element model"},
+                     {"nodes", f.nodes},
+                     {"elements", elements},
+                     {"matrix_rows", f.matrix_rows},
+                     {"point_masses", f.point_masses},
+                     {"equations", f.equations},
+                     {"supported_nodes", f.supports},
+                     {"low", json_vector(f.low)},
+                     {"high", json_vector(f.high)},
+                     {"volume", f.volume},
+                     {"mass", f.mass},
+                     {"materials", materials},
+                     {"likely_units", f.likely_units},
+                     {"sets", all_sets},
+                     {"spiders", spiders},
+                     {"possible_interfaces", f.interfaces},
+                     {"bad_elements", f.bad_elements},
+                     {"notes", model.notes},
+                     {"files", model.files}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace floatframe

@@ -1,0 +1,93 @@
+#include "floatframe/yaml/read_faults.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "floatframe/core/ascii.hpp"
+#include "floatframe/core/printable.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr std::size_t longest_message = 2000;
+
+std::uint64_t hash(std::string_view text) { return std::hash<std::string_view>{}(text); }
+
+/// Suggestions come only as long as there are not too many: the sentence is the same without.
+std::string_view without_suggestion(std::string_view message) {
+  return message.substr(0, message.find(", did you mean '"));
+}
+
+/// The sentence without its path, names, expressions and numbers.
+std::string skeleton(std::string_view message) {
+  const std::size_t path = message.find(": ");
+  std::string out;
+  for (std::size_t k = path == std::string::npos ? 0 : path + 2; k < message.size(); ++k) {
+    const char c = message[k];
+    if (c == '\'' || (c == '$' && k + 1 < message.size() && message[k + 1] == '{')) {
+      k = std::min(message.find(c == '\'' ? '\'' : '}', k + 1), message.size());
+      out += c;
+    } else if (!is_digit(c)) {
+      out += c;
+    }
+  }
+  return out;
+}
+
+InputFault more(const SourceMark& first, std::size_t n, const char* what) {
+  return {first, "... and " + std::to_string(n) + " more of " + what, n};
+}
+
+}  // namespace
+
+void ReadFaults::add(const SourceMark& mark, std::string message, std::size_t count) {
+  ++added_;
+  const std::string_view sentence = without_suggestion(message);
+  const InputFault same{mark, std::string(sentence)};
+  if (!seen_.insert(hash(same.text())).second) return;
+  Kind* kind = &others_;
+  const std::uint64_t key = hash(skeleton(sentence));
+  if (const auto it = kinds_.find(key); it != kinds_.end())
+    kind = &it->second;
+  else if (kinds_.size() < limits::faults)
+    kind = &kinds_[key];
+  if (kind != &others_ && kind->kept < limits::faults_of_a_kind &&
+      faults_.size() < limits::faults) {
+    ++kind->kept;
+    std::string text = printable(message);
+    if (text.size() > longest_message) {
+      std::size_t end = longest_message;
+      while ((static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;
+      text.resize(end);
+      text += " ...";
+    }
+    faults_.push_back({mark, std::move(text), count});
+    return;
+  }
+  if (kind->kept == 0) kind = &others_;  // of a kind that is not shown
+  if (kind->passed_over == 0) kind->first = mark;
+  kind->passed_over += count;
+}
+
+std::vector<InputFault> ReadFaults::take() {
+  for (const auto& [key, kind] : kinds_)
+    if (kind.passed_over > 0) faults_.push_back(more(kind.first, kind.passed_over, "this kind"));
+  if (others_.passed_over > 0)
+    faults_.push_back(more(others_.first, others_.passed_over, "other kinds"));
+  return std::move(faults_);
+}
+
+bool ReadFaults::take_of(const char* what, std::size_t amount, std::size_t most,
+                         const SourceMark& mark, const std::string& path) {
+  std::size_t& taken = taken_[what];
+  const bool before = taken <= most;
+  taken = amount > most - std::min(taken, most) ? most + 1 : taken + amount;
+  if (taken <= most) return true;
+  exhausted_ = true;
+  if (before)
+    add(mark, (path.empty() ? "" : path + ": ") + "found more than " + std::to_string(most) + " " +
+                  what + ", expected fewer");
+  return false;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,31 @@
+#pragma once
+// Tables of two columns: a list of points [x, f] in the model file, or the name of a CSV file.
+#include <string>
+#include <vector>
+
+#include "floatframe/math/piecewise_build.hpp"
+#include "floatframe/yaml/yaml_value.hpp"
+
+namespace floatframe {
+
+struct TableRow {
+  TablePoint point;
+  int line = 0, column = 0;
+  std::size_t number = 0;  ///< from 1
+};
+
+/// The rows of a table with their places, for errors about one of them.
+struct TableRows {
+  bool good = false;  ///< nothing was wrong so far
+  std::string file, path;
+  std::vector<TableRow> rows;
+  ReadFaults* faults = nullptr;
+  void fault(const TableRow& row, const std::string& sentence) const;
+};
+
+/// Reads a list of points, or the CSV file that `value` names relative to the file it is written
+/// in: two columns separated by commas, semicolons or blanks, one header line or none, comments
+/// after #. `point` describes a point for messages ("a point [x, f]").
+TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const char* point);
+
+}  // namespace floatframe

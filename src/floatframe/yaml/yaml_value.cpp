@@ -1,0 +1,368 @@
+#include "floatframe/yaml/yaml_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/core/printable.hpp"
+#include "floatframe/core/suggest.hpp"
+
+namespace floatframe {
+
+namespace {
+
+std::string shortened(const std::string& s) {
+  std::size_t end = std::min<std::size_t>(s.size(), 40);
+  while (end < s.size() && (static_cast<unsigned char>(s[end]) & 0xC0u) == 0x80u) --end;
+  std::string t;
+  for (char c : s.substr(0, end)) t += c == '\n' ? ' ' : c;
+  t = printable(t);
+  return s.size() > 40 ? t + "..." : t;
+}
+
+std::string in_quotes(const std::string& s) {
+  std::string t(1, '\'');
+  t += shortened(s);
+  t += '\'';
+  return t;
+}
+
+bool has_expression(const YamlNode& n) {
+  return n.kind == YamlNode::Kind::scalar && n.text.find("${") != std::string::npos;
+}
+
+}  // namespace
+
+YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) const {
+  Scalar s;
+  if (node_->refused) return s;
+  const auto complain = [&](const std::string& sentence) {
+    if (!quiet) fault(sentence);
+  };
+  switch (node_->kind) {
+    case YamlNode::Kind::null:
+      s.kind = Scalar::Kind::null;
+      return s;
+    case YamlNode::Kind::sequence:
+    case YamlNode::Kind::map:
+      complain("found " + found() + ", expected " + expected);
+      return s;
+    case YamlNode::Kind::scalar:
+      break;
+  }
+  if (has_expression(*node_)) {
+    try {
+      const ParameterValue v = substitute_parameters(node_->text, *context_->scope, false);
+      s.kind = v.index() == 0   ? Scalar::Kind::boolean
+               : v.index() == 1 ? Scalar::Kind::number
+                                : Scalar::Kind::text;
+      if (const bool* b = std::get_if<bool>(&v)) s.boolean = *b;
+      if (const double* x = std::get_if<double>(&v)) s.number = *x;
+      if (const std::string* t = std::get_if<std::string>(&v)) s.text = *t;
+    } catch (const ExpressionError&) {
+      if (quiet) return s;
+      try {  // once more for the sentence
+        substitute_parameters(node_->text, *context_->scope, context_->faults->suggest());
+      } catch (const ExpressionError& error) {
+        complain("in " + shortened(node_->text) + ": " + error.what());
+      }
+    }
+    return s;
+  }
+  s.text = node_->text;
+  if (node_->quoted) {
+    s.kind = Scalar::Kind::text;
+    return s;
+  }
+  const PlainScalar p = classify_plain_scalar(node_->text);
+  switch (p.kind) {
+    case PlainScalar::Kind::null:
+      s.kind = Scalar::Kind::null;
+      break;
+    case PlainScalar::Kind::boolean:
+      s.kind = Scalar::Kind::boolean;
+      s.boolean = p.boolean;
+      break;
+    case PlainScalar::Kind::number:
+      s.kind = Scalar::Kind::number;
+      s.number = p.number;
+      break;
+    case PlainScalar::Kind::text:
+      s.kind = Scalar::Kind::text;
+      break;
+    case PlainScalar::Kind::bad_number:
+      complain("found " + node_->text + ", expected " + expected + " (" + p.complaint + ")");
+      break;
+    case PlainScalar::Kind::bad_boolean:
+      complain("found " + node_->text + ", expected " + expected + " (" + p.complaint +
+               ", or put a text in quotes)");
+      break;
+  }
+  return s;
+}
+
+std::string YamlValue::found() const {
+  switch (node_->kind) {
+    case YamlNode::Kind::null:
+      return "nothing";
+    case YamlNode::Kind::sequence:
+      return "a list of " + std::to_string(node_->items.size());
+    case YamlNode::Kind::map:
+      return "a map";
+    case YamlNode::Kind::scalar:
+      break;
+  }
+  if (has_expression(*node_)) {
+    const Scalar s = scalar("", true);
+    switch (s.kind) {
+      case Scalar::Kind::boolean:
+        return shortened(node_->text) + " = " + (s.boolean ? "true" : "false");
+      case Scalar::Kind::number:
+        return shortened(node_->text) + " = " + number_text(s.number);
+      case Scalar::Kind::text:
+        return shortened(node_->text) + " = " + in_quotes(s.text);
+      default:
+        return shortened(node_->text);
+    }
+  }
+  if (node_->quoted) return in_quotes(node_->text);
+  const PlainScalar p = classify_plain_scalar(node_->text);
+  if (p.kind == PlainScalar::Kind::null) return "nothing";
+  if (p.kind == PlainScalar::Kind::text) return in_quotes(node_->text);
+  return shortened(node_->text);
+}
+
+std::optional<double> YamlValue::number(const NumberRule& rule) const {
+  const Scalar s = scalar(rule.expectation());
+  if (s.kind == Scalar::Kind::bad) return std::nullopt;
+  if (s.kind != Scalar::Kind::number || !rule.holds(s.number)) {
+    unexpected(rule.expectation());
+    return std::nullopt;
+  }
+  return s.number;
+}
+
+std::optional<int> YamlValue::integer(const WholeNumberRule& rule) const {
+  const Scalar s = scalar(rule.expectation());
+  if (s.kind == Scalar::Kind::bad) return std::nullopt;
+  if (s.kind != Scalar::Kind::number || !rule.holds(s.number)) {
+    unexpected(rule.expectation());
+    return std::nullopt;
+  }
+  return static_cast<int>(s.number);
+}
+
+std::optional<bool> YamlValue::boolean() const {
+  const Scalar s = scalar("true or false");
+  if (s.kind == Scalar::Kind::bad) return std::nullopt;
+  if (s.kind != Scalar::Kind::boolean) {
+    unexpected("true or false");
+    return std::nullopt;
+  }
+  return s.boolean;
+}
+
+std::optional<std::string> YamlValue::text(const char* what) const {
+  const Scalar s = scalar(what);
+  if (s.kind == Scalar::Kind::bad) return std::nullopt;
+  if (s.kind != Scalar::Kind::text || s.text.empty()) {
+    unexpected(what);
+    return std::nullopt;
+  }
+  return s.text;
+}
+
+std::optional<std::size_t> YamlValue::word(std::span<const char* const> words) const {
+  const std::string expected = alternatives(words);
+  const auto t = text(expected.c_str());
+  if (!t) return std::nullopt;
+  const auto it = std::find(words.begin(), words.end(), *t);
+  if (it != words.end()) return it - words.begin();
+  const std::string hint = did_you_mean(*t, {words.begin(), words.end()});
+  fault("found " + found() + ", expected " + expected + hint);
+  return std::nullopt;
+}
+
+std::optional<ParameterValue> YamlValue::parameter() const {
+  const Scalar s = scalar("a number, a text, true or false");
+  switch (s.kind) {
+    case Scalar::Kind::boolean:
+      return s.boolean;
+    case Scalar::Kind::number:
+      return s.number;
+    case Scalar::Kind::text:
+      return s.text;
+    case Scalar::Kind::null:
+      unexpected("a number, a text, true or false");
+      break;
+    case Scalar::Kind::bad:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::vector<YamlValue> YamlValue::list(const char* what) const {
+  std::vector<YamlValue> out;
+  if (!is_list()) {
+    unexpected(what);
+    return out;
+  }
+  out.reserve(node_->items.size());
+  for (std::size_t i = 0; i < node_->items.size(); ++i)
+    out.emplace_back(*context_, node_->items[i], path_ + "[" + std::to_string(i + 1) + "]");
+  return out;
+}
+
+std::optional<std::vector<double>> YamlValue::numbers(std::size_t smallest, std::size_t largest,
+                                                      const NumberRule& rule,
+                                                      const char* what) const {
+  if (!is_list() || node_->items.size() < smallest || node_->items.size() > largest) {
+    unexpected(what);
+    return std::nullopt;
+  }
+  std::vector<double> out;
+  bool good = true;
+  for (const YamlValue& v : list()) {
+    const auto x = v.number(rule);
+    good = good && x;
+    out.push_back(x.value_or(0.0));
+  }
+  if (!good) return std::nullopt;
+  return out;
+}
+
+std::optional<Vec3> YamlValue::vector(const char* unit) const {
+  const std::string what = "a list of three numbers [x, y, z]" +
+                           (*unit ? " [" + std::string(unit) + "]" : std::string());
+  const auto v = numbers(3, 3, any_number(unit), what.c_str());
+  if (!v) return std::nullopt;
+  return Vec3((*v)[0], (*v)[1], (*v)[2]);
+}
+
+std::optional<YamlSection> YamlValue::section(const char* what) const {
+  if (!is_map()) {
+    unexpected(what);
+    return std::nullopt;
+  }
+  return YamlSection(*this);
+}
+
+std::vector<std::pair<std::string, YamlValue>> YamlValue::named(const char* what,
+                                                                bool free_names) const {
+  std::vector<std::pair<std::string, YamlValue>> out;
+  if (!is_map()) {
+    unexpected(what);
+    return out;
+  }
+  const std::string prefix = path_.empty() ? "" : path_ + ".";
+  for (const YamlEntry& e : node_->entries) {
+    if (e.key.size() > limits::name_length) {
+      context_->faults->add({*context_->file, e.line, e.column},
+                            prefix + shortened(e.key) + ": found a name of " +
+                                std::to_string(e.key.size()) + " characters, expected at most " +
+                                std::to_string(limits::name_length));
+      continue;
+    }
+    if (free_names && e.key.find("${") != std::string::npos) {
+      context_->faults->add({*context_->file, e.line, e.column},
+                            path_ + ": found the name " + in_quotes(e.key) +
+                                ", but expressions stand for values, not in names");
+      continue;
+    }
+    if (!free_names && !is_identifier(e.key, true)) {
+      context_->faults->add({*context_->file, e.line, e.column},
+                            path_ + ": found the name '" + shortened(e.key) +
+                                "', expected letters, digits, _ and -, with a letter first");
+      continue;
+    }
+    out.emplace_back(e.key, YamlValue(*context_, e, prefix + e.key));
+  }
+  return out;
+}
+
+bool YamlValue::looks_like_number() const {
+  return node_->kind == YamlNode::Kind::scalar && scalar("", true).kind == Scalar::Kind::number;
+}
+
+// ------------------------------------------------------------------------------------------------------
+// sections
+
+const YamlEntry* YamlSection::find(const char* key) const {
+  for (const YamlEntry& e : value_.node().entries)
+    if (e.key == key) return &e;
+  return nullptr;
+}
+
+SourceMark YamlSection::mark_of(const char* key) const {
+  const YamlEntry* e = find(key);
+  if (!e) return mark_;
+  return {*value_.context().file, e->value.line, e->value.column};
+}
+
+std::optional<YamlValue> YamlSection::get(const char* key) {
+  asked_.emplace_back(key);
+  const YamlEntry* e = find(key);
+  if (!e) return std::nullopt;
+  return YamlValue(value_.context(), *e, path().empty() ? std::string(key) : path() + "." + key);
+}
+
+std::optional<YamlValue> YamlSection::require(const char* key) {
+  auto v = get(key);
+  if (!v) fault("missing key '" + std::string(key) + "'");
+  return v;
+}
+
+void YamlSection::finish(const std::vector<std::string>& elsewhere) {
+  ReadFaults& faults = *value_.context().faults;
+  std::vector<const YamlEntry*> unknown;
+  for (const YamlEntry& e : value_.node().entries)
+    if (std::find(asked_.begin(), asked_.end(), e.key) == asked_.end()) unknown.push_back(&e);
+  if (unknown.empty()) return;
+  std::vector<std::string> free;
+  for (const std::string& k : asked_)
+    if (!has(k.c_str())) free.push_back(k);
+  const auto place = [&](const YamlEntry& e) {
+    return SourceMark{*value_.context().file, e.line, e.column};
+  };
+  const std::size_t shown = std::min(unknown.size(), limits::faults_of_a_kind);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const YamlEntry& e = *unknown[i];
+    std::string hint = faults.suggestion(e.key, [&] { return free; });
+    if (hint.empty() && !elsewhere.empty()) {  // a key of another group: its path is the hint
+      std::vector<std::string> last;
+      for (const std::string& k : elsewhere) last.push_back(k.substr(k.rfind('.') + 1));
+      const std::string* best = faults.suggest() ? nearest(e.key, last) : nullptr;
+      if (best) hint = ", did you mean '" + elsewhere[best - last.data()] + "'?";
+    }
+    faults.add(place(e), path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint);
+  }
+  if (const std::size_t more = unknown.size() - shown; more > 0)
+    faults.add(place(*unknown[shown]),
+               path_prefix() + "... and " + std::to_string(more) +
+                   (more == 1 ? " more unknown key" : " more unknown keys"),
+               more);
+}
+
+Origin YamlSection::origin() const {
+  Origin o;
+  o.mark = mark_;
+  for (const YamlEntry& e : value_.node().entries)
+    o.keys.emplace(e.key, SourceMark{*value_.context().file, e.value.line, e.value.column});
+  return o;
+}
+
+double YamlSection::number(const char* key, const NumberRule& rule, double absent) {
+  const auto v = get(key);
+  return v ? v->number(rule).value_or(absent) : absent;
+}
+
+double YamlSection::required_number(const char* key, const NumberRule& rule, double when_wrong) {
+  const auto v = require(key);
+  return v ? v->number(rule).value_or(when_wrong) : when_wrong;
+}
+
+bool YamlSection::boolean(const char* key, bool absent) {
+  const auto v = get(key);
+  return v ? v->boolean().value_or(absent) : absent;
+}
+
+}  // namespace floatframe

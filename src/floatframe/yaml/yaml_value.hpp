@@ -1,0 +1,162 @@
+#pragma once
+// Typed, checked access to a YAML tree. A `YamlValue` is one value with its path in the file
+// ("bodies.arm.mass"), a `YamlSection` is a map whose keys are asked for one by one; keys that
+// nobody asked for are faults. Every accessor reports what it found and what was expected and lets
+// the reading go on, so that all faults of a file are found at once. Scalars may hold `${...}`
+// expressions.
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "floatframe/core/number_rule.hpp"
+#include "floatframe/math/types.hpp"
+#include "floatframe/yaml/expression.hpp"
+#include "floatframe/yaml/yaml_tree.hpp"
+
+namespace floatframe {
+
+/// What all values of one file share.
+struct ReadContext {
+  const std::string* file = nullptr;
+  const ParameterScope* scope = nullptr;
+  ReadFaults* faults = nullptr;
+};
+
+class YamlSection;
+
+class YamlValue {
+ public:
+  YamlValue(const ReadContext& context, const YamlNode& node, std::string path)
+      : context_(&context),
+        node_(&node),
+        path_(std::move(path)),
+        line_(node.line),
+        column_(node.column) {}
+  /// The value of a key; faults about the whole entity point at the key.
+  YamlValue(const ReadContext& context, const YamlEntry& entry, std::string path)
+      : context_(&context),
+        node_(&entry.value),
+        path_(std::move(path)),
+        line_(entry.line),
+        column_(entry.column) {}
+
+  const std::string& path() const { return path_; }
+  const YamlNode& node() const { return *node_; }
+  const ReadContext& context() const { return *context_; }
+  SourceMark mark() const { return {*context_->file, node_->line, node_->column}; }
+  SourceMark entity_mark() const { return {*context_->file, line_, column_}; }
+  bool is_list() const { return node_->kind == YamlNode::Kind::sequence; }
+  bool is_map() const { return node_->kind == YamlNode::Kind::map; }
+  bool is_scalar() const { return node_->kind == YamlNode::Kind::scalar; }
+
+  /// Adds the fault "path: sentence" at this value.
+  void fault(const std::string& sentence, std::size_t count = 1) const {
+    context_->faults->add(mark(), path_ + ": " + sentence, count);
+  }
+  /// The same at the key of the value.
+  void entity_fault(const std::string& sentence) const {
+    context_->faults->add(entity_mark(), path_ + ": " + sentence);
+  }
+  void complain(const std::optional<std::string>& complaint) const {
+    if (complaint) fault(*complaint);
+  }
+  /// "found ..., expected `what`".
+  void unexpected(const std::string& what) const {
+    fault("found " + found() + ", expected " + what);
+  }
+  /// What is written here, for sentences: -3, 'abc', a list of 2, a map, nothing.
+  std::string found() const;
+
+  // Accessors: a fault and nullopt (or an empty list) if the value is not what is asked for.
+  std::optional<double> number(const NumberRule& rule) const;
+  std::optional<int> integer(int low, int high, const char* what) const {
+    return integer(WholeNumberRule{what, low, high});
+  }
+  std::optional<int> integer(const WholeNumberRule& rule) const;
+  std::optional<bool> boolean() const;
+  std::optional<std::string> text(const char* what = "a text") const;
+  /// One of the words; returns its index.
+  std::optional<std::size_t> word(std::span<const char* const> words) const;
+  std::optional<std::size_t> word(std::initializer_list<const char*> words) const {
+    return word(std::span<const char* const>(words.begin(), words.size()));
+  }
+  std::optional<std::size_t> word(const std::vector<std::string>& words) const {
+    std::vector<const char*> list;
+    for (const std::string& w : words) list.push_back(w.c_str());
+    return word(std::span<const char* const>(list));
+  }
+  /// Any scalar: a parameter value.
+  std::optional<ParameterValue> parameter() const;
+  std::vector<YamlValue> list(const char* what = "a list") const;
+  /// List of `smallest` to `largest` numbers.
+  std::optional<std::vector<double>> numbers(std::size_t smallest, std::size_t largest,
+                                             const NumberRule& rule, const char* what) const;
+  std::optional<Vec3> vector(const char* unit) const;
+  std::optional<YamlSection> section(const char* what = "a map of keys") const;
+  /// A map of names to values, in the order of the file; names are checked to be identifiers
+  /// (unless `free_names`), long ones are refused.
+  std::vector<std::pair<std::string, YamlValue>> named(const char* what,
+                                                       bool free_names = false) const;
+  /// True if the scalar holds a number (after substitution); adds no faults.
+  bool looks_like_number() const;
+
+ private:
+  struct Scalar {
+    enum class Kind { bad, null, boolean, number, text } kind = Kind::bad;
+    bool boolean = false;
+    double number = 0.0;
+    std::string text;
+  };
+  /// The substituted scalar; `quiet` adds no faults.
+  Scalar scalar(const std::string& expected, bool quiet = false) const;
+
+  const ReadContext* context_;
+  const YamlNode* node_;
+  std::string path_;
+  int line_, column_;
+};
+
+/// A map being read. `mark` is the place of the key that opens it, for faults about the entity as a
+/// whole.
+class YamlSection {
+ public:
+  explicit YamlSection(const YamlValue& value) : value_(value), mark_(value.entity_mark()) {}
+
+  const std::string& path() const { return value_.path(); }
+  const SourceMark& mark() const { return mark_; }
+  const YamlValue& value() const { return value_; }
+  void fault(const std::string& sentence) const {
+    value_.context().faults->add(mark_, path_prefix() + sentence);
+  }
+  /// Mark of the value of `key`, or of the entity if it is absent.
+  SourceMark mark_of(const char* key) const;
+  bool has(const char* key) const { return find(key) != nullptr; }
+  /// The value of an optional key.
+  std::optional<YamlValue> get(const char* key);
+  /// The value of a key that must be there; a fault if it is not.
+  std::optional<YamlValue> require(const char* key);
+  /// Faults for all keys nobody asked for. `elsewhere`: keys that belong into other groups, as
+  /// "group.key", to suggest where nothing here is near.
+  void finish(const std::vector<std::string>& elsewhere = {});
+
+  /// Marks of the entity and of all its keys.
+  Origin origin() const;
+
+  // Shorthands: the value if the key is present and right, else the default.
+  double number(const char* key, const NumberRule& rule, double absent);
+  double required_number(const char* key, const NumberRule& rule, double when_wrong);
+  bool boolean(const char* key, bool absent);
+
+ private:
+  const YamlEntry* find(const char* key) const;
+  std::string path_prefix() const { return path().empty() ? std::string() : path() + ": "; }
+  YamlValue value_;
+  SourceMark mark_;
+  std::vector<std::string> asked_;
+};
+
+}  // namespace floatframe

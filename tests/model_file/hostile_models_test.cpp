@@ -1,0 +1,250 @@
+// Model files that are large or odd on purpose: each is refused with a few sentences after work in
+// proportion to its length.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "floatframe/model_file/model_reader.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace floatframe {
+namespace {
+
+const std::string body = "bodies:\n  a: {rigid: {mass: 1}, position: [0, 0, 0]}\n";
+
+class Hostile : public testing::Test {
+ protected:
+  /// The sentences about model.yaml with `text`, without the folder.
+  std::vector<std::string> faults(const std::string& text) {
+    const std::string file = folder_.write("model.yaml", "floatframe: 1\n" + text);
+    std::vector<std::string> out;
+    try {
+      read_model(file);
+    } catch (const InputError& error) {
+      for (const InputFault& f : error.faults()) out.push_back(folder_.without(f.text()));
+    }
+    return out;
+  }
+  /// "prefix 0 suffix", "prefix 1 suffix", ...
+  static std::string many(int n, const std::string& prefix, const std::string& suffix) {
+    std::string text;
+    for (int k = 0; k < n; ++k) text += prefix + std::to_string(k) + suffix;
+    return text;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+using Sentences = std::vector<std::string>;
+
+TEST_F(Hostile, ParametersThatDouble) {
+  std::string text = "parameters:\n  a0: xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx\n";
+  for (int k = 1; k <= 40; ++k) {
+    const std::string before = "${a" + std::to_string(k - 1) + "}";
+    text += "  a" + std::to_string(k) + ": " + before + before + "\n";
+  }
+  const Sentences found = faults(text + body);
+  ASSERT_EQ(found.size(), 3u);  // what follows from the first begins with a short text again
+  EXPECT_EQ(found[0],
+            "model.yaml:13:8: parameters.a10: in ${a9}${a9}: the text is longer than 16384 "
+            "characters");
+}
+
+TEST_F(Hostile, ManyLongParameters) {
+  const std::string text = "parameters:\n  long: " + std::string(8000, 'x') + "\n" +
+                           many(100000, "  a", ": ${long}${long}\n");
+  EXPECT_EQ(faults(text + body),
+            Sentences{"model.yaml:253:9: parameters.a249: found more than 4000000 characters in "
+                      "the texts of all parameters, expected fewer"});
+}
+
+TEST_F(Hostile, LongTextsAndNames) {
+  EXPECT_EQ(faults("name: " + std::string(20000, 'x') + "\n" + body),
+            Sentences{"model.yaml:2:7: found a text of 20000 characters, expected at most 16384"});
+  EXPECT_EQ(faults("points: {" + std::string(101, 'p') + ": [0, 0, 0]}\n" + body),
+            Sentences{"model.yaml:2:10: points." + std::string(40, 'p') +
+                      "...: found a name of 101 characters, expected at most 100"});
+}
+
+TEST_F(Hostile, UnknownKeysAreCounted) {
+  for (const int n : {21, 200000}) {
+    const Sentences found = faults(body + many(n, "key", ": 1\n"));
+    ASSERT_EQ(found.size(), 21u) << n;
+    EXPECT_EQ(found[0], "model.yaml:4:1: unknown key 'key0'");
+    EXPECT_EQ(found[19], "model.yaml:23:1: unknown key 'key19'");
+    EXPECT_EQ(found[20], "model.yaml:24:1: ... and " + std::to_string(n - 20) +
+                             (n == 21 ? " more unknown key" : " more unknown keys"));
+  }
+  const Sentences inside = faults("bodies:\n  a:\n    rigid: {mass: 1}\n    position: [0, 0, 0]\n" +
+                                  many(100000, "    mas", ": 1\n"));
+  ASSERT_EQ(inside.size(), 21u);
+  EXPECT_EQ(inside[0], "model.yaml:6:5: bodies.a: unknown key 'mas0', did you mean 'rigid.mass'?");
+  EXPECT_EQ(inside[20], "model.yaml:26:5: bodies.a: ... and 99980 more unknown keys");
+}
+
+TEST_F(Hostile, UnknownReferencesAreCounted) {
+  std::string text = body + "joints:\n";
+  for (int k = 0; k < 15000; ++k)
+    text += "  j" + std::to_string(k) + ": {type: spherical, child: b" + std::to_string(k) +
+            ", at: [0, 0, 0]}\n";
+  const Sentences found = faults(text);
+  ASSERT_EQ(found.size(), 21u);
+  EXPECT_EQ(found[0], "model.yaml:5:32: joints.j0.child: unknown body 'b0'");
+  EXPECT_EQ(found[20], "model.yaml:25:33: ... and 14980 more of this kind");
+}
+
+TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
+  const std::string bodies =
+      "bodies:\n" + many(15000, "  body", ": {rigid: {mass: 1}, position: [0, 0, 0]}\n");
+  for (const bool offset : {true, false}) {
+    const Sentences found = faults(
+        bodies +
+        (offset ? "simulation: {start: {equilibrium: true, offset: {" : "initial: {amplitudes: {") +
+        many(100000, "\n  bady", offset ? ": [0, 0, 0]," : ": [0],") + "}}" +
+        (offset ? "}\n" : "\n"));
+    ASSERT_EQ(found.size(), 21u);
+    EXPECT_EQ(found[0], std::string("model.yaml:15004:3: ") +
+                            (offset ? "simulation.start.offset" : "initial.amplitudes") +
+                            ".bady0: unknown body 'bady0', did you mean 'body0'?");
+    EXPECT_EQ(found[20], "model.yaml:15024:3: ... and 99980 more of this kind");
+  }
+}
+
+TEST_F(Hostile, UnknownParametersAreCounted) {
+  const Sentences found = faults("parameters:\n" + many(30000, "  known", ": 1\n") + body +
+                                 "points:\n" + many(30000, "  p", ": [0, 0, \"${other}\"]\n"));
+  ASSERT_EQ(found.size(), 21u);
+  EXPECT_EQ(found[20], "model.yaml:30026:15: ... and 29980 more of this kind");
+}
+
+TEST_F(Hostile, DuplicatesAreCounted) {
+  std::string text = body + "points:\n";
+  for (int k = 0; k < 50000; ++k) text += "  p: [0, 0, 0]\n";
+  const Sentences found = faults(text);
+  ASSERT_EQ(found.size(), 21u);
+  EXPECT_EQ(found[0], "model.yaml:6:3: duplicate key 'p', first used in line 5");
+  EXPECT_EQ(found[20], "model.yaml:26:3: ... and 49979 more of this kind");
+}
+
+TEST_F(Hostile, ManyKindsOfFaults) {
+  std::string text = "bodies:\n";
+  for (int k = 0; k < 2000; ++k)
+    text += "  b" + std::to_string(k) + ": {rigid: {mass: x" + std::string(1 + k % 97, 'y') +
+            std::string(1 + k % 89, 'z') + "}, position: [0, 0, 0], when: ${" +
+            std::string(1 + k % 13, 'q') + "}}\n";
+  const Sentences found = faults(text);
+  EXPECT_LE(found.size(), 502u);
+  EXPECT_GE(found.size(), 20u);
+}
+
+TEST_F(Hostile, NestingAndBrackets) {
+  const Sentences deep{
+      "model.yaml:2:53: lists and maps are nested too deeply, at most 50 levels are allowed"};
+  EXPECT_EQ(faults("a: " + std::string(4000000, '[') + "\n"), deep);
+  EXPECT_EQ(faults("a: " + std::string(4000000, '{') + "\n"), deep);
+  std::string dollars = "a: ";
+  for (int k = 0; k < 200000; ++k) dollars += "$ ${x";
+  dollars += "\n";
+  EXPECT_FALSE(faults(dollars + body).empty());
+  EXPECT_FALSE(faults("parameters: {a: \"${" + std::string(8000, '(') + "1" +
+                      std::string(8000, ')') + "}\"}\n" + body)
+                   .empty());
+}
+
+TEST_F(Hostile, ManyValues) {
+  std::string list = "points: {p: [";
+  for (int k = 0; k < 1000001; ++k) list += "0,";
+  EXPECT_EQ(faults(body + list + "0]}\n"),
+            Sentences{"model.yaml:4:1999974: found more than 1000000 values in one file, expected "
+                      "fewer (tables may stand in CSV files)"});
+}
+
+TEST_F(Hostile, ManyEntities) {
+  const Sentences found =
+      faults("bodies:\n" + many(20001, "  b", ": {rigid: {mass: 1}, position: [0, 0, 0]}\n"));
+  EXPECT_EQ(found, Sentences{"model.yaml:20003:3: bodies.b20000: found more than 20000 bodies, "
+                             "expected fewer"});
+}
+
+TEST_F(Hostile, ManyColumnsAndElements) {
+  const Sentences columns = faults(body + "outputs:\n" + many(7000, "  o", ": {position: a}\n"));
+  EXPECT_EQ(columns, Sentences{"model.yaml:6671:3: outputs: found more than 20000 columns, "
+                               "expected fewer"});
+  std::string text = "points: {p: [0, 0, 0], q: [1, 0, 0]}\nbodies:\n";
+  for (int k = 0; k < 500; ++k)
+    text += "  b" + std::to_string(k) +
+            ": {flexible: {material: {young: 1, poisson: 0, density: 1}, clamped: [p], "
+            "normal_modes: 1, bars: {b: {from: p, to: q, elements: 10000, section: {round: "
+            "0.1}}}}}\n";
+  const Sentences elements = faults(text);
+  ASSERT_FALSE(elements.empty());
+  EXPECT_NE(elements[0].find("found more than 1000000 elements in all bars, expected fewer"),
+            std::string::npos)
+      << elements[0];
+  EXPECT_LE(elements.size(), 25u);
+}
+
+TEST_F(Hostile, SubsystemsThatMultiply) {
+  for (int k = 1; k <= 30; ++k) {
+    const std::string next = "sub" + std::to_string(k + 1) + ".yaml";
+    folder_.write("sub" + std::to_string(k) + ".yaml", "floatframe: 1\nsubsystems: {l: {file: " +
+                                                           next + "}, r: {file: " + next + "}}\n");
+  }
+  folder_.write("sub31.yaml", "floatframe: 1\n" + body);
+  const Sentences found = faults("subsystems: {l: {file: sub1.yaml}, r: {file: sub1.yaml}}\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("found more than 1000 subsystems, expected fewer"), std::string::npos);
+}
+
+TEST_F(Hostile, LargeSubsystemsUsedOften) {
+  folder_.write("part.yaml",
+                "floatframe: 1\npoints:\n" + many(20000, "  p", ": [0, 0, 0]\n") + body);
+  const Sentences found = faults("subsystems:\n" + many(900, "  s", ": {file: part.yaml}\n"));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0],
+            "part.yaml:1:1: found more than 2000000 values in all files together (each counted as "
+            "often as it is used), expected fewer");
+}
+
+TEST_F(Hostile, ControlCharactersAreRefusedAndWrittenOut) {
+  const Sentences found = faults(body +
+                                 "outputs:\n"
+                                 "  \"a\\0b\": {position: a}\n"
+                                 "  \"c\\e[31m\": {position: a}\n"
+                                 "\"\\x01\": 1\n"
+                                 "\"\\x85\": 2\n");
+  for (const std::string& sentence : found)
+    for (const char c : sentence) EXPECT_GE(static_cast<unsigned char>(c), 0x20u) << sentence;
+  const auto says = [&](const std::string& what) {
+    for (const std::string& sentence : found)
+      if (sentence.find(what) != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_TRUE(says("model.yaml:5:3: found the text 'a\\x00b', expected no control characters"));
+  EXPECT_TRUE(says("model.yaml:6:3: found the text 'c\\x1b[31m', expected no control characters"));
+  EXPECT_TRUE(says("model.yaml:7:1: found the text '\\x01', expected no control characters"));
+  EXPECT_TRUE(says("model.yaml:8:1: found the text '\\xc2\\x85', expected no control characters"));
+}
+
+TEST_F(Hostile, AColumnMayNotBeCalledTime) {
+  EXPECT_EQ(faults(body + "outputs:\n  time: {position: a, axis: x}\n"),
+            Sentences{"model.yaml:5:3: outputs: found the column 'time', the name of the first "
+                      "column, expected another"});
+}
+
+TEST_F(Hostile, OverrideTexts) {
+  const std::string file =
+      folder_.write("model.yaml", "floatframe: 1\nparameters: {road: bump}\n" + body);
+  for (const std::string& value :
+       {std::string("a\x1b[31m"), std::string("\xff\xfe"), std::string(20000, 'x')}) {
+    try {
+      read_model(file, {{"road", value}});
+      FAIL() << value.substr(0, 20);
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find('\x1b'), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace floatframe
