@@ -2,12 +2,12 @@
 // the poses of bodies.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/text_table.hpp"
+#include "floatframe/model/force_outputs.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/state_json.hpp"
@@ -25,21 +25,18 @@ std::string fixed(double value, int decimals) {
   return text;
 }
 
-bool is_torsional(const Model& model, const std::string& name) {
-  return std::any_of(model.forces.begin(), model.forces.end(), [&](const Force& f) {
-    return f.name == name && (f.rotational || f.type == ForceType::torque);
-  });
-}
-
 /// A value that is not unique has a star.
 std::string starred(const std::string& text, bool unique) { return unique ? text : text + "*"; }
 
 std::string forces_text(const Model& model, const StaticsResult& statics) {
   TextTable table({"force element", "type", "force", "", "measure", ""}, {1, 3, 5});
-  for (const StaticsForce& f : statics.forces) {
-    const bool torsional = is_torsional(model, f.name);
-    table.add({f.name, f.type, starred(fixed(f.force, 4), f.unique), torsional ? "N m" : "N",
-               fixed(f.length, 9), torsional ? "rad" : "m"});
+  for (std::size_t k = 0; k < statics.forces.size(); ++k) {
+    const StaticsForce& f = statics.forces[k];
+    const Force& element = model.forces[k];
+    const bool measured = force_has(element.type, ForceQuantity::length);
+    table.add({f.name, f.type, starred(fixed(f.force, 4), f.unique),
+               force_output_unit(element, ForceQuantity::force), measured ? fixed(f.length, 9) : "",
+               force_output_unit(element, ForceQuantity::length)});
   }
   return table.empty() ? "" : "\n" + table.text();
 }

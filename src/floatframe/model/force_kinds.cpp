@@ -2,6 +2,7 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/force_outputs.hpp"
 
 namespace floatframe {
 
@@ -34,6 +35,17 @@ using Types = std::make_index_sequence<std::size(list)>;
 std::span<const ForceKind* const> force_kinds() noexcept { return list; }
 
 const char* force_type_name(ForceType type) noexcept { return list[index_of(type)]->name; }
+
+bool force_has(ForceType type, ForceQuantity quantity) noexcept {
+  return quantity == ForceQuantity::force ||
+         (type != ForceType::force && type != ForceType::torque);
+}
+
+const char* force_output_unit(const Force& force, ForceQuantity quantity) noexcept {
+  static constexpr const char* units[][3] = {{"N", "m", "m/s"}, {"N m", "rad", "rad/s"}};
+  const bool turning = force.rotational || force.type == ForceType::torque;
+  return force_has(force.type, quantity) ? units[turning ? 1 : 0][index_of(quantity)] : "";
+}
 
 void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,

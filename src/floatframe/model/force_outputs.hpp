@@ -1,0 +1,15 @@
+#pragma once
+// What can be asked of a force element as a result, and its units.
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+/// The scalar force or torque, its measure (length, deflection, angle) and the rate of that.
+enum class ForceQuantity { force, length, rate };
+
+/// "N", "rad/s", ...; empty if elements of its type have no such quantity.
+const char* force_output_unit(const Force& force, ForceQuantity quantity) noexcept;
+/// Loads that are given have no length and no rate.
+bool force_has(ForceType type, ForceQuantity quantity) noexcept;
+
+}  // namespace floatframe
