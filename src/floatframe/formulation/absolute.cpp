@@ -3,7 +3,11 @@
 
 #include <algorithm>
 
+#include "floatframe/formulation/equations_of_motion.hpp"
+
 namespace floatframe {
+
+static_assert(EquationsOfMotion<AbsoluteFormulation>);
 
 AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod method) : model_(model) {
   for (std::size_t j = 0; j < model_.joints.size(); ++j)

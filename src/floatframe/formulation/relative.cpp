@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/math/partial_ldlt.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
+
+static_assert(EquationsOfMotion<RelativeFormulation>);
 
 RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod method)
     : model_(model), topology_(find_topology(model)) {

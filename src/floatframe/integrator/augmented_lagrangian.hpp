@@ -1,21 +1,29 @@
 #pragma once
 // Index-3 augmented Lagrangian with mass-orthogonal projections (paper eqs (1), (2); theory section
-// 11), written for any formulation F that offers the members listed in relative.hpp ("the
-// integrator's view").
+// 11), for any formulation that offers the equations of motion as
+// formulation/equations_of_motion.hpp asks for them.
 //
-// Unknown of a step: the increment x of the configuration, q = q_n (+) x (rotation vectors for
-// quaternions). With the generalised-alpha family (spectral radius rho; rho = 1 is the plain
-// trapezoidal rule of the paper):
-//   v = c1 x + v_hat,  a = c2 x + a_hat,  c1 = gamma/(beta h),  c2 = (1-alpha_m)/((1-alpha_f) beta
-//   h^2),  s = 1/c2
-// Newton:  T dx = -s [M a + Phi_q^T (alpha Phi + lambda) - Q],  T = M + (c1/c2) C + s (K + Phi_q^T
-// alpha Phi_q)
-//   then q (+)= dx and lambda += alpha (Phi + Phi_q dx), which is alpha Phi(q) but for the
-//   curvature of the constraints.
-// Projections with a metric of their own, factorised once a step with the Jacobian frozen there:
-//   W = M + 0.01 s K,  T_p = W + 300 s Phi_q^T alpha Phi_q
-//   v -= T_p^-1 300 s Phi_q^T alpha Phi_dot(v),  a -= T_p^-1 300 s Phi_q^T alpha Phi_ddot(a),
-//   repeated until the tolerance.
+// Unknown of a step of size h: the increment x of the configuration, q_n+1 = q_n (+) x (rotation
+// vectors for quaternions). With the generalised-alpha family of the spectral radius rho (rho = 1
+// is the trapezoidal rule of the paper: gamma = 1/2, beta = 1/4, alpha_m = alpha_f = 0)
+//   alpha_m = (2 rho - 1)/(rho + 1),  alpha_f = rho/(rho + 1),
+//   gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2 / 4
+//   a_alg_n+1 = (x - h v_n - h^2 (1/2 - beta) a_alg_n) / (beta h^2)                             (a)
+//   v = v_n + h (1 - gamma) a_alg_n + h gamma a_alg_n+1                                         (b)
+//   (1 - alpha_f) a + alpha_f a_n = (1 - alpha_m) a_alg_n+1 + alpha_m a_alg_n                   (c)
+// velocities and accelerations are linear in x:
+//   v = c1 x + v_hat,  c1 = gamma / (beta h)                                                    (d)
+//   a = c2 x + a_hat,  c2 = (1 - alpha_m) / ((1 - alpha_f) beta h^2),  s = 1/c2                 (e)
+// Newton, with (1) divided by c2:
+//   T dx = -s [M a + Phi_q^T (alpha Phi + lambda) - Q]                                          (f)
+//   T = M + (c1/c2) C + s (K + Phi_q^T alpha Phi_q)                                             (g)
+//   x (+)= dx,  lambda += alpha (Phi + Phi_q dx)                                                (h)
+// where (h) is alpha Phi(q) but for the curvature of the constraints.
+// Projections, (2), with a metric of their own, factorised once per step with the Jacobian frozen:
+//   W = M + 0.01 s K,  T_p = W + 300 s Phi_q^T alpha Phi_q                                      (i)
+//   v -= T_p^-1 300 s Phi_q^T alpha Phi_dot(v),  a -= T_p^-1 300 s Phi_q^T alpha Phi_ddot(a),   (j)
+// repeated until the tolerance.
+//
 // Nothing here allocates after construction, throws or prints. The state is untouched unless the
 // step is accepted.
 #include <algorithm>
@@ -23,6 +31,7 @@
 #include <cmath>
 #include <limits>
 
+#include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -73,7 +82,7 @@ struct IntegratorExperience {
   double reuse_rate = 0.1;  ///< convergence with a tangent that was not new
 };
 
-template <class F>
+template <EquationsOfMotion F>
 class AugmentedLagrangian {
  public:
   AugmentedLagrangian(F& formulation, const StepOptions& options)

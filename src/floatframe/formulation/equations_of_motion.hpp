@@ -1,0 +1,97 @@
+#pragma once
+// What the integrator asks of a formulation: the equations of motion of a constrained system,
+//   M(q) a + Phi_q^T (alpha Phi + lambda) = Q(q, v, t),   Phi(q, t) = 0,            (1)
+// in nq configuration numbers q, nv velocities v and accelerations a, nc multipliers lambda.
+// Increments x of the configuration have nv numbers, q = q0 (+) x (`retract`): rotation vectors for
+// quaternions.
+//
+// Order of calls. A formulation keeps one evaluation of the system; each call says what it needs of
+// those before it and what it leaves for those after it.
+//
+//   call                        needs           leaves
+//   stepping(true)                              the beginning of a step: what must go back to where
+//                                               it was if the step is not accepted
+//   positions(t, q)                             markers, directions of motion
+//   velocities(v)               positions       velocities, bias accelerations; Phi and Phi_q at
+//                                               these positions
+//   dynamics()                  velocities      M, inertia and applied forces
+//   forces()                    velocities      applied forces alone
+//   residual(a, lambda, alpha,  dynamics        out; lambda for the tangent's geometric stiffness
+//            out)
+//   factorize(.., slot)         residual        T with its directions of motion, in the slot
+//   factorize_metric(.., slot)  dynamics        W with its directions of motion, in the slot
+//   solve(.., slot)             a matrix in     b; the configuration may have moved since
+//                               the slot
+//   constraint_rates(out)       velocities      out = Phidot = Phi_q v + Phi_t
+//   constraint_accelerations    velocities      out = Phiddot = Phi_q a + (Phi_q)dot v + Phi_tt;
+//           (a, out)                            the accelerations that outputs look at
+//   constraint_increments       velocities      out = Phi_q delta
+//           (delta, out)
+//   constraint_forces(w, out)   velocities      out = Phi_q^T w
+//   retract(q0, x, q)                           q = q0 (+) x
+//   advance(x, delta)                           x such that q0 (+) x = (q0 (+) x_old) (+) delta
+//   stepping(false, accepted)                   the end of the step
+//
+// positions, velocities, dynamics, residual and the constraint_* functions may be repeated in any
+// order that meets these needs; the results of an evaluation do not depend on those before it but
+// for the turn that angles of springs have reached (`stepping`).
+//
+// All of it runs in steps: noexcept, free of allocation, exceptions and virtual functions.
+#include <concepts>
+
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+// clang-format off
+template <class F>
+concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const VecX& in,
+                                     VecX& out) {
+  // Sizes nv, nq, nc.
+  { c.velocities() } noexcept -> std::same_as<int>;
+  { c.configurations() } noexcept -> std::same_as<int>;
+  { c.constraints() } noexcept -> std::same_as<int>;
+  /// What a renewal of the factorisation must save, in iterations.
+  requires std::same_as<decltype(F::factorization_cost), const double>;
+
+  { f.stepping(true) } noexcept -> std::same_as<void>;
+  { f.stepping(false, true) } noexcept -> std::same_as<void>;
+
+  // One evaluation of the system: (t, q), (v), then the terms.
+  { f.positions(x, in) } noexcept -> std::same_as<void>;
+  { f.velocities(in) } noexcept -> std::same_as<void>;
+  { f.dynamics() } noexcept -> std::same_as<void>;
+  { f.forces() } noexcept -> std::same_as<void>;
+  /// out = M a - Q + Phi_q^T (alpha Phi + lambda), for (a, lambda, alpha, out)
+  { f.residual(in, in, x, out) } noexcept -> std::same_as<void>;
+
+  /// T = M mass + damping C + s (K + alpha Phi_q^T Phi_q), for (mass, damping, s, alpha, slot), with
+  /// the forces and multipliers of the last `residual`. -1, or a coordinate with a vanishing pivot.
+  { f.factorize(x, x, x, x, slot) } noexcept -> std::same_as<int>;
+  /// W = M + s K + penalty Phi_q^T Phi_q, for (s, penalty, slot): modal stiffness and that of
+  /// forces, without geometric stiffness: the metric of the projections. -1, or a coordinate with a
+  /// vanishing pivot.
+  { f.factorize_metric(x, x, slot) } noexcept -> std::same_as<int>;
+  /// b := T^-1 b
+  { f.solve(out, slot) } noexcept -> std::same_as<void>;
+  /// b := T^-1 (b + Phi_q^T w) and increments := Phi_q b, for (b, w, increments, slot), with the
+  /// Phi_q of the factorisation. A slot keeps one factorisation with its directions of motion.
+  { f.solve(out, in, out, slot) } noexcept -> std::same_as<void>;
+
+  // Constraints at the present positions and velocities.
+  { c.constraint_values() } noexcept -> std::same_as<const VecX&>;
+  { f.constraint_rates(out) } noexcept -> std::same_as<void>;
+  { f.constraint_accelerations(in, out) } noexcept -> std::same_as<void>;
+  { f.constraint_increments(in, out) } noexcept -> std::same_as<void>;
+  { f.constraint_forces(in, out) } noexcept -> std::same_as<void>;
+
+  /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates [1/s2]: the first guess of a step.
+  { c.own_frequencies_squared() } noexcept -> std::same_as<const VecX&>;
+
+  // Configurations: (q0, x, q) and (x, delta).
+  { c.retract(in, in, out) } noexcept -> std::same_as<void>;
+  { c.advance(out, in) } noexcept -> std::same_as<void>;
+};
+// clang-format on
+
+}  // namespace floatframe
