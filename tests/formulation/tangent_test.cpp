@@ -70,8 +70,7 @@ Tangent compare(F& f, const VecX& q, double s, double alpha) {
   const VecX zero = VecX::Zero(n);
   VecX lambda = Random(3).vector(f.constraints(), 10.0);
   for (std::size_t k = 0; k < f.parts().size(); ++k) {
-    const auto kind = f.parts()[k].kind;
-    if (kind != ConstraintPart::Kind::coincident && kind != ConstraintPart::Kind::distance)
+    if (constraint_kind(f.parts()[k].type).gradients == PartGradients::general)
       lambda.segment(f.part_offset(k), f.parts()[k].rows()).setZero();
   }
   VecX plus(n), minus(n), q1 = q;

@@ -2,8 +2,6 @@
 // is made of: gradient, velocity term, time derivatives and curvature against differences.
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/example_numbers.hpp"
@@ -28,15 +26,15 @@ const TimeFunction& motion() {
 std::vector<Case> all_cases() {
   std::vector<Case> all;
   ExampleNumbers numbers(5);
-  for (const ConstraintKind& kind : constraint_kinds()) {
+  for (const ConstraintType type : constraint_types) {
     ConstraintPart p;
-    p.kind = kind.kind;
+    p.type = type;
     p.e_a = numbers.direction();
     p.n_b = numbers.direction();
     p.c = numbers(-0.5, 0.5);
     p.scale = numbers(0.5, 1.5);
     p.motion = &motion();
-    all.push_back({std::string("part_") + kind.name, {p}});
+    all.push_back({std::string("part_") + constraint_type_name(type), {p}});
   }
   for (const JointType type : joint_types) {
     Model model;
@@ -62,7 +60,7 @@ class Constraint : public ::testing::TestWithParam<Case> {
   MarkerPair pair(const ConstraintPart& part) {
     MarkerPair p;
     p.a = numbers_.marker();
-    const bool on_axis = constraint_kinds()[index_of(part.kind)].on_axis;
+    const bool on_axis = constraint_kind(part.type).on_axis;
     p.b = on_axis ? numbers_.marker_on_axis(p.a) : numbers_.marker();
     return p;
   }
@@ -161,17 +159,31 @@ TEST_P(Constraint, TimeDerivativesAgainstFiniteDifferences) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, Constraint, ::testing::ValuesIn(all_cases()),
-                         [](const auto& c) { return c.param.name; });
-
-TEST(ConstraintKinds, AreListedInTheirOrder) {
-  std::set<std::string> names;
-  std::size_t index = 0;
-  for (const ConstraintKind& kind : constraint_kinds()) {
-    EXPECT_EQ(static_cast<std::size_t>(kind.kind), index++);
-    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+// What formulations take from the facts of a kind instead of its rows.
+TEST_P(Constraint, FactsAreThoseOfTheGradients) {
+  for (const ConstraintPart& part : GetParam().parts) {
+    const ConstraintKind& kind = constraint_kind(part.type);
+    const MarkerPair p = pair(part);
+    const auto r = rows(part, p);
+    ASSERT_EQ(static_cast<int>(r.size()), kind.rows);
+    double forces = 0.0;
+    for (const ConstraintRow& row : r) forces += row.gradient.Fa.norm() + row.gradient.Fb.norm();
+    EXPECT_EQ(forces > 0.0, kind.points);
+    if (kind.gradients == PartGradients::unit) {
+      ASSERT_EQ(kind.rows, 3);
+      for (int k = 0; k < 3; ++k)
+        EXPECT_EQ(stacked(r[k].gradient),
+                  stacked({-Vec3::Unit(k), Vec3::Zero(), Vec3::Unit(k), Vec3::Zero()}));
+    } else if (kind.gradients == PartGradients::line) {
+      ASSERT_EQ(kind.rows, 1);
+      const Vec3 n = (p.b.r - p.a.r) / part.scale;
+      EXPECT_EQ(stacked(r[0].gradient), stacked({-n, Vec3::Zero(), n, Vec3::Zero()}));
+    }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(EveryKind, Constraint, ::testing::ValuesIn(all_cases()),
+                         [](const auto& c) { return c.param.name; });
 
 }  // namespace
 }  // namespace floatframe::test

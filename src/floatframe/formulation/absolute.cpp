@@ -25,12 +25,9 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
   bodies_.resize(model_.bodies.size());
   // Outer points: where a constraint holds the position of a deforming node. Joints at one node
   // share the point.
-  const auto needs_position = [](ConstraintPart::Kind k) {
-    return k != ConstraintPart::Kind::perpendicular && k != ConstraintPart::Kind::drive_angle;
-  };
   std::vector<std::pair<int, int>> point_of_marker;  // marker -> (body, local point)
   for (const ConstraintPart& p : parts_) {
-    if (!needs_position(p.kind)) continue;
+    if (!constraint_kind(p.type).points) continue;
     for (const int marker : {p.a, p.b}) {
       MarkerData& m = markers_[marker];
       if (m.body < 0 || !m.local || m.point >= 0) continue;

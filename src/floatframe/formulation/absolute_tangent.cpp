@@ -159,8 +159,7 @@ int AbsoluteFormulation::eliminate(double mass, double damping, double s, double
       add_rank_one(matrix, ga_, gb_, penalty);
       keep_row(linear, part_offset_[k] + r, ga_, gb_);
     }
-    if (geometric &&
-        p.kind == ConstraintPart::Kind::distance) {  // its gradient d/L turns with the rod
+    if (geometric && constraint_kind(p.type).gradients == PartGradients::line) {
       const double w = s * lambda_[part_offset_[k]] / p.scale;
       for (int c = 0; c < 3; ++c) {
         gradient(p.a, true, -Vec3::Unit(c), Vec3::Zero(), ga_);

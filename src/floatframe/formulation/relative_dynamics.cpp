@@ -110,7 +110,7 @@ void RelativeFormulation::sum_rows(std::size_t part, const VecX& w, WrenchRow& s
   sum.Ta.setZero();
   sum.Fb.setZero();
   sum.Tb.setZero();
-  if (parts_[part].kind == ConstraintPart::Kind::coincident) {  // unit rows
+  if (constraint_kind(parts_[part].type).gradients == PartGradients::unit) {
     sum.Fb = w.segment<3>(part_offset_[part]);
     sum.Fa = -sum.Fb;
     return;

@@ -161,7 +161,8 @@ void RelativeFormulation::assemble_elements(double damping, double s, double pen
     if (e.cluster < 0) continue;
     MatX& front = l.fronts[e.cluster];
     double* g = l.gradients.data() + e.gradient;
-    if (parts_[k].kind == ConstraintPart::Kind::coincident) {
+    const PartGradients gradients = constraint_kind(parts_[k].type).gradients;
+    if (gradients == PartGradients::unit) {
       fill_distance(e, g);
       add_three_outer(front, e.first, e.width, g, penalty);
       continue;
@@ -170,8 +171,7 @@ void RelativeFormulation::assemble_elements(double damping, double s, double pen
       fill_gradient(e, rows_[part_offset_[k] + r].gradient, g);
       add_outer(front, e.first, e.width, g, penalty);
     }
-    if (geometric &&
-        parts_[k].kind == ConstraintPart::Kind::distance) {  // its gradient d/L turns with the rod
+    if (geometric && gradients == PartGradients::line) {
       fill_distance(e, slots_.data());
       add_three_outer(front, e.first, e.width, slots_.data(),
                       s * lambda_[part_offset_[k]] / parts_[k].scale);

@@ -1,45 +1,28 @@
 #pragma once
 // Constraints as small parts between two markers a and b; every joint type is a list of parts
-// (paper section 6, theory section 10). d = r_b - r_a; e, n unit vectors fixed in the markers; l a
-// body length that scales direction rows to metres. Each row has its value phi, its gradient (a
-// wrench row) and quad = Phi_q-dot q-dot without the markers' own bias accelerations:
-//   coincident     r_b - r_a = 0                              3 rows
-//   in_line        n1.d = 0, n2.d = 0       (n in a)          2 rows
-//   in_plane       z_a.d = 0                                  1 row
-//   perpendicular  l (e_a.n_b - c) = 0                        1 row
-//   distance       (d.d - L^2)/(2L) = 0                       1 row
-//   drive_position z_a.d - f(t) = 0                           1 row
-//   drive_angle    l (angle of x_b about z_a - f(t)) = 0      1 row
-// A new kind is two functions and one entry in the list of constraint_part.cpp; the generic tests
-// run over the list.
-#include <array>
-#include <span>
+// (paper section 6, theory section 10). Each row has its value phi, its gradient (a wrench row) and
+// quad = Phi_q-dot q-dot without the markers' own bias accelerations; rows of directions are scaled
+// to metres by a body length. A kind of part is one file model/constraints/<name>.cpp, which begins
+// with its formulas, and one entry in constraint_list.hpp: both formulations, messages and the
+// generic tests run over the list.
 #include <string>
 #include <vector>
 
+#include "floatframe/model/constraint_list.hpp"
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
 
 namespace floatframe {
 
 struct ConstraintPart {
-  enum class Kind {
-    coincident,
-    in_line,
-    in_plane,
-    perpendicular,
-    distance,
-    drive_position,
-    drive_angle
-  };
-  Kind kind = Kind::coincident;
+  ConstraintType type = ConstraintType::coincident;
   int a = -1, b = -1;  ///< markers
   Vec3 e_a = Vec3::UnitZ(), n_b = Vec3::UnitX();
   double c = 0.0;      ///< perpendicular: value of e_a.n_b to keep
   double scale = 1.0;  ///< l, or L of a distance
   const TimeFunction* motion = nullptr;
   ConstraintOwner owner;
-  int rows() const noexcept { return kind == Kind::coincident ? 3 : kind == Kind::in_line ? 2 : 1; }
+  int rows() const noexcept;
 };
 
 struct ConstraintRow {
@@ -48,6 +31,60 @@ struct ConstraintRow {
   double quad = 0.0;
   double phi_t = 0.0, phi_tt = 0.0;
 };
+
+// ----------------------------------------------------------------------------------------------
+// what a kind of part supplies
+//
+// Two functions of step time, noexcept and free of allocation, that are called by name, and the
+// facts of its ConstraintKind.
+
+/// Fills the rows of the part.
+template <ConstraintType type>
+void constraint_rows_of(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
+                        double t, ConstraintRow* rows) noexcept;
+
+/// K += d(sum lambda_r gradient_r)/d(motion)
+template <ConstraintType type>
+void constraint_curvature_of(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
+                             const double* lambda, Mat12& K) noexcept;
+
+/// Gradients that formulations have a shorter way for. With d = r_b - r_a:
+enum class PartGradients {
+  general,
+  unit,  ///< three rows, those of d itself: unit vectors on the points
+  line   ///< one row d / scale on the points, which turns with the line between them
+};
+
+struct ConstraintKind {
+  int rows = 1;
+  /// The points of the markers enter, not only their directions. In the absolute formulation such a
+  /// point on a deforming node has coordinates of its own.
+  bool points = true;
+  bool angle = false;    ///< phi is an angle times `scale`
+  bool on_axis = false;  ///< the gradient is that of phi only where both markers share the z axis
+  PartGradients gradients = PartGradients::general;
+  /// What a row holds, in messages. Null: what its gradient says, "translation along z" where
+  /// points enter, else "rotation about x".
+  const char* holds = nullptr;
+};
+
+#define FLOATFRAME_KIND(name) extern const ConstraintKind name##_constraint;
+FLOATFRAME_CONSTRAINTS(FLOATFRAME_KIND)
+#undef FLOATFRAME_KIND
+
+#define FLOATFRAME_KIND(name) &name##_constraint,
+inline constexpr const ConstraintKind* constraint_kinds[] = {
+    FLOATFRAME_CONSTRAINTS(FLOATFRAME_KIND)};
+#undef FLOATFRAME_KIND
+
+inline const ConstraintKind& constraint_kind(ConstraintType type) noexcept {
+  return *constraint_kinds[index_of(type)];
+}
+
+inline int ConstraintPart::rows() const noexcept { return constraint_kind(type).rows; }
+
+// ----------------------------------------------------------------------------------------------
+// what formulations call
 
 /// Value of a function of time with its first two derivatives.
 PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept;
@@ -61,19 +98,6 @@ void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const
 /// rotation multiply from the left.
 void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
                               const MarkerState& b, const double* lambda, Mat12& K) noexcept;
-
-/// What a kind of part must supply: step-time functions, noexcept and free of allocation.
-struct ConstraintKind {
-  ConstraintPart::Kind kind;
-  const char* name;
-  bool on_axis;  ///< the gradient is that of phi only where both markers share the z axis
-  void (*evaluate)(const ConstraintPart&, const MarkerState& a, const MarkerState& b, double t,
-                   ConstraintRow* rows) noexcept;
-  void (*curvature)(const ConstraintPart&, const MarkerState& a, const MarkerState& b,
-                    const double* lambda, Mat12& K) noexcept;
-};
-/// In the order of ConstraintPart::Kind.
-std::span<const ConstraintKind> constraint_kinds() noexcept;
 
 /// Parts that hold joint `index` of the model closed (without its motion).
 void append_joint_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);

@@ -108,12 +108,10 @@ class JointParts {
   JointParts(const Joint& joint, int index, double length, std::vector<ConstraintPart>& parts);
   /// In the joint frame.
   const Vec3& axis_2() const noexcept { return axis_2_; }
-  /// r_M = r_F.
-  void coincident() { add(ConstraintPart::Kind::coincident); }
-  /// The origin of M stays on the z axis of F.
-  void in_line() { add(ConstraintPart::Kind::in_line); }
-  /// The origin of M stays in the xy plane of F.
-  void in_plane() { add(ConstraintPart::Kind::in_plane); }
+  /// Scales rows of directions to metres [m].
+  double length() const noexcept { return length_; }
+  /// A part between F and M, to be filled where its kind has more than the two markers.
+  ConstraintPart& add(ConstraintType type);
   /// The direction e_F, fixed in F, keeps the product c with n_M, fixed in M.
   void perpendicular(const Vec3& e_F, const Vec3& n_M, double c = 0.0);
   /// The z axes stay parallel.
@@ -128,7 +126,6 @@ class JointParts {
   }
 
  private:
-  void add(ConstraintPart::Kind kind);
   const Vec3& axis_2_;
   ConstraintPart base_;
   double length_;

@@ -3,8 +3,6 @@
 
 namespace floatframe {
 
-using Kind = ConstraintPart::Kind;
-
 JointParts::JointParts(const Joint& joint, int index, double length,
                        std::vector<ConstraintPart>& parts)
     : axis_2_(joint.axis_2), length_(length), parts_(parts) {
@@ -13,14 +11,14 @@ JointParts::JointParts(const Joint& joint, int index, double length,
   base_.owner = {ConstraintOwner::Kind::joint, index};
 }
 
-void JointParts::add(Kind kind) {
+ConstraintPart& JointParts::add(ConstraintType type) {
   parts_.push_back(base_);
-  parts_.back().kind = kind;
+  parts_.back().type = type;
+  return parts_.back();
 }
 
 void JointParts::perpendicular(const Vec3& e_F, const Vec3& n_M, double c) {
-  add(Kind::perpendicular);
-  ConstraintPart& p = parts_.back();
+  ConstraintPart& p = add(ConstraintType::perpendicular);
   p.e_a = e_F;
   p.n_b = n_M;
   p.c = c;
@@ -38,10 +36,11 @@ void append_motion_parts(const Model& model, int index, std::vector<ConstraintPa
   const Joint& joint = model.joints[index];
   if (!joint.motion) return;
   ConstraintPart p;
-  p.kind = joint_unit(joint.type, 0) == JointUnit::m ? Kind::drive_position : Kind::drive_angle;
+  const bool angle = joint_unit(joint.type, 0) == JointUnit::rad;
+  p.type = angle ? ConstraintType::drive_angle : ConstraintType::drive_position;
   p.a = joint.frame_F;
   p.b = joint.frame_M;
-  p.scale = p.kind == Kind::drive_angle ? model.bodies[joint.child].length : 1.0;
+  if (angle) p.scale = model.bodies[joint.child].length;
   p.motion = &*joint.motion;
   p.owner = {ConstraintOwner::Kind::joint, index};
   parts.push_back(p);
@@ -50,7 +49,7 @@ void append_motion_parts(const Model& model, int index, std::vector<ConstraintPa
 void append_rod_parts(const Model& model, int index, std::vector<ConstraintPart>& parts) {
   const Rod& rod = model.rods[index];
   ConstraintPart p;
-  p.kind = Kind::distance;
+  p.type = ConstraintType::distance;
   p.a = rod.a;
   p.b = rod.b;
   p.scale = rod.length;

@@ -24,13 +24,13 @@ std::size_t worst_part(const RelativeFormulation& f, const VecX& r) {
 }
 
 const char* unit_of(const ConstraintPart& part, bool rates) {
-  if (part.kind == ConstraintPart::Kind::drive_angle) return rates ? "rad/s" : "rad";
+  if (constraint_kind(part.type).angle) return rates ? "rad/s" : "rad";
   return rates ? "m/s" : "m";
 }
 
 /// Rows of angles are lengths.
 double in_unit(const ConstraintPart& part, double x) {
-  return std::abs(part.kind == ConstraintPart::Kind::drive_angle ? x / part.scale : x);
+  return std::abs(constraint_kind(part.type).angle ? x / part.scale : x);
 }
 
 std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rates) {

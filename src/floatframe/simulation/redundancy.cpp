@@ -27,19 +27,9 @@ std::string line_text(const Vec3& direction) {
 }
 
 std::string direction_text(const ConstraintPart& part, const ConstraintRow& row) {
-  switch (part.kind) {
-    case ConstraintPart::Kind::distance:
-      return "length";
-    case ConstraintPart::Kind::drive_position:
-    case ConstraintPart::Kind::drive_angle:
-      return "prescribed motion";
-    case ConstraintPart::Kind::perpendicular:
-      return "rotation about " + line_text(row.gradient.Tb);
-    case ConstraintPart::Kind::coincident:
-    case ConstraintPart::Kind::in_line:
-    case ConstraintPart::Kind::in_plane:
-      break;
-  }
+  const ConstraintKind& kind = constraint_kind(part.type);
+  if (kind.holds) return kind.holds;
+  if (!kind.points) return "rotation about " + line_text(row.gradient.Tb);
   return "translation along " + line_text(row.gradient.Fb);
 }
 

@@ -36,7 +36,7 @@ double joint_velocity_of<JointType::cylindrical>(const JointTwist& twist, int co
 namespace {
 
 void cylindrical_parts(JointParts& parts) {
-  parts.in_line();
+  parts.add(ConstraintType::in_line);
   parts.parallel_z();
 }
 

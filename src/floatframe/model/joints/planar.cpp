@@ -54,7 +54,7 @@ double joint_velocity_of<JointType::planar>(const JointTwist& twist, int compone
 namespace {
 
 void planar_parts(JointParts& parts) {
-  parts.in_plane();
+  parts.add(ConstraintType::in_plane);
   parts.parallel_z();
 }
 

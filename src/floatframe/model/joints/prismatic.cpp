@@ -33,7 +33,7 @@ double joint_velocity_of<JointType::prismatic>(const JointTwist& twist, int) noe
 namespace {
 
 void prismatic_parts(JointParts& parts) {
-  parts.in_line();
+  parts.add(ConstraintType::in_line);
   parts.same_axes();
 }
 

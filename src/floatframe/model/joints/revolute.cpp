@@ -33,7 +33,7 @@ double joint_velocity_of<JointType::revolute>(const JointTwist& twist, int) noex
 namespace {
 
 void revolute_parts(JointParts& parts) {
-  parts.coincident();
+  parts.add(ConstraintType::coincident);
   parts.parallel_z();
 }
 

@@ -33,7 +33,7 @@ double joint_velocity_of<JointType::spherical>(const JointTwist& twist, int comp
 
 namespace {
 
-void spherical_parts(JointParts& parts) { parts.coincident(); }
+void spherical_parts(JointParts& parts) { parts.add(ConstraintType::coincident); }
 
 void spherical_mirror(JointDescription& joint, const Placement& x) {
   place_axial(joint.position, 0, x);

@@ -59,7 +59,7 @@ double joint_velocity_of<JointType::universal>(const JointTwist& twist, int comp
 namespace {
 
 void universal_parts(JointParts& parts) {
-  parts.coincident();
+  parts.add(ConstraintType::coincident);
   parts.perpendicular(Vec3::UnitZ(), parts.axis_2(), parts.axis_2().z());
 }
 

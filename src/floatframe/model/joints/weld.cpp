@@ -26,7 +26,7 @@ double joint_velocity_of<JointType::weld>(const JointTwist&, int) noexcept {
 namespace {
 
 void weld_parts(JointParts& parts) {
-  parts.coincident();
+  parts.add(ConstraintType::coincident);
   parts.same_axes();
 }
 

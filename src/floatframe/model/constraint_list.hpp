@@ -1,0 +1,37 @@
+#pragma once
+// All kinds of constraint parts. One entry is the enumerator of ConstraintType, the word of messages
+// and the name of the file model/constraints/<name>.cpp, which ends in the ConstraintKind
+// `<name>_constraint` (constraint_part.hpp). Everything else runs over this list.
+#include "floatframe/core/enum_index.hpp"
+
+// clang-format off
+#define FLOATFRAME_CONSTRAINTS(entry) \
+  entry(coincident)                   \
+  entry(in_line)                      \
+  entry(in_plane)                     \
+  entry(perpendicular)                \
+  entry(distance)                     \
+  entry(drive_position)               \
+  entry(drive_angle)
+// clang-format on
+
+namespace floatframe {
+
+#define FLOATFRAME_ENUMERATOR(name) name,
+enum class ConstraintType { FLOATFRAME_CONSTRAINTS(FLOATFRAME_ENUMERATOR) };
+#undef FLOATFRAME_ENUMERATOR
+
+#define FLOATFRAME_ENUMERATOR(name) ConstraintType::name,
+inline constexpr ConstraintType constraint_types[] = {
+    FLOATFRAME_CONSTRAINTS(FLOATFRAME_ENUMERATOR)};
+#undef FLOATFRAME_ENUMERATOR
+
+#define FLOATFRAME_WORD(name) #name,
+inline constexpr const char* constraint_words[] = {FLOATFRAME_CONSTRAINTS(FLOATFRAME_WORD)};
+#undef FLOATFRAME_WORD
+
+constexpr const char* constraint_type_name(ConstraintType type) noexcept {
+  return constraint_words[index_of(type)];
+}
+
+}  // namespace floatframe
