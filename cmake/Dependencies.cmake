@@ -19,10 +19,10 @@ else()
 endif()
 
 
-# What the library and the tests use inside, never in an installed header.
+# What the library and the tests use inside, never in an installed header. CLI11 is for the command line alone.
 add_library(floatframe_private_dependencies INTERFACE)
 target_link_libraries(floatframe_private_dependencies INTERFACE
-  floatframe_yaml fmt::fmt CLI11::CLI11 nlohmann_json::nlohmann_json ZLIB::ZLIB ${FLOATFRAME_METIS_LIBRARY})
+  floatframe_yaml fmt::fmt nlohmann_json::nlohmann_json ZLIB::ZLIB ${FLOATFRAME_METIS_LIBRARY})
 target_include_directories(floatframe_private_dependencies SYSTEM INTERFACE
   ${FLOATFRAME_SPECTRA_INCLUDE} ${FLOATFRAME_METIS_INCLUDE})
 

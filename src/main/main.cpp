@@ -1,4 +1,4 @@
-// The program `floatframe`: everything is in the library, of which the dynamic linker picks the
+// The program `floatframe`: the command line and the library, of which the dynamic linker picks the
 // copy that fits the processor.
 #include "floatframe/apps/command_line.hpp"
 

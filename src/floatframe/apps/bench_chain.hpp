@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/apps/bench_stepper.hpp"
 #include "floatframe/apps/chain_model.hpp"
 #include "floatframe/model/description.hpp"
+#include "floatframe/simulation/bench_stepper.hpp"
 
 namespace floatframe {
 

@@ -7,9 +7,9 @@
 
 #include "floatframe/apps/bench_chain.hpp"
 #include "floatframe/apps/command.hpp"
-#include "floatframe/apps/dense_factorization.hpp"
+#include "floatframe/math/dense_factorization.hpp"
 #include "floatframe/model_file/model_reader.hpp"
-#include "floatframe/simulation/iteration_timer.hpp"
+#include "floatframe/simulation/bench_stepper.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -53,6 +53,12 @@ BenchRow measure(const Model& model, SimulationDescription simulation,
   return row;
 }
 
+/// One full Newton iteration at the start, in relative coordinates [s].
+double iteration_seconds(const Model& model, SimulationDescription simulation) {
+  simulation.coordinates = Coordinates::relative;
+  return time_iteration(*make_bench_stepper(model, simulation), 0.1);
+}
+
 }  // namespace
 
 BenchResult bench_iltis(const BenchOptions& options) {
@@ -84,7 +90,7 @@ BenchResult bench_iltis(const BenchOptions& options) {
     result.duration = description.simulation.duration;
     if (elements == largest) {
       result.dense_llt = dense_factorization_seconds(98);
-      result.rel_p_iteration = relative_iteration_seconds(model, description.simulation);
+      result.rel_p_iteration = iteration_seconds(model, description.simulation);
     }
     for (const Combination& combination : combinations) {
       result.rows.push_back(

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "floatframe/apps/chain_model.hpp"
-#include "floatframe/apps/dense_factorization.hpp"
 #include "floatframe/apps/solid_link.hpp"
+#include "floatframe/math/dense_factorization.hpp"
 #include "floatframe/reduction/reduction.hpp"
 #include "floatframe/simulation/simulation.hpp"
 

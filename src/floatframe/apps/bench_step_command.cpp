@@ -8,13 +8,13 @@
 
 #include "floatframe/apps/bench_command.hpp"
 #include "floatframe/apps/bench_scaling.hpp"
-#include "floatframe/apps/bench_stepper.hpp"
 #include "floatframe/apps/chain_model.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model_file/model_reader.hpp"
+#include "floatframe/simulation/bench_stepper.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 extern "C" [[gnu::noinline]] bool floatframe_counted_steps(floatframe::BenchStepper* stepper,

@@ -3,13 +3,12 @@
 // outside of its input's limits, unless the input is to be clamped: then the nearer limit takes its
 // place. Of a refused value the last valid one stays. Both are counted by input. Nothing here
 // allocates after construction.
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "floatframe/model/model.hpp"
+#include "floatframe/model/input_value.hpp"
 
 namespace floatframe {
 
@@ -26,15 +25,13 @@ class InputBuffer {
   /// One value an input, in the order of the model.
   void accept(std::span<const double> wanted) noexcept {
     for (std::size_t i = 0; i < values_.size() && i < wanted.size(); ++i) {
-      const double x = wanted[i];
-      const Input& input = inputs_[i];
-      const bool inside = x >= input.low && x <= input.high;
-      if (!std::isfinite(x) || (!inside && !input.clamp)) {
+      const std::optional<double> value = accepted_value(inputs_[i], wanted[i]);
+      if (!value) {
         ++refused_[i];
         continue;
       }
-      if (!inside) ++clamped_[i];
-      values_[i] = std::clamp(x, input.low, input.high);
+      if (*value != wanted[i]) ++clamped_[i];
+      values_[i] = *value;
     }
   }
 

@@ -30,13 +30,6 @@ std::string what_of(const std::exception_ptr& thrown) {
 
 }  // namespace
 
-std::optional<double> accepted_value(const Input& input, double value) noexcept {
-  if (!std::isfinite(value)) return std::nullopt;
-  if (value >= input.low && value <= input.high) return value;
-  if (!input.clamp) return std::nullopt;
-  return value < input.low ? input.low : input.high;
-}
-
 const char* step_status_name(StepStatus status) noexcept {
   static constexpr const char* names[] = {"completed",     "not_converged",   "singular_tangent",
                                           "not_finite",    "failed_before",   "invalid_step",

@@ -3,13 +3,11 @@
 // does. One virtual call per step.
 #include <exception>
 
+#include "floatframe/model/input_value.hpp"
 #include "floatframe/simulation/simulation_memory.hpp"
 #include "floatframe/simulation/stepping.hpp"
 
 namespace floatframe {
-
-/// The value an input takes, or nothing if it refuses this one.
-std::optional<double> accepted_value(const Input& input, double value) noexcept;
 
 class Simulation::Engine {
  public:

@@ -1,4 +1,4 @@
-#include "floatframe/apps/bench_stepper.hpp"
+#include "floatframe/simulation/bench_stepper.hpp"
 
 #include <algorithm>
 #include <ctime>

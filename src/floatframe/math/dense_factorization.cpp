@@ -1,4 +1,4 @@
-#include "floatframe/apps/dense_factorization.hpp"
+#include "floatframe/math/dense_factorization.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
