@@ -43,10 +43,10 @@ TEST_P(PrescribedMotion, CoordinateFollowsTheFunction) {
   drive.motion = motion(table);
   drive.cut = place == Place::cut;
   s.add_joint("ball", JointType::spherical, "arm", 3, "tail", 0);
-  for (const OutputKind kind : {OutputKind::joint_position, OutputKind::joint_velocity}) {
+  for (const OutputType quantity : {OutputType::joint_position, OutputType::joint_velocity}) {
     OutputDescription o;
-    o.name = kind == OutputKind::joint_position ? "q" : "v";
-    o.kind = kind;
+    o.name = quantity == OutputType::joint_position ? "q" : "v";
+    o.type = quantity;
     o.entity = "drive";
     s.d.outputs.push_back(o);
   }
@@ -95,7 +95,7 @@ TEST(PrescribedRotation, SeveralTurns) {
     j.motion = TimeFunction{PiecewisePolynomial::polynomial({0.0, 40.0}), 0.0, 0.0, 0.0};
     OutputDescription o;
     o.name = "angle";
-    o.kind = OutputKind::joint_position;
+    o.type = OutputType::joint_position;
     o.entity = "axle";
     s.d.outputs.push_back(o);
     s.d.simulation.coordinates = coordinates;

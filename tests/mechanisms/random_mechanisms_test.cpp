@@ -111,7 +111,7 @@ TEST(RandomMechanisms, RoundingDecidesNothingAboutAMasslessMode) {
     const std::size_t end = r.table.rows() - 1;
     std::size_t position = 0;
     for (std::size_t c = 0; c < model.outputs.size(); ++c) {
-      if (model.outputs[c].kind != OutputKind::position) continue;
+      if (model.outputs[c].type != OutputType::position) continue;
       const double x = r.table.at(end, c + 1);
       if (k == 0)
         first.push_back(x);

@@ -55,12 +55,12 @@ ModelDescription many_bodies() {
     d.outputs.push_back(o);
     o.name = motor.joint;
     o.name[0] = k % 500 == 0 ? 'Q' : 'q';
-    o.kind = OutputKind::joint_position;
+    o.type = OutputType::joint_position;
     o.entity = motor.joint;
     o.component = 0;
     d.outputs.push_back(o);
     o.name = numbered("F", k);
-    o.kind = OutputKind::force;
+    o.type = OutputType::force;
     o.entity = numbered("spring", k);
     d.outputs.push_back(o);
   }
@@ -82,9 +82,9 @@ TEST(ManyBodies, AreBuilt) {
   EXPECT_EQ(t.links.size(), 20000u);
   EXPECT_TRUE(t.cut_joints.empty());
   for (Output o : m.outputs) {
-    if (o.kind == OutputKind::joint_position) {
+    if (o.type == OutputType::joint_position) {
       EXPECT_EQ(m.joints[o.joint].name, o.name.replace(0, 1, "j"));
-    } else if (o.kind == OutputKind::force) {
+    } else if (o.type == OutputType::force) {
       EXPECT_EQ(m.forces[o.force].name, o.name.replace(0, 1, "spring"));
     }
     if (HasFailure()) break;

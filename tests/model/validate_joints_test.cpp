@@ -145,7 +145,7 @@ TEST(Validate, Outputs) {
       {[](D& d) { d.outputs[0].name = "time"; },
        "outputs: found the column 'time', the name of the first column, expected another"},
       {[](D& d) { d.outputs[1].name = "z"; }, "outputs: the column 'z' exists already"},
-      {[](D& d) { d.outputs[0].kind = static_cast<OutputKind>(99); },
+      {[](D& d) { d.outputs[0].type = static_cast<OutputType>(99); },
        "outputs.z: found 99, expected position, velocity, acceleration, rotation, "
        "angular_velocity, joint_position, joint_velocity, modal_amplitude, force, length or rate"},
       {[](D& d) { d.outputs[0].component = 7; }, "outputs.z.axis: found 7, expected x, y or z"},

@@ -236,7 +236,7 @@ const Case cases[] = {
     {"output_without_quantity.yaml",
      "output_without_quantity.yaml:6:3: outputs.z: found 0 quantities, expected one of position, "
      "velocity, acceleration, rotation, angular_velocity, joint_position, joint_velocity, "
-     "modal_amplitude, force, length, rate"
+     "modal_amplitude, force, length or rate"
      "\n"
      "output_without_quantity.yaml:6:7: outputs.z: unknown key 'body'"},
     {"parallel_axes.yaml",

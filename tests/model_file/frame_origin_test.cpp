@@ -135,12 +135,12 @@ TEST_F(FrameOrigin, InDescriptionsOfPrograms) {
   b.kind = rod().body;
   b.X_WB.p = b.X_WT.p = Vec3(1, 2, 3);
   d.bodies = {b};
-  for (const OutputKind kind :
-       {OutputKind::position, OutputKind::velocity, OutputKind::acceleration})
+  for (const OutputType type :
+       {OutputType::position, OutputType::velocity, OutputType::acceleration})
     for (int k = 0; k < 3; ++k) {
       OutputDescription o;
-      o.name = std::to_string(static_cast<int>(kind)) + std::to_string(k);
-      o.kind = kind;
+      o.name = std::to_string(static_cast<int>(type)) + std::to_string(k);
+      o.type = type;
       o.at.body = "rod";
       o.at.point = Vec3(1, 2, 3);
       o.component = k;

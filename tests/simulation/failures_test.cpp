@@ -272,7 +272,7 @@ ModelDescription torsion_bar(bool disc) {
   d.amplitudes["bar"] = VecX::Constant(1, 0.1);
   OutputDescription o;
   o.name = "twist";
-  o.kind = OutputKind::modal_amplitude;
+  o.type = OutputType::modal_amplitude;
   o.at.body = "bar";
   d.outputs = {o};
   if (disc) {

@@ -36,10 +36,10 @@ ModelDescription puck(bool reversed) {
   plane.velocity = {0.5, 0.3, 2.0};
   d.joints = {weld, plane};
   for (int k = 0; k < 3; ++k)
-    for (const OutputKind kind : {OutputKind::joint_position, OutputKind::joint_velocity}) {
+    for (const OutputType type : {OutputType::joint_position, OutputType::joint_velocity}) {
       OutputDescription o;
-      o.name = (kind == OutputKind::joint_position ? "q" : "v") + std::to_string(k);
-      o.kind = kind;
+      o.name = (type == OutputType::joint_position ? "q" : "v") + std::to_string(k);
+      o.type = type;
       o.entity = "plane";
       o.component = k;
       d.outputs.push_back(o);

@@ -53,15 +53,15 @@ ModelDescription disc(bool cut, bool reversed) {
   s.spring = PiecewisePolynomial::linear(stiffness, 0.0);
   f.kind = s;
   d.forces.push_back(f);
-  const auto output = [&](OutputKind kind, const char* name) {
+  const auto output = [&](OutputType type, const char* name) {
     OutputDescription o;
-    o.kind = kind;
+    o.type = type;
     o.name = o.entity = name;
     d.outputs.push_back(o);
   };
-  output(OutputKind::joint_position, "hinge");
-  output(OutputKind::force, "spring");
-  output(OutputKind::length, "spring");
+  output(OutputType::joint_position, "hinge");
+  output(OutputType::force, "spring");
+  output(OutputType::length, "spring");
   d.outputs.back().name = "angle";
   d.simulation.step = 1e-4;  // turns by up to 0.017 rad in each
   d.simulation.output_interval = 0.01;

@@ -46,9 +46,9 @@ Outcome run_once(const Model& model, SimulationDescription o, const Mechanism& m
   return out;
 }
 
-bool compared(OutputKind kind) {
-  return kind == OutputKind::position || kind == OutputKind::joint_position ||
-         kind == OutputKind::modal_amplitude;
+bool compared(OutputType type) {
+  return type == OutputType::position || type == OutputType::joint_position ||
+         type == OutputType::modal_amplitude;
 }
 
 double difference(const Model& model, const ResultTable& a, const ResultTable& b,
@@ -56,7 +56,7 @@ double difference(const Model& model, const ResultTable& a, const ResultTable& b
   double d = 0.0;
   for (std::size_t r = 0; r < std::min(a.rows(), b.rows()) && a.at(r, 0) <= until; ++r)
     for (std::size_t c = 0; c < model.outputs.size(); ++c)
-      if (compared(model.outputs[c].kind))
+      if (compared(model.outputs[c].type))
         d = std::max(d, std::abs(a.at(r, c + 1) - b.at(r, c + 1)));
   return d;
 }

@@ -197,11 +197,11 @@ void MechanismBuilder::spatial_loop() {
 }
 
 void MechanismBuilder::add_outputs() {
-  const auto add = [&](OutputKind kind, const AttachmentDescription& at, const std::string& entity,
+  const auto add = [&](OutputType type, const AttachmentDescription& at, const std::string& entity,
                        int component) {
     OutputDescription o;
     o.name = "column_" + std::to_string(d.outputs.size());
-    o.kind = kind;
+    o.type = type;
     o.at = at;
     o.entity = entity;
     o.component = component;
@@ -218,19 +218,19 @@ void MechanismBuilder::add_outputs() {
       for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0.3, 0, 0), Vec3(0, 0.3, 0)})
         points.push_back(at(i, d.bodies[k].X_WB * p));
     for (const AttachmentDescription& p : points)
-      for (int c = 0; c < 3; ++c) add(OutputKind::position, p, "", c);
-    add(OutputKind::acceleration, points.front(), "", i % 3);
-    add(OutputKind::angular_velocity, at(i, Vec3::Zero()), "", i % 3);
+      for (int c = 0; c < 3; ++c) add(OutputType::position, p, "", c);
+    add(OutputType::acceleration, points.front(), "", i % 3);
+    add(OutputType::angular_velocity, at(i, Vec3::Zero()), "", i % 3);
   }
   // Rotation vectors of balls jump at half a turn: the points above say as much.
   for (const JointDescription& j : d.joints)
     if (j.type != JointType::spherical && j.type != JointType::free)
       for (int c = 0; c < joint_velocities(j.type); ++c)
-        add(OutputKind::joint_position, {}, j.name, c);
+        add(OutputType::joint_position, {}, j.name, c);
   for (const ForceDescription& f : d.forces) {
-    add(OutputKind::force, {}, f.name, 0);
+    add(OutputType::force, {}, f.name, 0);
     if (std::holds_alternative<AppliedLoadDescription>(f.kind)) continue;  // have no length
-    for (const OutputKind kind : {OutputKind::length, OutputKind::rate}) add(kind, {}, f.name, 0);
+    for (const OutputType type : {OutputType::length, OutputType::rate}) add(type, {}, f.name, 0);
   }
 }
 

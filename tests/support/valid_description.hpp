@@ -153,22 +153,22 @@ inline ModelDescription valid_description() {
   d.roads = {road};
   d.inputs = {{"push", "N", 0.0, -1.0, 1.0, false, {}}};
 
-  const auto output = [&](const char* name, OutputKind kind, const char* body, const char* entity,
+  const auto output = [&](const char* name, OutputType type, const char* body, const char* entity,
                           int component) {
     OutputDescription o;
     o.name = name;
-    o.kind = kind;
+    o.type = type;
     o.at = at(body, {0, 0, 1});
     o.entity = entity;
     o.component = component;
     return o;
   };
-  d.outputs = {output("z", OutputKind::position, "block", "", 2),
-               output("yaw", OutputKind::rotation, "block", "", 2),
-               output("q", OutputKind::joint_position, "ground", "pin", 1),
-               output("y1", OutputKind::modal_amplitude, "part", "", 0),
-               output("F", OutputKind::force, "ground", "load", 0),
-               output("L", OutputKind::length, "ground", "spring", 0)};
+  d.outputs = {output("z", OutputType::position, "block", "", 2),
+               output("yaw", OutputType::rotation, "block", "", 2),
+               output("q", OutputType::joint_position, "ground", "pin", 1),
+               output("y1", OutputType::modal_amplitude, "part", "", 0),
+               output("F", OutputType::force, "ground", "load", 0),
+               output("L", OutputType::length, "ground", "spring", 0)};
   d.amplitudes = {{"part", VecX::Constant(1, 0.01)}};
   d.amplitude_rates = {{"part", VecX::Constant(1, 0.0)}};
   return d;

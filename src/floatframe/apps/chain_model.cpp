@@ -33,7 +33,7 @@ void hang_up(ModelDescription& d) {
   for (int component = 0; component < 3; ++component) {
     OutputDescription tip;
     tip.name = std::string("tip.") + "xyz"[component];
-    tip.kind = OutputKind::position;
+    tip.type = OutputType::position;
     tip.at = at(link_name(links - 1), "end", links * length);
     tip.component = component;
     d.outputs.push_back(tip);

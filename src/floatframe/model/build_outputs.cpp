@@ -1,66 +1,57 @@
-// Result columns: what they measure and their units.
-#include "floatframe/core/enum_index.hpp"
-#include "floatframe/model/joint_motion.hpp"
+// Result columns: the markers, bodies, joints and forces they refer to, and their units.
 #include "floatframe/model/model_builder.hpp"
-#include "floatframe/model/rules.hpp"
+#include "floatframe/model/output_kind.hpp"
 #include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
 void ModelBuilder::outputs() {
-  static const char* const units[] = {"m", "m/s", "m/s2", "rad", "rad/s", "",
-                                      "",  "",    "N",    "m",   "m/s"};
   for (const OutputDescription& o : d.outputs) {
+    const OutputKind& kind = output_kind(o.type);
     Output out;
     out.name = o.name;
-    out.kind = o.kind;
+    out.type = o.type;
     out.component = o.component;
-    out.unit = units[static_cast<int>(o.kind)];
     const std::string who = "outputs." + o.name;
-    switch (o.kind) {
-      case OutputKind::position:
-      case OutputKind::velocity:
-      case OutputKind::acceleration:
-        out.marker = add_marker(o.at, Mat3::Identity(), false, o.origin.mark,
-                                who + "." + rules::quantities[index_of(o.kind)]);
-        if (out.marker < 0) continue;
+    const std::string what = who + "." + output_type_name(o.type);
+    const auto point = [&](const AttachmentDescription& at, const std::string& where) {
+      return add_marker(at, Mat3::Identity(), false, o.origin.mark, where);
+    };
+    bool built = true;  // else it, or what it refers to, has an error
+    switch (kind.of) {
+      case OutputOf::point:
+        out.marker = point(o.at, what);
+        built = out.marker >= 0;
         break;
-      case OutputKind::rotation:
-      case OutputKind::angular_velocity:
-      case OutputKind::modal_amplitude:
+      case OutputOf::two_points:
+        out.marker = point(o.at, what + ".from");
+        out.to = point(o.to, what + ".to");
+        built = out.marker >= 0 && out.to >= 0;
+        break;
+      case OutputOf::body:
         out.body = body_index(o.at.body);
-        if (o.kind == OutputKind::modal_amplitude) {
-          const int nm = model.bodies[out.body].modes();
-          if (o.component < 0 || o.component >= nm) {
-            faults.add(
-                o.origin.mark,
-                who + ".mode: " + sentences::number_of("the number of a mode", o.component, nm));
-            continue;
-          }
-          out.unit = "-";
-        }
         break;
-      case OutputKind::joint_position:
-      case OutputKind::joint_velocity: {
+      case OutputOf::mode: {
+        out.body = body_index(o.at.body);
+        const int nm = model.bodies[out.body].modes();
+        built = o.component >= 0 && o.component < nm;
+        if (!built)
+          faults.add(
+              o.origin.mark,
+              who + ".mode: " + sentences::number_of("the number of a mode", o.component, nm));
+        break;
+      }
+      case OutputOf::joint:
         out.joint = joint_names.index(o.entity);
-        if (out.joint < 0) continue;  // it has an error of its own
-        const JointType type = model.joints[out.joint].type;
-        out.unit = joint_unit_name(type, o.component, o.kind == OutputKind::joint_velocity);
+        built = out.joint >= 0;
         break;
-      }
-      case OutputKind::force:
-      case OutputKind::length:
-      case OutputKind::rate: {
+      case OutputOf::force:
         out.force = force_names.index(o.entity);
-        if (out.force < 0) continue;  // it has an error of its own
-        const Force& f = model.forces[out.force];
-        if (f.rotational || f.type == ForceType::torque)
-          out.unit = o.kind == OutputKind::force    ? "N m"
-                     : o.kind == OutputKind::length ? "rad"
-                                                    : "rad/s";
+        built = out.force >= 0;
         break;
-      }
     }
+    if (!built) continue;
+    out.unit = kind.unit_of ? kind.unit_of(model, out) : kind.unit;
     model.outputs.push_back(std::move(out));
   }
 }

@@ -20,6 +20,7 @@
 #include "floatframe/math/pose.hpp"
 #include "floatframe/math/types.hpp"
 #include "floatframe/model/joint_list.hpp"
+#include "floatframe/model/output_list.hpp"
 
 namespace floatframe {
 
@@ -264,24 +265,11 @@ struct RoadDescription {
 // -------------------------------------------------------------------------------------------
 // outputs, simulation
 
-enum class OutputKind {
-  position,      ///< of a point [m], component 0..2 = x y z
-  velocity,      ///< [m/s]
-  acceleration,  ///< [m/s2]
-  rotation,  ///< roll, pitch, yaw [rad]: R = Rz(yaw) Ry(pitch) Rx(roll) relative to the design pose
-  angular_velocity,  ///< world axes [rad/s]
-  joint_position,    ///< coordinate `component` of a joint
-  joint_velocity,
-  modal_amplitude,  ///< amplitude `component` (0-based) of a flexible body
-  force,            ///< scalar force of a force element [N] (torque [N m])
-  length,           ///< its measure: length, deflection or angle
-  rate
-};
-
 struct OutputDescription {
   std::string name;  ///< column title without the unit
-  OutputKind kind = OutputKind::position;
+  OutputType type = OutputType::position;
   AttachmentDescription at;  ///< for point quantities (node/point given) or body quantities
+  AttachmentDescription to;  ///< the second of two points
   std::string entity;        ///< joint or force name
   int component = 0;
   Origin origin;

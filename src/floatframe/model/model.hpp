@@ -98,8 +98,8 @@ struct Input {
 
 struct Output {
   std::string name, unit;
-  OutputKind kind = OutputKind::position;
-  int marker = -1;  ///< point quantities, and the body frame of body quantities
+  OutputType type = OutputType::position;
+  int marker = -1, to = -1;  ///< of points; `to`: the second of two
   int body = -1, joint = -1, force = -1;
   int component = 0;
 };

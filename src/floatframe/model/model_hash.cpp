@@ -87,8 +87,8 @@ class ModelHash {
     all(name, low, high, clamp);
   }
   void add(const Output& o) {
-    const auto& [name, unit, kind, marker, body, joint, force, component] = o;
-    all(name, kind, marker, body, joint, force, component);
+    const auto& [name, unit, type, marker, to, body, joint, force, component] = o;
+    all(name, type, marker, to, body, joint, force, component);
   }
   void add(const InertiaInvariants& v) {
     const auto& [m, m_u, P_u, S, Si, Sij] = v;

@@ -10,17 +10,6 @@ inline constexpr const char* tyre_laws[] = {"vertical", "radial"};
 inline constexpr const char* mass_models[] = {"isoparametric", "six_dof", "hermite"};
 inline constexpr const char* coordinates[] = {"relative", "absolute"};
 inline constexpr const char* inertia_methods[] = {"preprocessing", "projection"};
-inline constexpr const char* quantities[] = {"position",
-                                             "velocity",
-                                             "acceleration",
-                                             "rotation",
-                                             "angular_velocity",
-                                             "joint_position",
-                                             "joint_velocity",
-                                             "modal_amplitude",
-                                             "force",
-                                             "length",
-                                             "rate"};
 inline constexpr const char* axes[] = {"x", "y", "z"};
 inline constexpr const char* angles[] = {"roll", "pitch", "yaw"};
 

@@ -3,7 +3,7 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/joint_motion.hpp"
-#include "floatframe/model/rules.hpp"
+#include "floatframe/model/output_kind.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model/validate.hpp"
 
@@ -11,67 +11,60 @@ namespace floatframe::validation {
 
 namespace {
 
-const char* quantity(OutputKind kind) { return rules::quantities[index_of(kind)]; }
-
 void joint_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
                   const Entity& entity) {
-  if (!entity.reference(quantity(o.kind), "joint", o.entity, names.joints)) return;
+  if (!entity.reference(output_type_name(o.type), "joint", o.entity, names.joints)) return;
   const JointType type = d.joints[*names.joints.find(o.entity)].type;
   if (word_complaint(static_cast<int>(type), joint_words)) return;
   const int n = joint_velocities(type);
   if (n == 0)
-    entity.fault(quantity(o.kind), sentences::weld_does_not_move());
+    entity.fault(output_type_name(o.type), sentences::weld_does_not_move());
   else if (o.component < 0 || o.component >= n)  // counted from 0 here and from 1 in model files
     entity.fault("coordinate", sentences::number_of("the number of a coordinate", o.component, n));
 }
 
 void force_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
                   const Entity& entity) {
-  if (!entity.reference(quantity(o.kind), "force", o.entity, names.forces)) return;
+  if (!entity.reference(output_type_name(o.type), "force", o.entity, names.forces)) return;
   const ForceDescription& f = d.forces[*names.forces.find(o.entity)];
   const auto* load = std::get_if<AppliedLoadDescription>(&f.kind);
-  if (load && o.kind != OutputKind::force)
-    entity.fault(quantity(o.kind),
-                 sentences::load_without(load->torque ? "torque" : "force", quantity(o.kind)));
+  if (load && output_kind(o.type).needs != ForceQuantity::force)
+    entity.fault(
+        output_type_name(o.type),
+        sentences::load_without(load->torque ? "torque" : "force", output_type_name(o.type)));
 }
 
 void output(const OutputDescription& o, const ModelDescription& d, const Names& names,
             const Entity& entity) {
-  const std::string what = quantity(o.kind);
+  const std::string what = output_type_name(o.type);
   const auto moving_body = [&] {
     if (o.at.body == ground_name)
       entity.fault(what, sentences::ground_is_no_body());
     else
       entity.reference(what, "body", o.at.body, names.bodies);
   };
-  switch (o.kind) {
-    case OutputKind::position:
-    case OutputKind::velocity:
-    case OutputKind::acceleration:
+  const OutputKind& kind = output_kind(o.type);
+  switch (kind.of) {
+    case OutputOf::point:
       entity.place(what, o.at, names);
-      entity.word("axis", o.component, rules::axes);
       break;
-    case OutputKind::rotation:
-      moving_body();
-      entity.word("angle", o.component, rules::angles);
+    case OutputOf::two_points:
+      entity.place(what + ".from", o.at, names);
+      entity.place(what + ".to", o.to, names);
       break;
-    case OutputKind::angular_velocity:
-      moving_body();
-      entity.word("axis", o.component, rules::axes);
-      break;
-    case OutputKind::joint_position:
-    case OutputKind::joint_velocity:
-      joint_output(o, d, names, entity);
-      break;
-    case OutputKind::modal_amplitude:
+    case OutputOf::body:
+    case OutputOf::mode:
       moving_body();  // the number of modes is known when the body is reduced
       break;
-    case OutputKind::force:
-    case OutputKind::length:
-    case OutputKind::rate:
+    case OutputOf::joint:
+      joint_output(o, d, names, entity);
+      break;
+    case OutputOf::force:
       force_output(o, d, names, entity);
       break;
   }
+  if (kind.components.key)
+    entity.complain(kind.components.key, word_complaint(o.component, kind.components.words));
 }
 
 }  // namespace
@@ -84,7 +77,7 @@ void outputs(const ModelDescription& d, const Names& names, Faults& faults) {
       entity.fault(*complaint);
     else if (const auto taken_by = sentences::column_taken(o.name, !taken.insert(o.name).second))
       faults.add(o.origin.mark, "outputs: " + *taken_by);
-    const auto kind = word_complaint(static_cast<int>(o.kind), rules::quantities);
+    const auto kind = word_complaint(static_cast<int>(o.type), output_words);
     if (kind)
       entity.fault(*kind);
     else

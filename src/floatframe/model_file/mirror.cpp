@@ -45,6 +45,9 @@ void place(ForceDescription& f, const Placement& x) {
   }
 }
 
-void place(OutputDescription& o, const Placement& x) { place(o.at, x); }
+void place(OutputDescription& o, const Placement& x) {
+  place(o.at, x);
+  place(o.to, x);
+}
 
 }  // namespace floatframe

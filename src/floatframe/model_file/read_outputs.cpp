@@ -3,33 +3,13 @@
 #include <cmath>
 #include <span>
 
-#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/joint_motion.hpp"
-#include "floatframe/model/rules.hpp"
+#include "floatframe/model/output_kind.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {
 namespace {
-
-struct Quantity {
-  OutputKind kind;
-  enum class Of { point, body, joint, mode, force } of;
-  const char* key() const { return rules::quantities[index_of(kind)]; }
-};
-constexpr Quantity quantities[] = {
-    {OutputKind::position, Quantity::Of::point},
-    {OutputKind::velocity, Quantity::Of::point},
-    {OutputKind::acceleration, Quantity::Of::point},
-    {OutputKind::rotation, Quantity::Of::body},
-    {OutputKind::angular_velocity, Quantity::Of::body},
-    {OutputKind::joint_position, Quantity::Of::joint},
-    {OutputKind::joint_velocity, Quantity::Of::joint},
-    {OutputKind::modal_amplitude, Quantity::Of::mode},
-    {OutputKind::force, Quantity::Of::force},
-    {OutputKind::length, Quantity::Of::force},
-    {OutputKind::rate, Quantity::Of::force},
-};
 
 class OutputReader {
  public:
@@ -44,50 +24,57 @@ class OutputReader {
     if (!s) return;
     if (const auto when = s->get("when"))
       if (!when->boolean().value_or(true)) return;
-    const Quantity* quantity = nullptr;
+    OutputDescription o;
     int found = 0;
-    for (const Quantity& q : quantities)
-      if (s->get(q.key())) ++found, quantity = &q;
+    for (const OutputType type : output_types)
+      if (s->get(output_type_name(type))) ++found, o.type = type;
     if (found != 1) {
-      for (const char* k : {"axis", "angle", "mode", "coordinate"}) s->get(k);
+      for (const OutputType type : output_types)
+        if (const char* key = output_kind(type).components.key) s->get(key);
+      for (const char* key : {"mode", "coordinate"}) s->get(key);
       s->finish();
-      s->fault("found " + std::to_string(found) +
-               " quantities, expected one of position, velocity, acceleration, rotation, "
-               "angular_velocity, "
-               "joint_position, joint_velocity, modal_amplitude, force, length, rate");
+      s->fault("found " + std::to_string(found) + " quantities, expected one of " +
+               alternatives(output_words));
       return;
     }
-    OutputDescription o;
-    o.kind = quantity->kind;
+    const OutputKind& kind = output_kind(o.type);
     o.origin = s->origin();
-    const YamlValue what = *s->get(quantity->key());
-    switch (quantity->of) {
-      case Quantity::Of::point:
-        point(name, *s, what, o);
-        break;
-      case Quantity::Of::body:
-        if (const auto body = moving_body(what)) {
-          o.at.body = *body;
-          components(name, *s, o, o.kind == OutputKind::rotation);
-        } else {
-          s->get(o.kind == OutputKind::rotation ? "angle" : "axis");
+    const YamlValue what = *s->get(output_type_name(o.type));
+    switch (kind.of) {
+      case OutputOf::point:
+        if (const auto at = point(what)) {
+          o.at = *at;
+          components(name, *s, o);
+        } else if (kind.components.key) {
+          s->get(kind.components.key);
         }
         break;
-      case Quantity::Of::joint:
+      case OutputOf::two_points:
+        two_points(name, *s, what, o);
+        break;
+      case OutputOf::body:
+        if (const auto body = moving_body(what)) {
+          o.at.body = *body;
+          components(name, *s, o);
+        } else if (kind.components.key) {
+          s->get(kind.components.key);
+        }
+        break;
+      case OutputOf::joint:
         joint(name, *s, what, o);
         break;
-      case Quantity::Of::mode:
+      case OutputOf::mode:
         mode(name, *s, what, o);
         break;
-      case Quantity::Of::force:
+      case OutputOf::force:
         if (const auto f = self_.reference(EntityKind::force, what)) {
           o.entity = *f;
           const auto type = model_.force_types.find(*f);
           const bool measured = type == model_.force_types.end() ||
                                 (type->second != "force" && type->second != "torque");
-          if (o.kind != OutputKind::force && !measured)
-            what.fault(sentences::load_without(type->second, quantity->key()));
-          add(name, o);
+          if (kind.needs != ForceQuantity::force && !measured)
+            what.fault(sentences::load_without(type->second, output_type_name(o.type)));
+          components(name, *s, o);
         }
         break;
     }
@@ -108,18 +95,22 @@ class OutputReader {
     model_.description.outputs.push_back(std::move(o));
   }
 
-  /// One component named by `axis` or `angle`, or all three.
-  void components(const std::string& name, YamlSection& s, OutputDescription o, bool angles) {
-    const std::span<const char* const> words = angles ? rules::angles : rules::axes;
-    if (const auto v = s.get(angles ? "angle" : "axis")) {
+  /// One component, all of them, or one number that has no components.
+  void components(const std::string& name, YamlSection& s, OutputDescription o) {
+    const auto [key, words] = output_kind(o.type).components;
+    if (!key) {
+      add(name, o);
+      return;
+    }
+    if (const auto v = s.get(key)) {
       if (const auto w = v->word(words)) {
         o.component = static_cast<int>(*w);
         add(name, o);
       }
       return;
     }
-    for (int k = 0; k < 3; ++k) {
-      o.component = k;
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      o.component = static_cast<int>(k);
       add(name + "." + words[k], o);
     }
   }
@@ -133,23 +124,36 @@ class OutputReader {
     return body;
   }
 
-  void point(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
-    std::optional<AttachmentDescription> at;
+  /// A place on a body, or a body: the origin of its frame.
+  std::optional<AttachmentDescription> point(const YamlValue& what) {
     if (what.is_map()) {
-      if (auto place_section = what.section()) at = read_attachment(self_, model_, *place_section);
-    } else if (const auto body = moving_body(what)) {
-      if (const auto origin = frame_origin(self_, model_, *body)) {
-        at.emplace();
-        at->body = *body;
-        at->point = *origin;
+      auto place_section = what.section();
+      return place_section ? read_attachment(self_, model_, *place_section) : std::nullopt;
+    }
+    const auto body = moving_body(what);
+    const auto origin = body ? frame_origin(self_, model_, *body) : std::nullopt;
+    if (!origin) return std::nullopt;
+    AttachmentDescription at;
+    at.body = *body;
+    at.point = *origin;
+    return at;
+  }
+
+  void two_points(const std::string& name, YamlSection& s, const YamlValue& what,
+                  OutputDescription& o) {
+    auto ends = what.section("two places, for example {from: body, to: body}");
+    if (ends) {
+      const auto from = ends->require("from"), to = ends->require("to");
+      ends->finish();
+      const auto a = from ? point(*from) : std::nullopt, b = to ? point(*to) : std::nullopt;
+      if (a && b) {
+        o.at = *a;
+        o.to = *b;
+        components(name, s, o);
+        return;
       }
     }
-    if (!at) {
-      s.get("axis");
-      return;
-    }
-    o.at = *at;
-    components(name, s, o, false);
+    if (const char* key = output_kind(o.type).components.key) s.get(key);
   }
 
   void joint(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
@@ -252,7 +256,7 @@ void default_outputs(ReadModel& model) {
     for (int k = 0; k < 3; ++k) {
       OutputDescription o;
       o.name = b.name + "." + "xyz"[k];
-      o.kind = OutputKind::position;
+      o.type = OutputType::position;
       o.at.body = b.name;
       o.at.point = b.X_WB.p;
       o.component = k;

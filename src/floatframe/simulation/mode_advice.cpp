@@ -7,6 +7,7 @@
 #include <set>
 
 #include "floatframe/body/with_modes.hpp"
+#include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/mode_shares.hpp"
 #include "floatframe/simulation/output_differences.hpp"
 
@@ -19,7 +20,7 @@ Model watched(const Model& model) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     for (int k = 0; k < model.bodies[i].modes(); ++k) {
       Output o;
-      o.kind = OutputKind::modal_amplitude;
+      o.type = OutputType::modal_amplitude;
       o.body = static_cast<int>(i);
       o.component = k;
       out.outputs.push_back(o);
@@ -76,7 +77,7 @@ Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep) 
   }
   std::vector<Output> outputs;
   for (Output o : model.outputs) {
-    if (o.kind == OutputKind::modal_amplitude) {
+    if (output_kind(o.type).of == OutputOf::mode) {
       const std::vector<int>& modes = keep[o.body];
       const auto it = std::find(modes.begin(), modes.end(), o.component);
       if (it == modes.end()) continue;

@@ -10,18 +10,12 @@
 
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
-#include "floatframe/model/joint_measure.hpp"
+#include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/overflow.hpp"
 #include "floatframe/simulation/results.hpp"
 #include "floatframe/simulation/step_report.hpp"
 
 namespace floatframe {
-
-/// An output that is an angle over turns goes on from its last sample.
-struct FollowedOutput {
-  bool started = false;
-  double time = 0.0, position = 0.0, rate = 0.0;
-};
 
 /// What a runner has beside the state and the formulation: with it, the next steps and outputs are
 /// the same, bit for bit.
@@ -107,8 +101,9 @@ class Runner {
     f_.forces();
     f_.set_accelerations(state_.a);
     *row++ = state_.t;
+    const OutputView view(f_, state_.t, state_.q);
     for (std::size_t k = 0; k < model.outputs.size(); ++k)
-      *row++ = value(model.outputs[k], memory_.outputs[k]);
+      *row++ = output_value(view, model.outputs[k], memory_.outputs[k]);
   }
 
   double kinetic_energy() noexcept { return f_.kinetic_energy(state_.v); }
@@ -204,13 +199,6 @@ class Runner {
   double max_velocity_violation() const noexcept { return counters().max_velocity_violation; }
 
  private:
-  /// The start value or motion the user gave, so that an output begins at the turn he means.
-  double start_position(const Joint& joint, int component) const noexcept {
-    if (joint.motion) return evaluate(*joint.motion, state_.t).f;
-    const std::size_t k = component;
-    return k < joint.position.size() ? joint.position[k] : 0.0;
-  }
-
   void count(const StepAttempt& r) noexcept {
     StepCounters& c = memory_.counters;
     c.iterations += r.iterations;
@@ -220,48 +208,6 @@ class Runner {
       c.max_position_violation = std::max(c.max_position_violation, r.position_violation);
       c.max_velocity_violation = std::max(c.max_velocity_violation, r.velocity_violation);
     }
-  }
-
-  double value(const Output& o, FollowedOutput& follow) noexcept {
-    switch (o.kind) {
-      case OutputKind::position:
-        return f_.marker(o.marker).r[o.component] + f_.origin()[o.component];
-      case OutputKind::velocity:
-        return f_.marker(o.marker).v[o.component];
-      case OutputKind::acceleration:
-        return f_.marker_acceleration(o.marker)[o.component];
-      case OutputKind::rotation: {
-        const Mat3& design = f_.model().bodies[o.body].X_WB.R;
-        return roll_pitch_yaw(f_.body_rotation(o.body) * design.transpose())[o.component];
-      }
-      case OutputKind::angular_velocity:
-        return f_.body_angular_velocity(o.body)[o.component];
-      case OutputKind::joint_position: {
-        // Angles are followed over turns with the mean joint velocity since the last sample.
-        const Joint& j = f_.model().joints[o.joint];
-        const MarkerState& parent = f_.marker(j.frame_F);
-        const MarkerState& child = f_.marker(j.frame_M);
-        const double rate = joint_velocity(j, parent, child, o.component);
-        const double expected =
-            follow.started ? follow.position + 0.5 * (state_.t - follow.time) * (follow.rate + rate)
-                           : start_position(j, o.component);
-        follow = {true, state_.t, joint_position(j, parent, child, o.component, expected), rate};
-        return follow.position;
-      }
-      case OutputKind::joint_velocity: {
-        const Joint& j = f_.model().joints[o.joint];
-        return joint_velocity(j, f_.marker(j.frame_F), f_.marker(j.frame_M), o.component);
-      }
-      case OutputKind::modal_amplitude:
-        return f_.amplitude(state_.q, o.body, o.component);
-      case OutputKind::force:
-        return f_.force(o.force).force;
-      case OutputKind::length:
-        return f_.force(o.force).length;
-      case OutputKind::rate:
-        return f_.force(o.force).rate;
-    }
-    return 0.0;
   }
 
   F& f_;

@@ -1,0 +1,33 @@
+// The list of outputs at work: facts for load time, direct calls for samples.
+#include <iterator>
+#include <utility>
+
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+#define FLOATFRAME_KIND(name) &name##_output,
+constexpr const OutputKind* output_list[] = {FLOATFRAME_OUTPUTS(FLOATFRAME_KIND)};
+#undef FLOATFRAME_KIND
+
+template <std::size_t... I>
+double value_of_type(std::index_sequence<I...>, const OutputView& view, const Output& output,
+                     FollowedOutput& last) noexcept {
+  double value = 0.0;
+  static_cast<void>(((output.type == output_types[I] &&
+                      (value = output_value_of<output_types[I]>(view, output, last), true)) ||
+                     ...));
+  return value;
+}
+
+}  // namespace
+
+const OutputKind& output_kind(OutputType type) noexcept { return *output_list[index_of(type)]; }
+
+double output_value(const OutputView& view, const Output& output, FollowedOutput& last) noexcept {
+  return value_of_type(std::make_index_sequence<std::size(output_types)>{}, view, output, last);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,53 @@
+#pragma once
+// The system at a sample, as outputs see it in either formulation: by markers, bodies, joints and
+// forces of the model, never by coordinates. Its functions are direct calls (formulation/
+// output_view.cpp), noexcept and free of allocation.
+#include "floatframe/model/force_evaluation.hpp"
+#include "floatframe/model/marker_state.hpp"
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+class RelativeFormulation;
+class AbsoluteFormulation;
+
+class OutputView {
+ public:
+  /// After `positions(t, q)`, `velocities`, `forces` and `set_accelerations` of the formulation.
+  OutputView(const RelativeFormulation& formulation, double t, const VecX& q) noexcept;
+  OutputView(const AbsoluteFormulation& formulation, double t, const VecX& q) noexcept;
+
+  const Model& model() const noexcept { return model_; }
+  double time() const noexcept { return t_; }
+  /// Place of a marker in the world [m].
+  Vec3 place(int marker) const noexcept { return this->marker(marker).r + origin_; }
+  /// Motion of a marker, world axes; its place `r` is measured from a point that all markers share.
+  const MarkerState& marker(int marker) const noexcept;
+  /// Of the marker's point [m/s2].
+  Vec3 acceleration(int marker) const noexcept;
+  /// R_WB
+  const Mat3& body_rotation(int body) const noexcept;
+  /// w_WB, world axes [rad/s].
+  Vec3 body_angular_velocity(int body) const noexcept;
+  double amplitude(int body, int mode) const noexcept;
+  const ForceState& force(int force) const noexcept;
+
+ private:
+  template <class Get>
+  decltype(auto) from(Get get) const noexcept;
+
+  const RelativeFormulation* relative_ = nullptr;  // one of the two
+  const AbsoluteFormulation* absolute_ = nullptr;
+  const Model& model_;
+  const VecX& q_;
+  double t_;
+  Vec3 origin_;
+};
+
+/// What an output remembers of its last sample: angles over turns go on from there.
+struct FollowedOutput {
+  bool started = false;
+  double time = 0.0, position = 0.0, rate = 0.0;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,15 @@
+// Acceleration of a point, d2p_WP/dt2 [m/s2].
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::acceleration>(const OutputView& view, const Output& output,
+                                                 FollowedOutput&) noexcept {
+  return view.acceleration(output.marker)[output.component];
+}
+
+constinit const OutputKind acceleration_output = {
+    .about = "in world axes", .of = OutputOf::point, .components = world_axes, .unit = "m/s2"};
+
+}  // namespace floatframe

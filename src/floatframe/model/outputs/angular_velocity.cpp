@@ -1,0 +1,15 @@
+// Angular velocity of a body, w_WB [rad/s], world axes.
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::angular_velocity>(const OutputView& view, const Output& output,
+                                                     FollowedOutput&) noexcept {
+  return view.body_angular_velocity(output.body)[output.component];
+}
+
+constinit const OutputKind angular_velocity_output = {
+    .about = "in world axes", .of = OutputOf::body, .components = world_axes, .unit = "rad/s"};
+
+}  // namespace floatframe

@@ -1,0 +1,18 @@
+// Scalar force of a force element, tension positive [N], or its torque [N m].
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::force>(const OutputView& view, const Output& output,
+                                          FollowedOutput&) noexcept {
+  return view.force(output.force).force;
+}
+
+constinit const OutputKind force_output = {
+    .about = "force or torque, tension positive; of a tyre the contact force",
+    .of = OutputOf::force,
+    .unit = "N or N m",
+    .unit_of = unit_of_force<ForceQuantity::force>};
+
+}  // namespace floatframe

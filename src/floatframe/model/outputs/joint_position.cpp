@@ -1,0 +1,46 @@
+// Coordinate of a joint, read off its frames F and M. Angles are followed over turns with the mean
+// velocity since the last sample: of the angles that the frames allow, the value is that nearest to
+//   q_last + (t - t_last) (qdot_last + qdot) / 2
+// The first one is nearest to the start value or the motion that the user gave.
+#include "floatframe/model/constraint_part.hpp"
+#include "floatframe/model/joint_measure.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+/// So that an output begins at the turn that the user means.
+double start_position(const Joint& joint, int component, double t) noexcept {
+  if (joint.motion) return evaluate(*joint.motion, t).f;
+  const auto k = static_cast<std::size_t>(component);
+  return k < joint.position.size() ? joint.position[k] : 0.0;
+}
+
+const char* joint_position_unit(const Model& model, const Output& output) {
+  return joint_unit_name(model.joints[output.joint].type, output.component);
+}
+
+}  // namespace
+
+template <>
+double output_value_of<OutputType::joint_position>(const OutputView& view, const Output& output,
+                                                   FollowedOutput& last) noexcept {
+  const Joint& joint = view.model().joints[output.joint];
+  const MarkerState& F = view.marker(joint.frame_F);
+  const MarkerState& M = view.marker(joint.frame_M);
+  const double rate = joint_velocity(joint, F, M, output.component);
+  const double expected = last.started
+                              ? last.position + 0.5 * (view.time() - last.time) * (last.rate + rate)
+                              : start_position(joint, output.component, view.time());
+  last = {true, view.time(), joint_position(joint, F, M, output.component, expected), rate};
+  return last.position;
+}
+
+constinit const OutputKind joint_position_output = {.about = "coordinate; full turns are counted",
+                                                    .of = OutputOf::joint,
+                                                    .unit = "m or rad",
+                                                    .unit_of = joint_position_unit};
+
+}  // namespace floatframe

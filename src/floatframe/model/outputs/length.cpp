@@ -1,0 +1,19 @@
+// Measure of a force element: its length or deflection [m], or its angle [rad].
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::length>(const OutputView& view, const Output& output,
+                                           FollowedOutput&) noexcept {
+  return view.force(output.force).length;
+}
+
+constinit const OutputKind length_output = {
+    .about = "length, deflection or angle; not of applied loads",
+    .of = OutputOf::force,
+    .unit = "m or rad",
+    .unit_of = unit_of_force<ForceQuantity::length>,
+    .needs = ForceQuantity::length};
+
+}  // namespace floatframe

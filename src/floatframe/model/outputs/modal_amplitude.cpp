@@ -1,0 +1,15 @@
+// Amplitude of a mode of a flexible body.
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::modal_amplitude>(const OutputView& view, const Output& output,
+                                                    FollowedOutput&) noexcept {
+  return view.amplitude(output.body, output.component);
+}
+
+constinit const OutputKind modal_amplitude_output = {
+    .about = "amplitude of the mode", .of = OutputOf::mode, .unit = "-"};
+
+}  // namespace floatframe

@@ -1,0 +1,15 @@
+// Position of a point, p_WP [m].
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::position>(const OutputView& view, const Output& output,
+                                             FollowedOutput&) noexcept {
+  return view.place(output.marker)[output.component];
+}
+
+constinit const OutputKind position_output = {
+    .about = "in the world", .of = OutputOf::point, .components = world_axes, .unit = "m"};
+
+}  // namespace floatframe

@@ -1,0 +1,19 @@
+// Rate of the measure of a force element [m/s or rad/s].
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::rate>(const OutputView& view, const Output& output,
+                                         FollowedOutput&) noexcept {
+  return view.force(output.force).rate;
+}
+
+constinit const OutputKind rate_output = {
+    .about = "rate of the length, deflection or angle; not of applied loads",
+    .of = OutputOf::force,
+    .unit = "m/s or rad/s",
+    .unit_of = unit_of_force<ForceQuantity::rate>,
+    .needs = ForceQuantity::rate};
+
+}  // namespace floatframe

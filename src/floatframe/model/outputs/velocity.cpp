@@ -1,0 +1,15 @@
+// Velocity of a point, dp_WP/dt [m/s].
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::velocity>(const OutputView& view, const Output& output,
+                                             FollowedOutput&) noexcept {
+  return view.marker(output.marker).v[output.component];
+}
+
+constinit const OutputKind velocity_output = {
+    .about = "in world axes", .of = OutputOf::point, .components = world_axes, .unit = "m/s"};
+
+}  // namespace floatframe

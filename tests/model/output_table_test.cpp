@@ -1,0 +1,62 @@
+// The table of outputs in docs/model-file.md is what the list of outputs says.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+namespace {
+
+std::string of(OutputOf what) {
+  static const char* const words[] = {"point", "two points",    "body",
+                                      "joint", "flexible body", "force element"};
+  return words[index_of(what)];
+}
+
+std::string component(const OutputKind& kind) {
+  if (kind.of == OutputOf::joint) return "`coordinate`: 1, 2, ... (needed if there are several)";
+  if (kind.of == OutputOf::mode) return "`mode`: 1, 2, ... (required)";
+  if (!kind.components.key) return "";
+  std::string words;
+  for (const char* word : kind.components.words)
+    words += std::string(words.empty() ? "" : ", ") + word;
+  return "`" + std::string(kind.components.key) + "`: " + words;
+}
+
+std::string output_row(OutputType type) {
+  const OutputKind& kind = output_kind(type);
+  std::string row = "|";
+  for (const std::string& cell : {"`" + std::string(output_type_name(type)) + "`", of(kind.of),
+                                  std::string(kind.about), component(kind), std::string(kind.unit)})
+    row += (cell.empty() ? "" : " " + cell) + " |";
+  return row + "\n";
+}
+
+TEST(OutputTable, OfTheDocumentationIsThatOfTheList) {
+  std::ifstream file(FLOATFRAME_EXAMPLES "/../docs/model-file.md");
+  ASSERT_TRUE(file);
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string head =
+      "| quantity | of | what | component | unit |\n"
+      "|---|---|---|---|---|\n";
+  std::string table = head;
+  for (const OutputType type : output_types) table += output_row(type);
+  const std::size_t at = text.str().find(head);
+  ASSERT_NE(at, std::string::npos) << table;
+  const std::size_t end = text.str().find("\n\n", at);
+  EXPECT_EQ(text.str().substr(at, end + 1 - at), table);
+}
+
+TEST(OutputTable, EveryUnitIsOneThatTheTableNames) {
+  for (const OutputType type : output_types) {
+    const OutputKind& kind = output_kind(type);
+    EXPECT_EQ(kind.unit_of != nullptr, std::string(kind.unit).find(" or ") != std::string::npos)
+        << output_type_name(type);
+  }
+}
+
+}  // namespace
+}  // namespace floatframe

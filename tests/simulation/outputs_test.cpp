@@ -1,0 +1,91 @@
+// Every output of the list: both formulations give the same number of a moving system, in the unit
+// that the model says. What single outputs measure.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "floatframe/model/output_kind.hpp"
+#include "floatframe/simulation/simulation.hpp"
+#include "support/model_text.hpp"
+
+namespace floatframe::test {
+namespace {
+
+/// A flexible arm on a hinge, a puck that flies freely, a spring between them.
+const std::string moving = R"(
+gravity: [0, 0, -9.81]
+points: {hinge: [0, 0, 0.1], tip: [1, 0, 0.2]}
+bodies:
+  arm:
+    flexible:
+      material: {young: 7e10, poisson: 0.3, density: 2700}
+      bars: {one: {from: hinge, to: tip, elements: 4, section: {round: 0.02}}}
+      clamped: [hinge]
+      static_modes: [{point: tip, dofs: [x, y, z]}]
+  puck: {origin: [2, 1, 0.5], rigid: {mass: 2, centre_of_mass: [2, 1, 0.5], inertia: [0.1, 0.2, 0.3]}}
+joints:
+  hinge: {type: revolute, child: arm, at: hinge, axis: y, position: 0.4, velocity: 1.5}
+  loose: {type: free, child: puck, at: [2, 1, 0.5], velocity: [3, -0.4, 0.5, 1, 2, -3]}
+forces:
+  coil: {type: spring_damper, from: {body: arm, at: tip}, to: {body: puck}, spring: 100, damper: 20}
+initial:
+  amplitudes: {arm: [0.001, 0.02, -0.03]}
+  amplitude_rates: {arm: [0.01, 0.2, 0.3]}
+simulation: {step: 1.0e-3, duration: 0}
+)";
+
+std::string column(OutputType type) {
+  const auto reference = [&]() -> std::string {
+    switch (output_kind(type).of) {
+      case OutputOf::point:
+        return "{body: arm, at: tip}";
+      case OutputOf::two_points:
+        return "{from: puck, to: {body: arm, at: tip}}";
+      case OutputOf::body:
+        return "puck";
+      case OutputOf::joint:
+        return "loose, coordinate: 5";
+      case OutputOf::mode:
+        return "arm, mode: 2";
+      case OutputOf::force:
+        return "coil";
+    }
+    return "";
+  };
+  const std::string word = output_type_name(type);
+  return "  " + word + ": {" + word + ": " + reference() + "}\n";
+}
+
+ResultTable sampled(const std::string& columns, Coordinates coordinates, double duration) {
+  ModelDescription d = description_of(moving + "outputs:\n" + columns);
+  d.simulation.coordinates = coordinates;
+  d.simulation.duration = duration;
+  const Model model = build_model(d);
+  const RunResult r = run(model, model.simulation);
+  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+  return r.table;
+}
+
+TEST(Outputs, OfTheListAreThoseOfEitherFormulation) {
+  std::string columns;
+  for (const OutputType type : output_types) columns += column(type);
+  const ResultTable a = sampled(columns, Coordinates::absolute, 0.0);
+  const ResultTable b = sampled(columns, Coordinates::relative, 0.0);
+  ASSERT_EQ(a.columns.size(), b.columns.size());
+  ASSERT_GT(a.columns.size(), std::size(output_types));
+  for (std::size_t k = 1; k < a.columns.size(); ++k) {
+    EXPECT_EQ(a.columns[k].unit, b.columns[k].unit);
+    EXPECT_FALSE(a.columns[k].unit.empty());
+    const double x = a.at(0, k), y = b.at(0, k);
+    EXPECT_TRUE(std::isfinite(x)) << a.columns[k].name;
+    EXPECT_NEAR(x, y, 1e-8 * (1.0 + std::abs(x))) << a.columns[k].name;
+    // Rotations begin at the design orientation.
+    const bool begins_at_zero = a.columns[k].name.starts_with("rotation") ||
+                                a.columns[k].name.starts_with("joint_position");
+    EXPECT_EQ(x == 0.0, begins_at_zero) << a.columns[k].name;
+  }
+}
+
+}  // namespace
+}  // namespace floatframe::test
