@@ -147,7 +147,8 @@ TEST(Validate, Outputs) {
       {[](D& d) { d.outputs[1].name = "z"; }, "outputs: the column 'z' exists already"},
       {[](D& d) { d.outputs[0].type = static_cast<OutputType>(99); },
        "outputs.z: found 99, expected position, velocity, acceleration, rotation, "
-       "angular_velocity, joint_position, joint_velocity, modal_amplitude, force, length or rate"},
+       "angular_velocity, joint_position, joint_velocity, modal_amplitude, force, length, rate "
+       "or distance"},
       {[](D& d) { d.outputs[0].component = 7; }, "outputs.z.axis: found 7, expected x, y or z"},
       {[](D& d) { d.outputs[0].component = -1; }, "outputs.z.axis: found -1, expected x, y or z"},
       {[](D& d) { d.outputs[1].component = 3; },
@@ -171,6 +172,17 @@ TEST(Validate, Outputs) {
        "outputs.F.force: unknown force 'lod', did you mean 'load'?"},
       {[](D& d) { d.outputs[5].entity = "load"; },
        "outputs.L.length: a force has no length, expected another force element"},
+      {[](D& d) {
+         d.outputs[0].type = OutputType::distance;
+         d.outputs[0].to.body = "blok";
+       },
+       "outputs.z.distance.to.body: unknown body 'blok', did you mean 'block'?"},
+      {[](D& d) {
+         d.outputs[0].type = OutputType::distance;
+         d.outputs[0].to.body = "arm";
+         d.outputs[0].to.node = "none";
+       },
+       "outputs.z.distance.to.node: the flexible body 'arm' has no node 'none'"},
   });
 }
 

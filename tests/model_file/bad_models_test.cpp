@@ -232,11 +232,20 @@ const Case cases[] = {
     {"output_coordinate.yaml",
      "output_coordinate.yaml:10:40: outputs.a.coordinate: found 2, expected the number of a "
      "coordinate (a whole number from 1 to 1)"},
+    {"output_distance.yaml",
+     "output_distance.yaml:5:17: outputs.a.distance: found 'block', expected two places, for "
+     "example {from: body, to: body}\n"
+     "output_distance.yaml:6:7: outputs.b.distance: missing key 'to'\n"
+     "output_distance.yaml:7:35: outputs.c.distance.to: unknown body 'blocks', did you mean "
+     "'block'?\n"
+     "output_distance.yaml:8:54: outputs.d.distance.to.at: found a list of 2, expected a list of "
+     "three numbers [x, y, z] [m]\n"
+     "output_distance.yaml:8:64: outputs.d: unknown key 'axis'"},
     {"output_twice.yaml", "output_twice.yaml:7:3: outputs: the column 'block.x' exists already"},
     {"output_without_quantity.yaml",
      "output_without_quantity.yaml:6:3: outputs.z: found 0 quantities, expected one of position, "
      "velocity, acceleration, rotation, angular_velocity, joint_position, joint_velocity, "
-     "modal_amplitude, force, length or rate"
+     "modal_amplitude, force, length, rate or distance"
      "\n"
      "output_without_quantity.yaml:6:7: outputs.z: unknown key 'body'"},
     {"parallel_axes.yaml",

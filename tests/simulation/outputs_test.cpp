@@ -87,5 +87,28 @@ TEST(Outputs, OfTheListAreThoseOfEitherFormulation) {
   }
 }
 
+TEST(Outputs, DistanceIsThatOfThePositionsOfItsPoints) {
+  const std::string columns =
+      "  d: {distance: {from: {body: arm, at: tip}, to: puck}}\n"
+      "  fixed: {distance: {from: {body: ground, at: [1, 2, 2]}, to: {body: ground, at: [1, -1, "
+      "6]}}}\n"
+      "  tip: {position: {body: arm, at: tip}}\n"
+      "  puck: {position: puck}\n"
+      "  coil: {length: coil}\n";
+  for (const Coordinates c : {Coordinates::absolute, Coordinates::relative}) {
+    const ResultTable t = sampled(columns, c, 0.05);
+    ASSERT_EQ(t.columns.size(), 10u);
+    EXPECT_EQ(t.columns[1].name + " [" + t.columns[1].unit + "]", "d [m]");
+    ASSERT_EQ(t.rows(), 51u);
+    for (std::size_t i = 0; i < t.rows(); ++i) {
+      const double* x = t.data.data() + i * t.columns.size();
+      const Vec3 tip(x[3], x[4], x[5]), puck(x[6], x[7], x[8]);
+      EXPECT_NEAR(x[1], (puck - tip).norm(), 1e-14);
+      EXPECT_NEAR(x[1], x[9], 1e-14);
+      EXPECT_NEAR(x[2], 5.0, 1e-14);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace floatframe::test

@@ -16,7 +16,8 @@
   entry(modal_amplitude)          \
   entry(force)                    \
   entry(length)                   \
-  entry(rate)
+  entry(rate)                     \
+  entry(distance)
 // clang-format on
 
 namespace floatframe {

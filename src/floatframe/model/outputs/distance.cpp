@@ -1,0 +1,15 @@
+// Distance of two points, |p_WB - p_WA| [m].
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::distance>(const OutputView& view, const Output& output,
+                                             FollowedOutput&) noexcept {
+  return (view.marker(output.to).r - view.marker(output.marker).r).norm();
+}
+
+constinit const OutputKind distance_output = {
+    .about = "length of the line between them", .of = OutputOf::two_points, .unit = "m"};
+
+}  // namespace floatframe
