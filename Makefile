@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all demo bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -12,6 +12,7 @@ help:
 	@echo "make test          release build and all tests"
 	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
+	@echo "make docs          reference of the C++ interface: build/docs/html/index.html"
 	@echo "make bench         timing of a chain of flexible links, the Iltis and single kernels"
 	@echo "make bench-record  all benchmarks, recorded in bench/history; docs/performance.md anew"
 	@echo "make bench-compare measures and prints ratios to the newest recorded run"
@@ -43,6 +44,13 @@ demo: build
 	@echo
 	@echo "Report:  $(CURDIR)/$(DEMO_OUTPUT)/report.html (open it in a browser)"
 	@echo "Results: $(CURDIR)/$(DEMO_OUTPUT)/results.csv and summary.json"
+
+# Doxygen's warnings are errors.
+docs:
+	@scripts/install_packages.sh --docs
+	cmake --preset release
+	cmake --build build --target docs
+	@echo "Reference: $(CURDIR)/build/docs/html/index.html"
 
 bench: build
 	cmake --build build --parallel $(JOBS) --target floatframe_benchmarks

@@ -1,4 +1,4 @@
-# `cmake --install`: program, both copies of the library, headers, and the package for find_package(Floatframe).
+# `cmake --install`: program, both copies of the library, public headers, examples and the package for find_package(Floatframe).
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Floatframe)
 
@@ -24,7 +24,11 @@ if(TARGET floatframe_program)
   install(TARGETS floatframe_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/floatframe ${PROJECT_BINARY_DIR}/generated/floatframe
+# The public headers, each as one file.
+install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" \"-DSOURCE=${PROJECT_SOURCE_DIR}/src\"
+  \"-DGENERATED=${PROJECT_BINARY_DIR}/generated\" \"-DOUTPUT=${PROJECT_BINARY_DIR}/public_headers\"
+  -P \"${CMAKE_CURRENT_LIST_DIR}/public_headers.cmake\" COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${PROJECT_BINARY_DIR}/public_headers/floatframe
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/floatframe
         PATTERN "__pycache__" EXCLUDE)

@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Checks that the rooms of Floatframe use each other only in the directions the architecture allows.
 
+Files beside the rooms, src/floatframe/*.hpp, are the public headers: what they reach includes nothing but the standard
+library and Eigen, and stays within PUBLIC. Rooms do not include them.
+
 Usage: check_includes.py [path to src/floatframe]
 Exit code 1 and one line a fault (file:line: sentence) when an arrow points the wrong way.
 """
@@ -41,6 +44,11 @@ ALLOWED = {
                              "model_file", "report", "sweep"},
 }
 
+# Rooms, and single files, that public headers may reach.
+PUBLIC = {"core", "math", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "parts", "model", "model_file",
+          "formulation/counts.hpp", "simulation", "report", "realtime", "sweep"}
+FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)(\w+[./]\S*)>')
+
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]floatframe/([^">]+)[">]')
 
 
@@ -51,18 +59,46 @@ def room_of(path):
     return nested if nested in ALLOWED else folders[0] if folders else ""
 
 
+def included(path):
+    """Line number and name from src/floatframe of each of our headers that a file includes."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        if match := INCLUDE.match(line):
+            yield number, match.group(1)
+
+
+def public_faults(root):
+    reached = {path.name: path.name for path in sorted(root.glob("*.hpp"))}  # file: the public header it is reached from
+    waiting = list(reached)
+    while waiting:
+        name = waiting.pop()
+        if not (root / name).is_file():
+            continue  # written by CMake
+        for number, line in enumerate((root / name).read_text(encoding="utf-8").splitlines(), start=1):
+            if (match := FOREIGN.match(line)) and match.group(1) != "time.h":
+                yield (f"{root / name}:{number}: the public header {reached[name]} must not reach <{match.group(1)}>: "
+                       "only the standard library and Eigen")
+        for number, used in included(root / name):
+            if "/" in used and used not in PUBLIC and room_of(used) not in PUBLIC:
+                yield f"{root / name}:{number}: the public header {reached[name]} must not reach {used}"
+            elif used not in reached:
+                reached[used] = reached[name]
+                waiting.append(used)
+
+
 def faults(root):
+    yield from public_faults(root)
     for path in sorted(root.rglob("*")):
-        if path.suffix not in (".hpp", ".cpp", ".h", ".inl"):
+        if path.suffix not in (".hpp", ".cpp", ".h", ".inl") or path.parent == root:
             continue
         room = room_of(path.relative_to(root).as_posix())
         if room not in ALLOWED:
             yield f"{path}:1: the folder '{room}' is not a room; add it to ALLOWED in {pathlib.Path(__file__).name}"
             continue
-        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-            match = INCLUDE.match(line)
-            used = room_of(match.group(1)) if match else room
-            if used and used != room and used not in ALLOWED[room]:
+        for number, header in included(path):
+            used = room_of(header)
+            if not used:
+                yield f"{path}:{number}: '{room}' must not use the public header {header}; include the header of its room"
+            elif used != room and used not in ALLOWED[room]:
                 yield (f"{path}:{number}: '{room}' must not use '{used}'; "
                        f"it may use {', '.join(sorted(ALLOWED[room])) or 'nothing'}")
 

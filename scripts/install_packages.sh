@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs what Floatframe needs to be built and tested on Debian 12 or Ubuntu 24.04 (and their relatives).
 #
-#   scripts/install_packages.sh [--check]
+#   scripts/install_packages.sh [--check | --docs]
 #
 # Runs nothing when everything is there. Otherwise prints what is missing and installs it, through sudo when not
-# root. Exit code 1, with the command to run, when it cannot install. --check only looks.
+# root. Exit code 1, with the command to run, when it cannot install. --check only looks; --docs: with what the reference
+# of the C++ interface is made with.
 set -euo pipefail
 
 packages=(
@@ -18,8 +19,10 @@ packages=(
 check_only=no
 if [[ "${1:-}" == "--check" ]]; then
   check_only=yes
+elif [[ "${1:-}" == "--docs" ]]; then
+  packages+=(doxygen)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [--check]" >&2
+  echo "usage: $0 [--check | --docs]" >&2
   exit 2
 fi
 

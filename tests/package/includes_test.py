@@ -26,6 +26,23 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertTrue(text.startswith("model/a.hpp:2: 'model' must not use 'integrator'; it may use "), text)
 
+    def test_public_headers_reach_nothing_foreign(self):
+        files = {"model.hpp": '#include "floatframe/model/a.hpp"\n', "model/a.hpp": "#include <vector>\n#include <Eigen/Core>\n"}
+        self.assertEqual(self.check(files), (0, ""))
+        files["model/a.hpp"] += "#include <fmt/format.h>\n"
+        self.assertEqual(self.check(files), (1, "model/a.hpp:3: the public header model.hpp must not reach <fmt/format.h>: "
+                                                "only the standard library and Eigen\n"))
+
+    def test_public_headers_stay_out_of_private_rooms(self):
+        code, text = self.check({"a.hpp": '#include "floatframe/model/a.hpp"\n', "integrator/a.hpp": "",
+                                 "model/a.hpp": "", "b.hpp": '\n#include "floatframe/integrator/a.hpp"\n'})
+        self.assertEqual((code, text), (1, "b.hpp:2: the public header b.hpp must not reach integrator/a.hpp\n"))
+
+    def test_rooms_do_not_use_public_headers(self):
+        code, text = self.check({"model.hpp": "", "sweep/a.cpp": '#include "floatframe/model.hpp"\n'})
+        self.assertEqual((code, text), (1, "sweep/a.cpp:1: 'sweep' must not use the public header model.hpp; "
+                                           "include the header of its room\n"))
+
     def test_a_folder_that_is_no_room_is_a_fault(self):
         code, text = self.check({"util/a.hpp": ""})
         self.assertEqual(code, 1)

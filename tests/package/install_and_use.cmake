@@ -12,24 +12,49 @@ endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 
-# The consumer includes every public header, so that none needs a file that is not installed. Headers that need a
-# library of their own (YAML, command line) are internal to their room and left out.
-file(GLOB_RECURSE headers RELATIVE ${WORK}/prefix/include ${WORK}/prefix/include/floatframe/*.hpp)
-set(text "#pragma once\n")
+# Nothing but the public headers is installed, and they include nothing but each other, Eigen and the standard library.
+file(GLOB_RECURSE headers RELATIVE ${WORK}/prefix/include/floatframe ${WORK}/prefix/include/floatframe/*)
+list(SORT headers)
+set(public analysis body errors floatframe history model part realtime simulation sweep types version)
+list(TRANSFORM public APPEND .hpp)
+if(NOT headers STREQUAL public)
+  message(FATAL_ERROR "found the headers ${headers}, expected ${public}")
+endif()
 foreach(header IN LISTS headers)
-  file(STRINGS ${WORK}/prefix/include/${header} foreign
-       REGEX "#include <(yaml-cpp|fmt|CLI|nlohmann)/")
-  if(NOT foreign)
-    string(APPEND text "#include \"${header}\"\n")
+  file(STRINGS ${WORK}/prefix/include/floatframe/${header} foreign
+       REGEX "^ *# *include (\"|<([^E>][^>]*/|[^>]*\\.h>|Eigen/src))")
+  list(FILTER foreign EXCLUDE REGEX "<floatframe/[a-z]+\\.hpp>|<time\\.h>")
+  if(foreign)
+    message(FATAL_ERROR "${header}: ${foreign}")
   endif()
 endforeach()
-file(COPY ${SOURCE}/consumer/ DESTINATION ${WORK}/consumer)
-file(WRITE ${WORK}/consumer/all_headers.hpp "${text}")
 
+file(COPY ${SOURCE}/consumer/ DESTINATION ${WORK}/consumer)
 run(${CMAKE_COMMAND} -S ${WORK}/consumer -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
+
+# The examples, as somebody would build them, and what they print.
+run(${CMAKE_COMMAND} -S ${WORK}/prefix/share/floatframe/examples/cpp -B ${WORK}/examples -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -Wall -Wextra -Wpedantic -Werror")
+run(${CMAKE_COMMAND} --build ${WORK}/examples --parallel 2)
+set(models ${WORK}/prefix/share/floatframe/examples)
+function(example name arguments)
+  execute_process(COMMAND ${WORK}/examples/${name} ${arguments} WORKING_DIRECTORY ${WORK}
+                  RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  foreach(expected IN LISTS ARGN)
+    if(NOT code EQUAL 0 OR NOT output MATCHES "${expected}")
+      message(FATAL_ERROR "example ${name}: exit code ${code}, expected '${expected}' in\n${output}")
+    endif()
+  endforeach()
+endfunction()
+example(pendulum "" "period 1\\.64[0-9]+ s")
+example(control ${models}/active_damper/active_damper.yaml
+        "passive [0-9.]+ m/s2, active [0-9.]+ m/s2" "from the saved state: the same bits")
+example(reduce_part ${models}/iltis_solid/front_arm.msh.gz "16 modes, mass [0-9.]+ kg" "preprocessing and projection: agree")
+example(formulations ${models}/flexible_pendulum/flexible_pendulum.yaml "relative preprocessing" "absolute projection")
+example(sweep_threads ${models}/active_damper/active_damper.yaml "gain  8000" "four threads and one: the same bits")
 if(EXISTS ${WORK}/prefix/bin/floatframe)
   run(${WORK}/prefix/bin/floatframe --version)
 endif()

@@ -86,6 +86,14 @@ class InstallPackages(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("these tools are missing: cmake ninja make python3\n", result.stderr)
 
+    def test_the_reference_needs_doxygen(self):
+        self.debian(user=0)
+        self.stand_in("dpkg-query", '[[ "${@: -1}" == doxygen ]] && exit 1; echo -n installed')
+        self.assertEqual(self.run_script("--check")[0].returncode, 0)
+        result, calls = self.run_script("--docs")
+        self.assertIn("Missing packages: doxygen\n", result.stdout)
+        self.assertTrue(calls[-1].endswith(" doxygen"), calls)
+
     def test_check_only_looks(self):
         self.debian(user=0)
         result, calls = self.run_script("--check")

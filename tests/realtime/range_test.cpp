@@ -2,7 +2,6 @@
 // results as without looking.
 #include <gtest/gtest.h>
 
-#include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "realtime/recorder.hpp"
 #include "support/temporary_folder.hpp"
@@ -19,17 +18,17 @@ ModelDescription described(const char* name, Coordinates coordinates, double ste
   return d;
 }
 
-std::vector<std::string> paced_warnings(const ModelDescription& d, SignalPort* port) {
+std::vector<RangeWarning> paced_warnings(const ModelDescription& d, SignalPort* port) {
   const RealTimeReport r = run_real_time(build_model(d), d.simulation, unpaced(), port);
   EXPECT_EQ(r.status, "completed") << r.message;
   return r.warnings;
 }
 
 /// Those of a plain run but for the energy balance.
-std::vector<std::string> plain_warnings(const ModelDescription& d) {
-  std::vector<std::string> out;
-  for (const std::string& w : run(build_model(d), d.simulation).summary.warnings)
-    if (w.find("energy balance") == std::string::npos) out.push_back(w);
+std::vector<RangeWarning> plain_warnings(const ModelDescription& d) {
+  std::vector<RangeWarning> out;
+  for (const RangeWarning& w : run(build_model(d), d.simulation).summary.warnings)
+    if (w.limit != RangeLimit::balance) out.push_back(w);
   return out;
 }
 
@@ -38,7 +37,7 @@ TEST(RealTimeRange, SentencesOfAPlainRun) {
     for (const auto& [name, step, count] :
          {std::tuple{"cantilever", 0.0, 2u}, {"spinning_beam", 0.0, 1u}, {"pendulum", 0.5, 1u}}) {
       const ModelDescription d = described(name, coordinates, step);
-      const std::vector<std::string> expected = plain_warnings(d);
+      const std::vector<RangeWarning> expected = plain_warnings(d);
       EXPECT_GE(expected.size(), count) << name;
       Recorder port;
       EXPECT_EQ(paced_warnings(d, &port), expected) << name;
@@ -52,9 +51,9 @@ TEST(RealTimeRange, WithoutOutputs) {
     for (const auto& [name, step] : {std::pair{"cantilever", 0.0}, {"pendulum", 0.5}}) {
       ModelDescription d = described(name, coordinates, step);
       d.simulation.duration *= 10.0;
-      std::vector<std::string> kinds[2];
-      for (const std::string& w : plain_warnings(d)) kinds[0].push_back(warning_kind(w));
-      for (const std::string& w : paced_warnings(d, nullptr)) kinds[1].push_back(warning_kind(w));
+      std::vector<RangeLimit> kinds[2];
+      for (const RangeWarning& w : plain_warnings(d)) kinds[0].push_back(w.limit);
+      for (const RangeWarning& w : paced_warnings(d, nullptr)) kinds[1].push_back(w.limit);
       EXPECT_EQ(kinds[1], kinds[0]) << name;
     }
 }
@@ -69,9 +68,11 @@ TEST(RealTimeRange, SinesThatTheStepDoesNotResolve) {
       "forces: {s: {type: force, body: p, direction: x,"
       " magnitude: {sine: {amplitude: 1000, frequency: 1000}}}}\n"
       "simulation: {step: 0.001, duration: 0.1}\n"));
-  const std::vector<std::string> warnings = paced_warnings(d, nullptr);
+  const std::vector<RangeWarning> warnings = paced_warnings(d, nullptr);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("its sine of 1000 Hz"), std::string::npos) << warnings[0];
+  EXPECT_EQ(warnings[0].limit, RangeLimit::sine);
+  EXPECT_NE(warnings[0].sentence.find("its sine of 1000 Hz"), std::string::npos)
+      << warnings[0].sentence;
 }
 
 TEST(RealTimeRange, LookingChangesNoResult) {

@@ -13,8 +13,8 @@ namespace {
 class Forcings : public testing::Test {
  protected:
   /// A body on a slide for 0.1 s in steps of 1 ms; `motion` and `magnitude` of a load.
-  std::vector<std::string> warnings(const std::string& motion, const std::string& magnitude,
-                                    Coordinates coordinates = Coordinates::relative) {
+  std::vector<RangeWarning> warnings(const std::string& motion, const std::string& magnitude,
+                                     Coordinates coordinates = Coordinates::relative) {
     std::string text =
         "floatframe: 1\ngravity: [0, 0, 0]\n"
         "bodies: {p: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [1, 2, 3]}}}\n"
@@ -27,9 +27,9 @@ class Forcings : public testing::Test {
     d.simulation.coordinates = coordinates;
     return run(build_model(d), d.simulation).summary.warnings;
   }
-  static bool says(const std::vector<std::string>& warnings, const std::string& words) {
-    for (const std::string& w : warnings)
-      if (w.find(words) != std::string::npos) return true;
+  static bool says(const std::vector<RangeWarning>& warnings, const std::string& words) {
+    for (const RangeWarning& w : warnings)
+      if (w.sentence.find(words) != std::string::npos) return true;
     return false;
   }
 
@@ -56,7 +56,7 @@ TEST_F(Forcings, SineThatTheStepTakesForAnother) {
 }
 
 TEST_F(Forcings, PulseBetweenTwoSteps) {
-  const std::vector<std::string> w =
+  const std::vector<RangeWarning> w =
       warnings("", "table: [[0, 0], [0.0502, 0], [0.0503, 10], [0.0504, 10], [0.0506, 0]]");
   EXPECT_TRUE(says(w,
                    "the step of 0.001 s passes over values in the table of the load 's': it has 10 "

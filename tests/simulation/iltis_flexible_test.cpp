@@ -18,7 +18,7 @@ namespace floatframe::test {
 namespace {
 
 TEST(IltisFlexible, Counts) {
-  const ModelCounts c = count(build_model(iltis()));
+  const ModelCounts c = check(build_model(iltis()));
   EXPECT_EQ(c.bodies, 17);
   EXPECT_EQ(c.flexible_bodies, 12);
   EXPECT_EQ(c.joints, 25);
@@ -171,7 +171,7 @@ ModelDescription changed_suspension(
 
 void runs(const std::string& name, const ModelDescription& d, int elastic) {
   const Model model = build_model(d);
-  const ModelCounts c = count(model);
+  const ModelCounts c = check(model);
   EXPECT_EQ(c.relative.elastic, elastic) << name;
   EXPECT_EQ(c.redundant_constraints, 0) << name;
   for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {

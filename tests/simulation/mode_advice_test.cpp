@@ -45,7 +45,7 @@ ModelDescription description(const std::string& text,
 
 ModeAdviceReport advise(const ModelDescription& d, AdviceOptions options = {}) {
   options.repeat = 1;
-  return advise_modes(build_model(d), d.simulation, options);
+  return advise(build_model(d), d.simulation, options);
 }
 
 TEST(ModeAdvice, FrequenciesOfABarInClosedForm) {

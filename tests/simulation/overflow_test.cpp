@@ -25,7 +25,7 @@ joints: {h: {type: revolute, child: b, at: [0, 0, 0], axis: y}}
     for (const Combination& c : combinations)
       expect_in(message_of([&] { run_of(model, c); }), "the numbers of the model overflow: ");
     expect_in(message_of([&] { statics(model); }), "the numbers of the model overflow: ");
-    expect_in(message_of([&] { count(model); }), "the numbers of the model overflow: ");
+    expect_in(message_of([&] { check(model); }), "the numbers of the model overflow: ");
   }
 }
 

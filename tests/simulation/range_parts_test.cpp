@@ -33,8 +33,8 @@ class RangeOfParts : public ::testing::Test {
         read("initial: {amplitudes: {arm: [0, 0, 0, 0, " + std::to_string(amplitude) +
              "]}}\nsimulation: {step: 1e-7, duration: 1e-6}\n");
     d.simulation.coordinates = coordinates;
-    for (const std::string& w : run(build_model(d), d.simulation).summary.warnings)
-      if (w.find("body 'arm' deforms too far") != std::string::npos) return w;
+    for (const RangeWarning& w : run(build_model(d), d.simulation).summary.warnings)
+      if (w.sentence.find("body 'arm' deforms too far") != std::string::npos) return w.sentence;
     return "";
   }
 

@@ -8,7 +8,6 @@
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/initial_state.hpp"
-#include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/run_watch.hpp"
 #include "floatframe/simulation/runner.hpp"
 #include "simulation/figures.hpp"
@@ -35,8 +34,8 @@ RunSummary summary_of(const char* file, const std::vector<ParameterOverride>& se
 
 /// The one warning with these words; "" and a failure if there is none.
 std::string warning(const RunSummary& s, const std::string& words) {
-  for (const std::string& w : s.warnings)
-    if (w.find(words) != std::string::npos) return w;
+  for (const RangeWarning& w : s.warnings)
+    if (w.sentence.find(words) != std::string::npos) return w.sentence;
   ADD_FAILURE() << "no warning '" << words << "' among " << s.warnings.size();
   return "";
 }
@@ -75,22 +74,26 @@ TEST(Range, PendulumWithAStepOfHalfASecond) {
 }
 
 // What a study needs to say each only once.
-TEST(Range, SentencesAreOfKinds) {
-  std::set<std::string> kinds;
-  std::size_t sentences = 0;
+TEST(Range, WarningsAreOfKinds) {
+  std::set<RangeLimit> limits;
+  std::size_t count = 0;
   for (const char* file : {RANGE("cantilever"), RANGE("pendulum")})
-    for (const std::string& w : summary_of(file, {}, Coordinates::relative).warnings) {
-      EXPECT_LT(warning_kind(w).size(), 45u) << w;
-      kinds.insert(warning_kind(w));
-      ++sentences;
+    for (const RangeWarning& w : summary_of(file, {}, Coordinates::relative).warnings) {
+      limits.insert(w.limit);
+      ++count;
     }
-  EXPECT_GE(sentences, 4u);
-  EXPECT_EQ(kinds.size(), sentences);
-  EXPECT_EQ(warning_kind(warning(summary_of(RANGE("cantilever"), {}, Coordinates::relative),
-                                 "bends too far")),
-            warning_kind(
-                warning(summary_of(RANGE("cantilever"), {{"load", "200"}}, Coordinates::absolute),
-                        "bends too far")));
+  EXPECT_GE(count, 4u);
+  EXPECT_EQ(limits.size(), count);
+  for (const RangeLimit limit : {RangeLimit::displacement, RangeLimit::rotation, RangeLimit::turn})
+    EXPECT_TRUE(limits.contains(limit));
+  const auto bent = [](const char* load, Coordinates coordinates) {
+    for (const RangeWarning& w :
+         summary_of(RANGE("cantilever"), {{"load", load}}, coordinates).warnings)
+      if (says(w.sentence, "bends too far")) return w.limit;
+    return RangeLimit::balance;
+  };
+  EXPECT_EQ(bent("385", Coordinates::relative), RangeLimit::rotation);
+  EXPECT_EQ(bent("200", Coordinates::absolute), RangeLimit::rotation);
 }
 
 TEST(Range, PendulumWithAStepThatResolvesIt) {
@@ -120,7 +123,7 @@ TEST(Range, ShaftThatTurnsAboutItsOwnAxis) {
   d.amplitudes.clear();
   for (const Coordinates c : both) {
     const RunSummary s = summary_of(d, c);
-    EXPECT_TRUE(s.warnings.empty()) << s.warnings.front();
+    EXPECT_TRUE(s.warnings.empty()) << s.warnings.front().sentence;
   }
 }
 
@@ -160,7 +163,7 @@ TEST(Range, ExamplesPrintNothing) {
       const RunSummary s = summary_of(file, {}, c);
       EXPECT_EQ(s.status, "completed");
       EXPECT_TRUE(s.energy.balanced);
-      EXPECT_TRUE(s.warnings.empty()) << file << ": " << s.warnings.front();
+      EXPECT_TRUE(s.warnings.empty()) << file << ": " << s.warnings.front().sentence;
     }
 }
 
@@ -176,7 +179,7 @@ TEST(Range, NoiseIsNoMotion) {
                                        {"spectral_radius", "1"},
                                        {"duration", "1"}},
                                       c);
-      EXPECT_TRUE(s.warnings.empty()) << s.warnings.front();
+      EXPECT_TRUE(s.warnings.empty()) << s.warnings.front().sentence;
     }
 }
 
@@ -184,7 +187,7 @@ TEST(Range, NothingHasMass) {
   for (const Coordinates c : both) {
     const RunSummary s = summary_of(RANGE("massless"), {}, c);
     EXPECT_EQ(s.status, "completed");
-    EXPECT_TRUE(s.warnings.empty()) << s.warnings.front();
+    EXPECT_TRUE(s.warnings.empty()) << s.warnings.front().sentence;
   }
 }
 

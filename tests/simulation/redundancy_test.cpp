@@ -47,7 +47,7 @@ TEST(Redundancy, BodyWeldedTwiceHangsHalfFromEach) {
 
 TEST(Redundancy, IsNamedByCheckAndRun) {
   const Model model = model_of(welded_twice);
-  const ModelCounts c = count(model);
+  const ModelCounts c = check(model);
   EXPECT_EQ(c.redundant_constraints, 6);
   EXPECT_EQ(c.start.redundant.size(), 6u);
   for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
@@ -135,7 +135,7 @@ TEST(Redundancy, NoneOfTheExamplesHasAny) {
   for (const char* name : {"slider_crank", "flexible_pendulum", "active_damper"}) {
     const Model model =
         build_model(read_model(std::string(FLOATFRAME_EXAMPLES "/") + name + "/" + name + ".yaml"));
-    const ModelCounts c = count(model);
+    const ModelCounts c = check(model);
     EXPECT_TRUE(c.start.notes.empty()) << name;
     EXPECT_TRUE(statics(model).redundant.empty()) << name;
   }

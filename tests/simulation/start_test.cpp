@@ -140,7 +140,7 @@ simulation: {step: 0.01, duration: 0.1}
     s.start = Start::equilibrium;
     EXPECT_EQ(run(model, s).summary.status, "completed") << c.name();
   }
-  EXPECT_EQ(count(model).degrees_of_freedom, 0);
+  EXPECT_EQ(check(model).degrees_of_freedom, 0);
   const StaticsResult statics_result = statics(model);
   EXPECT_NEAR(statics_result.joints[0].force.z(), 5.0 * 9.81, 1e-9);
   EXPECT_NEAR(statics_result.joints[1].force.z(), 3.0 * 9.81, 1e-9);

@@ -58,7 +58,7 @@ TEST(StartValues, GivenOnesThatDoNotFitAreReported) {
     expect_in(start.notes[3],
               "joint 'd': closing the loops changed the rate of the angle from the 1 rad/s");
   }
-  EXPECT_EQ(count(model).start.changes.size(), 4u);
+  EXPECT_EQ(check(model).start.changes.size(), 4u);
 }
 
 TEST(StartValues, OnesThatFitAreNot) {

@@ -95,10 +95,9 @@ std::optional<double> judged_until(const Outcome& o) {
     if (o.reason.find("almost without mass") == std::string::npos) return std::nullopt;
     until *= 0.5;
   }
-  for (const std::string& w : o.result.summary.warnings)
-    if (w.find(" deforms too far ") != std::string::npos ||
-        w.find(" bends too far ") != std::string::npos)
-      if (const std::optional<double> t = beginning(w)) until = std::min(until, *t);
+  for (const RangeWarning& w : o.result.summary.warnings)
+    if (w.limit == RangeLimit::displacement || w.limit == RangeLimit::rotation)
+      if (const std::optional<double> t = beginning(w.sentence)) until = std::min(until, *t);
   return until;
 }
 

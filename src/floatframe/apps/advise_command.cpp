@@ -124,12 +124,12 @@ int advise(const AdviseArguments& a) {
                      "the run is shorter than one step; give a --duration");
   check_inertia_method(description, simulation.inertia);
   const Model model = build_model(description);
-  const ModeAdviceReport report = advise_modes(model, simulation, a.options);
+  const ModeAdviceReport report = advise(model, simulation, a.options);
   print(a.json ? advice_json(description.name, simulation.step, report, a.options)
                : advice_text(description.name, simulation, report, a.options));
-  for (const std::string& warning : report.full.warnings) say("warning: " + warning);
-  for (const std::string& warning : report.reduced.warnings)
-    say("warning: without the modes that are dropped: " + warning);
+  for (const RangeWarning& warning : report.full.warnings) say("warning: " + warning.sentence);
+  for (const RangeWarning& warning : report.reduced.warnings)
+    say("warning: without the modes that are dropped: " + warning.sentence);
   return 0;
 }
 

@@ -55,7 +55,7 @@ int check_model(const ModelArguments& arguments, bool json) {
   const ModelDescription description = read_model(arguments);
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
-  const ModelCounts counts = count(model);
+  const ModelCounts counts = check(model);
   if (json) {
     print(check_json(counts, model));
   } else {

@@ -13,6 +13,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
+#include "floatframe/realtime/realtime_rules.hpp"
 #include "floatframe/realtime/signal_log.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
@@ -204,7 +205,7 @@ int run_paced(const RealTimeArguments& arguments) {
   if (!arguments.report.empty())
     write_file(arguments.report, realtime_json(report, options, model, port.get()));
   if (!arguments.quiet) print(realtime_text(report, options, model, port.get()));
-  for (const std::string& warning : report.warnings) say("warning: " + warning);
+  for (const RangeWarning& warning : report.warnings) say("warning: " + warning.sentence);
   if (report.status == "failed") say("the run failed: " + report.message);
   const bool log_failed = log && log->error() != 0;
   if (log_failed)

@@ -73,7 +73,7 @@ std::string realtime_json(const RealTimeReport& r, const RealTimeOptions& option
                {"memory_locked", r.memory_locked},
                {"refusals", r.refusals},
                {"notes", r.start.notes},
-               {"warnings", r.warnings},
+               {"warnings", sentences(r.warnings)},
                {"steps", r.steps},
                {"substeps", r.substeps},
                {"iterations", r.iterations},

@@ -58,7 +58,7 @@ OutputPaths make_output_paths(const RunArguments& arguments, const std::string& 
 FactTable model_facts(const Model& model) {
   FactTable facts{"Model", {}};
   try {
-    const ModelCounts c = count(model);
+    const ModelCounts c = check(model);
     const auto coordinates = [](const CoordinateCounts& k) {
       return fmt::format("{} rigid + {} elastic = {}, {}", k.rigid, k.elastic, k.total,
                          plural(k.constraints, "constraint"));
@@ -179,7 +179,7 @@ int run_model(const RunArguments& arguments) {
     print((has_table ? summary_text(summary) : "") + files_text(paths, arguments, has_table) +
           (state ? fmt::format("  state    {}\n", arguments.write_state) : ""));
   }
-  for (const std::string& warning : summary.warnings) say("warning: " + warning);
+  for (const RangeWarning& warning : summary.warnings) say("warning: " + warning.sentence);
   if (summary.status == "completed") return 0;
   say("the run failed: " + summary.message);
   if (has_table && !summary.strict)

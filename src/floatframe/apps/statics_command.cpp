@@ -88,8 +88,8 @@ std::string redundancy_note(const StaticsResult& statics) {
 }
 
 /// Says them; the exit code.
-int warn(const std::vector<std::string>& warnings, bool strict) {
-  for (const std::string& warning : warnings) say("warning: " + warning);
+int warn(const std::vector<RangeWarning>& warnings, bool strict) {
+  for (const RangeWarning& warning : warnings) say("warning: " + warning.sentence);
   if (warnings.empty() || !strict) return 0;
   say(fmt::format("the equilibrium counts as failed: {} under --strict",
                   plural(static_cast<long>(warnings.size()), "warning counts as an error",
@@ -111,7 +111,7 @@ int show_statics(const StaticsArguments& a) {
   const Model model = build_model(description);
   const StaticsResult result = statics(model);
   if (!a.write_state.empty()) write_file(a.write_state, state_json(*result.state));
-  const std::vector<std::string> warnings = equilibrium_warnings(model, result.bodies);
+  const std::vector<RangeWarning> warnings = equilibrium_warnings(model, result.bodies);
   if (a.json) {
     print(statics_json(description.name, result, warnings));
     return warn(warnings, a.strict);

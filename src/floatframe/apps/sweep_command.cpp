@@ -19,7 +19,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/process_memory.hpp"
-#include "floatframe/sweep/sweep.hpp"
+#include "floatframe/sweep/sweep_ranks.hpp"
 #include "floatframe/sweep/sweep_workers.hpp"
 
 namespace floatframe {

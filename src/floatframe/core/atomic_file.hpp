@@ -2,22 +2,12 @@
 // Output files appear whole or not at all: the content goes to a temporary file in the same folder,
 // which is renamed when it is complete. SIGINT, SIGTERM and SIGHUP wait while a file is written, so
 // no temporary file stays behind.
-#include <exception>
 #include <string>
 #include <string_view>
-#include <utility>
+
+#include "floatframe/core/output_error.hpp"
 
 namespace floatframe {
-
-/// A file or folder that cannot be written; one sentence with the system's reason.
-class OutputError : public std::exception {
- public:
-  explicit OutputError(std::string message) : message_(std::move(message)) {}
-  const char* what() const noexcept override { return message_.c_str(); }
-
- private:
-  std::string message_;
-};
 
 /// Makes the folder (and those above it) and proves that files can be made in it. Throws
 /// OutputError.

@@ -12,13 +12,9 @@
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/fe/integration.hpp"
 
 namespace floatframe {
-
-enum class Integration {
-  exact,  ///< consistent mass, integrated exactly on elements with straight edges
-  ccx     ///< the points of CalculiX 2.20: K and M equal its exported entries
-};
 
 struct FeSystem {
   SparseMatrix K, M;       ///< n x n, symmetric, both halves stored

@@ -7,11 +7,10 @@
 #include <memory>
 #include <string>
 
+#include "floatframe/math/sparse_solver.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
-
-enum class SparseSolver { automatic, mumps, eigen };
 
 class SparseFactors {
  public:

@@ -7,13 +7,9 @@
 
 #include "floatframe/model/description.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
+#include "floatframe/model_file/parameter_override.hpp"
 
 namespace floatframe {
-
-/// "name=value" parameter overrides, as the command line's --set gives them.
-struct ParameterOverride {
-  std::string name, value;
-};
 
 /// What takes time while a model is read, and what is remembered of it.
 struct ReadOptions {

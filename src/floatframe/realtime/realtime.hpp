@@ -47,7 +47,7 @@ struct RealTimeReport {
   std::string status = "completed";   ///< "completed", "stopped" or "failed"
   std::string message;                ///< why it failed: time, cause
   /// Where the run left the range of the method (docs/range.md), known at its end.
-  std::vector<std::string> warnings;
+  std::vector<RangeWarning> warnings;
   StartReport start;
   long steps = 0, substeps = 0, iterations = 0, factorizations = 0;
   long cut_short = 0;  ///< steps accepted before they had converged

@@ -4,6 +4,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model/validate.hpp"
+#include "floatframe/realtime/realtime_rules.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {

@@ -1,9 +1,7 @@
 #pragma once
-// What a paced run is asked for, and what the numbers of that must be: the rules are those of the
-// command line and of C++ programs alike.
+// What a paced run is asked for.
 #include <atomic>
 
-#include "floatframe/core/number_rule.hpp"
 #include "floatframe/model/description.hpp"
 
 namespace floatframe {
@@ -40,22 +38,6 @@ struct RealTimeOptions {
   bool watch = true;         ///< say where the run leaves the range of the method, but for energies
   SignalLog* log = nullptr;  ///< takes inputs and outputs of every step
 };
-
-/// The numbers above, those of the clock within what 64 bits of nanoseconds hold.
-namespace realtime_rules {
-inline constexpr WholeNumberRule fixed_iterations{"a number of Newton iterations per step", 0,
-                                                  1000};
-inline constexpr NumberRule time_budget = non_negative_number("s");
-inline constexpr NumberRule max_lag{"a number from 0 to 1e9", "s", 0.0, 1e9};
-inline constexpr NumberRule input_timeout = non_negative_number("s");
-/// Of lock step (UdpPortOptions).
-inline constexpr NumberRule timeout{"a positive number up to 1e9", "s", 0.0, 1e9, true};
-inline constexpr WholeNumberRule priority{"a real-time priority, 0 for none", 0, 99};
-inline constexpr const char* fallbacks[] = {"hold", "initial", "stop"};
-/// Of a step in step with the wall clock [s].
-inline constexpr double shortest_step = 1e-6, longest_step = 1e6;
-inline constexpr double most_steps = 1e12;
-}  // namespace realtime_rules
 
 /// Throws InputError with all that is wrong with the options, or with the step and the duration for
 /// a run with them.

@@ -10,6 +10,7 @@
 
 #include "floatframe/realtime/input_watch.hpp"
 #include "floatframe/realtime/realtime.hpp"
+#include "floatframe/realtime/realtime_rules.hpp"
 #include "floatframe/realtime/signal_log.hpp"
 #include "floatframe/simulation/motion_watch.hpp"
 #include "floatframe/simulation/runner.hpp"
@@ -85,57 +86,28 @@ class RealTimeRunner {
                                         : std::lround(std::ceil(duration_ / step_ - 1e-9));
     const double h = 1e9 * std::min(step_, realtime_rules::longest_step);
     const auto period = static_cast<Nanoseconds>(h);
-    const auto max_lag = static_cast<Nanoseconds>(1e9 * options_.max_lag);
     InputWatch watch(options_, step_,
                      port_ != nullptr && port_->gives_inputs() && inputs_.size() > 0, report_);
     f_.set_inputs(inputs_.values());
     send(0, steps == 0);
     watch_start();
     const Nanoseconds start = wall_clock();
-    Nanoseconds base = start;  // due time of step 0
+    base_ = start;
     End end = End::completed;
     for (long k = 0; k < steps; ++k) {
-      if (stopped()) {
+      Nanoseconds due = base_;
+      if (stopped() || (options_.paced && !reach(k, h, due))) {
         end = End::stopped;
         break;
-      }
-      Nanoseconds due = base;
-      if (options_.paced) {
-        due += std::llround(static_cast<double>(k) * h);
-        const Nanoseconds lag = wall_clock() - due;
-        if (lag < 0) {
-          // A signal ends the sleep early: it either stops the run or means nothing.
-          while (!sleep_until(due) && !stopped()) {
-          }
-          if (stopped()) {
-            end = End::stopped;
-            break;
-          }
-          report_.wake.add(wall_clock() - due);
-        } else if (lag > max_lag) {
-          base += lag;
-          due += lag;
-          ++report_.slips;
-          report_.slipped += 1e-9 * static_cast<double>(lag);
-        }
       }
       if (port_ != nullptr && !port_->wait()) {
         end = End::no_inputs;
         break;
       }
       const Nanoseconds wall_begin = wall_clock(), cpu_begin = thread_cpu_clock();
-      if (port_ != nullptr && port_->receive(inputs_)) {
-        watch.came(runner_.state().t);
-        f_.set_inputs(inputs_.values());
-      } else if (watch.missed()) {
-        if (options_.fallback == SilenceFallback::stop && report_.inputs_came) {
-          end = End::silent;
-          break;
-        }
-        if (options_.fallback == SilenceFallback::initial) {
-          inputs_.reset();
-          f_.set_inputs(inputs_.values());
-        }
+      if (!take_inputs(watch)) {
+        end = End::silent;
+        break;
       }
       // Steps of one and the same size; only the last may be a part of one.
       const bool part = k + 1 == steps && static_cast<double>(steps) * step_ > duration_;
@@ -163,6 +135,40 @@ class RealTimeRunner {
     watch.finish(runner_.state().t);
     if (end != End::completed) send(static_cast<std::uint64_t>(report_.steps), true);
     return end;
+  }
+
+  /// Sleeps until step k is due or, if the model is too far behind, moves the clock. False: stopped.
+  bool reach(long k, double h, Nanoseconds& due) noexcept {
+    due = base_ + std::llround(static_cast<double>(k) * h);
+    const Nanoseconds lag = wall_clock() - due;
+    if (lag < 0) {
+      // A signal ends the sleep early: it either stops the run or means nothing.
+      while (!sleep_until(due) && !stopped()) {
+      }
+      if (stopped()) return false;
+      report_.wake.add(wall_clock() - due);
+    } else if (lag > static_cast<Nanoseconds>(1e9 * options_.max_lag)) {
+      base_ += lag;
+      due += lag;
+      ++report_.slips;
+      report_.slipped += 1e-9 * static_cast<double>(lag);
+    }
+    return true;
+  }
+
+  /// Inputs that have come, or what is done without. False: the run ends for it.
+  bool take_inputs(InputWatch& watch) noexcept {
+    if (port_ != nullptr && port_->receive(inputs_)) {
+      watch.came(runner_.state().t);
+      f_.set_inputs(inputs_.values());
+    } else if (watch.missed()) {
+      if (options_.fallback == SilenceFallback::stop && report_.inputs_came) return false;
+      if (options_.fallback == SilenceFallback::initial) {
+        inputs_.reset();
+        f_.set_inputs(inputs_.values());
+      }
+    }
+    return true;
   }
 
   void count(Nanoseconds cpu, Nanoseconds elapsed, Nanoseconds period, long iterations) noexcept {
@@ -233,6 +239,7 @@ class RealTimeRunner {
   InputBuffer inputs_;
   std::vector<double> row_;
   RealTimeReport& report_;
+  Nanoseconds base_ = 0;  ///< due time of step 0
   std::uint64_t next_logged_ = 0;
   MotionWatch<F>* watch_ = nullptr;
 };

@@ -8,6 +8,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/realtime/clocks.hpp"
 #include "floatframe/realtime/realtime_options.hpp"
+#include "floatframe/realtime/realtime_rules.hpp"
 
 namespace floatframe {
 namespace {

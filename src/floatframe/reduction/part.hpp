@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "floatframe/body/flexible_body.hpp"
-#include "floatframe/fe/fe_system.hpp"
+#include "floatframe/fe/integration.hpp"
 #include "floatframe/fe/interface_selection.hpp"
 #include "floatframe/fe/surface.hpp"
-#include "floatframe/math/sparse_factors.hpp"
+#include "floatframe/math/sparse_solver.hpp"
 #include "floatframe/reduction/health_report.hpp"
 
 namespace floatframe {

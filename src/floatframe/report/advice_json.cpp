@@ -16,7 +16,7 @@ Json cost(const RunSummary& s, double flops) {
           {"iterations_per_step", static_cast<double>(s.iterations) / steps},
           {"cpu_us_per_step", 1e6 * s.cpu / steps},
           {"flops_per_step", flops},
-          {"warnings", s.warnings}};
+          {"warnings", sentences(s.warnings)}};
 }
 
 }  // namespace

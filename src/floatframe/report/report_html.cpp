@@ -96,13 +96,14 @@ std::string spaced(std::string name) {
   return name;
 }
 
-void warning_list(fmt::memory_buffer& page, const std::vector<std::string>& warnings) {
+void warning_list(fmt::memory_buffer& page, const std::vector<RangeWarning>& warnings) {
   if (warnings.empty()) return;
   auto out = std::back_inserter(page);
   fmt::format_to(out, "<div class=\"warned\" role=\"note\"><b>{}</b>\n<ul>\n",
                  warnings.size() == 1 ? "Outside the range of the method"
                                       : "Outside the range of the method, in several ways");
-  for (const std::string& w : warnings) fmt::format_to(out, "<li>{}</li>\n", html_escape(w));
+  for (const RangeWarning& w : warnings)
+    fmt::format_to(out, "<li>{}</li>\n", html_escape(w.sentence));
   fmt::format_to(out, "</ul></div>\n");
 }
 

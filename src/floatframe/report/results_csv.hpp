@@ -4,7 +4,7 @@
 // back to the same bits.
 #include <string>
 
-#include "floatframe/simulation/results.hpp"
+#include "floatframe/simulation/result_table.hpp"
 
 namespace floatframe {
 

@@ -91,7 +91,7 @@ Json measured(const RunSummary& s) {
            {{"start", energy(e.kinetic_start, e.potential_start, e.elastic_start, e.total_start)},
             {"end", energy(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end)},
             {"balance", balance(e)}}},
-          {"warnings", s.warnings},
+          {"warnings", sentences(s.warnings)},
           {"start", start(s.start)}};
 }
 
@@ -131,7 +131,7 @@ std::string counts_json(const ModelCounts& c) {
 }
 
 std::string statics_json(const std::string& model, const StaticsResult& statics,
-                         const std::vector<std::string>& warnings) {
+                         const std::vector<RangeWarning>& warnings) {
   Json forces = Json::array(), joints = Json::array(), bodies = Json::array();
   for (const StaticsForce& f : statics.forces) {
     forces.push_back({{"name", f.name},
@@ -162,7 +162,7 @@ std::string statics_json(const std::string& model, const StaticsResult& statics,
                      {"joints", joints},
                      {"bodies", bodies},
                      {"redundant", redundant_directions(statics.redundant)},
-                     {"warnings", warnings}};
+                     {"warnings", sentences(warnings)}};
   return dump(json);
 }
 

@@ -16,6 +16,6 @@ std::string counts_json(const ModelCounts& counts);
 /// Of a static equilibrium: forces [N], torques [N m], positions [m], angles [rad]; `warnings`:
 /// where it leaves the range of the method.
 std::string statics_json(const std::string& model, const StaticsResult& statics,
-                         const std::vector<std::string>& warnings = {});
+                         const std::vector<RangeWarning>& warnings = {});
 
 }  // namespace floatframe

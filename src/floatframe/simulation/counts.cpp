@@ -8,7 +8,7 @@
 
 namespace floatframe {
 
-ModelCounts count(const Model& model) {
+ModelCounts check(const Model& model) {
   started_model(model, model.simulation);  // a state of another model is refused as by a run
   RelativeFormulation relative(model, model.simulation.inertia);
   const AbsoluteFormulation absolute(model, model.simulation.inertia);

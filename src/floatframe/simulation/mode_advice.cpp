@@ -89,8 +89,8 @@ Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep) 
   return out;
 }
 
-ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& given,
-                              const AdviceOptions& options) {
+ModeAdviceReport advise(const Model& model, const SimulationDescription& given,
+                        const AdviceOptions& options) {
   // What a mode does to the outputs must not drown in what the Newton tolerance does to them (a
   // tyre that meets an edge a moment later): runs that are compared have a tolerance of their own.
   SimulationDescription simulation = given;
@@ -164,7 +164,7 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
   }
   std::size_t good = 0, bad = steps.size();
   Model reduced = model;
-  std::vector<std::string> reduced_warnings;
+  std::vector<RangeWarning> reduced_warnings;
   while (bad - good > 1) {
     // All of them first: most often that is the answer.
     const std::size_t at = bad == steps.size() ? bad - 1 : (good + bad) / 2;
@@ -173,7 +173,7 @@ ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& g
     ++report.trials;
     bool passed = false;
     std::vector<OutputDifference> differences;
-    std::vector<std::string> warnings;
+    std::vector<RangeWarning> warnings;
     try {
       const RunResult result = run(trial, simulation);
       differences = output_differences(scale, table, result.table);

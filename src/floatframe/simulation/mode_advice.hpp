@@ -88,8 +88,8 @@ struct ModeAdviceReport {
 };
 
 /// Runs the model (several times) with `simulation`. Throws RunError if the full model cannot run.
-ModeAdviceReport advise_modes(const Model& model, const SimulationDescription& simulation,
-                              const AdviceOptions& options);
+ModeAdviceReport advise(const Model& model, const SimulationDescription& simulation,
+                        const AdviceOptions& options);
 
 /// The model with some amplitudes of some bodies held at zero: `keep[i]` for body i. Outputs of
 /// amplitudes that are gone go too.

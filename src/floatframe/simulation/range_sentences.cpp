@@ -33,9 +33,9 @@ class Writer {
          const RangeLimits& limits)
       : model_(model), bodies_(bodies), step_(step), limits_(limits) {}
 
-  void displacement(std::vector<std::string>& out) const {
+  void displacement(std::vector<RangeWarning>& out) const {
     about_worst(
-        &BodyRange::displacement,
+        RangeLimit::displacement, &BodyRange::displacement,
         [&](const BodyRange& b) { return limits_.displacement * b.size(); },
         [&](const std::string& body, const BodyRange& b, const Largest& x) {
           if (at_rest())
@@ -55,9 +55,10 @@ class Writer {
         out);
   }
 
-  void rotation(std::vector<std::string>& out) const {
+  void rotation(std::vector<RangeWarning>& out) const {
     about_worst(
-        &BodyRange::rotation, [&](const BodyRange&) { return limits_.rotation; },
+        RangeLimit::rotation, &BodyRange::rotation,
+        [&](const BodyRange&) { return limits_.rotation; },
         [&](const std::string& body, const BodyRange& b, const Largest& x) {
           if (at_rest())
             return fmt::format(
@@ -74,9 +75,10 @@ class Writer {
         out);
   }
 
-  void spin(std::vector<std::string>& out) const {
+  void spin(std::vector<RangeWarning>& out) const {
     about_worst(
-        &BodyRange::spin, [&](const BodyRange& b) { return limits_.spin * b.lowest_frequency(); },
+        RangeLimit::spin, &BodyRange::spin,
+        [&](const BodyRange& b) { return limits_.spin * b.lowest_frequency(); },
         [&](const std::string& body, const BodyRange& b, const Largest& x) {
           const double ratio = x.value / b.lowest_frequency();
           return fmt::format(
@@ -90,9 +92,9 @@ class Writer {
         out);
   }
 
-  void turn(std::vector<std::string>& out) const {
+  void turn(std::vector<RangeWarning>& out) const {
     about_worst(
-        &BodyRange::turn, [&](const BodyRange&) { return limits_.turn; },
+        RangeLimit::turn, &BodyRange::turn, [&](const BodyRange&) { return limits_.turn; },
         [&](const std::string& body, const BodyRange&, const Largest& x) {
           return fmt::format(
               "{} turns too far in one step of {:g} s: from t = {:.4g} s on by more than {:g} rad, "
@@ -103,7 +105,7 @@ class Writer {
   }
 
   void phase(const std::vector<std::vector<PhaseMeter>>& meters,
-             std::vector<std::string>& out) const {
+             std::vector<RangeWarning>& out) const {
     double all = 0.0, elastic = 0.0;
     for (const auto& body : meters)
       for (std::size_t k = 0; k < body.size(); ++k) {
@@ -133,36 +135,45 @@ class Writer {
     const std::string motion = what == 0   ? "the motion of "
                                : what == 1 ? "the turning of "
                                            : fmt::format("mode {} of ", what - 1);
-    out.push_back(fmt::format(
-        "the step of {:g} s is too long for {}{}: it goes through {:.3g} rad of phase in each "
-        "(limit {:g} rad), {:.2g} steps to a period, and carries {} of the kinetic energy of {}; "
-        "take a step of at most {:.2g} s",
-        step_, motion, subject(worst), m.phase(), limits_.phase, 2.0 * std::numbers::pi / m.phase(),
-        percent(m.energy() / (what >= 2 && elastic > 0.0 ? elastic : all)),
-        what >= 2 ? "all vibrations" : "all oscillations",
-        step_ * std::tan(0.5 * limits_.phase) / std::tan(0.5 * std::min(m.phase(), 3.0))));
+    out.push_back(
+        {RangeLimit::phase,
+         fmt::format(
+             "the step of {:g} s is too long for {}{}: it goes through {:.3g} rad of phase in each "
+             "(limit {:g} rad), {:.2g} steps to a period, and carries {} of the kinetic energy of "
+             "{}; "
+             "take a step of at most {:.2g} s",
+             step_, motion, subject(worst), m.phase(), limits_.phase,
+             2.0 * std::numbers::pi / m.phase(),
+             percent(m.energy() / (what >= 2 && elastic > 0.0 ? elastic : all)),
+             what >= 2 ? "all vibrations" : "all oscillations",
+             step_ * std::tan(0.5 * limits_.phase) / std::tan(0.5 * std::min(m.phase(), 3.0)))});
   }
 
   void balance(const EnergySummary& e, double spectral_radius,
-               std::vector<std::string>& out) const {
+               std::vector<RangeWarning>& out) const {
     if (!e.balanced) return;
     const double x = std::abs(e.largest_remainder), part = x / e.exchanged;
     // With numerical damping a loss is what was asked for, unless it is much.
     const bool damped = spectral_radius < 1.0 && e.largest_remainder < 0.0;
     if (damped && part > limits_.dissipation)
-      out.push_back(fmt::format(
-          "the numerical damping of the integrator (spectral radius {:g}) has taken {:.4g} J out "
-          "of the system by t = {:.4g} s, {} of the {:.4g} J exchanged (limit {}); take a smaller "
-          "step than {:g} s or a spectral radius nearer to 1",
-          spectral_radius, x, e.largest_remainder_at, percent(part), e.exchanged,
-          percent(limits_.dissipation), step_));
+      out.push_back({RangeLimit::damping,
+                     fmt::format("the numerical damping of the integrator (spectral radius {:g}) "
+                                 "has taken {:.4g} J out "
+                                 "of the system by t = {:.4g} s, {} of the {:.4g} J exchanged "
+                                 "(limit {}); take a smaller "
+                                 "step than {:g} s or a spectral radius nearer to 1",
+                                 spectral_radius, x, e.largest_remainder_at, percent(part),
+                                 e.exchanged, percent(limits_.dissipation), step_)});
     if (!damped && part > limits_.imbalance)
-      out.push_back(fmt::format(
-          "the energy balance does not close: at t = {:.4g} s the system has {:.4g} J {} than the "
-          "work of all forces and motions explains, {} of the {:.4g} J exchanged (limit {}); take "
-          "a smaller step than {:g} s",
-          e.largest_remainder_at, x, e.largest_remainder > 0.0 ? "more" : "less", percent(part),
-          e.exchanged, percent(limits_.imbalance), step_));
+      out.push_back(
+          {RangeLimit::balance,
+           fmt::format("the energy balance does not close: at t = {:.4g} s the system has {:.4g} J "
+                       "{} than the "
+                       "work of all forces and motions explains, {} of the {:.4g} J exchanged "
+                       "(limit {}); take "
+                       "a smaller step than {:g} s",
+                       e.largest_remainder_at, x, e.largest_remainder > 0.0 ? "more" : "less",
+                       percent(part), e.exchanged, percent(limits_.imbalance), step_)});
   }
 
  private:
@@ -171,15 +182,16 @@ class Writer {
 
   /// The sentence about the body that is furthest beyond its limit; a limit of 0 is none.
   template <class Limit, class Sentence>
-  void about_worst(const Largest& (BodyRange::*measure)() const, const Limit& limit,
-                   const Sentence& sentence, std::vector<std::string>& out) const {
+  void about_worst(RangeLimit kind, const Largest& (BodyRange::*measure)() const,
+                   const Limit& limit, const Sentence& sentence,
+                   std::vector<RangeWarning>& out) const {
     Worst worst;
     for (std::size_t i = 0; i < bodies_.size(); ++i)
       if (limit(bodies_[i]) > 0.0)
         worst.offer(static_cast<int>(i), (bodies_[i].*measure)().value / limit(bodies_[i]));
     if (!worst) return;
     const BodyRange& b = bodies_[worst.body];
-    out.push_back(sentence(subject(worst), b, (b.*measure)()));
+    out.push_back({kind, sentence(subject(worst), b, (b.*measure)())});
   }
 
   bool at_rest() const { return step_ == 0.0; }
@@ -198,9 +210,9 @@ class Writer {
 
 }  // namespace
 
-std::vector<std::string> equilibrium_warnings(const Model& model,
-                                              const std::vector<StaticsBody>& bodies,
-                                              const RangeLimits& limits) {
+std::vector<RangeWarning> equilibrium_warnings(const Model& model,
+                                               const std::vector<StaticsBody>& bodies,
+                                               const RangeLimits& limits) {
   std::vector<BodyRange> ranges;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     ranges.emplace_back(model, static_cast<int>(i));
@@ -208,16 +220,16 @@ std::vector<std::string> equilibrium_warnings(const Model& model,
       ranges.back().observe(0.0, 0.0, Vec3::Zero(), bodies[i].amplitudes.data(), limits);
   }
   const Writer writer(model, ranges, 0.0, limits);
-  std::vector<std::string> out;
+  std::vector<RangeWarning> out;
   writer.displacement(out);
   writer.rotation(out);
   return out;
 }
 
-std::vector<std::string> RangeWatch::sentences(const EnergySummary& energy,
+std::vector<RangeWarning> RangeWatch::warnings(const EnergySummary& energy,
                                                double spectral_radius) const {
   const Writer writer(model_, bodies_, step_, limits_);
-  std::vector<std::string> out;
+  std::vector<RangeWarning> out;
   writer.displacement(out);
   writer.rotation(out);
   writer.spin(out);

@@ -109,7 +109,7 @@ class RangeWatch {
   const RangeLimits& limits() const noexcept { return limits_; }
 
   /// One sentence for each kind of limit that was passed; the balance is that of the same run.
-  std::vector<std::string> sentences(const EnergySummary& energy, double spectral_radius) const;
+  std::vector<RangeWarning> warnings(const EnergySummary& energy, double spectral_radius) const;
 
  private:
   const Model& model_;
@@ -121,8 +121,8 @@ class RangeWatch {
 
 /// Where an equilibrium leaves the range: bodies that deform too far, one sentence per kind. `bodies`
 /// are those of the model, in its order.
-std::vector<std::string> equilibrium_warnings(const Model& model,
-                                              const std::vector<StaticsBody>& bodies,
-                                              const RangeLimits& limits = {});
+std::vector<RangeWarning> equilibrium_warnings(const Model& model,
+                                               const std::vector<StaticsBody>& bodies,
+                                               const RangeLimits& limits = {});
 
 }  // namespace floatframe

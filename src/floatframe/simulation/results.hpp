@@ -11,26 +11,13 @@
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/formulation/counts.hpp"
 #include "floatframe/math/types.hpp"
+#include "floatframe/simulation/range_warning.hpp"
+#include "floatframe/simulation/result_table.hpp"
 #include "floatframe/simulation/start_report.hpp"
 
 namespace floatframe {
 
 struct SystemState;
-
-struct Column {
-  std::string name;  ///< "chassis.z"
-  std::string unit;  ///< "m"
-};
-
-/// Sampled outputs: row-major, one row a sample; column 0 is time.
-struct ResultTable {
-  std::vector<Column> columns;
-  std::vector<double> data;
-  std::size_t rows() const { return columns.empty() ? 0 : data.size() / columns.size(); }
-  double at(std::size_t row, std::size_t column) const {
-    return data[row * columns.size() + column];
-  }
-};
 
 /// What puts energy into a system or takes it out.
 enum class EnergyFlow : std::size_t {
@@ -81,7 +68,7 @@ struct RunSummary {
   std::string message;               ///< why it failed: time, culprit
   StartReport start;
   /// Where the run left the range of the method: one sentence each (docs/range.md).
-  std::vector<std::string> warnings;
+  std::vector<RangeWarning> warnings;
   bool strict = false;  ///< failed only because warnings count as errors: the results are complete
   /// What the run was made from: parameters set, as NAME=VALUE, and every file read with the hash
   /// of its content. Empty unless the caller fills them.

@@ -54,7 +54,7 @@ class RunWatch {
     balance_.check(s.t, energies(s));
     out.energy.balanced = true;
     balance_.write(out.energy);
-    out.warnings = motion_.range().sentences(out.energy, spectral_radius);
+    out.warnings = motion_.range().warnings(out.energy, spectral_radius);
   }
 
  private:

@@ -37,97 +37,128 @@ RunSummary summary_of(const std::string& model, const SimulationDescription& o) 
   return s;
 }
 
+/// One run: its steps, what is recorded and watched of them, its summary.
 template <class F>
-RunResult run_with(const Model& given, const SimulationDescription& o,
-                   const RunOptions& run_options) {
-  StartedModel<F> start(given, o);
-  F& f = start.formulation();
-  const Model& model = start.model();
-  RunResult result;
-  RunSummary& s = result.summary;
-  s = summary_of(model.name, o);
-  s.start = start.report();
+class Run {
+ public:
+  Run(const Model& given, const SimulationDescription& o, const RunOptions& options)
+      : o_(o),
+        options_(options),
+        start_(given, o),
+        f_(start_.formulation()),
+        runner_(f_, start_.step_options(), start_.min_step()),
+        begin_(start_.state().t),
+        steps_(std::max(0L, std::lround(std::ceil(o.duration / o.step - 1e-9)))),
+        every_(o.output_interval > 0.0 ? std::max(1L, std::lround(o.output_interval / o.step))
+                                       : 1) {
+    RunSummary& s = result_.summary;
+    s = summary_of(start_.model().name, o);
+    s.start = start_.report();
+    runner_.state() = start_.state();
+    EnergySummary& e = s.energy;
+    energies(e.kinetic_start, e.potential_start, e.elastic_start, e.total_start);
+    begin_table();
+    if (options.keep_state) {
+      joints_.emplace(start_.model());
+      system_state(f_, runner_.state(), *joints_);
+    }
+    if (options.record && options.watch) {
+      watch_.emplace(f_, o.step, steps_ / every_);
+      watch_->start(runner_.state());
+    }
+  }
 
-  Runner<F> runner(f, start.step_options(), start.min_step());
-  runner.state() = start.state();
-  s.energy.kinetic_start = runner.kinetic_energy();
-  s.energy.potential_start = runner.potential_energy();
-  s.energy.elastic_start = runner.elastic_energy();
-  s.energy.total_start = s.energy.kinetic_start + s.energy.potential_start + s.energy.elastic_start;
+  RunResult result() {
+    const long report_every = std::max(1L, steps_ / 100);
+    for (long k = 0; k < steps_ && step(k); ++k)
+      if (options_.progress && (k + 1) % report_every == 0)
+        options_.progress(static_cast<double>(k + 1) / static_cast<double>(steps_));
+    finish();
+    return std::move(result_);
+  }
 
-  ResultTable& table = result.table;
-  table.columns.push_back({"time", "s"});
-  for (const Output& out : model.outputs) table.columns.push_back({out.name, out.unit});
-  const std::size_t width = table.columns.size();
-  const long steps = std::max(0L, std::lround(std::ceil(o.duration / o.step - 1e-9)));
-  const long every =
-      o.output_interval > 0.0 ? std::max(1L, std::lround(o.output_interval / o.step)) : 1;
-  std::size_t rows = 0;
-  if (run_options.record) {
-    table.data.assign((static_cast<std::size_t>(steps / every) + 3) * width, 0.0);
-    runner.sample(table.data.data());
-    rows = 1;
+ private:
+  void begin_table() {
+    ResultTable& table = result_.table;
+    table.columns.push_back({"time", "s"});
+    for (const Output& out : start_.model().outputs) table.columns.push_back({out.name, out.unit});
+    if (!options_.record) return;
+    table.data.assign((static_cast<std::size_t>(steps_ / every_) + 3) * table.columns.size(), 0.0);
+    sample();
   }
-  const double begin = runner.state().t;
-  std::optional<JointFollower> joints;
-  if (run_options.keep_state) {
-    joints.emplace(model);
-    system_state(f, runner.state(), *joints);
+
+  void sample() noexcept {
+    ResultTable& table = result_.table;
+    runner_.sample(table.data.data() + table.columns.size() * rows_++);
   }
-  std::optional<RunWatch<F>> watch;
-  if (run_options.record && run_options.watch) {
-    watch.emplace(f, o.step, steps / every);
-    watch->start(runner.state());
-  }
-  const long report_every = std::max(1L, steps / 100);
-  for (long k = 0; k < steps; ++k) {
-    const double from = begin + static_cast<double>(k) * o.step;
-    const double to = std::min(begin + static_cast<double>(k + 1) * o.step, begin + o.duration);
+
+  /// False: it failed.
+  bool step(long k) {
+    RunSummary& s = result_.summary;
+    const double from = begin_ + static_cast<double>(k) * o_.step;
+    const double to = std::min(begin_ + static_cast<double>(k + 1) * o_.step, begin_ + o_.duration);
     const double before = cpu_seconds();
     // Exactly the step, not a difference of times that varies in its last bits.
-    const bool part = to - from < (1.0 - 1e-9) * o.step;
-    const bool good = runner.advance(part ? to - from : o.step);
-    const bool sampled = good && run_options.record && ((k + 1) % every == 0 || k + 1 == steps);
+    const bool part = to - from < (1.0 - 1e-9) * o_.step;
+    const bool good = runner_.advance(part ? to - from : o_.step);
+    const bool sampled = good && options_.record && ((k + 1) % every_ == 0 || k + 1 == steps_);
     if (good) {
-      runner.state().t = to;
+      runner_.state().t = to;
       ++s.steps;
-      if (sampled) runner.sample(table.data.data() + width * rows++);
+      if (sampled) sample();
     }
     s.cpu += cpu_seconds() - before;
-    if (good && joints) joints->follow(f, runner.state());
-    if (good && watch) watch->step(runner.state(), runner.reactions(), sampled, !part);
-    if (!good) {
-      s.status = "failed";
-      s.message = runner.failure();
-      s.message += light_motion_note(f, runner.state());  // moves f
-      break;
+    if (good && joints_) joints_->follow(f_, runner_.state());
+    if (good && watch_) watch_->step(runner_.state(), runner_.reactions(), sampled, !part);
+    if (good) return true;
+    s.status = "failed";
+    s.message = runner_.failure();
+    s.message += light_motion_note(f_, runner_.state());  // moves f_
+    return false;
+  }
+
+  void finish() {
+    RunSummary& s = result_.summary;
+    result_.table.data.resize(rows_ * result_.table.columns.size());
+    s.duration = runner_.state().t - begin_;
+    s.substeps = runner_.substeps();
+    s.iterations = runner_.iterations();
+    s.factorizations = runner_.factorizations();
+    s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
+    s.max_position_violation = runner_.max_position_violation();
+    s.max_velocity_violation = runner_.max_velocity_violation();
+    EnergySummary& e = s.energy;
+    energies(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end);
+    if (joints_) {
+      result_.state = std::make_shared<SystemState>(system_state(f_, runner_.state(), *joints_));
+      place_bodies(start_.model(), o_.inertia, *result_.state);
     }
-    if (run_options.progress && (k + 1) % report_every == 0)
-      run_options.progress(static_cast<double>(k + 1) / static_cast<double>(steps));
-  }
-  table.data.resize(rows * width);
-  s.duration = runner.state().t - begin;
-  s.substeps = runner.substeps();
-  s.iterations = runner.iterations();
-  s.factorizations = runner.factorizations();
-  s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
-  s.max_position_violation = runner.max_position_violation();
-  s.max_velocity_violation = runner.max_velocity_violation();
-  s.energy.potential_end = runner.potential_energy();
-  s.energy.elastic_end = runner.elastic_energy();
-  s.energy.kinetic_end = runner.kinetic_energy();
-  s.energy.total_end = s.energy.kinetic_end + s.energy.potential_end + s.energy.elastic_end;
-  if (joints) {
-    result.state = std::make_shared<SystemState>(system_state(f, runner.state(), *joints));
-    place_bodies(model, o.inertia, *result.state);
-  }
-  if (watch) {
-    watch->finish(runner.state(), o.spectral_radius, s);
-    const auto unresolved = unresolved_forcing(model, o.step, begin, o.duration);
+    if (!watch_) return;
+    watch_->finish(runner_.state(), o_.spectral_radius, s);
+    const auto unresolved = unresolved_forcing(start_.model(), o_.step, begin_, o_.duration);
     s.warnings.insert(s.warnings.begin(), unresolved.begin(), unresolved.end());
   }
-  return result;
-}
+
+  /// At the present state, to which the formulation is brought.
+  void energies(double& kinetic, double& potential, double& elastic, double& total) noexcept {
+    potential = runner_.potential_energy();  // brings it there
+    elastic = runner_.elastic_energy();
+    kinetic = runner_.kinetic_energy();
+    total = kinetic + potential + elastic;
+  }
+
+  const SimulationDescription& o_;
+  const RunOptions& options_;
+  StartedModel<F> start_;
+  F& f_;
+  Runner<F> runner_;
+  const double begin_;
+  const long steps_, every_;  ///< every so many steps are sampled
+  RunResult result_;
+  std::size_t rows_ = 0;
+  std::optional<JointFollower> joints_;
+  std::optional<RunWatch<F>> watch_;
+};
 
 }  // namespace
 
@@ -183,8 +214,8 @@ RunResult run(const Model& given, const SimulationDescription& o, const RunOptio
   require_valid_run(o);
   check_step(o);
   return o.coordinates == Coordinates::relative
-             ? run_with<RelativeFormulation>(given, o, run_options)
-             : run_with<AbsoluteFormulation>(given, o, run_options);
+             ? Run<RelativeFormulation>(given, o, run_options).result()
+             : Run<AbsoluteFormulation>(given, o, run_options).result();
 }
 
 }  // namespace floatframe

@@ -1,27 +1,17 @@
 #pragma once
 // The entry points above the formulations: count, find the equilibrium of, and run a model.
 #include <functional>
-#include <memory>
+#include <string>
 
 #include "floatframe/model/description.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/simulation/results.hpp"
+#include "floatframe/simulation/run_error.hpp"
 
 namespace floatframe {
 
-/// A run that cannot start or go on: cannot be assembled, singular mass matrix, loop that cannot
-/// close. Exit code 1.
-class RunError : public std::exception {
- public:
-  explicit RunError(std::string message) : message_(std::move(message)) {}
-  const char* what() const noexcept override { return message_.c_str(); }
-
- private:
-  std::string message_;
-};
-
 /// Coordinates and constraints of both formulations, found from the assembled model (rank by SVD).
-ModelCounts count(const Model& model);
+ModelCounts check(const Model& model);
 
 /// Static equilibrium from the design configuration. Throws RunError naming the cause.
 StaticsResult statics(const Model& model);
@@ -49,5 +39,7 @@ RunSummary failed_summary(const std::string& model, const SimulationDescription&
 /// "failed". Throws RunError when it cannot start.
 RunResult run(const Model& model, const SimulationDescription& options,
               const RunOptions& run_options = {});
+/// With the options of the model.
+inline RunResult run(const Model& model) { return run(model, model.simulation); }
 
 }  // namespace floatframe

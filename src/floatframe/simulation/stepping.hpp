@@ -2,7 +2,7 @@
 // A model one step at a time: set inputs, make a step, read outputs, save all that decides the next
 // step and go back to it.
 //
-//   const Model model = build_model(read_model("vehicle.yaml"));
+//   const Model model = load_model("vehicle.yaml");
 //   Simulation s(model, {.step = 1e-3});
 //   while (s.time() < 8.0) {
 //     s.set_input("damper", 300.0);
@@ -30,16 +30,16 @@ namespace floatframe {
 
 /// Each that is set replaces the one in `model.simulation`.
 struct SimulationOptions {
-  std::optional<double> step;  ///< [s]
-  std::optional<Coordinates> coordinates;
-  std::optional<InertiaMethod> inertia;
-  std::optional<Start> start;
-  std::shared_ptr<const SystemState> state;  ///< where Start::state starts
-  std::optional<double> tolerance, spectral_radius;
-  std::optional<int> max_iterations;
-  std::optional<double> min_step;  ///< smallest substep [s]; 0: step / 1024
-  std::optional<double> penalty;
-  std::optional<double> position_tolerance, velocity_tolerance;  ///< [m], [m/s]
+  std::optional<double> step = {};  ///< [s]
+  std::optional<Coordinates> coordinates = {};
+  std::optional<InertiaMethod> inertia = {};
+  std::optional<Start> start = {};
+  std::shared_ptr<const SystemState> state = {};  ///< where Start::state starts
+  std::optional<double> tolerance = {}, spectral_radius = {};
+  std::optional<int> max_iterations = {};
+  std::optional<double> min_step = {};  ///< smallest substep [s]; 0: step / 1024
+  std::optional<double> penalty = {};
+  std::optional<double> position_tolerance = {}, velocity_tolerance = {};  ///< [m], [m/s]
 };
 
 class Simulation {

@@ -7,6 +7,7 @@
 
 #include "floatframe/sweep/sweep_identity.hpp"
 #include "floatframe/sweep/sweep_messages.hpp"
+#include "floatframe/sweep/sweep_ranks.hpp"
 
 namespace floatframe {
 

@@ -1,5 +1,3 @@
-#include "floatframe/sweep/sweep.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,13 +8,13 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/output_files.hpp"
-#include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/run_queue.hpp"
 #include "floatframe/sweep/sweep_check.hpp"
 #include "floatframe/sweep/sweep_identity.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
 #include "floatframe/sweep/sweep_messages.hpp"
+#include "floatframe/sweep/sweep_ranks.hpp"
 #include "floatframe/sweep/sweep_workers.hpp"
 
 namespace floatframe {
@@ -149,13 +147,11 @@ class Coordinator {
 
 void add_warnings(std::size_t run, const SweepRow& row, SweepReport& report) {
   report.warned += row.warnings.empty() ? 0 : 1;
-  for (const std::string& sentence : row.warnings) {
-    const std::string kind = warning_kind(sentence);
-    auto known =
-        std::find_if(report.warnings.begin(), report.warnings.end(),
-                     [&](const SweepWarnings& w) { return warning_kind(w.sentence) == kind; });
+  for (const RangeWarning& warning : row.warnings) {
+    auto known = std::find_if(report.warnings.begin(), report.warnings.end(),
+                              [&](const SweepWarnings& w) { return w.limit == warning.limit; });
     if (known == report.warnings.end())
-      known = report.warnings.insert(known, {0, run + 1, sentence});
+      known = report.warnings.insert(known, {warning.limit, 0, run + 1, warning.sentence});
     ++known->runs;
   }
 }

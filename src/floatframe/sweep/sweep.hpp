@@ -13,15 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/sweep/ranks.hpp"
-#include "floatframe/sweep/sweep_case.hpp"
+#include "floatframe/simulation/range_warning.hpp"
+#include "floatframe/sweep/sweep_measure.hpp"
 #include "floatframe/sweep/sweep_plan.hpp"
-#include "floatframe/sweep/sweep_row.hpp"
-#include "floatframe/sweep/worker_guard.hpp"
+#include "floatframe/sweep/worker_limits.hpp"
 
 namespace floatframe {
-
-class SweepWorkers;
 
 struct SweepOptions {
   std::string model;                ///< model file
@@ -46,6 +43,7 @@ struct SweepProgress {
 
 /// Warnings of one kind in a study.
 struct SweepWarnings {
+  RangeLimit limit = RangeLimit::displacement;
   std::size_t runs = 0, first = 0;  ///< how many have one; number from 1 of the first
   std::string sentence;             ///< of the first
 };
@@ -64,25 +62,12 @@ struct SweepReport {
   std::string journal;  ///< its path
 };
 
-/// Runs the study or what is left of it. `ranks` may be null. `stop`, looked at all the time, ends
-/// it early: runs in work are given up. Throws InputError (nothing was started), OutputError,
-/// RunError.
-SweepReport run_sweep(const SweepOptions& options, SweepWorkers& workers, Ranks* ranks,
-                      const std::atomic<bool>& stop,
-                      const std::function<void(const SweepProgress&)>& progress);
-
-/// The same with workers of its own. They are forks of the calling program: it should have no other
-/// threads at this moment, or none that hold a lock that a run needs (memory and files of the C
-/// library are safe). They do not run its exit handlers and touch none of its open files.
+/// Runs the study or what is left of it. `stop`, looked at all the time, ends it early: runs in work
+/// are cancelled. Its workers are forks of the calling program: it should have no other threads at
+/// this moment, or none that hold a lock that a run needs (memory and files of the C library are
+/// safe). They do not run its exit handlers and touch none of its open files. Throws InputError
+/// (nothing was started), OutputError, RunError.
 SweepReport run_sweep(const SweepOptions& options, const std::atomic<bool>& stop,
                       const std::function<void(const SweepProgress&)>& progress);
-
-/// The part of a process other than 0: works until process 0 says that it is over. Without workers
-/// it waits for that only.
-void serve_sweep(const SweepOptions& options, SweepWorkers* workers, Ranks& ranks,
-                 const std::atomic<bool>& stop);
-
-/// Tells the other processes that nothing will come: when process 0 ends before `run_sweep`.
-void dismiss_ranks(Ranks& ranks);
 
 }  // namespace floatframe

@@ -12,12 +12,6 @@
 
 namespace floatframe {
 
-/// A value for all runs or for one: of a parameter of the model file or, if the file has none of
-/// that name (or the name is written "simulation.step"), of a simulation option.
-struct SweepSetting {
-  std::string name, value;
-};
-
 struct SweepCase {
   ModelDescription description;
   ModelFingerprint fingerprint;  ///< `simulation` includes the options set by the study

@@ -15,6 +15,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/json_text.hpp"
 
 namespace floatframe {
@@ -72,6 +73,12 @@ void add_files(const Json& json, SweepJournal::Files& files) {
 }
 
 /// False if it is not a row.
+RangeLimit limit_of(const std::string& name) {
+  for (std::size_t k = 0; k < range_limit_names.size(); ++k)
+    if (name == range_limit_names[k]) return static_cast<RangeLimit>(k);
+  throw Json::other_error::create(0, "unknown limit", nullptr);
+}
+
 bool row_of(const Json& json, std::size_t& run, SweepRow& row) {
   if (json.is_discarded() || !json.is_object() || !json.contains("run")) return false;
   try {
@@ -81,7 +88,9 @@ bool row_of(const Json& json, std::size_t& run, SweepRow& row) {
     run = number - 1;
     row = {json.at("status"), json.at("message"), {}};
     for (const Json& field : json.at("fields")) row.fields.emplace_back(field.at(0), field.at(1));
-    if (json.contains("warnings")) json.at("warnings").get_to(row.warnings);
+    if (json.contains("warnings"))
+      for (const Json& w : json.at("warnings"))
+        row.warnings.push_back({limit_of(w.at(0).get<std::string>()), w.at(1)});
   } catch (const Json::exception&) {
     return false;
   }
@@ -103,7 +112,8 @@ std::string encode_row(std::size_t run, const SweepRow& row) {
                {"status", row.status},
                {"message", row.message},
                {"fields", std::move(fields)}};
-  if (!row.warnings.empty()) line["warnings"] = row.warnings;
+  for (const RangeWarning& w : row.warnings)
+    line["warnings"].push_back({range_limit_names[index_of(w.limit)], w.sentence});
   return line_of(line);
 }
 

@@ -7,6 +7,12 @@
 
 namespace floatframe {
 
+/// A value for all runs or for one: of a parameter of the model file or, if the file has none of
+/// that name (or the name is written "simulation.step"), of a simulation option.
+struct SweepSetting {
+  std::string name, value;
+};
+
 struct SweepPlan {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> runs;  ///< one value a name

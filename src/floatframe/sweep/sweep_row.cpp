@@ -108,7 +108,7 @@ SweepRow sweep_row(const RunResult& result, const std::vector<SweepMeasure>& mea
 void make_strict(SweepRow& row) {
   if (row.status != "completed" || row.warnings.empty()) return;
   row.status = "failed";
-  row.message = row.warnings.front();
+  row.message = row.warnings.front().sentence;
   if (row.warnings.size() > 1)
     row.message += fmt::format(" (and {} more)", row.warnings.size() - 1);
 }

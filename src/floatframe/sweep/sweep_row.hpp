@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "floatframe/simulation/results.hpp"
+#include "floatframe/sweep/sweep_measure.hpp"
 
 namespace floatframe {
 
@@ -14,19 +15,8 @@ struct SweepRow {
   std::string message;                                      ///< why it failed
   std::vector<std::pair<std::string, std::string>> fields;  ///< column title, value
   /// Where the run left the range of the method; not in the table.
-  std::vector<std::string> warnings = {};
+  std::vector<RangeWarning> warnings = {};
 };
-
-/// Which figures of which outputs go into the table.
-struct SweepMeasure {
-  std::string output;     ///< name of an output column
-  std::string statistic;  ///< empty: all; else one of sweep_statistics
-};
-inline const std::vector<std::string> sweep_statistics{"final", "min",         "time_of_min",
-                                                       "max",   "time_of_max", "rms"};
-
-/// "tip.x" or "tip.x:max". Throws InputError.
-SweepMeasure sweep_measure(const std::string& text);
 
 /// Summary figures of a run, and of its outputs those measured (all if `measures` is empty): last,
 /// smallest and largest sample and their times, and the root of the mean square over time

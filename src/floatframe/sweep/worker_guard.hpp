@@ -9,16 +9,9 @@
 #include <functional>
 #include <string>
 
-namespace floatframe {
+#include "floatframe/sweep/worker_limits.hpp"
 
-/// Of one request; 0: none.
-struct WorkerLimits {
-  double seconds = 0.0;  ///< wall time
-  /// Of the worker, resident and swapped; 1 MB = 1e6 bytes. Looked at 50 times a second and, its
-  /// peak, at the end of a request. It is no limit of the system: many libraries never return, or
-  /// crash, when the system refuses them memory.
-  double megabytes = 0.0;
-};
+namespace floatframe {
 
 /// Memory that a worker shares with the program; a cache line of its own.
 struct alignas(64) WorkerState {

@@ -1,7 +1,6 @@
-// Includes every installed header (all_headers.hpp is written by the test) and calls the library.
+// Includes the one header and calls the library.
 #include <cstdio>
-
-#include "all_headers.hpp"
+#include <floatframe/floatframe.hpp>
 
 int main() {
   const auto steel_ball =

@@ -1,4 +1,4 @@
 // Compiled by hand, without the settings that the CMake package gives.
-#include <floatframe/model/model.hpp>
+#include <floatframe/model.hpp>
 
 int main() { return static_cast<int>(floatframe::ModelDescription().bodies.size()); }

@@ -1,0 +1,6 @@
+#pragma once
+// One call, one result: a run, the static equilibrium, counts of coordinates and constraints, advice
+// on modes. Each takes a model, most of them options, and returns a plain struct.
+#include "floatframe/simulation/mode_advice.hpp"
+#include "floatframe/simulation/results.hpp"
+#include "floatframe/simulation/simulation.hpp"

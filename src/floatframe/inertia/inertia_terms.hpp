@@ -1,0 +1,34 @@
+#pragma once
+// Inertia terms of one body, by both methods: what a formulation computes in each step, for
+// programs that want to look at them. Allocates.
+//
+//   relative   qdot = (sdot, omega, ydot):  M is (6+nm)^2,  Qv = 6+nm
+//   absolute   qdot = (r0dot, udot, vdot, wdot, ydot), A = [u v w]:  M is (12+nm)^2,  Qv = 12+nm
+// Conventions: projection.hpp and preprocessing.hpp, docs/theory.md. Both methods give the same for
+// a body with the mass model isoparametric.
+#include "floatframe/body/flexible_body.hpp"
+
+namespace floatframe {
+
+/// Where a body is and how it moves.
+struct BodyMotion {
+  Vec3 r0 = Vec3::Zero();     ///< origin of the body frame, world [m]
+  Mat3 A = Mat3::Identity();  ///< columns: axes of the body in the world
+  Vec3 omega = Vec3::Zero();  ///< angular velocity, world [rad/s]
+  VecX y, ydot;               ///< modal amplitudes and their rates; empty: zero
+};
+
+struct InertiaTerms {
+  MatX M;   ///< mass matrix
+  VecX Qv;  ///< forces that depend on velocities
+};
+
+/// From the 16 constant integrals. Throw InputError if amplitudes do not fit the body.
+InertiaTerms relative_preprocessing(const FlexibleBody& body, const BodyMotion& motion);
+InertiaTerms absolute_preprocessing(const FlexibleBody& body, const BodyMotion& motion);
+
+/// From the finite-element mass. Throw InputError for a body without ProjectionData, too.
+InertiaTerms relative_projection(const FlexibleBody& body, const BodyMotion& motion);
+InertiaTerms absolute_projection(const FlexibleBody& body, const BodyMotion& motion);
+
+}  // namespace floatframe

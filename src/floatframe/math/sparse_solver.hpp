@@ -1,0 +1,8 @@
+#pragma once
+
+namespace floatframe {
+
+/// What factors large sparse matrices. `automatic`: MUMPS for large ones, if it is there.
+enum class SparseSolver { automatic, mumps, eigen };
+
+}  // namespace floatframe

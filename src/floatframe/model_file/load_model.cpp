@@ -1,0 +1,16 @@
+#include "floatframe/model_file/load_model.hpp"
+
+#include "floatframe/model_file/model_reader.hpp"
+
+namespace floatframe {
+
+ModelDescription load_description(const std::string& path,
+                                  const std::vector<ParameterOverride>& parameters) {
+  return read_model(path, parameters);
+}
+
+Model load_model(const std::string& path, const std::vector<ParameterOverride>& parameters) {
+  return build_model(load_description(path, parameters));
+}
+
+}  // namespace floatframe

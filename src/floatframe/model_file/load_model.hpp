@@ -1,0 +1,19 @@
+#pragma once
+// Model files for programs.
+#include <string>
+#include <vector>
+
+#include "floatframe/model/model.hpp"
+#include "floatframe/model_file/parameter_override.hpp"
+
+namespace floatframe {
+
+/// Reads a model file (docs/model-file.md) and the files it refers to. Throws InputError with
+/// every error found, each with file, line and column.
+ModelDescription load_description(const std::string& path,
+                                  const std::vector<ParameterOverride>& parameters = {});
+
+/// The same, built.
+Model load_model(const std::string& path, const std::vector<ParameterOverride>& parameters = {});
+
+}  // namespace floatframe

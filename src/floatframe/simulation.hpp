@@ -1,0 +1,4 @@
+#pragma once
+// A model that a program steps: options, inputs, outputs, forces, saved states.
+#include "floatframe/model_file/state_json.hpp"
+#include "floatframe/simulation/stepping.hpp"

@@ -1,0 +1,37 @@
+// A model file in one call.
+#include "floatframe/model_file/load_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace floatframe::test {
+namespace {
+
+constexpr const char* text =
+    "floatframe: 1\n"
+    "parameters: {mass: 2}\n"
+    "bodies:\n"
+    "  ball: {rigid: {mass: \"${mass}\", inertia: [1, 1, 1]}}\n"
+    "joints:\n"
+    "  ball: {type: free, child: ball}\n";
+
+TEST(LoadModel, TakesParametersAndBuilds) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("ball.yaml", text);
+  EXPECT_EQ(load_model(path).bodies.at(0).data->invariants.m, 2.0);
+  EXPECT_EQ(load_model(path, {{"mass", "2 * 3.5"}}).bodies.at(0).data->invariants.m, 7.0);
+  EXPECT_EQ(load_description(path, {{"mass", "5"}}).bodies.size(), 1u);
+}
+
+TEST(LoadModel, NamesAnUnknownParameter) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("ball.yaml", text);
+  const std::string message = error_of([&] { load_model(path, {{"mas", "1"}}); });
+  EXPECT_NE(message.find("mas"), std::string::npos) << message;
+  EXPECT_NE(message.find("did you mean"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace floatframe::test
