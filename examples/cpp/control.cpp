@@ -1,6 +1,6 @@
 // A model file stepped with a controller in the loop: skyhook damping of the Iltis, whose four
-// actuators act against the vertical velocity of the chassis above them. Prints the root mean
-// square of the vertical acceleration without and with it, and goes back to a saved state.
+// actuators pull down where the chassis moves up. Prints the root mean square of the vertical
+// acceleration without and with it, and goes back to a saved state.
 //
 //   control examples/active_damper/active_damper.yaml
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 void step(ff::Simulation& sim, double gain) {
   constexpr std::array corners{"front_left", "front_right", "rear_left", "rear_right"};
   for (const std::string corner : corners)
-    sim.set_input(corner, std::clamp(-gain * sim.output(corner + ".vz"), -8000.0, 8000.0));
+    sim.set_input(corner, std::clamp(gain * sim.output(corner + ".vz"), -8000.0, 8000.0));
   if (const ff::StepReport r = sim.step(); !r) throw std::runtime_error(sim.failure());
 }
 

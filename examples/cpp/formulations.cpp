@@ -1,6 +1,7 @@
 // One model, four ways: absolute and relative coordinates, inertia terms by projection and by
 // preprocessing. Prints the tip of a flexible pendulum at the end of the run and the largest
-// difference of any sample from the first way.
+// difference of any sample from the first way: rounding between the inertia methods, and between
+// the coordinates that of two discretisations of second order.
 //
 //   formulations examples/flexible_pendulum/flexible_pendulum.yaml
 #include <algorithm>
@@ -34,10 +35,10 @@ int main(int argc, char** argv) try {
       std::printf("%-8s %-13s tip.x %.6f m, largest difference %s\n",
                   result.summary.coordinates.c_str(), result.summary.inertia.c_str(),
                   table.at(table.rows() - 1, table.column("tip.x")),
-                  difference < 1e-6 ? "below 1e-6 m" : "TOO LARGE");
+                  difference < 5e-5 ? "below 0.05 mm" : "TOO LARGE");
       largest = std::max(largest, difference);
     }
-  return largest < 1e-6 ? 0 : 1;
+  return largest < 5e-5 ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

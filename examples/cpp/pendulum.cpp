@@ -35,7 +35,7 @@ ff::ModelDescription pendulum() {
 
   ff::OutputDescription angle;
   angle.name = "angle";
-  angle.kind = ff::OutputKind::joint_position;
+  angle.type = ff::OutputType::joint_position;
   angle.entity = "hinge";
   d.outputs.push_back(angle);
   return d;

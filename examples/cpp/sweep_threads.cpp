@@ -26,7 +26,7 @@ double rms_acceleration(const ff::Model& model, double gain) {
   int steps = 0;
   for (; sim.time() < 1.0; ++steps) {
     for (const std::string corner : corners)
-      sim.set_input(corner, std::clamp(-gain * sim.output(corner + ".vz"), -8000.0, 8000.0));
+      sim.set_input(corner, std::clamp(gain * sim.output(corner + ".vz"), -8000.0, 8000.0));
     if (!sim.step()) return NAN;
     const double a = sim.output("chassis.az");
     sum += a * a;
