@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <numbers>
+#include <set>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/bar_frame.hpp"
@@ -23,7 +24,8 @@ bool wedge(const ElementKernel& kernel) { return kernel.nodes == 6 || kernel.nod
 bool solid(const ElementKernel& kernel) { return kernel.dofs_per_node == 3; }
 
 /// Corners moved at random, straight edges.
-ElementInput distorted(const ElementKernel& kernel, Random& random) {
+ElementInput distorted(ElementType type, Random& random) {
+  const ElementKernel& kernel = element_kernel(type);
   const Vec3 hex[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   const Vec3 tet[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -35,20 +37,20 @@ ElementInput distorted(const ElementKernel& kernel, Random& random) {
   int corners = 4;
   if (brick(kernel)) p = hex, corners = 8;
   if (wedge(kernel)) p = prism, corners = 6;
-  if (kernel.type == ElementType::quad4) p = hex;
-  if (is_beam(kernel.type)) p = kernel.nodes == 3 ? bar : tet;
+  if (type == ElementType::quad4) p = hex;
+  if (is_beam(type)) p = kernel.nodes == 3 ? bar : tet;
   corners = std::min(kernel.nodes, corners);
   for (int a = 0; a < corners; ++a) {
     in.p[a] = R * (p[a] + random.vec3(0.12)) + Vec3(1, 2, 3);
   }
-  for (const FaceNodes& face : element_faces(kernel.type)) {
+  for (const FaceNodes& face : kernel.shape.faces) {
     for (int i = face.corners; i < face.count; ++i) {
       const int from = i - face.corners, to = (from + 1) % face.corners;
       const auto at = [&](int k) { return in.p[face.nodes[k]]; };
       in.p[face.nodes[i]] = 0.5 * (at(from) + at(to));
     }
   }
-  if (kernel.type == ElementType::beam3) in.p[1] = 0.5 * (in.p[0] + in.p[2]);
+  if (type == ElementType::beam3) in.p[1] = 0.5 * (in.p[0] + in.p[2]);
   in.material = {2e11, 0.3, 7500.0};
   in.section = {1e-3, 2e-7, 5e-7, 4e-7};
   in.shell.thickness = 0.02;
@@ -72,22 +74,23 @@ double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return (b - a).dot((c - a).cross(d - a)) / 6.0;
 }
 
-double volume(const ElementInput& in, const ElementKernel& kernel) {
+double volume(const ElementInput& in, ElementType type) {
+  const ElementKernel& kernel = element_kernel(type);
   const auto area = [&](std::size_t i, std::size_t j, std::size_t k) {
     return 0.5 * (in.p[j] - in.p[i]).cross(in.p[k] - in.p[i]).norm();
   };
-  if (is_beam(kernel.type)) {
+  if (is_beam(type)) {
     return in.section.A * (in.p[kernel.nodes == 3 ? 2 : 1] - in.p[0]).norm();
   }
-  if (kernel.type == ElementType::tri3) return in.shell.thickness * area(0, 1, 2);
-  if (kernel.type == ElementType::quad4) {  // the mean of the two divisions
+  if (type == ElementType::tri3) return in.shell.thickness * area(0, 1, 2);
+  if (type == ElementType::quad4) {  // the mean of the two divisions
     return in.shell.thickness * 0.5 *
            (area(0, 1, 2) + area(0, 2, 3) + area(0, 1, 3) + area(1, 2, 3));
   }
   if (!brick(kernel) && !wedge(kernel)) return tetrahedron(in.p[0], in.p[1], in.p[2], in.p[3]);
   // Divergence theorem with bilinear faces: each face as the mean of its two triangulations.
   double sum = 0.0;
-  for (const FaceNodes& f : element_faces(kernel.type)) {
+  for (const FaceNodes& f : kernel.shape.faces) {
     const auto p = [&](int i) { return in.p[f.nodes[i % f.corners]]; };
     if (f.corners == 3) {
       sum += p(0).dot(p(1).cross(p(2))) / 6.0;
@@ -103,10 +106,11 @@ double volume(const ElementInput& in, const ElementKernel& kernel) {
 
 TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
   Random random(1);
-  for (const ElementKernel& kernel : element_kernels()) {
-    SCOPED_TRACE(kernel.name);
+  for (const ElementType type : element_types) {
+    const ElementKernel& kernel = element_kernel(type);
+    SCOPED_TRACE(element_type_name(type));
     for (int i = 0; i < 5; ++i) {
-      const ElementInput in = distorted(kernel, random);
+      const ElementInput in = distorted(type, random);
       ASSERT_EQ(kernel.fault(in), "");
       MatX K, M, M_s;
       kernel.stiffness(in, K);
@@ -116,11 +120,11 @@ TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
       EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-12 * K.maxCoeff());
       EXPECT_LT((K * R).cwiseAbs().maxCoeff(), 2e-12 * K.cwiseAbs().maxCoeff());
       // 8 points of 6 strains leave a reduced brick six zero-energy modes of its own.
-      const int zero = kernel.type == ElementType::hex20r ? 12 : 6;
+      const int zero = type == ElementType::hex20r ? 12 : 6;
       const VecX lambda = symmetric_eigenvalues(K);
       EXPECT_GT(lambda(zero), 1e-9 * K.maxCoeff());
       EXPECT_GT(lambda(0), -1e-12 * K.maxCoeff());
-      const double mass = 7500.0 * volume(in, kernel);
+      const double mass = 7500.0 * volume(in, type);
       EXPECT_NEAR(M_s.sum() / mass, 1.0, 1e-13);
       const MatX rigid = R.transpose() * M * R;
       EXPECT_LT((rigid.topLeftCorner<3, 3>() - mass * Mat3::Identity()).cwiseAbs().maxCoeff(),
@@ -142,15 +146,16 @@ VecX linear_field(const ElementInput& in, int nodes, const Mat3& G, Vec6& strain
 
 TEST(Elements, ConstantStrainIsExact) {
   Random random(2);
-  for (const ElementKernel& kernel : element_kernels()) {
+  for (const ElementType type : element_types) {
+    const ElementKernel& kernel = element_kernel(type);
     if (!solid(kernel)) continue;
-    SCOPED_TRACE(kernel.name);
-    const ElementInput in = distorted(kernel, random);
+    SCOPED_TRACE(element_type_name(type));
+    const ElementInput in = distorted(type, random);
     Vec6 strain;
     const VecX u = linear_field(in, kernel.nodes, random.matrix(3, 3), strain);
     MatX K, B;
     kernel.stiffness(in, K);
-    const double energy = strain.dot(elasticity_matrix(in.material) * strain) * volume(in, kernel);
+    const double energy = strain.dot(elasticity_matrix(in.material) * strain) * volume(in, type);
     EXPECT_NEAR(u.dot(K * u) / energy, 1.0, 1e-12);
     kernel.nodal_strains(in, B);
     for (int a = 0; a < kernel.nodes; ++a) {
@@ -184,7 +189,7 @@ TEST(Elements, PatchTestOfBricks) {
       u.segment<3>(3 * k) = G * model.positions[k];
     }
     const VecX f = system.K * u;
-    EXPECT_LT(f.segment<3>(39).norm(), 1e-12 * f.norm()) << element_kernel(type).name;
+    EXPECT_LT(f.segment<3>(39).norm(), 1e-12 * f.norm()) << element_type_name(type);
     EXPECT_GT(f.segment<3>(0).norm(), 1e-3 * f.norm());
   }
 }
@@ -229,10 +234,11 @@ FacePoint on_face(const ElementInput& in, const FaceNodes& f, double x, double y
 /// Mass of a curved element against a rule of many points on the parent domain.
 TEST(Elements, MassOfCurvedElementsIsExact) {
   Random random(5);
-  for (const ElementKernel& kernel : element_kernels()) {
+  for (const ElementType type : element_types) {
+    const ElementKernel& kernel = element_kernel(type);
     if (!solid(kernel) || kernel.nodes < 10) continue;
-    SCOPED_TRACE(kernel.name);
-    ElementInput in = distorted(kernel, random);
+    SCOPED_TRACE(element_type_name(type));
+    ElementInput in = distorted(type, random);
     for (int a = brick(kernel) ? 8 : wedge(kernel) ? 6 : 4; a < kernel.nodes; ++a) {
       in.p[a] += random.vec3(0.02);
     }
@@ -247,7 +253,7 @@ TEST(Elements, MassOfCurvedElementsIsExact) {
       square.push_back({Vec3(2 * line.u(i % 12) - 1, 2 * line.u(i / 12) - 1, 0),
                         4 * line.weight(i % 12) * line.weight(i / 12)});
     }
-    for (const FaceNodes& f : element_faces(kernel.type)) {
+    for (const FaceNodes& f : kernel.shape.faces) {
       for (const QuadraturePoint& q : f.corners == 3 ? triangle_rule(12) : square) {
         const FacePoint point = on_face(in, f, q.xi(0), q.xi(1));
         sum += q.weight * point.p(0) * point.dx.cross(point.dy)(0);
@@ -257,12 +263,35 @@ TEST(Elements, MassOfCurvedElementsIsExact) {
   }
 }
 
+// Faces close the element, each edge met once in either sense, and the edges at a corner are those
+// of the faces.
+TEST(Elements, FacesAndCornersFitTogether) {
+  for (const ElementType type : element_types) {
+    const ElementKernel& kernel = element_kernel(type);
+    SCOPED_TRACE(element_type_name(type));
+    EXPECT_EQ(kernel.shape.faces.empty(), is_beam(type));
+    std::multiset<std::pair<int, int>> edges;
+    for (const FaceNodes& f : kernel.shape.faces) {
+      for (int i = 0; i < f.count; ++i) EXPECT_LT(f.nodes[i], kernel.nodes);
+      for (int i = 0; i < f.corners; ++i) edges.emplace(f.nodes[i], f.nodes[(i + 1) % f.corners]);
+    }
+    for (const auto& [a, b] : edges) {
+      EXPECT_EQ(edges.count({a, b}), 1u) << a << " " << b;
+      EXPECT_EQ(edges.count({b, a}), 1u) << a << " " << b;
+    }
+    const int corners = static_cast<int>(kernel.shape.neighbours.size());
+    EXPECT_EQ(corners > 0, kernel.family == ElementFamily::solid);
+    for (int c = 0; c < corners; ++c)
+      for (const int other : kernel.shape.neighbours[c]) EXPECT_EQ(edges.count({c, other}), 1u);
+  }
+}
+
 TEST(Elements, DistortedBrickMassIsExact) {
   // Against 5 x 5 x 5 Gauss points by splitting nothing: moments of the mass up to second order,
   // from a refined rule.
   Random random(3);
   const ElementKernel& kernel = element_kernel(ElementType::hex8);
-  const ElementInput in = distorted(kernel, random);
+  const ElementInput in = distorted(ElementType::hex8, random);
   MatX M;
   kernel.scalar_mass(in, M);
   const double x[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,

@@ -203,7 +203,7 @@ TEST(Surfaces, EncloseTheVolumeWithOutwardNormals) {
     const FeModel model = block(type, 3);
     EXPECT_TRUE(faults(model).empty());
     const Surface s = outer_surface(model);
-    EXPECT_NEAR(enclosed_volume(model, s), 27.0, 1e-12) << element_kernel(type).name;
+    EXPECT_NEAR(enclosed_volume(model, s), 27.0, 1e-12) << element_type_name(type);
     EXPECT_EQ(s.triangles.size(), 6u * 9u * 2u);
     EXPECT_EQ(s.nodes.size(), 56u);
   }
@@ -282,7 +282,7 @@ TEST(Solids, BendingOfOneBrick) {
     if (type == ElementType::hex8) {
       EXPECT_NEAR(energy, expected * 1.5, 1e-12);  // the shear G gamma^2 = 1/2 x^2
     } else {
-      EXPECT_NEAR(energy, expected, 1e-12) << element_kernel(type).name;
+      EXPECT_NEAR(energy, expected, 1e-12) << element_type_name(type);
     }
   }
 }

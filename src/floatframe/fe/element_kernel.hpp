@@ -1,9 +1,11 @@
 #pragma once
-// What an element type must supply. A new type is one file with these functions and one entry in
-// the list of element_kernels.cpp; assembly, invariants and the generic tests run over the list.
+// What an element type must supply. A new type is one file fe/elements/<name>.cpp with its kernel
+// and one entry in element_list.hpp; assembly, surfaces, checks of shapes, invariants and the
+// generic tests run over the list.
 #include <span>
 #include <string>
 
+#include "floatframe/fe/element_shape.hpp"
 #include "floatframe/fe/fe_system.hpp"
 
 namespace floatframe {
@@ -18,9 +20,11 @@ struct ElementInput {
   Integration integration = Integration::exact;
 };
 
+/// Which section an element has: a beam's, a shell's, or none.
+enum class ElementFamily { beam, shell, solid };
+
 struct ElementKernel {
-  ElementType type;
-  const char* name;
+  ElementFamily family;
   int nodes;
   int dofs_per_node;  ///< 6: ux uy uz rx ry rz; 3: ux uy uz
   /// What is wrong with the geometry or section, as the end of a sentence; empty if nothing is.
@@ -35,13 +39,18 @@ struct ElementKernel {
   /// displacements of the nodes: taken at the points where they are best and carried to the nodes.
   /// Null for beams and shells.
   void (*nodal_strains)(const ElementInput&, MatX&) = nullptr;
+  ElementShape shape = {};
 };
 
-constexpr bool is_beam(ElementType t) { return t == ElementType::beam2 || t == ElementType::beam3; }
-constexpr bool is_shell(ElementType t) { return t == ElementType::tri3 || t == ElementType::quad4; }
+const ElementKernel& element_kernel(ElementType type) noexcept;
 
-std::span<const ElementKernel> element_kernels();
-const ElementKernel& element_kernel(ElementType type);
+inline bool is_beam(ElementType type) noexcept {
+  return element_kernel(type).family == ElementFamily::beam;
+}
+inline bool is_shell(ElementType type) noexcept {
+  return element_kernel(type).family == ElementFamily::shell;
+}
+
 ElementInput gather(const FeModel& model, const Element& element,
                     Integration integration = Integration::exact);
 
@@ -52,18 +61,8 @@ Mat3 beam_axes(const ElementInput& input);
 /// Isotropic elasticity matrix for the strains (xx, yy, zz, xy, yz, zx) with engineering shear.
 Mat6 elasticity_matrix(const Material& material);
 
-extern const ElementKernel beam2_kernel;
-extern const ElementKernel beam3_kernel;
-extern const ElementKernel tri3_kernel;
-extern const ElementKernel quad4_kernel;
-extern const ElementKernel tet4_kernel;
-extern const ElementKernel tet10_kernel;
-extern const ElementKernel hex8_kernel;
-extern const ElementKernel hex8i_kernel;
-extern const ElementKernel hex8r_kernel;
-extern const ElementKernel hex20_kernel;
-extern const ElementKernel hex20r_kernel;
-extern const ElementKernel wedge6_kernel;
-extern const ElementKernel wedge15_kernel;
+#define FLOATFRAME_KERNEL(name) extern const ElementKernel name##_kernel;
+FLOATFRAME_ELEMENTS(FLOATFRAME_KERNEL)
+#undef FLOATFRAME_KERNEL
 
 }  // namespace floatframe

@@ -1,21 +1,26 @@
+// The list of elements at work.
+#include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 
-std::span<const ElementKernel> element_kernels() {
-  static const ElementKernel list[] = {beam2_kernel,  beam3_kernel, tri3_kernel,   quad4_kernel,
-                                       tet4_kernel,   tet10_kernel, hex8_kernel,   hex8i_kernel,
-                                       hex8r_kernel,  hex20_kernel, hex20r_kernel, wedge6_kernel,
-                                       wedge15_kernel};
-  return list;
+namespace {
+
+#define FLOATFRAME_KERNEL(name) &name##_kernel,
+constexpr const ElementKernel* kernel_list[] = {FLOATFRAME_ELEMENTS(FLOATFRAME_KERNEL)};
+#undef FLOATFRAME_KERNEL
+
+}  // namespace
+
+const ElementKernel& element_kernel(ElementType type) noexcept {
+  return *kernel_list[index_of(type)];
 }
 
-const ElementKernel& element_kernel(ElementType type) {
-  for (const ElementKernel& kernel : element_kernels()) {
-    if (kernel.type == type) return kernel;
-  }
-  return element_kernels().front();
+std::span<const FaceNodes> element_faces(ElementType type) noexcept {
+  return element_kernel(type).shape.faces;
 }
+
+int element_nodes(ElementType type) noexcept { return element_kernel(type).nodes; }
 
 ElementInput gather(const FeModel& model, const Element& element, Integration integration) {
   ElementInput input;
@@ -26,8 +31,8 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
   }
   input.material = model.materials[element.material];
   const std::size_t section = element.section;
-  if (is_beam(element.type)) input.section = model.sections[section];
-  if (is_shell(element.type)) input.shell = model.shells[section];
+  if (kernel.family == ElementFamily::beam) input.section = model.sections[section];
+  if (kernel.family == ElementFamily::shell) input.shell = model.shells[section];
   input.reference = element.reference;
   return input;
 }

@@ -49,8 +49,8 @@ std::string FeModel::node_label(int node) const {
 std::string FeModel::element_label(int element) const {
   const Element& e = elements[element];
   if (!e.name.empty()) return e.name;
-  return "element " + std::to_string(e.id > 0 ? e.id : element) + " (" +
-         element_kernel(e.type).name + ")";
+  return "element " + std::to_string(e.id > 0 ? e.id : element) + " (" + element_type_name(e.type) +
+         ")";
 }
 
 SourceMark FeModel::mark(const FeSource& source) const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/element_list.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -41,23 +42,6 @@ struct BeamSection {
   /// width along local y, height along local z. J = a b^3 (1/3 - 0.21 b/a (1 - (b/a)^4/12)), a >=
   /// b.
   static BeamSection rectangle(double width, double height);
-};
-
-/// Node order of the solids is that of Abaqus and VTK: corners first, then the mid-side nodes.
-enum class ElementType {
-  beam2,    ///< 2-node Euler-Bernoulli beam
-  tri3,     ///< 3-node flat shell
-  quad4,    ///< 4-node flat shell
-  tet4,     ///< linear tetrahedron
-  tet10,    ///< quadratic tetrahedron; edges 12 23 13 14 24 34
-  hex8,     ///< trilinear brick, full integration
-  hex8i,    ///< the same with incompatible modes (good in bending)
-  hex8r,    ///< the same, one point, with stabilised hourglass modes
-  hex20,    ///< quadratic brick, 3 x 3 x 3 points; edges 12 23 34 41 56 67 78 85 15 26 37 48
-  hex20r,   ///< the same, stiffness with 2 x 2 x 2 points
-  wedge6,   ///< linear wedge
-  wedge15,  ///< quadratic wedge; edges 12 23 31 45 56 64 14 25 36
-  beam3,    ///< 3-node Timoshenko beam: end, middle, end
 };
 
 /// Where an entity stands in the files of a model: index in FeModel::files, line from 1.

@@ -64,16 +64,16 @@ void nodal_strains(const IsoparametricElement& element, const ElementInput& in, 
 
 /// The entry of the list for an isoparametric element.
 template <const IsoparametricElement& (*element)()>
-constexpr ElementKernel kernel(ElementType type, const char* name, int nodes) {
-  return {type,
-          name,
-          nodes,
-          3,
-          [](const ElementInput& in) { return fault(element(), in); },
-          [](const ElementInput& in, MatX& out) { stiffness(element(), in, out); },
-          [](const ElementInput& in, bool, MatX& out) { mass(element(), in, out); },
-          [](const ElementInput& in, MatX& out) { scalar_mass(element(), in, out); },
-          [](const ElementInput& in, MatX& B) { nodal_strains(element(), in, B); }};
+constexpr ElementKernel kernel(int nodes, const ElementShape& shape) {
+  return {.family = ElementFamily::solid,
+          .nodes = nodes,
+          .dofs_per_node = 3,
+          .fault = [](const ElementInput& in) { return fault(element(), in); },
+          .stiffness = [](const ElementInput& in, MatX& out) { stiffness(element(), in, out); },
+          .mass = [](const ElementInput& in, bool, MatX& out) { mass(element(), in, out); },
+          .scalar_mass = [](const ElementInput& in, MatX& out) { scalar_mass(element(), in, out); },
+          .nodal_strains = [](const ElementInput& in, MatX& B) { nodal_strains(element(), in, B); },
+          .shape = shape};
 }
 
 }  // namespace floatframe::solid

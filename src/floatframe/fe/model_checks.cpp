@@ -18,34 +18,6 @@ namespace {
 
 constexpr int named = 5;
 
-/// The three corners next to each corner, so that the edges to them form a right-handed triad.
-using Neighbours = std::array<int, 3>;
-std::span<const Neighbours> neighbours(ElementType type, double& regular) {
-  static constexpr Neighbours tet[] = {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}};
-  static constexpr Neighbours hex[] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
-                                       {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-  static constexpr Neighbours wedge[] = {{1, 2, 3}, {2, 0, 4}, {0, 1, 5},
-                                         {5, 4, 0}, {3, 5, 1}, {4, 3, 2}};
-  switch (type) {
-    case ElementType::tet4:
-    case ElementType::tet10:
-      regular = std::sqrt(0.5);
-      return tet;
-    case ElementType::wedge6:
-    case ElementType::wedge15:
-      regular = std::sqrt(0.75);
-      return wedge;
-    case ElementType::beam2:
-    case ElementType::beam3:
-    case ElementType::tri3:
-    case ElementType::quad4:
-      return {};
-    default:
-      regular = 1.0;
-      return hex;
-  }
-}
-
 struct Edge {
   int a, b, middle;  ///< local nodes; -1: no middle node
 };
@@ -68,9 +40,7 @@ std::vector<Edge> edges_of(ElementType type) {
 const std::vector<Edge>& edges(ElementType type) {
   static const std::vector<std::vector<Edge>> all = [] {
     std::vector<std::vector<Edge>> made;
-    for (int t = 0; t <= static_cast<int>(ElementType::beam3); ++t) {
-      made.push_back(edges_of(static_cast<ElementType>(t)));
-    }
+    for (const ElementType t : element_types) made.push_back(edges_of(t));
     return made;
   }();
   return all[index_of(type)];
@@ -151,8 +121,8 @@ void warn_duplicates(const FeModel& model, std::vector<std::string>& out) {
 }  // namespace
 
 double corner_quality(const FeModel& model, const Element& e) {
-  double regular = 1.0, worst = 1.0;
-  const std::span<const Neighbours> corners = neighbours(e.type, regular);
+  const auto& [faces, corners, regular] = element_kernel(e.type).shape;
+  double worst = 1.0;
   for (std::size_t c = 0; c < corners.size(); ++c) {
     Mat3 t;
     for (int i = 0; i < 3; ++i) {

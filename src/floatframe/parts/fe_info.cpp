@@ -108,7 +108,7 @@ FeFacts fe_facts(const FeModel& model) {
   FeFacts out;
   out.nodes = model.nodes();
   std::map<std::string, int> types;
-  for (const Element& e : model.elements) ++types[element_kernel(e.type).name];
+  for (const Element& e : model.elements) ++types[element_type_name(e.type)];
   out.elements.assign(types.begin(), types.end());
   out.point_masses = static_cast<int>(model.masses.size());
   out.equations = static_cast<int>(model.equations.size());

@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/nastran/nastran_build.hpp"
 
 namespace floatframe {
@@ -23,11 +24,9 @@ class ConstraintBuilder {
     rotates_.assign(b_.model.nodes(), 0);
     rigid_of_.assign(b_.model.nodes(), -1);
     for (const Element& e : b_.model.elements) {
-      const int n = e.type == ElementType::beam2   ? 2
-                    : e.type == ElementType::tri3  ? 3
-                    : e.type == ElementType::quad4 ? 4
-                                                   : 0;
-      for (int k = 0; k < n; ++k) rotates_[index(e.nodes[k])] = 1;
+      const ElementKernel& kernel = element_kernel(e.type);
+      if (kernel.dofs_per_node != 6) continue;
+      for (int k = 0; k < kernel.nodes; ++k) rotates_[index(e.nodes[k])] = 1;
     }
   }
 

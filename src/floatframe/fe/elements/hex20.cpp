@@ -2,6 +2,7 @@
 // 15 26 37 48. Stiffness with 3 x 3 x 3 points, reduced: 2 x 2 x 2 (no hourglass modes that survive
 // in a mesh of several elements). Mass with 5 x 5 x 5 points: exact with curved edges.
 #include "floatframe/fe/isoparametric.hpp"
+#include "floatframe/fe/solid_shapes.hpp"
 
 namespace floatframe {
 namespace {
@@ -55,7 +56,7 @@ const solid::IsoparametricElement& reduced() {
 
 }  // namespace
 
-const ElementKernel hex20_kernel = solid::kernel<full>(ElementType::hex20, "hex20", 20);
-const ElementKernel hex20r_kernel = solid::kernel<reduced>(ElementType::hex20r, "hex20r", 20);
+constinit const ElementKernel hex20_kernel = solid::kernel<full>(20, shape::hex20);
+constinit const ElementKernel hex20r_kernel = solid::kernel<reduced>(20, shape::hex20);
 
 }  // namespace floatframe

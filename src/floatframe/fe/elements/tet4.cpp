@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "floatframe/fe/solid_element.hpp"
+#include "floatframe/fe/solid_shapes.hpp"
 
 namespace floatframe {
 namespace {
@@ -52,7 +53,14 @@ void mass(const ElementInput& in, bool, MatX& out) {
 
 }  // namespace
 
-const ElementKernel tet4_kernel{ElementType::tet4, "tet4",        4, 3, &fault, &stiffness, &mass,
-                                &scalar_mass,      &nodal_strains};
+constinit const ElementKernel tet4_kernel{.family = ElementFamily::solid,
+                                          .nodes = 4,
+                                          .dofs_per_node = 3,
+                                          .fault = &fault,
+                                          .stiffness = &stiffness,
+                                          .mass = &mass,
+                                          .scalar_mass = &scalar_mass,
+                                          .nodal_strains = &nodal_strains,
+                                          .shape = shape::tet4};
 
 }  // namespace floatframe

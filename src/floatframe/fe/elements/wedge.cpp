@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "floatframe/fe/isoparametric.hpp"
+#include "floatframe/fe/solid_shapes.hpp"
 
 namespace floatframe {
 namespace {
@@ -98,7 +99,7 @@ const solid::IsoparametricElement& wedge15() {
 
 }  // namespace
 
-const ElementKernel wedge6_kernel = solid::kernel<wedge6>(ElementType::wedge6, "wedge6", 6);
-const ElementKernel wedge15_kernel = solid::kernel<wedge15>(ElementType::wedge15, "wedge15", 15);
+constinit const ElementKernel wedge6_kernel = solid::kernel<wedge6>(6, shape::wedge6);
+constinit const ElementKernel wedge15_kernel = solid::kernel<wedge15>(15, shape::wedge15);
 
 }  // namespace floatframe

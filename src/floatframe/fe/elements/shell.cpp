@@ -89,11 +89,26 @@ void scalar_mass(const ElementInput& in, MatX& out) {
   }
 }
 
+constexpr std::array<shape::Corners, 2> tri_corners{{{0, 1, 2, -1}, {0, 2, 1, -1}}};
+constexpr std::array<shape::Corners, 2> quad_corners{{{0, 1, 2, 3}, {0, 3, 2, 1}}};
+constexpr auto tri_faces = shape::linear(tri_corners);
+constexpr auto quad_faces = shape::linear(quad_corners);
+
+template <int count>
+constexpr ElementKernel shell_kernel(std::span<const FaceNodes> faces) {
+  return {.family = ElementFamily::shell,
+          .nodes = count,
+          .dofs_per_node = 6,
+          .fault = &fault<count>,
+          .stiffness = &stiffness<count>,
+          .mass = &mass<count>,
+          .scalar_mass = &scalar_mass<count>,
+          .shape = {.faces = faces}};
+}
+
 }  // namespace
 
-const ElementKernel tri3_kernel{ElementType::tri3, "tri3",        3,        6,
-                                &fault<3>,         &stiffness<3>, &mass<3>, &scalar_mass<3>};
-const ElementKernel quad4_kernel{ElementType::quad4, "quad4",       4,        6,
-                                 &fault<4>,          &stiffness<4>, &mass<4>, &scalar_mass<4>};
+constinit const ElementKernel tri3_kernel = shell_kernel<3>(tri_faces);
+constinit const ElementKernel quad4_kernel = shell_kernel<4>(quad_faces);
 
 }  // namespace floatframe

@@ -119,7 +119,12 @@ Mat3 beam_axes(const ElementInput& in) {
   return T;
 }
 
-const ElementKernel beam2_kernel{ElementType::beam2, "beam2", 2,           6, &fault,
-                                 &stiffness,         &mass,   &scalar_mass};
+constinit const ElementKernel beam2_kernel{.family = ElementFamily::beam,
+                                           .nodes = 2,
+                                           .dofs_per_node = 6,
+                                           .fault = &fault,
+                                           .stiffness = &stiffness,
+                                           .mass = &mass,
+                                           .scalar_mass = &scalar_mass};
 
 }  // namespace floatframe

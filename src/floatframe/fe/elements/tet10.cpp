@@ -2,6 +2,7 @@
 // with 4 points (exact with straight edges); mass with 64 points, exact with curved edges as well:
 // N^T N det J has degree 4 + 3.
 #include "floatframe/fe/isoparametric.hpp"
+#include "floatframe/fe/solid_shapes.hpp"
 
 namespace floatframe {
 namespace {
@@ -45,6 +46,6 @@ const solid::IsoparametricElement& element() {
 
 }  // namespace
 
-const ElementKernel tet10_kernel = solid::kernel<element>(ElementType::tet10, "tet10", 10);
+constinit const ElementKernel tet10_kernel = solid::kernel<element>(10, shape::tet10);
 
 }  // namespace floatframe

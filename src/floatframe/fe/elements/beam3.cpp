@@ -107,7 +107,12 @@ void scalar_mass(const ElementInput& in, MatX& out) {
 
 }  // namespace
 
-const ElementKernel beam3_kernel{ElementType::beam3, "beam3", 3,           6, &fault,
-                                 &stiffness,         &mass,   &scalar_mass};
+constinit const ElementKernel beam3_kernel{.family = ElementFamily::beam,
+                                           .nodes = 3,
+                                           .dofs_per_node = 6,
+                                           .fault = &fault,
+                                           .stiffness = &stiffness,
+                                           .mass = &mass,
+                                           .scalar_mass = &scalar_mass};
 
 }  // namespace floatframe

@@ -12,6 +12,7 @@
 
 #include "floatframe/fe/isoparametric.hpp"
 #include "floatframe/fe/solid_element.hpp"
+#include "floatframe/fe/solid_shapes.hpp"
 #include "floatframe/math/dense.hpp"
 
 namespace floatframe {
@@ -180,10 +181,10 @@ constexpr ElementKernel with(ElementKernel kernel, void (*stiffness)(const Eleme
 
 }  // namespace
 
-const ElementKernel hex8_kernel = solid::kernel<element>(ElementType::hex8, "hex8", 8);
-const ElementKernel hex8i_kernel =
-    with(solid::kernel<element>(ElementType::hex8i, "hex8i", 8), &stiffness_i, &nodal_strains_i);
-const ElementKernel hex8r_kernel =
-    with(solid::kernel<element>(ElementType::hex8r, "hex8r", 8), &stiffness_r, &nodal_strains_r);
+constinit const ElementKernel hex8_kernel = solid::kernel<element>(8, shape::hex8);
+constinit const ElementKernel hex8i_kernel =
+    with(solid::kernel<element>(8, shape::hex8), &stiffness_i, &nodal_strains_i);
+constinit const ElementKernel hex8r_kernel =
+    with(solid::kernel<element>(8, shape::hex8), &stiffness_r, &nodal_strains_r);
 
 }  // namespace floatframe

@@ -1,0 +1,44 @@
+#pragma once
+// All finite elements. One entry is the enumerator of ElementType, the word of messages and the name
+// of the kernel `<name>_kernel` (element_kernel.hpp) in a file of fe/elements. Everything else runs
+// over this list.
+//
+// Node order of the solids is that of Abaqus and VTK: corners first, then the mid-side nodes.
+#include "floatframe/core/enum_index.hpp"
+
+// clang-format off
+#define FLOATFRAME_ELEMENTS(entry)                                                          \
+  entry(beam2)    /* 2-node Euler-Bernoulli beam */                                         \
+  entry(beam3)    /* 3-node Timoshenko beam: end, middle, end */                            \
+  entry(tri3)     /* 3-node flat shell */                                                   \
+  entry(quad4)    /* 4-node flat shell */                                                   \
+  entry(tet4)     /* linear tetrahedron */                                                  \
+  entry(tet10)    /* quadratic tetrahedron; edges 12 23 13 14 24 34 */                      \
+  entry(hex8)     /* trilinear brick, full integration */                                   \
+  entry(hex8i)    /* the same with incompatible modes (good in bending) */                  \
+  entry(hex8r)    /* the same, one point, with stabilised hourglass modes */                \
+  entry(hex20)    /* quadratic brick, 3 x 3 x 3 points; edges as in the file */             \
+  entry(hex20r)   /* the same, stiffness with 2 x 2 x 2 points */                           \
+  entry(wedge6)   /* linear wedge */                                                        \
+  entry(wedge15)  /* quadratic wedge; edges 12 23 31 45 56 64 14 25 36 */
+// clang-format on
+
+namespace floatframe {
+
+#define FLOATFRAME_ENUMERATOR(name) name,
+enum class ElementType { FLOATFRAME_ELEMENTS(FLOATFRAME_ENUMERATOR) };
+#undef FLOATFRAME_ENUMERATOR
+
+#define FLOATFRAME_ENUMERATOR(name) ElementType::name,
+inline constexpr ElementType element_types[] = {FLOATFRAME_ELEMENTS(FLOATFRAME_ENUMERATOR)};
+#undef FLOATFRAME_ENUMERATOR
+
+#define FLOATFRAME_WORD(name) #name,
+inline constexpr const char* element_words[] = {FLOATFRAME_ELEMENTS(FLOATFRAME_WORD)};
+#undef FLOATFRAME_WORD
+
+constexpr const char* element_type_name(ElementType type) noexcept {
+  return element_words[index_of(type)];
+}
+
+}  // namespace floatframe
