@@ -15,7 +15,7 @@
 namespace floatframe {
 namespace {
 
-const Vec3& position(const FeModel& model, int node) { return model.positions[node]; }
+const Vec3& node_position(const FeModel& model, int node) { return model.positions[node]; }
 
 std::string lower(std::string s) {
   for (char& c : s) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -91,7 +91,7 @@ std::vector<int> nodes_of_set(const FeModel& model, const std::string& name) {
 double size_of(const FeModel& model, const std::vector<char>& used) {
   Eigen::AlignedBox3d box;
   for (int k = 0; k < model.nodes(); ++k) {
-    if (used[k] != 0) box.extend(position(model, k));
+    if (used[k] != 0) box.extend(node_position(model, k));
   }
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
@@ -153,7 +153,7 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < model.nodes(); ++k) {
     if (used[k] == 0) continue;
-    const double d = distance(c, axis, position(model, k));
+    const double d = distance(c, axis, node_position(model, k));
     if (d < (1.0 - 1e-9) * least) least = d, best = k;  // of equal ones the first
     if (d <= tolerance) nodes.push_back(k);
   }
@@ -170,11 +170,11 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
 /// Smallest width of the cloud of nodes against its largest but one: on a line if tiny.
 bool on_a_line(const FeModel& model, const std::vector<int>& nodes) {
   Vec3 centre = Vec3::Zero();
-  for (const int node : nodes) centre += position(model, node);
+  for (const int node : nodes) centre += node_position(model, node);
   centre /= static_cast<double>(nodes.size());
   Mat3 second = Mat3::Zero();
   for (const int node : nodes) {
-    const Vec3 r = position(model, node) - centre;
+    const Vec3 r = node_position(model, node) - centre;
     second += r * r.transpose();
   }
   const Vec3 e = Eigen::SelfAdjointEigenSolver<Mat3>(second, Eigen::EigenvaluesOnly).eigenvalues();
@@ -183,7 +183,7 @@ bool on_a_line(const FeModel& model, const std::vector<int>& nodes) {
 
 Vec3 reference_point(const FeModel& model, const NodeChoice& c, const std::vector<int>& nodes) {
   Eigen::AlignedBox3d box;
-  for (const int node : nodes) box.extend(position(model, node));
+  for (const int node : nodes) box.extend(node_position(model, node));
   const Vec3 centre = box.center();
   if (c.by == NodeChoice::By::sphere) return c.point;
   if (c.by == NodeChoice::By::plane) {
@@ -195,7 +195,7 @@ Vec3 reference_point(const FeModel& model, const NodeChoice& c, const std::vecto
     const Vec3 a = c.axis.normalized();
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const int node : nodes) {
-      const double z = a.dot(position(model, node) - c.point);
+      const double z = a.dot(node_position(model, node) - c.point);
       low = std::min(low, z);
       high = std::max(high, z);
     }
@@ -204,7 +204,7 @@ Vec3 reference_point(const FeModel& model, const NodeChoice& c, const std::vecto
   return centre;
 }
 
-std::string spider_label(const FeModel& model, const Spider& s) {
+std::string the_spider(const FeModel& model, const Spider& s) {
   return s.name.empty() ? "the spider of " + model.node_label(s.reference)
                         : "spider '" + s.name + "'";
 }
@@ -223,12 +223,12 @@ std::optional<int> existing_reference(const FeModel& model, const InterfaceDescr
     std::vector<int> theirs = s.nodes;
     ascending(theirs);
     if (theirs != sorted) continue;
-    const Vec3& there = position(model, s.reference);
+    const Vec3& there = node_position(model, s.reference);
     if (d.at && (*d.at - there).norm() > 1e-6 * (size_of_used(model, table) + there.norm())) {
       throw InputError(
           fmt::format("{} ties these nodes to a reference at {} already; the reference "
                       "point {} is another one",
-                      spider_label(model, s), text(there), text(*d.at)));
+                      the_spider(model, s), text(there), text(*d.at)));
     }
     return s.reference;
   }
@@ -257,7 +257,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
       if (s.kind == Spider::Kind::rigid && nodes.size() == 1 && s.reference != *node &&
           std::find(s.nodes.begin(), s.nodes.end(), *node) != s.nodes.end()) {
         throw InputError(fmt::format("{} belongs to {} and cannot be an interface of its own",
-                                     model.node_label(*node), spider_label(model, s)));
+                                     model.node_label(*node), the_spider(model, s)));
       }
     }
     return *node;
@@ -282,7 +282,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
     if (d.kind == Spider::Kind::mean && s.kind == Spider::Kind::mean) continue;
     for (const int node : nodes) {
       if (std::find(s.nodes.begin(), s.nodes.end(), node) == s.nodes.end()) continue;
-      faults.add({}, model.node_label(node) + " belongs to " + spider_label(model, s) +
+      faults.add({}, model.node_label(node) + " belongs to " + the_spider(model, s) +
                          " already; a node can follow only one reference");
       break;
     }
