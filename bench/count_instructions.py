@@ -212,7 +212,7 @@ def figures(facts, profile):
 
 
 def show(name, f):
-    print(f"\n{name}: {f['instructions_per_step']:,.0f} instructions a step, {f['instructions_per_iteration']:,.0f} an "
+    print(f"\n{name}: {f['instructions_per_step']:,.0f} instructions per step, {f['instructions_per_iteration']:,.0f} an "
           f"iteration ({f['iterations_per_step']:.2f} iterations, {f['factorizations_per_step']:.2f} factorisations)")
     print(f"  {'room':<16} {'a step':>10} {'share':>7}  of which Eigen templates inlined")
     for room, n in f["rooms"].items():

@@ -174,7 +174,7 @@ def show_list():
         found = figures(run)
         chain = found.get("chain 4 links, 8 modes, Rel+P: a step", ("", float("nan")))[1]
         count = found.get("chain of 4, relative, preprocessing: a step", ("", float("nan")))[1]
-        print(f"{file.stem}  chain of 4 Rel+P {chain:.3f} LLT, {count:,.0f} instructions a step  {run['build']}  "
+        print(f"{file.stem}  chain of 4 Rel+P {chain:.3f} LLT, {count:,.0f} instructions per step  {run['build']}  "
               f"{run['subject']}")
     return 0
 

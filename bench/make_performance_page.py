@@ -124,13 +124,13 @@ def chain(run):
     first = series[0][1]
     series.append(("linear in N*", [(n, first[0][1] * n / first[0][0]) for n, _ in first]))
     (FIGURES / "chain_links.svg").write_text(svg_chart.curves(
-        "Chain of flexible links, 8 modes, 1 ms", "links N", "time a step [LLTs]", series))
+        "Chain of flexible links, 8 modes, 1 ms", "links N", "time per step [LLTs]", series))
     steps = {r["steps"] for r in rows}
     note = ""
     if len(steps) > 1:
         shorter = ", ".join(f"{r['links']} links {name(r)} {r['steps']}" for r in rows if r["steps"] < max(steps))
         note = f"\n\nRuns of {max(steps)} steps; those that take long are cut: {shorter} steps."
-    return table(["N", "", "µs a step, minimum", "median", "LLTs", "iterations", "factorisations", "tip error [m]",
+    return table(["N", "", "µs per step, minimum", "median", "LLTs", "iterations", "factorisations", "tip error [m]",
                   "to published [m]", "energy drift"], out) + note
 
 
@@ -145,11 +145,11 @@ def sweep_table(run, sweep, header):
     combinations = [c for c in COMBINATIONS if any((r["coordinates"], r["inertia"]) == c for r in rows)]
     head = list(header)
     for c, i in combinations:
-        head += [f"{name(dict(coordinates=c, inertia=i))}, µs an iteration", "ratio"]
+        head += [f"{name(dict(coordinates=c, inertia=i))}, µs per iteration", "ratio"]
         if sweep == "bodies":
             head += ["a link"]
     if counted:
-        head += ["Rel. + P, instructions an iteration"]
+        head += ["Rel. + P, instructions per iteration"]
     lines = []
     for value in sorted({r["value"] for r in rows}):
         here = [r for r in rows if r["value"] == value]
@@ -212,7 +212,7 @@ def iltis(run):
     return "\n\n".join([
         table([""] + [str(n) for n in elements], times),
         f"The cost of a step at {elements[-1]} elements a bar:",
-        table(["", "µs an iteration", "µs a step", "LLTs", "times real time", "iterations", "factorisations",
+        table(["", "µs per iteration", "µs per step", "LLTs", "times real time", "iterations", "factorisations",
                "positions [m]", "velocities [m/s]"], cost),
         f"One full Newton iteration, Rel. + P (kinematics, inertia, forces, residual, factorisation, solution): "
         f"{one:.1f} µs, {one / llt:.2f} LLT."])
@@ -236,19 +236,19 @@ def instructions(run):
     lines = [[room] + [number(case["rooms"].get(room, 0)).replace(",", " ") for case in shown.values()] for room in rooms]
     for title, key in (("**all**, a step", "instructions_per_step"), ("an iteration", "instructions_per_iteration")):
         lines.append([title] + [number(case[key]).replace(",", " ") for case in shown.values()])
-    for title, key in (("iterations a step", "iterations_per_step"), ("factorisations a step", "factorizations_per_step")):
+    for title, key in (("iterations per step", "iterations_per_step"), ("factorisations per step", "factorizations_per_step")):
         lines.append([title] + [f"{case[key]:.2f}" for case in shown.values()])
     for title, key in (("calls of malloc and free", "heap_calls"), ("calls of memcpy and memmove", "memory_copy_calls"),
                        ("virtual calls", "virtual_calls")):
         lines.append([title] + [str(case[key]) for case in shown.values()])
     (FIGURES / "instructions.svg").write_text(svg_chart.stacked_bars(
-        "Instructions a step", "thousands",
+        "Instructions per step", "thousands",
         [(what.replace("preprocessing", "P"), {room: n / 1e3 for room, n in case["rooms"].items()
                                                if n >= 0.005 * case["instructions_per_step"]})
          for what, case in shown.items()]))
     text = table(["room"] + list(shown), lines)
     return text + (f"\n\nBuild: {run['instructions']['build']}, with line tables. Calls are those of all steps of "
-                   "a run.\n\n![instructions a step by room](figures/instructions.svg)")
+                   "a run.\n\n![instructions per step by room](figures/instructions.svg)")
 
 
 def kernels(run):

@@ -64,7 +64,7 @@ def main():
             for index, (packed, _) in enumerate(meshes):
                 runs[index].append(run(program, packed, options.arm_modes, folder))
         best = [min(r["cpu_s"] / r["iterations"] for r in variant) for variant in runs]
-        print(f"{'size [mm]':>9}  {'nodes':>7}  {'iterations':>10}  {'us an iteration':>15}  {'ratio':>6}")
+        print(f"{'size [mm]':>9}  {'nodes':>7}  {'iterations':>10}  {'us per iteration':>15}  {'ratio':>6}")
         for size, (_, nodes), variant, cost in zip(sizes, meshes, runs, best):
             print(f"{size:9g}  {nodes:7d}  {variant[0]['iterations']:10d}  {1e6 * cost:15.2f}  {cost / best[0]:6.3f}")
 

@@ -40,7 +40,7 @@ class Range(unittest.TestCase):
             self.assertIn("body 'beam' deforms too far for small deformations", warnings[0])
             self.assertEqual(self.summary["status"], "completed")
             report = (self.folder / "out" / "report.html").read_text()
-            self.assertLess(report.index("deforms too far for small deformations"), report.index("Newton iterations a step"))
+            self.assertLess(report.index("deforms too far for small deformations"), report.index("Newton iterations per step"))
 
     def test_strict_makes_them_errors(self):
         done = self.run_model(MODELS / "cantilever.yaml", "--strict", "--quiet")

@@ -159,7 +159,7 @@ class RealTime(unittest.TestCase):
     def test_report_of_a_run(self):
         done = self.floatframe("cart.yaml", "--no-pace", "--report", "report.json", "--set", "mass=3")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("processor time a step", done.stdout)
+        self.assertIn("processor time per step", done.stdout)
         report = self.report()
         self.assertEqual(report["status"], "completed")
         self.assertEqual(report["steps"], 50)

@@ -17,7 +17,7 @@ struct Held {
   unsigned mask;
 };
 
-/// Static displacements, six rows a node.
+/// Static displacements, six rows per node.
 VecX solve(const FeModel& model, const std::vector<Held>& held, const VecX& f) {
   const FeSystem system = assemble(model);
   SparseMatrix K = system.K;

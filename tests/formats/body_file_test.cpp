@@ -410,26 +410,6 @@ TEST(BodyFile, NoDamageCrashesTheReader) {
   }
 }
 
-TEST(Npy, FortranOrderAndOtherVersions) {
-  const std::string c = npy_bytes({{2, 3}, std::vector<double>{1, 2, 3, 4, 5, 6}});
-  EXPECT_EQ(c.size() % 64, (6 * sizeof(double)) % 64);  // values aligned as by NumPy
-  std::string f =
-      replaced(npy_bytes({{2, 3}, std::vector<double>{1, 4, 2, 5, 3, 6}}), "False,", "True, ");
-  EXPECT_EQ(std::get<0>(read_npy(f).values), std::get<0>(read_npy(c).values));
-  std::string two = c;  // version 2: four bytes for the length of the header
-  two[6] = 2;
-  two.insert(10, std::string(2, '\0'));
-  EXPECT_EQ(std::get<0>(read_npy(two).values), std::get<0>(read_npy(c).values));
-}
-
-TEST(Health, FrequenciesHaveFourDigits) {
-  EXPECT_EQ(hertz_text(1234.5678), "1234.568");
-  EXPECT_EQ(hertz_text(1.0), "1.000");
-  EXPECT_EQ(hertz_text(0.123456), "0.1235");
-  EXPECT_EQ(hertz_text(1.234567e-6), "1.235e-06");
-  EXPECT_EQ(hertz_text(0.0), "-");
-}
-
 TEST(Health, JsonRoundTripAndText) {
   HealthReport h = bracket().part.health;
   h.interfaces[0].condition = std::numeric_limits<double>::infinity();

@@ -138,7 +138,7 @@ TEST(Validate, ReducedBodies) {
        },
        "bodies.part.flexible.projection.M_s: found 3 x 3 numbers, expected 2 x 2"},
       {[](D& d) { d.amplitudes["part"] = VecX::Zero(3); },
-       "initial.amplitudes.part: found a list of 3, expected a list of 1 amplitudes, one a mode"},
+       "initial.amplitudes.part: found a list of 3, expected a list of 1 amplitudes, one per mode"},
       {[](D& d) { d.amplitude_rates["part"][0] = nan; },
        "initial.amplitude_rates.part[1]: found nan, expected a number (numbers must be finite)"},
       {[](D& d) { d.amplitudes["block"] = VecX::Zero(1); },

@@ -71,7 +71,7 @@ const Case cases[] = {
      "align_unknown.yaml:7:35: bodies.arm.align.eye: unknown point 'f'"},
     {"amplitudes.yaml",
      "amplitudes.yaml:12:21: initial.amplitudes.arm: found a list of 2, expected a list of 1 "
-     "amplitudes, one a mode"},
+     "amplitudes, one per mode"},
     {"analytic_frame.yaml",
      "analytic_frame.yaml:10:17: bodies.arm.flexible.analytic: analytic shapes need one straight "
      "bar without masses, found 2 bars and 0 masses"},

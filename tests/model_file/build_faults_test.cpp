@@ -38,10 +38,10 @@ TEST(BuildFaults, AmplitudesOfModesBelowAFrequency) {
       "      normal_modes: {below: 500}\n";
   EXPECT_EQ(fault_of(modes, "initial: {amplitudes: {bar: [0.1]}}\n", build),
             ":11:29: initial.amplitudes.bar: found a list of 1, expected a list of 10 amplitudes, "
-            "one a mode");
+            "one per mode");
   EXPECT_EQ(fault_of(modes, "initial:\n  amplitude_rates:\n    bar: [0.1, 0.2]\n", build),
             ":13:10: initial.amplitude_rates.bar: found a list of 2, expected a list of 10 "
-            "amplitudes, one a mode");
+            "amplitudes, one per mode");
 }
 
 TEST(BuildFaults, MassModelThatDoesNotGoWithTheInertiaMethod) {

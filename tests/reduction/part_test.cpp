@@ -1,5 +1,5 @@
 // Reduced finite-element parts: body references, methods, selection of modes, inertia integrals,
-// the health report, and the sentences of the faults.
+// the health report.
 #include "floatframe/reduction/part.hpp"
 
 #include <gtest/gtest.h>
@@ -13,21 +13,12 @@
 #include "floatframe/reduction/body_reference.hpp"
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/free_structure.hpp"
+#include "reduction/part_beam.hpp"
 #include "support/fe_parts.hpp"
 #include "support/random_body.hpp"
 
 namespace floatframe::test {
 namespace {
-
-/// 0.6 m x 30 x 30 mm; the reference points are in the middle of the ends.
-FeModel beam() { return brick_beam(12, 2, 2, 0.6, 0.03); }
-
-PartOptions both_ends(int modes = 8) {
-  PartOptions options;
-  options.interfaces = {bore("A"), bore("B")};
-  options.modes = modes;
-  return options;
-}
 
 /// Elastic frequencies of the free body from its integrals and its stiffness alone.
 VecX free_frequencies(const FlexibleBody& body) {
@@ -317,170 +308,6 @@ TEST(PartHealth, MassPropertiesAndWarnings) {
             "of 601 m, which is unusual; if the file was read as m-kg-s, it may be in mm-t-s: then "
             "it has a Young's modulus of 2.1e+11 Pa, a density of 7.85e+03 kg/m3 and a size of "
             "0.601 m");
-}
-
-std::string message(FeModel model, const PartOptions& options) {
-  try {
-    reduce_part(std::move(model), options);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no fault";
-}
-
-TEST(PartFaults, EachHasItsSentence) {
-  PartOptions options = both_ends();
-  options.interfaces.clear();
-  EXPECT_EQ(message(beam(), options),
-            "the Craig-Bampton method needs an interface; give one, or take free_free");
-  options = both_ends();
-  options.reference = {BodyReference::Kind::node, "C"};
-  EXPECT_EQ(message(beam(), options),
-            "the body reference is the interface 'C', which does not exist; there are 'A', 'B'");
-  options = both_ends();
-  options.modes = 400;
-  EXPECT_EQ(message(beam(), options),
-            "400 normal modes are asked for, but only 297 degrees of freedom are left inside the "
-            "interface");
-  options = both_ends();
-  options.method = ModeMethod::free_free;
-  options.effective_mass = 0.9;
-  EXPECT_EQ(message(beam(), options),
-            "free modes have no effective mass; select them by number or by frequency");
-
-  FeModel loose = beam();
-  const FeModel other = brick_beam(1, 1, 1, 0.01, 0.01);
-  const int first = loose.nodes();
-  for (const Vec3& p : other.positions) loose.positions.push_back(p + Vec3(0, 0.5, 0));
-  Element e = other.elements[0];
-  for (std::size_t a = 0; a < 8; ++a) e.nodes[a] += first;
-  loose.elements.push_back(e);
-  EXPECT_EQ(message(loose, both_ends()),
-            "the part is in 2 pieces: node 117, node 118, node 119, node 120, node 121, node 122, "
-            "node 123 and node 124 are not connected with the other 119 nodes");
-
-  FeModel massless = beam();
-  massless.materials[0].density = 0.0;
-  EXPECT_EQ(message(massless, both_ends()), "the part has no mass: every density is zero");
-
-  // Two bricks that share an edge only, at the middle of the part: a hinge.
-  FeModel hinge = brick_beam(2, 1, 1, 0.2, 0.1);
-  const int extra = hinge.nodes();
-  hinge.positions.push_back(hinge.positions[5]);
-  hinge.positions.push_back(hinge.positions[7]);
-  for (std::size_t a = 0; a < 8; ++a) {
-    int& node = hinge.elements[1].nodes[a];
-    if (node == 5) node = extra;
-    if (node == 7) node = extra + 1;
-  }
-  options = both_ends(2);
-  options.interfaces = {bore("A")};
-  const std::string text = message(hinge, options);
-  EXPECT_EQ(text.substr(0, 27), "the stiffness is singular: ");
-  EXPECT_NE(
-      text.find(" can move without resistance (a part that is not connected, or a mechanism)"),
-      std::string::npos)
-      << text;
-
-  // Held on both sides it is a seventh motion without stiffness: the edge moves, the ends turn.
-  for (const ModeMethod method :
-       {ModeMethod::craig_bampton, ModeMethod::free_free, ModeMethod::craig_chang}) {
-    PartOptions held = both_ends(2);
-    held.method = method;
-    const std::string moving = message(hinge, held);
-    EXPECT_TRUE(
-        moving.starts_with("the part is a mechanism: beside the six rigid motions there is at "
-                           "least one without stiffness, which moves most at node "))
-        << static_cast<int>(method) << moving;
-  }
-  // A node that does not move: the part is held.
-  FeModel held = beam();
-  held.equations.push_back({{{13, 0, 1.0}}, {}});
-  const std::string held_text = message(held, both_ends());
-  EXPECT_TRUE(held_text.starts_with("rigid motions cause forces of ")) << held_text;
-  EXPECT_NE(held_text.find(" of the largest stiffness at node "), std::string::npos) << held_text;
-
-  options = both_ends();
-  options.interfaces.push_back(bore("A"));
-  EXPECT_NE(message(beam(), options).find("interface 'A'"), std::string::npos);
-  options = both_ends();
-  options.markers = {{"A", {.by = NodeChoice::By::set, .set = "MIDDLE"}, std::nullopt, false}};
-  EXPECT_EQ(message(beam(), options), "marker 'A': the name is given twice");
-}
-
-// Cubes that share an edge (a hinge) or a corner (a ball): so few elements that the seventh motion
-// is as simple as a motion of the whole.
-TEST(PartFaults, MechanismsOfTwoElementsNameNodes) {
-  for (const double size : {1.0, 1e-3}) {
-    for (const Vec3& shift : {Vec3(1, 0, 1), Vec3(1, 1, 1)}) {
-      FeModel model = brick_beam(1, 1, 1, size, size);
-      const int first = model.nodes();
-      Element other = model.elements[0];
-      for (int& node : other.nodes) {
-        const Vec3 p = model.positions[node] + size * shift;
-        int same = -1;
-        for (int k = 0; k < first; ++k)
-          if ((model.positions[k] - p).norm() < 1e-9 * size) same = k;
-        node = same < 0 ? model.nodes() : same;
-        if (same < 0) model.positions.push_back(p);
-        if (&node == &other.nodes[7]) break;
-      }
-      model.elements.push_back(other);
-      PartOptions options;
-      options.method = ModeMethod::free_free;
-      options.modes = 1;
-      const std::string text = message(model, options);
-      EXPECT_TRUE(text.starts_with(
-          "the part is a mechanism: beside the six rigid motions there is at least one without "
-          "stiffness, which moves most at node "))
-          << size << ' ' << shift.z() << ' ' << text;
-    }
-  }
-}
-
-// The reference of a coupling that holds some directions only is as loose at an interface as
-// inside.
-TEST(PartFaults, FreedomsThatNothingFollowsAreNamed) {
-  FeModel model = beam();
-  Spider coupling;
-  coupling.reference = model.nodes();
-  coupling.nodes = model.node_sets["B"];
-  coupling.mask = 1u;
-  model.positions.emplace_back(0.6, 0.015, 0.015);
-  model.spiders.push_back(coupling);
-  PartOptions options = both_ends(3);
-  for (const ModeMethod method : {ModeMethod::craig_bampton, ModeMethod::craig_chang}) {
-    options.method = method;
-    EXPECT_EQ(message(model, options),
-              "interface 'B': node 117 can move without resistance in uy, uz, rx: nothing of the "
-              "part follows it there");
-  }
-  options.interfaces = {bore("A")};
-  EXPECT_EQ(message(model, options),
-            "neither the stiffness nor the mass of the free part holds node 117 uy");
-}
-
-TEST(PartFaults, CombinationsWithoutMassAreRefused) {
-  InertiaInvariants raw = InertiaInvariants::zero(9);
-  raw.m = 1.0;
-  raw.P_u = Mat3::Identity();
-  raw.Sij[0][0] = MatX::Identity(9, 9);
-  MatX B = MatX::Identity(6, 9);
-  EXPECT_EQ(elastic_modes(MatX::Identity(9, 9), raw, B).lambda.size(), 3);
-  raw.Sij[0][0](7, 8) = raw.Sij[0][0](8, 7) = 1.0;  // the same motion twice
-  const auto fault = [&] {
-    try {
-      elastic_modes(MatX::Identity(9, 9), raw, B);
-    } catch (const InputError& e) {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
-  EXPECT_EQ(fault(),
-            "the modes hold a combination that moves no mass: there are more interface degrees of "
-            "freedom and modes than the mesh has ways to move; use fewer, or a finer mesh");
-  B.row(5).setZero();
-  EXPECT_EQ(fault(), "the body reference does not remove all rigid motions of the part");
 }
 
 }  // namespace

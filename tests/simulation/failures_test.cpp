@@ -1,4 +1,4 @@
-// What cannot run says why and names the culprit; what merely looks degenerate (massless rods,
+// What cannot run says why and names the cause; what merely looks degenerate (massless rods,
 // links, points, torsion) runs.
 #include <gtest/gtest.h>
 

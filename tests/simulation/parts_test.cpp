@@ -68,7 +68,7 @@ struct Launch {
   VecX rates;
 };
 
-/// The velocity field `field` (3 rows a node) as rigid motion and amplitude rates of a part;
+/// The velocity field `field` (3 rows per node) as rigid motion and amplitude rates of a part;
 /// `residual`: what of it the part's modes cannot represent, relative.
 Launch represent(const ReducedPart& part, const VecX& field, double& residual) {
   const ProjectionData& mesh = *part.body.projection;

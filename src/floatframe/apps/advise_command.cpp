@@ -50,12 +50,12 @@ std::string cost_text(const ModeAdviceReport& r) {
                full > 0.0 ? fmt::format("{:.3f}", reduced / full) : "-"});
   };
   add("amplitudes", r.modes, r.modes - r.dropped, "{:.0f}");
-  add("kflop of flexible bodies a step (count)", 1e-3 * r.flops_full, 1e-3 * r.flops_reduced,
+  add("kflop of flexible bodies per step (count)", 1e-3 * r.flops_full, 1e-3 * r.flops_reduced,
       "{:.3g}");
-  add("Newton iterations a step (measured)",
+  add("Newton iterations per step (measured)",
       per_step(static_cast<double>(r.full.iterations), r.full),
       per_step(static_cast<double>(r.reduced.iterations), r.reduced), "{:.3f}");
-  add("processor time a step [us] (measured)", per_step(1e6 * r.full.cpu, r.full),
+  add("processor time per step [us] (measured)", per_step(1e6 * r.full.cpu, r.full),
       per_step(1e6 * r.reduced.cpu, r.reduced), "{:.3g}");
   return table.text(2);
 }

@@ -1,7 +1,7 @@
 #pragma once
 // The chain of flexible links in the four combinations of coordinates and inertia method: processor
-// time a step, iterations and factorisations, the error at the tip, the drift of the energy; beside
-// a yardstick measured in the same process, one dense Cholesky factorisation.
+// time per step, iterations and factorisations, the error at the tip, the drift of the energy;
+// beside a yardstick measured in the same process, one dense Cholesky factorisation.
 #include <functional>
 #include <optional>
 #include <string>
@@ -21,7 +21,7 @@ struct Combination {
 /// Blocks of steps timed in several runs that do the same work: of each block the least and the
 /// median time over the runs, summed over the blocks. A disturbance spoils one block of one run.
 struct StepTime {
-  double least = 0, median = 0;  ///< [s] of processor time a step
+  double least = 0, median = 0;  ///< [s] of processor time per step
   long steps = 0;
   int runs = 0;
   StepCounts counts;  ///< of one run

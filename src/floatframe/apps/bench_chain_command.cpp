@@ -64,7 +64,7 @@ Command bench_chain_command() {
   const auto a = std::make_shared<ChainArguments>();
   return {
       .name = "chain",
-      .help = "Chains of flexible links: time a step, iterations, accuracy, energy",
+      .help = "Chains of flexible links: time per step, iterations, accuracy, energy",
       .options = {whole_list("--links", a->options.links, 1, 4096,
                              "Numbers of links, comma-separated (default 1,4,16,64,256)"),
                   whole_list("--modes", a->options.modes, 1, 1000,

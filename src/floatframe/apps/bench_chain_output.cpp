@@ -30,7 +30,7 @@ std::string small(const std::optional<double>& x) { return x ? fmt::format("{:.1
 std::string chain_text(const ChainResult& result) {
   const ChainOptions& o = result.options;
   TextTable table(
-      {"links", "modes", "", "us a step, min", "median", "LLTs", "us a link", "iterations",
+      {"links", "modes", "", "us per step, min", "median", "LLTs", "us a link", "iterations",
        "us each", "factoris.", "tip error [m]", "to published", "energy drift", "steps"},
       {2});
   std::string failures;
@@ -55,7 +55,8 @@ std::string chain_text(const ChainResult& result) {
   std::string text = fmt::format(
       "Chain of flexible links released from the horizontal: {:g} s at {:g} ms, {} a link, Newton "
       "tolerance {:g}, spectral radius {:g}\n"
-      "Processor time a step, B projection, P preprocessing; LLTs: in units of one dense LLT of a "
+      "Processor time per step, B projection, P preprocessing; LLTs: in units of one dense LLT of "
+      "a "
       "98 x 98 matrix\n\n",
       o.duration, 1e3 * o.step, plural(o.elements, "element"), o.tolerance, o.spectral_radius);
   text += table.text(2);

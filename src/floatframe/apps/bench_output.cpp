@@ -82,7 +82,7 @@ std::string table1_text(const BenchResult& result) {
 
 std::string work_text(const BenchResult& result) {
   TextTable table({"", "elements a bar", "steps", "by halving", "Newton iterations",
-                   "us an iteration", "us a step", "LLTs a step", "positions [m]",
+                   "us per iteration", "us per step", "LLTs per step", "positions [m]",
                    "velocities [m/s]"});
   for (const BenchRow& row : result.rows) {
     const double per_iteration = row.cpu_min / static_cast<double>(std::max(row.iterations, 1L));

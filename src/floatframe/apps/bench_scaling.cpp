@@ -40,7 +40,7 @@ Point solid_point(int across) {
   p.row.links = usual_links;
   p.row.modes = usual_modes;
   p.row.elements = across * across * bricks_along + 2 * face;
-  // Bricks have three a node; the centres and, through the beams, the face nodes have six.
+  // Bricks have three per node; the centres and, through the beams, the face nodes have six.
   p.row.finite_element_dofs = 3 * face * (bricks_along + 1) + 3 * 2 * face + 2 * 6;
   p.description = solid_chain(usual_links, across);
   return p;

@@ -66,8 +66,8 @@ std::string scaling_text(const ScalingResult& result) {
       plural(result.options.steps, "step"), 1e3 * result.options.step);
   std::string failures;
   for (const Sweep sweep : result.options.sweeps) {
-    TextTable table({word(sweep), "", "dofs a link", "us an iteration", "ratio", "us a link",
-                     "iterations a step", "us a step", "LLTs", "build [s]"},
+    TextTable table({word(sweep), "", "dofs a link", "us per iteration", "ratio", "us a link",
+                     "iterations per step", "us per step", "LLTs", "build [s]"},
                     {1});
     for (const ScalingRow& row : result.rows) {
       if (row.sweep != sweep) continue;

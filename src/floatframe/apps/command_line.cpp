@@ -16,7 +16,7 @@
 namespace floatframe {
 namespace {
 
-/// One fault a line, as compilers do; the number of faults last.
+/// One fault per line, as compilers do; the number of faults last.
 int report(const InputError& error) {
   std::set<std::string> files;
   for (const InputFault& fault : error.faults()) {

@@ -144,7 +144,7 @@ std::string realtime_text(const RealTimeReport& r, const RealTimeOptions& option
   std::string text = fmt::format(
       "{}: {:g} s {}, {:.3f} s of wall clock\n"
       "  {} coordinates, inertia terms by {}, step {:g} s\n"
-      "  steps               {}, {} by halving, {} cut short, {:.2f} Newton iterations a step\n"
+      "  steps               {}, {} by halving, {} cut short, {:.2f} Newton iterations per step\n"
       "  processor time      {}\n"
       "  wall clock          {}\n",
       r.model, r.time, r.paced ? "in step with the wall clock" : "as fast as possible", r.wall,
@@ -175,7 +175,8 @@ std::string realtime_text(const RealTimeReport& r, const RealTimeOptions& option
   text += notes_text(r.start.notes);
   for (const std::string& refusal : r.refusals) text += "  note: " + refusal + "\n";
   if (r.cpu.count() > 0)
-    text += "\nprocessor time a step, number of steps (bars: logarithm)\n" + histogram_text(r.cpu);
+    text +=
+        "\nprocessor time per step, number of steps (bars: logarithm)\n" + histogram_text(r.cpu);
   text += iterations_text(r);
   if (r.wake.count() > 0)
     text += "\nwake-up latency of the host, number of sleeps\n" + histogram_text(r.wake);

@@ -225,14 +225,14 @@ Command sweep_command() {
   const auto a = std::make_shared<SweepArguments>();
   return {
       .name = "sweep",
-      .help = "Run a model many times with other values; one row of results a run",
+      .help = "Run a model many times with other values; one row of results per run",
       .options =
           {file_position("MODEL", a->model.path, "Model file (YAML)"),
            repeated_option("--vary", a->vary, "NAME=VALUES",
                            "What changes: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: all "
                            "combinations"),
            text_option("--table", a->table, "FILE",
-                       "Instead: CSV file, names in the first line, then one run a line"),
+                       "Instead: CSV file, names in the first line, then one run per line"),
            repeated_option("--set", a->model.settings, "NAME=VALUE",
                            "The same for all runs; may be repeated"),
            repeated_option(

@@ -189,7 +189,7 @@ InertiaInvariants invariants_hermite(const FeModel& model, const MatX& X, bool s
   const int nm = static_cast<int>(X.cols());
   const int rows = rows_per_node(model, X);
   if (model.has_beams() && nm > 0 && rows != 6) {
-    throw InputError("exact integrals of beams need mode shapes with six rows a node");
+    throw InputError("exact integrals of beams need mode shapes with six rows per node");
   }
   Gram gram(nm);
   MatX mass, Z;

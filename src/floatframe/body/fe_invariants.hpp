@@ -15,11 +15,11 @@
 
 namespace floatframe {
 
-/// X: mode shapes, 3 or 6 rows a node (rotations are ignored), one column a mode; zero columns:
+/// X: mode shapes, 3 or 6 rows per node (rotations are ignored), one column per mode; zero columns:
 /// rigid body. Rotary inertia of point masses cannot be represented and is left out.
 InertiaInvariants invariants_isoparametric(const FeModel& model, const MatX& X);
 
-/// X: mode shapes, 6 rows a node (3 if there are no beams).
+/// X: mode shapes, 6 rows per node (3 if there are no beams).
 InertiaInvariants invariants_hermite(const FeModel& model, const MatX& X, bool section_inertia);
 
 /// Points with a scalar mass: p 3 x N, M_s N x N (symmetric, both halves stored), X 3N x nm

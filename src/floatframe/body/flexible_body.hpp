@@ -22,9 +22,9 @@ struct ModalNode {
 
 /// How the finite-element mass enters the inertia terms.
 enum class MassModel {
-  isoparametric,  ///< three rows a node, scalar mass of linear elements; projection and
+  isoparametric,  ///< three rows per node, scalar mass of linear elements; projection and
                   ///< preprocessing
-  six_dof,  ///< 6 dofs a node, consistent element mass, rotated blocks (12)-(15); projection only
+  six_dof,  ///< 6 dofs per node, consistent element mass, rotated blocks (12)-(15); projection only
   hermite   ///< exact integrals of the cubic Hermite beam; preprocessing only
 };
 

@@ -68,7 +68,7 @@ int write_all(int file, std::string_view content) {
       if (errno == EINTR) continue;
       return errno;
     }
-    content.remove_prefix(static_cast<std::size_t>(written));
+    content.remove_prefix(written);
   }
   return 0;
 }

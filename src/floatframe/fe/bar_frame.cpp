@@ -31,83 +31,83 @@ std::string nearest_fractions(double fraction, int elements) {
   return number(k / elements) + " and " + number((k + 1.0) / elements);
 }
 
-}  // namespace
-
-FeModel build_bar_frame(const BarFrame& frame) {
-  Faults faults;
-  const auto add = [&](const std::string& text) { faults.add({}, text); };
-  FeModel model;
-  model.materials.push_back(frame.material);
-
-  std::map<std::string, Vec3> points;
-  for (const auto& [name, p] : frame.points) {
-    if (!points.emplace(name, p).second) add("point '" + name + "' is given twice");
+/// Nodes and elements of bars, in the order of the bars; all errors are collected.
+class FrameBuilder {
+ public:
+  explicit FrameBuilder(const BarFrame& frame) : frame_(frame) {
+    model_.materials.push_back(frame.material);
+    for (const auto& [name, p] : frame.points) {
+      if (!points_.emplace(name, p).second) add("point '" + name + "' is given twice");
+    }
   }
-  std::map<std::string, int> node_of_point;
-  std::map<std::string, std::vector<int>> nodes_of_bar;
 
-  const auto new_node = [&](const Vec3& p, const std::string& name) {
-    model.positions.push_back(p);
-    model.node_names.push_back(name);
-    return model.nodes() - 1;
-  };
-  const auto end_node = [&](const Bar& bar, const std::string& name) {
-    const auto known = node_of_point.find(name);
-    if (known != node_of_point.end()) return known->second;
-    const auto p = points.find(name);
-    if (p == points.end()) {
+  FeModel build() {
+    for (const Bar& bar : frame_.bars) this->bar(bar);
+    for (const auto& [name, mass] : frame_.masses) point_mass(name, mass);
+    if (frame_.bars.empty()) add("the frame has no bars");
+    faults_.throw_if_any();
+    validate(model_);
+    return std::move(model_);
+  }
+
+ private:
+  void add(const std::string& text) { faults_.add({}, text); }
+
+  int new_node(const Vec3& p, const std::string& name) {
+    model_.positions.push_back(p);
+    model_.node_names.push_back(name);
+    return model_.nodes() - 1;
+  }
+
+  /// The node at a point, made when a bar first ends there.
+  int end_node(const Bar& bar, const std::string& name) {
+    const auto known = node_of_point_.find(name);
+    if (known != node_of_point_.end()) return known->second;
+    const auto p = points_.find(name);
+    if (p == points_.end()) {
       add("bar '" + bar.name + "': there is no point '" + name + "'");
       return -1;
     }
     const int node = new_node(p->second, name);
-    node_of_point.emplace(name, node);
+    node_of_point_.emplace(name, node);
     return node;
-  };
+  }
 
-  for (const Bar& bar : frame.bars) {
+  /// The node that a bar starts at; -1 after an error.
+  int first_node(const Bar& bar, const std::string& label) {
+    if (bar.from_bar.empty()) return end_node(bar, bar.from);
+    const auto other = nodes_of_bar_.find(bar.from_bar);
+    if (other == nodes_of_bar_.end()) {
+      add(label + " starts at bar '" + bar.from_bar + "', which is not an earlier bar");
+      return -1;
+    }
+    const int elements = static_cast<int>(other->second.size()) - 1;
+    if (elements <= 0) return -1;  // that bar has an error of its own
+    const int k = node_at(bar.from_fraction, elements);
+    if (k >= 0) return other->second[k];
+    add(label + ": bar '" + bar.from_bar + "' with " + std::to_string(elements) +
+        " elements has no node at the fraction " + number(bar.from_fraction) +
+        "; the nearest are at " + nearest_fractions(bar.from_fraction, elements));
+    return -1;
+  }
+
+  void bar(const Bar& bar) {
     const std::string label = "bar '" + bar.name + "'";
-    if (nodes_of_bar.count(bar.name) != 0) add(label + " is given twice");
-    int first = -1;
-    if (bar.from_bar.empty()) {
-      first = end_node(bar, bar.from);
-    } else {
-      const auto other = nodes_of_bar.find(bar.from_bar);
-      if (other == nodes_of_bar.end()) {
-        add(label + " starts at bar '" + bar.from_bar + "', which is not an earlier bar");
-      } else {
-        const int elements = static_cast<int>(other->second.size()) - 1;
-        const int k = elements > 0 ? node_at(bar.from_fraction, elements) : -1;
-        if (k >= 0) {
-          first = other->second[k];
-        } else if (elements > 0) {
-          add(label + ": bar '" + bar.from_bar + "' with " + std::to_string(elements) +
-              " elements has no node at the fraction " + number(bar.from_fraction) +
-              "; the nearest are at " + nearest_fractions(bar.from_fraction, elements));
-        }
-      }
-    }
-    std::vector<int>& nodes = nodes_of_bar[bar.name];
-    if (bar.elements < 1) {
-      add(label + ": the number of elements must be at least 1, not " +
-          std::to_string(bar.elements));
-      continue;
-    }
+    if (nodes_of_bar_.count(bar.name) != 0) add(label + " is given twice");
+    const int first = first_node(bar, label);
+    std::vector<int>& nodes = nodes_of_bar_[bar.name];
+    if (bar.elements < 1)
+      return add(label + ": the number of elements must be at least 1, not " +
+                 std::to_string(bar.elements));
     // The end node exists already if an earlier bar ends there; a new one comes after the inner
     // nodes.
-    const auto end = points.find(bar.to);
-    if (end == points.end()) {
-      add(label + ": there is no point '" + bar.to + "'");
-      continue;
-    }
-    if (first < 0) continue;
-    const Vec3 a = model.positions[first];
-    const Vec3 b = end->second;
-    if (!((b - a).norm() > 1e-12 * (a.norm() + b.norm()))) {
-      add(label + " has zero length");
-      continue;
-    }
-    const int section = static_cast<int>(model.sections.size());
-    model.sections.push_back(bar.section);
+    const auto end = points_.find(bar.to);
+    if (end == points_.end()) return add(label + ": there is no point '" + bar.to + "'");
+    if (first < 0) return;
+    const Vec3 a = model_.positions[first], b = end->second;
+    if (!((b - a).norm() > 1e-12 * (a.norm() + b.norm()))) return add(label + " has zero length");
+    const int section = static_cast<int>(model_.sections.size());
+    model_.sections.push_back(bar.section);
     nodes.push_back(first);
     for (int k = 1; k <= bar.elements; ++k) {
       const double s = static_cast<double>(k) / bar.elements;
@@ -119,24 +119,28 @@ FeModel build_bar_frame(const BarFrame& frame) {
       element.section = section;
       element.reference = bar.reference;
       element.name = label + ", element " + std::to_string(k);
-      model.elements.push_back(element);
+      model_.elements.push_back(element);
     }
   }
-  for (const auto& [name, mass] : frame.masses) {
-    const int node = model.find_node(name);
-    if (node < 0) {
-      add("point mass: there is no node '" + name + "'");
-      continue;
-    }
+
+  void point_mass(const std::string& name, double mass) {
     PointMass p;
-    p.node = node;
+    p.node = model_.find_node(name);
     p.mass = mass;
-    model.masses.push_back(p);
+    if (p.node < 0) return add("point mass: there is no node '" + name + "'");
+    model_.masses.push_back(p);
   }
-  if (frame.bars.empty()) add("the frame has no bars");
-  faults.throw_if_any();
-  validate(model);
-  return model;
-}
+
+  const BarFrame& frame_;
+  Faults faults_;
+  FeModel model_;
+  std::map<std::string, Vec3> points_;
+  std::map<std::string, int> node_of_point_;
+  std::map<std::string, std::vector<int>> nodes_of_bar_;
+};
+
+}  // namespace
+
+FeModel build_bar_frame(const BarFrame& frame) { return FrameBuilder(frame).build(); }
 
 }  // namespace floatframe

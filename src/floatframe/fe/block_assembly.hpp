@@ -11,7 +11,7 @@ class BlockAssembly {
  public:
   BlockAssembly(const FeModel& model, const DofTable& table);
 
-  /// Element matrix with d dofs a node, as the kernels make it.
+  /// Element matrix with d dofs per node, as the kernels make it.
   void add(const int* nodes, int count, int d, const MatX& matrix);
   /// Scalar mass of an element, times the identity of the translations.
   void add_scalar(const int* nodes, int count, const MatX& scalar);

@@ -149,6 +149,24 @@ void add_rigid(const FeModel& model, const DofTable& table, const Spider& s, Res
   }
 }
 
+/// sum_i w_i A_i^T A_i, and sum_i w_i A_i^T u_i in independent dofs: its columns.
+Mat6 mean_sums(const FeModel& model, const DofTable& table, const Spider& s, double size,
+               const Resolver& resolver, std::map<int, Vec6>& columns) {
+  Mat6 normal = Mat6::Zero();
+  for (std::size_t i = 0; i < s.nodes.size(); ++i) {
+    const double w = s.weights.empty() ? 1.0 : s.weights[i];
+    Eigen::Matrix<double, 3, 6> A;
+    A << Mat3::Identity(), -skew(position(model, s.nodes[i]) - position(model, s.reference)) / size;
+    normal += w * A.transpose() * A;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const auto& [dof, f] : resolver.reduce({{table.index(s.nodes[i], axis), 1.0}})) {
+        columns.try_emplace(dof, Vec6::Zero()).first->second += w * f * A.row(axis).transpose();
+      }
+    }
+  }
+  return normal;
+}
+
 /// The reference moves as the rigid motion that fits the nodes best:
 ///   sum_i w_i A_i^T A_i q_r = sum_i w_i A_i^T u_i,  A_i = [1, -skew(x_i - x_r)].
 /// Solved for six dofs of the nodes, chosen by pivoting.
@@ -165,19 +183,8 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   // Rotations times the size, so that all rows and columns are lengths.
   Vec6 scale;
   scale << 1, 1, 1, size, size, size;
-  Mat6 normal = Mat6::Zero();
   std::map<int, Vec6> columns;  // the averages in independent dofs
-  for (std::size_t i = 0; i < s.nodes.size(); ++i) {
-    const double w = s.weights.empty() ? 1.0 : s.weights[i];
-    Eigen::Matrix<double, 3, 6> A;
-    A << Mat3::Identity(), -skew(position(model, s.nodes[i]) - position(model, s.reference)) / size;
-    normal += w * A.transpose() * A;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const auto& [dof, f] : resolver.reduce({{table.index(s.nodes[i], axis), 1.0}})) {
-        columns.try_emplace(dof, Vec6::Zero()).first->second += w * f * A.row(axis).transpose();
-      }
-    }
-  }
+  const Mat6 normal = mean_sums(model, table, s, size, resolver, columns);
   const VecX spread = symmetric_eigenvalues(normal);
   if (s.nodes.size() < 3 || !(size > 0.0) || !(spread(0) > 1e-9 * spread(5))) {
     return refuse("its " + std::to_string(s.nodes.size()) +

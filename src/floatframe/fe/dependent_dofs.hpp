@@ -9,7 +9,7 @@
 
 namespace floatframe {
 
-/// All dofs of a model before any is eliminated: node after node, 0, 3 or 6 a node.
+/// All dofs of a model before any is eliminated: node after node, 0, 3 or 6 per node.
 struct DofTable {
   std::vector<int> begin;  ///< nodes + 1
   int size() const noexcept { return begin.back(); }

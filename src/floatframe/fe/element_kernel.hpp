@@ -35,7 +35,7 @@ struct ElementKernel {
   void (*mass)(const ElementInput&, bool section_inertia, MatX&);
   /// int N^T N dm of the linear shape functions.
   void (*scalar_mass)(const ElementInput&, MatX&);
-  /// Strains (xx, yy, zz, xy, yz, zx; engineering shear) at the nodes, 6 rows a node, from the
+  /// Strains (xx, yy, zz, xy, yz, zx; engineering shear) at the nodes, 6 rows per node, from the
   /// displacements of the nodes: taken at the points where they are best and carried to the nodes.
   /// Null for beams and shells.
   void (*nodal_strains)(const ElementInput&, MatX&) = nullptr;

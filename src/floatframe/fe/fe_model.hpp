@@ -82,7 +82,7 @@ struct Spider {
   std::string name;             ///< for messages
   int reference = -1;           ///< node index
   std::vector<int> nodes;       ///< node indices
-  std::vector<double> weights;  ///< mean: one a node; empty: all 1
+  std::vector<double> weights;  ///< mean: one per node; empty: all 1
   unsigned mask = 63u;  ///< bit 0..5 = ux..rz: dofs of the nodes that follow (rigid; nodes without
                         ///< rotations: bits 3..5 mean nothing)
   /// CalculiX: node whose displacements 1..3 stand for the rotations of the reference in decks and

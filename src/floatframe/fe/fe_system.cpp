@@ -31,7 +31,7 @@ SparseRows transformation(const DofTable& table, const DependentDofs& dependence
   return T;
 }
 
-/// Three rows a node: dofs `axis` .. `axis` + 2 of the table.
+/// Three rows per node: dofs `axis` .. `axis` + 2 of the table.
 SparseRows rows_of_nodes(const SparseRows& T, const DofTable& table, int axis) {
   const int nodes = static_cast<int>(table.begin.size()) - 1;
   SparseRows out(3 * nodes, T.cols());

@@ -59,7 +59,7 @@ std::string fault(const IsoparametricElement& element, const ElementInput& in);
 void stiffness(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 void scalar_mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 void mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
-/// Strains at the nodes (6 rows a node) from the displacements of the nodes.
+/// Strains at the nodes (6 rows per node) from the displacements of the nodes.
 void nodal_strains(const IsoparametricElement& element, const ElementInput& in, MatX& B);
 
 /// The entry of the list for an isoparametric element.

@@ -25,7 +25,7 @@ struct Edge {
 std::vector<Edge> edges_of(ElementType type) {
   std::vector<Edge> edges;
   for (const FaceNodes& f : element_faces(type)) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(f.corners); ++i) {
+    for (int i = 0; i < f.corners; ++i) {
       const int a = f.nodes[i], b = f.nodes[(i + 1) % f.corners];
       const int middle = f.count > f.corners ? f.nodes[i + f.corners] : -1;
       const bool known = std::any_of(edges.begin(), edges.end(), [&](const Edge& e) {

@@ -72,19 +72,11 @@ double arm_length(const FeModel& model) {
   return size > 0.0 ? std::exp2(std::round(std::log2(size))) : 1.0;
 }
 
-}  // namespace
-
-PointModel point_model(const FeModel& model, const FeSystem& system, Integration integration) {
-  const DofTable table = dof_table(model);
-  const SparseMatrix M = full_mass(model, table, integration);
-  const int nodes = model.nodes();
-  std::vector<Dof> dofs;
-  for (int k = 0; k < nodes; ++k) {
-    for (int axis = 0; axis < table.count(k); ++axis) dofs.push_back({k, axis});
-  }
-  // Nodes whose rotation carries mass get three more points, behind those of the nodes.
+/// Where the three points on the arms of each node begin, behind those of the nodes: only nodes
+/// whose rotation carries mass have them; -1 without.
+std::vector<int> arm_points(const DofTable& table, const SparseMatrix& M, int nodes, int& points) {
   std::vector<int> extra(nodes, -1);
-  int points = nodes;
+  points = nodes;
   for (int k = 0; k < nodes; ++k) {
     bool heavy = false;
     for (int axis = 3; axis < table.count(k); ++axis) {
@@ -96,6 +88,70 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
     extra[k] = points;
     points += 3;
   }
+  return extra;
+}
+
+/// Scalar masses between the points of nodes a and b, that of the nodes themselves last.
+void add_masses(const PointMasses& m, int a, int b, int ea, int eb,
+                std::vector<Eigen::Triplet<double>>& masses) {
+  double rest = m.mu;
+  for (int l = 0; l < 3 && eb >= 0; ++l) {
+    const double value = m.s_b(l) - (ea >= 0 ? m.P.col(l).sum() : 0.0);
+    masses.emplace_back(a, eb + l, value);
+    rest -= value;
+  }
+  for (int k = 0; k < 3 && ea >= 0; ++k) {
+    const double value = m.s_a(k) - (eb >= 0 ? m.P.row(k).sum() : 0.0);
+    masses.emplace_back(ea + k, b, value);
+    rest -= value;
+    for (int l = 0; l < 3 && eb >= 0; ++l) {
+      masses.emplace_back(ea + k, eb + l, m.P(k, l));
+      rest -= m.P(k, l);
+    }
+  }
+  masses.emplace_back(a, b, rest);
+}
+
+/// Displacements of all points from those of the independent degrees of freedom.
+SparseRows motion_of_points(const FeSystem& system, const std::vector<int>& extra, int points,
+                            double h) {
+  std::vector<Eigen::Triplet<double>> motion;
+  const auto copy = [&](const SparseRows& from, int row, int to, double factor) {
+    for (SparseRows::InnerIterator it(from, row); it; ++it) {
+      motion.emplace_back(to, static_cast<int>(it.col()), factor * it.value());
+    }
+  };
+  for (int k = 0; k < static_cast<int>(extra.size()); ++k) {
+    const int e = extra[k];
+    for (int i = 0; i < 3; ++i) {
+      copy(system.T, 3 * k + i, 3 * k + i, 1.0);
+      for (int j = 0; j < 3 && e >= 0; ++j) {
+        const int row = 3 * (e + j) + i;
+        copy(system.T, 3 * k + i, row, 1.0);
+        const Mat3 S = -h * skew(Vec3::Unit(j));  // theta x h e_j
+        for (int c = 0; c < 3; ++c) {
+          if (S(i, c) != 0.0) copy(system.T_theta, 3 * k + c, row, S(i, c));
+        }
+      }
+    }
+  }
+  SparseRows T(3 * points, system.size());
+  T.setFromTriplets(motion.begin(), motion.end());
+  return T;
+}
+
+}  // namespace
+
+PointModel point_model(const FeModel& model, const FeSystem& system, Integration integration) {
+  const DofTable table = dof_table(model);
+  const SparseMatrix M = full_mass(model, table, integration);
+  const int nodes = model.nodes();
+  std::vector<Dof> dofs;
+  for (int k = 0; k < nodes; ++k) {
+    for (int axis = 0; axis < table.count(k); ++axis) dofs.push_back({k, axis});
+  }
+  int points = 0;
+  const std::vector<int> extra = arm_points(table, M, nodes, points);
   PointModel out;
   const double h = arm_length(model);
   out.p.resize(3, points);
@@ -112,55 +168,16 @@ PointModel point_model(const FeModel& model, const FeSystem& system, Integration
   for (int b = 0; b < nodes; ++b) {
     blocks_of(M, table, dofs, b, blocks);
     for (const NodePair& block : blocks) {
-      const int a = block.node;
       const PointMasses m(block.M, h);
       largest = std::max(largest, block.M.topLeftCorner<3, 3>().cwiseAbs().maxCoeff());
       deviation = std::max(deviation, m.deviation(block.M, h));
-      const int ea = extra[a], eb = extra[b];
-      double rest = m.mu;
-      for (int l = 0; l < 3 && eb >= 0; ++l) {
-        const double value = m.s_b(l) - (ea >= 0 ? m.P.col(l).sum() : 0.0);
-        masses.emplace_back(a, eb + l, value);
-        rest -= value;
-      }
-      for (int k = 0; k < 3 && ea >= 0; ++k) {
-        const double value = m.s_a(k) - (eb >= 0 ? m.P.row(k).sum() : 0.0);
-        masses.emplace_back(ea + k, b, value);
-        rest -= value;
-        for (int l = 0; l < 3 && eb >= 0; ++l) {
-          masses.emplace_back(ea + k, eb + l, m.P(k, l));
-          rest -= m.P(k, l);
-        }
-      }
-      masses.emplace_back(a, b, rest);
+      add_masses(m, block.node, b, extra[block.node], extra[b], masses);
     }
   }
   out.M_s.resize(points, points);
   out.M_s.setFromTriplets(masses.begin(), masses.end());
   out.anisotropy = largest > 0.0 ? deviation / largest : 0.0;
-
-  std::vector<Eigen::Triplet<double>> motion;
-  const auto copy = [&](const SparseRows& from, int row, int to, double factor) {
-    for (SparseRows::InnerIterator it(from, row); it; ++it) {
-      motion.emplace_back(to, static_cast<int>(it.col()), factor * it.value());
-    }
-  };
-  for (int k = 0; k < nodes; ++k) {
-    const int e = extra[k];
-    for (int i = 0; i < 3; ++i) {
-      copy(system.T, 3 * k + i, 3 * k + i, 1.0);
-      for (int j = 0; j < 3 && e >= 0; ++j) {
-        const int row = 3 * (e + j) + i;
-        copy(system.T, 3 * k + i, row, 1.0);
-        const Mat3 S = -h * skew(Vec3::Unit(j));  // theta x h e_j
-        for (int c = 0; c < 3; ++c) {
-          if (S(i, c) != 0.0) copy(system.T_theta, 3 * k + c, row, S(i, c));
-        }
-      }
-    }
-  }
-  out.T.resize(3 * points, system.size());
-  out.T.setFromTriplets(motion.begin(), motion.end());
+  out.T = motion_of_points(system, extra, points, h);
   return out;
 }
 

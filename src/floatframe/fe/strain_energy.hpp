@@ -22,7 +22,7 @@ inline MatX rows_of_nodes(const MatX& X, int axis) {
   return out;
 }
 
-/// U, Theta: translations and rotations of all nodes, 3 rows a node, one column a shape. Models
+/// U, Theta: translations and rotations of all nodes, 3 rows per node, one column a shape. Models
 /// given by matrices have no elements and no energy here.
 MatX strain_energy(const FeModel& model, const MatX& U, const MatX& Theta,
                    Integration integration = Integration::exact);

@@ -42,7 +42,7 @@ Surface outer_surface(const FeModel& model) {
     const std::span<const FaceNodes> faces = element_faces(element.type);
     if (is_beam(element.type)) {
       const int count = element_kernel(element.type).nodes;
-      for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(count); ++i) {
+      for (int i = 0; i + 1 < count; ++i) {
         surface.lines.push_back({element.nodes[i], element.nodes[i + 1]});
       }
     } else if (is_shell(element.type)) {
@@ -50,7 +50,7 @@ Surface outer_surface(const FeModel& model) {
     } else {
       for (std::size_t f = 0; f < faces.size(); ++f) {
         Candidate c{{-1, -1, -1, -1}, static_cast<int>(e), static_cast<int>(f)};
-        for (std::size_t i = 0; i < static_cast<std::size_t>(faces[f].corners); ++i) {
+        for (int i = 0; i < faces[f].corners; ++i) {
           c.key[i] = element.nodes[faces[f].nodes[i]];
         }
         std::sort(c.key.begin(), c.key.end());

@@ -26,7 +26,7 @@ class LimitedFaults {
     for (const auto& [kind, count] : count_) {
       if (count > most_of_a_kind) {
         const int more = count - most_of_a_kind;
-        faults_.add({}, fmt::format("and {} more {}", more, kind), static_cast<std::size_t>(more));
+        faults_.add({}, fmt::format("and {} more {}", more, kind), more);
       }
     }
     faults_.throw_if_any();

@@ -35,7 +35,7 @@ struct PreprocessingData {
   MatX Sij_sum;  ///< 6 x nm^2: S^11, S^22, S^33, S^12+S^21, S^13+S^31, S^23+S^32, entry (a, b) in
                  ///< column a+nm b
   MatX M_ff;     ///< nm x nm: S^11 + S^22 + S^33
-  /// The same with the modes side by side, `stride` numbers a row, zero beyond the last mode: what
+  /// The same with the modes side by side, `stride` numbers per row, zero beyond the last mode: what
   /// the relative terms walk through in whole lanes.
   struct ByModes {
     int stride = 0;
@@ -60,10 +60,10 @@ struct DeformedInvariants {
 struct PreprocessingWorkspace {
   DeformedInvariants deformed;
   VecX S_dot;  ///< 9nm: rows ydot^T S^ij
-  VecX rows;   ///< 18 rows of `ByModes::stride` numbers
+  VecX rows;   ///< 15 rows of `ByModes::stride` numbers
   PreprocessingWorkspace() = default;
   explicit PreprocessingWorkspace(int modes)
-      : S_dot(VecX::Zero(9 * modes)), rows(VecX::Zero(18 * ((modes + 3) & ~3))) {
+      : S_dot(VecX::Zero(9 * modes)), rows(VecX::Zero(15 * ((modes + 3) & ~3))) {
     deformed.S_d = MatX::Zero(9, modes);
   }
 };

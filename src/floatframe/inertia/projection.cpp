@@ -108,76 +108,66 @@ inline void axpy(double factor, const double* in, int columns, double* out) noex
   for (int j = 0; j < columns; ++j) out[j] += factor * in[j];
 }
 
+/// The rows of B of one node, with its bias in column nq; p its place in body axes, (5).
 template <class Coordinates>
-void project(const ProjectionData& data, const Coordinates& coordinates, const double* y,
-             const double* ydot, ProjectionWorkspace& work, MatX& M, VecX& Qv) noexcept {
+inline void rows_of_node(const Coordinates& coordinates, bool six, const double* X, int nm,
+                         const Vec3& p, const Vec3& pdot, const double* ydot, int stride,
+                         double* B) noexcept {
   constexpr int rigid = Coordinates::rigid;
-  const int n = data.nodes();
-  const int nm = work.modes;
   const int nq = rigid + nm;
-  const int stride = padded(nq + 1);
-  const bool six = data.six_dof();
-  const int rows = six ? 6 : 3;
   const Mat3& A = coordinates.A;
-  const Mat3 At = A.transpose();
-
-  for (int k = 0; k < n; ++k) {
-    const double* X = work.X.data() + static_cast<std::ptrdiff_t>(k) * rows * nm;
-    double* B = work.B.data() + static_cast<std::ptrdiff_t>(k) * rows * stride;
-    Vec3 p = data.p.col(k);
-    Vec3 pdot = Vec3::Zero();
+  coordinates.translation(p, B, stride);
+  Vec3 bias = coordinates.bias(p, pdot);
+  if (six) {
+    const Mat3 At = A.transpose();
+    for (int j = 0; j < rigid; ++j) {
+      const Vec3 column = At * Vec3(B[j], B[stride + j], B[2 * stride + j]);
+      for (int i = 0; i < 3; ++i) B[i * stride + j] = column(i);
+    }
     for (int a = 0; a < nm; ++a) {
-      const Vec3 x(X[3 * a], X[3 * a + 1], X[3 * a + 2]);
-      p += y[a] * x;  // (5)
-      pdot += ydot[a] * x;
+      // A^T A X, which is X for an orthonormal A.
+      const Vec3 column = At * (A * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]));
+      for (int i = 0; i < 3; ++i) B[i * stride + rigid + a] = column(i);
     }
-    coordinates.translation(p, B, stride);
-    Vec3 bias = coordinates.bias(p, pdot);
-    if (six) {
-      for (int j = 0; j < rigid; ++j) {
-        const Vec3 column = At * Vec3(B[j], B[stride + j], B[2 * stride + j]);
-        for (int i = 0; i < 3; ++i) B[i * stride + j] = column(i);
-      }
-      for (int a = 0; a < nm; ++a) {
-        // A^T A X, which is X for an orthonormal A.
-        const Vec3 column = At * (A * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]));
-        for (int i = 0; i < 3; ++i) B[i * stride + rigid + a] = column(i);
-      }
-      bias = At * bias;
-      double* R = B + 3 * stride;
-      const double* X_theta = X + 3 * nm;
-      coordinates.rotation(R, stride);
-      Vec3 rate = Vec3::Zero();
-      for (int a = 0; a < nm; ++a) {
-        for (int i = 0; i < 3; ++i) {
-          R[i * stride + rigid + a] = X_theta[3 * a + i];
-          rate(i) += ydot[a] * X_theta[3 * a + i];
-        }
-      }
-      const Vec3 rotation_bias = coordinates.w.cross(rate);
+    bias = At * bias;
+    double* R = B + 3 * stride;
+    const double* X_theta = X + 3 * nm;
+    coordinates.rotation(R, stride);
+    Vec3 rate = Vec3::Zero();
+    for (int a = 0; a < nm; ++a) {
       for (int i = 0; i < 3; ++i) {
-        R[i * stride + nq] = rotation_bias(i);
-        for (int j = nq + 1; j < stride; ++j) R[i * stride + j] = 0.0;
-      }
-    } else {
-      for (int a = 0; a < nm; ++a) {
-        const Vec3 column = A * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]);
-        for (int i = 0; i < 3; ++i) B[i * stride + rigid + a] = column(i);
+        R[i * stride + rigid + a] = X_theta[3 * a + i];
+        rate(i) += ydot[a] * X_theta[3 * a + i];
       }
     }
+    const Vec3 rotation_bias = coordinates.w.cross(rate);
     for (int i = 0; i < 3; ++i) {
-      B[i * stride + nq] = bias(i);
-      for (int j = nq + 1; j < stride; ++j) B[i * stride + j] = 0.0;
+      R[i * stride + nq] = rotation_bias(i);
+      for (int j = nq + 1; j < stride; ++j) R[i * stride + j] = 0.0;
+    }
+  } else {
+    for (int a = 0; a < nm; ++a) {
+      const Vec3 column = A * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]);
+      for (int i = 0; i < 3; ++i) B[i * stride + rigid + a] = column(i);
     }
   }
+  for (int i = 0; i < 3; ++i) {
+    B[i * stride + nq] = bias(i);
+    for (int j = nq + 1; j < stride; ++j) B[i * stride + j] = 0.0;
+  }
+}
 
+/// upper += B^T M B, node by node.
+inline void add_products(const ProjectionData& data, int nq, int stride, ProjectionWorkspace& work,
+                         double* upper) noexcept {
+  const bool six = data.six_dof();
+  const int rows = six ? 6 : 3;
   const auto& mass = six ? data.M_6 : data.M_s;
   const auto* outer = mass.outerIndexPtr();
   const auto* inner = mass.innerIndexPtr();
   const double* value = mass.valuePtr();
   double* MB = work.MB.data();
-  double* upper = work.upper.data();
-  std::fill_n(upper, static_cast<std::ptrdiff_t>(nq) * stride, 0.0);
+  const int n = data.nodes();
   for (int k = 0; k < n; ++k) {
     std::fill_n(MB, rows * stride, 0.0);
     if (six) {
@@ -196,6 +186,35 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
     accumulate(work.B.data() + static_cast<std::ptrdiff_t>(k) * rows * stride, MB, rows, nq, stride,
                upper);
   }
+}
+
+template <class Coordinates>
+void project(const ProjectionData& data, const Coordinates& coordinates, const double* y,
+             const double* ydot, ProjectionWorkspace& work, MatX& M, VecX& Qv) noexcept {
+  constexpr int rigid = Coordinates::rigid;
+  const int n = data.nodes();
+  const int nm = work.modes;
+  const int nq = rigid + nm;
+  const int stride = padded(nq + 1);
+  const bool six = data.six_dof();
+  const int rows = six ? 6 : 3;
+
+  for (int k = 0; k < n; ++k) {
+    const double* X = work.X.data() + static_cast<std::ptrdiff_t>(k) * rows * nm;
+    double* B = work.B.data() + static_cast<std::ptrdiff_t>(k) * rows * stride;
+    Vec3 p = data.p.col(k);
+    Vec3 pdot = Vec3::Zero();
+    for (int a = 0; a < nm; ++a) {
+      const Vec3 x(X[3 * a], X[3 * a + 1], X[3 * a + 2]);
+      p += y[a] * x;  // (5)
+      pdot += ydot[a] * x;
+    }
+    rows_of_node(coordinates, six, X, nm, p, pdot, ydot, stride, B);
+  }
+
+  double* upper = work.upper.data();
+  std::fill_n(upper, static_cast<std::ptrdiff_t>(nq) * stride, 0.0);
+  add_products(data, nq, stride, work, upper);
   for (int i = 0; i < nq; ++i) {
     const double* row = upper + static_cast<std::ptrdiff_t>(i) * stride;
     for (int j = i; j < nq; ++j) M(i, j) = M(j, i) = row[j];  // (13)

@@ -2,10 +2,10 @@
 // Inertia terms by projection of the finite-element mass matrix, paper equations (12)-(15):
 //   M = B*^T M* B*,   Qv = -B*^T M* Bdot* qdot,
 // B* stacks the velocity maps of the finite-element nodes. Two forms of M*:
-//   isoparametric  three rows a node, M* = M_s (x) I_3 is the same in every frame:
+//   isoparametric  three rows per node, M* = M_s (x) I_3 is the same in every frame:
 //     absolute  B = [I  r1 I  r2 I  r3 I  A X],  Bdot qdot = 2 Adot X ydot (7), (42) relative  B =
 //     [I  -skew(r)  A X],          Bdot qdot = omega x (omega x r) + 2 omega x (A X ydot)   (11)
-//   six_dof        six rows a node in body axes, (A^T rdot, A^T omega + X_theta ydot), constant M*
+//   six_dof        six rows per node in body axes, (A^T rdot, A^T omega + X_theta ydot), constant M*
 //   of the beams.
 //     Its rotations do not represent the field of centripetal accelerations exactly (theory,
 //     section 7).

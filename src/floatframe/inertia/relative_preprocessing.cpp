@@ -44,76 +44,61 @@ Mat3 times9(const double* rows, const double* x, int stride) noexcept {
   return s;
 }
 
-}  // namespace
+/// What the amplitudes make of the integrals, in body axes.
+struct DeformedIntegrals {
+  Vec3 m_u;           ///< m_u + S y, (29)
+  Mat3 P_u;           ///< (33)
+  Vec3 S_rate;        ///< S ydot
+  Mat3 S_d_rate;      ///< column i: S_d^i ydot
+  const double* S_d;  ///< 9 rows over the modes: row 3i+j is row j of S_d^i, (38)
+};
 
-void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const Mat3& A,
-                            const Vec3& omega, const double* y, const double* ydot,
-                            PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
-  const int nm = data.modes();
-  const int nq = 6 + nm;
-  const int nl = data.by_modes.stride;
-  double* S_d = work.rows.data();    // 9 rows: row 3i+j is row j of S_d^i
-  double* skew_rate = S_d + 9 * nl;  // 3 rows: (S^12-S^21) ydot, ...
-  double* AS = skew_rate + 3 * nl;   // 3 rows
-  double* y_row = AS + 3 * nl;       // padded with zeros
-  double* ydot_row = y_row + nl;
-  double* Q_row = ydot_row + nl;
-
-  Vec3 m_bar = data.m_u, AS_rate = Vec3::Zero();
-  Mat3 P_bar = data.P_u, S_d_rate = Mat3::Zero();
-  if (nm > 0) {
-    pad(y, nm, y_row);
-    pad(ydot, nm, ydot_row);
-    const double* S = data.by_modes.S.data();
-    const double* Si = data.by_modes.Si.data();
-    for (int r = 0; r < 9 * nl; r += 4) lanes(S_d + r) = lanes(Si + r);
-    add_columns(data.by_modes.Sij.data(), 9 * nl, nm, y, S_d);  // (38)
-    const Mat3 first = times9(Si, y_row, nl);                   // column i: S^i y
-    const Mat3 second = times9(S_d, y_row, nl);                 // column i: S_d^i y
-    Vec3 S_rate;
-    for (int j = 0; j < 3; ++j) {
-      m_bar[j] += dot(S + j * nl, y_row, nl);  // (29)
-      S_rate[j] = dot(S + j * nl, ydot_row, nl);
-    }
-    AS_rate = A * S_rate;
-    S_d_rate = times9(S_d, ydot_row, nl);
-    for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j) P_bar(j, i) = P_bar(i, j) += first(i, j) + second(j, i);  // (33)
+/// `y_row`, `ydot_row`: y and ydot padded with zeros.
+inline DeformedIntegrals deformed_integrals(const PreprocessingData& data, const double* y,
+                                            const double* ydot, double* S_d, double* y_row,
+                                            double* ydot_row) noexcept {
+  const int nm = data.modes(), nl = data.by_modes.stride;
+  DeformedIntegrals out{data.m_u, data.P_u, Vec3::Zero(), Mat3::Zero(), S_d};
+  if (nm == 0) return out;
+  pad(y, nm, y_row);
+  pad(ydot, nm, ydot_row);
+  const double* S = data.by_modes.S.data();
+  const double* Si = data.by_modes.Si.data();
+  for (int r = 0; r < 9 * nl; r += 4) lanes(S_d + r) = lanes(Si + r);
+  add_columns(data.by_modes.Sij.data(), 9 * nl, nm, y, S_d);  // (38)
+  const Mat3 first = times9(Si, y_row, nl);                   // column i: S^i y
+  const Mat3 second = times9(S_d, y_row, nl);                 // column i: S_d^i y
+  for (int j = 0; j < 3; ++j) {
+    out.m_u[j] += dot(S + j * nl, y_row, nl);  // (29)
+    out.S_rate[j] = dot(S + j * nl, ydot_row, nl);
   }
+  out.S_d_rate = times9(S_d, ydot_row, nl);
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j)
+      out.P_u(j, i) = out.P_u(i, j) += first(i, j) + second(j, i);  // (33)
+  return out;
+}
 
-  const Vec3 c = A * m_bar;
-  const Vec3 m_vec = data.m * r0 + c;                           // (49)
+/// (51), about the origin of r0; c = A m_bar.
+inline Mat3 rotary_inertia(const Mat3& A, const Mat3& P_bar, double m, const Vec3& r0,
+                           const Vec3& c, const Vec3& m_vec) noexcept {
   const Mat3 J_bar = P_bar.trace() * Mat3::Identity() - P_bar;  // (21)
   const Mat3 AJ = A * J_bar;
-  Mat3 J = AJ * A.transpose();  // (51), about the frame origin
-  J += (data.m * r0.squaredNorm() + 2.0 * r0.dot(c)) *
-       Mat3::Identity();  // ... moved to the origin of r0
+  Mat3 J = AJ * A.transpose();  // about the frame origin
+  J += (m * r0.squaredNorm() + 2.0 * r0.dot(c)) * Mat3::Identity();
   J -= m_vec * r0.transpose();
   J -= r0 * c.transpose();
+  return J;
+}
 
-  M.topLeftCorner<6, 6>().setZero();
-  for (int k = 0; k < 3; ++k) M(k, k) = data.m;  // (47)
-  const Mat3 m_tilde = skew(m_vec);
-  M.block<3, 3>(3, 0) = m_tilde;  // (48)
-  M.block<3, 3>(0, 3) = -m_tilde;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) M(3 + i, 3 + j) = 0.5 * (J(i, j) + J(j, i));
-  }
-
-  // Velocity terms shared by all modes.
-  const Vec3 w = A.transpose() * omega;  // omega in body axes
-  const Vec3 F_d_rate =
-      r0.cross(omega.cross(AS_rate)) + A * (w * S_d_rate.trace() - S_d_rate * w);  // F_d ydot, (62)
-  Qv.head<3>() = omega.cross(m_vec.cross(omega)) - 2.0 * omega.cross(AS_rate);     // (60)
-  Qv.segment<3>(3) = -omega.cross(M.block<3, 3>(3, 3) * omega) - 2.0 * F_d_rate;   // (61)
-  if (nm == 0) return;
-
+/// Columns and rows of the modes in M and Q_v, four modes at a time. `w`: omega in body axes.
+inline void mode_columns(const PreprocessingData& data, const Vec3& r0, const Mat3& A,
+                         const Vec3& omega, const Vec3& w, const double* S_d,
+                         const double* skew_rate, double* Q_row, MatX& M) noexcept {
+  const int nm = data.modes(), nq = 6 + nm, nl = data.by_modes.stride;
   // F_d^T omega = S^T A^T ((omega x r0) x omega) + sum_ij (|w|^2 delta_ij - w_i w_j) (S_d^i)_(j)
   const Vec3 g = A.transpose() * omega.cross(r0).cross(omega);
   const Mat3 W = w.squaredNorm() * Mat3::Identity() - w * w.transpose();
-  for (int r = 0; r < 3 * nl; r += 4) lanes(skew_rate + r) = Lanes{};
-  add_columns(data.by_modes.Sij_skew.data(), 3 * nl, nm, ydot, skew_rate);
-
   double* M_data = M.data();
   const double* S = data.by_modes.S.data();
   for (int r = 0; r < nl; r += 4) {
@@ -143,9 +128,49 @@ void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const
       }
     }
   }
+}
+
+}  // namespace
+
+void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const Mat3& A,
+                            const Vec3& omega, const double* y, const double* ydot,
+                            PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
+  const int nm = data.modes();
+  const int nq = 6 + nm;
+  const int nl = data.by_modes.stride;
+  double* S_d = work.rows.data();
+  double* skew_rate = S_d + 9 * nl;  // 3 rows: (S^12-S^21) ydot, ...
+  double* y_row = skew_rate + 3 * nl;
+  double* ydot_row = y_row + nl;
+  double* Q_row = ydot_row + nl;
+  const DeformedIntegrals u = deformed_integrals(data, y, ydot, S_d, y_row, ydot_row);
+  const Vec3 AS_rate = A * u.S_rate;
+  const Vec3 c = A * u.m_u;
+  const Vec3 m_vec = data.m * r0 + c;  // (49)
+  const Mat3 J = rotary_inertia(A, u.P_u, data.m, r0, c, m_vec);
+
+  M.topLeftCorner<6, 6>().setZero();
+  for (int k = 0; k < 3; ++k) M(k, k) = data.m;  // (47)
+  const Mat3 m_tilde = skew(m_vec);
+  M.block<3, 3>(3, 0) = m_tilde;  // (48)
+  M.block<3, 3>(0, 3) = -m_tilde;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) M(3 + i, 3 + j) = 0.5 * (J(i, j) + J(j, i));
+  }
+
+  const Vec3 w = A.transpose() * omega;
+  const Vec3 F_d_rate = r0.cross(omega.cross(AS_rate)) +
+                        A * (w * u.S_d_rate.trace() - u.S_d_rate * w);            // F_d ydot, (62)
+  Qv.head<3>() = omega.cross(m_vec.cross(omega)) - 2.0 * omega.cross(AS_rate);    // (60)
+  Qv.segment<3>(3) = -omega.cross(M.block<3, 3>(3, 3) * omega) - 2.0 * F_d_rate;  // (61)
+  if (nm == 0) return;
+
+  for (int r = 0; r < 3 * nl; r += 4) lanes(skew_rate + r) = Lanes{};
+  add_columns(data.by_modes.Sij_skew.data(), 3 * nl, nm, ydot, skew_rate);
+  mode_columns(data, r0, A, omega, w, S_d, skew_rate, Q_row, M);
   for (int a = 0; a < nm; ++a) Qv[6 + a] = Q_row[a];
   for (int a = 0; a < nm; ++a) {
-    double* column = M_data + static_cast<std::ptrdiff_t>(6 + a) * nq + 6;
+    double* column = M.data() + static_cast<std::ptrdiff_t>(6 + a) * nq + 6;
     const double* mff = data.M_ff.data() + static_cast<std::ptrdiff_t>(a) * nm;
     for (int b = 0; b < nm; ++b) column[b] = mff[b];  // (54)
   }

@@ -52,7 +52,7 @@ struct StepOptions {
   double velocity_tolerance = 1e-8;
   double penalty_mass = 1.0;  ///< s alpha [kg]: the penalty grows like 1/h^2
   int max_projections = 12;
-  /// > 0: exactly so many Newton iterations a step, accepted whatever their error (bounded work).
+  /// > 0: exactly so many Newton iterations per step, accepted whatever their error (bounded work).
   int fixed_iterations = 0;
   /// > 0: no iteration is begun later than this after the start of the step [s of wall clock]; the
   /// step is accepted as it is then.

@@ -1,5 +1,5 @@
 #pragma once
-// Sparse LDL^T over variable blocks (one block a body): multifrontal, ordered by minimum degree.
+// Sparse LDL^T over variable blocks (one block per body): multifrontal, ordered by minimum degree.
 // The pattern, the elimination order and all sizes are fixed at construction; assembling,
 // factorising and solving never allocate. Contributions of a pair of blocks go into the front of
 // the one eliminated first.

@@ -69,7 +69,7 @@ class EigenEngine final : public SparseEngine {
     out.setFromTriplets(entry.begin(), entry.end());
   }
 
-  /// L D L^T x = b in place, one row of x a row of the matrix.
+  /// L D L^T x = b in place, one row of x per row of the matrix.
   template <int Width>
   void substitute(Rows& x) const {
     const Eigen::Index width = Width == Eigen::Dynamic ? x.cols() : Width;

@@ -112,7 +112,7 @@ void ModelBuilder::finish() {
         faults.add(d.bodies[i].origin.of(key),
                    std::string(key) + "." + b.name + ": found a list of " +
                        std::to_string(it->second.size()) + ", expected a list of " +
-                       std::to_string(b.modes()) + " amplitudes, one a mode");
+                       std::to_string(b.modes()) + " amplitudes, one per mode");
     };
     amplitudes("initial.amplitudes", d.amplitudes, model.amplitudes);
     amplitudes("initial.amplitude_rates", d.amplitude_rates, model.amplitude_rates);

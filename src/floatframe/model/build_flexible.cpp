@@ -59,15 +59,10 @@ class Key {
   std::string text_;
 };
 
-}  // namespace
-
-std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription& body,
-                                                           Faults& faults) {
-  const auto& f = std::get<FlexibleDescription>(body.kind);
-  const Pose X_TW = body.X_WT.inverse();
+/// The frame in axes of the body; `key` takes all that decides its stiffness and mass.
+BarFrame frame_of(const FlexibleDescription& f, const Pose& X_TW, Key& key) {
   BarFrame frame;
   frame.material = {f.young, f.poisson, f.density};
-  Key key;
   // About a billionth of the size, a power of two.
   double size = 0.0;
   for (const auto& [name, p] : f.points)
@@ -103,6 +98,11 @@ std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription
     key.add(m.node);
     key.add(m.mass);
   }
+  return frame;
+}
+
+/// The same for how the frame is reduced.
+ReductionOptions reduction_of(const FlexibleDescription& f, Key& key) {
   ReductionOptions options;
   options.clamped = selection(f.clamped);
   options.interfaces = selection(f.interfaces);
@@ -124,7 +124,17 @@ std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription
     key.add(x);
   if (f.basis)
     for (Eigen::Index i = 0; i < f.basis->size(); ++i) key.add(f.basis->data()[i]);
+  return options;
+}
 
+}  // namespace
+
+std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription& body,
+                                                           Faults& faults) {
+  const auto& f = std::get<FlexibleDescription>(body.kind);
+  Key key;
+  const BarFrame frame = frame_of(f, body.X_WT.inverse(), key);
+  const ReductionOptions options = reduction_of(f, key);
   std::shared_ptr<const FlexibleBody> plain;
   for (const Known& k : known_)
     if (k.key == key.text()) plain = k.body;

@@ -87,7 +87,7 @@ struct FlexibleDescription {
   double max_frequency = 0.0;        ///< ... or all below this frequency [Hz] if positive
   std::optional<AnalyticShapes> analytic;  ///< replaces interfaces and normal_modes
   std::optional<MatX>
-      basis;  ///< user-given Rayleigh-Ritz basis: 6 rows a node (ux..rz), one column a mode
+      basis;  ///< user-given Rayleigh-Ritz basis: 6 rows per node (ux..rz), one column per mode
   bool orthonormalise = false;
   MassModel mass_model = MassModel::isoparametric;
   bool section_inertia =

@@ -134,7 +134,7 @@ class FlexibleCheck {
           unite(g.index, geometry_.at(*b.from_bar).index);
         else
           join(g.index, b.from);
-        nodes_ += static_cast<std::size_t>(b.elements);
+        nodes_ += b.elements;
       }
       geometry_[b.name] = g;
     }

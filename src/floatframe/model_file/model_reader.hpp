@@ -13,13 +13,13 @@ namespace floatframe {
 
 /// What takes time while a model is read, and what is remembered of it.
 struct ReadOptions {
-  /// Is told in one line what is going on: parts that are reduced or taken from the cache, what
+  /// Receives in one line what is going on: parts that are reduced or taken from the cache, what
   /// their health reports warn of.
   std::function<void(const std::string& line)> say;
 };
 
 /// Throws InputError with every fault found (file:line:column: sentence). `path` may hold subsystem
-/// references, which are read relative to its folder. `used`, if given, is told what was read, as
+/// references, which are read relative to its folder. `used`, if given, receives what was read, as
 /// far as the reading came.
 ModelDescription read_model(const std::string& path,
                             const std::vector<ParameterOverride>& overrides = {},

@@ -16,7 +16,7 @@ namespace floatframe {
 /// $XDG_CACHE_HOME/floatframe or ~/.cache/floatframe. Empty: nothing is kept.
 std::filesystem::path part_cache_folder(const std::filesystem::path& folder);
 
-/// The part from the cache, or reduced now and put there. `say` is told which. Throws InputError.
+/// The part from the cache, or reduced now and put there. `say` receives which. Throws InputError.
 BodyFile cached_part(const PartJob& job, const std::filesystem::path& cache, const std::string& who,
                      const std::function<void(const std::string&)>& say);
 

@@ -110,9 +110,8 @@ class BarReader {
     bool good = true;
     const auto elements = s->require("elements");
     b.elements = elements ? elements->integer(rules::elements).value_or(1) : 1;
-    if (!self_.context.faults->take_of("elements in all bars", static_cast<std::size_t>(b.elements),
-                                       limits::elements, elements ? elements->mark() : s->mark(),
-                                       value.path())) {
+    if (!self_.context.faults->take_of("elements in all bars", b.elements, limits::elements,
+                                       elements ? elements->mark() : s->mark(), value.path())) {
       sound_ = false;
       return;
     }
@@ -163,7 +162,7 @@ class BarReader {
       starts_[name] = start;
       ends_[name] = end;
       unite(start, end);
-      for (int k = 1; k < b.elements; ++k) unite(start, before + static_cast<std::size_t>(k) - 1);
+      for (int k = 1; k < b.elements; ++k) unite(start, before + k - 1);
       if (f().bars.empty()) out_.first_point = g.from;
       links_.emplace_back(start, value);
     } else {
@@ -205,9 +204,7 @@ class BarReader {
     b.from_fraction = at;
     g.from = other.from + (other.to - other.from) * (nearest / other.elements);
     const int k = static_cast<int>(nearest);
-    start = k == 0                ? starts_[*name]
-            : k == other.elements ? ends_[*name]
-                                  : inner_[*name] + static_cast<std::size_t>(k) - 1;
+    start = k == 0 ? starts_[*name] : k == other.elements ? ends_[*name] : inner_[*name] + k - 1;
     return true;
   }
 

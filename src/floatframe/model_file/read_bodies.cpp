@@ -128,6 +128,37 @@ void place_part(const ModelInstance& self, YamlSection& s, FlexibleRead& part,
   for (Vec3& p : part.nodes) p = body.X_WB * p;
 }
 
+/// Which group describes the body where both are given: 0 rigid, 1 flexible.
+std::optional<std::size_t> read_use(YamlSection& s, bool rigid, bool part) {
+  const auto v = s.get("use");
+  if (!v) {
+    if (rigid && part)
+      s.fault("found both rigid and flexible, expected a key 'use' that says which");
+    return std::nullopt;
+  }
+  const auto use = v->word({"rigid", "flexible"});
+  if (use && ((*use == 0 && !rigid) || (*use == 1 && !part)))
+    v->fault("found " + std::string(*use == 0 ? "rigid" : "flexible") +
+             ", but the body has no such group");
+  return use;
+}
+
+/// Puts a rigid body at its position, or at its centre of mass without one.
+void place_rigid(YamlSection& s, const YamlValue& group, RigidRead& rigid,
+                 const std::optional<Vec3>& position, const std::optional<YamlValue>& align,
+                 BodyDescription& body) {
+  const Vec3 centre = rigid.centre.value_or(position.value_or(Vec3::Zero()));
+  if (!rigid.centre && !group.node().entries.empty() && !s.has("position")) {
+    bool given = false;
+    for (const YamlEntry& e : group.node().entries) given = given || e.key == "centre_of_mass";
+    if (!given) s.fault("found neither position nor rigid.centre_of_mass, expected at least one");
+  }
+  if (align) align->fault("found on a rigid body, expected a part with markers");
+  body.X_WB.p = position.value_or(centre);
+  rigid.description.p_BC = body.X_WB.R.transpose() * (centre - body.X_WB.p);
+  body.kind = rigid.description;
+}
+
 void read_body(const ModelInstance& self, const std::string& name, YamlSection& s,
                ReadModel& model) {
   BodyDescription body;
@@ -135,22 +166,13 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
   body.name = self.prefix + name;
   body.origin = s.origin();
   std::optional<Vec3> position;
-  const auto position_value = s.get("position");
-  if (position_value) position = self.read_point(*position_value);
+  if (const auto v = s.get("position")) position = self.read_point(*v);
   if (const auto v = s.get("orientation")) body.X_WB.R = read_orientation(*v);
   const auto rigid_value = s.get("rigid");
   const PartChoice part = read_choice(s);
   const double tolerance = s.number("align_tolerance", positive_number("m"), 1e-6);
   const auto align = s.get("align");
-  std::optional<std::size_t> use;
-  if (const auto v = s.get("use")) {
-    use = v->word({"rigid", "flexible"});
-    if (use && ((*use == 0 && !rigid_value) || (*use == 1 && !part.value)))
-      v->fault("found " + std::string(*use == 0 ? "rigid" : "flexible") +
-               ", but the body has no such group");
-  } else if (rigid_value && part.value) {
-    s.fault("found both rigid and flexible, expected a key 'use' that says which");
-  }
+  const auto use = read_use(s, rigid_value.has_value(), part.value.has_value());
   s.finish({"rigid.mass", "rigid.centre_of_mass", "rigid.inertia", "flexible.material",
             "flexible.bars", "flexible.masses", "flexible.clamped", "flexible.static_modes",
             "flexible.normal_modes", "flexible.mass_model", "flexible.damping"});
@@ -187,18 +209,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
     else
       body.kind = std::move(flexible->description);
   } else if (rigid) {
-    const Vec3 centre = rigid->centre.value_or(position.value_or(Vec3::Zero()));
-    if (!rigid->centre && !position_value && rigid_value && !rigid_value->node().entries.empty() &&
-        !s.has("position")) {
-      bool given = false;
-      for (const YamlEntry& e : rigid_value->node().entries)
-        given = given || e.key == "centre_of_mass";
-      if (!given) s.fault("found neither position nor rigid.centre_of_mass, expected at least one");
-    }
-    if (align) align->fault("found on a rigid body, expected a part with markers");
-    body.X_WB.p = position.value_or(centre);
-    rigid->description.p_BC = body.X_WB.R.transpose() * (centre - body.X_WB.p);
-    body.kind = rigid->description;
+    place_rigid(s, *rigid_value, *rigid, position, align, body);
   } else {
     known.sound = false;
     body.kind = RigidDescription{};

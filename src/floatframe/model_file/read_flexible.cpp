@@ -185,8 +185,8 @@ class FlexibleReader {
     section_.get("clamped")->complain(sentences::body_reference(clamped));
   }
 
-  /// A CSV file without header: 6 rows a node (ux uy uz rx ry rz), one column a mode, in the body
-  /// frame.
+  /// A CSV file without header: 6 rows per node (ux uy uz rx ry rz), one column per mode, in the
+  /// body frame.
   void read_basis(const YamlValue& value) {
     const auto name = value.text("the name of a CSV file");
     if (!name) return;

@@ -41,26 +41,33 @@ std::optional<Vec3> joint_node(const ModelInstance& self, const ReadModel& model
   return w.P * (body.nodes[body.named_nodes.at(*name)] - w.t);
 }
 
-void read_joint(const ModelInstance& self, const std::string& name, YamlSection& s,
-                ReadModel& model) {
-  JointDescription j;
-  j.name = self.prefix + name;
-  j.origin = s.origin();
-  const auto type_value = s.require("type");
-  const std::size_t unknown = std::size(joint_words);
-  const std::size_t type = type_value ? type_value->word(joint_words).value_or(unknown) : unknown;
+/// Which bodies the joint connects; nothing for one that is not known.
+struct JointBodies {
+  std::optional<std::string> parent, child;
+};
+
+JointBodies read_sides(const ModelInstance& self, YamlSection& s, JointDescription& j) {
+  JointBodies out;
   const auto parent_value = s.get("parent");
-  const auto parent =
+  out.parent =
       parent_value ? self.reference(EntityKind::body, *parent_value) : std::string(ground_name);
   const auto child_value = s.require("child");
-  const auto child = child_value ? self.reference(EntityKind::body, *child_value) : std::nullopt;
-  if (child && *child == ground_name)
+  if (child_value) out.child = self.reference(EntityKind::body, *child_value);
+  if (out.child && *out.child == ground_name)
     child_value->fault(sentences::ground_as_child());
-  else if (parent && child && *parent == *child)
+  else if (out.parent && out.child && *out.parent == *out.child)
     child_value->fault(sentences::child_is_parent());
-  j.parent.body = parent.value_or(ground_name);
-  j.child.body = child.value_or(ground_name);
+  j.parent.body = out.parent.value_or(ground_name);
+  j.child.body = out.child.value_or(ground_name);
   j.parent.origin = j.child.origin = j.origin;
+  return out;
+}
+
+/// Where the joint is: `at`, its nodes, or the frame origin of the child of a free joint. `type` is
+/// nothing if it is not known.
+void read_place(const ModelInstance& self, const ReadModel& model, YamlSection& s,
+                const JointBodies& bodies, std::optional<JointType> type, JointDescription& j) {
+  const auto& [parent, child] = bodies;
   const auto of_parent = joint_node(self, model, s, "parent_node", j.parent);
   const auto of_child = joint_node(self, model, s, "child_node", j.child);
   const auto at = s.get("at");
@@ -69,48 +76,58 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
     point = self.read_point(*at);
   } else if (of_parent || of_child) {
     point = of_parent ? of_parent : of_child;
-  } else if (!s.has("parent_node") && !s.has("child_node")) {
-    if (type < unknown && joint_is_free(static_cast<JointType>(type))) {
+  } else if (!s.has("parent_node") && !s.has("child_node") && type) {
+    if (joint_is_free(*type)) {
       if (child) point = frame_origin(self, model, *child);
       if (point && parent) check_node(self, model, *parent, *point, s.value());
-    } else if (type < unknown) {
+    } else {
       s.fault("missing key 'at'");
     }
   }
   j.parent.point = j.child.point = point.value_or(Vec3::Zero());
-  if (const auto place = at ? at : s.get(of_parent ? "parent_node" : "child_node");
-      point && place) {
-    bool good = true;
-    if (parent && !j.parent.node) good = check_node(self, model, *parent, *point, *place);
-    if (good && child && !j.child.node) check_node(self, model, *child, *point, *place);
-  }
-  if (type >= unknown) {
+  const auto place = at ? at : s.get(of_parent ? "parent_node" : "child_node");
+  if (!point || !place) return;
+  bool good = true;
+  if (parent && !j.parent.node) good = check_node(self, model, *parent, *point, *place);
+  if (good && child && !j.child.node) check_node(self, model, *child, *point, *place);
+}
+
+void read_axes(YamlSection& s, JointDescription& j) {
+  const JointAxes axes = joint_kind(j.type).axes;
+  if (axes == JointAxes::none) return;
+  const auto axis = s.require("axis");
+  const auto a = axis ? read_direction(*axis) : std::nullopt;
+  if (a) j.axis = a->stableNormalized();
+  if (axes != JointAxes::two) return;
+  const auto second = s.require("axis_2");
+  const auto b = second ? read_direction(*second) : std::nullopt;
+  if (!a || !b) return;
+  j.axis_2 = b->stableNormalized();
+  second->complain(sentences::second_axis(j.axis, j.axis_2));
+}
+
+void read_joint(const ModelInstance& self, const std::string& name, YamlSection& s,
+                ReadModel& model) {
+  JointDescription j;
+  j.name = self.prefix + name;
+  j.origin = s.origin();
+  const auto type_value = s.require("type");
+  const auto word = type_value ? type_value->word(joint_words) : std::nullopt;
+  const auto type = word ? std::optional(static_cast<JointType>(*word)) : std::nullopt;
+  const JointBodies bodies = read_sides(self, s, j);
+  read_place(self, model, s, bodies, type, j);
+  if (!type) {
     for (const char* key : {"axis", "axis_2", "position", "velocity", "keep", "motion", "cut"})
       s.get(key);
     s.finish();
     return;
   }
-  j.type = static_cast<JointType>(type);
-  const JointAxes axes = joint_kind(j.type).axes;
-  if (axes != JointAxes::none) {
-    const auto axis = s.require("axis");
-    if (const auto a = axis ? read_direction(*axis) : std::nullopt) {
-      j.axis = a->stableNormalized();
-      if (axes == JointAxes::two) {
-        const auto second = s.require("axis_2");
-        if (const auto b = second ? read_direction(*second) : std::nullopt) {
-          j.axis_2 = b->stableNormalized();
-          second->complain(sentences::second_axis(j.axis, j.axis_2));
-        }
-      }
-    } else if (axes == JointAxes::two) {
-      if (const auto second = s.require("axis_2")) read_direction(*second);
-    }
-  }
+  j.type = *type;
+  read_axes(s, j);
   const auto unused = [&](const char* key) {
-    if (const auto v = s.get(key))
-      v->fault(sentences::not_used_by_joint(joint_words[type]));
+    if (const auto v = s.get(key)) v->fault(sentences::not_used_by_joint(joint_words[*word]));
   };
+  const JointAxes axes = joint_kind(j.type).axes;
   if (axes == JointAxes::none) unused("axis");
   if (axes != JointAxes::two) unused("axis_2");
   if (!joint_has_one_coordinate(j.type)) unused("motion");

@@ -214,7 +214,7 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
     }
     const int n = it->second.modes;
     const std::size_t most = n < 0 ? 10000 : n;
-    const std::string what = "a list of " + std::to_string(n) + " amplitudes, one a mode";
+    const std::string what = "a list of " + std::to_string(n) + " amplitudes, one per mode";
     const auto a = v.numbers(n < 0 ? 1 : most, most, any_number(""),
                              n < 0 ? "a list of amplitudes" : what.c_str());
     if (!a) continue;

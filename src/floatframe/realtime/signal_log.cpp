@@ -97,7 +97,7 @@ void SignalLog::drain() {
     for (std::size_t done = 0; done < text_.size() && error_ == 0;) {
       const ssize_t n = write(descriptor_, text_.data() + done, text_.size() - done);
       if (n >= 0)
-        done += static_cast<std::size_t>(n);
+        done += n;
       else if (errno != EINTR)
         error_ = errno;
     }

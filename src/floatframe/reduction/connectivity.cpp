@@ -15,16 +15,16 @@ namespace {
 /// Sets of tied nodes.
 class Pieces {
  public:
-  explicit Pieces(int nodes) : parent_(static_cast<std::size_t>(nodes)), used_(parent_.size(), 0) {
+  explicit Pieces(int nodes) : parent_(nodes), used_(parent_.size(), 0) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
   void use(int node) { used_[node] = 1; }
   bool used(int node) const { return used_[node] != 0; }
   int root(int node) {
-    auto k = static_cast<std::size_t>(node);
+    std::size_t k = node;
     while (parent_[k] != static_cast<int>(k)) {
       parent_[k] = parent_[parent_[k]];
-      k = static_cast<std::size_t>(parent_[k]);
+      k = parent_[k];
     }
     return static_cast<int>(k);
   }

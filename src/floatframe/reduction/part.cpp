@@ -199,6 +199,64 @@ void free_frequencies(const VecX& reduced, const Eigenpairs* full, HealthReport&
         worst));
 }
 
+/// What the model weighs, and whether its stiffness lets it move freely.
+void check_model(const FeModel& model, const FeSystem& system, const MatX& R,
+                 HealthReport& health) {
+  health.dofs = system.size();
+  health.from_elements = mass_properties(system.M, R);
+  if (!(health.from_elements.mass > 0.0))
+    throw InputError("the part has no mass: every density is zero");
+  health.rigid_residual = check_rigid_motions(model, system);
+  health.volume = volume(model);
+  health.volume_times_density = volume_times_density(model);
+}
+
+/// The body of the modes `modes` of `basis` in its frame; `X` its shapes at all degrees of freedom.
+FlexibleBody body_of(const FeModel& model, const FeSystem& system, const PointModel& points,
+                     const ModeBasis& basis, const InertiaInvariants& raw,
+                     const ElasticModes& modes, const MatX& X,
+                     const std::vector<InterfacePlace>& interfaces,
+                     const std::vector<MarkerPlace>& markers, const PartOptions& options) {
+  FlexibleBody body;
+  body.invariants = combined(raw, modes.C);
+  body.K = modes.lambda.asDiagonal();
+  body.D = modal_damping(body.K, modal_mass(body.invariants), options.damping_ratio);
+  body.fixed_interface_frequencies = basis.frequencies;
+  for (Eigen::Index a = 0; a < X.cols(); ++a)
+    body.mode_names.push_back(fmt::format("elastic {}", a + 1));
+  for (const InterfacePlace& place : interfaces)
+    body.nodes.push_back(interface_node(model, system, place, X));
+  for (const MarkerPlace& marker : markers)
+    body.nodes.push_back({marker.name, marker.p, marker.translation * X, marker.rotation * X});
+  if (options.keep_projection) {
+    auto data = std::make_shared<ProjectionData>();
+    data->p = points.p;
+    data->X = points.T * X;
+    data->M_s = points.M_s;
+    body.projection = std::move(data);
+  }
+  return body;
+}
+
+/// Modes of the free part, of the model itself beside those of the body if asked for. `structure`:
+/// if its factors are there already.
+void check_free_modes(const FeModel& model, const FeSystem& system, const MatX& R,
+                      const VecX& reduced, Eigen::Index fixed_modes, const PartOptions& options,
+                      std::optional<FreeStructure>& structure, HealthReport& health) {
+  if (!options.check_free_modes) return free_frequencies(reduced, nullptr, health);
+  if (!structure) {
+    const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system);
+    structure.emplace(system.K, system.M, R, 0.3 * first, options.solver,
+                      [&](int row) { return row_label(model, system, row); });
+  }
+  const int count = static_cast<int>(std::min<Eigen::Index>(
+      reduced.size(), std::clamp<Eigen::Index>(fixed_modes, 10, free_modes)));
+  const Eigenpairs full = structure->modes(6 + count);
+  if (full.shapes.cols() > 6)
+    check_stiffness_of(model, system, full.shapes.rightCols(full.shapes.cols() - 6));
+  free_frequencies(reduced, &full, health);
+}
+
 }  // namespace
 
 ReducedPart reduce_part(FeModel model, const PartOptions& options) {
@@ -219,14 +277,8 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   const PointModel points = point_model(model, system, options.integration);
   find_rows(model, system, interfaces);
   find_motions(model, system, markers);
-  health.dofs = system.size();
   const MatX R = rigid_motions(model, system, Vec3::Zero());
-  health.from_elements = mass_properties(system.M, R);
-  if (!(health.from_elements.mass > 0.0))
-    throw InputError("the part has no mass: every density is zero");
-  health.rigid_residual = check_rigid_motions(model, system);
-  health.volume = volume(model);
-  health.volume_times_density = volume_times_density(model);
+  check_model(model, system, R, health);
   stages.done("assembly");
 
   std::optional<FixedInterface> fixed;
@@ -256,7 +308,6 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   const ElasticModes free = elastic_modes(basis.K, raw, momentum_of_modes(raw));
   if (free.lambda.size() > 0 && !(free.stiffness > least_stiffness))
     throw InputError(mechanism_text(model, system, basis.X * free.C.col(0)));
-  const VecX& reduced = free.lambda;
   ElasticModes modes =
       elastic_modes(basis.K, raw, reference_conditions(model, basis, raw, interfaces, options));
   if (modes.mass < least_modal_mass) {
@@ -266,52 +317,22 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   }
   fix_signs(basis.X, modes.C);
   health.modal_mass_condition = modes.condition;
-  FlexibleBody& body = part.body;
   const MatX X = basis.X * modes.C;
-  body.invariants = combined(raw, modes.C);
-  body.K = modes.lambda.asDiagonal();
-  body.D = modal_damping(body.K, modal_mass(body.invariants), options.damping_ratio);
-  body.fixed_interface_frequencies = basis.frequencies;
-  for (Eigen::Index a = 0; a < X.cols(); ++a)
-    body.mode_names.push_back(fmt::format("elastic {}", a + 1));
-  for (const InterfacePlace& place : interfaces)
-    body.nodes.push_back(interface_node(model, system, place, X));
-  for (const MarkerPlace& marker : markers)
-    body.nodes.push_back({marker.name, marker.p, marker.translation * X, marker.rotation * X});
-  if (options.keep_projection) {
-    auto data = std::make_shared<ProjectionData>();
-    data->p = points.p;
-    data->X = points.T * X;
-    data->M_s = points.M_s;
-    body.projection = std::move(data);
-  }
-  health.modes = body.modes();
-  health.from_invariants = mass_properties(body.invariants);
+  part.body = body_of(model, system, points, basis, raw, modes, X, interfaces, markers, options);
+  health.modes = part.body.modes();
+  health.from_invariants = mass_properties(part.body.invariants);
   health.rotary_inertia = points.p.cols() > model.nodes();
-  check_body(body, *health.rotary_inertia);
+  check_body(part.body, *health.rotary_inertia);
   stages.done("body");
 
   add_surface(model, system, X, options, part);
   stages.done("surface");
 
   for (const InterfacePlace& place : interfaces) health.interfaces.push_back(place.health);
-  check_statics(interfaces, body, statics.stiffness, statics.flexibility, health);
-  if (options.check_free_modes) {
-    if (!structure) {
-      const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system);
-      structure.emplace(system.K, system.M, R, 0.3 * first, options.solver,
-                        [&](int row) { return row_label(model, system, row); });
-    }
-    const int count = static_cast<int>(std::min<Eigen::Index>(
-        reduced.size(), std::clamp<Eigen::Index>(basis.frequencies.size(), 10, free_modes)));
-    const Eigenpairs full = structure->modes(6 + count);
-    if (full.shapes.cols() > 6)
-      check_stiffness_of(model, system, full.shapes.rightCols(full.shapes.cols() - 6));
-    free_frequencies(reduced, &full, health);
-    stages.done("free modes of the full model");
-  } else {
-    free_frequencies(reduced, nullptr, health);
-  }
+  check_statics(interfaces, part.body, statics.stiffness, statics.flexibility, health);
+  check_free_modes(model, system, R, free.lambda, basis.frequencies.size(), options, structure,
+                   health);
+  if (options.check_free_modes) stages.done("free modes of the full model");
   add_warnings(model, points, health);
   return part;
 }

@@ -88,10 +88,10 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
   if (options.mass_model == MassModel::isoparametric) {
     for (const PointMass& p : model.masses) {
       if (p.J.cwiseAbs().maxCoeff() > 0.0) {
-        throw InputError(
-            "the point mass on " + model.node_label(p.node) +
-            " has rotary inertia, which the isoparametric mass model with three rows a node leaves "
-            "out; use six_dof or hermite");
+        throw InputError("the point mass on " + model.node_label(p.node) +
+                         " has rotary inertia, which the isoparametric mass model with three rows "
+                         "per node leaves "
+                         "out; use six_dof or hermite");
       }
     }
   }

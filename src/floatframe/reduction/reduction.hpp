@@ -45,7 +45,7 @@ struct ReductionOptions {
   /// this number of clamped-pinned shapes per plane. No coupling in the stiffness.
   std::optional<int> analytic_dynamic_per_plane;
   std::optional<MatX>
-      basis;  ///< any Rayleigh-Ritz basis: dofs_per_node rows a node, one column a mode
+      basis;  ///< any Rayleigh-Ritz basis: dofs_per_node rows per node, one column per mode
   bool orthonormalise = false;  ///< modes of the reduced (K, M_ff): M_ff = I, K diagonal
   MassModel mass_model = MassModel::isoparametric;
   /// Mass of the eigenproblem; as mass_model if absent (six_dof and hermite: the consistent mass).

@@ -60,7 +60,7 @@ void headline(fmt::memory_buffer& page, const RunSummary& s) {
   item(s.steps > 0
            ? fmt::format("{:.2f}", static_cast<double>(s.iterations) / static_cast<double>(s.steps))
            : "&ndash;",
-       "Newton iterations a step");
+       "Newton iterations per step");
   fmt::format_to(out, "</div>\n");
 }
 

@@ -82,7 +82,7 @@ class EnergyBalance {
     const double half = 0.5 * (t - time_);
     for (std::size_t k = 0; k < EnergyFlows::size(); ++k) {
       double work = half * (last_.power.value[k] + flows.power.value[k]);
-      if (k == static_cast<std::size_t>(EnergyFlow::tyres)) work += flows.tyres - last_.tyres;
+      if (k == index_of(EnergyFlow::tyres)) work += flows.tyres - last_.tyres;
       work_.value[k] += work;
       moved_.value[k] += std::abs(work);
     }

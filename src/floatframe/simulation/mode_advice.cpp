@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "floatframe/body/with_modes.hpp"
 #include "floatframe/model/output_kind.hpp"
@@ -89,6 +90,154 @@ Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep) 
   return out;
 }
 
+namespace {
+
+/// Largest of the two shares.
+double share(const ModeAdvice& m) { return std::max(m.static_share, m.dynamic_share); }
+
+/// Amplitudes of a run with the outputs of `watched`, body by body.
+void judge_bodies(const Model& model, const ResultTable& table, double step,
+                  ModeAdviceReport& report) {
+  const auto rows = static_cast<Eigen::Index>(table.rows());
+  VecX times(rows);
+  for (Eigen::Index r = 0; r < rows; ++r) times[r] = table.at(r, 0);
+  std::size_t column = 1 + model.outputs.size();
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const int modes = model.bodies[i].modes();
+    if (modes == 0) continue;
+    MatX y(modes, rows);
+    for (int k = 0; k < modes; ++k, ++column)
+      for (Eigen::Index r = 0; r < rows; ++r) y(k, r) = table.at(r, column);
+    report.bodies.push_back(body_advice(model, static_cast<int>(i), y, times, step));
+    report.modes += modes;
+  }
+}
+
+/// Those that may go, those with the smallest shares first.
+std::vector<ModeAdvice*> candidates_of(ModeAdviceReport& report, double drop_share) {
+  std::vector<ModeAdvice*> candidates;
+  for (BodyAdvice& body : report.bodies)
+    for (ModeAdvice& m : body.modes)
+      if (share(m) < drop_share) candidates.push_back(&m);
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto* a, const auto* b) { return share(*a) < share(*b); });
+  return candidates;
+}
+
+/// How many candidates may go together. Modes of equal shares go together: to drop one on the left
+/// of a vehicle and keep that on the right would make it lean.
+std::vector<std::size_t> counts_of(const std::vector<ModeAdvice*>& candidates) {
+  std::vector<std::size_t> counts{0};
+  for (std::size_t k = 1; k <= candidates.size(); ++k)
+    if (k == candidates.size() || share(*candidates[k]) > 1.01 * share(*candidates[k - 1]))
+      counts.push_back(k);
+  return counts;
+}
+
+Model without(const Model& model, const ModeAdviceReport& report,
+              std::span<ModeAdvice* const> dropped) {
+  const std::set<const ModeAdvice*> gone(dropped.begin(), dropped.end());
+  std::vector<std::vector<int>> keep(model.bodies.size());
+  for (const BodyAdvice& body : report.bodies)
+    for (const ModeAdvice& m : body.modes)
+      if (!gone.contains(&m)) keep[body.body].push_back(m.mode);
+  return with_modes(model, keep);
+}
+
+/// A model with fewer modes whose outputs do not show it.
+struct Reduced {
+  Model model;
+  std::size_t dropped = 0;  ///< of the candidates, from the first
+  std::vector<RangeWarning> warnings;
+};
+
+/// The largest number of candidates whose loss the outputs do not show, by halving.
+Reduced drop_most(const Model& model, const SimulationDescription& simulation,
+                  const ResultTable& table, const std::vector<ModeAdvice*>& candidates,
+                  double tolerance, ModeAdviceReport& report) {
+  std::vector<OutputDifference> scale;
+  if (!candidates.empty()) {
+    SimulationDescription other = simulation;
+    other.tolerance = 10.0 * simulation.tolerance;
+    const ResultTable other_table = run(model, other).table;
+    scale = output_scales(table, other_table, model.outputs.size());
+  }
+  const std::vector<std::size_t> counts = counts_of(candidates);
+  std::size_t good = 0, bad = counts.size();
+  Reduced out{model, 0, {}};
+  while (bad - good > 1) {
+    // All of them first: most often that is the answer.
+    const std::size_t at = bad == counts.size() ? bad - 1 : (good + bad) / 2;
+    const Model trial = without(model, report, std::span(candidates).first(counts[at]));
+    ++report.trials;
+    bool passed = false;
+    std::vector<OutputDifference> differences;
+    std::vector<RangeWarning> warnings;
+    try {
+      const RunResult result = run(trial, simulation);
+      differences = output_differences(scale, table, result.table);
+      passed = result.summary.status == "completed";
+      warnings = result.summary.warnings;
+      for (const OutputDifference& d : differences) passed = passed && d.relative <= tolerance;
+    } catch (const RunError&) {  // a model that cannot be assembled or moved without these modes
+    }
+    if (passed) {
+      good = at;
+      report.differences = std::move(differences);
+      out.model = trial;
+      out.warnings = std::move(warnings);
+    } else {
+      bad = at;
+      report.refused_by = differences.empty() ? "" : differences.front().name;
+      report.refused_difference = differences.empty() ? 0.0 : differences.front().relative;
+    }
+  }
+  out.dropped = counts[good];
+  return out;
+}
+
+/// What to do with each mode; the number kept of each body.
+std::vector<double> decide(const std::vector<ModeAdvice*>& candidates, std::size_t dropped,
+                           double static_ratio, ModeAdviceReport& report) {
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    candidates[k]->action = k < dropped ? ModeAction::drop : ModeAction::keep;
+    candidates[k]->retained = k >= dropped;
+  }
+  std::vector<double> kept_modes;
+  for (BodyAdvice& body : report.bodies) {
+    double kept = 0.0;
+    for (ModeAdvice& m : body.modes) {
+      if (m.action == ModeAction::drop) continue;
+      kept += 1.0;
+      const bool not_resolved = m.step_phase > std::numbers::pi;
+      const bool follows = m.dynamic_share > 0.0 && m.kinetic_ratio < static_ratio;
+      if (not_resolved || follows) {
+        m.action = ModeAction::quasi_static;
+        ++report.quasi_static;
+      }
+    }
+    kept_modes.push_back(kept);
+  }
+  return kept_modes;
+}
+
+/// Cost with the tolerance given, alternating so that a change of the machine's load meets both.
+void measure(const Model& model, const Model& reduced, const SimulationDescription& given,
+             int repeat, ModeAdviceReport& report) {
+  RunOptions quiet;
+  quiet.record = false;
+  for (int k = 0; k < std::max(1, repeat); ++k) {
+    const RunSummary a = run(model, given, quiet).summary;
+    if (k == 0 || a.cpu < report.full.cpu) report.full = a;
+    if (report.dropped == 0) continue;
+    const RunSummary b = run(reduced, given, quiet).summary;
+    if (k == 0 || b.cpu < report.reduced.cpu) report.reduced = b;
+  }
+  if (report.dropped == 0) report.reduced = report.full;
+}
+
+}  // namespace
+
 ModeAdviceReport advise(const Model& model, const SimulationDescription& given,
                         const AdviceOptions& options) {
   // What a mode does to the outputs must not drown in what the Newton tolerance does to them (a
@@ -106,129 +255,17 @@ ModeAdviceReport advise(const Model& model, const SimulationDescription& given,
     throw RunError("the model does not run to its end: " + full.summary.message);
   report.tolerance = simulation.tolerance;
 
-  // Amplitudes of the run, body by body.
-  const ResultTable& table = full.table;
-  const auto rows = static_cast<Eigen::Index>(table.rows());
-  VecX times(rows);
-  for (Eigen::Index r = 0; r < rows; ++r) times[r] = table.at(static_cast<std::size_t>(r), 0);
-  std::size_t column = 1 + model.outputs.size();
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    const int modes = model.bodies[i].modes();
-    if (modes == 0) continue;
-    MatX y(modes, rows);
-    for (int k = 0; k < modes; ++k, ++column)
-      for (Eigen::Index r = 0; r < rows; ++r)
-        y(k, r) = table.at(static_cast<std::size_t>(r), column);
-    report.bodies.push_back(body_advice(model, static_cast<int>(i), y, times, simulation.step));
-    report.modes += modes;
-  }
-
-  // Candidates, those with the smallest shares first.
-  std::vector<ModeAdvice*> candidates;
-  for (BodyAdvice& body : report.bodies)
-    for (ModeAdvice& m : body.modes)
-      if (m.static_share < options.drop_share && m.dynamic_share < options.drop_share)
-        candidates.push_back(&m);
-  std::stable_sort(candidates.begin(), candidates.end(), [](const auto* a, const auto* b) {
-    return std::max(a->static_share, a->dynamic_share) <
-           std::max(b->static_share, b->dynamic_share);
-  });
+  judge_bodies(model, full.table, simulation.step, report);
+  const std::vector<ModeAdvice*> candidates = candidates_of(report, options.drop_share);
   report.candidates = static_cast<int>(candidates.size());
-
-  std::vector<OutputDifference> scale;
-  if (!candidates.empty()) {
-    SimulationDescription other = simulation;
-    other.tolerance = 10.0 * simulation.tolerance;
-    const ResultTable other_table = run(model, other).table;
-    scale = output_scales(table, other_table, model.outputs.size());
-  }
-
-  // The largest number of candidates whose loss the outputs do not show, by halving.
-  const auto without = [&](std::size_t count) {
-    const std::set<const ModeAdvice*> gone(candidates.begin(),
-                                           candidates.begin() + static_cast<std::ptrdiff_t>(count));
-    std::vector<std::vector<int>> keep(model.bodies.size());
-    for (const BodyAdvice& body : report.bodies)
-      for (const ModeAdvice& m : body.modes)
-        if (!gone.contains(&m)) keep[body.body].push_back(m.mode);
-    return with_modes(model, keep);
-  };
-  // Modes of equal shares go together: to drop one on the left of a vehicle and keep that on the
-  // right would make it lean.
-  std::vector<std::size_t> steps{0};
-  for (std::size_t k = 1; k <= candidates.size(); ++k) {
-    const auto share = [&](std::size_t i) {
-      return std::max(candidates[i]->static_share, candidates[i]->dynamic_share);
-    };
-    if (k == candidates.size() || share(k) > 1.01 * share(k - 1)) steps.push_back(k);
-  }
-  std::size_t good = 0, bad = steps.size();
-  Model reduced = model;
-  std::vector<RangeWarning> reduced_warnings;
-  while (bad - good > 1) {
-    // All of them first: most often that is the answer.
-    const std::size_t at = bad == steps.size() ? bad - 1 : (good + bad) / 2;
-    const std::size_t count = steps[at];
-    const Model trial = without(count);
-    ++report.trials;
-    bool passed = false;
-    std::vector<OutputDifference> differences;
-    std::vector<RangeWarning> warnings;
-    try {
-      const RunResult result = run(trial, simulation);
-      differences = output_differences(scale, table, result.table);
-      passed = result.summary.status == "completed";
-      warnings = result.summary.warnings;
-      for (const OutputDifference& d : differences)
-        passed = passed && d.relative <= options.tolerance;
-    } catch (const RunError&) {  // a model that cannot be assembled or moved without these modes
-    }
-    if (passed) {
-      good = at;
-      report.differences = std::move(differences);
-      reduced = trial;
-      reduced_warnings = std::move(warnings);
-    } else {
-      bad = at;
-      report.refused_by = differences.empty() ? "" : differences.front().name;
-      report.refused_difference = differences.empty() ? 0.0 : differences.front().relative;
-    }
-  }
-  const std::size_t dropped = steps[good];
-  report.dropped = static_cast<int>(dropped);
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    candidates[k]->action = k < dropped ? ModeAction::drop : ModeAction::keep;
-    candidates[k]->retained = k >= dropped;
-  }
-  std::vector<double> kept_modes;
-  for (BodyAdvice& body : report.bodies) {
-    double kept = 0.0;
-    for (ModeAdvice& m : body.modes) {
-      if (m.action == ModeAction::drop) continue;
-      kept += 1.0;
-      const bool not_resolved = m.step_phase > std::numbers::pi;
-      const bool follows = m.dynamic_share > 0.0 && m.kinetic_ratio < options.static_ratio;
-      if (not_resolved || follows) {
-        m.action = ModeAction::quasi_static;
-        ++report.quasi_static;
-      }
-    }
-    kept_modes.push_back(kept);
-  }
-
-  // Cost with the tolerance given, alternating so that a change of the machine's load meets both.
-  RunOptions quiet;
-  quiet.record = false;
-  for (int k = 0; k < std::max(1, options.repeat); ++k) {
-    const RunSummary a = run(model, given, quiet).summary;
-    if (k == 0 || a.cpu < report.full.cpu) report.full = a;
-    if (report.dropped == 0) continue;
-    const RunSummary b = run(reduced, given, quiet).summary;
-    if (k == 0 || b.cpu < report.reduced.cpu) report.reduced = b;
-  }
-  if (report.dropped == 0) report.reduced = report.full;
+  const Reduced reduced =
+      drop_most(model, simulation, full.table, candidates, options.tolerance, report);
+  report.dropped = static_cast<int>(reduced.dropped);
+  const std::vector<double> kept_modes =
+      decide(candidates, reduced.dropped, options.static_ratio, report);
+  measure(model, reduced.model, given, options.repeat, report);
   report.full.warnings = full.summary.warnings;
-  report.reduced.warnings = reduced_warnings;
+  report.reduced.warnings = reduced.warnings;
   for (std::size_t k = 0; k < report.bodies.size(); ++k) {
     report.flops_full += flops(static_cast<double>(report.bodies[k].modes.size()), report.full);
     report.flops_reduced += flops(kept_modes[k], report.full);

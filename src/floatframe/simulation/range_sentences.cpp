@@ -1,4 +1,4 @@
-// What the range watch has to say: one sentence a kind of limit, about the body that passed it
+// What the range watch has to say: one sentence per kind of limit, about the body that passed it
 // furthest.
 #include <fmt/format.h>
 

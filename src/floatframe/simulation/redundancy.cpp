@@ -78,8 +78,7 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
   rows_.resize(J_.rows());
   for (std::size_t k = 0; k < f_.parts().size(); ++k) {
     const ConstraintPart& p = f_.parts()[k];
-    evaluate_constraint(p, f_.marker(p.a), f_.marker(p.b), 0.0,
-                        rows_.data() + static_cast<std::size_t>(row_of(k)));
+    evaluate_constraint(p, f_.marker(p.a), f_.marker(p.b), 0.0, rows_.data() + row_of(k));
   }
 }
 

@@ -65,7 +65,7 @@ struct RunSummary {
   double max_velocity_violation = 0;  ///< [m/s] after the projections
   EnergySummary energy;
   std::string status = "completed";  ///< "completed" or "failed"
-  std::string message;               ///< why it failed: time, culprit
+  std::string message;               ///< why it failed: when, and what to look at
   StartReport start;
   /// Where the run left the range of the method: one sentence each (docs/range.md).
   std::vector<RangeWarning> warnings;

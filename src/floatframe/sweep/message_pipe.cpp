@@ -23,7 +23,7 @@ bool send_all(int socket, const char* data, std::size_t size) {
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return false;
     data += n;
-    size -= static_cast<std::size_t>(n);
+    size -= n;
   }
   return true;
 }
@@ -64,7 +64,7 @@ MessageReader::State MessageReader::read(int socket, PipeMessage& message) {
     if (bytes_.size() >= head_size) {
       std::memcpy(&size, bytes_.data() + 1, sizeof size);
       if (size > most_bytes) return State::closed;
-      missing = head_size + static_cast<std::size_t>(size);
+      missing = head_size + size;
     }
     missing -= std::min(missing, bytes_.size());
     if (missing == 0) {
@@ -76,7 +76,7 @@ MessageReader::State MessageReader::read(int socket, PipeMessage& message) {
     char piece[65536];
     const ssize_t n = ::recv(socket, piece, std::min(missing, sizeof piece), MSG_DONTWAIT);
     if (n > 0) {
-      bytes_.append(piece, static_cast<std::size_t>(n));
+      bytes_.append(piece, n);
     } else if (n == 0) {
       return State::closed;
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {

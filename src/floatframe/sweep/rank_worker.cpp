@@ -53,7 +53,7 @@ class RankWorker {
     const auto line = line_of(options_, answer);
     if (!line) return;
     ranks_.send(0, "done " + *line);
-    // Short runs: a second run a worker lies ready, so that none waits for the answer.
+    // Short runs: a second run per worker lies ready, so that none waits for the answer.
     const bool short_run = !ahead_ && answer.seconds < 0.1;
     want(short_run ? 1 + workers_.size() : 1);
     ahead_ = ahead_ || short_run;

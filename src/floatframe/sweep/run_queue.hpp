@@ -10,7 +10,7 @@ namespace floatframe {
 
 class RunQueue {
  public:
-  explicit RunQueue(int workers) : own_(static_cast<std::size_t>(workers)) {}
+  explicit RunQueue(int workers) : own_(workers) {}
 
   /// A run that `worker` has checked.
   void push(std::size_t run, int worker) { own_[worker].push_back(run); }

@@ -223,7 +223,7 @@ void SweepJournal::write(const std::string& line) {
     const ssize_t n = ::write(file_, text.data() + done, text.size() - done);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) throw cannot(path_, errno);
-    done += static_cast<std::size_t>(n);
+    done += n;
   }
   unflushed_ = true;
 }

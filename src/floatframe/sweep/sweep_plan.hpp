@@ -16,7 +16,7 @@ struct SweepSetting {
 struct SweepPlan {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> runs;  ///< one value a name
-  /// Where the values come from, for messages: "--vary" or "runs.csv:3" (one entry a run).
+  /// Where the values come from, for messages: "--vary" or "runs.csv:3" (one entry per run).
   std::vector<std::string> origins;
 };
 
@@ -29,7 +29,7 @@ inline constexpr std::size_t most_sweep_runs = 1000000;
 /// Throws InputError.
 SweepPlan grid_plan(const std::vector<std::string>& variations);
 
-/// One run a row of a CSV file whose first line holds the names. Fields in double quotes may hold
+/// One run per row of a CSV file whose first line holds the names. Fields in double quotes may hold
 /// commas; empty lines are left out. Throws InputError with file, line and column.
 SweepPlan table_plan(const std::string& file);
 

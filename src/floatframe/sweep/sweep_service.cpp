@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -59,20 +60,20 @@ class Fields {
 
 std::string encode(const ServiceRequest& request) {
   std::string text;
-  put(text, static_cast<std::size_t>(request.what));
+  put(text, index_of(request.what));
   put(text, request.run);
   return text;
 }
 
 std::string encode(const ServiceAnswer& answer) {
   std::string text;
-  put(text, static_cast<std::size_t>(answer.kind));
+  put(text, index_of(answer.kind));
   put(text, answer.text);
   put(text, answer.faults.size());
   for (const InputFault& fault : answer.faults) {
     put(text, fault.mark.file);
-    put(text, static_cast<std::size_t>(fault.mark.line));
-    put(text, static_cast<std::size_t>(fault.mark.column));
+    put(text, fault.mark.line);
+    put(text, fault.mark.column);
     put(text, fault.message);
     put(text, fault.count);
   }
@@ -88,7 +89,7 @@ bool decode(const std::string& text, ServiceAnswer& answer) {
   Fields fields(text);
   answer = {};
   const std::size_t kind = fields.number();
-  if (kind > static_cast<std::size_t>(ServiceAnswer::Kind::error)) return false;
+  if (kind > index_of(ServiceAnswer::Kind::error)) return false;
   answer.kind = static_cast<ServiceAnswer::Kind>(kind);
   answer.text = fields.text();
   for (std::size_t n = fields.count(); n > 0; --n) {

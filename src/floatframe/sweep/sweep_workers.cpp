@@ -28,8 +28,7 @@ ProcessPool::Work work_of(const SweepOptions& options) {
 }  // namespace
 
 SweepWorkers::SweepWorkers(const SweepOptions& options)
-    : pool_(worker_count(options), options.limits, work_of(options)),
-      run_of_(static_cast<std::size_t>(pool_.size())) {}
+    : pool_(worker_count(options), options.limits, work_of(options)), run_of_(pool_.size()) {}
 
 void SweepWorkers::give(int worker, const ServiceRequest& request) {
   run_of_[worker] = request.run;

@@ -281,7 +281,7 @@ bool check_text(const std::string& file, const std::string& text, ReadFaults& fa
 bool is_closed(const std::string& text, const YAML::Mark& begin) {
   std::size_t at = 0;
   for (int line = 0; line < begin.line; ++line) at = text.find('\n', at) + 1;
-  at += static_cast<std::size_t>(begin.column);
+  at += begin.column;
   if (at >= text.size() || (text[at] != '"' && text[at] != '\'')) return true;  // a block
   const char quote = text[at];
   for (++at; at < text.size(); ++at) {

@@ -1,4 +1,4 @@
-// Flat thin shells with six dofs a node: tri3 is one triangle (shell_triangle.hpp), quad4 the mean
+// Flat thin shells with six dofs per node: tri3 is one triangle (shell_triangle.hpp), quad4 the mean
 // of its two divisions into triangles, which also serves quadrilaterals that are not flat.
 #include <cmath>
 

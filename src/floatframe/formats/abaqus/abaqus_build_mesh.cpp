@@ -113,6 +113,65 @@ void build_abaqus_nodes(AbaqusBuild& build) {
   }
 }
 
+namespace {
+
+/// Elements of one kind, for a note.
+struct ElementCounts {
+  std::map<const AbaqusType*, Count> skins, read_as;
+  Count without_section, structural;
+};
+
+void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
+  if (counts.structural.number == 0) {
+    build.source.fault({0, 0}, "the deck has no element with stiffness");
+  }
+  for (const auto& [type, count] : counts.skins) {
+    build.note(count.at, fmt::format("{} elements of type {} have no section: skins of the mesh, "
+                                     "passed over; their element sets are node sets",
+                                     count.number, type->name));
+  }
+  for (const auto& [type, count] : counts.read_as) {
+    build.note(count.at, fmt::format("{} elements of type {} are read {}", count.number, type->name,
+                                     type->remark));
+  }
+}
+
+void no_section(AbaqusBuild& build, const AbaqusElement& element) {
+  const Family family = element.type->family;
+  build.source.fault(
+      element.at,
+      fmt::format("{} has no section: no *{} SECTION names a set with it", abaqus_label(element),
+                  family == Family::solid   ? "SOLID"
+                  : family == Family::shell ? "SHELL"
+                                            : "BEAM"));
+}
+
+/// Nothing if one of its nodes is not there.
+std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& element,
+                                  const AbaqusProperties& p) {
+  const AbaqusContent& c = build.content;
+  Element result;
+  result.type = element.type->type;
+  result.material = p.material;
+  result.section = p.section;
+  result.reference = p.reference;
+  result.id = element.id;
+  result.source = element.at;
+  for (int k = 0; k < element.type->nodes; ++k) {
+    const int id = c.element_nodes[element.first + k];
+    const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
+    if (it == c.node_of_label.end()) {
+      build.source.fault(element.at,
+                         fmt::format("{}: node {} is not there", abaqus_label(element), id));
+      return std::nullopt;
+    }
+    result.nodes[k] = it->second;
+  }
+  return result;
+}
+
+}  // namespace
+
 void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
@@ -131,8 +190,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   const bool has_shells =
       std::any_of(c.sections.begin(), c.sections.end(),
                   [](const AbaqusSection& s) { return s.family == Family::shell; });
-  std::map<const AbaqusType*, Count> skins, read_as;
-  Count without_section, structural;
+  ElementCounts counts;
   for (std::size_t e = 0; e < c.elements.size(); ++e) {
     const AbaqusElement& element = c.elements[e];
     const AbaqusType& type = *element.type;
@@ -140,64 +198,27 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     // Shells are skins of a solid unless the deck has shells.
     const bool skin = section < 0 && (type.family == Family::skin ||
                                       (type.family == Family::shell && !has_shells));
-    if (skin) skins[&type].add(element.at);
+    if (skin) counts.skins[&type].add(element.at);
     if (skin || type.family == Family::mass || type.family == Family::rotary ||
         type.family == Family::coupling) {
       continue;
     }
-    structural.add(element.at);
+    counts.structural.add(element.at);
     const bool material_given = mesh_only && type.family == Family::solid;
     if (section < 0 && !material_given) {
-      if (without_section.number == 0 && assigned) {
-        build.source.fault(element.at,
-                           fmt::format("{} has no section: no *{} SECTION names a set with it",
-                                       abaqus_label(element),
-                                       type.family == Family::solid   ? "SOLID"
-                                       : type.family == Family::shell ? "SHELL"
-                                                                      : "BEAM"));
-      }
-      without_section.add(element.at);
+      if (counts.without_section.number == 0 && assigned) no_section(build, element);
+      counts.without_section.add(element.at);
       continue;
     }
-    if (type.remark != nullptr) read_as[&type].add(element.at);
-    const AbaqusProperties& p = section < 0 ? given : properties[section];
-    Element result;
-    result.type = type.type;
-    result.material = p.material;
-    result.section = p.section;
-    result.reference = p.reference;
-    result.id = element.id;
-    result.source = element.at;
-    bool sound = true;
-    for (int k = 0; k < type.nodes; ++k) {
-      const int id = c.element_nodes[element.first + k];
-      const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
-      if (it == c.node_of_label.end()) {
-        build.source.fault(element.at,
-                           fmt::format("{}: node {} is not there", abaqus_label(element), id));
-        sound = false;
-        break;
-      }
-      result.nodes[k] = it->second;
-    }
-    if (!sound) continue;
+    if (type.remark != nullptr) counts.read_as[&type].add(element.at);
+    const auto result = element_of(build, element, section < 0 ? given : properties[section]);
+    if (!result) continue;
     build.element_index[e] = static_cast<int>(model.elements.size());
-    model.elements.push_back(result);
+    model.elements.push_back(*result);
   }
-  if (structural.number == 0) {
-    build.source.fault({0, 0}, "the deck has no element with stiffness");
-  }
-  for (const auto& [type, count] : skins) {
-    build.note(count.at, fmt::format("{} elements of type {} have no section: skins of the mesh, "
-                                     "passed over; their element sets are node sets",
-                                     count.number, type->name));
-  }
-  for (const auto& [type, count] : read_as) {
-    build.note(count.at, fmt::format("{} elements of type {} are read {}", count.number, type->name,
-                                     type->remark));
-  }
-  if (mesh_only && !options.material && structural.number > 0) {
-    build.note(structural.at, "the deck has no material");
+  note_elements(build, counts);
+  if (mesh_only && !options.material && counts.structural.number > 0) {
+    build.note(counts.structural.at, "the deck has no material");
   }
   if (!mesh_only && options.material) {
     build.note({0, 1}, "the deck has materials of its own; the one given is not used");

@@ -211,7 +211,7 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
   AbaqusSet* const set = set_of_parameter(content.element_sets, keyword, "ELSET", content);
   lines.take_input(keyword);
   std::vector<std::string_view> fields;
-  const std::size_t count = static_cast<std::size_t>(type->nodes) + 1;
+  const std::size_t count = type->nodes + 1;
   FeSource at;
   while (element_fields(lines, count, fields, at)) {
     const std::optional<int> id = parse_label(fields[0]);

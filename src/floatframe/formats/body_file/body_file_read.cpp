@@ -108,7 +108,7 @@ class BodyReader {
         header_.frequencies.push_back(given && f->is_number() ? f->get<double>() : -1.0);
       }
     else
-      fault("found no list of 'modes', expected one entry a mode");
+      fault("found no list of 'modes', expected one entry per mode");
     std::set<std::string> names;
     if (const auto m = json.find("markers"); m != json.end() && m->is_array())
       for (const Json& marker : *m) {

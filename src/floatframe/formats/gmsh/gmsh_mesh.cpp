@@ -261,8 +261,7 @@ class GmshParser {
         in_.stop(at, fmt::format("a block of dimension {} has elements of type {} ({})", dimension,
                                  t->number, t->name));
       }
-      const auto n =
-          in_.count("the number of elements of a block", static_cast<std::size_t>(t->nodes) + 1);
+      const auto n = in_.count("the number of elements of a block", t->nodes + 1);
       const auto it = groups_of_entity_.find({dimension, entity});
       for (std::uint64_t i = 0; i < n; ++i) {
         GmshElement element;

@@ -67,7 +67,7 @@ void read_nastran_solid(NastranFields& f, NastranContent& c) {
     return;
   }
   e.count = static_cast<int>(given > 0 ? all : corners);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(e.count); ++k) {
+  for (int k = 0; k < e.count; ++k) {
     // Nastran: bottom edges, vertical edges, top edges; here the vertical ones come last.
     std::size_t to = k;
     if (hexa && k >= 12) to = k < 16 ? k + 4 : k - 4;

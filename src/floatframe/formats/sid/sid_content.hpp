@@ -36,13 +36,12 @@ namespace floatframe {
 /// m0 + sum_q m1[q] y_q.
 struct SidTaylor {
   MatX m0;
-  std::vector<MatX> m1;  ///< one a mode; empty: order 0
+  std::vector<MatX> m1;  ///< one per mode; empty: order 0
   int line = 0;          ///< of the block's name in the file; 0: not there
 
   SidTaylor() = default;
   SidTaylor(int rows, int columns, int modes_of_m1)
-      : m0(MatX::Zero(rows, columns)),
-        m1(static_cast<std::size_t>(modes_of_m1), MatX::Zero(rows, columns)) {}
+      : m0(MatX::Zero(rows, columns)), m1(modes_of_m1, MatX::Zero(rows, columns)) {}
   bool first_order() const;  ///< is any entry of m1 not zero?
 };
 

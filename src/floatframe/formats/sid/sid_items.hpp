@@ -1,5 +1,5 @@
 #pragma once
-// A SID_FEM file as items, one a line: "key = value" or "key".
+// A SID_FEM file as items, one per line: "key = value" or "key".
 #include <string>
 #include <string_view>
 

@@ -1,4 +1,4 @@
-// The grammar of SID_FEM, one item a line:
+// The grammar of SID_FEM, one item per line:
 //   <nodes> <modes> : comment
 //   part / new modal / refmod .. end refmod / frame { new node .. end node } end frame / blocks /
 //   end modal / end part

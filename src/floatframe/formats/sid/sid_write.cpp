@@ -1,4 +1,4 @@
-// SID_FEM text from its blocks: one item a line, D exponents, zeros left out.
+// SID_FEM text from its blocks: one item per line, D exponents, zeros left out.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -109,7 +109,7 @@ void split_blanks(std::string_view line, std::vector<std::string_view>& fields) 
     if (at == end) return;
     const char* const begin = at;
     while (at != end && !between(*at)) ++at;
-    fields.emplace_back(begin, static_cast<std::size_t>(at - begin));
+    fields.emplace_back(begin, at - begin);
   }
 }
 

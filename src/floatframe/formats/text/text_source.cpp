@@ -62,7 +62,7 @@ std::string inflate_bytes(std::string_view bytes, const std::string& name, std::
     z.avail_out = static_cast<uInt>(chunk.size());
     const int status = inflate(&z, Z_NO_FLUSH);
     text.append(chunk.data(), chunk.size() - z.avail_out);
-    if (!whole && text.size() >= most) return text.substr(0, static_cast<std::size_t>(most));
+    if (!whole && text.size() >= most) return text.substr(0, most);
     if (text.size() > most) {
       throw InputError({name}, fmt::format("the compressed file holds more than {} GiB, which is "
                                            "not read",
@@ -138,7 +138,7 @@ std::string not_text(std::string_view bytes) {
   const auto first = std::find_if(head.begin(), head.end(), control);
   return fmt::format("the file is binary, not text: byte 0x{:02x} in line {}",
                      static_cast<unsigned>(static_cast<unsigned char>(*first)),
-                     line_of(head, static_cast<std::size_t>(first - head.begin())));
+                     line_of(head, first - head.begin()));
 }
 
 TextSource::TextSource(const std::filesystem::path& file)
@@ -186,9 +186,9 @@ bool TextSource::next(std::string_view& line) {
       stack_.pop_back();
       continue;
     }
-    const void* const found = std::memchr(top.at, '\n', static_cast<std::size_t>(end - top.at));
+    const void* const found = std::memchr(top.at, '\n', end - top.at);
     const char* const stop = found != nullptr ? static_cast<const char*>(found) : end;
-    line_ = std::string_view(top.at, static_cast<std::size_t>(stop - top.at));
+    line_ = std::string_view(top.at, stop - top.at);
     if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
     top.at = found != nullptr ? stop + 1 : end;
     if (top.line < std::numeric_limits<int>::max()) ++top.line;
