@@ -280,7 +280,7 @@ SourceMark TextSource::mark(const FeSource& source) const {
 void TextSource::fault(const FeSource& at, std::string message) {
   faults_.add(mark(at), std::move(message));
   if (faults_.size() < most_faults) return;
-  faults_.add({}, fmt::format("reading ends after {} faults", most_faults));
+  faults_.add({}, fmt::format("reading ends after {} faults", most_faults), 0);
   faults_.throw_if_any();
 }
 
