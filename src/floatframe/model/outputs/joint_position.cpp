@@ -14,7 +14,7 @@ namespace {
 /// So that an output begins at the turn that the user means.
 double start_position(const Joint& joint, int component, double t) noexcept {
   if (joint.motion) return evaluate(*joint.motion, t).f;
-  const auto k = static_cast<std::size_t>(component);
+  const std::size_t k = component;
   return k < joint.position.size() ? joint.position[k] : 0.0;
 }
 
