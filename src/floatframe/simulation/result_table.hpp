@@ -12,7 +12,7 @@ struct Column {
   std::string unit;  ///< "m"
 };
 
-/// Sampled outputs: row-major, one row a sample; column 0 is time.
+/// Sampled outputs: row-major, one row per sample; column 0 is time.
 struct ResultTable {
   std::vector<Column> columns;
   std::vector<double> data;
