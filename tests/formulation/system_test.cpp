@@ -201,7 +201,7 @@ TEST_P(TwoFormulations, MassAndResidualAgree) {
       const ConstraintPart& p = relative.parts()[k];
       for (std::size_t l = 0; l < absolute.parts().size(); ++l) {
         const ConstraintPart& o = absolute.parts()[l];
-        if (o.owner.kind == p.owner.kind && o.owner.index == p.owner.index && o.kind == p.kind &&
+        if (o.owner.kind == p.owner.kind && o.owner.index == p.owner.index && o.type == p.type &&
             o.e_a == p.e_a && o.n_b == p.n_b)
           lambda_abs.segment(absolute.part_offset(l), o.rows()) =
               lambda.segment(relative.part_offset(k), p.rows());

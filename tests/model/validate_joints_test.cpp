@@ -1,6 +1,7 @@
 // Every field of joints, rods and outputs, one change at a time.
 #include <gtest/gtest.h>
 
+#include "floatframe/core/number_rule.hpp"
 #include "support/valid_description.hpp"
 
 namespace floatframe {
@@ -15,9 +16,8 @@ TEST(Validate, Joints) {
          d.outputs.clear();
        },
        "joints.slide: the name is taken, expected a name used once"},
-      {[](D& d) { d.joints[1].type = static_cast<JointType>(8); },
-       "joints.pin.type: found 8, expected weld, revolute, prismatic, cylindrical, universal, "
-       "spherical, planar or free"},
+      {[](D& d) { d.joints[1].type = static_cast<JointType>(99); },
+       "joints.pin.type: found 99, expected " + alternatives(joint_words)},
       {[](D& d) { d.joints[1].parent.body = "blok"; },
        "joints.pin.parent: unknown body 'blok', did you mean 'block'?"},
       {[](D& d) { d.joints[1].child.body = "x"; }, "joints.pin.child: unknown body 'x'"},
@@ -146,9 +146,7 @@ TEST(Validate, Outputs) {
        "outputs: found the column 'time', the name of the first column, expected another"},
       {[](D& d) { d.outputs[1].name = "z"; }, "outputs: the column 'z' exists already"},
       {[](D& d) { d.outputs[0].type = static_cast<OutputType>(99); },
-       "outputs.z: found 99, expected position, velocity, acceleration, rotation, "
-       "angular_velocity, joint_position, joint_velocity, modal_amplitude, force, length, rate "
-       "or distance"},
+       "outputs.z: found 99, expected " + alternatives(output_words)},
       {[](D& d) { d.outputs[0].component = 7; }, "outputs.z.axis: found 7, expected x, y or z"},
       {[](D& d) { d.outputs[0].component = -1; }, "outputs.z.axis: found -1, expected x, y or z"},
       {[](D& d) { d.outputs[1].component = 3; },

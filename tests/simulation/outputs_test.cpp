@@ -23,7 +23,7 @@ bodies:
       bars: {one: {from: hinge, to: tip, elements: 4, section: {round: 0.02}}}
       clamped: [hinge]
       static_modes: [{point: tip, dofs: [x, y, z]}]
-  puck: {origin: [2, 1, 0.5], rigid: {mass: 2, centre_of_mass: [2, 1, 0.5], inertia: [0.1, 0.2, 0.3]}}
+  puck: {rigid: {mass: 2, centre_of_mass: [2, 1, 0.5], inertia: [0.1, 0.2, 0.3]}}
 joints:
   hinge: {type: revolute, child: arm, at: hinge, axis: y, position: 0.4, velocity: 1.5}
   loose: {type: free, child: puck, at: [2, 1, 0.5], velocity: [3, -0.4, 0.5, 1, 2, -3]}

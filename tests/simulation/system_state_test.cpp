@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "floatframe/core/number_rule.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/model_file/state_json.hpp"
@@ -324,8 +325,7 @@ TEST(SystemState, DamagedFiles) {
   EXPECT_EQ(read(head + "\"time\": 0, \"joints\": [], \"bodies\": {}}"),
             "joints: expected a map of names");
   EXPECT_EQ(read(head + "\"time\": 0, \"joints\": {\"a\": {\"type\": \"pin\"}}}"),
-            "joints.a.type: found 'pin', expected weld, revolute, prismatic, cylindrical, "
-            "universal, spherical, planar or free");
+            "joints.a.type: found 'pin', expected " + alternatives(joint_words));
   EXPECT_EQ(read(head + "\"time\": 0, \"joints\": {\"a\": {\"type\": \"weld\", \"position\": "
                         "[\"1\"], \"velocity\": []}}}"),
             "joints.a.position: found \"1\", expected a number");
