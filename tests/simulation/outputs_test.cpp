@@ -30,8 +30,8 @@ joints:
 forces:
   coil: {type: spring_damper, from: {body: arm, at: tip}, to: {body: puck}, spring: 100, damper: 20}
 initial:
-  amplitudes: {arm: [0.001, 0.02, -0.03]}
-  amplitude_rates: {arm: [0.01, 0.2, 0.3]}
+  amplitudes: {arm: [0.0001, 0.002, -0.003]}
+  amplitude_rates: {arm: [0.001, 0.02, 0.03]}
 simulation: {step: 1.0e-3, duration: 0}
 )";
 
