@@ -147,7 +147,7 @@ class JointConstraints : public ::testing::TestWithParam<Case> {
 };
 
 TEST_P(JointConstraints, TreeIsAsTheCaseSays) {
-  const Topology& t = relative_.topology();
+  const Topology& t = relative_.tree().topology();
   const bool is_cut = std::find(t.cut_joints.begin(), t.cut_joints.end(), 1) != t.cut_joints.end();
   const bool constrains = GetParam().type != JointType::free;
   EXPECT_EQ(is_cut, GetParam().place == Place::cut && constrains);
@@ -187,12 +187,12 @@ TEST_P(JointConstraints, JacobianAnnihilatesTheMotionSubspace) {
   absolute_.constraint_accelerations(aa_, accelerations);
   int checked = 0;
   for (int i = 0; i < absolute_.constraints(); ++i) {
-    std::size_t k = absolute_.parts().size();
-    while (k > 0 && absolute_.part_offset(k - 1) > i) --k;
+    std::size_t k = absolute_.constraint_set().parts().size();
+    while (k > 0 && absolute_.constraint_set().offset(k - 1) > i) --k;
     if (k > 0) {
-      const ConstraintOwner& owner = absolute_.parts()[k - 1].owner;
+      const ConstraintOwner& owner = absolute_.constraint_set().parts()[k - 1].owner;
       const bool in_tree = owner.kind == ConstraintOwner::Kind::joint &&
-                           relative_.tree_body_of_joint(owner.index) >= 0;
+                           relative_.tree().body_of_joint(owner.index) >= 0;
       if (!in_tree) continue;
     }
     ++checked;

@@ -197,14 +197,14 @@ TEST_P(TwoFormulations, MassAndResidualAgree) {
     ASSERT_GT(relative.constraints(), 0);
     const VecX lambda = random.vector(relative.constraints(), 5.0);
     VecX lambda_abs = random.vector(absolute.constraints(), 5.0);
-    for (std::size_t k = 0; k < relative.parts().size(); ++k) {
-      const ConstraintPart& p = relative.parts()[k];
-      for (std::size_t l = 0; l < absolute.parts().size(); ++l) {
-        const ConstraintPart& o = absolute.parts()[l];
+    for (std::size_t k = 0; k < relative.constraint_set().parts().size(); ++k) {
+      const ConstraintPart& p = relative.constraint_set().parts()[k];
+      for (std::size_t l = 0; l < absolute.constraint_set().parts().size(); ++l) {
+        const ConstraintPart& o = absolute.constraint_set().parts()[l];
         if (o.owner.kind == p.owner.kind && o.owner.index == p.owner.index && o.type == p.type &&
             o.e_a == p.e_a && o.n_b == p.n_b)
-          lambda_abs.segment(absolute.part_offset(l), o.rows()) =
-              lambda.segment(relative.part_offset(k), p.rows());
+          lambda_abs.segment(absolute.constraint_set().offset(l), o.rows()) =
+              lambda.segment(relative.constraint_set().offset(k), p.rows());
       }
     }
     const double alpha = 7.0;

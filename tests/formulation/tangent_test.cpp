@@ -69,9 +69,10 @@ Tangent compare(F& f, const VecX& q, double s, double alpha) {
   const int n = f.velocities();
   const VecX zero = VecX::Zero(n);
   VecX lambda = Random(3).vector(f.constraints(), 10.0);
-  for (std::size_t k = 0; k < f.parts().size(); ++k) {
-    if (constraint_kind(f.parts()[k].type).gradients == PartGradients::general)
-      lambda.segment(f.part_offset(k), f.parts()[k].rows()).setZero();
+  for (std::size_t k = 0; k < f.constraint_set().parts().size(); ++k) {
+    const ConstraintPart& part = f.constraint_set().parts()[k];
+    if (constraint_kind(part.type).gradients == PartGradients::general)
+      lambda.segment(f.constraint_set().offset(k), part.rows()).setZero();
   }
   VecX plus(n), minus(n), q1 = q;
   const auto residual_at = [&](const VecX& at, VecX& out) {
@@ -226,6 +227,7 @@ TEST(TangentOfChain, WorkGrowsInProportionToTheLinks) {
   for (const int modes : {0, 2}) {
     const auto work = [&](int links) {
       return RelativeFormulation(build_links(links, modes), InertiaMethod::preprocessing)
+          .tangent()
           .elimination_work();
     };
     EXPECT_GT(work(40), 0.0);

@@ -25,13 +25,13 @@ struct AbsoluteStart {
   /// Force and torque of the joint's constraints on its child, about the child's marker.
   Vec6 reaction(int joint) const {
     Vec6 sum = Vec6::Zero();
-    for (std::size_t k = 0; k < f.parts().size(); ++k) {
-      const ConstraintPart& p = f.parts()[k];
+    for (std::size_t k = 0; k < f.constraint_set().parts().size(); ++k) {
+      const ConstraintPart& p = f.constraint_set().parts()[k];
       ConstraintRow rows[3];
       evaluate_constraint(p, f.marker(p.a), f.marker(p.b), 0.0, rows);
       if (p.owner.kind != ConstraintOwner::Kind::joint || p.owner.index != joint) continue;
       for (int r = 0; r < p.rows(); ++r) {
-        const double lambda = state.lambda[f.part_offset(k) + r];
+        const double lambda = state.lambda[f.constraint_set().offset(k) + r];
         sum.head<3>() -= lambda * rows[r].gradient.Fb;
         sum.tail<3>() -= lambda * rows[r].gradient.Tb;
       }

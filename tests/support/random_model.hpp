@@ -121,7 +121,7 @@ inline void random_configuration(RelativeFormulation& f, Random& random, VecX& q
   q = q0;
   VecX x = random.vector(f.velocities(), 0.7);
   for (int i = 0; i < x.size(); ++i)
-    if (f.is_elastic(i)) x[i] *= 0.3;
+    if (f.tree().is_elastic(i)) x[i] *= 0.3;
   f.retract(q0, x, q);
   v = random.vector(f.velocities(), 1.5);
 }

@@ -1,7 +1,8 @@
-// Load time of the absolute formulation; positions and velocities.
+// Load time of the absolute formulation: outer points, numbers of coordinates, start values.
 #include "floatframe/formulation/absolute.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "floatframe/formulation/equations_of_motion.hpp"
 
@@ -9,29 +10,38 @@ namespace floatframe {
 
 static_assert(EquationsOfMotion<AbsoluteFormulation>);
 
-AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod method) : model_(model) {
-  for (std::size_t j = 0; j < model_.joints.size(); ++j)
-    append_joint_parts(model_, static_cast<int>(j), parts_);
-  for (std::size_t j = 0; j < model_.rods.size(); ++j)
-    append_rod_parts(model_, static_cast<int>(j), parts_);
-  for (std::size_t j = 0; j < model_.joints.size(); ++j)
-    append_motion_parts(model_, static_cast<int>(j), parts_);
+namespace {
 
+std::vector<int> all_joints(const Model& model) {
+  std::vector<int> joints(model.joints.size());
+  std::iota(joints.begin(), joints.end(), 0);
+  return joints;
+}
+
+}  // namespace
+
+AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod method)
+    : model_(model), constraint_set_(model, all_joints(model)), force_set_(model) {
   for (const Marker& m : model_.markers) {
     MarkerData d;
     static_cast<LocalMarker&>(d) = LocalMarker(model_, m);
     markers_.push_back(std::move(d));
   }
+  place_outer_points();
+  number_coordinates(method);
+  make_factors();
+}
+
+/// Outer points: where a constraint holds the position of a deforming node. Joints at one node
+/// share the point. `MarkerData::point` is its number on the body.
+void AbsoluteFormulation::place_outer_points() {
   bodies_.resize(model_.bodies.size());
-  // Outer points: where a constraint holds the position of a deforming node. Joints at one node
-  // share the point.
-  std::vector<std::pair<int, int>> point_of_marker;  // marker -> (body, local point)
-  for (const ConstraintPart& p : parts_) {
+  for (const ConstraintPart& p : constraint_set_.parts()) {
     if (!constraint_kind(p.type).points) continue;
     for (const int marker : {p.a, p.b}) {
       MarkerData& m = markers_[marker];
       if (m.body < 0 || !m.local || m.point >= 0) continue;
-      BodyData& b = body(m.body);
+      BodyData& b = bodies_[m.body];
       int local = -1;
       for (std::size_t k = 0; k < b.point_marker.size(); ++k) {
         const MarkerData& other = markers_[b.point_marker[k]];
@@ -43,10 +53,14 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
         local = static_cast<int>(b.point_marker.size());
         b.point_marker.push_back(marker);
       }
-      m.point = local;  // made global below
+      m.point = local;
     }
   }
-  std::vector<int> sizes;
+}
+
+/// Coordinates and constraint rows body by body, then the rows of the parts.
+void AbsoluteFormulation::number_coordinates(InertiaMethod method) {
+  int rows = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyData& b = bodies_[i];
     const Body& m = model_.bodies[i];
@@ -55,55 +69,51 @@ AbsoluteFormulation::AbsoluteFormulation(const Model& model, InertiaMethod metho
     b.length = m.length;
     b.offset = nq_;
     nq_ += b.size();
-    b.row = nc_;
-    nc_ += 6 + 3 * b.points;
+    b.row = rows;
+    rows += b.rows();
     b.y = b.yd = VecX::Zero(b.nm);
     b.inertia = BodyInertia(*m.data, m.name, method);
     b.M = MatX::Zero(12 + b.nm, 12 + b.nm);
     b.Qv = b.work = VecX::Zero(12 + b.nm);
-    b.J = MatX::Zero(3, b.size());
-    sizes.push_back(b.size());
   }
   for (MarkerData& m : markers_)
-    if (m.point >= 0) m.point = body(m.body).offset + 12 + body(m.body).nm + 3 * m.point;
-  part_rows_ = nc_;
+    if (m.point >= 0) m.point = bodies_[m.body].offset + 12 + bodies_[m.body].nm + 3 * m.point;
+  constraint_set_.number_rows(rows);
+  a_ = omega2_ = VecX::Zero(nq_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    omega2_.segment(bodies_[i].offset + 12, bodies_[i].nm) =
+        bodies_[i].inertia.own_frequencies_squared(model_.bodies[i].data->K);
+}
+
+/// Memory of the factorised tangents: a block per body, coupled where parts or forces tie two.
+void AbsoluteFormulation::make_factors() {
+  std::vector<int> sizes;
+  int widest = 12;
+  std::size_t most = 0;
+  for (const BodyData& b : bodies_) {
+    sizes.push_back(b.size());
+    widest = std::max(widest, b.size());
+    most += static_cast<std::size_t>(6 * 6 + 3 * b.points * (13 + b.nm));
+  }
   std::vector<std::pair<int, int>> edges;
   const auto couple = [&](int a, int b) {
     if (a < 0 || b < 0) return;
     const int ba = markers_[a].body, bb = markers_[b].body;
     if (ba >= 0 && bb >= 0) edges.emplace_back(ba, bb);
   };
-  for (const ConstraintPart& p : parts_) {
-    part_offset_.push_back(nc_);
-    nc_ += p.rows();
+  for (const ConstraintPart& p : constraint_set_.parts()) {
     couple(p.a, p.b);
+    for (const int marker : {p.a, p.b})
+      if (const int i = markers_[marker].body; i >= 0)
+        most += static_cast<std::size_t>(p.rows() * bodies_[i].size());
   }
   for (const Force& f : model_.forces) couple(f.a, f.b);
-  for (Linearization& l : linearizations_) {
-    l.matrix = BlockLdlt(sizes, edges);
-    l.row_start.assign(static_cast<std::size_t>(nc_) + 1, 0);
-    std::size_t most = 0;
-    for (const BodyData& b : bodies_)
-      most += static_cast<std::size_t>(6 * 6 + 3 * b.points * (13 + b.nm));
-    for (const ConstraintPart& p : parts_)
-      for (const int marker : {p.a, p.b})
-        if (const int i = markers_[marker].body; i >= 0)
-          most += static_cast<std::size_t>(p.rows() * body(i).size());
-    l.column.assign(most, 0);
-    l.value.assign(most, 0.0);
+  for (Factors& f : factors_) {
+    f.matrix = BlockLdlt(sizes, edges);
+    f.row_start.assign(constraint_set_.count() + 1, 0);
+    f.column.assign(most, 0);
+    f.value.assign(most, 0.0);
   }
-  rows_.resize(nc_ - part_rows_);
-  force_states_.resize(model_.forces.size());
-  force_reference_.assign(model_.forces.size(), 0.0);
-  kept_reference_ = force_reference_;
-  for (const Input& input : model_.inputs) inputs_.push_back(input.initial);
-  phi_ = weights_ = lambda_ = VecX::Zero(nc_);
-  a_ = omega2_ = VecX::Zero(nq_);
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    omega2_.segment(bodies_[i].offset + 12, bodies_[i].nm) =
-        bodies_[i].inertia.own_frequencies_squared(model_.bodies[i].data->K);
-  int widest = 12;
-  for (int s : sizes) widest = std::max(widest, s);
   for (Gradient* g : {&ga_, &gb_}) {
     g->index.resize(widest);
     g->value.resize(widest);
@@ -117,7 +127,8 @@ void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree
   tree.velocities(tree_v);
   tree.forces();
   for (std::size_t k = 0; k < model_.forces.size(); ++k)
-    if (model_.forces[k].rotational) force_reference_[k] = tree.force(static_cast<int>(k)).length;
+    if (model_.forces[k].rotational)
+      force_set_.set_angle(k, tree.force(static_cast<int>(k)).length);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyData& b = bodies_[i];
     const int k = static_cast<int>(i);
@@ -139,89 +150,6 @@ void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree
       v.segment<3>(b.offset + 12 + b.nm + 3 * p) = s.v;
     }
   }
-}
-
-void AbsoluteFormulation::positions(double t, const VecX& q) noexcept {
-  time_ = t;
-  for (BodyData& b : bodies_) {
-    b.r0 = q.segment<3>(b.offset);
-    for (int c = 0; c < 3; ++c) b.A.col(c) = q.segment<3>(b.offset + 3 + 3 * c);
-    b.y = q.segment(b.offset + 12, b.nm);
-  }
-  for (MarkerData& m : markers_) {
-    if (m.body < 0) {
-      m.s.r = m.X_NM.p;
-      m.s.R = m.X_NM.R;
-      continue;
-    }
-    const BodyData& b = body(m.body);
-    if (m.local) {
-      m.deform(b.y);
-      m.world_gradients(b.A);
-    }
-    m.s.r.noalias() = b.r0 + b.A * m.p_B;
-    m.s.R.noalias() = b.A * m.R_B;
-    if (m.point >= 0) m.r_P = q.segment<3>(m.point);
-  }
-}
-
-void AbsoluteFormulation::velocities(const VecX& v) noexcept {
-  for (BodyData& b : bodies_) {
-    b.r0_dot = v.segment<3>(b.offset);
-    for (int c = 0; c < 3; ++c) b.Adot.col(c) = v.segment<3>(b.offset + 3 + 3 * c);
-    b.yd = v.segment(b.offset + 12, b.nm);
-    b.w.setZero();
-    for (int c = 0; c < 3; ++c) b.w += 0.5 * b.A.col(c).cross(b.Adot.col(c));
-    for (int k = 0; k < 6; ++k) {
-      const double dot = b.A.col(pair_a[k]).dot(b.A.col(pair_b[k]));
-      phi_[b.row + k] = b.length * (k < 3 ? 0.5 * (dot - 1.0) : dot);
-    }
-    for (int p = 0; p < b.points; ++p) {
-      const MarkerData& m = markers_[b.point_marker[p]];
-      phi_.segment<3>(b.row + 6 + 3 * p) = m.r_P - m.s.r;
-    }
-  }
-  for (MarkerData& m : markers_) {
-    MarkerState& s = m.s;
-    s.v.setZero();
-    s.w.setZero();
-    s.a_bias.setZero();
-    s.alpha_bias.setZero();
-    if (m.body < 0) continue;
-    const BodyData& b = body(m.body);
-    s.v.noalias() = b.r0_dot + b.Adot * m.p_B;
-    s.w = b.w;
-    if (m.local) {
-      m.deform_rate(b.yd);
-      s.v.noalias() += b.A * m.pdot_B;
-      s.a_bias.noalias() = 2.0 * (b.Adot * m.pdot_B);
-      s.a_bias.noalias() += b.A * m.pddot_B;
-      if (m.rotates) {
-        s.w.noalias() += b.A * m.zeta_B;
-        s.alpha_bias.noalias() = b.Adot * m.zeta_B;
-        s.alpha_bias.noalias() += b.A * m.zetadot_B;
-      }
-    }
-    if (m.point >= 0) m.v_P = v.segment<3>(m.point);
-  }
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const ConstraintPart& p = parts_[k];
-    const MarkerState a = constraint_state(markers_[p.a]);
-    const MarkerState b = constraint_state(markers_[p.b]);
-    ConstraintRow* rows = rows_.data() + (part_offset_[k] - part_rows_);
-    evaluate_constraint(p, a, b, time_, rows);
-    for (int r = 0; r < p.rows(); ++r) phi_[part_offset_[k] + r] = rows[r].phi;
-  }
-}
-
-MarkerState AbsoluteFormulation::constraint_state(const MarkerData& m) const noexcept {
-  MarkerState s = m.s;
-  if (m.point >= 0) {
-    s.r = m.r_P;
-    s.v = m.v_P;
-    s.a_bias.setZero();
-  }
-  return s;
 }
 
 }  // namespace floatframe

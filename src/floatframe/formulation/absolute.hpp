@@ -1,88 +1,82 @@
 #pragma once
-// Equations of motion in natural coordinates (paper section 6.1): per body the origin r0, the axes
-// u, v, w and the modal amplitudes, plus the zero-mass outer points of flexible bodies, where
-// joints sit on deformed nodes.
-//   q_body = (r0, u, v, w, y, r_P1, r_P2, ...)
-// Constraints, rows scaled to lengths (l the body length):
-//   orthonormality   l (u.u - 1)/2, l (v.v - 1)/2, l (w.w - 1)/2, l u.v, l u.w, l v.w          6 a
-//   body outer points     r_P - (r0 + A (r_u + X y)) = 0 3 a point joints and rods  as constraint
-//   parts between markers; positions through the outer points
-// Rotations of markers act through omega = 1/2 sum u x udot (exact on the orthonormality manifold).
-// The tangent is factorised by bodies (BlockLdlt): never one dense matrix.
-#include <algorithm>
-#include <cassert>
+// Equations of motion in natural coordinates (paper section 6.1): per body the origin r0 = p_WB,
+// the axes A = [u v w] = R_WB and the modal amplitudes y, then zero-mass outer points of flexible
+// bodies, where joints and rods hold deformed nodes:
+//   q_body = (r0, u, v, w, y, r_P1, r_P2, ...),   nq = 12 + nm + 3 np
+//
+// Constraints, rows scaled to lengths (l the body length, theory section 10):
+//   of             rows      equation                                            number
+//   a body         l (u.u - 1)/2, l (v.v - 1)/2, l (w.w - 1)/2 = 0               6       (1)
+//                  l u.v, l u.w, l v.w = 0
+//   outer points   r_P - (r0 + A (r_u + X y)) = 0                                3 each  (2)
+//   joints, rods,  constraint parts between markers (constraint_set.hpp);        parts   (3)
+//   motions        their positions are those of the outer points
+// A need not be orthonormal while Newton iterates. Torques and directions of markers act through
+//   omega = 1/2 (u x udot + v x vdot + w x wdot),                                        (4)
+// exact where (1) holds; so a torque T has the generalised force 1/2 T x u on u, and so on.
+//
+// The residual is, body by body with M and Qv of (25)-(45) and gravity g taken off the acceleration
+// of r0, M (a - g) - Qv + (0; K y + D ydot), less applied forces, plus Phi_q^T (lambda + alpha
+// Phi). The tangent is factorised by bodies (BlockLdlt): never one dense matrix. Its geometric
+// stiffness is that of the multipliers of (1), (2), which is bilinear in A and y, and of rods.
 #include <span>
+#include <string>
 #include <vector>
 
 #include "floatframe/formulation/body_inertia.hpp"
+#include "floatframe/formulation/constraint_set.hpp"
 #include "floatframe/formulation/counts.hpp"
+#include "floatframe/formulation/force_set.hpp"
 #include "floatframe/formulation/local_marker.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/math/block_ldlt.hpp"
-#include "floatframe/model/constraint_part.hpp"
-#include "floatframe/model/force_evaluation.hpp"
 
 namespace floatframe {
 
 class AbsoluteFormulation {
  public:
+  /// The only allocating call. Throws InputError if a body lacks the data `method` needs.
   AbsoluteFormulation(const Model& model, InertiaMethod method);
+  AbsoluteFormulation(const AbsoluteFormulation&) = delete;
+  AbsoluteFormulation& operator=(const AbsoluteFormulation&) = delete;
 
-  int velocities() const noexcept { return nq_; }
-  int configurations() const noexcept { return nq_; }
-  int constraints() const noexcept { return nc_; }
   const Model& model() const noexcept { return model_; }
-
-  /// Values of `model().inputs`, held until they are set again; at first their initial values.
-  void set_inputs(std::span<const double> values) noexcept {
-    assert(values.size() == inputs_.size());
-    std::copy(values.begin(), values.end(), inputs_.begin());
-  }
-  std::span<const double> inputs() const noexcept { return inputs_; }
+  const ConstraintSet& constraint_set() const noexcept { return constraint_set_; }
 
   /// As in relative.hpp.
-  std::span<const double> spring_angles() const noexcept { return force_reference_; }
-  void set_spring_angles(std::span<const double> angles) noexcept {
-    assert(angles.size() == force_reference_.size());
-    std::copy(angles.begin(), angles.end(), force_reference_.begin());
-  }
+  void set_inputs(std::span<const double> values) noexcept { force_set_.set_inputs(values); }
+  std::span<const double> inputs() const noexcept { return force_set_.inputs(); }
+  std::span<const double> spring_angles() const noexcept { return force_set_.angles(); }
+  void set_spring_angles(std::span<const double> angles) noexcept { force_set_.set_angles(angles); }
 
   /// The same configuration and velocities as a relative state. Axes do not tell turns: the angles
   /// of joint springs go on from those of the tree.
   void start_from(RelativeFormulation& tree, const VecX& tree_q, const VecX& tree_v, VecX& q,
                   VecX& v);
 
-  /// What a renewal must save, in iterations (tuned on the Iltis).
+  // -- EquationsOfMotion
+
+  /// Tuned on the Iltis.
   static constexpr double factorization_cost = 3.0;
-
-  /// As in relative.hpp; here all markers are kept up to date.
-  void stepping(bool on, bool accepted = true) noexcept {
-    if (on)
-      std::copy(force_reference_.begin(), force_reference_.end(), kept_reference_.begin());
-    else if (!accepted)
-      std::copy(kept_reference_.begin(), kept_reference_.end(), force_reference_.begin());
-  }
-
-  // -- the integrator's view
-  // ---------------------------------------------------------------------------------------
+  int velocities() const noexcept { return nq_; }
+  int configurations() const noexcept { return nq_; }
+  int constraints() const noexcept { return constraint_set_.count(); }
+  /// All markers are kept up to date, also while steps are made.
+  void stepping(bool on, bool accepted = true) noexcept { force_set_.stepping(on, accepted); }
   void positions(double t, const VecX& q) noexcept;
   void velocities(const VecX& v) noexcept;
   void dynamics() noexcept;
   void forces() noexcept;
   void residual(const VecX& a, const VecX& lambda, double alpha, VecX& out) noexcept;
-  /// As in relative.hpp: T = M mass + damping C + s (K + alpha Phi_q^T Phi_q), kept in a slot.
   int factorize(double mass, double damping, double s, double alpha, int slot = 0) noexcept {
-    return eliminate(mass, damping, s, s * alpha, true, linearizations_[slot]);
+    return eliminate({mass, damping, s, s * alpha, true}, factors_[slot]);
   }
-  /// M + s K + penalty Phi_q^T Phi_q without geometric stiffness.
   int factorize_metric(double s, double penalty, int slot) noexcept {
-    return eliminate(1.0, 0.0, s, penalty, false, linearizations_[slot]);
+    return eliminate({1.0, 0.0, s, penalty, false}, factors_[slot]);
   }
-  void solve(VecX& b, int slot = 0) noexcept { linearizations_[slot].matrix.solve(b); }
-  /// b := T^-1 (b + Phi_q^T w) and increments := Phi_q b, with the Phi_q of the factorisation.
+  void solve(VecX& b, int slot = 0) noexcept { factors_[slot].matrix.solve(b); }
   void solve(VecX& b, const VecX& w, VecX& increments, int slot) noexcept;
-  const VecX& constraint_values() const noexcept { return phi_; }
-  /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates [1/s2].
+  const VecX& constraint_values() const noexcept { return constraint_set_.values(); }
   const VecX& own_frequencies_squared() const noexcept { return omega2_; }
   void constraint_rates(VecX& out) noexcept;
   void constraint_accelerations(const VecX& a, VecX& out) noexcept;
@@ -91,107 +85,131 @@ class AbsoluteFormulation {
   void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept { q = q0 + x; }
   void advance(VecX& x, const VecX& delta) const noexcept { x += delta; }
 
-  // -- outputs
-  // -----------------------------------------------------------------------------------------------------
+  // -- what outputs, energies and reports look at, as in relative.hpp
+
   const MarkerState& marker(int index) const noexcept { return markers_[index].s; }
   Vec3 origin() const noexcept { return Vec3::Zero(); }
-  const ForceState& force(int index) const noexcept { return force_states_[index]; }
+  const ForceState& force(int index) const noexcept { return force_set_.state(index); }
   void set_accelerations(const VecX& a) noexcept { a_ = a; }
   Vec3 marker_acceleration(int index) const noexcept;
   const Mat3& body_rotation(int i) const noexcept { return bodies_[i].A; }
-  Vec3 body_angular_velocity(int i) const noexcept { return bodies_[i].w; }
+  Vec3 body_angular_velocity(int i) const noexcept { return bodies_[i].w_WB; }
+  Vec3 body_velocity(int i) const noexcept { return bodies_[i].v_WB; }
   double amplitude(const VecX& q, int i, int mode) const noexcept {
     return q[bodies_[i].offset + 12 + mode];
   }
-  Vec3 body_velocity(int i) const noexcept { return bodies_[i].r0_dot; }
   double amplitude_rate(const VecX& v, int i, int mode) const noexcept {
     return v[bodies_[i].offset + 12 + mode];
   }
-  /// Power that modal damping takes out at these velocities [W].
   double modal_damping_power(const VecX& v) const noexcept;
-  /// Power of prescribed motions with these multipliers, after `positions` [W].
-  double motion_power(const VecX& lambda) const noexcept;
+  double motion_power(const VecX& lambda) const noexcept {
+    return constraint_set_.motion_power(lambda);
+  }
   double kinetic_energy(const VecX& v) noexcept;
   double gravity_energy(const VecX& q) const noexcept;
   double elastic_energy(const VecX& q) const noexcept;
-  const std::vector<ConstraintPart>& parts() const noexcept { return parts_; }
-  /// Row where a part starts (rows of bodies come first).
-  int part_offset(std::size_t part) const noexcept { return part_offset_[part]; }
   std::string coordinate_owner(int i) const;
   MatX constraint_jacobian();
   CoordinateCounts counts() const;
   /// Dense mass matrix at the present configuration (load time, tests).
   MatX mass_matrix() const;
   /// Coordinates and own constraints of a body; those of all bodies follow each other.
-  int body_size(int i) const noexcept { return body(i).size(); }
-  int body_rows(int i) const noexcept { return 6 + 3 * body(i).points; }
-  const MatX& body_mass(int i) const noexcept { return bodies_[i].M; }
+  int body_size(int i) const noexcept { return bodies_[i].size(); }
+  int body_rows(int i) const noexcept { return bodies_[i].rows(); }
 
  private:
-  // Pairs of axes of the orthonormality rows: u.u, v.v, w.w, u.v, u.w, v.w.
+  // Pairs of axes of the rows (1): u.u, v.v, w.w, u.v, u.w, v.w.
   static constexpr int pair_a[6] = {0, 1, 2, 0, 0, 1};
   static constexpr int pair_b[6] = {0, 1, 2, 1, 2, 2};
 
   struct BodyData {
-    int offset = 0, nm = 0, points = 0;
-    int row = 0;  // first constraint row: 6 orthonormality, 3 a point
-    double length = 1.0;
-    std::vector<int> point_marker;
-    Vec3 r0, r0_dot, w;
-    Mat3 A, Adot;
-    VecX y, yd;
+    // Fixed when the formulation is built.
+    int offset = 0;                 ///< first coordinate: 12, then nm, then 3 for each point
+    int nm = 0, points = 0;         ///< modes, outer points
+    int row = 0;                    ///< first constraint row: 6 of (1), 3 for each point (2)
+    double length = 1.0;            ///< l [m]
+    std::vector<int> point_marker;  ///< for each point the marker it belongs to
+    // Of the configuration.
+    Vec3 p_WB;  ///< origin of the body frame, world axes [m]
+    Mat3 A;     ///< [u v w]: R_WB where (1) holds
+    VecX y;     ///< modal amplitudes
+    // Of the velocities.
+    Vec3 v_WB;  ///< [m/s]
+    Mat3 Adot;  ///< [1/s]
+    Vec3 w_WB;  ///< (4), world axes [rad/s]
+    VecX yd;    ///< modal rates
+    // Terms of the equations of motion, 12 + nm.
     BodyInertia inertia;
-    MatX M, J;
+    MatX M;
     VecX Qv, work;
     int size() const noexcept { return 12 + nm + 3 * points; }
+    int rows() const noexcept { return 6 + 3 * points; }
   };
   struct MarkerData : LocalMarker {
-    MarkerState s;   // on the body
-    int point = -1;  // global index of its outer point, -1 if it has none
-    Vec3 r_P, v_P;   // the outer point
+    MarkerState s;   ///< on the body, world axes
+    int point = -1;  ///< first coordinate of its outer point, -1 if it has none
+    Vec3 r_P, v_P;   ///< position and velocity of the outer point, world axes
   };
-  struct Gradient {  // nonzero entries of a row over one body's block
+  /// Entries of a constraint row, other than zero, over one body's coordinates.
+  struct Gradient {
     int body = -1, count = 0;
     std::vector<int> index;
     std::vector<double> value;
+    void clear(int of_body) noexcept { body = of_body, count = 0; }
+    void put(int i, double x) noexcept {
+      index[count] = i;
+      value[count++] = x;
+    }
   };
-
+  /// T = mass M + damping C + s K + penalty Phi_q^T Phi_q, K with geometric stiffness or without.
+  struct TangentWeights {
+    double mass, damping, s, penalty;
+    bool geometric;
+  };
   /// A factorised tangent and the rows of Phi_q it was made with.
-  struct Linearization {
+  struct Factors {
     BlockLdlt matrix;
     std::vector<int> row_start, column;
     std::vector<double> value;
   };
 
-  MarkerState constraint_state(const MarkerData& m) const noexcept;
+  // Load time.
+  void place_outer_points();
+  void number_coordinates(InertiaMethod method);
+  void make_factors();
+  // Step time.
+  const MarkerData& point(const BodyData& b, int p) const noexcept {
+    return markers_[b.point_marker[p]];
+  }
+  /// As constraints see a marker: at its outer point.
+  MarkerState constraint_state(int marker) const noexcept;
+  Vec3 point_increment(const MarkerData& m, const VecX& delta) const noexcept;
+  PointMotion increment_of(int marker, const VecX& delta) const noexcept;
+  PointMotion acceleration_of(int marker, const VecX& a) const noexcept;
   void add_wrench(int marker, bool through_point, const Vec3& force, const Vec3& torque,
                   VecX& out) const noexcept;
+  void add_all_constraint_forces(const VecX& w, VecX& out) const noexcept;
   void gradient(int marker, bool through_point, const Vec3& force, const Vec3& torque,
                 Gradient& g) const noexcept;
   void add_rank_one(BlockLdlt& matrix, const Gradient& a, const Gradient& b,
-                    double weight) noexcept;
-  int eliminate(double mass, double damping, double s, double penalty, bool geometric,
-                Linearization& l) noexcept;
-  void keep_row(Linearization& l, int row, const Gradient& a, const Gradient& b) noexcept;
-  void add_part_forces(const VecX& w, VecX& out) const noexcept;
-  void add_body_constraint_forces(const VecX& w, VecX& out) const noexcept;
-  BodyData& body(int i) noexcept { return bodies_[i]; }
-  const BodyData& body(int i) const noexcept { return bodies_[i]; }
+                    double weight) const noexcept;
+  void keep_row(Factors& factors, int row, const Gradient& a, const Gradient& b) const noexcept;
+  void assemble_axes(const TangentWeights& t, int i, Factors& factors) noexcept;
+  void assemble_points(const TangentWeights& t, int i, Factors& factors) noexcept;
+  void assemble_forces(const TangentWeights& t, Factors& factors) noexcept;
+  void assemble_parts(const TangentWeights& t, Factors& factors) noexcept;
+  int eliminate(const TangentWeights& t, Factors& factors) noexcept;
 
   const Model& model_;
+  ConstraintSet constraint_set_;
+  ForceSet force_set_;
   std::vector<BodyData> bodies_;
   std::vector<MarkerData> markers_;
-  std::vector<ConstraintPart> parts_;
-  std::vector<int> part_offset_;
-  std::vector<ConstraintRow> rows_;
-  int part_rows_ = 0;  // first row of the parts
-  std::vector<ForceState> force_states_;
-  std::vector<double> force_reference_, kept_reference_, inputs_;  // as in relative.hpp
-  Linearization linearizations_[2];
+  Factors factors_[2];
   Gradient ga_, gb_;
-  int nq_ = 0, nc_ = 0;
+  int nq_ = 0;
   double time_ = 0.0;
-  VecX omega2_, phi_, weights_, lambda_, a_;
+  VecX omega2_, a_;
 };
 
 }  // namespace floatframe

@@ -9,21 +9,15 @@ void AbsoluteFormulation::dynamics() noexcept {
 }
 
 void AbsoluteFormulation::forces() noexcept {
-  for (std::size_t k = 0; k < model_.forces.size(); ++k) {
-    const Force& f = model_.forces[k];
-    const MarkerState& b = markers_[f.b].s;
-    const MarkerState& a = f.a >= 0 ? markers_[f.a].s : b;
-    evaluate_force(model_, f, a, b, Vec3::Zero(), time_, force_reference_[k], force_states_[k],
-                   inputs_);
-    if (f.type == ForceType::joint_spring) force_reference_[k] = force_states_[k].length;
-  }
+  force_set_.evaluate(Vec3::Zero(), time_,
+                      [&](int marker) -> const MarkerState& { return markers_[marker].s; });
 }
 
 void AbsoluteFormulation::add_wrench(int marker, bool through_point, const Vec3& force,
                                      const Vec3& torque, VecX& out) const noexcept {
   const MarkerData& m = markers_[marker];
   if (m.body < 0) return;
-  const BodyData& b = body(m.body);
+  const BodyData& b = bodies_[m.body];
   if (through_point && m.point >= 0) {
     out.segment<3>(m.point) += force;
   } else {
@@ -37,24 +31,7 @@ void AbsoluteFormulation::add_wrench(int marker, bool through_point, const Vec3&
   if (m.rotates) out.segment(b.offset + 12, b.nm).noalias() += m.Jw.transpose() * torque;
 }
 
-void AbsoluteFormulation::add_part_forces(const VecX& w, VecX& out) const noexcept {
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const ConstraintPart& p = parts_[k];
-    Vec3 fa = Vec3::Zero(), ta = fa, fb = fa, tb = fa;
-    for (int r = 0; r < p.rows(); ++r) {
-      const int i = part_offset_[k] + r;
-      const WrenchRow& g = rows_[i - part_rows_].gradient;
-      fa += w[i] * g.Fa;
-      ta += w[i] * g.Ta;
-      fb += w[i] * g.Fb;
-      tb += w[i] * g.Tb;
-    }
-    add_wrench(p.a, true, fa, ta, out);
-    add_wrench(p.b, true, fb, tb, out);
-  }
-}
-
-void AbsoluteFormulation::add_body_constraint_forces(const VecX& w, VecX& out) const noexcept {
+void AbsoluteFormulation::add_all_constraint_forces(const VecX& w, VecX& out) const noexcept {
   for (const BodyData& b : bodies_) {
     for (int k = 0; k < 6; ++k) {
       const double x = b.length * w[b.row + k];
@@ -68,20 +45,20 @@ void AbsoluteFormulation::add_body_constraint_forces(const VecX& w, VecX& out) c
       out.segment<3>(b.offset + 12 + b.nm + 3 * p) += x;
     }
   }
+  constraint_set_.add_wrenches(w, [&](int marker, const Vec3& force, const Vec3& torque) {
+    add_wrench(marker, true, force, torque, out);
+  });
 }
 
 void AbsoluteFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {
   out.setZero();
-  add_body_constraint_forces(w, out);
-  add_part_forces(w, out);
+  add_all_constraint_forces(w, out);
 }
 
 void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
                                    VecX& out) noexcept {
   a_ = a;
-  lambda_ = lambda;
-  weights_ = lambda;
-  weights_ += alpha * phi_;
+  constraint_set_.set_multipliers(lambda, alpha);
   out.setZero();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     BodyData& b = bodies_[i];
@@ -96,14 +73,10 @@ void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alp
       out.segment(b.offset + 12, b.nm).noalias() += data.D * b.yd;
     }
   }
-  for (std::size_t k = 0; k < model_.forces.size(); ++k) {
-    const Force& f = model_.forces[k];
-    const WrenchRow& w = force_states_[k].wrench;
-    if (f.a >= 0) add_wrench(f.a, false, -w.Fa, -w.Ta, out);
-    add_wrench(f.b, false, -w.Fb, -w.Tb, out);
-  }
-  add_body_constraint_forces(weights_, out);
-  add_part_forces(weights_, out);
+  force_set_.add_wrenches([&](int marker, const Vec3& force, const Vec3& torque) {
+    add_wrench(marker, false, force, torque, out);
+  });
+  add_all_constraint_forces(constraint_set_.weights(), out);
 }
 
 void AbsoluteFormulation::constraint_rates(VecX& out) noexcept {
@@ -114,31 +87,36 @@ void AbsoluteFormulation::constraint_rates(VecX& out) noexcept {
       out[b.row + k] = b.length * (k < 3 ? u.dot(u_dot) : u.dot(v_dot) + v.dot(u_dot));
     }
     for (int p = 0; p < b.points; ++p) {
-      const MarkerData& m = markers_[b.point_marker[p]];
+      const MarkerData& m = point(b, p);
       out.segment<3>(b.row + 6 + 3 * p) = m.v_P - m.s.v;
     }
   }
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const ConstraintPart& p = parts_[k];
-    const MarkerState a = constraint_state(markers_[p.a]);
-    const MarkerState b = constraint_state(markers_[p.b]);
-    for (int r = 0; r < p.rows(); ++r) {
-      const int i = part_offset_[k] + r;
-      const ConstraintRow& row = rows_[i - part_rows_];
-      const WrenchRow& g = row.gradient;
-      out[i] = g.Fa.dot(a.v) + g.Ta.dot(a.w) + g.Fb.dot(b.v) + g.Tb.dot(b.w) + row.phi_t;
-    }
-  }
+  constraint_set_.rates([&](int marker) { return constraint_state(marker); }, out);
+}
+
+/// Of the material point of a marker on its body.
+Vec3 AbsoluteFormulation::point_increment(const MarkerData& m, const VecX& delta) const noexcept {
+  const BodyData& b = bodies_[m.body];
+  Vec3 x = delta.segment<3>(b.offset);
+  for (int c = 0; c < 3; ++c) x += m.p_B[c] * delta.segment<3>(b.offset + 3 + 3 * c);
+  if (m.local) x.noalias() += m.Jr * delta.segment(b.offset + 12, b.nm);
+  return x;
+}
+
+/// As constraints see a marker: at its outer point.
+PointMotion AbsoluteFormulation::increment_of(int marker, const VecX& delta) const noexcept {
+  const MarkerData& m = markers_[marker];
+  PointMotion x{Vec3::Zero(), Vec3::Zero()};
+  if (m.body < 0) return x;
+  const BodyData& b = bodies_[m.body];
+  x.linear = m.point >= 0 ? Vec3(delta.segment<3>(m.point)) : point_increment(m, delta);
+  for (int c = 0; c < 3; ++c)
+    x.angular += 0.5 * b.A.col(c).cross(delta.segment<3>(b.offset + 3 + 3 * c));
+  if (m.rotates) x.angular.noalias() += m.Jw * delta.segment(b.offset + 12, b.nm);
+  return x;
 }
 
 void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) noexcept {
-  const auto point = [&](const MarkerData& m) -> Vec3 {  // on the body
-    const BodyData& b = body(m.body);
-    Vec3 x = delta.segment<3>(b.offset);
-    for (int c = 0; c < 3; ++c) x += m.p_B[c] * delta.segment<3>(b.offset + 3 + 3 * c);
-    if (m.local) x.noalias() += m.Jr * delta.segment(b.offset + 12, b.nm);
-    return x;
-  };
   for (const BodyData& b : bodies_) {
     for (int k = 0; k < 6; ++k) {
       const Vec3 du = delta.segment<3>(b.offset + 3 + 3 * pair_a[k]);
@@ -147,41 +125,34 @@ void AbsoluteFormulation::constraint_increments(const VecX& delta, VecX& out) no
                                          : b.A.col(pair_a[k]).dot(dv) + b.A.col(pair_b[k]).dot(du));
     }
     for (int p = 0; p < b.points; ++p) {
-      const MarkerData& m = markers_[b.point_marker[p]];
-      out.segment<3>(b.row + 6 + 3 * p) = delta.segment<3>(b.offset + 12 + b.nm + 3 * p) - point(m);
+      out.segment<3>(b.row + 6 + 3 * p) =
+          delta.segment<3>(b.offset + 12 + b.nm + 3 * p) - point_increment(point(b, p), delta);
     }
   }
-  const auto motion = [&](int marker, Vec3& linear, Vec3& angular) {
-    const MarkerData& m = markers_[marker];
-    linear.setZero();
-    angular.setZero();
-    if (m.body < 0) return;
-    const BodyData& b = body(m.body);
-    linear = m.point >= 0 ? Vec3(delta.segment<3>(m.point)) : point(m);
-    for (int c = 0; c < 3; ++c)
-      angular += 0.5 * b.A.col(c).cross(delta.segment<3>(b.offset + 3 + 3 * c));
-    if (m.rotates) angular.noalias() += m.Jw * delta.segment(b.offset + 12, b.nm);
-  };
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const ConstraintPart& p = parts_[k];
-    Vec3 ra, wa, rb, wb;
-    motion(p.a, ra, wa);
-    motion(p.b, rb, wb);
-    for (int r = 0; r < p.rows(); ++r) {
-      const int i = part_offset_[k] + r;
-      const WrenchRow& g = rows_[i - part_rows_].gradient;
-      out[i] = g.Fa.dot(ra) + g.Ta.dot(wa) + g.Fb.dot(rb) + g.Tb.dot(wb);
-    }
-  }
+  constraint_set_.increments([&](int marker) { return increment_of(marker, delta); }, out);
 }
 
 Vec3 AbsoluteFormulation::marker_acceleration(int index) const noexcept {
   const MarkerData& m = markers_[index];
   if (m.body < 0) return Vec3::Zero();
-  const BodyData& b = body(m.body);
+  const BodyData& b = bodies_[m.body];
   Vec3 x = m.s.a_bias + a_.segment<3>(b.offset);
   for (int c = 0; c < 3; ++c) x += m.p_B[c] * a_.segment<3>(b.offset + 3 + 3 * c);
   if (m.local) x.noalias() += m.Jr * a_.segment(b.offset + 12, b.nm);
+  return x;
+}
+
+/// As constraints see a marker: at its outer point.
+PointMotion AbsoluteFormulation::acceleration_of(int marker, const VecX& a) const noexcept {
+  const MarkerData& m = markers_[marker];
+  PointMotion x;
+  x.angular = m.s.alpha_bias;
+  x.linear = m.point >= 0 ? Vec3(a.segment<3>(m.point)) : marker_acceleration(marker);
+  if (m.body < 0) return x;
+  const BodyData& b = bodies_[m.body];
+  for (int c = 0; c < 3; ++c)
+    x.angular += 0.5 * b.A.col(c).cross(a.segment<3>(b.offset + 3 + 3 * c));
+  if (m.rotates) x.angular.noalias() += m.Jw * a.segment(b.offset + 12, b.nm);
   return x;
 }
 
@@ -202,28 +173,7 @@ void AbsoluteFormulation::constraint_accelerations(const VecX& a, VecX& out) noe
           a.segment<3>(b.offset + 12 + b.nm + 3 * p) - marker_acceleration(marker);
     }
   }
-  const auto motion = [&](int marker, Vec3& linear, Vec3& angular) {
-    const MarkerData& m = markers_[marker];
-    angular = m.s.alpha_bias;
-    linear = m.point >= 0 ? Vec3(a.segment<3>(m.point)) : marker_acceleration(marker);
-    if (m.body < 0) return;
-    const BodyData& b = body(m.body);
-    for (int c = 0; c < 3; ++c)
-      angular += 0.5 * b.A.col(c).cross(a.segment<3>(b.offset + 3 + 3 * c));
-    if (m.rotates) angular.noalias() += m.Jw * a.segment(b.offset + 12, b.nm);
-  };
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const ConstraintPart& p = parts_[k];
-    Vec3 aa, wa, ab, wb;
-    motion(p.a, aa, wa);
-    motion(p.b, ab, wb);
-    for (int r = 0; r < p.rows(); ++r) {
-      const int i = part_offset_[k] + r;
-      const ConstraintRow& row = rows_[i - part_rows_];
-      const WrenchRow& g = row.gradient;
-      out[i] = g.Fa.dot(aa) + g.Ta.dot(wa) + g.Fb.dot(ab) + g.Tb.dot(wb) + row.quad + row.phi_tt;
-    }
-  }
+  constraint_set_.accelerations([&](int marker) { return acceleration_of(marker, a); }, out);
 }
 
 }  // namespace floatframe

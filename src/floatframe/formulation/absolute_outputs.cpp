@@ -19,7 +19,7 @@ double AbsoluteFormulation::gravity_energy(const VecX&) const noexcept {
   for (const BodyData& b : bodies_) {
     const PreprocessingData& d = b.inertia.data();
     const Vec3 m_bar = d.m_u + d.S * b.y;
-    sum -= model_.gravity.dot(d.m * b.r0 + b.A * m_bar);
+    sum -= model_.gravity.dot(d.m * b.p_WB + b.A * m_bar);
   }
   return sum;
 }
@@ -46,13 +46,6 @@ double AbsoluteFormulation::modal_damping_power(const VecX& v) const noexcept {
   return sum;
 }
 
-double AbsoluteFormulation::motion_power(const VecX& lambda) const noexcept {
-  double sum = 0.0;
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    sum += lambda[part_rows_ + static_cast<Eigen::Index>(r)] * rows_[r].phi_t;
-  return sum;
-}
-
 std::string AbsoluteFormulation::coordinate_owner(int i) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const BodyData& b = bodies_[k];
@@ -67,9 +60,9 @@ std::string AbsoluteFormulation::coordinate_owner(int i) const {
 }
 
 MatX AbsoluteFormulation::constraint_jacobian() {
-  MatX J = MatX::Zero(nc_, nq_);
-  VecX w = VecX::Zero(nc_), row(nq_);
-  for (int i = 0; i < nc_; ++i) {
+  MatX J = MatX::Zero(constraints(), nq_);
+  VecX w = VecX::Zero(constraints()), row(nq_);
+  for (int i = 0; i < constraints(); ++i) {
     w.setZero();
     w[i] = 1.0;
     constraint_forces(w, row);
@@ -85,7 +78,7 @@ CoordinateCounts AbsoluteFormulation::counts() const {
     c.elastic += b.nm;
   }
   c.total = c.rigid + c.elastic;
-  c.constraints = nc_;
+  c.constraints = constraints();
   return c;
 }
 

@@ -64,4 +64,13 @@ class BodyInertia {
   ProjectionWorkspace projection_work_;
 };
 
+/// A body's terms of the equations of motion at the last evaluation, over its rigid coordinates and
+/// its modal amplitudes.
+struct BodyTerms {
+  BodyInertia inertia;
+  MatX M;               ///< mass matrix
+  VecX Qv;              ///< velocity-dependent inertia forces
+  bool damped = false;  ///< its modal damping is not zero
+};
+
 }  // namespace floatframe

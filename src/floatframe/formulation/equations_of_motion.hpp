@@ -65,8 +65,9 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   /// out = M a - Q + Phi_q^T (alpha Phi + lambda), for (a, lambda, alpha, out)
   { f.residual(in, in, x, out) } noexcept -> std::same_as<void>;
 
-  /// T = M mass + damping C + s (K + alpha Phi_q^T Phi_q), for (mass, damping, s, alpha, slot), with
-  /// the forces and multipliers of the last `residual`. -1, or a coordinate with a vanishing pivot.
+  /// T = M mass + damping C + s (K + alpha Phi_q^T Phi_q), for (mass, damping, s, alpha, slot),
+  /// with the forces and multipliers of the last `residual`. -1, or a coordinate with a vanishing
+  /// pivot.
   { f.factorize(x, x, x, x, slot) } noexcept -> std::same_as<int>;
   /// W = M + s K + penalty Phi_q^T Phi_q, for (s, penalty, slot): modal stiffness and that of
   /// forces, without geometric stiffness: the metric of the projections. -1, or a coordinate with a

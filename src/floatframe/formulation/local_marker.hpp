@@ -1,8 +1,13 @@
 #pragma once
 // The part of a marker's motion that only its own body's modal amplitudes decide, in body axes;
-// shared by the formulations. With theta = X_theta y, E = exp(skew(theta)), o = E p_NM:
-//   p_B = p + X y + o, R_B = E R_NM, zeta_B = H thetadot, pdot_B = X ydot + zeta_B x o,
-//   pddot_B = zetadot_B x o + zeta_B x (zeta_B x o) with yddot = 0.
+// shared by the formulations. Node N at p with shapes X, X_theta; the marker at p_NM, R_NM on it.
+// With theta = X_theta y, E = exp(skew(theta)), o = E p_NM:
+//   p_B    = p + X y + o              R_B = E R_NM
+//   pdot_B = X ydot + zeta_B x o      zeta_B = H thetadot,  H the tangent of the exponential
+// and, with yddot = 0,
+//   pddot_B = zetadot_B x o + zeta_B x (zeta_B x o),  zetadot_B = Hdot thetadot.
+// A modal rate moves the marker, in world axes, by
+//   Jw = A H X_theta,   Jr = A X + Jw x (A o).
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -12,15 +17,21 @@ struct LocalMarker {
   int body = -1;
   bool local = false;    ///< deforms with modes
   bool rotates = false;  ///< the node's rotation enters
-  Vec3 p_B = Vec3::Zero(), pdot_B = Vec3::Zero(), pddot_B = Vec3::Zero();
-  Vec3 zeta_B = Vec3::Zero(), zetadot_B = Vec3::Zero(), o_B = Vec3::Zero();
-  Mat3 R_B = Mat3::Identity(), H = Mat3::Identity();
-  Vec3 theta = Vec3::Zero();
-  Vec3 node_p = Vec3::Zero();
-  Pose X_NM;
-  Mat3X X, X_theta, HX;  ///< 3 x nm; HX = H X_theta
-  Mat3X Jr,
-      Jw;  ///< world axes: velocity and angular velocity per modal rate (filled by the formulation)
+  // Body axes, from the body frame.
+  Vec3 p_B = Vec3::Zero();                               ///< position [m]
+  Vec3 pdot_B = Vec3::Zero(), pddot_B = Vec3::Zero();    ///< relative to the body [m/s, m/s2]
+  Mat3 R_B = Mat3::Identity();                           ///< orientation
+  Vec3 zeta_B = Vec3::Zero(), zetadot_B = Vec3::Zero();  ///< the same of turning [rad/s, rad/s2]
+  Vec3 theta = Vec3::Zero();                             ///< rotation vector of the node [rad]
+  Vec3 o_B = Vec3::Zero();                               ///< o, from the node [m]
+  Mat3 H = Mat3::Identity();                             ///< at theta
+  // Fixed.
+  Vec3 node_p = Vec3::Zero();  ///< p [m]
+  Pose X_NM;                   ///< p_NM, R_NM
+  Mat3X X, X_theta;            ///< 3 x nm
+  Mat3X HX;                    ///< 3 x nm, H X_theta at theta
+  /// World axes (`world_gradients`), 3 x nm: velocity and angular velocity per modal rate.
+  Mat3X Jr, Jw;
 
   LocalMarker() = default;
   LocalMarker(const Model& model, const Marker& m) : body(m.body), X_NM(m.X_NM) {

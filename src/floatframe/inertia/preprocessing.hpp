@@ -3,15 +3,15 @@
 // velocity-dependent inertia force Qv of one body from its 16 constant integrals. Cost does not
 // depend on the number of finite-element nodes.
 //
-//   deformed body    m_bar = m_u + S y                                                   (29)
-//                    P_bar_ij = P_u_ij + S^j_(i) y + (S_d^i)_(j) y                       (33)
-//                    (S_d^i)_(j) = S^i_(j) + y^T S^ij                                    (38)
-//   absolute         qdot = (r0dot, udot, vdot, wdot, ydot), A = [u v w] need not be orthonormal:
-//                    M_ff = sum_ij (A^T A)_ij S^ij,  Qv_f = -2 sum_ij (A^T Adot)_ij S^ij ydot
-//   relative         qdot = (sdot, omega, ydot), sdot the velocity of the body-fixed point that
-//   passes through the
-//                    origin from which r0 is measured; M and Qv of (46)-(63) in the cheaper local
-//                    forms F_bar, F_d_bar.
+//   deformed body   m_bar = m_u + S y                                                    (29)
+//                   P_bar_ij = P_u_ij + S^j_(i) y + (S_d^i)_(j) y                        (33)
+//                   (S_d^i)_(j) = S^i_(j) + y^T S^ij                                     (38)
+//   absolute        qdot = (r0dot, udot, vdot, wdot, ydot), (25)-(45); A = [u v w] need not be
+//                   orthonormal:
+//                     M_ff = sum_ij (A^T A)_ij S^ij,  Qv_f = -2 sum_ij (A^T Adot)_ij S^ij ydot
+//   relative        qdot = (sdot, omega, ydot), (46)-(63) in the cheaper local forms F_bar, F_d_bar
+//                   of theory section 6; sdot is the velocity of the body's material point that
+//                   passes through the origin from which r0 is measured
 //
 // Convention of the relative terms: sddot is the acceleration of the *material* point at the
 // origin,
@@ -30,11 +30,11 @@ struct PreprocessingData {
   Mat3 P_u = Mat3::Zero();
   Mat3X S;  ///< 3 x nm
   MatX Si;  ///< 9 x nm: row 3i+j is row j of S^i
-  MatX
-      Sij;  ///< 9nm x nm: row 9a+3i+j, column b: S^ij(b, a), so that Sij y stacks the rows y^T S^ij
-  MatX Sij_sum;  ///< 6 x nm^2: S^11, S^22, S^33, S^12+S^21, S^13+S^31, S^23+S^32, entry (a, b) in
-                 ///< column a+nm b
-  MatX M_ff;     ///< nm x nm: S^11 + S^22 + S^33
+  /// 9nm x nm: row 9a+3i+j, column b: S^ij(b, a), so that Sij y stacks the rows y^T S^ij.
+  MatX Sij;
+  /// 6 x nm^2: S^11, S^22, S^33, S^12+S^21, S^13+S^31, S^23+S^32, entry (a, b) in column a+nm b.
+  MatX Sij_sum;
+  MatX M_ff;  ///< nm x nm: S^11 + S^22 + S^33, (40), (54)
   /// The same with the modes side by side, `stride` numbers per row, zero beyond the last mode: what
   /// the relative terms walk through in whole lanes.
   struct ByModes {

@@ -1,17 +1,22 @@
 #pragma once
 // Inertia terms by projection of the finite-element mass matrix, paper equations (12)-(15):
 //   M = B*^T M* B*,   Qv = -B*^T M* Bdot* qdot,
-// B* stacks the velocity maps of the finite-element nodes. Two forms of M*:
-//   isoparametric  three rows per node, M* = M_s (x) I_3 is the same in every frame:
-//     absolute  B = [I  r1 I  r2 I  r3 I  A X],  Bdot qdot = 2 Adot X ydot (7), (42) relative  B =
-//     [I  -skew(r)  A X],          Bdot qdot = omega x (omega x r) + 2 omega x (A X ydot)   (11)
-//   six_dof        six rows per node in body axes, (A^T rdot, A^T omega + X_theta ydot), constant M*
-//   of the beams.
-//     Its rotations do not represent the field of centripetal accelerations exactly (theory,
-//     section 7).
-// The relative terms use the material-point acceleration of s, as preprocessing.hpp. With nm = 0
-// the body is rigid. Cost is linear in the number of nodes n: about 3 n nq^2 multiplications, nq =
-// 6+nm or 12+nm. Step time: no heap, noexcept.
+// where B* stacks the velocity maps of the finite-element nodes, rdot = B qdot of a node at r. Two
+// forms of M*:
+//
+//   isoparametric   three rows per node, M* = M_s (x) I_3, the same in every frame
+//     absolute      B = [I  r1 I  r2 I  r3 I  A X]                                         (7)
+//                   Bdot qdot = 2 Adot X ydot                                              (42)
+//     relative      B = [I  -skew(r)  A X]                                                 (11)
+//                   Bdot qdot = omega x (omega x r) + 2 omega x (A X ydot)
+//   six_dof         six rows per node in body axes, (A^T rdot, A^T omega + X_theta ydot), with the
+//                   constant M* of the beams. Its rotations do not represent the field of
+//                   centripetal accelerations exactly (theory, section 7).
+//
+// (r1, r2, r3) is the deformed position of the node in body axes. The relative terms use the
+// material-point acceleration of s, as preprocessing.hpp. With nm = 0 the body is rigid. Cost is
+// linear in the number of nodes n: about 3 n nq^2 multiplications, nq = 6 + nm or 12 + nm. Step
+// time: no heap, noexcept.
 #include <vector>
 
 #include "floatframe/body/flexible_body.hpp"

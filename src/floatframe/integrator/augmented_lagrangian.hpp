@@ -39,8 +39,8 @@ namespace floatframe {
 struct State {
   double t = 0.0;
   VecX q, v, a;
-  VecX a_alg;  ///< the algorithm's acceleration of generalised-alpha (equals a for the trapezoidal
-               ///< rule)
+  /// The algorithm's acceleration of generalised-alpha, (a); equals a for the trapezoidal rule.
+  VecX a_alg;
   VecX lambda;
 };
 
@@ -171,9 +171,7 @@ class AugmentedLagrangian {
 
   /// The histories v_hat and a_hat, and the first guess of x.
   void predict(const State& state, const Scheme& k) noexcept {
-    // a_alg_{n+1} = (x - h v_n - h^2 (1/2 - beta) a_alg_n) / (beta h^2)
-    // a = [(1 - am) a_alg_{n+1} + am a_alg_n - af a_n] / (1 - af),  v = v_n + h (1 - gamma) a_alg_n
-    // + h gamma a_alg_{n+1}
+    // (a) in (b) and (c), with x = 0 in (a): `known` is -a_alg_n+1 without x.
     const double h = k.h, from_v = h, from_a = h * h * (0.5 - k.beta);
     const VecX& omega2 = f_.own_frequencies_squared();
     for (Eigen::Index i = 0; i < x_.size(); ++i) {

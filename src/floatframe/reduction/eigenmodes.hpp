@@ -1,9 +1,11 @@
 #pragma once
 // Lowest modes of K x = w^2 M x for sparse symmetric K and M >= 0 (M may be singular: massless
-// dofs, reduced integration). Small problems are solved densely in the form M x = mu A x with A = K
-// - sigma M > 0; large ones by implicitly restarted Lanczos iteration on A^-1 M (Spectra), then one
-// block step of inverse iteration with a Rayleigh-Ritz projection, which cleans the shapes of
-// massless parts and separates multiple modes. The start is fixed: the same modes every time.
+// dofs, reduced integration). With A = K - sigma M > 0,
+//   M x = mu A x,   w^2 = sigma + 1/mu.
+// Small problems are solved densely in this form; large ones by implicitly restarted Lanczos
+// iteration on A^-1 M (Spectra), then one block step of inverse iteration with a Rayleigh-Ritz
+// projection, which cleans the shapes of massless parts and separates multiple modes. The start is
+// fixed: the same modes every time.
 #include <functional>
 
 #include "floatframe/fe/fe_model.hpp"

@@ -27,9 +27,10 @@ enum class ModeMethod {
 struct BodyReference {
   enum class Kind {
     mean_axis,  ///< Tisserand: int X dm = 0, int r_u x X dm = 0
-    buckens,    ///< least mean square of the displacements over the volume (for uniform density and
-                ///< without point masses the same as mean_axis)
-    node        ///< tangent frame: the interface `node` has no displacement and no rotation
+    /// Least mean square of the displacements over the volume (for uniform density and without
+    /// point masses the same as mean_axis).
+    buckens,
+    node  ///< tangent frame: the interface `node` has no displacement and no rotation
   };
   Kind kind = Kind::mean_axis;
   std::string node;
@@ -59,9 +60,9 @@ struct PartOptions {
   BodyReference reference;
   Integration integration = Integration::exact;
   double damping_ratio = 0.0;  ///< of every mode of the reduced (K, M_ff), fraction of critical
-  bool check_free_modes =
-      true;              ///< free modes of the full model for the report (a second factorisation)
-  bool stresses = true;  ///< stress modes on the surface
+  /// Free modes of the full model for the report (a second factorisation).
+  bool check_free_modes = true;
+  bool stresses = true;          ///< stress modes on the surface
   bool keep_projection = false;  ///< ProjectionData for the projection method
   SparseSolver solver = SparseSolver::automatic;
   std::function<void(const std::string& stage, double seconds)> progress;  ///< after each stage

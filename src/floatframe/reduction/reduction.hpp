@@ -4,9 +4,9 @@
 //
 // Craig-Bampton: with the dofs split into clamped (body reference, zero in every mode), interface b
 // and inner i,
-//   constraint modes            X_i = -K_ii^-1 K_ib       one for each interface dof, the others
-//   held fixed-interface modes       K_ii x = w^2 M_ii x       clamped and interface dofs held, x^T
-//   M x = 1, w > 0
+//   constraint modes        X_i = -K_ii^-1 K_ib   one for each interface dof, the others held
+//   fixed-interface modes   K_ii x = w^2 M_ii x   clamped and interface dofs held,
+//                                                 x^T M x = 1, w > 0
 // Isoparametric masses give rotations no inertia, so M_ii is singular; K_ii is not, and the
 // eigenproblem is solved in the form M_ii x = (1/w^2) K_ii x. The largest component of each dynamic
 // mode is positive.
@@ -38,20 +38,20 @@ struct ReductionOptions {
   std::vector<DofSelection> clamped;
   std::vector<DofSelection> interfaces;  ///< one static mode a dof, in this order, low bits first
   int normal_modes = 0;                  ///< fixed-interface modes by number
-  double max_frequency =
-      0.0;  ///< if positive: all below this [Hz]; with normal_modes at most so many
+  /// If positive: all below this [Hz]; with normal_modes at most so many.
+  double max_frequency = 0.0;
   /// Straight bar clamped at its first node: analytic shapes, sampled at the nodes, instead of the
   /// finite-element ones: per transverse plane (local y, then local z) the static tip shape, then
   /// this number of clamped-pinned shapes per plane. No coupling in the stiffness.
   std::optional<int> analytic_dynamic_per_plane;
-  std::optional<MatX>
-      basis;  ///< any Rayleigh-Ritz basis: dofs_per_node rows per node, one column per mode
+  /// Any Rayleigh-Ritz basis: dofs_per_node rows per node, one column per mode.
+  std::optional<MatX> basis;
   bool orthonormalise = false;  ///< modes of the reduced (K, M_ff): M_ff = I, K diagonal
   MassModel mass_model = MassModel::isoparametric;
   /// Mass of the eigenproblem; as mass_model if absent (six_dof and hermite: the consistent mass).
   std::optional<MassModel> eigen_mass;
-  bool section_inertia =
-      false;                   ///< rotary and torsional inertia of beam sections (six_dof, hermite)
+  /// Rotary and torsional inertia of beam sections (six_dof, hermite).
+  bool section_inertia = false;
   double damping_ratio = 0.0;  ///< of every mode of (K, M_ff), fraction of critical
 };
 

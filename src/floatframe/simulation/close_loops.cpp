@@ -8,6 +8,7 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/open_loops.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
@@ -15,7 +16,7 @@ namespace floatframe {
 
 namespace {
 
-using Given = RelativeFormulation::Given;
+using Given = TreeKinematics::Given;
 
 /// Least weighted change x with J x = b.
 VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
@@ -35,7 +36,7 @@ std::vector<CutValue> cut_values(const RelativeFormulation& f, bool rates) {
   std::vector<CutValue> values;
   for (std::size_t j = 0; j < f.model().joints.size(); ++j) {
     const Joint& joint = f.model().joints[j];
-    if (f.tree_body_of_joint(static_cast<int>(j)) >= 0) continue;
+    if (f.tree().body_of_joint(static_cast<int>(j)) >= 0) continue;
     const std::vector<double> given =
         rates ? joint.velocity : joint_coordinates_in_range(joint, joint.position);
     for (std::size_t k = 0; k < given.size(); ++k)
@@ -53,7 +54,7 @@ class Loops {
         rates_(rates),
         keeps_(keeps),
         t_(t),
-        given_(f.given_coordinates(rates)),
+        given_(f.tree().given_coordinates(rates)),
         cut_(as_given ? cut_values(f, rates) : std::vector<CutValue>()),
         changes_(VecX::Zero(static_cast<Eigen::Index>(cut_.size()))) {}
 
@@ -68,7 +69,7 @@ class Loops {
     VecX w = VecX::Ones(nv + changes_.size());
     for (int i = 0; i < nv; ++i) {
       const Given given = given_[i];
-      if (f_.is_elastic(i)) w[i] = stage >= 1 ? 1e-4 : 0.0;
+      if (f_.tree().is_elastic(i)) w[i] = stage >= 1 ? 1e-4 : 0.0;
       if (given != Given::no) w[i] = stage >= 2 ? 1e-4 : 0.0;
       if (given == Given::kept && keeps_) w[i] = 0.0;
     }
@@ -97,20 +98,13 @@ class Loops {
     J.topLeftCorner(nc, nv) = f_.constraint_jacobian();
     if (n == 0) return J;
     J.bottomRightCorner(n, n).diagonal().setConstant(-1.0);
-    VecX x = VecX::Zero(nv), q1 = q;
-    for (Eigen::Index i = 0; i < nv; ++i) {
-      const double step = rates_ ? 1.0 : 1e-6;
-      VecX side[2];
-      for (int k = 0; k < 2; ++k) {
-        x[i] = k == 0 ? step : -step;
-        if (!rates_) f_.retract(q, x, q1);
-        f_.positions(t_, q1);
-        f_.velocities(rates_ ? VecX(v + x) : v);
-        side[k] = measured();
-      }
-      x[i] = 0.0;
-      J.block(nc, i, n, 1) = (side[0] - side[1]) / (2.0 * step);
-    }
+    VecX q1 = q;
+    J.bottomLeftCorner(n, nv) = central_differences(nv, rates_ ? 1.0 : 1e-6, [&](const VecX& x) {
+      if (!rates_) f_.retract(q, x, q1);
+      f_.positions(t_, q1);
+      f_.velocities(rates_ ? VecX(v + x) : v);
+      return measured();
+    });
     f_.positions(t_, q);
     f_.velocities(v);
     return J;

@@ -16,8 +16,8 @@ ModelCounts check(const Model& model) {
   c.bodies = static_cast<int>(model.bodies.size());
   for (const Body& b : model.bodies) c.flexible_bodies += b.modes() > 0 ? 1 : 0;
   c.joints = static_cast<int>(model.joints.size());
-  c.cut_joints = static_cast<int>(relative.topology().cut_joints.size());
-  for (const int j : relative.topology().cut_joints)
+  c.cut_joints = static_cast<int>(relative.tree().topology().cut_joints.size());
+  for (const int j : relative.tree().topology().cut_joints)
     c.cut_joint_names.push_back(model.joints[j].name);
   c.relative = relative.counts();
   c.absolute = absolute.counts();
@@ -62,12 +62,12 @@ StaticsResult statics(const Model& model) {
     f.tree_joint_wrench(static_cast<int>(k), joint.force, joint.torque);
     s.joints.push_back(joint);
   }
-  for (std::size_t k = 0; k < f.parts().size();
+  for (std::size_t k = 0; k < f.constraint_set().parts().size();
        ++k) {  // multipliers of cut joints, motions and rods
-    const ConstraintPart& p = f.parts()[k];
+    const ConstraintPart& p = f.constraint_set().parts()[k];
     for (int row = 0; row < p.rows(); ++row) {
-      const double lambda = e.lambda[f.part_offset(k) + row];
-      const WrenchRow& g = f.constraint_row(f.part_offset(k) + row).gradient;
+      const double lambda = e.lambda[f.constraint_set().offset(k) + row];
+      const WrenchRow& g = f.constraint_set().row(f.constraint_set().offset(k) + row).gradient;
       if (p.owner.kind == ConstraintOwner::Kind::rod) {
         const Rod& rod = model.rods[p.owner.index];
         s.forces.push_back({rod.name, "rod", lambda, rod.length});

@@ -6,57 +6,37 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
 
 namespace {
 
-/// Residual, tangent and constraints of the statics at q, by finite differences; load time only.
+/// Residual, tangent and constraints of the statics at q.
 class Statics {
  public:
-  explicit Statics(RelativeFormulation& f)
-      : f_(f), zero_(VecX::Zero(f.velocities())), mass_(f.velocities(), f.velocities()) {}
+  explicit Statics(RelativeFormulation& f) : f_(f) { at_.v = VecX::Zero(f.velocities()); }
 
-  void evaluate(const VecX& q, const VecX& lambda, VecX& out) {
-    f_.positions(0.0, q);
-    f_.velocities(zero_);
-    f_.dynamics();
-    f_.residual(zero_, lambda, 0.0, out);
+  VecX evaluate(const VecX& q, const VecX& lambda) {
+    return residual_at(f_, 0.0, q, at_.v, lambda);
   }
   void find_mass(const VecX& q, const VecX& lambda) {
-    const int nv = f_.velocities();
-    VecX rest(nv), r1(nv);
-    evaluate(q, lambda, rest);
-    for (int j = 0; j < nv; ++j) {
-      f_.residual(VecX::Unit(nv, j), lambda, 0.0, r1);
-      mass_.col(j) = r1 - rest;
-    }
+    const VecX rest = evaluate(q, lambda);
+    mass_ = mass_matrix(f_, VecX::Ones(f_.velocities()), rest, lambda);
   }
   /// Where the model is: r, phi, J, K. `first`: least-squares multipliers instead of those given.
   void linearise(const VecX& q, VecX& lambda, bool first) {
-    const int nv = f_.velocities();
-    r.resize(nv);
-    evaluate(q, lambda, r);
+    r = evaluate(q, lambda);
     J = f_.constraint_jacobian();
     phi = f_.constraint_values();
     if (first && phi.size() > 0) {
       lambda = LeastNorm(J.transpose()).solve(VecX(-r));
-      evaluate(q, lambda, r);
+      r = evaluate(q, lambda);
     }
-    K.resize(nv, nv);
-    VecX q1 = q, r1(nv), r2(nv), x = VecX::Zero(nv);
-    for (int j = 0; j < nv; ++j) {
-      constexpr double step = 1e-6;
-      x.setZero();
-      x[j] = step;
-      f_.retract(q, x, q1);
-      evaluate(q1, lambda, r1);
-      x[j] = -step;
-      f_.retract(q, x, q1);
-      evaluate(q1, lambda, r2);
-      K.col(j) = (r1 - r2) / (2.0 * step);
-    }
+    at_.q = q;
+    at_.lambda = lambda;
+    K = stiffness_matrix(f_, at_);
   }
   /// Solves (mu M + K) dx + J^T dlambda = -r, J dx = -phi; at most 0.2 in any coordinate. False if
   /// the solution is not finite.
@@ -91,7 +71,7 @@ class Statics {
 
  private:
   RelativeFormulation& f_;
-  VecX zero_;
+  State at_;  ///< at rest
   MatX mass_;
 };
 
@@ -143,7 +123,7 @@ void descend(RelativeFormulation& f, Statics& statics, double weight, VecX q, Ve
              int& iterations, Best& best) {
   const VecX none = VecX::Zero(lambda.size());
   double mu = 1.0;
-  VecX dx, dlambda, q1 = q, g(f.velocities()), g1(f.velocities()), r1(f.velocities());
+  VecX dx, dlambda, q1 = q, g;
   bool first = true, moved = true;
   double size = 0.0;
   for (int k = 0; k < 500; ++k, ++iterations) {
@@ -153,13 +133,13 @@ void descend(RelativeFormulation& f, Statics& statics, double weight, VecX q, Ve
       size = largest(statics.r) + 1e3 * weight * largest(statics.phi);
       best.offer(q, lambda, size);
       if (best.done(weight)) return;
-      statics.evaluate(q, none, g);
+      g = statics.evaluate(q, none);
     }
     if (!statics.step(mu, dx, dlambda)) return;
     f.retract(q, dx, q1);
-    statics.evaluate(q1, lambda + dlambda, r1);
+    const VecX r1 = statics.evaluate(q1, lambda + dlambda);
     const double size1 = largest(r1) + 1e3 * weight * largest(f.constraint_values());
-    statics.evaluate(q1, none, g1);
+    const VecX g1 = statics.evaluate(q1, none);
     const double start = g.dot(dx), work = 0.5 * (start + g1.dot(dx));
     // Closing constraints and the last digits do not follow the work.
     const bool downhill = start < 0.0 && work < 0.0;
@@ -181,12 +161,10 @@ void descend(RelativeFormulation& f, Statics& statics, double weight, VecX q, Ve
 template <class Evaluate>
 void keep_neutral_positions(RelativeFormulation& f, const VecX& start, VecX& q, double residual,
                             double weight, const Evaluate& evaluate) {
-  VecX r(f.velocities());
-  for (const int i : f.free_translations()) {
+  for (const int i : f.tree().free_translations()) {
     VecX moved = q;
     moved[i] = start[i];
-    evaluate(moved, r);
-    if (largest(r) < residual + 1e-10 * weight) q = moved;
+    if (largest(evaluate(moved)) < residual + 1e-10 * weight) q = moved;
   }
 }
 
@@ -212,9 +190,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   const double weight = std::max(1e-6, f.total_mass() * f.model().gravity.norm());
   constexpr double accepted = 1e-7;
   Statics statics(f);
-  VecX r(f.velocities());
-  statics.evaluate(q, e.lambda, r);
-  check_magnitudes(r, [&](int i) { return f.coordinate_owner(i); });
+  check_magnitudes(statics.evaluate(q, e.lambda), [&](int i) { return f.coordinate_owner(i); });
   statics.find_mass(q, e.lambda);
   Best best{q, e.lambda};
   approach(f, statics, weight, q, e.lambda, e.iterations, best);
@@ -222,11 +198,10 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
     descend(f, statics, weight, q, e.lambda, e.iterations, best);
   q = best.q;
   e.lambda = best.lambda;
-  const auto evaluate = [&](const VecX& at, VecX& out) { statics.evaluate(at, e.lambda, out); };
-  evaluate(q, r);
-  e.residual = largest(r);
+  const auto evaluate = [&](const VecX& at) { return statics.evaluate(at, e.lambda); };
+  e.residual = largest(evaluate(q));
   keep_neutral_positions(f, start_q, q, e.residual, weight, evaluate);
-  evaluate(q, r);
+  const VecX r = evaluate(q);
   e.residual = largest(r);
   if (!(best.size < accepted * weight)) {
     Eigen::Index worst = 0;

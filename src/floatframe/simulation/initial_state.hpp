@@ -1,13 +1,18 @@
 #pragma once
 // The state a run starts from, found once at load time in relative coordinates (dense linear
-// algebra, allocates, throws):
-//   close_loops          least change of the start values that satisfies the position and velocity
-//                        constraints; what the user gave a value for moves last, what he keeps
-//                        never
-//   find_equilibrium     static equilibrium: Newton with pseudo-transient regularisation on the
-//                        full residual
-//   start_accelerations  a and lambda from M a + Phi_q^T lambda = Q, Phi_q a = gamma, in any
-//                        formulation
+// algebra, allocates, throws; theory section 12):
+//
+//   close_loops           least change x of the start values with
+//                           Phi(q (+) x) = 0,  Phi_q v + Phi_t = 0                         (1)
+//                         what the user gave a value for moves last, what he keeps never
+//   find_equilibrium      r(q, lambda) = 0, Phi(q) = 0 at rest by Newton with pseudo-transient
+//                         regularisation mu [1/s2],
+//                           (mu M + K) x + J^T dlambda = -r,  J x = -Phi                   (2)
+//   start_accelerations   in any formulation
+//                           M a + Phi_q^T lambda = Q,  Phi_q a = gamma                     (3)
+//                         with gamma = -((Phi_q)dot v + Phi_tt): by the factorised tangent with a
+//                         penalty and passes that correct for it, or by dense linear algebra where
+//                         M is singular on the motions that the constraints leave free
 #include <Eigen/Core>
 #include <cmath>
 #include <functional>
@@ -16,6 +21,7 @@
 
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/mass_scale.hpp"
 #include "floatframe/simulation/overflow.hpp"
 #include "floatframe/simulation/results.hpp"
@@ -95,9 +101,8 @@ std::string named_text(const char* one, const char* many, const std::vector<std:
 template <class F>
 VecX mass_diagonal(F& f, const State& state, const VecX& possible) {
   const int nv = f.velocities();
-  const VecX zero = VecX::Zero(nv);
-  VecX r0(nv), column(nv), diagonal(nv);
-  f.residual(zero, state.lambda, 0.0, r0);
+  VecX r0(nv), diagonal(nv);
+  f.residual(VecX::Zero(nv), state.lambda, 0.0, r0);
   check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
   if constexpr (requires { f.mass_matrix(); }) {
     diagonal = f.mass_matrix().diagonal();
@@ -106,10 +111,8 @@ VecX mass_diagonal(F& f, const State& state, const VecX& possible) {
   }
   // Differences of the residual keep the digits of the mass if they are no smaller than the forces.
   const VecX test = test_accelerations(r0, possible);
-  for (int j = 0; j < nv; ++j) {
-    f.residual(test[j] * VecX::Unit(nv, j), state.lambda, 0.0, column);
-    diagonal[j] = (column[j] - r0[j]) / test[j];
-  }
+  for (int j = 0; j < nv; ++j)
+    diagonal[j] = mass_times(f, VecX::Unit(nv, j), test[j], r0, state.lambda)[j];
   check_masses(diagonal, [&](int i) { return f.coordinate_owner(i); });
   return diagonal;
 }
@@ -173,37 +176,23 @@ std::string moving_bodies(F& f, const State& state, const MatX& directions) {
 /// Fills state.a and state.lambda by dense linear algebra.
 template <class F>
 void start_accelerations_dense(F& f, State& state) {
-  const int nv = f.velocities(), nc = f.constraints();
-  MatX mass(nv, nv);
-  const VecX zero = VecX::Zero(nv), no_lambda = VecX::Zero(nc);
-  VecX r0(nv), column(nv), gamma(nc), q1(state.q.size());
+  const int nv = f.velocities();
+  const VecX no_lambda = VecX::Zero(f.constraints());
   const VecX possible = possible_masses(f, state);
-  f.positions(state.t, state.q);
-  f.velocities(state.v);
-  f.dynamics();
-  f.residual(zero, no_lambda, 0.0, r0);
+  const VecX r0 = residual_at(f, state.t, state.q, state.v, no_lambda);
   check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
-  const VecX test = test_accelerations(r0, possible);
-  for (int j = 0; j < nv; ++j) {
-    f.residual(test[j] * VecX::Unit(nv, j), no_lambda, 0.0, column);
-    mass.col(j) = (column - r0) / test[j];
-  }
+  const MatX mass = mass_matrix(f, test_accelerations(r0, possible), r0, no_lambda);
   const MatX J = f.constraint_jacobian();
-  f.constraint_accelerations(zero, gamma);
+  VecX gamma(f.constraints()), q1(state.q.size());
+  f.constraint_accelerations(VecX::Zero(nv), gamma);
   const auto neighbour = [&](const VecX& increment, const MatX& Z) {
     Neighbour n;
     f.retract(state.q, increment, q1);
-    f.positions(state.t, q1);
-    f.velocities(state.v);
-    f.dynamics();
-    n.r.resize(nv);
-    f.residual(zero, no_lambda, 0.0, n.r);
+    n.r = residual_at(f, state.t, q1, state.v, no_lambda);
     n.MZ.resize(nv, Z.cols());
-    for (Eigen::Index k = 0; k < Z.cols(); ++k) {
-      const double unit = std::max(1.0, n.r.cwiseAbs().maxCoeff());
-      f.residual(unit * Z.col(k), no_lambda, 0.0, column);
-      n.MZ.col(k) = (column - n.r) / unit;
-    }
+    const double size = std::max(1.0, n.r.cwiseAbs().maxCoeff());
+    for (Eigen::Index k = 0; k < Z.cols(); ++k)
+      n.MZ.col(k) = mass_times(f, Z.col(k), size, n.r, no_lambda);
     n.JZ = f.constraint_jacobian() * Z;
     return n;
   };

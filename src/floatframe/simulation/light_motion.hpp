@@ -8,6 +8,7 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/linearization.hpp"
 
 namespace floatframe {
 
@@ -77,18 +78,9 @@ std::string light_motion_note(F& f, const State& state) {
   const int nv = f.velocities(), nc = f.constraints();
   if (nv == 0 || nv > most || !state.q.allFinite() || !state.v.allFinite()) return {};
   const VecX possible = possible_masses(f, state);
-  f.positions(state.t, state.q);
-  f.velocities(state.v);
-  f.dynamics();
-  const VecX zero = VecX::Zero(nv), no_lambda = VecX::Zero(nc);
-  VecX r0(nv), column(nv);
-  f.residual(zero, no_lambda, 0.0, r0);
-  const VecX test = test_accelerations(r0, possible);
-  MatX mass(nv, nv);
-  for (int j = 0; j < nv; ++j) {
-    f.residual(test[j] * VecX::Unit(nv, j), no_lambda, 0.0, column);
-    mass.col(j) = (column - r0) / test[j];
-  }
+  const VecX no_lambda = VecX::Zero(nc);
+  const VecX r0 = residual_at(f, state.t, state.q, state.v, no_lambda);
+  const MatX mass = mass_matrix(f, test_accelerations(r0, possible), r0, no_lambda);
   const MatX J = f.constraint_jacobian();
   if (!mass.allFinite() || !J.allFinite()) return {};
   const MatX N = free_motions(J, possible);

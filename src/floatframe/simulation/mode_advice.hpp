@@ -10,7 +10,8 @@
 //                    period, and the integrator cannot show the mode's own vibration
 //   static share     of the compliance under unit forces (and torques, divided by the length of the
 //                    body) at the places where joints, rods and forces attach, the part that is
-//                    lost with y_k = 0:  sum y_k^2 / (K^-1)_kk  over  sum y^T K y,  y = K^-1 g
+//                    lost with y_k = 0:
+//                      (sum y_k^2 / (K^-1)_kk) / (sum y^T K y),  y = K^-1 g
 //   dynamic share    the same quotient with the amplitudes y(t) of the run: strain energy that the
 //                    body could not have taken up without the mode
 //   kinetic ratio    sum M_kk ydot_k^2 over sum K_kk (y_k - mean)^2 in the run: about 1 for a mode
@@ -24,8 +25,8 @@ namespace floatframe {
 
 enum class ModeAction {
   keep,
-  quasi_static,  ///< needed for its compliance only: its own vibration is not resolved or not
-                 ///< excited
+  /// Needed for its compliance only: its own vibration is not resolved or not excited.
+  quasi_static,
   drop
 };
 
@@ -52,8 +53,8 @@ struct OutputDifference {
   std::string name, unit;
   double range = 0;  ///< largest minus smallest sample of the full model
   double rms = 0;    ///< root mean square of the difference between the two runs
-  double largest =
-      0;             ///< largest difference; in a sharp peak that comes a little later it is large
+  /// Largest difference; in a sharp peak that comes a little later it is large.
+  double largest = 0;
   double peaks = 0;  ///< difference of the largest or of the smallest samples, the larger one
   double noise = 0;  ///< largest difference when the full model is run with ten times the tolerance
   /// What is judged: the larger of rms and peaks over the range. The range counts as at least a
@@ -78,9 +79,10 @@ struct ModeAdviceReport {
   /// Quickest of the repeated runs; with the warnings of those compared.
   RunSummary full, reduced;
   std::vector<OutputDifference> differences;  ///< the largest first
-  std::string refused_by;  ///< the output that changed most in the smallest model refused ...
-  double refused_difference =
-      0;  ///< ... and by what part of its range; "" if the model did not run
+  /// The output that changed most in the smallest model refused, and by what part of its range; ""
+  /// if the model did not run.
+  std::string refused_by;
+  double refused_difference = 0;
   /// A step's floating-point operations for the flexible bodies, counted and not measured: inertia
   /// terms of all iterations and elimination of the amplitudes in all factorisations of the full
   /// model.

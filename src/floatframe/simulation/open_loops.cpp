@@ -15,12 +15,10 @@ namespace floatframe {
 namespace {
 
 /// The part whose row has the largest magnitude.
-std::size_t worst_part(const RelativeFormulation& f, const VecX& r) {
+std::size_t worst_part(const ConstraintSet& constraints, const VecX& r) {
   Eigen::Index row = 0;
   r.cwiseAbs().maxCoeff(&row);
-  std::size_t k = f.parts().size() - 1;
-  while (k > 0 && f.part_offset(k) > row) --k;
-  return k;
+  return constraints.part_of_row(static_cast<int>(row));
 }
 
 const char* unit_of(const ConstraintPart& part, bool rates) {
@@ -34,18 +32,19 @@ double in_unit(const ConstraintPart& part, double x) {
 }
 
 std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rates) {
+  const ConstraintSet& constraints = f.constraint_set();
   const MatX J = f.constraint_jacobian();
   const LeastNorm solver(J, 1e-11);
   const auto out_of_reach = [&](const VecX& r) { return VecX(r - J * solver.solve(r)); };
   const VecX e = out_of_reach(residual);
   const double counts = 1e-6 * e.lpNorm<Eigen::Infinity>();
   std::vector<std::string> names;
-  std::size_t worst = f.parts().size();
+  std::size_t worst = constraints.parts().size();
   double most = 0.0;
-  for (std::size_t k = 0; k < f.parts().size(); ++k) {
-    const double x = std::abs(e[f.part_offset(k)]);
-    if (f.parts()[k].motion == nullptr || !(x > counts)) continue;
-    names.push_back(f.model().joints[f.parts()[k].owner.index].name);
+  for (std::size_t k = 0; k < constraints.parts().size(); ++k) {
+    const double x = std::abs(e[constraints.offset(k)]);
+    if (constraints.parts()[k].motion == nullptr || !(x > counts)) continue;
+    names.push_back(f.model().joints[constraints.parts()[k].owner.index].name);
     if (x > (1.0 + 1e-6) * most) {  // of equal ones the first
       most = x;
       worst = k;
@@ -53,9 +52,9 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
   }
   // Positions that one motion asks for may be out of the reach of its loop: that loop stays open.
   if (names.empty() || (names.size() == 1 && !rates)) return {};
-  const Eigen::Index row = f.part_offset(worst);
+  const Eigen::Index row = constraints.offset(worst);
   const double own = out_of_reach(VecX::Unit(residual.size(), row))[row];
-  const ConstraintPart& part = f.parts()[worst];
+  const ConstraintPart& part = constraints.parts()[worst];
   return fmt::format("the prescribed {} of {} {}: {} misses its own by {:.3g} {} if {} met",
                      names.size() == 1 ? "motion" : "motions", named_text("joint", "joints", names),
                      names.size() == 1 ? "contradicts the constraints" : "contradict each other",
@@ -68,7 +67,8 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
 
 std::string open_loops_text(RelativeFormulation& f, const VecX& residual, bool rates) {
   if (std::string text = motions_text(f, residual, rates); !text.empty()) return text;
-  const ConstraintPart& part = f.parts()[worst_part(f, residual)];
+  const ConstraintSet& constraints = f.constraint_set();
+  const ConstraintPart& part = constraints.parts()[worst_part(constraints, residual)];
   return fmt::format("{} {} {:.3g} {}", owner_name(f.model(), part.owner),
                      rates ? "opens at" : "stays open by",
                      in_unit(part, residual.lpNorm<Eigen::Infinity>()), unit_of(part, rates));

@@ -56,7 +56,7 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
   f_.velocities(state.v);
   f_.dynamics();
   const Eigen::Index nq = f_.velocities();
-  first_ = f_.parts().empty() ? f_.constraints() : f_.part_offset(0);
+  first_ = parts().empty() ? f_.constraints() : f_.constraint_set().offset(0);
   const MatX all = f_.constraint_jacobian();
   VecX load(nq);
   f_.residual(VecX::Zero(nq), VecX::Zero(f_.constraints()), 0.0, load);
@@ -76,8 +76,8 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
     motions += N.cols();
   }
   rows_.resize(J_.rows());
-  for (std::size_t k = 0; k < f_.parts().size(); ++k) {
-    const ConstraintPart& p = f_.parts()[k];
+  for (std::size_t k = 0; k < parts().size(); ++k) {
+    const ConstraintPart& p = parts()[k];
     evaluate_constraint(p, f_.marker(p.a), f_.marker(p.b), 0.0, rows_.data() + row_of(k));
   }
 }
@@ -86,8 +86,8 @@ std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
   std::vector<RedundantDirection> found;
   MatX basis(J_.cols(), std::min(J_.rows(), J_.cols()));  // orthonormal, of the rows met so far
   Eigen::Index rank = 0;
-  for (std::size_t k = 0; k < f_.parts().size(); ++k) {
-    const ConstraintPart& part = f_.parts()[k];
+  for (std::size_t k = 0; k < parts().size(); ++k) {
+    const ConstraintPart& part = parts()[k];
     for (int r = 0; r < part.rows(); ++r) {
       const Eigen::Index i = row_of(k) + r;
       VecX x = J_.row(i).transpose();
@@ -117,8 +117,8 @@ bool ConstraintAnalysis::set_reactions(StaticsResult& statics) {
     j.force.setZero();
     j.torque.setZero();
   }
-  for (std::size_t k = 0; k < f_.parts().size(); ++k) {
-    const ConstraintPart& p = f_.parts()[k];
+  for (std::size_t k = 0; k < parts().size(); ++k) {
+    const ConstraintPart& p = parts()[k];
     const std::size_t owner = p.owner.index;
     for (int r = 0; r < p.rows(); ++r) {
       const Eigen::Index i = row_of(k) + r;

@@ -26,7 +26,8 @@ class ConstraintAnalysis {
   bool set_reactions(StaticsResult& statics);
 
  private:
-  Eigen::Index row_of(std::size_t part) const { return f_.part_offset(part) - first_; }
+  const std::vector<ConstraintPart>& parts() const { return f_.constraint_set().parts(); }
+  Eigen::Index row_of(std::size_t part) const { return f_.constraint_set().offset(part) - first_; }
 
   const Model& model_;
   AbsoluteFormulation f_;

@@ -25,15 +25,6 @@ struct RunnerMemory {
   StepCounters counters;
 };
 
-/// "joint 'hinge'", "rod 'tie'" that constraint row i belongs to.
-template <class F>
-std::string constraint_owner(const F& f, int i) {
-  std::size_t k = f.parts().size();
-  while (k-- > 0 && f.part_offset(k) > i) {
-  }
-  return k < f.parts().size() ? owner_name(f.model(), f.parts()[k].owner) : "the constraints";
-}
-
 template <class F>
 class Runner {
  public:
@@ -133,7 +124,8 @@ class Runner {
         last_.status == AttemptStatus::singular_tangent ? "the tangent matrix is singular at "
         : last_.status == AttemptStatus::not_finite ? "the state is not finite any more; look at "
                                                     : "no convergence; look at ";
-    const std::string who = last_.constraint >= 0   ? constraint_owner(f_, last_.constraint)
+    const std::string who = last_.constraint >= 0
+                                ? f_.constraint_set().owner_of_row(last_.constraint)
                             : last_.coordinate >= 0 ? f_.coordinate_owner(last_.coordinate)
                                                     : "the constraints";
     // A force that grew out of all proportion is a better hint than the coordinate it acts on.

@@ -102,7 +102,7 @@ double move_to(RelativeFormulation& f, OffsetGoal& goal, double t, bool hold, Ve
     J.topRows(nc) = f.constraint_jacobian();
     J.bottomRows(n) = goal.jacobian(hold);
     for (int j = 0; j < f.velocities(); ++j)
-      if (f.is_elastic(j)) J.col(j).setZero();
+      if (f.tree().is_elastic(j)) J.col(j).setZero();
     VecX x = LeastNorm(J, 1e-9).solve(b);
     const double size = x.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) break;

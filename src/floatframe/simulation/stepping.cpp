@@ -26,7 +26,8 @@ class Simulation::EngineOf final : public Simulation::Engine {
     runner_.state() = start_.state();
     base_ = start_.state().t;
     for (int k = 0; k < f_.velocities(); ++k) owners_.push_back(f_.coordinate_owner(k));
-    for (int k = 0; k < f_.constraints(); ++k) owners_.push_back(constraint_owner(f_, k));
+    for (int k = 0; k < f_.constraints(); ++k)
+      owners_.push_back(f_.constraint_set().owner_of_row(k));
     for (const Force& force : model().forces) owners_.push_back("force '" + force.name + "'");
     runner_.sample(row_.data());
     joints_.follow_present(f_, base_);

@@ -1,0 +1,102 @@
+// Load time of the tangent: elements of the clusters, memory, the dense Jacobian.
+#include <algorithm>
+
+#include "floatframe/formulation/cluster_tangent.hpp"
+#include "floatframe/math/partial_ldlt.hpp"
+
+namespace floatframe {
+
+ClusterTangent::ClusterTangent(const TreeKinematics& tree, const ConstraintSet& constraints,
+                               const ForceSet& forces, std::vector<Cluster> clusters)
+    : tree_(tree),
+      constraints_(constraints),
+      forces_(forces),
+      clusters_(std::move(clusters)),
+      loads_(tree.body_vectors()),
+      increments_(loads_) {
+  for (int i = 0; i < tree.body_count(); ++i) {
+    const TreeBody& b = tree.body(i);
+    BodyTangent t;
+    t.data = tree.model().bodies[i].data.get();
+    t.T = MatX::Zero(6 + b.nm, 6 + b.nm);
+    t.U = Mat6X::Zero(6, b.nj + b.nm);
+    t.Mz_Phi = Mat6X::Zero(6, b.nm_parent);
+    t.G_modal = Mat3X::Zero(3, b.nm);
+    bodies_.push_back(std::move(t));
+  }
+  for (const Cluster& c : clusters_)
+    fronts_.push_back({{}, VecX::Zero(c.n), VecX::Zero(front_stride(c.n))});
+  make_elements();
+  std::size_t widest = 64, gradients = 0;
+  for (const TreeBody& b : tree.bodies())
+    widest = std::max(widest, static_cast<std::size_t>(6 + b.nm));
+  for (const std::vector<TreeElement>* elements : {&part_elements_, &force_elements_})
+    for (const TreeElement& e : *elements)
+      widest = std::max(widest, static_cast<std::size_t>(e.width));
+  scratch_ = VecX::Zero(3 * static_cast<Eigen::Index>(widest));
+  for (std::size_t k = 0; k < part_elements_.size(); ++k)
+    gradients += static_cast<std::size_t>(part_elements_[k].width * constraints.parts()[k].rows());
+  for (Factors& f : factors_) {
+    for (const TreeBody& b : tree.bodies()) f.bodies.push_back({b.own, b.of_parent});
+    for (const Cluster& c : clusters_) f.fronts.push_back(MatX::Zero(front_stride(c.n), c.n));
+    f.gradients.assign(gradients, 0.0);
+  }
+}
+
+void ClusterTangent::make_elements() {
+  std::vector<int> cluster_of_body(tree_.body_count(), -1);
+  for (std::size_t k = 0; k < clusters_.size(); ++k)
+    for (const int i : clusters_[k].bodies) cluster_of_body[i] = static_cast<int>(k);
+  int gradients = 0;
+  for (std::size_t k = 0; k < constraints_.parts().size(); ++k) {
+    const ConstraintPart& part = constraints_.parts()[k];
+    TreeElement e = make_element(tree_, clusters_, cluster_of_body, part.a, part.b);
+    e.gradient = gradients;
+    gradients += e.width * part.rows();
+    if (e.cluster >= 0) fronts_[e.cluster].parts.push_back(static_cast<int>(k));
+    part_elements_.push_back(std::move(e));
+  }
+  for (const Force& f : tree_.model().forces) {
+    const int body_a = f.a >= 0 ? tree_.marker(f.a).body : -1, body_b = tree_.marker(f.b).body;
+    if (body_a >= 0 && body_b >= 0) {
+      force_elements_.push_back(make_element(tree_, clusters_, cluster_of_body, f.a, f.b));
+    } else {
+      TreeElement e;
+      e.a = f.a;
+      e.b = f.b;
+      e.body = body_b >= 0 ? body_b : body_a;
+      force_elements_.push_back(e);
+    }
+  }
+}
+
+MatX ClusterTangent::constraint_jacobian() {
+  MatX J = MatX::Zero(constraints_.count(), tree_.velocity_count());
+  for (std::size_t k = 0; k < part_elements_.size(); ++k) {
+    const TreeElement& e = part_elements_[k];
+    if (e.cluster < 0) continue;
+    const Cluster& c = clusters_[e.cluster];
+    for (int r = 0; r < constraints_.parts()[k].rows(); ++r) {
+      const int row = constraints_.offset(k) + r;
+      fill_gradient(tree_, e, constraints_.row(row).gradient, scratch_.data());
+      for (int j = 0; j < e.width; ++j) {
+        const int front = e.first + j;
+        // Never touched: the parent's twist, and the rows that fill up the last lanes.
+        if ((front >= c.size && front < c.size + 6) || front >= c.n) continue;
+        const int column =
+            front < c.size ? c.offset + front : tree_.body(c.parent).iy + front - c.size - 6;
+        J(row, column) = scratch_[j];
+      }
+    }
+  }
+  return J;
+}
+
+double ClusterTangent::elimination_work() const noexcept {
+  double sum = 0.0;
+  for (const Cluster& c : clusters_)
+    for (int j = 0; j < c.size; ++j) sum += 0.5 * (c.n - j) * (c.n - j + 1);
+  return sum;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,110 @@
+#include "floatframe/formulation/clusters.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace floatframe {
+
+namespace {
+
+/// Union-find over bodies.
+class Sets {
+ public:
+  explicit Sets(int n) : set_(n) { std::iota(set_.begin(), set_.end(), 0); }
+  int find(int i) const {
+    while (set_[i] != i) i = set_[i];
+    return i;
+  }
+  void join(int i, int j) { set_[find(i)] = find(j); }
+
+ private:
+  std::vector<int> set_;
+};
+
+/// Bodies on the way between two markers, without their lowest common ancestor.
+Sets tied_bodies(const TreeKinematics& tree, std::span<const std::pair<int, int>> ties) {
+  Sets sets(tree.body_count());
+  for (const auto& [marker_a, marker_b] : ties) {
+    std::vector<int> way = path_to_root(tree, tree.marker(marker_a).body);
+    std::vector<int> back = path_to_root(tree, tree.marker(marker_b).body);
+    while (!way.empty() && !back.empty() && way.back() == back.back()) {
+      way.pop_back();
+      back.pop_back();
+    }
+    way.insert(way.end(), back.begin(), back.end());
+    for (std::size_t i = 1; i < way.size(); ++i) sets.join(way[i], way[0]);
+  }
+  return sets;
+}
+
+/// The parent of a cluster: of all bodies that hang from outside of it the one nearest to the
+/// ground.
+int parent_of(const Cluster& c, const TreeKinematics& tree, const Sets& sets,
+              const std::vector<int>& depth) {
+  int best = tree.body_count() + 2, parent = -1;
+  for (const int i : c.bodies) {
+    const int p = tree.body(i).parent;
+    if (p >= 0 && sets.find(p) == sets.find(i)) continue;
+    const int d = p < 0 ? 0 : depth[p];
+    if (d < best) {
+      best = d;
+      parent = p;
+    }
+  }
+  return parent;
+}
+
+}  // namespace
+
+std::vector<int> path_to_root(const TreeKinematics& tree, int body) {
+  std::vector<int> path;
+  for (int i = body; i >= 0; i = tree.body(i).parent) path.push_back(i);
+  return path;
+}
+
+std::vector<Cluster> find_clusters(const TreeKinematics& tree,
+                                   std::span<const std::pair<int, int>> ties) {
+  const Sets sets = tied_bodies(tree, ties);
+  // In the order of their first body, parents before children.
+  std::vector<Cluster> clusters;
+  std::vector<int> cluster_of_set(tree.body_count(), -1), depth(tree.body_count(), 0);
+  for (const Topology::Link& link : tree.topology().links) {
+    const int root = sets.find(link.body);
+    if (cluster_of_set[root] < 0) {
+      cluster_of_set[root] = static_cast<int>(clusters.size());
+      clusters.emplace_back();
+    }
+    clusters[cluster_of_set[root]].bodies.push_back(link.body);
+    depth[link.body] = link.parent < 0 ? 1 : depth[link.parent] + 1;
+  }
+  for (Cluster& c : clusters) c.parent = parent_of(c, tree, sets, depth);
+  // A cluster found early may hang from a body of one found later.
+  std::vector<int> level(clusters.size(), -1);
+  const std::function<int(int)> level_of = [&](int k) {
+    const int parent = clusters[k].parent;
+    if (level[k] < 0) level[k] = parent < 0 ? 0 : level_of(cluster_of_set[sets.find(parent)]) + 1;
+    return level[k];
+  };
+  std::vector<int> order(clusters.size());
+  std::iota(order.begin(), order.end(), 0);
+  for (const int k : order) level_of(k);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return level[a] < level[b]; });
+  std::vector<Cluster> sorted;
+  for (const int k : order) sorted.push_back(std::move(clusters[k]));
+  return sorted;
+}
+
+void number_coordinates(TreeKinematics& tree, std::vector<Cluster>& clusters) {
+  std::vector<int> order;
+  for (const Cluster& c : clusters) order.insert(order.end(), c.bodies.begin(), c.bodies.end());
+  tree.number_coordinates(order);
+  for (Cluster& c : clusters) {
+    const TreeBody &first = tree.body(c.bodies.front()), &last = tree.body(c.bodies.back());
+    c.offset = first.iv;
+    c.size = last.iy + last.nm - c.offset;
+    c.n = c.size + (c.parent < 0 ? 0 : 6 + tree.body(c.parent).nm);
+  }
+}
+
+}  // namespace floatframe

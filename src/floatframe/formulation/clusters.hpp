@@ -1,0 +1,30 @@
+#pragma once
+// Clusters of a tree: sets of bodies that loop constraints or two-body forces tie together below
+// their lowest common ancestor. A cluster hangs from one parent body p. For a chain every body is a
+// cluster; of a vehicle every suspension is one, and the chassis the last.
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "floatframe/formulation/tree_kinematics.hpp"
+
+namespace floatframe {
+
+struct Cluster {
+  std::vector<int> bodies;   ///< parents before children
+  int parent = -1;           ///< body it hangs from, -1: ground
+  int offset = 0, size = 0;  ///< velocity coordinates of its bodies
+  int n = 0;                 ///< size of its front: [coordinates | Z_p | y_p]
+};
+
+/// The clusters, parents before children. `ties`: pairs of markers that one element joins.
+std::vector<Cluster> find_clusters(const TreeKinematics& tree,
+                                   std::span<const std::pair<int, int>> ties);
+
+/// Numbers the coordinates of the tree cluster by cluster.
+void number_coordinates(TreeKinematics& tree, std::vector<Cluster>& clusters);
+
+/// The bodies from this one to the ground.
+std::vector<int> path_to_root(const TreeKinematics& tree, int body);
+
+}  // namespace floatframe

@@ -1,0 +1,65 @@
+#include "floatframe/formulation/constraint_set.hpp"
+
+namespace floatframe {
+
+ConstraintSet::ConstraintSet(const Model& model, std::span<const int> joints) : model_(model) {
+  for (const int j : joints) append_joint_parts(model, j, parts_);
+  for (std::size_t j = 0; j < model.rods.size(); ++j)
+    append_rod_parts(model, static_cast<int>(j), parts_);
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    append_motion_parts(model, static_cast<int>(j), parts_);
+}
+
+void ConstraintSet::number_rows(int first) {
+  first_ = count_ = first;
+  offsets_.clear();
+  for (const ConstraintPart& p : parts_) {
+    offsets_.push_back(count_);
+    count_ += p.rows();
+  }
+  rows_.resize(count_ - first_);
+  values_ = multipliers_ = weights_ = VecX::Zero(count_);
+}
+
+std::size_t ConstraintSet::part_of_row(int i) const noexcept {
+  std::size_t k = parts_.size();
+  while (k-- > 0 && offsets_[k] > i) {
+  }
+  return k < parts_.size() ? k : parts_.size();
+}
+
+std::string ConstraintSet::owner_of_row(int i) const {
+  const std::size_t k = part_of_row(i);
+  return k < parts_.size() ? owner_name(model_, parts_[k].owner) : "the constraints";
+}
+
+WrenchRow ConstraintSet::wrench(std::size_t part, const VecX& w) const noexcept {
+  WrenchRow sum;
+  sum.Fa.setZero();
+  sum.Ta.setZero();
+  sum.Fb.setZero();
+  sum.Tb.setZero();
+  if (constraint_kind(parts_[part].type).gradients == PartGradients::unit) {
+    sum.Fb = w.segment<3>(offsets_[part]);
+    sum.Fa = -sum.Fb;
+    return sum;
+  }
+  for (int r = 0; r < parts_[part].rows(); ++r) {
+    const double x = w[offsets_[part] + r];
+    const WrenchRow& g = row_of(part, r).gradient;
+    sum.Fa += x * g.Fa;
+    sum.Ta += x * g.Ta;
+    sum.Fb += x * g.Fb;
+    sum.Tb += x * g.Tb;
+  }
+  return sum;
+}
+
+double ConstraintSet::motion_power(const VecX& lambda) const noexcept {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    sum += lambda[first_ + static_cast<Eigen::Index>(r)] * rows_[r].phi_t;
+  return sum;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,140 @@
+#pragma once
+// Constraints between markers that a formulation closes with multipliers: parts of joints, rods and
+// prescribed motions (model/constraint_part.hpp), numbered row by row,
+//   Phi_i(q, t) = 0,
+//   Phidot_i  = F_a.v_a + T_a.w_a + F_b.v_b + T_b.w_b + dPhi/dt                     (1)
+//   Phiddot_i = F_a.a_a + T_a.alpha_a + F_b.a_b + T_b.alpha_b + quad + d2Phi/dt2    (2)
+// with the gradient (F_a, T_a, F_b, T_b) of row i, a wrench on the markers a and b of its part,
+// their velocities (v, w) and accelerations (a, alpha), and quad what the velocities contribute
+// through the change of the gradient. A weight w_i on each row acts on the bodies as the sum of w_i
+// times these wrenches, which is Phi_q^T w.
+//
+// What a marker does is the formulation's: callables say it. Rows may begin after those of others
+// (`first`), so that the vectors hold all constraints of a formulation. Step time: no heap,
+// noexcept.
+#include <span>
+#include <string>
+#include <vector>
+
+#include "floatframe/formulation/point_motion.hpp"
+#include "floatframe/math/types.hpp"
+#include "floatframe/model/constraint_part.hpp"
+
+namespace floatframe {
+
+class ConstraintSet {
+ public:
+  /// Parts of these joints, then of all rods, then of all prescribed motions. Allocates.
+  ConstraintSet(const Model& model, std::span<const int> joints);
+  /// Gives the rows their numbers, from `first` on. Allocates.
+  void number_rows(int first);
+
+  const std::vector<ConstraintPart>& parts() const noexcept { return parts_; }
+  /// Row where a part starts.
+  int offset(std::size_t part) const noexcept { return offsets_[part]; }
+  /// All rows, with those before the first.
+  int count() const noexcept { return count_; }
+  const ConstraintRow& row(int i) const noexcept { return rows_[i - first_]; }
+  /// The part that row i belongs to; none (`parts().size()`) for rows before the first.
+  std::size_t part_of_row(int i) const noexcept;
+  /// "joint 'hinge'", "rod 'tie'" that row i belongs to.
+  std::string owner_of_row(int i) const;
+
+  /// Phi [m], all rows; those before the first are the formulation's to fill.
+  VecX& values() noexcept { return values_; }
+  const VecX& values() const noexcept { return values_; }
+  /// lambda [N], those of the last `set_multipliers`.
+  const VecX& multipliers() const noexcept { return multipliers_; }
+  /// lambda + alpha Phi [N], of the last `set_multipliers`.
+  const VecX& weights() const noexcept { return weights_; }
+  void set_multipliers(const VecX& lambda, double alpha) noexcept {
+    multipliers_ = lambda;
+    weights_ = lambda;
+    weights_ += alpha * values_;
+  }
+
+  /// Rows and values at time t; `state(marker)` is a MarkerState.
+  template <class StateOf>
+  void evaluate(double t, const StateOf& state) noexcept {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const ConstraintPart& p = parts_[k];
+      ConstraintRow* rows = rows_.data() + (offsets_[k] - first_);
+      evaluate_constraint(p, state(p.a), state(p.b), t, rows);
+      for (int r = 0; r < p.rows(); ++r) values_[offsets_[k] + r] = rows[r].phi;
+    }
+  }
+
+  /// (1), with `state(marker)` as above.
+  template <class StateOf>
+  void rates(const StateOf& state, VecX& out) const noexcept {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const ConstraintPart& p = parts_[k];
+      const MarkerState& a = state(p.a);
+      const MarkerState& b = state(p.b);
+      for (int r = 0; r < p.rows(); ++r) {
+        const ConstraintRow& row = row_of(k, r);
+        const WrenchRow& g = row.gradient;
+        out[offsets_[k] + r] =
+            g.Fa.dot(a.v) + g.Ta.dot(a.w) + g.Fb.dot(b.v) + g.Tb.dot(b.w) + row.phi_t;
+      }
+    }
+  }
+
+  /// out = Phi_q x, `motion(marker)` the PointMotion under the increment x.
+  template <class MotionOf>
+  void increments(const MotionOf& motion, VecX& out) const noexcept {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const ConstraintPart& p = parts_[k];
+      const PointMotion a = motion(p.a), b = motion(p.b);
+      for (int r = 0; r < p.rows(); ++r) {
+        const WrenchRow& g = row_of(k, r).gradient;
+        out[offsets_[k] + r] =
+            g.Fa.dot(a.linear) + g.Ta.dot(a.angular) + g.Fb.dot(b.linear) + g.Tb.dot(b.angular);
+      }
+    }
+  }
+
+  /// (2), `motion(marker)` the PointMotion of accelerations.
+  template <class MotionOf>
+  void accelerations(const MotionOf& motion, VecX& out) const noexcept {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const ConstraintPart& p = parts_[k];
+      const PointMotion a = motion(p.a), b = motion(p.b);
+      for (int r = 0; r < p.rows(); ++r) {
+        const ConstraintRow& row = row_of(k, r);
+        const WrenchRow& g = row.gradient;
+        out[offsets_[k] + r] = g.Fa.dot(a.linear) + g.Ta.dot(a.angular) + g.Fb.dot(b.linear) +
+                               g.Tb.dot(b.angular) + row.quad + row.phi_tt;
+      }
+    }
+  }
+
+  /// The wrench of a part whose rows have the weights w.
+  WrenchRow wrench(std::size_t part, const VecX& w) const noexcept;
+  /// Phi_q^T w: calls add(marker, force, torque) twice for each part.
+  template <class Add>
+  void add_wrenches(const VecX& w, const Add& add) const noexcept {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const WrenchRow sum = wrench(k, w);
+      add(parts_[k].a, sum.Fa, sum.Ta);
+      add(parts_[k].b, sum.Fb, sum.Tb);
+    }
+  }
+
+  /// Power of prescribed motions with these multipliers, after `evaluate` [W].
+  double motion_power(const VecX& lambda) const noexcept;
+
+ private:
+  const ConstraintRow& row_of(std::size_t part, int r) const noexcept {
+    return rows_[offsets_[part] - first_ + r];
+  }
+
+  const Model& model_;
+  std::vector<ConstraintPart> parts_;
+  std::vector<int> offsets_;
+  std::vector<ConstraintRow> rows_;  ///< without those before the first
+  int first_ = 0, count_ = 0;
+  VecX values_, multipliers_, weights_;
+};
+
+}  // namespace floatframe

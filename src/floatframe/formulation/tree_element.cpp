@@ -1,0 +1,124 @@
+#include "floatframe/formulation/tree_element.hpp"
+
+#include <algorithm>
+
+#include "floatframe/math/partial_ldlt.hpp"
+#include "floatframe/math/small_products.hpp"
+
+namespace floatframe {
+
+namespace {
+
+/// Where the amplitudes of body i are in the front of cluster c.
+int mode_front(const TreeKinematics& tree, const Cluster& c, int i) {
+  return i == c.parent ? c.size + 6 : tree.body(i).iy - c.offset;
+}
+
+/// The coordinates that move a marker: those of the bodies of its path, and the modes of its body.
+void add_path(const TreeKinematics& tree, const Cluster& c, const std::vector<int>& path,
+              int marker, bool side_b, std::vector<PathEntry>& entries) {
+  const auto add = [&](PathEntry::What what, int body, int front, int count) {
+    if (count > 0) entries.push_back({what, body, marker, side_b, front, count});
+  };
+  for (const int i : path) {
+    const TreeBody& d = tree.body(i);
+    add(PathEntry::What::joint, i, d.iv - c.offset, d.nj);
+    if (d.moves_M) add(PathEntry::What::own_modes, i, d.iy - c.offset, d.nm);
+    if (d.parent_moves_F)
+      add(PathEntry::What::parent_modes, i, mode_front(tree, c, d.parent), d.nm_parent);
+  }
+  const TreeMarker& m = tree.marker(marker);
+  if (m.body >= 0 && m.local)
+    add(PathEntry::What::marker_modes, m.body, mode_front(tree, c, m.body), tree.body(m.body).nm);
+}
+
+/// The six-row columns of a path entry that is not the marker's own.
+const double* directions(const TreeKinematics& tree, const PathEntry& p) noexcept {
+  const TreeBody& b = tree.body(p.body);
+  if (p.what == PathEntry::What::parent_modes) return b.of_parent.data();
+  return b.own.data() + (p.what == PathEntry::What::own_modes ? 6 * b.nj : 0);
+}
+
+}  // namespace
+
+TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>& clusters,
+                         const std::vector<int>& cluster_of_body, int a, int b) {
+  TreeElement e;
+  e.a = a;
+  e.b = b;
+  std::vector<int> path_a = path_to_root(tree, a < 0 ? -1 : tree.marker(a).body);
+  std::vector<int> path_b = path_to_root(tree, tree.marker(b).body);
+  int ancestor = -1;
+  while (!path_a.empty() && !path_b.empty() && path_a.back() == path_b.back()) {
+    ancestor = path_a.back();
+    path_a.pop_back();
+    path_b.pop_back();
+  }
+  const int lead = !path_a.empty() ? path_a.front() : !path_b.empty() ? path_b.front() : ancestor;
+  if (lead < 0) return e;
+  // Both markers on one body: only its modes see the element; its front is that of its cluster.
+  e.cluster = cluster_of_body[lead];
+  const Cluster& c = clusters[e.cluster];
+  if (a >= 0) add_path(tree, c, path_a, a, false, e.path);
+  add_path(tree, c, path_b, b, true, e.path);
+  if (e.path.empty()) return e;
+  e.first = c.n;
+  int last = 0;
+  for (const PathEntry& p : e.path) {
+    e.first = std::min(e.first, p.front);
+    last = std::max(last, p.front + p.count);
+  }
+  e.first &= ~3;
+  e.width = front_stride(last - e.first);
+  return e;
+}
+
+void fill_gradient(const TreeKinematics& tree, const TreeElement& e, const WrenchRow& gradient,
+                   double* row) noexcept {
+  for (int j = 0; j < e.width; ++j) row[j] = 0.0;
+  for (const PathEntry& p : e.path) {
+    const TreeMarker& m = tree.marker(p.marker);
+    const Vec3& force = p.side_b ? gradient.Fb : gradient.Fa;
+    const Vec3& torque = p.side_b ? gradient.Tb : gradient.Ta;
+    double* out = row + (p.front - e.first);
+    if (p.what == PathEntry::What::marker_modes) {
+      for (int j = 0; j < p.count; ++j) {
+        out[j] += m.Jr.col(j).dot(force);
+        if (m.rotates) out[j] += m.Jw.col(j).dot(torque);
+      }
+      continue;
+    }
+    Vec6 wrench;
+    wrench.head<3>() = force;
+    wrench.tail<3>() = m.s.r.cross(force) + torque;
+    add_transposed_times(directions(tree, p), p.count, wrench.data(), out);
+  }
+}
+
+void fill_distance(const TreeKinematics& tree, const TreeElement& e, double* rows) noexcept {
+  for (int j = 0; j < 3 * e.width; ++j) rows[j] = 0.0;
+  for (const PathEntry& p : e.path) {
+    const TreeMarker& m = tree.marker(p.marker);
+    const double sign = p.side_b ? 1.0 : -1.0;
+    double* x = rows + (p.front - e.first);
+    double* y = x + e.width;
+    double* z = y + e.width;
+    if (p.what == PathEntry::What::marker_modes) {
+      for (int j = 0; j < p.count; ++j) {
+        x[j] += sign * m.Jr(0, j);
+        y[j] += sign * m.Jr(1, j);
+        z[j] += sign * m.Jr(2, j);
+      }
+      continue;
+    }
+    const double* c = directions(tree, p);
+    const Vec3& r = m.s.r;
+    for (int j = 0; j < p.count; ++j, c += 6) {
+      x[j] += sign * (c[0] + c[4] * r[2] - c[5] * r[1]);
+      y[j] += sign * (c[1] + c[5] * r[0] - c[3] * r[2]);
+      z[j] += sign * (c[2] + c[3] * r[1] - c[4] * r[0]);
+    }
+  }
+}
+
+}  // namespace floatframe

@@ -1,0 +1,48 @@
+#pragma once
+// An element between two markers of a tree - a constraint part or a force - in the front of its
+// cluster: which coordinates move either marker, and its rows over them.
+//   row of a gradient (F_a, T_a, F_b, T_b):  d(measure)/dx_k = sum over the markers of
+//     F.u_k + T.omega_k,   u_k = v_k + omega_k x r,   (v_k, omega_k) the twist of coordinate k
+//   rows of the distance:   d(r_b - r_a)/dx_k, three rows
+// Coordinates above the lowest common ancestor move both markers alike and drop out; they are not
+// on the path.
+#include <vector>
+
+#include "floatframe/formulation/clusters.hpp"
+#include "floatframe/formulation/tree_kinematics.hpp"
+
+namespace floatframe {
+
+/// A stretch of coordinates on the way from a marker to the common ancestor.
+struct PathEntry {
+  enum class What {
+    joint,         ///< of `body`
+    own_modes,     ///< of `body`: move its marker M
+    parent_modes,  ///< of the parent of `body`: move the marker F of its joint
+    marker_modes   ///< of `body`: move the element's marker on it
+  } what;
+  int body, marker;
+  bool side_b;       ///< the marker is b
+  int front, count;  ///< position in the front of the cluster
+};
+
+struct TreeElement {
+  int a = -1, b = -1;  ///< markers, a may be absent
+  int cluster = -1;    ///< -1: one body against the ground
+  int body = -1;       ///< that body
+  std::vector<PathEntry> path;
+  int first = 0, width = 0;  ///< the range of the front that the path touches, in whole lanes
+  int gradient = 0;          ///< where the rows of a constraint part are kept in a factorisation
+};
+
+/// Of any two markers. Without a cluster if nothing moves them against each other.
+TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>& clusters,
+                         const std::vector<int>& cluster_of_body, int a, int b);
+
+/// The gradient over the element's range of the front (`width` numbers).
+void fill_gradient(const TreeKinematics& tree, const TreeElement& e, const WrenchRow& gradient,
+                   double* row) noexcept;
+/// d(r_b - r_a) over the element's range of the front, three rows of `width` numbers.
+void fill_distance(const TreeKinematics& tree, const TreeElement& e, double* rows) noexcept;
+
+}  // namespace floatframe

@@ -1,0 +1,103 @@
+#pragma once
+// The equations of motion near a state. With r(q, v, a, lambda) the residual without penalty,
+//   r = M a - Q(q, v, t) + Phi_q^T lambda,
+// small changes x of the configuration, their rates and accelerations, and dlambda of the
+// multipliers leave
+//   r + M xddot + C xdot + K x + J^T dlambda,   Phi + J x,                                     (1)
+//   M = dr/da,  C = dr/dv,  K = dr/dx,  J = Phi_q.
+// r is linear in a: a column of M is a difference of two residuals, exact but for round-off, which
+// is least if M times the trial acceleration is no smaller than the forces. C and K are central
+// differences (K holds the geometric stiffness of forces and multipliers). Everywhere a = 0: K
+// leaves out how M turns with the configuration. Dense, allocates: load time only.
+#include "floatframe/formulation/equations_of_motion.hpp"
+#include "floatframe/integrator/augmented_lagrangian.hpp"
+
+namespace floatframe {
+
+/// The n columns (g(step e_j) - g(-step e_j)) / (2 step) of a function of an increment.
+template <class G>
+MatX central_differences(Eigen::Index n, double step, const G& g) {
+  VecX x = VecX::Zero(n);
+  if (n == 0) return MatX(g(x).size(), 0);
+  MatX columns;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    x[j] = step;
+    const VecX ahead = g(x);
+    x[j] = -step;
+    const VecX behind = g(x);
+    x[j] = 0.0;
+    if (j == 0) columns.resize(ahead.size(), n);
+    columns.col(j) = (ahead - behind) / (2.0 * step);
+  }
+  return columns;
+}
+
+/// r without accelerations at t, q, v: moves `f` there, up to `dynamics`.
+template <EquationsOfMotion F>
+VecX residual_at(F& f, double t, const VecX& q, const VecX& v, const VecX& lambda) {
+  VecX r(f.velocities());
+  f.positions(t, q);
+  f.velocities(v);
+  f.dynamics();
+  f.residual(VecX::Zero(f.velocities()), lambda, 0.0, r);
+  return r;
+}
+
+/// M d where `f` is, with r0 the residual there without accelerations: from that at size d.
+template <EquationsOfMotion F>
+VecX mass_times(F& f, const VecX& d, double size, const VecX& r0, const VecX& lambda) {
+  VecX r(f.velocities());
+  f.residual(size * d, lambda, 0.0, r);
+  return (r - r0) / size;
+}
+
+/// M where `f` is, its columns from trial accelerations of these sizes.
+template <EquationsOfMotion F>
+MatX mass_matrix(F& f, const VecX& sizes, const VecX& r0, const VecX& lambda) {
+  const int nv = f.velocities();
+  MatX M(nv, nv);
+  for (int j = 0; j < nv; ++j) M.col(j) = mass_times(f, VecX::Unit(nv, j), sizes[j], r0, lambda);
+  return M;
+}
+
+/// K at t, q, v: moves `f`.
+template <EquationsOfMotion F>
+MatX stiffness_matrix(F& f, const State& s) {
+  constexpr double step = 1e-6;  // [m, rad, amplitudes]
+  VecX q = s.q;
+  return central_differences(f.velocities(), step, [&](const VecX& x) {
+    f.retract(s.q, x, q);
+    return residual_at(f, s.t, q, s.v, s.lambda);
+  });
+}
+
+/// C at t, q, v: moves `f`. Inertia and laws of dampers are of second order in v or less: the step
+/// may be large.
+template <EquationsOfMotion F>
+MatX damping_matrix(F& f, const State& s) {
+  constexpr double step = 1e-3;  // [m/s, rad/s, amplitudes/s]
+  return central_differences(f.velocities(), step, [&](const VecX& x) {
+    return residual_at(f, s.t, s.q, VecX(s.v + x), s.lambda);
+  });
+}
+
+struct Linearization {
+  VecX r, phi;   ///< at the state, without accelerations
+  MatX M, C, K;  ///< nv x nv
+  MatX J;        ///< nc x nv
+};
+
+/// (1) at t, q, v, lambda of the state, where `f` is afterwards.
+template <EquationsOfMotion F>
+Linearization linearize(F& f, const State& s) {
+  Linearization l;
+  l.K = stiffness_matrix(f, s);
+  l.C = damping_matrix(f, s);
+  l.r = residual_at(f, s.t, s.q, s.v, s.lambda);
+  l.phi = f.constraint_values();
+  l.J = f.constraint_jacobian();
+  l.M = mass_matrix(f, VecX::Ones(f.velocities()), l.r, s.lambda);
+  return l;
+}
+
+}  // namespace floatframe
