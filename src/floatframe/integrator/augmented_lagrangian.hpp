@@ -32,55 +32,10 @@
 #include <limits>
 
 #include "floatframe/formulation/equations_of_motion.hpp"
+#include "floatframe/integrator/step.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
-
-struct State {
-  double t = 0.0;
-  VecX q, v, a;
-  /// The algorithm's acceleration of generalised-alpha, (a); equals a for the trapezoidal rule.
-  VecX a_alg;
-  VecX lambda;
-};
-
-struct StepOptions {
-  double spectral_radius = 1.0;
-  double tolerance = 1e-9;
-  int max_iterations = 20;
-  double position_tolerance = 1e-9;
-  double velocity_tolerance = 1e-8;
-  double penalty_mass = 1.0;  ///< s alpha [kg]: the penalty grows like 1/h^2
-  int max_projections = 12;
-  /// > 0: exactly so many Newton iterations per step, accepted whatever their error (bounded work).
-  int fixed_iterations = 0;
-  /// > 0: no iteration is begun later than this after the start of the step [s of wall clock]; the
-  /// step is accepted as it is then.
-  double time_budget = 0.0;
-};
-
-/// cut_short: accepted before it converged, because `fixed_iterations` or `time_budget` says so.
-enum class AttemptStatus { converged, cut_short, not_converged, singular_tangent, not_finite };
-
-/// What came of one attempt at a step.
-struct StepAttempt {
-  AttemptStatus status = AttemptStatus::converged;
-  int iterations = 0, factorizations = 0;
-  double position_violation = 0.0, velocity_violation = 0.0;
-  int coordinate = -1;     ///< with the vanishing pivot or the largest residual
-  int constraint = -1;     ///< with the largest violation, if that did not converge
-  double increment = 0.0;  ///< the last Newton increment, largest coordinate [m, rad, amplitudes]
-  /// The state was replaced by that of the end of the step.
-  bool accepted() const noexcept {
-    return status == AttemptStatus::converged || status == AttemptStatus::cut_short;
-  }
-};
-
-/// What the next step takes over from the last one beside the state.
-struct IntegratorExperience {
-  double continues_at = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step [s]
-  double reuse_rate = 0.1;  ///< convergence with a tangent that was not new
-};
 
 template <EquationsOfMotion F>
 class AugmentedLagrangian {
@@ -186,96 +141,126 @@ class AugmentedLagrangian {
     lambda_ = state.lambda;
   }
 
+  /// What one Newton iteration leaves for the next.
+  struct Iterate {
+    double increment = 0.0;  ///< largest coordinate of the last dx
+    double error = 0.0;      ///< estimate of what is left
+    double penalty, alpha;   ///< those of the scheme, or softer
+    bool renew = true;       ///< the tangent is made anew
+    Clock::time_point begin;
+  };
+
   void newton(const State& state, const Scheme& k, StepAttempt& report) noexcept {
     const bool constrained = f_.constraints() > 0;
-    const auto begin = options_.time_budget > 0.0 ? Clock::now() : Clock::time_point{};
-    bool renew = true;
-    double increment = 0.0, error = 0.0, penalty = k.penalty, alpha = k.alpha;
+    Iterate it;
+    it.penalty = k.penalty;
+    it.alpha = k.alpha;
+    it.begin = options_.time_budget > 0.0 ? Clock::now() : Clock::time_point{};
     while (true) {
       f_.retract(state.q, x_, q_);
-      v_ = k.c1 * x_ + v_hat_;
-      a_ = k.c2 * x_ + a_hat_;
+      v_ = k.c1 * x_ + v_hat_;  // (d)
+      a_ = k.c2 * x_ + a_hat_;  // (e)
       // Without constraints nothing has to be known about the end of a converged step.
-      if (report.iterations == 0 || constrained || !good_enough(report, error)) {
+      if (report.iterations == 0 || constrained || !good_enough(report, it.error)) {
         f_.positions(state.t + k.h, q_);
         f_.velocities(v_);
       }
       if (report.iterations > 0) {
-        if (constrained) report.position_violation = largest(f_.constraint_values());
-        if (!std::isfinite(increment) || !std::isfinite(report.position_violation)) {
-          report.status = AttemptStatus::not_finite;
-          return;
-        }
-        const bool converged = good_enough(report, error);
-        if (options_.fixed_iterations > 0) {
-          if (report.iterations >= options_.fixed_iterations) {
-            if (!converged) report.status = AttemptStatus::cut_short;
-            break;
-          }
-        } else if (converged) {
-          break;
-        } else if (report.iterations >= options_.max_iterations) {
-          report.status = AttemptStatus::not_converged;
-          if (error >= options_.tolerance)
-            report.coordinate = index_of_largest(delta_);
-          else
-            report.constraint = index_of_largest(f_.constraint_values());
-          return;
-        }
-        if (options_.time_budget > 0.0 &&
-            std::chrono::duration<double>(Clock::now() - begin).count() > options_.time_budget) {
-          if (!converged) report.status = AttemptStatus::cut_short;
-          break;
-        }
-        // Would a fresh tangent get there sooner than the one at hand?
-        renew = experience_.reuse_rate > 0.9 ||
-                std::log(options_.tolerance / increment) / std::log(experience_.reuse_rate) >
-                    1.0 + F::factorization_cost;
-        // An old experience is trusted less and less.
-        if (renew) experience_.reuse_rate *= 0.8;
+        if (ends(it, report)) return;
+        choose_tangent(it);
       }
       f_.dynamics();
       f_.residual(a_, lambda_, 0.0, rhs_);
-      if (renew) {
-        int pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, alpha, newton_slot);
-        ++report.factorizations;
-        for (int retry = 0; constrained && pivot >= 0 && retry < most_softer; ++retry) {
-          penalty *= softer;
-          alpha *= softer;
-          pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, alpha, newton_slot);
-          ++report.factorizations;
-        }
-        if (pivot >= 0) {
-          report.status = AttemptStatus::singular_tangent;
-          report.coordinate = pivot;
-          return;
-        }
-      }
-      // (T + s alpha Phi_q^T Phi_q) dx = -s (M a + Phi_q^T lambda - Q) - s alpha Phi_q^T Phi. With
-      // the Phi_q of the factorisation on the penalty, an old factorisation converges like any
-      // modified Newton iteration; with today's, it would not for stiff penalties.
-      delta_ = -k.s * rhs_;
-      if (constrained) {
-        const VecX& phi = f_.constraint_values();
-        work_ = -penalty * phi;
-        f_.solve(delta_, work_, increments_, newton_slot);
-        // The multiplier that belongs to this solution. Taking Phi(q) after the update instead
-        // would feed the curvature of the constraints, alpha O(dx^2), into the multipliers.
-        lambda_ += alpha * (phi + increments_);
-      } else {
-        f_.solve(delta_, newton_slot);
-      }
+      if (it.renew && !renew_tangent(k, it, report)) return;
+      solve_increment(k, it);
       f_.advance(x_, delta_);
-      const double last = increment;
-      report.increment = increment = largest(delta_);
-      ++report.iterations;
-      // Geometric convergence: the error left is increment * rate / (1 - rate). Only a rate
-      // measured in this very step is trusted: the next step may meet a stop or a contact.
-      const double rate = report.iterations > 1 && last > 0.0 ? increment / last : 1.0;
-      error = rate < 0.5 ? increment * rate / (1.0 - rate) : increment;
-      if (report.iterations > 1 && last > 0.0 && !renew)
-        experience_.reuse_rate = std::min(rate, 1.0);
+      measure(it, report);
     }
+  }
+
+  /// True if no further iteration is wanted: converged, failed, or out of iterations or time.
+  bool ends(const Iterate& it, StepAttempt& report) const noexcept {
+    if (f_.constraints() > 0) report.position_violation = largest(f_.constraint_values());
+    if (!std::isfinite(it.increment) || !std::isfinite(report.position_violation)) {
+      report.status = AttemptStatus::not_finite;
+      return true;
+    }
+    const bool converged = good_enough(report, it.error);
+    if (options_.fixed_iterations > 0) {
+      if (report.iterations >= options_.fixed_iterations) {
+        if (!converged) report.status = AttemptStatus::cut_short;
+        return true;
+      }
+    } else if (converged) {
+      return true;
+    } else if (report.iterations >= options_.max_iterations) {
+      report.status = AttemptStatus::not_converged;
+      if (it.error >= options_.tolerance)
+        report.coordinate = index_of_largest(delta_);
+      else
+        report.constraint = index_of_largest(f_.constraint_values());
+      return true;
+    }
+    if (options_.time_budget > 0.0 &&
+        std::chrono::duration<double>(Clock::now() - it.begin).count() > options_.time_budget) {
+      if (!converged) report.status = AttemptStatus::cut_short;
+      return true;
+    }
+    return false;
+  }
+
+  /// Would a fresh tangent get there sooner than the one at hand?
+  void choose_tangent(Iterate& it) noexcept {
+    it.renew = experience_.reuse_rate > 0.9 ||
+               std::log(options_.tolerance / it.increment) / std::log(experience_.reuse_rate) >
+                   1.0 + F::factorization_cost;
+    // An old experience is trusted less and less.
+    if (it.renew) experience_.reuse_rate *= 0.8;
+  }
+
+  /// (g). False if it is singular, also with a softer penalty.
+  bool renew_tangent(const Scheme& k, Iterate& it, StepAttempt& report) noexcept {
+    int pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, it.alpha, newton_slot);
+    ++report.factorizations;
+    for (int retry = 0; f_.constraints() > 0 && pivot >= 0 && retry < most_softer; ++retry) {
+      it.penalty *= softer;
+      it.alpha *= softer;
+      pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, it.alpha, newton_slot);
+      ++report.factorizations;
+    }
+    if (pivot < 0) return true;
+    report.status = AttemptStatus::singular_tangent;
+    report.coordinate = pivot;
+    return false;
+  }
+
+  /// (f) as (T + s alpha Phi_q^T Phi_q) dx = -s (M a + Phi_q^T lambda - Q) - s alpha Phi_q^T Phi.
+  /// With the Phi_q of the factorisation on the penalty, an old factorisation converges like any
+  /// modified Newton iteration; with today's, it would not for stiff penalties.
+  void solve_increment(const Scheme& k, const Iterate& it) noexcept {
+    delta_ = -k.s * rhs_;
+    if (f_.constraints() == 0) {
+      f_.solve(delta_, newton_slot);
+      return;
+    }
+    const VecX& phi = f_.constraint_values();
+    work_ = -it.penalty * phi;
+    f_.solve(delta_, work_, increments_, newton_slot);
+    // (h), the multiplier that belongs to this solution. Taking Phi(q) after the update instead
+    // would feed the curvature of the constraints, alpha O(dx^2), into the multipliers.
+    lambda_ += it.alpha * (phi + increments_);
+  }
+
+  /// Geometric convergence: the error left is increment * rate / (1 - rate). Only a rate measured
+  /// in this very step is trusted: the next step may meet a stop or a contact.
+  void measure(Iterate& it, StepAttempt& report) noexcept {
+    const double last = it.increment;
+    report.increment = it.increment = largest(delta_);
+    ++report.iterations;
+    const double rate = report.iterations > 1 && last > 0.0 ? it.increment / last : 1.0;
+    it.error = rate < 0.5 ? it.increment * rate / (1.0 - rate) : it.increment;
+    if (report.iterations > 1 && last > 0.0 && !it.renew)
+      experience_.reuse_rate = std::min(rate, 1.0);
   }
 
   bool good_enough(const StepAttempt& report, double error) const noexcept {

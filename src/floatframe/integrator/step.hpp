@@ -1,0 +1,57 @@
+#pragma once
+// What goes into a step of the integrator and what comes out of it.
+#include <limits>
+
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+struct State {
+  double t = 0.0;  ///< [s]
+  VecX q;          ///< configuration, nq numbers
+  VecX v, a;       ///< velocities and accelerations, nv numbers
+  /// The algorithm's acceleration of generalised-alpha, (a) of augmented_lagrangian.hpp; equals a
+  /// for the trapezoidal rule.
+  VecX a_alg;
+  VecX lambda;  ///< multipliers, nc numbers [N]
+};
+
+struct StepOptions {
+  double spectral_radius = 1.0;      ///< rho, 1: trapezoidal rule
+  double tolerance = 1e-9;           ///< of the increment of a step [m, rad, amplitudes]
+  int max_iterations = 20;           ///< Newton iterations per attempt
+  double position_tolerance = 1e-9;  ///< of Phi [m]
+  double velocity_tolerance = 1e-8;  ///< of Phidot [m/s]
+  double penalty_mass = 1.0;         ///< s alpha [kg]: the penalty grows like 1/h^2
+  int max_projections = 12;
+  /// > 0: exactly so many Newton iterations per step, accepted whatever their error (bounded work).
+  int fixed_iterations = 0;
+  /// > 0: no iteration is begun later than this after the start of the step [s of wall clock]; the
+  /// step is accepted as it is then.
+  double time_budget = 0.0;
+};
+
+/// cut_short: accepted before it converged, because `fixed_iterations` or `time_budget` says so.
+enum class AttemptStatus { converged, cut_short, not_converged, singular_tangent, not_finite };
+
+/// What came of one attempt at a step.
+struct StepAttempt {
+  AttemptStatus status = AttemptStatus::converged;
+  int iterations = 0, factorizations = 0;
+  double position_violation = 0.0, velocity_violation = 0.0;
+  int coordinate = -1;     ///< with the vanishing pivot or the largest residual
+  int constraint = -1;     ///< with the largest violation, if that did not converge
+  double increment = 0.0;  ///< the last Newton increment, largest coordinate [m, rad, amplitudes]
+  /// The state was replaced by that of the end of the step.
+  bool accepted() const noexcept {
+    return status == AttemptStatus::converged || status == AttemptStatus::cut_short;
+  }
+};
+
+/// What the next step takes over from the last one beside the state.
+struct IntegratorExperience {
+  double continues_at = std::numeric_limits<double>::quiet_NaN();  ///< end of the last step [s]
+  double reuse_rate = 0.1;  ///< convergence with a tangent that was not new
+};
+
+}  // namespace floatframe

@@ -1,0 +1,151 @@
+// The equations of motion near a state against closed forms, and what every system must obey.
+#include "floatframe/simulation/linearization.hpp"
+
+#include <gtest/gtest.h>
+
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model/build_model.hpp"
+#include "support/model_text.hpp"
+#include "support/random_model.hpp"
+
+namespace floatframe::test {
+namespace {
+
+template <class F>
+State at(const F& f, const VecX& q, const VecX& v) {
+  State s;
+  s.q = q;
+  s.v = v;
+  s.lambda = VecX::Zero(f.constraints());
+  return s;
+}
+
+TEST(Linearization, PendulumHanging) {
+  const Model model = model_of(R"(
+bodies: {ball: {position: [0, 0, -1.5], rigid: {mass: 2}}}
+joints: {arm: {type: revolute, child: ball, at: [0, 0, 0], axis: y}}
+simulation: {step: 0.001, duration: 1}
+)");
+  RelativeFormulation f(model, InertiaMethod::preprocessing);
+  State s;
+  f.start(s.q, s.v);
+  s.lambda = VecX::Zero(0);
+  const Linearization l = linearize(f, s);
+  EXPECT_NEAR(l.r[0], 0.0, 1e-14);
+  EXPECT_NEAR(l.M(0, 0), 2 * 1.5 * 1.5, 1e-12);
+  EXPECT_NEAR(l.K(0, 0), 2 * 1.5 * model.gravity.norm(), 1e-8);
+  EXPECT_NEAR(l.C(0, 0), 0.0, 1e-10);
+  EXPECT_EQ(l.J.rows(), 0);
+  EXPECT_EQ(l.phi.size(), 0);
+}
+
+TEST(Linearization, SlidingMassOnSpringAndDamper) {
+  const Model model = model_of(R"(
+bodies: {box: {position: [0, 0, 0], rigid: {mass: 3}}}
+joints: {slide: {type: prismatic, child: box, at: [0, 0, 0], axis: x}}
+forces: {s: {type: joint_spring, joint: slide, spring: 40, damper: 7}}
+simulation: {step: 0.001, duration: 1}
+)");
+  RelativeFormulation f(model, InertiaMethod::preprocessing);
+  VecX q, v;
+  f.start(q, v);
+  q[0] = 0.25;
+  const Linearization l = linearize(f, at(f, q, VecX::Constant(1, 0.5)));
+  EXPECT_NEAR(l.r[0], 40 * 0.25 + 7 * 0.5, 1e-12);
+  EXPECT_NEAR(l.M(0, 0), 3, 1e-12);
+  EXPECT_NEAR(l.K(0, 0), 40, 1e-7);
+  EXPECT_NEAR(l.C(0, 0), 7, 1e-9);
+}
+
+/// Flexible and rigid bodies on revolute joints; `cut`: a loop.
+Model mechanism(bool cut) {
+  RandomSystem s(5);
+  s.add_body("a", 3);
+  s.add_body("b", 0);
+  s.add_body("c", 2);
+  s.add_joint("first", JointType::revolute, ground_name, 0, "a", 0);
+  s.add_joint("second", JointType::revolute, "a", 1, "b", 0);
+  s.add_joint("third", JointType::prismatic, "b", 1, "c", 1);
+  if (cut) s.add_joint("loop", JointType::spherical, ground_name, 0, "c", 2).cut = true;
+  return build_model(s.d);
+}
+
+TEST(Linearization, StiffnessOfATreeIsAHessian) {
+  const Model model = mechanism(false);
+  RelativeFormulation f(model, InertiaMethod::preprocessing);
+  Random random(3);
+  VecX q, v;
+  random_configuration(f, random, q, v);
+  const Linearization l = linearize(f, at(f, q, VecX::Zero(f.velocities())));
+  EXPECT_GT(largest(l.K), 1.0);
+  EXPECT_LT(largest(l.K - l.K.transpose()), 1e-6 * largest(l.K));
+  EXPECT_LT(largest(l.M - l.M.transpose()), 1e-12 * largest(l.M));
+}
+
+/// Inertia forces are of second order in the velocities: C v is twice their part of r.
+template <class F>
+void expect_second_order(F& f, const VecX& q, const VecX& v) {
+  const State moving = at(f, q, v), still = at(f, q, VecX::Zero(v.size()));
+  const VecX part =
+      residual_at(f, 0.0, q, v, moving.lambda) - residual_at(f, 0.0, q, still.v, still.lambda);
+  const Linearization l = linearize(f, moving);
+  EXPECT_GT(largest(part), 1e-2);
+  EXPECT_LT(largest(l.C * v - 2.0 * part), 1e-8 * largest(part));
+}
+
+TEST(Linearization, InertiaForcesInBothFormulations) {
+  const Model model = mechanism(true);
+  RelativeFormulation relative(model, InertiaMethod::preprocessing);
+  AbsoluteFormulation absolute(model, InertiaMethod::preprocessing);
+  Random random(7);
+  VecX q, v, qa, va;
+  random_configuration(relative, random, q, v);
+  absolute.start_from(relative, q, v, qa, va);
+  expect_second_order(relative, q, v);
+  expect_second_order(absolute, qa, va);
+  // The same masses, and rows of the cut joint, seen through the map of velocities.
+  const MatX map = velocity_map(relative, absolute, q);
+  const Linearization r = linearize(relative, at(relative, q, v));
+  const Linearization a = linearize(absolute, at(absolute, qa, va));
+  EXPECT_LT(largest(map.transpose() * a.M * map - r.M), 1e-10 * largest(r.M));
+  const std::vector<ConstraintPart>& parts = absolute.constraint_set().parts();
+  std::size_t loop = parts.size();
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (owner_name(model, parts[k].owner) == "joint 'loop'") loop = k;
+  ASSERT_LT(loop, parts.size());
+  ASSERT_EQ(r.J.rows(), 3);
+  const MatX rows = a.J.middleRows(absolute.constraint_set().offset(loop), 3) * map;
+  EXPECT_LT(largest(rows - r.J), 1e-12 * largest(r.J));
+}
+
+TEST(Linearization, PredictsTheResidualOfASmallMotion) {
+  const Model model = mechanism(true);
+  RelativeFormulation f(model, InertiaMethod::preprocessing);
+  Random random(9);
+  VecX q, v;
+  random_configuration(f, random, q, v);
+  State s = at(f, q, v);
+  s.lambda = random.vector(f.constraints(), 5.0);
+  const Linearization l = linearize(f, s);
+  const int nv = f.velocities();
+  const VecX x = random.vector(nv, 1.0), xdot = random.vector(nv, 1.0);
+  const VecX dlambda = random.vector(f.constraints(), 1.0);
+  VecX errors[2];
+  const double sizes[2] = {1e-3, 5e-4};
+  for (int k = 0; k < 2; ++k) {
+    VecX q1 = q;
+    f.retract(q, VecX(sizes[k] * x), q1);
+    const VecX r =
+        residual_at(f, 0.0, q1, VecX(v + sizes[k] * xdot), VecX(s.lambda + sizes[k] * dlambda));
+    VecX all(nv + f.constraints());
+    all << r - l.r - sizes[k] * (l.K * x + l.C * xdot + l.J.transpose() * dlambda),
+        f.constraint_values() - l.phi - sizes[k] * (l.J * x);
+    errors[k] = all;
+  }
+  // What is left is of second order.
+  EXPECT_LT(largest(errors[0]), 1e-2 * sizes[0] * largest(l.K));
+  EXPECT_NEAR(largest(errors[1]) / largest(errors[0]), 0.25, 0.02);
+}
+
+}  // namespace
+}  // namespace floatframe::test
