@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/formulation/absolute.hpp"
-#include "floatframe/model/build_model.hpp"
 #include "support/model_text.hpp"
 #include "support/random_model.hpp"
 

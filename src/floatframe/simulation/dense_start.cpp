@@ -85,8 +85,8 @@ VecX free_accelerations(const MatX& mass, const VecX& possible, const MatX& J, c
                         const Motions& m, const NeighbourAt& neighbour,
                         const std::function<std::string(const MatX&)>& movers) {
   const MatX Mr = m.N.transpose() * mass * m.N;
-  const MatX Dr = m.N.transpose() * mass_scale(mass.diagonal(), possible).asDiagonal() * m.N;
-  const SymmetricEigen eig = generalised_eigen(0.5 * (Mr + Mr.transpose()), Dr);
+  const MatX scale = m.N.transpose() * mass_scale(mass.diagonal(), possible).asDiagonal() * m.N;
+  const SymmetricEigen eig = generalised_eigen(0.5 * (Mr + Mr.transpose()), scale);
   const MatX& V = eig.vectors;
   Eigen::Index massless = 0;  // ascending eigenvalues
   while (massless < V.cols() && !(eig.values[massless] > no_mass)) ++massless;
