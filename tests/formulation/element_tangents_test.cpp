@@ -43,13 +43,14 @@ Model everything(unsigned seed) {
     return static_cast<int>(model.markers.size()) - 1;
   };
   ExampleNumbers numbers(seed);
-  for (const ForceKind* kind : force_kinds())
-    for (std::size_t regime = 0; regime < kind->regimes.size(); ++regime) {
-      ForceExample x = kind->example(regime, numbers);
+  for (const ForceType type : force_types) {
+    const ForceKind& kind = force_kind(type);
+    for (std::size_t regime = 0; regime < kind.regimes.size(); ++regime) {
+      ForceExample x = kind.example(regime, numbers);
       Force f = x.force;
-      f.name = std::string(kind->name) + "_" + kind->regimes[regime].name;
+      f.name = std::string(force_type_name(type)) + "_" + kind.regimes[regime].name;
       const std::size_t body = model.forces.size() % names.size();
-      if (f.type == ForceType::joint_spring) {
+      if (kind.markers == ForceMarkers::of_joint) {
         // On a joint of its kind, as the builder would put it.
         for (const Joint& j : model.joints)
           if (j.type == (f.rotational ? JointType::revolute : JointType::prismatic)) {
@@ -57,7 +58,7 @@ Model everything(unsigned seed) {
             f.b = j.frame_M;
           }
       } else {
-        if (kind->between_markers) f.a = marker((body + 2) % names.size());
+        if (kind.between_markers()) f.a = marker((body + 2) % names.size());
         f.b = marker(body);
       }
       if (f.type == ForceType::tyre) {
@@ -68,6 +69,7 @@ Model everything(unsigned seed) {
       f.input = f.target.input = f.target_rate.input = -1;
       model.forces.push_back(f);
     }
+  }
   return model;
 }
 
@@ -92,10 +94,10 @@ Model with_exact_dampers(const Model& model, const VecX& q) {
     }
     if (C.cwiseAbs().maxCoeff() < 1e-9) kept.forces.push_back(force);
   }
-  std::vector<int> of_kind(force_kinds().size(), 0);
-  for (const Force& force : kept.forces) ++of_kind[index_of(force.type)];
-  for (std::size_t k = 0; k < of_kind.size(); ++k)
-    EXPECT_GT(of_kind[k], 0) << force_kinds()[k]->name;
+  std::vector<int> of_type(std::size(force_types), 0);
+  for (const Force& force : kept.forces) ++of_type[index_of(force.type)];
+  for (const ForceType type : force_types)
+    EXPECT_GT(of_type[index_of(type)], 0) << force_type_name(type);
   return kept;
 }
 

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "floatframe/model/force_kind.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "support/mechanism_check.hpp"
 #include "support/random_model.hpp"
@@ -79,6 +80,26 @@ TEST(RandomMechanisms, OtherJointsOfAsManyCoordinates) {
   for (const auto& [type, count] : ran)
     fmt::print("[ figure ] {} {}\n", joint_type_name(type), count);
   EXPECT_GT(ran[JointType::planar], 3);
+}
+
+// Every force element that is not drawn, added to what is: those of the list without a struct.
+TEST(RandomMechanisms, OtherForces) {
+  for (const ForceType type : force_types) {
+    if (force_kind(type).blank) continue;
+    int ran = 0;
+    for (unsigned seed = 1; seed <= 25; ++seed) {
+      const auto m = with_force(random_mechanism(seed), type, seed);
+      if (!m) continue;
+      const Judgement j = judge(*m);
+      EXPECT_FALSE(is_violation(j.verdict)) << fmt::format(
+          "seed {} with {}: {} {}", seed, force_type_name(type), word(j.verdict), j.reason);
+      if (j.verdict == Verdict::equal || j.verdict == Verdict::second_order ||
+          j.verdict == Verdict::finer)
+        ++ran;
+    }
+    fmt::print("[ figure ] {} {}\n", force_type_name(type), ran);
+    EXPECT_GT(ran, 10) << force_type_name(type);
+  }
 }
 
 // The motion of a hinge is a table with points at 0.02, 0.08 and 0.14 s. With 238 steps they lie at

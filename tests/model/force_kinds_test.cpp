@@ -1,6 +1,6 @@
 // Every registered kind of force in each of its regimes: reaction, work, dissipation, and the exact
 // tangent against differences of the wrench and against the rows that the formulations use. A new
-// kind in the list of force_kinds.cpp is covered by being there.
+// kind in model/force_list.hpp is covered by being there.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -14,26 +14,29 @@ namespace {
 constexpr int force_samples = 40;
 
 struct ForceCase {
-  const ForceKind* kind;
+  ForceType type;
   std::size_t regime;
-  std::string name() const { return std::string(kind->name) + "_" + kind->regimes[regime].name; }
+  const ForceKind& kind() const { return force_kind(type); }
+  std::string name() const {
+    return std::string(force_type_name(type)) + "_" + kind().regimes[regime].name;
+  }
 };
 
 std::vector<ForceCase> all_force_cases() {
   std::vector<ForceCase> all;
-  for (const ForceKind* kind : force_kinds())
-    for (std::size_t k = 0; k < kind->regimes.size(); ++k) all.push_back({kind, k});
+  for (const ForceType type : force_types)
+    for (std::size_t k = 0; k < force_kind(type).regimes.size(); ++k) all.push_back({type, k});
   return all;
 }
 
 class ForceOfKind : public ::testing::TestWithParam<ForceCase> {
  protected:
   ForceExample example() {
-    const ForceExample x = GetParam().kind->example(GetParam().regime, numbers_);
-    EXPECT_EQ(x.force.type, GetParam().kind->type);
+    const ForceExample x = GetParam().kind().example(GetParam().regime, numbers_);
+    EXPECT_EQ(x.force.type, GetParam().type);
     return x;
   }
-  static const ForceRegime& regime() { return GetParam().kind->regimes[GetParam().regime]; }
+  static const ForceRegime& regime() { return GetParam().kind().regimes[GetParam().regime]; }
   static ForceState evaluate(const ForceExample& x, const MarkerPair& p) {
     ForceState s;
     evaluate_force(x.model, x.force, p.a, p.b, x.origin, x.t, x.reference_angle, s, x.inputs);
@@ -60,7 +63,7 @@ TEST_P(ForceOfKind, ActionEqualsReaction) {
   for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     const WrenchRow w = evaluate(x, {x.a, x.b}).wrench;
-    if (!GetParam().kind->between_markers) {
+    if (!GetParam().kind().between_markers()) {
       EXPECT_EQ(w.Fa.norm() + w.Ta.norm(), 0.0);
       continue;
     }
@@ -100,7 +103,7 @@ TEST_P(ForceOfKind, MotionTakesEnergyOut) {
 // What springs keep, what dampers take and what the wrench does, in the motion at hand and with the
 // targets that move; tyres leave the account to their users.
 TEST_P(ForceOfKind, EnergyRateBelongsToTheEnergy) {
-  if (!regime().regular || GetParam().kind->type == ForceType::tyre) return;
+  if (!regime().regular || GetParam().kind().account == ForceAccount::tyres) return;
   for (int k = 0; k < force_samples; ++k) {
     const ForceExample x = example();
     const MarkerPair p{x.a, x.b};
@@ -196,14 +199,27 @@ TEST_P(ForceOfKind, RegimeIsReached) {
 INSTANTIATE_TEST_SUITE_P(EveryKind, ForceOfKind, ::testing::ValuesIn(all_force_cases()),
                          [](const auto& c) { return c.param.name(); });
 
-TEST(ForceKinds, AreListedInTheOrderOfTheirTypes) {
+TEST(ForceKinds, AreComplete) {
   std::set<std::string> names;
-  std::size_t index = 0;
-  for (const ForceKind* kind : force_kinds()) {
-    EXPECT_EQ(static_cast<std::size_t>(kind->type), index++);
-    EXPECT_STREQ(force_type_name(kind->type), kind->name);
-    EXPECT_TRUE(names.insert(kind->name).second) << kind->name;
-    EXPECT_FALSE(kind->regimes.empty()) << kind->name;
+  for (const ForceType type : force_types) {
+    const ForceKind& kind = force_kind(type);
+    const std::string name = force_type_name(type);
+    EXPECT_TRUE(names.insert(name).second) << name;
+    EXPECT_TRUE(kind.build && kind.example && *kind.about) << name;
+    EXPECT_FALSE(kind.regimes.empty()) << name;
+    std::set<std::string> keys;
+    for (const ForceKey& key : kind.keys) {
+      EXPECT_TRUE(keys.insert(key.name).second) << name << " " << key.name;
+      // A type with a description struct keeps all in it; a stop is part of its spring.
+      EXPECT_EQ(key.member.read != nullptr, kind.blank != nullptr && !key.of) << key.name;
+      EXPECT_TRUE(*key.about) << name << " " << key.name;
+      if (key.of) {
+        EXPECT_TRUE(keys.contains(key.of)) << name << " " << key.name;
+      }
+    }
+    if (kind.blank) {
+      EXPECT_EQ((ForceDescription{"", kind.blank(), {}}.type()), type);
+    }
   }
 }
 

@@ -1,12 +1,18 @@
 // Every field of forces, roads and inputs, one change at a time.
 #include <gtest/gtest.h>
 
+#include "floatframe/model/force_keys.hpp"
+#include "floatframe/model/model_hash.hpp"
 #include "support/valid_description.hpp"
 
 namespace floatframe {
 namespace {
 
 using namespace test;
+
+ForceValues by_key(std::map<std::string, ForceValue> values) {
+  return {ForceType::tyre, std::move(values)};
+}
 
 TEST(Validate, ForcesRoadsInputs) {
   check({
@@ -57,7 +63,7 @@ TEST(Validate, ForcesRoadsInputs) {
          kind<JointSpringDescription>(d, 2).spring = {};
          kind<JointSpringDescription>(d, 2).target.reset();
        },
-       "forces.motor: found no law, expected spring, damper, bump_stop, rebound_stop or actuator"},
+       "forces.motor: found no law, expected spring, damper or actuator"},
       {[](D& d) { kind<GuidedSpringDescription>(d, 1).damper = {}; },
        "forces.guide: found no law, expected spring, damper, bump_stop, rebound_stop or actuator"},
       {[](D& d) { kind<TyreDescription>(d, 3).radius = 0.0; },
@@ -80,6 +86,29 @@ TEST(Validate, ForcesRoadsInputs) {
        "forces.load.magnitude.sine.amplitude: found inf, expected a number (numbers must be "
        "finite)\n"
        "forces.load.magnitude.sine.frequency: found 0, expected a positive number [Hz]"},
+      // By the keys of model files.
+      {[](D& d) {
+         d.forces[0].kind = ForceValues{static_cast<ForceType>(99), {}};
+       },
+       "forces.spring.type: found 99, expected " + alternatives(force_words)},
+      {[](D& d) { d.forces[3].kind = by_key({}); },
+       "forces.tyre: missing key 'body'\nforces.tyre: missing key 'radius'\n"
+       "forces.tyre: missing key 'stiffness'\nforces.tyre: missing key 'road'"},
+      {[](D& d) {
+         d.forces[3].kind = by_key({{"radius", -1}, {"law", "radial"}, {"wide", 0.2}});
+       },
+       "forces.tyre: unknown key 'wide'\nforces.tyre: missing key 'body'\n"
+       "forces.tyre.radius: found -1, expected a positive number [m]\n"
+       "forces.tyre: missing key 'stiffness'\nforces.tyre: missing key 'road'"},
+      {[](D& d) {
+         d.forces[3].kind = by_key({{"body", AttachmentDescription{"block", Vec3(0, 0, 1), {}, {}}},
+                                    {"radius", "0.3"},
+                                    {"stiffness", 1e5},
+                                    {"law", "round"},
+                                    {"road", "track"}});
+       },
+       "forces.tyre.radius: found a value of another type, expected a number\n"
+       "forces.tyre.law: found 'round', expected vertical or radial"},
       {[](D& d) { d.roads[0].bumps[0].length = 0.0; },
        "roads.track.bumps[1].length: found 0, expected a positive number [m]"},
       {[](D& d) { d.roads[0].bumps[0].height = nan; },
@@ -108,6 +137,25 @@ TEST(Validate, ForcesRoadsInputs) {
        },
        "inputs.push.clamp: found true without limits, expected min, max or both beside it"},
   });
+}
+
+// A struct and the same values by key give the same element.
+TEST(Validate, ValuesByKeyAreThoseOfTheStructs) {
+  const ModelDescription structs = valid_description();
+  ModelDescription keys = structs;
+  for (ForceDescription& f : keys.forces) {
+    ForceValues values{f.type(), {}};
+    for (const ForceKey& key : force_keys(f.type()))
+      if (const auto value = force_value(f, key)) values.values[key.name] = *value;
+    f.kind = std::move(values);
+  }
+  EXPECT_EQ(model_hash(build_model(keys)), model_hash(build_model(structs)));
+  auto& tyre = std::get<ForceValues>(keys.forces[3].kind).values;
+  tyre["law"] = "radial";
+  tyre["radius"] = 1;
+  const Model changed = build_model(keys);
+  EXPECT_EQ(changed.forces[3].law, TyreLaw::radial);
+  EXPECT_EQ(changed.forces[3].radius, 1.0);
 }
 
 }  // namespace

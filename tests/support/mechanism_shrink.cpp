@@ -2,6 +2,7 @@
 #include <functional>
 #include <set>
 
+#include "floatframe/model/force_keys.hpp"
 #include "support/mechanism_check.hpp"
 
 namespace floatframe::test {
@@ -16,18 +17,17 @@ void tidy(ModelDescription& d) {
   std::erase_if(d.joints, [&](const auto& j) { return gone(j.parent) || gone(j.child); });
   std::erase_if(d.rods, [&](const auto& r) { return gone(r.a) || gone(r.b); });
   for (const JointDescription& j : d.joints) joints.insert(j.name);
-  struct Loose {
-    const decltype(gone)& lost;
-    const std::set<std::string>& joints;
-    bool operator()(const SpringDamperDescription& f) const { return lost(f.a) || lost(f.b); }
-    bool operator()(const GuidedSpringDescription& f) const {
-      return lost(f.reference) || lost(f.tip);
+  const auto loose = [&](const ForceDescription& f) {
+    for (const ForceKey& key : force_keys(f.type())) {
+      const auto value = force_value(f, key);
+      const auto* at = value ? std::get_if<AttachmentDescription>(&*value) : nullptr;
+      if (at && gone(*at)) return true;
+      if (key.kind == ForceKeyKind::joint && !joints.contains(ForceView(f).text(key.name)))
+        return true;
     }
-    bool operator()(const JointSpringDescription& f) const { return !joints.contains(f.joint); }
-    bool operator()(const TyreDescription& f) const { return lost(f.centre); }
-    bool operator()(const AppliedLoadDescription& f) const { return lost(f.at); }
+    return false;
   };
-  std::erase_if(d.forces, [&](const auto& f) { return std::visit(Loose{gone, joints}, f.kind); });
+  std::erase_if(d.forces, loose);
   for (const ForceDescription& f : d.forces) forces.insert(f.name);
   std::erase_if(d.outputs, [&](const OutputDescription& o) {
     return gone(o.at) ||

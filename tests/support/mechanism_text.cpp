@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include "floatframe/model/force_keys.hpp"
+#include "floatframe/model/force_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "support/random_mechanism.hpp"
 
@@ -51,33 +53,25 @@ std::string kind_of(const BodyDescription& b) {
                      image, held);
 }
 
-struct ForceText {
-  std::string operator()(const SpringDamperDescription& f) const {
-    return "spring_damper " + text(f.a) + " to " + text(f.b) + ", spring " + text(f.spring) +
-           ", damper " + text(f.damper) + (f.actuator ? ", actuator " + text(*f.actuator) : "");
-  }
-  std::string operator()(const GuidedSpringDescription& f) const {
-    return "guided_spring " + text(f.reference) + " to " + text(f.tip) + " along " + text(f.axis) +
-           ", spring " + text(f.spring) + ", damper " + text(f.damper) +
-           (f.actuator ? ", actuator " + text(*f.actuator) : "");
-  }
-  std::string operator()(const JointSpringDescription& f) const {
-    return "joint_spring " + f.joint + ", spring " + text(f.spring) + ", damper " + text(f.damper) +
-           (f.actuator ? ", actuator " + text(*f.actuator) : "") +
-           (f.target ? ", target " + text(*f.target) : "") +
-           (f.target_rate ? ", target_rate " + text(*f.target_rate) : "");
-  }
-  std::string operator()(const TyreDescription& f) const {
-    return fmt::format("tyre {} {} R {:.6g} k {:.6g} c {:.6g} axis {} {}",
-                       f.law == TyreLaw::radial ? "radial" : "vertical", text(f.centre), f.radius,
-                       f.stiffness, f.damping, text(f.axis), f.road);
-  }
-  std::string operator()(const AppliedLoadDescription& f) const {
-    return fmt::format("{}{} {} direction {} magnitude {}", f.torque ? "torque" : "force",
-                       f.follows ? " following" : "", text(f.at), text(f.direction),
-                       text(f.magnitude));
+struct ValueText {
+  std::string operator()(double x) const { return fmt::format("{:.17g}", x); }
+  std::string operator()(int k) const { return std::to_string(k); }
+  std::string operator()(bool yes) const { return yes ? "true" : "false"; }
+  std::string operator()(const std::string& s) const { return s; }
+  template <class T>
+  std::string operator()(const T& x) const {
+    return text(x);
   }
 };
+
+/// "spring_damper from ..., to ..."
+std::string text(const ForceDescription& f) {
+  std::string s = force_type_name(f.type());
+  for (const ForceKey& key : force_keys(f.type()))
+    if (const auto value = force_value(f, key))
+      s += std::string(" ") + key.name + " " + std::visit(ValueText(), *value) + ",";
+  return s;
+}
 
 bool moves(const TimeFunction& f) {
   return f.amplitude != 0.0 || f.pieces.pieces().size() > 1 ||
@@ -97,8 +91,7 @@ std::string summary_of(const ModelDescription& d) {
              (j.motion ? " driven" : "")];
   if (!d.rods.empty()) counts["rod"] = static_cast<int>(d.rods.size());
   for (const ForceDescription& f : d.forces) {
-    const std::string s = std::visit(ForceText(), f.kind);
-    ++counts[s.substr(0, s.find(' '))];
+    ++counts[force_type_name(f.type())];
   }
   std::string s;
   for (const auto& [what, count] : counts)
@@ -128,8 +121,7 @@ std::string text_of(const ModelDescription& d) {
                      j.motion ? " motion " + text(*j.motion) : "");
   for (const RodDescription& r : d.rods)
     s += fmt::format("  {} {} to {}\n", r.name, text(r.a), text(r.b));
-  for (const ForceDescription& f : d.forces)
-    s += "  " + f.name + " " + std::visit(ForceText(), f.kind) + '\n';
+  for (const ForceDescription& f : d.forces) s += "  " + f.name + " " + text(f) + '\n';
   for (const RoadDescription& r : d.roads) {
     s += "  " + r.name + " " + text(r.pieces);
     for (const CosineBump& b : r.bumps)
@@ -154,21 +146,15 @@ bool is_conservative(const ModelDescription& d) {
   }
   for (const JointDescription& j : d.joints)
     if (j.motion) return false;
-  struct {
-    bool operator()(const SpringDamperDescription& f) const {
-      return !f.actuator && !acts(f.damper);
+  for (const ForceDescription& f : d.forces) {
+    if (force_account(f.type()) != ForceAccount::springs) return false;
+    const ForceView values(f);
+    for (const ForceKey& key : force_keys(f.type())) {
+      const auto signal = values.signal(key.name);
+      if (key.kind == ForceKeyKind::damper && acts(values.law(key.name))) return false;
+      if (signal && (key.kind != ForceKeyKind::target || moves(*signal))) return false;
     }
-    bool operator()(const GuidedSpringDescription& f) const {
-      return !f.actuator && !acts(f.damper);
-    }
-    bool operator()(const JointSpringDescription& f) const {
-      return !f.actuator && !acts(f.damper) && !f.target_rate && !(f.target && moves(*f.target));
-    }
-    bool operator()(const TyreDescription&) const { return false; }
-    bool operator()(const AppliedLoadDescription&) const { return false; }
-  } const keeps;
-  for (const ForceDescription& f : d.forces)
-    if (!std::visit(keeps, f.kind)) return false;
+  }
   return d.simulation.spectral_radius >= 1.0;
 }
 

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/model/force_outputs.hpp"
 #include "support/mechanism_builder.hpp"
+#include "support/random_force.hpp"
 
 namespace floatframe::test {
 
@@ -229,7 +231,7 @@ void MechanismBuilder::add_outputs() {
         add(OutputType::joint_position, {}, j.name, c);
   for (const ForceDescription& f : d.forces) {
     add(OutputType::force, {}, f.name, 0);
-    if (std::holds_alternative<AppliedLoadDescription>(f.kind)) continue;  // have no length
+    if (!force_has(f.type(), ForceQuantity::length)) continue;
     for (const OutputType type : {OutputType::length, OutputType::rate}) add(type, {}, f.name, 0);
   }
 }
@@ -288,6 +290,35 @@ Mechanism with_joints(Mechanism m, JointType type) {
   for (JointDescription& j : m.description.joints)
     if (joint_velocities(j.type) == joint_velocities(type) && !j.motion) j.type = type;
   return m;
+}
+
+std::optional<Mechanism> with_force(Mechanism m, ForceType type, unsigned seed) {
+  ModelDescription& d = m.description;
+  ExampleNumbers numbers(seed);
+  std::vector<AttachmentDescription> places;
+  for (const JointDescription& j : d.joints)
+    for (const AttachmentDescription& at : {j.parent, j.child}) places.push_back(at);
+  RandomForceEnds ends;
+  ends.stiffness = 30.0;
+  ends.damping = 0.3;
+  for (int trial = 0; trial < 20 && !places.empty(); ++trial) {
+    const auto any = [&] {
+      return places[static_cast<std::size_t>(numbers(0.0, static_cast<double>(places.size())))];
+    };
+    ends.a = any();
+    ends.b = any();
+    if (ends.a.body == ends.b.body) continue;
+    d.forces.push_back(random_force(type, ends, numbers));
+    for (const OutputType quantity : {OutputType::force, OutputType::length, OutputType::rate}) {
+      OutputDescription o;
+      o.name = d.forces.back().name + "." + output_type_name(quantity);
+      o.type = quantity;
+      o.entity = d.forces.back().name;
+      d.outputs.push_back(o);
+    }
+    return m;
+  }
+  return std::nullopt;
 }
 
 }  // namespace floatframe::test

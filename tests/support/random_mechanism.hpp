@@ -11,6 +11,7 @@
 // mass models and kinds of modes, bodies with given modal data, mirror images, bodies held rigid;
 // joints reversed, cut and driven; all force kinds with all laws. What is drawn need not be a valid
 // model: it may have freedoms without mass or loops that cannot close, and must then be refused.
+#include <optional>
 #include <string>
 
 #include "floatframe/model/model.hpp"
@@ -32,6 +33,10 @@ inline constexpr double most_rate = 2500.0;  ///< [1/s]
 
 /// With joints of `type` in place of those that have as many coordinates.
 Mechanism with_joints(Mechanism mechanism, JointType type);
+
+/// With one more force element, smooth and soft, between two of the places that joints use. For
+/// types that are not drawn. nullopt: there are no two such bodies.
+std::optional<Mechanism> with_force(Mechanism mechanism, ForceType type, unsigned seed);
 
 /// Largest rate at which a model can change at its start [1/s]: square root of the eigenvalues of
 /// (K, M) and norm of M^-1/2 C M^-1/2 on the motions that the constraints leave free and that have

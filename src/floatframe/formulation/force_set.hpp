@@ -54,7 +54,7 @@ class ForceSet {
       const MarkerState& b = state(f.b);
       const MarkerState& a = f.a >= 0 ? state(f.a) : b;
       evaluate_force(model_, f, a, b, p_WO, t, angles_[k], states_[k], inputs_);
-      if (f.type == ForceType::joint_spring) angles_[k] = states_[k].length;
+      if (f.rotational) angles_[k] = states_[k].length;
     }
   }
 

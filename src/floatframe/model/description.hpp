@@ -19,6 +19,7 @@
 #include "floatframe/math/piecewise_polynomial.hpp"
 #include "floatframe/math/pose.hpp"
 #include "floatframe/math/types.hpp"
+#include "floatframe/model/force_list.hpp"
 #include "floatframe/model/joint_list.hpp"
 #include "floatframe/model/output_list.hpp"
 
@@ -190,6 +191,7 @@ struct SpringDamperDescription {
       spring;  ///< of the length [m] -> [N]; bump and rebound stops are pieces of it
   PiecewisePolynomial damper;                 ///< of the rate of the length [m/s] -> [N]
   std::optional<SignalDescription> actuator;  ///< added to both [N]
+  ForceType type() const { return ForceType::spring_damper; }
 };
 
 /// Along an axis fixed in a body, between a tip and the body point that slides with it (leaf
@@ -201,6 +203,7 @@ struct GuidedSpringDescription {
   Vec3 axis = Vec3::UnitZ();  ///< design direction
   PiecewisePolynomial spring, damper;
   std::optional<SignalDescription> actuator;  ///< added to both [N]
+  ForceType type() const { return ForceType::guided_spring; }
 };
 
 /// About the axis of a revolute (angle) or along that of a prismatic joint (displacement):
@@ -214,6 +217,7 @@ struct JointSpringDescription {
   std::optional<SignalDescription> actuator;     ///< [N] or [N m], positive raises the coordinate
   std::optional<SignalDescription> target;       ///< [m] or [rad]
   std::optional<SignalDescription> target_rate;  ///< [m/s] or [rad/s]
+  ForceType type() const { return ForceType::joint_spring; }
 };
 
 enum class TyreLaw { vertical, radial };
@@ -230,6 +234,7 @@ struct TyreDescription {
   TyreLaw law = TyreLaw::vertical;
   Vec3 axis = Vec3::UnitY();  ///< wheel axis in the design configuration
   std::string road;
+  ForceType type() const { return ForceType::tyre; }
 };
 
 /// Force or torque: direction * magnitude(t), at a point of a body; the direction turns with the
@@ -240,14 +245,34 @@ struct AppliedLoadDescription {
   SignalDescription magnitude;     ///< [N] or [N m] per unit of direction
   bool torque = false;
   bool follows = false;
+  ForceType type() const { return torque ? ForceType::torque : ForceType::force; }
 };
 
+/// A value of a key: number, word by its place in the list of words, flag, name or word, direction,
+/// place, law, signal.
+using ForceValue = std::variant<double, int, bool, std::string, Vec3, AttachmentDescription,
+                                PiecewisePolynomial, SignalDescription>;
+
+/// A force element of any type, by the keys it has in model files (docs/model-file.md):
+///   ForceValues{ForceType::tyre, {{"body", wheel}, {"radius", 0.3}, {"law", "radial"}, ...}}
+/// `build_model` checks them as strictly. The key `body` stands for the place it begins.
+struct ForceValues {
+  ForceType element = ForceType::spring_damper;
+  std::map<std::string, ForceValue> values;
+  ForceType type() const { return element; }
+};
+
+/// The structs above are another way to write the values of their types.
 struct ForceDescription {
+  using Values =
+      std::variant<SpringDamperDescription, GuidedSpringDescription, JointSpringDescription,
+                   TyreDescription, AppliedLoadDescription, ForceValues>;
   std::string name;
-  std::variant<SpringDamperDescription, GuidedSpringDescription, JointSpringDescription,
-               TyreDescription, AppliedLoadDescription>
-      kind;
+  Values kind;
   Origin origin;
+  ForceType type() const {
+    return std::visit([](const auto& values) { return values.type(); }, kind);
+  }
 };
 
 /// Height z(x) = pieces(x) + sum of cosine bumps height/2 (1 - cos(2 pi (x - start)/length)) on

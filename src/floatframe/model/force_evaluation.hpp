@@ -1,7 +1,7 @@
 #pragma once
 // Force elements between two markers (a may be absent). Most are a scalar f(s, sdot) of a measure s
 // with gradient g, tension positive: generalised force Q = -f g. The formulas stand in the file of
-// each kind (force_*.cpp); force_kind.hpp has the list of them.
+// each type (model/forces/<type>.cpp).
 //
 // A step wants the wrench and the part of the tangent that a symmetric factorisation can use: rows
 // g with weights, -dQ/dq ~ sum k g g^T, -dQ/dqdot ~ sum c g g^T. The exact derivatives are in
@@ -26,7 +26,7 @@ struct TangentRow {
 
 struct ForceState {
   WrenchRow wrench;  ///< force and torque on a and b (world axes, at the markers' points)
-  TangentRow rows[3];
+  TangentRow rows[6];
   int row_count = 0;
   double force = 0.0, length = 0.0, rate = 0.0;
   double energy = 0.0;  ///< potential energy [J]

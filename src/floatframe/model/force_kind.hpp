@@ -1,13 +1,19 @@
 #pragma once
-// What a kind of force must supply. A new kind is one file force_*.cpp with the functions force_of
-// and force_tangent_of and a ForceKind, and one entry in the list of force_kinds.cpp; evaluation,
-// outputs and the generic tests run over the list. The two functions belong to the step: noexcept,
-// no allocation.
+// What a force element must supply. A new one is one file model/forces/<name>.cpp and one entry in
+// force_list.hpp: reader, validation, mirror, outputs, energies, statics, both formulations, the
+// table of the documentation and the generic tests run over the list.
+//
+// An element acts on markers a and b (or on b alone) and never sees a coordinate. Step time calls
+// force_of and force_tangent_of by name, without a pointer: noexcept, no allocation. The pointers of
+// a ForceKind serve load time only.
 #include <span>
 
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/example_numbers.hpp"
+#include "floatframe/model/force_build.hpp"
 #include "floatframe/model/force_evaluation.hpp"
+#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/placement.hpp"
 
 namespace floatframe {
 
@@ -24,6 +30,10 @@ struct ForceInput {
   double input(int index) const noexcept { return index < 0 ? 0.0 : inputs[index]; }
   /// Of a load.
   double magnitude() const noexcept { return evaluate(force.magnitude, t).f + input(force.input); }
+  /// A load of this magnitude: along an axis of the world or one that follows the body of b.
+  Vec3 load(double magnitude) const noexcept {
+    return magnitude * (force.follows ? Vec3(b.R * force.axis) : force.axis);
+  }
   /// Force of the actuator; zero for elements without one.
   double actuator() const noexcept { return force.driven ? magnitude() : 0.0; }
 };
@@ -55,29 +65,49 @@ void force_of(const ForceInput& in, ForceState& out) noexcept;
 template <ForceType type>
 void force_tangent_of(const ForceInput& in, ForceTangent& out) noexcept;
 
+/// Between which markers an element acts.
+enum class ForceMarkers {
+  two,       ///< on a and b, which it is built with, alike: action and reaction
+  of_joint,  ///< the same, on those of a joint
+  one        ///< on b alone
+};
+
 struct ForceKind {
-  ForceType type;
-  const char* name;
-  bool between_markers;  ///< acts on a and b, and on both alike; otherwise on b alone
-  void (*evaluate)(const ForceInput&, ForceState& out) noexcept;
-  void (*tangent)(const ForceInput&, ForceTangent& out) noexcept;
+  const char* about;  ///< what it does: the documentation, a phrase in Markdown
+  std::span<const ForceKey> keys;
+  ForceMarkers markers = ForceMarkers::two;
+  ForceAccount account = ForceAccount::springs;
+  /// The units of its results.
+  ForceAxis axis = ForceAxis::along;
+  /// It has a length and a rate.
+  bool measured = true;
+  /// An empty description struct of this type. None: ForceValues.
+  ForceDescription::Values (*blank)() = nullptr;
+  /// The free value of a law that is written as a number: that of the design configuration.
+  double (*free_value)(const ForceView& values, const ForceKey& key) = nullptr;
+  /// What the values mean together.
+  void (*validate)(const ForceCheck& check) = nullptr;
+  /// Fills `build.force`; false after an error.
+  bool (*build)(ForceBuild& build);
+  /// What the mirrored element has beside mirrored places and directions.
+  void (*mirror)(ForceDescription& force, const Placement& x) = nullptr;
   std::span<const ForceRegime> regimes;
   /// A random element and motion in one of the regimes, away from the breaks of its laws.
   ForceExample (*example)(std::size_t regime, ExampleNumbers&);
+
+  bool between_markers() const noexcept { return markers != ForceMarkers::one; }
 };
 
-/// In the order of ForceType.
-std::span<const ForceKind* const> force_kinds() noexcept;
+const ForceKind& force_kind(ForceType type) noexcept;
 
-extern const ForceKind spring_damper_kind;
-extern const ForceKind guided_spring_kind;
-extern const ForceKind joint_spring_kind;
-extern const ForceKind tyre_kind;
-extern const ForceKind applied_force_kind;
-extern const ForceKind applied_torque_kind;
+#define FLOATFRAME_KIND(name) extern const ForceKind name##_element;
+FLOATFRAME_FORCES(FLOATFRAME_KIND)
+#undef FLOATFRAME_KIND
 
 /// Gives the element an actuator or a load driven by a function of time and an input.
 void add_example_drive(ForceExample& example, ExampleNumbers& numbers);
+/// An applied load.
+ForceExample example_load(ForceType type, bool follows, ExampleNumbers& numbers);
 /// Smooth and curved laws for the examples: spring of a length in [0, 4] m, damper of a rate.
 PiecewisePolynomial example_spring(ExampleNumbers& numbers);
 PiecewisePolynomial example_damper(ExampleNumbers& numbers);

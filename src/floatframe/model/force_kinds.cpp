@@ -1,16 +1,15 @@
+// The list of force elements at work: facts for load time, direct calls for step time.
 #include <utility>
 
-#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/force_kind.hpp"
-#include "floatframe/model/force_outputs.hpp"
 
 namespace floatframe {
 
 namespace {
 
-constexpr const ForceKind* list[] = {&spring_damper_kind, &guided_spring_kind,
-                                     &joint_spring_kind,  &tyre_kind,
-                                     &applied_force_kind, &applied_torque_kind};
+#define FLOATFRAME_KIND(name) &name##_element,
+constexpr const ForceKind* list[] = {FLOATFRAME_FORCES(FLOATFRAME_KIND)};
+#undef FLOATFRAME_KIND
 
 /// Calls f<type> of the force's type: a chain of comparisons with direct calls.
 template <std::size_t... I>
@@ -28,23 +27,25 @@ void tangent_of(std::index_sequence<I...>, const ForceInput& in, ForceTangent& o
    ...);
 }
 
-using Types = std::make_index_sequence<std::size(list)>;
+using Types = std::make_index_sequence<std::size(force_types)>;
 
 }  // namespace
 
-std::span<const ForceKind* const> force_kinds() noexcept { return list; }
+const ForceKind& force_kind(ForceType type) noexcept { return *list[index_of(type)]; }
 
-const char* force_type_name(ForceType type) noexcept { return list[index_of(type)]->name; }
+ForceAccount force_account(ForceType type) noexcept { return force_kind(type).account; }
 
 bool force_has(ForceType type, ForceQuantity quantity) noexcept {
-  return quantity == ForceQuantity::force ||
-         (type != ForceType::force && type != ForceType::torque);
+  return quantity == ForceQuantity::force || force_kind(type).measured;
 }
 
 const char* force_output_unit(const Force& force, ForceQuantity quantity) noexcept {
-  static constexpr const char* units[][3] = {{"N", "m", "m/s"}, {"N m", "rad", "rad/s"}};
-  const bool turning = force.rotational || force.type == ForceType::torque;
-  return force_has(force.type, quantity) ? units[turning ? 1 : 0][index_of(quantity)] : "";
+  if (!force_has(force.type, quantity)) return "";
+  const ForceAxis axis = force_kind(force.type).axis;
+  const ForceAxisUnits units = force_axis_units(
+      axis == ForceAxis::about || (axis == ForceAxis::coordinate && force.rotational));
+  const char* of[] = {units.force, units.displacement, units.rate};
+  return of[index_of(quantity)];
 }
 
 void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
@@ -76,6 +77,16 @@ void add_example_drive(ForceExample& example, ExampleNumbers& numbers) {
   example.force.input = static_cast<int>(example.inputs.size());
   example.inputs.push_back(numbers(-50.0, 50.0));
   example.t = numbers(0.0, 1.0);
+}
+
+ForceExample example_load(ForceType type, bool follows, ExampleNumbers& numbers) {
+  ForceExample x;
+  x.force.type = type;
+  x.force.follows = follows;
+  x.force.axis = numbers.vector(2.0);
+  add_example_drive(x, numbers);
+  x.a = x.b = numbers.marker();
+  return x;
 }
 
 PiecewisePolynomial example_spring(ExampleNumbers& numbers) {

@@ -1,5 +1,5 @@
 #pragma once
-// What can be asked of a force element as a result, and its units.
+// What can be asked of a force element as a result, its units, and how its energy is accounted for.
 #include "floatframe/model/model.hpp"
 
 namespace floatframe {
@@ -11,5 +11,13 @@ enum class ForceQuantity { force, length, rate };
 const char* force_output_unit(const Force& force, ForceQuantity quantity) noexcept;
 /// Loads that are given have no length and no rate.
 bool force_has(ForceType type, ForceQuantity quantity) noexcept;
+
+/// Where the energy that an element exchanges is booked (simulation/energy_balance.hpp).
+enum class ForceAccount {
+  springs,  ///< it keeps ForceState::energy; the rest is of dampers and actuators
+  tyres,    ///< the same, but its energy may jump
+  loads     ///< it keeps nothing
+};
+ForceAccount force_account(ForceType type) noexcept;
 
 }  // namespace floatframe

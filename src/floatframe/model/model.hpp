@@ -57,8 +57,6 @@ struct Road {
   std::vector<CosineBump> bumps;
 };
 
-enum class ForceType { spring_damper, guided_spring, joint_spring, tyre, force, torque };
-
 /// A function of time plus, with `input` >= 0, the value of that input.
 struct Signal {
   TimeFunction function;
@@ -73,7 +71,7 @@ struct Force {
   PiecewisePolynomial spring, damper;
   Vec3 axis = Vec3::UnitZ();  ///< in marker a (guided), marker b (tyre axis, following load) or
                               ///< world (load)
-  bool rotational = false;    ///< joint_spring about a revolute axis
+  bool rotational = false;    ///< its measure is an angle, followed over several turns
   double radius = 0, stiffness = 0, damping = 0;
   TyreLaw law = TyreLaw::vertical;
   int road = -1;
@@ -84,6 +82,9 @@ struct Force {
   bool targeted = false;       ///< it has one of them
   bool derived_rate = false;   ///< the rate of the target is the derivative of its function
   bool follows = false;
+  /// What further laws and numbers a type has, in an order of its own (model/forces/<type>.cpp).
+  std::vector<PiecewisePolynomial> laws;
+  std::vector<double> numbers;
 };
 
 /// An external signal. Its value belongs to a run, not to the model: see `set_inputs` of the
@@ -132,8 +133,5 @@ struct Model {
 /// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free
 /// joints to bodies no joint leads to. Throws InputError with every fault.
 Model build_model(const ModelDescription& description);
-
-/// "spring_damper", "tyre", ...
-const char* force_type_name(ForceType type) noexcept;
 
 }  // namespace floatframe

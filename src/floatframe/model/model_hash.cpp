@@ -78,9 +78,10 @@ class ModelHash {
   void add(const Force& f) {
     const auto& [name, type, a, b, spring, damper, axis, rotational, radius, stiffness, damping,
                  law, road, magnitude, input, driven, target, target_rate, targeted, derived_rate,
-                 follows] = f;
+                 follows, laws, numbers] = f;
     all(name, type, a, b, spring, damper, axis, rotational, radius, stiffness, damping, law, road);
-    all(magnitude, input, driven, target, target_rate, targeted, derived_rate, follows);
+    all(magnitude, input, driven, target, target_rate, targeted, derived_rate, follows, laws,
+        numbers);
   }
   void add(const Input& i) {
     const auto& [name, unit, initial, low, high, clamp] = i;

@@ -52,7 +52,8 @@ std::string child_is_parent();
 std::string both_ends_on(const std::string& body);
 Complaint rod_ends(const Vec3& a, const Vec3& b);
 Complaint spring_ends(const Vec3& a, const Vec3& b);
-std::string no_law();
+/// `laws`: the keys, one of which is needed.
+std::string no_law(const std::vector<const char*>& laws);
 std::string target_without_law();
 std::string motion_and_start_value();
 std::string keep_alone();

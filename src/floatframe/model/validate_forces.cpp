@@ -1,87 +1,145 @@
-// Force elements and roads.
-#include "floatframe/model/joint_motion.hpp"
+// Force elements, by the tables of their keys and what their types say, and roads.
+#include <algorithm>
+
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/model/force_kind.hpp"
 #include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
 #include "floatframe/model/validate.hpp"
 
 namespace floatframe::validation {
 
 namespace {
 
-bool is_zero(const PiecewisePolynomial& f) {
-  for (const PiecewisePolynomial::Piece& p : f.pieces())
-    for (const double c : p.coefficients)
-      if (c != 0.0) return false;
-  return true;
+/// What a value must be; nullptr if it is.
+const char* other_type(const ForceKey& key, const ForceValue& value) {
+  using K = ForceKeyKind;
+  const auto needs = [&]<class T>(const T*, const char* what) -> const char* {
+    return std::holds_alternative<T>(value) ? nullptr : what;
+  };
+  switch (key.kind) {
+    case K::place:
+    case K::own_place:
+      return needs(static_cast<AttachmentDescription*>(nullptr), "a place");
+    case K::joint:
+    case K::road:
+      return needs(static_cast<std::string*>(nullptr), "a name");
+    case K::direction:
+    case K::vector:
+      return needs(static_cast<Vec3*>(nullptr), "a direction");
+    case K::number:
+      return needs(static_cast<double*>(nullptr), "a number");
+    case K::word:
+      return nullptr;  // a word or its place in the list: said by `word`
+    case K::flag:
+      return needs(static_cast<bool*>(nullptr), "true or false");
+    case K::spring:
+    case K::damper:
+      return needs(static_cast<PiecewisePolynomial*>(nullptr), "a law");
+    case K::bump_stop:
+    case K::rebound_stop:
+      return "a ramp in the spring";
+    default:
+      return needs(static_cast<SignalDescription*>(nullptr), "a signal");
+  }
 }
 
-struct ForceCheck {
+struct ForceValidation {
   const ModelDescription& d;
   const Names& names;
   const Entity& entity;
+  const ForceDescription& force;
 
-  void laws(const PiecewisePolynomial& spring, const PiecewisePolynomial& damper,
-            const std::optional<SignalDescription>& actuator, bool target = false) const {
-    entity.pieces("spring", spring);
-    entity.pieces("damper", damper);
-    if (actuator) entity.signal("actuator", *actuator, names);
-    // Model files may give a law of zeros: the reader knows whether one is there.
-    if (entity.origin.mark.file.empty() && !actuator && !target && is_zero(spring) &&
-        is_zero(damper))
-      entity.fault(sentences::no_law());
+  bool word(const ForceKey& key, const ForceValue& value) const {
+    const int* k = std::get_if<int>(&value);
+    const auto* text = std::get_if<std::string>(&value);
+    auto complaint = word_complaint(k ? *k : -1, key.words);
+    if (text) complaint = "found '" + *text + "', expected " + alternatives(key.words);
+    entity.complain(key.name, complaint);
+    return !complaint;
   }
 
-  void operator()(const SpringDamperDescription& s) const {
-    const bool a = entity.place("from", s.a, names), b = entity.place("to", s.b, names);
-    if (a && b && s.a.body == s.b.body) {
-      entity.fault(sentences::both_ends_on(s.a.body));
-    } else if (a && b && !s.a.node && !s.b.node) {
-      if (const auto complaint = sentences::spring_ends(s.a.point, s.b.point))
-        entity.fault(*complaint);
+  /// True if nothing is wrong with the value by itself.
+  bool value(const ForceKey& key) const {
+    using K = ForceKeyKind;
+    const auto x = force_value(force, key);
+    if (!x) {
+      if (key.required) entity.fault(std::string("missing key '") + key.name + "'");
+      return !key.required;
     }
-    laws(s.spring, s.damper, s.actuator);
-  }
-
-  void operator()(const GuidedSpringDescription& s) const {
-    const bool a = entity.place("reference", s.reference, names);
-    const bool b = entity.place("tip", s.tip, names);
-    if (a && b && s.reference.body == s.tip.body) entity.fault(sentences::both_ends_on(s.tip.body));
-    entity.direction("axis", s.axis);
-    laws(s.spring, s.damper, s.actuator);
-  }
-
-  void operator()(const JointSpringDescription& s) const {
-    if (entity.reference("joint", "joint", s.joint, names.joints)) {
-      const JointType type = d.joints[*names.joints.find(s.joint)].type;
-      if (!joint_has_one_coordinate(type))
-        entity.fault("joint", "found '" + s.joint + "', expected a " + joints_of_one_coordinate() +
-                                  " joint");
+    if (const char* what = other_type(key, *x)) {
+      entity.fault(key.name, std::string("found a value of another type, expected ") + what);
+      return false;
     }
-    laws(s.spring, s.damper, s.actuator, s.target || s.target_rate);
-    const bool law = !is_zero(s.spring) || !is_zero(s.damper);
-    const auto target = [&](const char* key, const std::optional<SignalDescription>& signal) {
-      if (!signal) return;
-      entity.signal(key, *signal, names);
-      if (!law) entity.fault(key, sentences::target_without_law());
+    const std::size_t before = entity.faults.size();
+    switch (key.kind) {
+      case K::place:
+        entity.place(key.name, std::get<AttachmentDescription>(*x), names);
+        break;
+      case K::own_place:
+        entity.place("", std::get<AttachmentDescription>(*x), names, false);
+        break;
+      case K::joint:
+        entity.reference(key.name, "joint", std::get<std::string>(*x), names.joints);
+        break;
+      case K::road:
+        entity.reference(key.name, "road", std::get<std::string>(*x), names.roads);
+        break;
+      case K::direction:
+      case K::vector:
+        entity.direction(key.name, std::get<Vec3>(*x));
+        break;
+      case K::number:
+        entity.number(key.name, std::get<double>(*x), key.rule);
+        break;
+      case K::word:
+        word(key, *x);
+        break;
+      case K::spring:
+      case K::damper:
+        entity.pieces(key.name, std::get<PiecewisePolynomial>(*x));
+        break;
+      case K::load:
+      case K::target:
+      case K::target_rate:
+        entity.signal(key.name, std::get<SignalDescription>(*x), names);
+        break;
+      case K::flag:
+      case K::bump_stop:
+      case K::rebound_stop:
+        break;
+    }
+    return entity.faults.size() == before;
+  }
+
+  void unknown_keys() const {
+    const auto* by_key = std::get_if<ForceValues>(&force.kind);
+    if (!by_key) return;
+    std::vector<std::string> known;
+    for (const ForceKey& key : force_keys(force.type())) known.push_back(key.name);
+    for (const auto& [key, value] : by_key->values)
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        entity.fault("unknown key '" + key + "'" + did_you_mean(key, known));
+  }
+
+  void all() const {
+    if (const auto complaint = word_complaint(static_cast<int>(force.type()), force_words)) {
+      entity.fault("type", *complaint);
+      return;
+    }
+    unknown_keys();
+    ForceCheck check(force);
+    for (const ForceKey& key : force_keys(force.type()))
+      if (!value(key)) check.wrong.insert(key.name);
+    check.from_file = !force.origin.mark.file.empty();
+    check.fault = [&](const std::string& key, const std::string& sentence) {
+      key.empty() ? entity.fault(sentence) : entity.fault(key, sentence);
     };
-    target("target", s.target);
-    target("target_rate", s.target_rate);
-  }
-
-  void operator()(const TyreDescription& t) const {
-    entity.place("", t.centre, names, false);
-    entity.number("radius", t.radius, rules::tyre_radius);
-    entity.number("stiffness", t.stiffness, rules::tyre_stiffness);
-    entity.number("damping", t.damping, rules::tyre_damping);
-    entity.word("law", t.law, rules::tyre_laws);
-    entity.direction("axis", t.axis);
-    entity.reference("road", "road", t.road, names.roads);
-  }
-
-  void operator()(const AppliedLoadDescription& l) const {
-    entity.place("", l.at, names, false);
-    entity.direction("direction", l.direction);
-    entity.signal("magnitude", l.magnitude, names);
+    check.written = [](const std::string& name) { return name; };
+    check.joint_type = [&](const std::string& joint) -> std::optional<JointType> {
+      const auto k = names.joints.find(joint);
+      return k ? std::optional(d.joints[*k].type) : std::nullopt;
+    };
+    if (const auto validate = force_kind(force.type()).validate) validate(check);
   }
 };
 
@@ -92,7 +150,7 @@ void forces(const ModelDescription& d, const Names& names, Faults& faults) {
   for (const ForceDescription& f : d.forces) {
     const Entity entity{faults, f.origin, "forces." + f.name};
     name("forces", f.name, taken, entity);
-    std::visit(ForceCheck{d, names, entity}, f.kind);
+    ForceValidation{d, names, entity, f}.all();
   }
 }
 

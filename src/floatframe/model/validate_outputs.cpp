@@ -26,12 +26,11 @@ void joint_output(const OutputDescription& o, const ModelDescription& d, const N
 void force_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
                   const Entity& entity) {
   if (!entity.reference(output_type_name(o.type), "force", o.entity, names.forces)) return;
-  const ForceDescription& f = d.forces[*names.forces.find(o.entity)];
-  const auto* load = std::get_if<AppliedLoadDescription>(&f.kind);
-  if (load && output_kind(o.type).needs != ForceQuantity::force)
-    entity.fault(
-        output_type_name(o.type),
-        sentences::load_without(load->torque ? "torque" : "force", output_type_name(o.type)));
+  const ForceType type = d.forces[*names.forces.find(o.entity)].type();
+  if (word_complaint(static_cast<int>(type), force_words)) return;
+  if (!force_has(type, output_kind(o.type).needs))
+    entity.fault(output_type_name(o.type),
+                 sentences::load_without(force_type_name(type), output_type_name(o.type)));
 }
 
 void output(const OutputDescription& o, const ModelDescription& d, const Names& names,

@@ -182,8 +182,8 @@ Complaint spring_ends(const Vec3& a, const Vec3& b) {
   return "found both ends at the same point, expected two points apart";
 }
 
-std::string no_law() {
-  return "found no law, expected spring, damper, bump_stop, rebound_stop or actuator";
+std::string no_law(const std::vector<const char*>& laws) {
+  return "found no law, expected " + alternatives(laws);
 }
 
 std::string target_without_law() {

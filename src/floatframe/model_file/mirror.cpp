@@ -1,5 +1,6 @@
 #include "floatframe/model_file/mirror.hpp"
 
+#include "floatframe/model/force_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
@@ -29,20 +30,19 @@ void place(RodDescription& r, const Placement& x) {
 }
 
 void place(ForceDescription& f, const Placement& x) {
-  if (auto* s = std::get_if<SpringDamperDescription>(&f.kind)) {
-    place(s->a, x);
-    place(s->b, x);
-  } else if (auto* g = std::get_if<GuidedSpringDescription>(&f.kind)) {
-    place(g->reference, x);
-    place(g->tip, x);
-    g->axis = x.polar(g->axis);
-  } else if (auto* t = std::get_if<TyreDescription>(&f.kind)) {
-    place(t->centre, x);
-    t->axis = x.polar(t->axis);  // a line: its sense does not matter
-  } else if (auto* l = std::get_if<AppliedLoadDescription>(&f.kind)) {
-    place(l->at, x);
-    l->direction = l->torque ? x.axial(l->direction) : x.polar(l->direction);
+  const ForceKind& kind = force_kind(f.type());
+  for (const ForceKey& key : kind.keys) {
+    auto value = force_value(f, key);
+    if (!value) continue;
+    if (auto* at = std::get_if<AttachmentDescription>(&*value))
+      place(*at, x);
+    else if (auto* v = std::get_if<Vec3>(&*value))
+      *v = key.axial ? x.axial(*v) : x.polar(*v);
+    else
+      continue;
+    set_force_value(f, key, *value);
   }
+  if (kind.mirror) kind.mirror(f, x);
 }
 
 void place(OutputDescription& o, const Placement& x) {

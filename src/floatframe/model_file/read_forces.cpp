@@ -1,6 +1,7 @@
 // Force elements and roads.
 #include <cmath>
 
+#include "floatframe/model/force_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -9,22 +10,6 @@
 
 namespace floatframe {
 namespace {
-
-const std::vector<std::string> force_words{"spring_damper", "guided_spring", "joint_spring",
-                                           "tyre",          "force",         "torque"};
-constexpr LawUnits spring_units{"m", "N", "N/m"};
-constexpr LawUnits damper_units{"m/s", "N", "N s/m"};
-constexpr LawUnits torsion_units{"rad", "N m", "N m/rad"};
-constexpr LawUnits torsion_damper_units{"rad/s", "N m", "N m s/rad"};
-
-std::optional<AttachmentDescription> end(const ModelInstance& self, const ReadModel& model,
-                                         YamlSection& s, const char* key) {
-  const auto v = s.require(key);
-  if (!v) return std::nullopt;
-  const auto section = v->section("a place {body, at}");
-  if (!section) return std::nullopt;
-  return read_attachment(self, model, *section);
-}
 
 /// body and at (or node) written among the keys of the force itself.
 std::optional<AttachmentDescription> own_place(const ModelInstance& self, const ReadModel& model,
@@ -62,125 +47,137 @@ std::optional<AttachmentDescription> own_place(const ModelInstance& self, const 
   return a;
 }
 
-/// spring, damper, bump_stop, rebound_stop, actuator; at least one of them.
-void laws(const ModelInstance& self, YamlSection& s, double free, PiecewisePolynomial& spring,
-          PiecewisePolynomial& damper, std::optional<SignalDescription>& actuator) {
-  int found = 0;
-  if (const auto v = s.get("actuator"))
-    ++found, actuator = read_signal(self, *v, "N", Interpolation::linear);
-  if (const auto v = s.get("spring")) ++found, spring = read_law(*v, free, spring_units);
-  if (const auto v = s.get("damper")) ++found, damper = read_law(*v, 0.0, damper_units);
-  for (const bool bump : {true, false})
-    if (const auto v = s.get(bump ? "bump_stop" : "rebound_stop")) {
-      ++found;
-      auto stop = v->section("a map with length and stiffness");
-      if (!stop) continue;
-      const double length = stop->required_number("length", any_number("m"), 0.0);
-      const double stiffness = stop->required_number("stiffness", positive_number("N/m"), 1.0);
-      stop->finish();
-      spring = spring + (bump ? ramp_below(length, stiffness) : ramp_above(length, stiffness));
+/// The keys of one force element, as the table of its type says.
+class ForceReader {
+ public:
+  ForceReader(const ModelInstance& self, ReadModel& model, YamlSection& s, ForceDescription& f)
+      : self_(self), model_(model), s_(s), f_(f), check_(f) {}
+
+  void read() {
+    const ForceKind& kind = force_kind(f_.type());
+    for (const ForceKey& key : kind.keys) {
+      const std::size_t before = self_.context.faults->size();
+      if (const auto value = read(key)) set_force_value(f_, key, *value);
+      if (self_.context.faults->size() != before) check_.wrong.insert(key.name);
     }
-  if (found == 0) s.fault(sentences::no_law());
-}
-
-void spring_damper(const ModelInstance& self, YamlSection& s, ReadModel& model,
-                   ForceDescription& f) {
-  SpringDamperDescription d;
-  const auto a = end(self, model, s, "from"), b = end(self, model, s, "to");
-  double length = 0.0;
-  if (a && b) {
-    d.a = *a;
-    d.b = *b;
-    length = (a->point - b->point).norm();
-    if (a->body == b->body)
-      s.fault(sentences::both_ends_on(self.written(a->body)));
-    else if (const auto complaint = sentences::spring_ends(a->point, b->point))
-      s.fault(*complaint);
+    check_.from_file = true;
+    check_.fault = [&](const std::string& key, const std::string& sentence) {
+      const auto value = key.empty() ? std::nullopt : s_.get(key.c_str());
+      value ? value->fault(sentence) : s_.fault(sentence);
+    };
+    check_.written = [&](const std::string& name) { return self_.written(name); };
+    check_.joint_type = [&](const std::string& joint) { return joint_type(joint); };
+    if (kind.validate) kind.validate(check_);
   }
-  laws(self, s, length, d.spring, d.damper, d.actuator);
-  f.kind = std::move(d);
-}
 
-void guided_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
-                   ForceDescription& f) {
-  GuidedSpringDescription d;
-  const auto a = end(self, model, s, "reference"), b = end(self, model, s, "tip");
-  const auto axis = s.require("axis");
-  if (const auto v = axis ? read_direction(*axis) : std::nullopt) d.axis = v->stableNormalized();
-  double length = 0.0;
-  if (a && b) {
-    d.reference = *a;
-    d.tip = *b;
-    length = d.axis.dot(a->point - b->point);
-    if (a->body == b->body) s.fault(sentences::both_ends_on(self.written(a->body)));
+ private:
+  std::optional<JointType> joint_type(const std::string& joint) const {
+    const auto it = model_.joints.find(joint);
+    return it == model_.joints.end() ? std::nullopt : std::optional(it->second);
   }
-  laws(self, s, length, d.spring, d.damper, d.actuator);
-  f.kind = std::move(d);
-}
 
-void joint_spring(const ModelInstance& self, YamlSection& s, ReadModel& model,
-                  ForceDescription& f) {
-  JointSpringDescription d;
-  const auto value = s.require("joint");
-  const auto joint = value ? self.reference(EntityKind::joint, *value) : std::nullopt;
-  bool turning = true;
-  if (joint) {
-    d.joint = *joint;
-    const auto it = model.joints.find(*joint);
-    if (it != model.joints.end()) {
-      const bool one = joint_has_one_coordinate(it->second);
-      turning = one && joint_unit(it->second, 0) == JointUnit::rad;
-      if (!one) value->unexpected("a " + joints_of_one_coordinate() + " joint");
+  ForceAxisUnits units(const ForceKey& key) const {
+    bool turning = key.axis != ForceAxis::along;
+    if (key.axis == ForceAxis::coordinate) {
+      const auto type = joint_type(check_.text("joint"));
+      turning =
+          !type || (joint_has_one_coordinate(*type) && joint_unit(*type, 0) == JointUnit::rad);
     }
+    return force_axis_units(turning);
   }
-  int found = 0;
-  if (const auto v = s.get("spring"))
-    ++found, d.spring = read_law(*v, 0.0, turning ? torsion_units : spring_units);
-  if (const auto v = s.get("damper"))
-    ++found, d.damper = read_law(*v, 0.0, turning ? torsion_damper_units : damper_units);
-  const bool law = found > 0;
-  if (const auto v = s.get("actuator"))
-    ++found, d.actuator = read_signal(self, *v, turning ? "N m" : "N", Interpolation::linear);
-  if (found == 0) s.fault("found no law, expected spring, damper or actuator");
-  const auto target = [&](const char* key, const char* unit, Interpolation table,
-                          std::optional<SignalDescription>& out) {
-    const auto v = s.get(key);
-    if (!v) return;
-    out = read_signal(self, *v, unit, table);
-    if (!law) v->fault(sentences::target_without_law());
-  };
-  target("target", turning ? "rad" : "m", Interpolation::cubic, d.target);
-  target("target_rate", turning ? "rad/s" : "m/s", Interpolation::linear, d.target_rate);
-  f.kind = std::move(d);
-}
 
-void tyre(const ModelInstance& self, YamlSection& s, ReadModel& model, ForceDescription& f) {
-  TyreDescription d;
-  if (const auto a = own_place(self, model, s)) d.centre = *a;
-  d.radius = s.required_number("radius", rules::tyre_radius, 1.0);
-  d.stiffness = s.required_number("stiffness", rules::tyre_stiffness, 1.0);
-  d.damping = s.number("damping", rules::tyre_damping, 0.0);
-  if (const auto v = s.get("law"))
-    if (const auto w = v->word(rules::tyre_laws)) d.law = static_cast<TyreLaw>(*w);
-  if (const auto v = s.get("axis"))
-    if (const auto a = read_direction(*v)) d.axis = a->stableNormalized();
-  if (const auto v = s.require("road"))
-    if (const auto r = self.reference(EntityKind::road, *v)) d.road = *r;
-  f.kind = std::move(d);
-}
+  /// The value that a law has where it is written as a number.
+  double free_value(const ForceKey& key) const {
+    const auto free = force_kind(f_.type()).free_value;
+    return free && check_.wrong.empty() ? free(check_, key) : 0.0;
+  }
 
-void load(const ModelInstance& self, YamlSection& s, ReadModel& model, ForceDescription& f,
-          bool torque) {
-  AppliedLoadDescription d;
-  d.torque = torque;
-  if (const auto a = own_place(self, model, s)) d.at = *a;
-  const auto direction = s.require("direction");
-  if (const auto v = direction ? read_direction(*direction) : std::nullopt) d.direction = *v;
-  if (const auto v = s.require("magnitude"))
-    d.magnitude = read_signal(self, *v, torque ? "N m" : "N", Interpolation::linear);
-  d.follows = s.boolean("follows", false);
-  f.kind = std::move(d);
-}
+  std::optional<ForceValue> stop(const ForceKey& key, const YamlValue& value) const {
+    auto stop = value.section("a map with length and stiffness");
+    if (!stop) return std::nullopt;
+    const double length = stop->required_number("length", any_number("m"), 0.0);
+    const double stiffness = stop->required_number("stiffness", positive_number("N/m"), 1.0);
+    stop->finish();
+    const bool bump = key.kind == ForceKeyKind::bump_stop;
+    const ForceKey& spring = check_.key(key.of);
+    set_force_value(f_, spring,
+                    check_.law(spring.name) +
+                        (bump ? ramp_below(length, stiffness) : ramp_above(length, stiffness)));
+    return std::nullopt;
+  }
+
+  std::optional<ForceValue> named(EntityKind kind, const YamlValue& value) const {
+    const auto name = self_.reference(kind, value);
+    return name ? std::optional(ForceValue(*name)) : std::nullopt;
+  }
+
+  std::optional<ForceValue> direction(const YamlValue& value, bool as_given) const {
+    const auto v = read_direction(value);
+    if (!v) return std::nullopt;
+    return ForceValue(as_given ? *v : Vec3(v->stableNormalized()));
+  }
+
+  std::optional<ForceValue> place_of(const YamlValue& value) const {
+    const auto section = value.section("a place {body, at}");
+    const auto at = section ? read_attachment(self_, model_, *section) : std::nullopt;
+    return at ? std::optional(ForceValue(*at)) : std::nullopt;
+  }
+
+  std::optional<ForceValue> read(const ForceKey& key) {
+    using K = ForceKeyKind;
+    if (key.kind == K::own_place) {
+      const auto at = own_place(self_, model_, s_);
+      return at ? std::optional(ForceValue(*at)) : std::nullopt;
+    }
+    const auto value = key.required ? s_.require(key.name) : s_.get(key.name);
+    if (!value) return std::nullopt;
+    const ForceAxisUnits u = units(key);
+    switch (key.kind) {
+      case K::own_place:
+      case K::place:
+        return place_of(*value);
+      case K::joint:
+        return named(EntityKind::joint, *value);
+      case K::road:
+        return named(EntityKind::road, *value);
+      case K::direction:
+      case K::vector:
+        return direction(*value, key.kind == K::vector);
+      case K::number: {
+        const auto x = value->number(key.rule);
+        return x ? std::optional(ForceValue(*x)) : std::nullopt;
+      }
+      case K::word: {
+        const auto k = value->word(key.words);
+        return k ? std::optional(ForceValue(static_cast<int>(*k))) : std::nullopt;
+      }
+      case K::flag: {
+        const auto yes = value->boolean();
+        return yes ? std::optional(ForceValue(*yes)) : std::nullopt;
+      }
+      case K::spring:
+        return read_law(*value, free_value(key), {u.displacement, u.force, u.stiffness});
+      case K::damper:
+        return read_law(*value, 0.0, {u.rate, u.force, u.damping});
+      case K::bump_stop:
+      case K::rebound_stop:
+        return stop(key, *value);
+      case K::load:
+        return read_signal(self_, *value, u.force, Interpolation::linear);
+      case K::target:
+        return read_signal(self_, *value, u.displacement, Interpolation::cubic);
+      case K::target_rate:
+        return read_signal(self_, *value, u.rate, Interpolation::linear);
+    }
+    return std::nullopt;
+  }
+
+  const ModelInstance& self_;
+  ReadModel& model_;
+  YamlSection& s_;
+  ForceDescription& f_;
+  ForceCheck check_;
+};
 
 /// Points [x, z] of a road; two with the same x are a step.
 PiecewisePolynomial read_profile(const YamlValue& value) {
@@ -214,24 +211,11 @@ void read_forces(const ModelInstance& self, ReadModel& model) {
     const auto value = s.require("type");
     const auto type = value ? value->word(force_words) : std::nullopt;
     if (!type) continue;
-    switch (*type) {
-      case 0:
-        spring_damper(self, s, model, f);
-        break;
-      case 1:
-        guided_spring(self, s, model, f);
-        break;
-      case 2:
-        joint_spring(self, s, model, f);
-        break;
-      case 3:
-        tyre(self, s, model, f);
-        break;
-      default:
-        load(self, s, model, f, *type == 5);
-    }
+    const auto blank = force_kind(force_types[*type]).blank;
+    f.kind = blank ? blank() : ForceDescription::Values(ForceValues{force_types[*type], {}});
+    ForceReader(self, model, s, f).read();
     s.finish();
-    model.force_types.emplace(f.name, force_words[*type]);
+    model.force_types.emplace(f.name, f.type());
     place(f, self.world);
     model.description.forces.push_back(std::move(f));
   }

@@ -70,10 +70,9 @@ class OutputReader {
         if (const auto f = self_.reference(EntityKind::force, what)) {
           o.entity = *f;
           const auto type = model_.force_types.find(*f);
-          const bool measured = type == model_.force_types.end() ||
-                                (type->second != "force" && type->second != "torque");
-          if (kind.needs != ForceQuantity::force && !measured)
-            what.fault(sentences::load_without(type->second, output_type_name(o.type)));
+          if (type != model_.force_types.end() && !force_has(type->second, kind.needs))
+            what.fault(
+                sentences::load_without(force_type_name(type->second), output_type_name(o.type)));
           components(name, *s, o);
         }
         break;

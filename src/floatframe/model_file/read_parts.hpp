@@ -28,10 +28,10 @@ struct KnownBody {
 
 struct ReadModel {
   ModelDescription description;
-  std::map<std::string, KnownBody> bodies;         ///< by full name
-  std::map<std::string, JointType> joints;         ///< by full name
-  std::map<std::string, std::string> force_types;  ///< by full name
-  std::set<std::string> columns;                   ///< names of outputs
+  std::map<std::string, KnownBody> bodies;       ///< by full name
+  std::map<std::string, JointType> joints;       ///< by full name
+  std::map<std::string, ForceType> force_types;  ///< by full name
+  std::set<std::string> columns;                 ///< names of outputs
   ReadOptions options;
 };
 

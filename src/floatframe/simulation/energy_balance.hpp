@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/model/model.hpp"
+#include "floatframe/model/force_outputs.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
@@ -44,10 +44,11 @@ FlowSample flows(const F& f, const VecX& v, const VecX& reactions) noexcept {
     const MarkerState& a = force.a >= 0 ? f.marker(force.a) : b;
     // What the wrench does and the spring does not keep or give.
     const double rest = wrench_power(force, s.wrench, a, b) + s.energy_rate;
-    if (force.type == ForceType::tyre) {
+    const ForceAccount account = force_account(force.type);
+    if (account == ForceAccount::tyres) {
       p[EnergyFlow::tyres] += rest;
       sample.tyres += s.energy;
-    } else if (force.type == ForceType::force || force.type == ForceType::torque) {
+    } else if (account == ForceAccount::loads) {
       p[EnergyFlow::loads] += rest;
     } else {
       p[EnergyFlow::dampers] -= s.damping;

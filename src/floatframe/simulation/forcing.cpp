@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "floatframe/model/force_outputs.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -20,7 +22,7 @@ std::vector<Forcing> all_forcing(const Model& model) {
   for (const Joint& j : model.joints)
     if (j.motion) out.push_back({"the motion of joint '" + j.name + "'", &*j.motion});
   for (const Force& f : model.forces) {
-    const bool load = f.type == ForceType::force || f.type == ForceType::torque;
+    const bool load = force_account(f.type) == ForceAccount::loads;
     const std::string owner = " '" + f.name + "'";
     if (load || f.driven)
       out.push_back({(load ? "the load" : "the actuator of") + owner, &f.magnitude});

@@ -5,6 +5,7 @@
 //   damping      f_sdot n n^T
 // between the points a and b. The first two terms of the stiffness are three rows.
 #include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
@@ -76,12 +77,12 @@ void force_tangent_of<ForceType::spring_damper>(const ForceInput& in, ForceTange
 
 namespace {
 
-constexpr ForceRegime regimes[] = {{.name = "anywhere"},
-                                   {.name = "short"},
-                                   {.name = "points_coincide", .regular = false},
-                                   {.name = "actuated", .conservative = false}};
+constexpr ForceRegime spring_damper_regimes[] = {{.name = "anywhere"},
+                                                 {.name = "short"},
+                                                 {.name = "points_coincide", .regular = false},
+                                                 {.name = "actuated", .conservative = false}};
 
-ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
+ForceExample spring_damper_example(std::size_t regime, ExampleNumbers& numbers) {
   ForceExample x;
   x.force.type = ForceType::spring_damper;
   x.force.spring = example_spring(numbers);
@@ -94,14 +95,74 @@ ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
   return x;
 }
 
+using S = SpringDamperDescription;
+
+constexpr ForceKey spring_damper_keys[] = {
+    {.name = "from",
+     .kind = ForceKeyKind::place,
+     .about = "one end",
+     .required = true,
+     .member = kept_in<&S::a>},
+    {.name = "to",
+     .kind = ForceKeyKind::place,
+     .about = "the other end",
+     .required = true,
+     .member = kept_in<&S::b>},
+    {.name = "spring",
+     .kind = ForceKeyKind::spring,
+     .about = "of the length",
+     .member = kept_in<&S::spring>},
+    {.name = "damper",
+     .kind = ForceKeyKind::damper,
+     .about = "of the rate of the length",
+     .member = kept_in<&S::damper>},
+    {.name = "bump_stop",
+     .kind = ForceKeyKind::bump_stop,
+     .about = "below a length",
+     .of = "spring"},
+    {.name = "rebound_stop",
+     .kind = ForceKeyKind::rebound_stop,
+     .about = "above a length",
+     .of = "spring"},
+    {.name = "actuator",
+     .kind = ForceKeyKind::load,
+     .about = "tension added to both",
+     .member = kept_in<&S::actuator>},
+};
+
+double distance_in_design(const ForceView& values, const ForceKey&) {
+  return (values.place("from").point - values.place("to").point).norm();
+}
+
+void spring_damper_validate(const ForceCheck& check) {
+  if (check.two_bodies("from", "to")) {
+    const AttachmentDescription a = check.place("from"), b = check.place("to");
+    if (check.from_file || (!a.node && !b.node))
+      if (const auto complaint = sentences::spring_ends(a.point, b.point))
+        check.fault("", *complaint);
+  }
+  check.some_law();
+}
+
+bool spring_damper_build(ForceBuild& b) {
+  b.force.a = b.marker("from", false);
+  b.force.b = b.marker("to", false);
+  b.force.spring = b.law("spring");
+  b.force.damper = b.law("damper");
+  b.actuate("actuator");
+  return b.force.a >= 0 && b.force.b >= 0;
+}
+
 }  // namespace
 
-const ForceKind spring_damper_kind{ForceType::spring_damper,
-                                   "spring_damper",
-                                   true,
-                                   force_of<ForceType::spring_damper>,
-                                   force_tangent_of<ForceType::spring_damper>,
-                                   regimes,
-                                   example};
+constinit const ForceKind spring_damper_element = {
+    .about = "spring and damper along the line between two points; tension is positive",
+    .keys = spring_damper_keys,
+    .blank = [] { return ForceDescription::Values(S()); },
+    .free_value = distance_in_design,
+    .validate = spring_damper_validate,
+    .build = spring_damper_build,
+    .regimes = spring_damper_regimes,
+    .example = spring_damper_example};
 
 }  // namespace floatframe

@@ -14,6 +14,7 @@
 #include <numbers>
 
 #include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/rules.hpp"
 
 namespace floatframe {
 
@@ -142,7 +143,7 @@ enum Regime : std::size_t {
   held_by_damper,
   lying
 };
-constexpr ForceRegime regimes[] = {
+constexpr ForceRegime tyre_regimes[] = {
     {.name = "vertical_flat"},
     {.name = "vertical_slope", .rows_leave_out = slope, .conservative = false},
     {.name = "vertical_bump", .rows_leave_out = slope, .conservative = false},
@@ -155,7 +156,7 @@ constexpr ForceRegime regimes[] = {
     {.name = "held_by_damper", .rows_leave_out = heel, .acts = false},
     {.name = "lying", .regular = false}};
 
-ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
+ForceExample tyre_example(std::size_t regime, ExampleNumbers& numbers) {
   const bool vertical = regime <= vertical_bump;
   const bool bump =
       regime == vertical_bump || regime == radial_bump || regime == radial_heeling_on_bump;
@@ -198,10 +199,72 @@ ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
   return x;
 }
 
+using T = TyreDescription;
+
+constexpr ForceKey tyre_keys[] = {
+    {.name = "body",
+     .kind = ForceKeyKind::own_place,
+     .about = "the wheel centre",
+     .required = true,
+     .member = kept_in<&T::centre>},
+    {.name = "radius",
+     .kind = ForceKeyKind::number,
+     .about = "unloaded radius R",
+     .required = true,
+     .rule = rules::tyre_radius,
+     .fallback = 1.0,
+     .member = kept_in<&T::radius>},
+    {.name = "stiffness",
+     .kind = ForceKeyKind::number,
+     .about = "k",
+     .required = true,
+     .rule = rules::tyre_stiffness,
+     .fallback = 1.0,
+     .member = kept_in<&T::stiffness>},
+    {.name = "damping",
+     .kind = ForceKeyKind::number,
+     .about = "c",
+     .rule = rules::tyre_damping,
+     .member = kept_in<&T::damping>},
+    {.name = "law",
+     .kind = ForceKeyKind::word,
+     .about = "along the vertical or normal to the road",
+     .words = rules::tyre_laws,
+     .member = kept_in<&T::law>},
+    {.name = "axis",
+     .kind = ForceKeyKind::direction,
+     .about = "the wheel axis",
+     .vector = {0.0, 1.0, 0.0},
+     .member = kept_in<&T::axis>},  // a line: its sense does not matter
+    {.name = "road",
+     .kind = ForceKeyKind::road,
+     .about = "what it rolls on",
+     .required = true,
+     .member = kept_in<&T::road>},
+};
+
+bool tyre_build(ForceBuild& b) {
+  Force& f = b.force;
+  f.law = static_cast<TyreLaw>(b.word("law"));
+  f.b = b.marker("body", f.law == TyreLaw::radial);
+  f.radius = b.number("radius");
+  f.stiffness = b.number("stiffness");
+  f.damping = b.number("damping");
+  f.axis = b.unit_direction("axis");
+  f.road = b.road("road");
+  return f.b >= 0;
+}
+
 }  // namespace
 
-const ForceKind tyre_kind{
-    ForceType::tyre, "tyre", false, force_of<ForceType::tyre>, force_tangent_of<ForceType::tyre>,
-    regimes,         example};
+constinit const ForceKind tyre_element = {
+    .about = "penalty tyre on the profile of a road; it pushes or does nothing",
+    .keys = tyre_keys,
+    .markers = ForceMarkers::one,
+    .account = ForceAccount::tyres,
+    .blank = [] { return ForceDescription::Values(T()); },
+    .build = tyre_build,
+    .regimes = tyre_regimes,
+    .example = tyre_example};
 
 }  // namespace floatframe

@@ -14,17 +14,19 @@
 
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/force_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
 namespace {
 
-struct Measure {
+struct Coordinate {
   double s, rate;
   WrenchRow g;
 };
 
-Measure measure(const ForceInput& in) noexcept {
+Coordinate coordinate(const ForceInput& in) noexcept {
   const Vec3 z = in.a.R.col(2);
   if (!in.force.rotational) {
     const AxisMeasure m = axis_measure(z, in.a, in.b);
@@ -43,7 +45,7 @@ struct Law {
   double energy_rate, damping;  ///< of the spring and of the damper
 };
 
-Law law_at(const ForceInput& in, const Measure& m) noexcept {
+Law law_at(const ForceInput& in, const Coordinate& m) noexcept {
   double target = 0.0, target_rate = 0.0, moves = 0.0;
   if (in.force.targeted) {
     const PiecewisePolynomial::Value position = evaluate(in.force.target.function, in.t);
@@ -63,7 +65,7 @@ Law law_at(const ForceInput& in, const Measure& m) noexcept {
 
 template <>
 void force_of<ForceType::joint_spring>(const ForceInput& in, ForceState& out) noexcept {
-  const Measure m = measure(in);
+  const Coordinate m = coordinate(in);
   out.length = m.s;
   out.rate = m.rate;
   const Law law = law_at(in, m);
@@ -79,7 +81,7 @@ void force_of<ForceType::joint_spring>(const ForceInput& in, ForceState& out) no
 
 template <>
 void force_tangent_of<ForceType::joint_spring>(const ForceInput& in, ForceTangent& out) noexcept {
-  const Measure m = measure(in);
+  const Coordinate m = coordinate(in);
   const Law law = law_at(in, m);
   const Vec3 z = in.a.R.col(2);
   const Vec12 g = stacked(m.g);
@@ -106,15 +108,15 @@ void force_tangent_of<ForceType::joint_spring>(const ForceInput& in, ForceTangen
 
 namespace {
 
-constexpr const char* turning = "the turning of the axis with its body";
-constexpr ForceRegime regimes[] = {
-    {.name = "along", .rows_leave_out = turning},
-    {.name = "about", .rows_leave_out = turning},
-    {.name = "about_after_turns", .rows_leave_out = turning},
-    {.name = "motor_along", .rows_leave_out = turning, .conservative = false},
-    {.name = "motor_about", .rows_leave_out = turning, .conservative = false}};
+constexpr const char* turning_joint_axis = "the turning of the axis with its body";
+constexpr ForceRegime joint_spring_regimes[] = {
+    {.name = "along", .rows_leave_out = turning_joint_axis},
+    {.name = "about", .rows_leave_out = turning_joint_axis},
+    {.name = "about_after_turns", .rows_leave_out = turning_joint_axis},
+    {.name = "motor_along", .rows_leave_out = turning_joint_axis, .conservative = false},
+    {.name = "motor_about", .rows_leave_out = turning_joint_axis, .conservative = false}};
 
-ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
+ForceExample joint_spring_example(std::size_t regime, ExampleNumbers& numbers) {
   ForceExample x;
   x.force.type = ForceType::joint_spring;
   x.force.rotational = regime == 1 || regime == 2 || regime == 4;
@@ -135,14 +137,85 @@ ForceExample example(std::size_t regime, ExampleNumbers& numbers) {
   return x;
 }
 
+using J = JointSpringDescription;
+
+constexpr ForceKey joint_spring_keys[] = {
+    {.name = "joint",
+     .kind = ForceKeyKind::joint,
+     .about = "one with one coordinate q",
+     .required = true,
+     .member = kept_in<&J::joint>},
+    {.name = "spring",
+     .kind = ForceKeyKind::spring,
+     .about = "of q - target",
+     .axis = ForceAxis::coordinate,
+     .member = kept_in<&J::spring>},
+    {.name = "damper",
+     .kind = ForceKeyKind::damper,
+     .about = "of q̇ - rate of the target",
+     .axis = ForceAxis::coordinate,
+     .member = kept_in<&J::damper>},
+    {.name = "actuator",
+     .kind = ForceKeyKind::load,
+     .about = "added to the force on q, which it raises",
+     .axis = ForceAxis::coordinate,
+     .member = kept_in<&J::actuator>},
+    {.name = "target",
+     .kind = ForceKeyKind::target,
+     .about = "the place that `spring` pulls to",
+     .axis = ForceAxis::coordinate,
+     .member = kept_in<&J::target>},
+    {.name = "target_rate",
+     .kind = ForceKeyKind::target_rate,
+     .about = "the rate that `damper` pulls to",
+     .axis = ForceAxis::coordinate,
+     .member = kept_in<&J::target_rate>},
+};
+
+void joint_spring_validate(const ForceCheck& check) {
+  if (check.good("joint")) {
+    const std::string joint = check.text("joint");
+    const auto type = check.joint_type(joint);
+    if (type && !joint_has_one_coordinate(*type))
+      check.fault("joint", "found '" + check.written(joint) + "', expected a " +
+                               joints_of_one_coordinate() + " joint");
+  }
+  if (!check.given("target") && !check.given("target_rate")) check.some_law();
+  if (check.given("spring") || check.given("damper")) return;
+  for (const char* key : {"target", "target_rate"})
+    if (check.given(key)) check.fault(key, sentences::target_without_law());
+}
+
+bool joint_spring_build(ForceBuild& b) {
+  Force& f = b.force;
+  f.spring = b.law("spring");
+  f.damper = b.law("damper");
+  b.actuate("actuator");
+  if (b.has("target")) f.target = b.built_signal("target");
+  if (b.has("target_rate")) f.target_rate = b.built_signal("target_rate");
+  f.targeted = b.has("target") || b.has("target_rate");
+  f.derived_rate = !b.has("target_rate");
+  const Joint* joint = b.joint("joint");
+  if (!joint) return false;
+  f.a = joint->frame_F;
+  f.b = joint->frame_M;
+  f.rotational = joint_unit(joint->type, 0) == JointUnit::rad;
+  return true;
+}
+
 }  // namespace
 
-const ForceKind joint_spring_kind{ForceType::joint_spring,
-                                  "joint_spring",
-                                  true,
-                                  force_of<ForceType::joint_spring>,
-                                  force_tangent_of<ForceType::joint_spring>,
-                                  regimes,
-                                  example};
+constinit const ForceKind joint_spring_element = {
+    .about =
+        "spring, damper and motor on the coordinate of a joint: the force on it is actuator - "
+        "spring(q - target) - damper(q̇ - rate)",
+    .keys = joint_spring_keys,
+    .markers = ForceMarkers::of_joint,
+    .axis = ForceAxis::coordinate,
+    .blank = [] { return ForceDescription::Values(J()); },
+    .validate = joint_spring_validate,
+    .build = joint_spring_build,
+    .regimes = joint_spring_regimes,
+    .example = joint_spring_example};
 
 }  // namespace floatframe

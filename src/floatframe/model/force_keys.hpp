@@ -1,0 +1,151 @@
+#pragma once
+// The keys of a force element: what stands in model files, and where a description keeps it. Reader,
+// validation, mirror and the table of the documentation run over these tables. Load time only.
+#include <array>
+#include <functional>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+
+#include "floatframe/core/number_rule.hpp"
+#include "floatframe/model/description.hpp"
+
+namespace floatframe {
+
+enum class ForceKeyKind {
+  place,         ///< {body, at} or {body, node}, also on the ground
+  own_place,     ///< `body`, and `at` or `node`, among the keys of the force; not on the ground
+  joint,         ///< the name of one
+  road,          ///< the name of one
+  direction,     ///< its length does not matter
+  vector,        ///< the same, but used as given
+  number,        ///< as `rule` says
+  word,          ///< one of `words`
+  flag,          ///< true or false
+  spring,        ///< law of a displacement
+  damper,        ///< law of a rate
+  bump_stop,     ///< {length, stiffness}: a ramp below, added to the law `of` ...
+  rebound_stop,  ///< ... or above
+  load,          ///< signal, a force
+  target,        ///< signal, a displacement; its tables are smooth
+  target_rate    ///< signal, a rate
+};
+
+/// What laws and signals belong to: a displacement, a rotation, or the coordinate of the joint that
+/// the key `joint` names.
+enum class ForceAxis { along, about, coordinate };
+
+struct ForceAxisUnits {
+  const char *displacement, *rate, *force, *stiffness, *damping;
+};
+constexpr ForceAxisUnits force_axis_units(bool turning) noexcept {
+  return turning ? ForceAxisUnits{"rad", "rad/s", "N m", "N m/rad", "N m s/rad"}
+                 : ForceAxisUnits{"m", "m/s", "N", "N/m", "N s/m"};
+}
+
+/// A member of a description struct; none: the value stands in ForceValues only.
+struct ForceMember {
+  std::optional<ForceValue> (*read)(const ForceDescription&) = nullptr;
+  void (*write)(ForceDescription&, const ForceValue&) = nullptr;
+};
+
+struct ForceKey {
+  const char* name;
+  ForceKeyKind kind;
+  const char* about;  ///< the documentation: a phrase in Markdown, without units
+  bool required = false;
+  ForceAxis axis = ForceAxis::along;
+  NumberRule rule = any_number("");
+  std::span<const char* const> words = {};
+  double fallback = 0.0;                           ///< number or place of the word without the key
+  std::array<double, 3> vector = {0.0, 0.0, 1.0};  ///< direction without the key
+  bool axial = false;                              ///< how a direction reflects
+  const char* of = nullptr;                        ///< of a stop: the key of the spring
+  ForceMember member = {};
+};
+
+namespace force_member {
+template <class T>
+struct Optional : std::false_type {};
+template <class T>
+struct Optional<std::optional<T>> : std::true_type {};
+
+template <auto member, class S, class T>
+constexpr ForceMember access(T S::*) {
+  return {[](const ForceDescription& f) -> std::optional<ForceValue> {
+            const T& x = std::get<S>(f.kind).*member;
+            if constexpr (Optional<T>::value)
+              return x ? std::optional(ForceValue(*x)) : std::nullopt;
+            else if constexpr (std::is_enum_v<T>)
+              return ForceValue(static_cast<int>(x));
+            else
+              return ForceValue(x);
+          },
+          [](ForceDescription& f, const ForceValue& value) {
+            T& x = std::get<S>(f.kind).*member;
+            if constexpr (Optional<T>::value)
+              x = std::get<typename T::value_type>(value);
+            else if constexpr (std::is_enum_v<T>)
+              x = static_cast<T>(std::get<int>(value));
+            else
+              x = std::get<T>(value);
+          }};
+}
+}  // namespace force_member
+
+/// `.member = kept_in<&SpringDamperDescription::spring>`
+template <auto member>
+inline constexpr ForceMember kept_in = force_member::access<member>(member);
+
+/// The keys of a type.
+std::span<const ForceKey> force_keys(ForceType type) noexcept;
+/// What is there of a key, numbers as double and words by their place if they are right.
+std::optional<ForceValue> force_value(const ForceDescription& force, const ForceKey& key);
+void set_force_value(ForceDescription& force, const ForceKey& key, const ForceValue& value);
+
+/// The values of a description by key; what is not there is the default.
+class ForceView {
+ public:
+  explicit ForceView(const ForceDescription& force) : force_(&force) {}
+  const ForceDescription& description() const { return *force_; }
+  const ForceKey& key(const std::string& name) const;
+  bool has(const std::string& name) const { return force_value(*force_, key(name)).has_value(); }
+
+  AttachmentDescription place(const std::string& name) const;
+  std::string text(const std::string& name) const;
+  Vec3 direction(const std::string& name) const;
+  double number(const std::string& name) const;
+  int word(const std::string& name) const;
+  bool flag(const std::string& name) const;
+  PiecewisePolynomial law(const std::string& name) const;
+  std::optional<SignalDescription> signal(const std::string& name) const;
+
+ private:
+  const ForceDescription* force_;
+};
+
+/// What the values of a force mean together: asked by the reader, in the words of its file, and by
+/// `validate`. Each value is right by itself, or among `wrong`.
+struct ForceCheck : ForceView {
+  using ForceView::ForceView;
+  std::set<std::string> wrong;  ///< keys
+  bool from_file = false;       ///< places that name a node have its point
+  /// A sentence about a key, or with "" about the force.
+  std::function<void(const std::string& key, const std::string& sentence)> fault;
+  /// The full name of an entity as the user has written it.
+  std::function<std::string(const std::string&)> written;
+  /// Of a joint that is right.
+  std::function<std::optional<JointType>(const std::string&)> joint_type;
+
+  /// There is a value and nothing is wrong with it.
+  bool good(const std::string& key) const { return !wrong.contains(key) && has(key); }
+  /// The user has said something about it; of a law in a struct: other than zero.
+  bool given(const std::string& key) const;
+  /// The places are on two bodies; true if they are and both are good.
+  bool two_bodies(const std::string& a, const std::string& b) const;
+  /// At least one of the laws, stops and actuators is given.
+  void some_law() const;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,69 @@
+// Applied force on b: direction x (magnitude(t) + input). A direction that follows the body turns
+// with it: dF = dpi_b x F, so -dF/dpi_b = skew(F). A fixed one has no tangent.
+#include "floatframe/model/force_kind.hpp"
+
+namespace floatframe {
+
+template <>
+void force_of<ForceType::force>(const ForceInput& in, ForceState& out) noexcept {
+  out.force = in.magnitude();
+  out.wrench.Fb = in.load(out.force);
+}
+
+template <>
+void force_tangent_of<ForceType::force>(const ForceInput& in, ForceTangent& out) noexcept {
+  if (in.force.follows)
+    out.K.block<3, 3>(part_of::r_b, part_of::pi_b) = skew(in.load(in.magnitude()));
+}
+
+namespace {
+
+using L = AppliedLoadDescription;
+
+constexpr ForceKey keys_of_force[] = {
+    {.name = "body",
+     .kind = ForceKeyKind::own_place,
+     .about = "where it acts",
+     .required = true,
+     .member = kept_in<&L::at>},
+    {.name = "direction",
+     .kind = ForceKeyKind::vector,
+     .about = "used as given, not normalised",
+     .required = true,
+     .vector = {1.0, 0.0, 0.0},
+     .member = kept_in<&L::direction>},
+    {.name = "magnitude",
+     .kind = ForceKeyKind::load,
+     .about = "times the direction",
+     .required = true,
+     .member = kept_in<&L::magnitude>},
+    {.name = "follows",
+     .kind = ForceKeyKind::flag,
+     .about = "the direction turns with the body",
+     .member = kept_in<&L::follows>},
+};
+
+bool force_build(ForceBuild& b) { return b.load(b.flag("follows")); }
+
+constexpr ForceRegime force_regimes[] = {{.name = "fixed", .conservative = false},
+                                         {.name = "following",
+                                          .rows_leave_out = "the turning of the load with its body",
+                                          .conservative = false}};
+
+ForceExample force_example(std::size_t regime, ExampleNumbers& numbers) {
+  return example_load(ForceType::force, regime == 1, numbers);
+}
+
+}  // namespace
+
+constinit const ForceKind force_element = {.about = "force on a point of a body",
+                                           .keys = keys_of_force,
+                                           .markers = ForceMarkers::one,
+                                           .account = ForceAccount::loads,
+                                           .measured = false,
+                                           .blank = [] { return ForceDescription::Values(L()); },
+                                           .build = force_build,
+                                           .regimes = force_regimes,
+                                           .example = force_example};
+
+}  // namespace floatframe

@@ -1,0 +1,128 @@
+// Spring along an axis e fixed in the body of a (leaf spring): s = e.(r_a - r_b). The reaction acts
+// on the body of a at the point r_b. With the gradient g of e.d (axis_measure.hpp) s has -g:
+//   stiffness    f_s g g^T + f_sdot g g'^T - f dg/d(motion),   damping   f_sdot g g^T
+#include "floatframe/model/axis_measure.hpp"
+#include "floatframe/model/force_kind.hpp"
+
+namespace floatframe {
+
+template <>
+void force_of<ForceType::guided_spring>(const ForceInput& in, ForceState& out) noexcept {
+  const AxisMeasure m = axis_measure(in.a.R * in.force.axis, in.a, in.b);
+  out.length = -m.s;
+  out.rate = -m.rate;
+  const PiecewisePolynomial::Value s = in.force.spring(out.length), c = in.force.damper(out.rate);
+  out.force = s.f + c.f + in.actuator();
+  out.wrench = {out.force * m.g.Fa, out.force * m.g.Ta, out.force * m.g.Fb, Vec3::Zero()};
+  out.rows[0] = {{-m.g.Fa, -m.g.Ta, -m.g.Fb, Vec3::Zero()}, s.df, c.df};
+  out.row_count = 1;
+  out.energy = law_energy(in.force.spring, out.length);
+  out.energy_rate = s.f * out.rate;
+  out.damping = c.f * out.rate;
+}
+
+template <>
+void force_tangent_of<ForceType::guided_spring>(const ForceInput& in, ForceTangent& out) noexcept {
+  const Vec3 e = in.a.R * in.force.axis;
+  const AxisMeasure m = axis_measure(e, in.a, in.b);
+  const PiecewisePolynomial::Value s = in.force.spring(-m.s), c = in.force.damper(-m.rate);
+  const Vec12 g = stacked(m.g);
+  out.K.noalias() = s.df * g * g.transpose();
+  out.K.noalias() += c.df * g * axis_rate_gradient(e, in.a, in.b).transpose();
+  add_axis_curvature(e, in.a, in.b, -(s.f + c.f + in.actuator()), out.K);
+  out.C.noalias() = c.df * g * g.transpose();
+}
+
+namespace {
+
+constexpr const char* turning_axis = "the turning of the axis with its body";
+constexpr ForceRegime guided_spring_regimes[] = {
+    {.name = "anywhere", .rows_leave_out = turning_axis},
+    {.name = "actuated", .rows_leave_out = turning_axis, .conservative = false}};
+
+ForceExample guided_spring_example(std::size_t regime, ExampleNumbers& numbers) {
+  ForceExample x;
+  x.force.type = ForceType::guided_spring;
+  x.force.axis = numbers.direction();
+  x.force.spring = example_spring(numbers);
+  x.force.damper = example_damper(numbers);
+  x.a = numbers.marker();
+  x.b = numbers.marker();
+  if (regime == 1) add_example_drive(x, numbers);
+  return x;
+}
+
+using G = GuidedSpringDescription;
+
+constexpr ForceKey guided_spring_keys[] = {
+    {.name = "reference",
+     .kind = ForceKeyKind::place,
+     .about = "on the body that carries the axis",
+     .required = true,
+     .member = kept_in<&G::reference>},
+    {.name = "tip",
+     .kind = ForceKeyKind::place,
+     .about = "on the other body",
+     .required = true,
+     .member = kept_in<&G::tip>},
+    {.name = "axis",
+     .kind = ForceKeyKind::direction,
+     .about = "fixed in the body of `reference`",
+     .required = true,
+     .member = kept_in<&G::axis>},
+    {.name = "spring",
+     .kind = ForceKeyKind::spring,
+     .about = "of the length axis · (reference - tip)",
+     .member = kept_in<&G::spring>},
+    {.name = "damper",
+     .kind = ForceKeyKind::damper,
+     .about = "of the rate of the length",
+     .member = kept_in<&G::damper>},
+    {.name = "bump_stop",
+     .kind = ForceKeyKind::bump_stop,
+     .about = "below a length",
+     .of = "spring"},
+    {.name = "rebound_stop",
+     .kind = ForceKeyKind::rebound_stop,
+     .about = "above a length",
+     .of = "spring"},
+    {.name = "actuator",
+     .kind = ForceKeyKind::load,
+     .about = "tension added to both",
+     .member = kept_in<&G::actuator>},
+};
+
+double length_along_axis(const ForceView& values, const ForceKey&) {
+  return values.direction("axis").dot(values.place("reference").point - values.place("tip").point);
+}
+
+void guided_spring_validate(const ForceCheck& check) {
+  check.two_bodies("reference", "tip");
+  check.some_law();
+}
+
+bool guided_spring_build(ForceBuild& b) {
+  b.force.a = b.marker("reference", true);
+  b.force.b = b.marker("tip", false);
+  b.force.axis = b.unit_direction("axis");
+  b.force.spring = b.law("spring");
+  b.force.damper = b.law("damper");
+  b.actuate("actuator");
+  return b.force.a >= 0 && b.force.b >= 0;
+}
+
+}  // namespace
+
+constinit const ForceKind guided_spring_element = {
+    .about =
+        "spring and damper along an axis fixed in a body, between the tip and the point of that "
+        "body that slides with it (leaf spring); tension pulls the tip along +axis",
+    .keys = guided_spring_keys,
+    .blank = [] { return ForceDescription::Values(G()); },
+    .free_value = length_along_axis,
+    .validate = guided_spring_validate,
+    .build = guided_spring_build,
+    .regimes = guided_spring_regimes,
+    .example = guided_spring_example};
+
+}  // namespace floatframe

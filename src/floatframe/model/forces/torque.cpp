@@ -1,0 +1,76 @@
+// Applied torque on b: direction x (magnitude(t) + input). A direction that follows the body turns
+// with it: dT = dpi_b x T, so -dT/dpi_b = skew(T), which is antisymmetric: the rows leave nothing
+// symmetric out. A fixed one has no tangent.
+#include "floatframe/model/force_kind.hpp"
+
+namespace floatframe {
+
+template <>
+void force_of<ForceType::torque>(const ForceInput& in, ForceState& out) noexcept {
+  out.force = in.magnitude();
+  out.wrench.Tb = in.load(out.force);
+}
+
+template <>
+void force_tangent_of<ForceType::torque>(const ForceInput& in, ForceTangent& out) noexcept {
+  if (in.force.follows)
+    out.K.block<3, 3>(part_of::pi_b, part_of::pi_b) = skew(in.load(in.magnitude()));
+}
+
+namespace {
+
+using L = AppliedLoadDescription;
+
+constexpr ForceKey torque_keys[] = {
+    {.name = "body",
+     .kind = ForceKeyKind::own_place,
+     .about = "where it acts",
+     .required = true,
+     .member = kept_in<&L::at>},
+    {.name = "direction",
+     .kind = ForceKeyKind::vector,
+     .about = "used as given, not normalised",
+     .required = true,
+     .vector = {1.0, 0.0, 0.0},
+     .axial = true,
+     .member = kept_in<&L::direction>},
+    {.name = "magnitude",
+     .kind = ForceKeyKind::load,
+     .about = "times the direction",
+     .required = true,
+     .axis = ForceAxis::about,
+     .member = kept_in<&L::magnitude>},
+    {.name = "follows",
+     .kind = ForceKeyKind::flag,
+     .about = "the direction turns with the body",
+     .member = kept_in<&L::follows>},
+};
+
+bool torque_build(ForceBuild& b) { return b.load(true); }
+
+constexpr ForceRegime torque_regimes[] = {{.name = "fixed", .conservative = false},
+                                          {.name = "following", .conservative = false}};
+
+ForceExample torque_example(std::size_t regime, ExampleNumbers& numbers) {
+  return example_load(ForceType::torque, regime == 1, numbers);
+}
+
+}  // namespace
+
+constinit const ForceKind torque_element = {.about = "torque on a body",
+                                            .keys = torque_keys,
+                                            .markers = ForceMarkers::one,
+                                            .account = ForceAccount::loads,
+                                            .axis = ForceAxis::about,
+                                            .measured = false,
+                                            .blank =
+                                                [] {
+                                                  L load;
+                                                  load.torque = true;
+                                                  return ForceDescription::Values(load);
+                                                },
+                                            .build = torque_build,
+                                            .regimes = torque_regimes,
+                                            .example = torque_example};
+
+}  // namespace floatframe

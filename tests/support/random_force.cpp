@@ -1,0 +1,62 @@
+#include "support/random_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/model/force_kind.hpp"
+
+namespace floatframe::test {
+
+ForceDescription random_force(ForceType type, const RandomForceEnds& ends,
+                              ExampleNumbers& numbers) {
+  ForceValues values{type, {}};
+  bool first = true;
+  const auto value = [&](const ForceKey& key) -> std::optional<ForceValue> {
+    using K = ForceKeyKind;
+    const double size = key.axis == ForceAxis::about ? ends.length * ends.length : 1.0;
+    switch (key.kind) {
+      case K::place:
+        return std::exchange(first, false) ? ends.a : ends.b;
+      case K::own_place:
+        return ends.b;
+      case K::joint:
+        return ends.joint;
+      case K::road:
+        return ends.road;
+      case K::direction:
+      case K::vector:
+        return numbers.direction();
+      case K::number: {
+        const double low = std::max(key.rule.low, -1.0);
+        return std::min(low + numbers(0.3, 1.0), key.rule.high);
+      }
+      case K::word:
+        return static_cast<int>(numbers(0.0, static_cast<double>(key.words.size()) - 1e-9));
+      case K::flag:
+        return numbers(0.0, 1.0) < 0.5;
+      case K::spring: {
+        const double k = size * ends.stiffness * numbers(0.5, 1.5);
+        return PiecewisePolynomial::polynomial({0.02 * k, k, 0.3 * k, 0.4 * k});
+      }
+      case K::damper: {
+        const double c = size * ends.damping * numbers(0.5, 1.5);
+        return PiecewisePolynomial::polynomial({0.0, c, 0.1 * c, 0.05 * c});
+      }
+      case K::load: {
+        SignalDescription s;
+        s.pieces = PiecewisePolynomial::polynomial({size * numbers(-3.0, 3.0), size});
+        return s;
+      }
+      default:
+        return std::nullopt;  // stops have kinks; targets are those of motors
+    }
+  };
+  for (const ForceKey& key : force_keys(type))
+    if (const auto x = value(key)) values.values.emplace(key.name, *x);
+  ForceDescription f;
+  f.name = std::string("random_") + force_type_name(type);
+  f.kind = std::move(values);
+  return f;
+}
+
+}  // namespace floatframe::test
