@@ -10,6 +10,7 @@
   entry(guided_spring)           \
   entry(joint_spring)            \
   entry(tyre)                    \
+  entry(bushing)                 \
   entry(force)                   \
   entry(torque)
 // clang-format on
