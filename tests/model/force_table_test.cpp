@@ -72,7 +72,7 @@ std::string default_text(const ForceKey& key) {
     case ForceKeyKind::number:
       return number_text(key.fallback);
     case ForceKeyKind::word:
-      return std::string("`") + key.words[static_cast<std::size_t>(key.fallback)] + "`";
+      return std::string("`") + key.words[key.fallback] + "`";
     case ForceKeyKind::flag:
       return "`false`";
     case ForceKeyKind::direction:

@@ -302,9 +302,7 @@ std::optional<Mechanism> with_force(Mechanism m, ForceType type, unsigned seed) 
   ends.stiffness = 30.0;
   ends.damping = 0.3;
   for (int trial = 0; trial < 20 && !places.empty(); ++trial) {
-    const auto any = [&] {
-      return places[static_cast<std::size_t>(numbers(0.0, static_cast<double>(places.size())))];
-    };
+    const auto any = [&] { return places[numbers(0.0, static_cast<double>(places.size()))]; };
     ends.a = any();
     ends.b = any();
     if (ends.a.body == ends.b.body) continue;

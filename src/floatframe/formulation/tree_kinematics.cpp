@@ -43,7 +43,7 @@ void TreeKinematics::choose_origin(const VecX& q) noexcept {
 void TreeKinematics::place_ground_markers() noexcept {
   for (TreeMarker& m : markers_)
     if (m.body < 0) {
-      const Pose& X_WM = model_.markers[static_cast<std::size_t>(&m - markers_.data())].X_NM;
+      const Pose& X_WM = model_.markers[&m - markers_.data()].X_NM;
       m.s.r = X_WM.p - p_WO_;
       m.s.R = X_WM.R;
       m.s.v.setZero();
