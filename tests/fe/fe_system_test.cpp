@@ -178,7 +178,7 @@ TEST(PointModels, KineticEnergyOfMixedModels) {
     const FeSystem system = assemble(model);
     const PointModel points = point_model(model, system);
     // Rigid motions: exact, whatever the elements.
-    const MatX R = rigid_motions(model, system);
+    const MatX R = rigid_motions_of(model, system);
     const MatX V = points.T * R;
     Mat6 energy = Mat6::Zero();
     for (int i = 0; i < 3; ++i) {

@@ -3,6 +3,7 @@
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/math/so3.hpp"
+#include "support/random_body.hpp"
 
 namespace floatframe::test {
 
@@ -42,7 +43,7 @@ inline FeModel mixed_model(Spider::Kind kind) {
 }
 
 /// T rho = rigid motion of all points: dofs from the position of their nodes.
-inline MatX rigid_motions(const FeModel& model, const FeSystem& system) {
+inline MatX rigid_motions_of(const FeModel& model, const FeSystem& system) {
   MatX R(system.size(), 6);
   for (int i = 0; i < system.size(); ++i) {
     const Dof& d = system.dofs[i];

@@ -37,12 +37,12 @@ TEST(Spiders, MeanMovesAsTheLeastSquaresRigidMotion) {
   EXPECT_LT(force.norm(), 1e-12 * u.norm());
   EXPECT_LT(moment.norm(), 1e-12 * u.norm());
   // Rigid motion of everything, and its energy.
-  const MatX R = rigid_motions(model, system);
+  const MatX R = rigid_motions_of(model, system);
   EXPECT_LT((system.K * R).cwiseAbs().maxCoeff(), 1e-11 * system.K.coeffs().cwiseAbs().maxCoeff());
   FeModel free = model;
   free.spiders.clear();
   const FeSystem plain = assemble(free);
-  const MatX R_free = rigid_motions(free, plain);
+  const MatX R_free = rigid_motions_of(free, plain);
   const Mat6 expected = R_free.transpose() * plain.M * R_free;
   EXPECT_LT((R.transpose() * system.M * R - expected).cwiseAbs().maxCoeff(),
             1e-12 * expected.cwiseAbs().maxCoeff());

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/math/so3.hpp"
+#include "floatframe/reduction/body_reference.hpp"
 #include "floatframe/reduction/part.hpp"
 #include "reduction/part_beam.hpp"
 #include "support/fe_parts.hpp"
