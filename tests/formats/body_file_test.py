@@ -1,10 +1,7 @@
-#!/ usr / bin / env python3
-""
-    "Opens a body file as a user of Python would, with the standard library only, and recomputes the
-    inertia integrals from the projection data
-    : another program,
-      another language,
-      the same numbers.With NumPy the same is `f = numpy.load("bracket_v1.ffb"); f["K"]`, which is tried if it is there."""
+#!/usr/bin/env python3
+"""Opens a body file as a user of Python would, with the standard library only, and recomputes the
+inertia integrals from the projection data: another program, another language, the same numbers.
+With NumPy the same is `f = numpy.load("bracket_v1.ffb"); f["K"]`, which is tried if it is there."""
 import ast
 import json
 import math

@@ -31,11 +31,19 @@ std::string faults_of(const std::string& path,
   return "no fault";
 }
 
-/// The sentences a model must give stand beside it, in NAME.txt for NAME.yaml.
+void put(std::string& text, const std::string& name, const std::string& words) {
+  if (const std::size_t at = text.find(name); at != std::string::npos)
+    text.replace(at, name.size(), words);
+}
+
+/// The sentences a model must give stand beside it, in NAME.txt for NAME.yaml; {joints} and
+/// {outputs} stand for the words of their lists.
 std::string expected_of(const std::filesystem::path& model) {
   std::ifstream file(std::filesystem::path(model).replace_extension(".txt"));
   std::string text((std::istreambuf_iterator<char>(file)), {});
   if (!text.empty() && text.back() == '\n') text.pop_back();
+  put(text, "{joints}", alternatives(joint_words));
+  put(text, "{outputs}", alternatives(output_words));
   return text;
 }
 
