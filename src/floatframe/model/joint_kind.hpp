@@ -110,7 +110,8 @@ class JointParts {
   const Vec3& axis_2() const noexcept { return axis_2_; }
   /// Scales rows of directions to metres [m].
   double length() const noexcept { return length_; }
-  /// A part between F and M, to be filled where its kind has more than the two markers.
+  /// A part with a = F and b = M (reactions are booked by them), to be filled where its kind has
+  /// more than the two markers.
   ConstraintPart& add(ConstraintType type);
   /// The direction e_F, fixed in F, keeps the product c with n_M, fixed in M.
   void perpendicular(const Vec3& e_F, const Vec3& n_M, double c = 0.0);
@@ -134,6 +135,9 @@ class JointParts {
 
 struct JointKind {
   const char* about;  ///< what moves: the documentation, a phrase in Markdown
+  /// In the order of the motion from F to M: a coordinate moves only directions of those after it,
+  /// or the tangent of the tree is not exact. Seen from the child (`reverse`) it must be a joint of
+  /// the same kind.
   JointCoordinates coordinates;
   /// First of three coordinates that together are a rotation vector: the configuration holds
   /// a quaternion in their place, their velocities are the angular velocity w_FM. -1 without one.
