@@ -6,6 +6,7 @@
 // An element acts on markers a and b (or on b alone) and never sees a coordinate. Step time calls
 // force_of and force_tangent_of by name, without a pointer: noexcept, no allocation. The pointers of
 // a ForceKind serve load time only.
+#include <array>
 #include <span>
 
 #include "floatframe/model/constraint_part.hpp"
@@ -103,6 +104,43 @@ const ForceKind& force_kind(ForceType type) noexcept;
 #define FLOATFRAME_KIND(name) extern const ForceKind name##_element;
 FLOATFRAME_FORCES(FLOATFRAME_KIND)
 #undef FLOATFRAME_KIND
+
+/// Stops of an element with a length.
+inline constexpr ForceKey bump_stop_key = {.name = "bump_stop",
+                                           .kind = ForceKeyKind::bump_stop,
+                                           .about = "below a length",
+                                           .of = "spring"};
+inline constexpr ForceKey rebound_stop_key = {.name = "rebound_stop",
+                                              .kind = ForceKeyKind::rebound_stop,
+                                              .about = "above a length",
+                                              .of = "spring"};
+
+/// The keys of an applied load: a force along, or a torque about the direction.
+constexpr std::array<ForceKey, 4> load_keys(ForceAxis axis) {
+  using L = AppliedLoadDescription;
+  return {{{.name = "body",
+            .kind = ForceKeyKind::own_place,
+            .about = "where it acts",
+            .required = true,
+            .member = kept_in<&L::at>},
+           {.name = "direction",
+            .kind = ForceKeyKind::vector,
+            .about = "used as given, not normalised",
+            .required = true,
+            .vector = {1.0, 0.0, 0.0},
+            .axial = axis == ForceAxis::about,
+            .member = kept_in<&L::direction>},
+           {.name = "magnitude",
+            .kind = ForceKeyKind::load,
+            .about = "times the direction",
+            .required = true,
+            .axis = axis,
+            .member = kept_in<&L::magnitude>},
+           {.name = "follows",
+            .kind = ForceKeyKind::flag,
+            .about = "the direction turns with the body",
+            .member = kept_in<&L::follows>}}};
+}
 
 /// Gives the element an actuator or a load driven by a function of time and an input.
 void add_example_drive(ForceExample& example, ExampleNumbers& numbers);

@@ -18,30 +18,7 @@ void force_tangent_of<ForceType::force>(const ForceInput& in, ForceTangent& out)
 
 namespace {
 
-using L = AppliedLoadDescription;
-
-constexpr ForceKey keys_of_force[] = {
-    {.name = "body",
-     .kind = ForceKeyKind::own_place,
-     .about = "where it acts",
-     .required = true,
-     .member = kept_in<&L::at>},
-    {.name = "direction",
-     .kind = ForceKeyKind::vector,
-     .about = "used as given, not normalised",
-     .required = true,
-     .vector = {1.0, 0.0, 0.0},
-     .member = kept_in<&L::direction>},
-    {.name = "magnitude",
-     .kind = ForceKeyKind::load,
-     .about = "times the direction",
-     .required = true,
-     .member = kept_in<&L::magnitude>},
-    {.name = "follows",
-     .kind = ForceKeyKind::flag,
-     .about = "the direction turns with the body",
-     .member = kept_in<&L::follows>},
-};
+constexpr auto keys_of_force = load_keys(ForceAxis::along);
 
 bool force_build(ForceBuild& b) { return b.load(b.flag("follows")); }
 
@@ -56,14 +33,15 @@ ForceExample force_example(std::size_t regime, ExampleNumbers& numbers) {
 
 }  // namespace
 
-constinit const ForceKind force_element = {.about = "force on a point of a body",
-                                           .keys = keys_of_force,
-                                           .markers = ForceMarkers::one,
-                                           .account = ForceAccount::loads,
-                                           .measured = false,
-                                           .blank = [] { return ForceDescription::Values(L()); },
-                                           .build = force_build,
-                                           .regimes = force_regimes,
-                                           .example = force_example};
+constinit const ForceKind force_element = {
+    .about = "force on a point of a body",
+    .keys = keys_of_force,
+    .markers = ForceMarkers::one,
+    .account = ForceAccount::loads,
+    .measured = false,
+    .blank = [] { return ForceDescription::Values(AppliedLoadDescription()); },
+    .build = force_build,
+    .regimes = force_regimes,
+    .example = force_example};
 
 }  // namespace floatframe

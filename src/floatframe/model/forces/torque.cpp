@@ -19,32 +19,7 @@ void force_tangent_of<ForceType::torque>(const ForceInput& in, ForceTangent& out
 
 namespace {
 
-using L = AppliedLoadDescription;
-
-constexpr ForceKey torque_keys[] = {
-    {.name = "body",
-     .kind = ForceKeyKind::own_place,
-     .about = "where it acts",
-     .required = true,
-     .member = kept_in<&L::at>},
-    {.name = "direction",
-     .kind = ForceKeyKind::vector,
-     .about = "used as given, not normalised",
-     .required = true,
-     .vector = {1.0, 0.0, 0.0},
-     .axial = true,
-     .member = kept_in<&L::direction>},
-    {.name = "magnitude",
-     .kind = ForceKeyKind::load,
-     .about = "times the direction",
-     .required = true,
-     .axis = ForceAxis::about,
-     .member = kept_in<&L::magnitude>},
-    {.name = "follows",
-     .kind = ForceKeyKind::flag,
-     .about = "the direction turns with the body",
-     .member = kept_in<&L::follows>},
-};
+constexpr auto torque_keys = load_keys(ForceAxis::about);
 
 bool torque_build(ForceBuild& b) { return b.load(true); }
 
@@ -65,7 +40,7 @@ constinit const ForceKind torque_element = {.about = "torque on a body",
                                             .measured = false,
                                             .blank =
                                                 [] {
-                                                  L load;
+                                                  AppliedLoadDescription load;
                                                   load.torque = true;
                                                   return ForceDescription::Values(load);
                                                 },
