@@ -97,10 +97,10 @@ inline void dmig(std::string_view bytes) {
 
 inline void sid(std::string_view bytes) { parse_sid(bytes, "fuzz.sid"); }
 
-/// Checksums would keep every change away from the reader: the first line names a member of a sound
+/// Checksums would keep every change away from the reader: the first line names a member of a valid
 /// file, the rest takes its place. The bytes alone are tried as an archive and as an array too.
 inline void body_file(std::string_view bytes) {
-  static const std::string sound = [] {
+  static const std::string valid = [] {
     BodyFile content;
     FlexibleBody& body = content.part.body;
     body.invariants = InertiaInvariants::zero(2);
@@ -134,7 +134,7 @@ inline void body_file(std::string_view bytes) {
   }
   const std::size_t line = bytes.find('\n');
   if (line == std::string_view::npos) return;
-  std::vector<ZipMember> members = read_zip(sound, "sound.ffb");
+  std::vector<ZipMember> members = read_zip(valid, "valid.ffb");
   for (ZipMember& m : members)
     if (m.name == bytes.substr(0, line)) m.content = bytes.substr(line + 1);
   read_body_bytes(zip_archive(members), "fuzz.ffb");
@@ -159,7 +159,7 @@ inline constexpr Reader readers[] = {
     {"udp", udp},
 };
 
-/// Reads and forgets. Everything but an InputError is a fault of the reader.
+/// Reads and forgets. Everything but an InputError is an error of the reader.
 inline void run(const Reader& reader, std::string_view bytes) {
   try {
     reader.read(bytes);

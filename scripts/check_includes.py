@@ -5,7 +5,7 @@ Files beside the rooms, src/floatframe/*.hpp, are the public headers: what they 
 library and Eigen, and stays within PUBLIC. Rooms do not include them.
 
 Usage: check_includes.py [path to src/floatframe]
-Exit code 1 and one line a fault (file:line: sentence) when an arrow points the wrong way.
+Exit code 1 and one line per error (file:line: sentence) when an arrow points the wrong way.
 """
 import pathlib
 import re
@@ -66,7 +66,7 @@ def included(path):
             yield number, match.group(1)
 
 
-def public_faults(root):
+def public_errors(root):
     reached = {path.name: path.name for path in sorted(root.glob("*.hpp"))}  # file: the public header it is reached from
     waiting = list(reached)
     while waiting:
@@ -85,8 +85,8 @@ def public_faults(root):
                 waiting.append(used)
 
 
-def faults(root):
-    yield from public_faults(root)
+def errors(root):
+    yield from public_errors(root)
     for path in sorted(root.rglob("*")):
         if path.suffix not in (".hpp", ".cpp", ".h", ".inl") or path.parent == root:
             continue
@@ -109,9 +109,9 @@ def main():
     if not root.is_dir():
         print(f"{root} is not a folder", file=sys.stderr)
         return 1
-    found = list(faults(root))
-    for fault in found:
-        print(fault, file=sys.stderr)
+    found = list(errors(root))
+    for error in found:
+        print(error, file=sys.stderr)
     return 1 if found else 0
 
 

@@ -40,7 +40,7 @@ def functions(lines):
                     inside = first, len(lines[first]) - len(lines[first].lstrip()), call.group(1)
 
 
-def faults(root):
+def errors(root):
     for folder, longest in LONGEST_FILE.items():
         for path in sorted((root / folder).rglob("*")):
             if path.suffix not in (".hpp", ".cpp", ".py") or "data" in path.parts:
@@ -61,9 +61,9 @@ def main():
     if not (root / "src").is_dir():
         print(f"{root} has no folder src", file=sys.stderr)
         return 1
-    found = list(faults(root))
-    for fault in found:
-        print(fault, file=sys.stderr)
+    found = list(errors(root))
+    for error in found:
+        print(error, file=sys.stderr)
     return 1 if found else 0
 
 

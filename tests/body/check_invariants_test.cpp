@@ -27,9 +27,9 @@ FlexibleBody points(Random& random, int nm, double size, double away, bool line)
   return body;
 }
 
-std::string faults(const FlexibleBody& body, InvariantSource source = InvariantSource::integrals) {
+std::string errors(const FlexibleBody& body, InvariantSource source = InvariantSource::integrals) {
   std::string text;
-  for (const InvariantFault& f : check_invariants(body, source))
+  for (const InvariantError& f : check_invariants(body, source))
     text += (text.empty() ? "" : "\n") + f.quantity + ": " + f.sentence;
   return text;
 }
@@ -43,7 +43,7 @@ TEST(CheckInvariants, AnyDistributionOfMassPasses) {
           const FlexibleBody body = points(random, nm, size, away * size, line);
           for (const auto source :
                {InvariantSource::integrals, InvariantSource::rotary, InvariantSource::parameters})
-            EXPECT_EQ(faults(body, source), "") << nm << ' ' << size << ' ' << away << ' ' << line;
+            EXPECT_EQ(errors(body, source), "") << nm << ' ' << size << ' ' << away << ' ' << line;
         }
 }
 
@@ -55,7 +55,7 @@ TEST(CheckInvariants, BarsOfAllMassModelsPass) {
     options.normal_modes = 3;
     options.mass_model = model;
     options.damping_ratio = 0.01;
-    EXPECT_EQ(faults(reduce(build_bar_frame(straight_bar(1.0, 0.02, 4)), options)), "");
+    EXPECT_EQ(errors(reduce(build_bar_frame(straight_bar(1.0, 0.02, 4)), options)), "");
   }
 }
 
@@ -65,7 +65,7 @@ TEST(CheckInvariants, EachMistakeHasItsSentence) {
   const auto with = [&](const auto& change, InvariantSource source = InvariantSource::integrals) {
     FlexibleBody body = good;
     change(body, body.invariants);
-    return faults(body, source);
+    return errors(body, source);
   };
   using B = FlexibleBody;
   using V = InertiaInvariants;

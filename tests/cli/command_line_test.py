@@ -78,7 +78,7 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self):
         super().__init__(convert_charrefs=True)
-        self.open, self.faults, self.tags, self.text = [], [], [], []
+        self.open, self.errors, self.tags, self.text = [], [], [], []
 
     def handle_starttag(self, tag, attributes):
         self.tags.append((tag, dict(attributes)))
@@ -90,7 +90,7 @@ class Page(html.parser.HTMLParser):
 
     def handle_endtag(self, tag):
         if not self.open or self.open.pop() != tag:
-            self.faults.append(f"unexpected </{tag}> at {self.getpos()}")
+            self.errors.append(f"unexpected </{tag}> at {self.getpos()}")
 
     def handle_data(self, data):
         self.text.append(data)
@@ -173,26 +173,26 @@ class Misuse(CommandLine):
         for command in ("run", "check", "statics"):
             self.expect(2, command, "nowhere.yaml", err="nowhere.yaml")
 
-    def test_faults_that_are_not_listed_are_counted(self):
+    def test_errors_that_are_not_listed_are_counted(self):
         keys = "".join(f"key{k}: 1\n" for k in range(100))
         inside = "".join(f"    key{k}: 1\n" for k in range(30))
         (self.folder / "bad.yaml").write_text(PENDULUM.replace("joints:\n", inside + "joints:\n") + keys)
         lines = self.expect(2, "check", "bad.yaml").stderr.splitlines()
         self.assertLess(len(lines), 130)
-        self.assertEqual(lines[-1], "130 faults in bad.yaml")
+        self.assertEqual(lines[-1], "130 errors in bad.yaml")
         bodies = "".join(f"  b{k}: {{rigid: {{mass: -1, centre_of_mass: [0, 0, 0], inertia: [1, 1, 1]}}}}\n" for k in range(200))
         (self.folder / "bad.yaml").write_text("floatframe: 1\nbodies:\n" + bodies)
         lines = self.expect(2, "check", "bad.yaml").stderr.splitlines()
         self.assertLess(len(lines), 30)
-        self.assertEqual(lines[-1], "200 faults in bad.yaml")
+        self.assertEqual(lines[-1], "200 errors in bad.yaml")
 
-    def test_faults_are_listed_and_counted(self):
+    def test_errors_are_listed_and_counted(self):
         (self.folder / "bad.yaml").write_text(PENDULUM.replace("step: 0.01", "stepp: 0.01").replace("type: rev", "typ: rev"))
         for command in ("run", "check", "statics"):
             done = self.expect(2, command, "bad.yaml")
             lines = done.stderr.splitlines()
             self.assertGreaterEqual(len(lines), 3, done.stderr)
-            self.assertEqual(lines[-1], f"{len(lines) - 1} faults in bad.yaml")
+            self.assertEqual(lines[-1], f"{len(lines) - 1} errors in bad.yaml")
             for line in lines[:-1]:
                 self.assertRegex(line, r"^bad\.yaml:\d+:\d+: ")
         self.assertEqual(self.files(), ["bad.yaml", "pendulum.yaml"])
@@ -231,7 +231,7 @@ class Misuse(CommandLine):
         done = self.expect(1, "run", "pendulum.yaml", "--step", "0.5", "--strict", "--out", "a\x1b[31m", "--quiet")
         self.assertNotIn("\x1b", done.stderr)
         (self.folder / "b\x1b.yaml").write_text(PENDULUM.replace("step: 0.01", "stepp: 0.01").replace("type: rev", "typ: rev"))
-        done = self.expect(2, "run", "b\x1b.yaml", err="faults in b\\x1b.yaml")
+        done = self.expect(2, "run", "b\x1b.yaml", err="errors in b\\x1b.yaml")
         self.assertNotIn("\x1b", done.stderr)
 
     def test_full_standard_output(self):
@@ -279,7 +279,7 @@ class Run(CommandLine):
         page = Page()
         page.feed((self.folder / "out/pendulum/report.html").read_text(encoding="utf-8"))
         page.close()
-        self.assertEqual(page.faults, [])
+        self.assertEqual(page.errors, [])
         self.assertEqual(page.open, [])
         for tag, attributes in page.tags:
             self.assertNotIn(tag, ("script", "img", "link", "iframe", "object"))

@@ -216,10 +216,10 @@ class Input(Sweep):
                 self.assertEqual(done.stdout, "")
         self.assertEqual(list(self.folder.iterdir()), [])
 
-    def test_faults_of_runs_that_are_not_listed_are_counted(self):
+    def test_errors_of_runs_that_are_not_listed_are_counted(self):
         lines = self.sweep(2, CRANK, "--vary", "step=-1:-30:30").stderr.splitlines()
         self.assertEqual(lines[0], "floatframe: --vary: step: found '-1', expected a positive number [s]")
-        self.assertEqual(lines[20:], ["floatframe: and 10 more faults of other runs", "30 faults in the input"])
+        self.assertEqual(lines[20:], ["floatframe: and 10 more errors of other runs", "30 errors in the input"])
 
     def test_hostile_table_files_are_refused(self):
         os.mkfifo(self.folder / "pipe.csv")

@@ -62,7 +62,7 @@ TEST_F(RegularFile, WhatIsNoRegularFile) {
     regular_file(pipe);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.faults().front().text(), pipe.string() + ": this is not a regular file");
+    EXPECT_EQ(error.errors().front().text(), pipe.string() + ": this is not a regular file");
   }
 }
 

@@ -117,7 +117,7 @@ std::string message(const BarFrame& frame) {
   return "no error";
 }
 
-TEST(BarFrames, Faults) {
+TEST(BarFrames, Errors) {
   BarFrame good;
   good.points = {{"a", Vec3(0, 0, 0)}, {"b", Vec3(1, 0, 0)}, {"c", Vec3(1, 1, 0)}};
   good.material = {2e11, 0.3, 7500};

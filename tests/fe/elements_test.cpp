@@ -111,7 +111,7 @@ TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
     SCOPED_TRACE(element_type_name(type));
     for (int i = 0; i < 5; ++i) {
       const ElementInput in = distorted(type, random);
-      ASSERT_EQ(kernel.fault(in), "");
+      ASSERT_EQ(kernel.error(in), "");
       MatX K, M, M_s;
       kernel.stiffness(in, K);
       kernel.mass(in, false, M);
@@ -242,7 +242,7 @@ TEST(Elements, MassOfCurvedElementsIsExact) {
     for (int a = brick(kernel) ? 8 : wedge(kernel) ? 6 : 4; a < kernel.nodes; ++a) {
       in.p[a] += random.vec3(0.02);
     }
-    ASSERT_EQ(kernel.fault(in), "");
+    ASSERT_EQ(kernel.error(in), "");
     MatX M;
     kernel.scalar_mass(in, M);
     // Divergence theorem on the curved faces: int x n_x dA with 12 x 12 points a face.
@@ -321,7 +321,7 @@ TEST(Elements, DistortedBrickMassIsExact) {
   EXPECT_LT(relative_error(M, exact), 1e-13);
 }
 
-TEST(FeModelFaults, IndicesAndInvertedElements) {
+TEST(FeModelErrors, IndicesAndInvertedElements) {
   FeModel model = to_model(reference_body("tet4"));
   std::swap(model.elements[0].nodes[0], model.elements[0].nodes[1]);
   model.elements[1].nodes[2] = 77;
@@ -329,10 +329,10 @@ TEST(FeModelFaults, IndicesAndInvertedElements) {
     validate(model);
     FAIL();
   } catch (const InputError& error) {
-    ASSERT_EQ(error.faults().size(), 2u);
-    EXPECT_EQ(error.faults()[0].message,
+    ASSERT_EQ(error.errors().size(), 2u);
+    EXPECT_EQ(error.errors()[0].message,
               "element 0 (tet4) is inverted or flat (its volume is not positive)");
-    EXPECT_EQ(error.faults()[1].message, "element 1 (tet4): node index 77 is out of range 0..11");
+    EXPECT_EQ(error.errors()[1].message, "element 1 (tet4): node index 77 is out of range 0..11");
   }
 }
 

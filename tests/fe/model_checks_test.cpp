@@ -1,4 +1,4 @@
-// Faults and suspicious places of imported models; the surface and the stresses there.
+// Errors and suspicious places of imported models; the surface and the stresses there.
 #include "floatframe/fe/model_checks.hpp"
 
 #include <gtest/gtest.h>
@@ -59,24 +59,24 @@ FeModel block(ElementType type, int n) {
   return model;
 }
 
-std::vector<std::string> faults(const FeModel& model) {
+std::vector<std::string> errors(const FeModel& model) {
   std::vector<std::string> out;
   try {
     validate(model);
   } catch (const InputError& error) {
-    for (const InputFault& f : error.faults()) out.push_back(f.text());
+    for (const ErrorEntry& f : error.errors()) out.push_back(f.text());
   }
   return out;
 }
 
 TEST(Validation, NamesElementsOfTheFile) {
   FeModel model = block(ElementType::hex8, 2);
-  EXPECT_TRUE(faults(model).empty());
+  EXPECT_TRUE(errors(model).empty());
   std::swap(model.elements[3].nodes[0], model.elements[3].nodes[4]);
   model.elements[5].material = 4;
   model.elements[6].nodes[2] = model.elements[6].nodes[1];
   model.elements[7].nodes[0] = -3;
-  const std::vector<std::string> f = faults(model);
+  const std::vector<std::string> f = errors(model);
   ASSERT_EQ(f.size(), 4u);
   EXPECT_EQ(f[0],
             "block.inp:14: element 4 (hex8) is inverted or flat (its Jacobian is not positive at "
@@ -89,13 +89,13 @@ TEST(Validation, NamesElementsOfTheFile) {
 TEST(Validation, TwentyOfAKind) {
   FeModel model = block(ElementType::tet4, 2);
   for (Element& e : model.elements) std::swap(e.nodes[0], e.nodes[1]);
-  const std::vector<std::string> f = faults(model);
+  const std::vector<std::string> f = errors(model);
   ASSERT_EQ(f.size(), 21u);
   EXPECT_EQ(f[0],
             "block.inp:11: element 1 (tet4) is inverted or flat (its volume is not positive)");
   EXPECT_EQ(f[20], "and 28 more badly formed elements");
   model.materials.clear();
-  EXPECT_EQ(faults(model),
+  EXPECT_EQ(errors(model),
             std::vector<std::string>{"the model has no material: give one (Young's modulus, "
                                      "Poisson's ratio, density)"});
 }
@@ -114,7 +114,7 @@ TEST(Validation, SpidersSetsAndMatrices) {
   model.masses.push_back({3, 1.0, Mat3::Identity()});
   model.matrices.emplace();
   EXPECT_EQ(
-      faults(model),
+      errors(model),
       (std::vector<std::string>{
           "point mass 0 on node 4 has rotary inertia, but the nodes of solid elements have no "
           "rotations",
@@ -131,7 +131,7 @@ TEST(Validation, SpidersSetsAndMatrices) {
   model.matrices->M.resize(2, 2);
   model.matrices->K.insert(0, 1) = 1.0;
   model.matrices->dofs = {{0, 0}, {0, 0}};
-  EXPECT_EQ(faults(model),
+  EXPECT_EQ(errors(model),
             (std::vector<std::string>{"two rows of the matrices belong to direction 1 of node 1",
                                       "K is not symmetric: entries differ by 1.0e+00 of the "
                                       "largest"}));
@@ -201,7 +201,7 @@ double enclosed_volume(const FeModel& model, const Surface& s) {
 TEST(Surfaces, EncloseTheVolumeWithOutwardNormals) {
   for (const ElementType type : {ElementType::hex8, ElementType::wedge6, ElementType::tet4}) {
     const FeModel model = block(type, 3);
-    EXPECT_TRUE(faults(model).empty());
+    EXPECT_TRUE(errors(model).empty());
     const Surface s = outer_surface(model);
     EXPECT_NEAR(enclosed_volume(model, s), 27.0, 1e-12) << element_type_name(type);
     EXPECT_EQ(s.triangles.size(), 6u * 9u * 2u);

@@ -1,4 +1,4 @@
-// Faulty decks and matrices, each with the whole sentence it must give, place included.
+// Invalid decks and matrices, each with the whole sentence it must give, place included.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,8 +24,8 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 std::string name_of(const testing::TestParamInfo<Case>& info) { return info.param.name; }
 
-// A sound deck; each case replaces a line of it, or adds lines at its end.
-const std::string sound =
+// A valid deck; each case replaces a line of it, or adds lines at its end.
+const std::string valid =
     "*NODE\n"                                        // 1
     "1, 0., 0., 0.\n"                                // 2
     "2, 1., 0., 0.\n"                                // 3
@@ -40,18 +40,18 @@ const std::string sound =
     "7.85e-9\n"                                      // 12
     "*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL\n";  // 13
 
-/// "7: text" replaces line 7 of the sound deck ("7:" removes it); "+text" goes to its end; "=text"
+/// "7: text" replaces line 7 of the valid deck ("7:" removes it); "+text" goes to its end; "=text"
 /// is the whole deck.
 std::string deck_of(const std::string& edit) {
   if (edit.front() == '=') return edit.substr(1);
-  if (edit.front() == '+') return sound + edit.substr(1);
+  if (edit.front() == '+') return valid + edit.substr(1);
   const std::size_t colon = edit.find(':');
   const int line = std::stoi(edit.substr(0, colon));
   std::size_t begin = 0;
-  for (int k = 1; k < line; ++k) begin = sound.find('\n', begin) + 1;
-  const std::size_t end = sound.find('\n', begin) + 1;
+  for (int k = 1; k < line; ++k) begin = valid.find('\n', begin) + 1;
+  const std::size_t end = valid.find('\n', begin) + 1;
   const std::string text = edit.size() > colon + 2 ? edit.substr(colon + 2) + "\n" : "";
-  return sound.substr(0, begin) + text + sound.substr(end);
+  return valid.substr(0, begin) + text + valid.substr(end);
 }
 
 const Case decks[] = {
@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(Abaqus, BadDecks, testing::ValuesIn(decks), name_of);
 
 TEST(BadDecks, SoundDeckIsSound) {
   EXPECT_EQ(error_of([] {
-              TextSource source(sound, "bad.inp");
+              TextSource source(valid, "bad.inp");
               read_abaqus(source, {});
             }),
             "no error");
@@ -295,7 +295,7 @@ INSTANTIATE_TEST_SUITE_P(Matrices, BadLabels, testing::ValuesIn(labels), name_of
 class BadFiles : public testing::Test {
  protected:
   void write(const std::string& name, const std::string& text) { folder_.write(name, text); }
-  std::string faults(const std::string& name, const std::string& format = {}) {
+  std::string errors(const std::string& name, const std::string& format = {}) {
     std::string text = folder_.without(error_of([&] { read_fe_file(folder_ / name, {}, format); }));
     const std::string folder = folder_.path().string();
     const std::size_t at = text.find(folder);
@@ -308,33 +308,33 @@ TEST_F(BadFiles, CircularInclude) {
   write("a.inp", "*HEADING\n*INCLUDE, INPUT=b.inp\n");
   write("b.inp", "*NODE\n1, 0.\n*INCLUDE, INPUT=\"c.inp\"\n");
   write("c.inp", "** c\n\n*INCLUDE,\nINPUT=.\\b.inp\n");
-  EXPECT_EQ(faults("a.inp"), "c.inp:3: circular include: b.inp -> c.inp -> b.inp");
+  EXPECT_EQ(errors("a.inp"), "c.inp:3: circular include: b.inp -> c.inp -> b.inp");
 }
 
 TEST_F(BadFiles, MissingInclude) {
   write("a.inp", "*HEADING\n*INCLUDE, INPUT=mesh/arm.inp\n");
-  EXPECT_EQ(faults("a.inp"), "a.inp:2: the include file 'mesh/arm.inp' does not exist in 'FOLDER'");
+  EXPECT_EQ(errors("a.inp"), "a.inp:2: the include file 'mesh/arm.inp' does not exist in 'FOLDER'");
 }
 
 TEST_F(BadFiles, IncludesNestedTooDeeply) {
   for (int k = 0; k < 40; ++k) {
     write(fmt::format("{}.inp", k), fmt::format("*INCLUDE, INPUT={}.inp\n", k + 1));
   }
-  EXPECT_EQ(faults("0.inp", "abaqus"),
+  EXPECT_EQ(errors("0.inp", "abaqus"),
             "31.inp:1: includes are nested deeper than 32: 0.inp -> ... -> 31.inp -> 32.inp");
 }
 
-TEST_F(BadFiles, FaultInAnIncludedFile) {
+TEST_F(BadFiles, ErrorInAnIncludedFile) {
   write("a.inp", "*INCLUDE, INPUT=nodes.txt\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n");
   write("nodes.txt", "*NODE\n1, 0., x\n");
-  EXPECT_EQ(faults("a.inp"), "nodes.txt:2: coordinate 2 of node 1: 'x' is not a number");
+  EXPECT_EQ(errors("a.inp"), "nodes.txt:2: coordinate 2 of node 1: 'x' is not a number");
 }
 
 TEST_F(BadFiles, GarbageWithTheEndingOfADeck) {
   write("a.inp", std::string("\x7f"
                              "ELF\x02\x01\x01\0\0\0",
                              10));
-  EXPECT_EQ(faults("a.inp"), "a.inp: the file is binary, not text: byte 0x00 in line 1");
+  EXPECT_EQ(errors("a.inp"), "a.inp: the file is binary, not text: byte 0x00 in line 1");
 }
 
 /// Without the list of formats at the end.
@@ -342,23 +342,23 @@ std::string before_list(const std::string& text) { return text.substr(0, text.fi
 
 TEST_F(BadFiles, UnknownContentAndEnding) {
   write("a.txt", "once upon a time\n");
-  EXPECT_EQ(before_list(faults("a.txt")),
+  EXPECT_EQ(before_list(errors("a.txt")),
             "a.txt: neither the ending nor the content of the file is known; ");
 }
 
 TEST_F(BadFiles, UnknownFormatAndMissingFile) {
-  write("a.inp", sound);
-  EXPECT_EQ(before_list(faults("a.inp", "abacus")),
+  write("a.inp", valid);
+  EXPECT_EQ(before_list(errors("a.inp", "abacus")),
             "a.inp: there is no format 'abacus', did you mean 'abaqus'?; ");
-  EXPECT_EQ(faults("b.inp"), "b.inp: the file does not exist");
-  EXPECT_EQ(faults("."), ".: this is a folder, not a file");
+  EXPECT_EQ(errors("b.inp"), "b.inp: the file does not exist");
+  EXPECT_EQ(errors("."), ".: this is a folder, not a file");
   write("empty.inp", "");
-  EXPECT_EQ(faults("empty.inp"), "empty.inp: the file is empty");
+  EXPECT_EQ(errors("empty.inp"), "empty.inp: the file is empty");
 }
 
 TEST_F(BadFiles, MatricesWithoutTheirCompanions) {
   write("a.sti", matrix_text);
-  EXPECT_EQ(faults("a.sti"),
+  EXPECT_EQ(errors("a.sti"),
             "a.sti: the mass matrix is not there: there is no 'a.mas' beside it; give the mass "
             "file\na.sti: the map of degrees of freedom is not there: there is no 'a.dof' beside "
             "it; give the dofs file\na.sti: the coordinates of the nodes are not there: there is "

@@ -1,4 +1,4 @@
-// Faulty decks and matrices of Nastran: each gives the whole sentence with file and line.
+// Invalid decks and matrices of Nastran: each gives the whole sentence with file and line.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,14 +11,14 @@
 namespace floatframe::test {
 namespace {
 
-std::string deck_fault(const std::string& text) {
+std::string deck_error(const std::string& text) {
   return error_of([&] {
     TextSource source(text, "arm.bdf");
     read_nastran(source, has_begin_bulk(text), {});
   });
 }
 
-struct Fault {
+struct Error {
   const char* from;
   const char* to;
   const char* sentence;
@@ -41,8 +41,8 @@ const char* const deck =
     "ENDDATA\n";
 
 TEST(BadNastran, Decks) {
-  ASSERT_EQ(deck_fault(deck), "no error");
-  const Fault faults[] = {
+  ASSERT_EQ(deck_error(deck), "no error");
+  const Error errors[] = {
       {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,44",
        "arm.bdf:6: CTETRA 1 has node 44, which is not in the file"},
       {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3", "arm.bdf:6: CTETRA 1: a node is missing"},
@@ -119,31 +119,31 @@ TEST(BadNastran, Decks) {
       {"SPC1,1,123,1", "CELAS1,4,4,1,1,2,1\nCELAS1,5,4,1,2,2,2",
        "arm.bdf:13: CELAS1 is not read and may change stiffness or mass (2 cards in the file)"},
   };
-  for (const Fault& fault : faults) {
+  for (const Error& error : errors) {
     std::string text = deck;
-    const std::size_t at = text.find(fault.from);
-    ASSERT_NE(at, std::string::npos) << fault.from;
-    text.replace(at, std::string(fault.from).size(), fault.to);
-    EXPECT_EQ(deck_fault(text), fault.sentence) << fault.to;
+    const std::size_t at = text.find(error.from);
+    ASSERT_NE(at, std::string::npos) << error.from;
+    text.replace(at, std::string(error.from).size(), error.to);
+    EXPECT_EQ(deck_error(text), error.sentence) << error.to;
   }
 }
 
 TEST(BadNastran, Lines) {
-  EXPECT_EQ(deck_fault("+A      1\n"), "arm.bdf:1: found a continuation '+A', expected a card");
-  EXPECT_EQ(deck_fault("GRID    1               0.      0.      0.\n=       *(1)    =\n"),
+  EXPECT_EQ(deck_error("+A      1\n"), "arm.bdf:1: found a continuation '+A', expected a card");
+  EXPECT_EQ(deck_error("GRID    1               0.      0.      0.\n=       *(1)    =\n"),
             "arm.bdf:2: repeated cards ('=') are not read; write them out");
   EXPECT_EQ(
-      deck_fault("CTETRA  1       1       1       2       3       4       5       6       +A\n"
+      deck_error("CTETRA  1       1       1       2       3       4       5       6       +A\n"
                  "+B      7       8       9       10\n"),
       "arm.bdf:2: the continuation '+B' does not follow the card with this mark; the card "
       "before (CTETRA in line 1) has '+A'");
-  EXPECT_EQ(deck_fault("GRID,1,,0.,0.,0.,,,,,,,,1\n"),
+  EXPECT_EQ(deck_error("GRID,1,,0.,0.,0.,,,,,,,,1\n"),
             "arm.bdf:1: the line has 14 fields; a line in free field has at most 10");
-  EXPECT_EQ(deck_fault("$ nothing\n"), "arm.bdf: the file has no nodes (GRID)");
-  EXPECT_EQ(deck_fault("GRID,1,,0.,0.,0.\rGRID,2,,0.,0.,0.\r"),
+  EXPECT_EQ(deck_error("$ nothing\n"), "arm.bdf: the file has no nodes (GRID)");
+  EXPECT_EQ(deck_error("GRID,1,,0.,0.,0.\rGRID,2,,0.,0.,0.\r"),
             "arm.bdf: its lines end with a carriage return alone, expected a line feed (LF or "
             "CRLF)");
-  EXPECT_EQ(deck_fault(std::string("GRID,1,,0.\0\1\2", 14)),
+  EXPECT_EQ(deck_error(std::string("GRID,1,,0.\0\1\2", 14)),
             "arm.bdf: the file is binary, not text: byte 0x00 in line 1");
 }
 
@@ -161,7 +161,7 @@ const char* const punch =
     "DMIG*   MAAX                           1               2\n"                  // 10
     "*                      1               2 1.000000000D+00\n";                 // 11
 
-std::string punch_fault(const std::string& text) {
+std::string punch_error(const std::string& text) {
   return error_of([&] {
     TextSource nodes("GRID,1,,0.,0.,0.\n", "arm.bdf"), source(text, "arm.pch");
     read_dmig(source, nullptr, read_nastran(nodes, false, {}, NastranPart::nodes));
@@ -169,8 +169,8 @@ std::string punch_fault(const std::string& text) {
 }
 
 TEST(BadNastran, Matrices) {
-  ASSERT_EQ(punch_fault(punch), "no error");
-  const Fault faults[] = {
+  ASSERT_EQ(punch_error(punch), "no error");
+  const Error errors[] = {
       {"KAAX           0       6", "KAAX           0       9",
        "arm.pch:1: DMIG: IFO is 9, expected 1 (square) or 6 (symmetric)"},
       {"MAAX           0       6       2", "MAAX           0       6       4",
@@ -195,15 +195,15 @@ TEST(BadNastran, Matrices) {
        "arm.pch:5: the stiffness entry (1.2, 1.2) on the diagonal is -1e+06, expected no negative "
        "value"},
   };
-  for (const Fault& fault : faults) {
+  for (const Error& error : errors) {
     std::string text = punch;
-    const std::size_t at = text.find(fault.from);
-    ASSERT_NE(at, std::string::npos) << fault.from;
-    text.replace(at, std::string(fault.from).size(), fault.to);
-    EXPECT_EQ(punch_fault(text), fault.sentence) << fault.to;
+    const std::size_t at = text.find(error.from);
+    ASSERT_NE(at, std::string::npos) << error.from;
+    text.replace(at, std::string(error.from).size(), error.to);
+    EXPECT_EQ(punch_error(text), error.sentence) << error.to;
   }
   EXPECT_EQ(
-      punch_fault(std::string(punch).substr(0, std::string(punch).find("DMIG    MAAX"))),
+      punch_error(std::string(punch).substr(0, std::string(punch).find("DMIG    MAAX"))),
       "arm.pch: the file has no mass matrix (its matrices: KAAX); expected one whose name begins "
       "with M; or give the mass file");
 }

@@ -27,12 +27,12 @@ FeModel parsed(const std::string& text, DeckDialect dialect = DeckDialect::by_co
   return read_abaqus(source, options, part);
 }
 
-std::string fault(const std::string& text, DeckDialect dialect = DeckDialect::by_content) {
+std::string error(const std::string& text, DeckDialect dialect = DeckDialect::by_content) {
   return error_of([&] { parsed(text, dialect); });
 }
 
 TEST(DeckKeywords, UnknownOnesStop) {
-  EXPECT_EQ(fault(tetrahedron + "*SPECIAL LAYER\n1, 2\n*SPECIAL LAYER\n3\n"),
+  EXPECT_EQ(error(tetrahedron + "*SPECIAL LAYER\n1, 2\n*SPECIAL LAYER\n3\n"),
             "deck.inp:14: *SPECIAL LAYER is not known and may change stiffness, mass or "
             "constraints: take it out of the deck if it does not");
 }
@@ -58,7 +58,7 @@ TEST(DeckKeywords, ThoseThatMatterStopWithAdvice) {
       {"*ELASTIC\n7.e4, .3\n", "*ELASTIC is given a second time for its material"},
       {"*DENSITY\n1.\n", "*DENSITY is given a second time for its material"}};
   for (const auto& [keyword, sentence] : cases)
-    EXPECT_EQ(fault(tetrahedron + keyword), std::string("deck.inp:14: ") + sentence);
+    EXPECT_EQ(error(tetrahedron + keyword), std::string("deck.inp:14: ") + sentence);
 }
 
 TEST(DeckKeywords, SurfaceSectionWithoutMassIsNoted) {
@@ -112,7 +112,7 @@ TEST(DeckKeywords, HarmlessOnesAreKnown) {
                            "RETAINED NODAL DOFS",
                            "FILM PROPERTY",
                            "MODAL DAMPING"}) {
-    EXPECT_EQ(fault(tetrahedron + "*" + name + ", A=B\n1., 2.\nx, y\n"), "no error") << name;
+    EXPECT_EQ(error(tetrahedron + "*" + name + ", A=B\n1., 2.\nx, y\n"), "no error") << name;
   }
 }
 
@@ -125,13 +125,13 @@ TEST(DeckKeywords, BesideMatricesOnlyNodesCount) {
 }
 
 TEST(DeckKeywords, StepsDoNotChangeThePart) {
-  EXPECT_EQ(fault(tetrahedron + "*STEP\n*STATIC\n*ELEMENT, TYPE=MASS, ELSET=M\n9, 1\n"),
+  EXPECT_EQ(error(tetrahedron + "*STEP\n*STATIC\n*ELEMENT, TYPE=MASS, ELSET=M\n9, 1\n"),
             "deck.inp:16: *ELEMENT stands in the *STEP of line 14, but the part must be complete "
             "before the first step");
-  EXPECT_EQ(fault(tetrahedron + "*STEP\n*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nBODY\n*END STEP\n"),
+  EXPECT_EQ(error(tetrahedron + "*STEP\n*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nBODY\n*END STEP\n"),
             "deck.inp:15: *MODEL CHANGE stands in the *STEP of line 14, but the part must be "
             "complete before the first step");
-  EXPECT_EQ(fault(tetrahedron + "*STEP\n*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nA, B\n"
+  EXPECT_EQ(error(tetrahedron + "*STEP\n*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nA, B\n"
                                 "*CHANGE FRICTION\n*BOUNDARY\n1, 1, 3\n*EQUATION, REMOVE\n1, 1\n"
                                 "*EQUATION, REMOVE ALL\n"
                                 "*END STEP\n"),
@@ -154,11 +154,11 @@ const std::string calculix_clue = "*STEP\n*FREQUENCY, SOLVER=PARDISO\n3\n*END ST
 const std::string abaqus_clue = "*STEP, NAME=Step-1\n*FREQUENCY\n3\n*END STEP\n";
 
 TEST(DeckDialects, ARoundSectionWithoutClueIsRefused) {
-  EXPECT_EQ(fault(beam("CIRC\n2.")),
+  EXPECT_EQ(error(beam("CIRC\n2.")),
             "deck.inp:13: *BEAM SECTION, SECTION=CIRC: 2 is a radius in Abaqus and a diameter in "
             "CalculiX, and nothing in the deck shows whose it is: give --dialect abaqus or "
             "--dialect calculix (in a model file 'dialect:')");
-  EXPECT_EQ(fault(beam("CIRC\n2.", calculix_clue + abaqus_clue)),
+  EXPECT_EQ(error(beam("CIRC\n2.", calculix_clue + abaqus_clue)),
             "deck.inp:13: *BEAM SECTION, SECTION=CIRC: 2 is a radius in Abaqus and a diameter in "
             "CalculiX, and the deck has things of both (*STEP, NAME=STEP-1, *FREQUENCY, "
             "SOLVER=PARDISO): give --dialect abaqus or --dialect calculix (in a model file "
@@ -210,20 +210,20 @@ TEST(DeckDialects, TwoNumbersAreAnEllipseOfCalculix) {
                                    "2.\n"));
   EXPECT_NEAR(both.sections.at(0).A, 9.0, 1e-14);
   EXPECT_NEAR(both.sections.at(1).A, pi, 1e-14);
-  EXPECT_EQ(fault(beam("CIRC\n4., 2."), DeckDialect::abaqus),
+  EXPECT_EQ(error(beam("CIRC\n4., 2."), DeckDialect::abaqus),
             "deck.inp:13: *BEAM SECTION has 2 dimensions, expected 1");
-  EXPECT_EQ(fault(beam("CIRC\n4., 2.", abaqus_clue)),
+  EXPECT_EQ(error(beam("CIRC\n4., 2.", abaqus_clue)),
             "deck.inp:13: *BEAM SECTION, SECTION=CIRC has dimensions as in CalculiX, but the deck "
             "has *STEP, NAME=STEP-1 (deck.inp:15), which only Abaqus has; if it is one of CalculiX "
             "give --dialect calculix");
-  EXPECT_EQ(fault(beam("CIRC\n4., 2., 1.")),
+  EXPECT_EQ(error(beam("CIRC\n4., 2., 1.")),
             "deck.inp:13: *BEAM SECTION has 3 dimensions, expected 1 or 2");
-  EXPECT_EQ(fault(beam("PIPE\n4.")), "deck.inp:13: *BEAM SECTION has 1 dimension, expected 2");
+  EXPECT_EQ(error(beam("PIPE\n4.")), "deck.inp:13: *BEAM SECTION has 1 dimension, expected 2");
   // One sentence for a number that is wrong.
-  EXPECT_EQ(fault(beam("PIPE\n-4., 1.")), "deck.inp:14: outer radius is -4, expected more than 0");
-  EXPECT_EQ(fault(beam("BOX\n1., 0., .1, .1, .1, .1")),
+  EXPECT_EQ(error(beam("PIPE\n-4., 1.")), "deck.inp:14: outer radius is -4, expected more than 0");
+  EXPECT_EQ(error(beam("BOX\n1., 0., .1, .1, .1, .1")),
             "deck.inp:14: height of the box is 0, expected more than 0");
-  EXPECT_EQ(fault(beam("RECT\nwide, 1.")),
+  EXPECT_EQ(error(beam("RECT\nwide, 1.")),
             "deck.inp:14: width of the rectangle: 'wide' is not a number");
 }
 

@@ -17,14 +17,14 @@
 namespace floatframe::test {
 namespace {
 
-std::string abaqus_faults(const std::string& text) {
+std::string abaqus_errors(const std::string& text) {
   return error_of([&] {
     TextSource source(text, "deck.inp");
     read_abaqus(source, {});
   });
 }
 
-std::string nastran_faults(const std::string& text) {
+std::string nastran_errors(const std::string& text) {
   return error_of([&] {
     TextSource source(text, "deck.bdf");
     read_nastran(source, has_begin_bulk(text), {});
@@ -36,7 +36,7 @@ std::size_t lines_of(const std::string& text) {
 }
 
 /// Thirty files, each of which includes the next one ten times.
-std::string include_faults(const TemporaryFolder& folder, const std::string& include,
+std::string include_errors(const TemporaryFolder& folder, const std::string& include,
                            const std::string& ending, const std::string& format) {
   for (int k = 0; k < 30; ++k) {
     std::string text;
@@ -50,35 +50,35 @@ std::string include_faults(const TemporaryFolder& folder, const std::string& inc
 TEST(DeckLimits, IncludesThatMultiply) {
   const TemporaryFolder folder;
   const std::string sentence = ": the files include each other more than 10000 times";
-  const std::string abaqus = include_faults(folder, "*INCLUDE, INPUT={}", ".inp", "abaqus");
+  const std::string abaqus = include_errors(folder, "*INCLUDE, INPUT={}", ".inp", "abaqus");
   EXPECT_NE(abaqus.find(sentence), std::string::npos) << abaqus;
   EXPECT_NE(abaqus.find(".inp:"), std::string::npos) << abaqus;
-  const std::string nastran = include_faults(folder, "INCLUDE '{}'", ".bdf", "nastran");
+  const std::string nastran = include_errors(folder, "INCLUDE '{}'", ".bdf", "nastran");
   EXPECT_NE(nastran.find(sentence), std::string::npos) << nastran;
 }
 
 TEST(DeckLimits, LongKeywordLines) {
-  EXPECT_EQ(abaqus_faults("*NODE\n1\n*" + std::string(20'000'000, 'A') + "\n1\n"),
+  EXPECT_EQ(abaqus_errors("*NODE\n1\n*" + std::string(20'000'000, 'A') + "\n1\n"),
             "deck.inp:3: the keyword line '*AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA...' has more "
             "than 65536 characters");
   std::string parameters = "*NODE";
   for (int k = 0; k < 90; ++k) parameters += ",\n" + std::string(1000, 'B') + "=1";
-  EXPECT_EQ(abaqus_faults("** many lines\n" + parameters + "\n1\n"),
+  EXPECT_EQ(abaqus_errors("** many lines\n" + parameters + "\n1\n"),
             "deck.inp:2: the keyword line '*NODE,' has more than 65536 characters");
 }
 
 TEST(DeckLimits, UnknownKeywordsAreNamedOnce) {
   std::string text = "*NODE\n1\n";
   for (int k = 0; k < 200'000; ++k) text += "*SPECIAL LAYER, NAME=X\n";
-  EXPECT_EQ(lines_of(abaqus_faults(text)), 1u);
+  EXPECT_EQ(lines_of(abaqus_errors(text)), 1u);
   std::string different = "*NODE\n1\n";
   for (int k = 0; k < 1000; ++k) different += fmt::format("*SPECIAL LAYER {}\n", k);
-  const std::string faults = abaqus_faults(different);
-  EXPECT_EQ(lines_of(faults), TextSource::most_faults + 1);
-  EXPECT_NE(faults.find("\nreading ends after 50 faults"), std::string::npos);
+  const std::string errors = abaqus_errors(different);
+  EXPECT_EQ(lines_of(errors), TextSource::most_errors + 1);
+  EXPECT_NE(errors.find("\nreading ends after 50 errors"), std::string::npos);
   std::string cards;
   for (int k = 0; k < 100'000; ++k) cards += fmt::format("X{},1\n", k);
-  EXPECT_EQ(lines_of(nastran_faults(cards)), TextSource::most_faults + 1);
+  EXPECT_EQ(lines_of(nastran_errors(cards)), TextSource::most_errors + 1);
 }
 
 /// `count` nodes.
@@ -92,7 +92,7 @@ TEST(DeckLimits, SetsThatDouble) {
   // Each set names the one before it twice: the members are found once.
   std::string text = nodes(2) + "*NSET, NSET=S0\n1, 2\n";
   for (int k = 1; k < 150; ++k) text += fmt::format("*NSET, NSET=S{}\nS{}, S{}\n", k, k - 1, k - 1);
-  EXPECT_EQ(abaqus_faults(text), "deck.inp: the deck has no element with stiffness");
+  EXPECT_EQ(abaqus_errors(text), "deck.inp: the deck has no element with stiffness");
 }
 
 TEST(DeckLimits, SetsOfAllNodesAgainAndAgain) {
@@ -107,8 +107,8 @@ TEST(DeckLimits, SetsOfAllNodesAgainAndAgain) {
       "the sets of nodes, and what names them, have more than 10100000 members in all, too many "
       "for a deck of 1000 nodes";
   const auto ends = [&](const std::string& text) {
-    const std::string faults = abaqus_faults(text);
-    return faults.ends_with(end) ? end : faults;
+    const std::string errors = abaqus_errors(text);
+    return errors.ends_with(end) ? end : errors;
   };
   const std::string body =
       "*ELEMENT, TYPE=B31, ELSET=E\n1, 1, 2\n*MATERIAL, NAME=M\n*ELASTIC\n1.\n*DENSITY\n1.\n"
@@ -134,11 +134,11 @@ TEST(DeckLimits, RangesOfNastranAgainAndAgain) {
       "the sets and supports have more than 10100100 members in all, too many for a file of 1000 "
       "nodes and 1 elements";
   for (const std::string& more : {supports, sets}) {
-    const std::string faults = nastran_faults(text + more);
-    EXPECT_TRUE(faults.ends_with(end)) << faults;
+    const std::string errors = nastran_errors(text + more);
+    EXPECT_TRUE(errors.ends_with(end)) << errors;
   }
   // Masses with an offset get a node of their own each, and no number is above the largest.
-  EXPECT_EQ(nastran_faults("GRID,2147483647,,3.,0.,0.\n" + text + "CONM2,5,1,,1.,1.\n"),
+  EXPECT_EQ(nastran_errors("GRID,2147483647,,3.,0.,0.\n" + text + "CONM2,5,1,,1.,1.\n"),
             "deck.bdf:1005: CONM2 5 needs a node of its own, but there is no number above "
             "2147483647");
 }
@@ -154,11 +154,11 @@ TEST(DeckLimits, GroupsOfGmshAgainAndAgain) {
                       triangles + 1, triangles);
   for (int k = 0; k < triangles; ++k) text += fmt::format("{} 1 2 3\n", k + 2);
   text += "$EndElements\n";
-  const std::string faults = error_of([&] { parse_gmsh(text, "mesh.msh", {}); });
-  EXPECT_NE(faults.find("the physical groups have more than 10006500 members in all, too many for "
+  const std::string errors = error_of([&] { parse_gmsh(text, "mesh.msh", {}); });
+  EXPECT_NE(errors.find("the physical groups have more than 10006500 members in all, too many for "
                         "a mesh of 4 nodes and 61 elements"),
             std::string::npos)
-      << faults;
+      << errors;
 }
 
 }  // namespace

@@ -33,14 +33,14 @@ TEST(FuzzCorpus, NoReaderBreaks) {
         reader.read(bytes);
         ++models;
       } catch (const InputError& error) {
-        EXPECT_FALSE(error.faults().empty()) << entry.path();
-        EXPECT_FALSE(error.faults().front().message.empty()) << entry.path();
+        EXPECT_FALSE(error.errors().empty()) << entry.path();
+        EXPECT_FALSE(error.errors().front().message.empty()) << entry.path();
       } catch (const std::exception& error) {
         ADD_FAILURE() << entry.path() << ": " << error.what();
       }
     }
     EXPECT_GT(inputs, 0) << reader.name;
-    EXPECT_GT(models, 0) << "no seed of " << reader.name << " is sound";
+    EXPECT_GT(models, 0) << "no seed of " << reader.name << " is valid";
   }
 }
 

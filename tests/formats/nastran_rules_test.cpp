@@ -18,8 +18,8 @@ FeModel deck(const std::string& text) {
   return read_nastran(source, has_begin_bulk(text), {});
 }
 
-std::string fault(const std::string& text) {
-  return error_of([&] { deck(text); });
+std::string error_in(const std::string& text) {
+  return test::error_of([&] { deck(text); });
 }
 
 const std::string bulk =
@@ -37,14 +37,15 @@ TEST(NastranRules, SuperelementsAreRefused) {
   const std::string sentence =
       " begins the bulk data of a superelement or of another model, which is not read: write one "
       "model with one BEGIN BULK";
-  EXPECT_EQ(fault("SOL 103\nCEND\nBEGIN SUPER=1\n" + bulk + "BEGIN BULK\n" + bulk + "ENDDATA\n"),
+  EXPECT_EQ(error_in("SOL 103\nCEND\nBEGIN SUPER=1\n" + bulk + "BEGIN BULK\n" + bulk + "ENDDATA\n"),
             "arm.bdf:3: 'BEGIN SUPER=1'" + sentence);
-  EXPECT_EQ(fault("SOL 103\nCEND\nBEGIN BULK SUPER=2\n" + bulk),
+  EXPECT_EQ(error_in("SOL 103\nCEND\nBEGIN BULK SUPER=2\n" + bulk),
             "arm.bdf:3: 'BEGIN BULK SUPER=2'" + sentence);
-  EXPECT_EQ(fault("BEGIN BULK\n" + bulk + "begin super = 3\n" + bulk),
+  EXPECT_EQ(error_in("BEGIN BULK\n" + bulk + "begin super = 3\n" + bulk),
             "arm.bdf:11: 'begin super = 3'" + sentence);
-  EXPECT_EQ(fault("SOL 103\nCEND\n  BEGIN BULK $ comment\n" + bulk), "no error");
-  EXPECT_EQ(fault("BEGIN BULK\n" + bulk + "BEGIN BULK\n"), "arm.bdf:11: 'BEGIN BULK'" + sentence);
+  EXPECT_EQ(error_in("SOL 103\nCEND\n  BEGIN BULK $ comment\n" + bulk), "no error");
+  EXPECT_EQ(error_in("BEGIN BULK\n" + bulk + "BEGIN BULK\n"),
+            "arm.bdf:11: 'BEGIN BULK'" + sentence);
 }
 
 TEST(NastranRules, FactorsOfMassAndStiffness) {
@@ -58,8 +59,9 @@ TEST(NastranRules, FactorsOfMassAndStiffness) {
   EXPECT_EQ(stiffness.materials.at(0).poisson, plain.materials.at(0).poisson);
   EXPECT_EQ(stiffness.materials.at(0).density, plain.materials.at(0).density);
   EXPECT_NEAR(both.materials.at(0).density, 0.3 * plain.materials.at(0).density, 1e-12);
-  EXPECT_EQ(fault(bulk + "PARAM,CM1,0.\n"), "arm.bdf:10: PARAM: CM1 is '0.', expected more than 0");
-  EXPECT_EQ(fault(bulk + "PARAM,CK1,1.,.1\n"),
+  EXPECT_EQ(error_in(bulk + "PARAM,CM1,0.\n"),
+            "arm.bdf:10: PARAM: CM1 is '0.', expected more than 0");
+  EXPECT_EQ(error_in(bulk + "PARAM,CK1,1.,.1\n"),
             "arm.bdf:10: PARAM: an imaginary part is '.1', which is not supported");
 }
 
@@ -77,18 +79,18 @@ TEST(NastranRules, FactorsThatDisagreeStop) {
     return "SOL 103\nCEND\nSUBCASE 1\n PARAM," + first + "\nSUBCASE 2\n PARAM," + second +
            "\nBEGIN BULK\n" + bulk;
   };
-  EXPECT_EQ(fault(subcases("CM1,2.0", "CM1,5.0")),
+  EXPECT_EQ(error_in(subcases("CM1,2.0", "CM1,5.0")),
             "arm.bdf:6: PARAM: CM1 is '5.0', but 2 in arm.bdf:4; a part can have only one of them, "
             "remove the other");
   for (const char* word : {"WTMASS", "CK1"}) {
     const std::string name = word;
-    EXPECT_EQ(fault(subcases(name + ",2.", name + ",1.")),
+    EXPECT_EQ(error_in(subcases(name + ",2.", name + ",1.")),
               "arm.bdf:6: PARAM: " + name +
                   " is '1.', but 2 in arm.bdf:4; a part can have only one of them, remove the "
                   "other");
   }
   EXPECT_EQ(
-      fault(bulk + "PARAM,CM1,2.\nPARAM,CM1,3.\n"),
+      error_in(bulk + "PARAM,CM1,2.\nPARAM,CM1,3.\n"),
       "arm.bdf:11: PARAM: CM1 is '3.', but 2 in arm.bdf:10; a part can have only one of them, "
       "remove the other");
   EXPECT_DOUBLE_EQ(deck(subcases("CM1,2.0", "CM1,2.")).materials.at(0).density, 16000.0);
@@ -100,7 +102,7 @@ TEST(NastranRules, BeginAloneBeginsTheBulkData) {
     const FeModel model = deck(std::string("SOL 103\nCEND\nPARAM,WTMASS,.5\n") + begin + bulk);
     EXPECT_DOUBLE_EQ(model.materials.at(0).density, 0.5 * plain.materials.at(0).density);
   }
-  EXPECT_EQ(fault("BEGIN\n" + bulk + "BEGIN\n"),
+  EXPECT_EQ(error_in("BEGIN\n" + bulk + "BEGIN\n"),
             "arm.bdf:11: 'BEGIN' begins the bulk data of a superelement or of another model, which "
             "is not read: write one model with one BEGIN BULK");
 }
@@ -116,21 +118,21 @@ TEST(NastranRules, ControlOfAnyLengthIsRead) {
 }
 
 TEST(NastranRules, UnknownParametersStop) {
-  EXPECT_EQ(fault(bulk + "PARAM,STIFFER,2.\n"),
+  EXPECT_EQ(error_in(bulk + "PARAM,STIFFER,2.\n"),
             "arm.bdf:10: PARAM STIFFER is not read and may change stiffness or mass");
   for (const char* name :
        {"POST",  "AUTOSPC", "GRDPNT",   "PRGPST", "MAXRATIO", "BAILOUT", "COUPMASS",
         "K6ROT", "SNORM",   "OGEOM",    "RESVEC", "CM2",      "CK2",     "CB1",
         "G",     "W3",      "USETSTR1", "lgdisp", "EXTOUT",   "CHECKEL"}) {
-    EXPECT_EQ(fault(bulk + "PARAM," + name + ",1\n"), "no error") << name;
+    EXPECT_EQ(error_in(bulk + "PARAM," + name + ",1\n"), "no error") << name;
   }
-  EXPECT_EQ(fault(bulk + "MATT1,1,7\n"),
+  EXPECT_EQ(error_in(bulk + "MATT1,1,7\n"),
             "arm.bdf:10: MATT1 is not read and may change stiffness or mass");
-  EXPECT_EQ(fault(bulk + "DTI,UNITS,1,KG,N,M,S\n"), "no error");
+  EXPECT_EQ(error_in(bulk + "DTI,UNITS,1,KG,N,M,S\n"), "no error");
 }
 
 TEST(NastranRules, MatricesAndMassOfTheCaseControlStop) {
-  EXPECT_EQ(fault("SOL 103\nCEND\nK2GG = STIFF\nM2GG(X)=HEAVY\nNSM = 3\nBEGIN BULK\n" + bulk),
+  EXPECT_EQ(error_in("SOL 103\nCEND\nK2GG = STIFF\nM2GG(X)=HEAVY\nNSM = 3\nBEGIN BULK\n" + bulk),
             "arm.bdf:3: the case control has K2GG = STIFF, which adds stiffness or mass and is not "
             "read\n"
             "arm.bdf:4: the case control has M2GG = HEAVY, which adds stiffness or mass and is not "
@@ -149,7 +151,7 @@ TEST(NastranRules, BarsTwistByTheirOwnShearModulus) {
   EXPECT_EQ(model.notes.at(0),
             "arm.bdf:9: MAT1 1: G is 2e+10, but E and NU give 8e+10: bars twist by G, shells and "
             "solids have E and NU, as in Nastran");
-  EXPECT_EQ(fault(with("MAT1,1,2.+11,,.25", "MAT1,1,2.+11,0.,.25")),
+  EXPECT_EQ(error_in(with("MAT1,1,2.+11,,.25", "MAT1,1,2.+11,0.,.25")),
             "arm.bdf:9: MAT1 1: G is 0, expected more than 0 for bars");
 }
 
@@ -167,28 +169,28 @@ TEST(NastranRules, TheCaseControlSelectsEquations) {
   EXPECT_EQ(none.notes.at(0),
             "arm.bdf:13: 2 MPC equations are in sets that the case control does not select: they "
             "are not applied");
-  EXPECT_EQ(fault(control + "MPC = 3\n" + begin + bulk + equations),
+  EXPECT_EQ(error_in(control + "MPC = 3\n" + begin + bulk + equations),
             "arm.bdf:3: the case control selects MPC set 3, which is not in the file");
-  EXPECT_EQ(fault(control + "MPC = 8\nSUBCASE 2\nMPC = 9\n" + begin + bulk + equations),
+  EXPECT_EQ(error_in(control + "MPC = 8\nSUBCASE 2\nMPC = 9\n" + begin + bulk + equations),
             "arm.bdf:5: the case control selects MPC sets 8 and 9; only one can be read, remove "
             "the other");
 }
 
 TEST(NastranRules, SectionsThatAreNotWhatTheyLook) {
-  EXPECT_EQ(fault(bulk + "MAT1,2,1.+9,,.3,8000.\nCTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,2\n"),
+  EXPECT_EQ(error_in(bulk + "MAT1,2,1.+9,,.3,8000.\nCTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,2\n"),
             "arm.bdf:12: PSHELL 3: MID3 is not MID1: only homogeneous shells are supported");
-  EXPECT_EQ(fault(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.4\n"),
+  EXPECT_EQ(error_in(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.4\n"),
             "arm.bdf:11: PSHELL 3: TS/T is '.4', expected 0.833333: only homogeneous shells are "
             "supported");
-  EXPECT_EQ(fault(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.833333\n"), "no error");
-  EXPECT_EQ(fault(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,TUBE2\n,.01,.015")),
+  EXPECT_EQ(error_in(bulk + "CTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,1,.833333\n"), "no error");
+  EXPECT_EQ(error_in(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,TUBE2\n,.01,.015")),
             "arm.bdf:8: PBARL 2: the wall of the TUBE2 is more than its outer radius");
   const FeModel bar =
       deck(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBAR,2,1,1.-3,1.-7,1.-7,2.-7\n,\n,.5,.5"));
   EXPECT_EQ(bar.notes.at(0),
             "arm.bdf:8: 1 PBAR have shear factors (K1, K2): their bars are read without shear "
             "deformation");
-  EXPECT_EQ(fault(bulk + "GRID,9,,.5,0.,0.\nRBE3,8,,9,123456,1.,123456,1,2,\n,3\n"),
+  EXPECT_EQ(error_in(bulk + "GRID,9,,.5,0.,0.\nRBE3,8,,9,123456,1.,123456,1,2,\n,3\n"),
             "arm.bdf:11: RBE3 8: node 1 has rotations, whose weights (components 456) are not "
             "supported; give 123");
 }

@@ -1,5 +1,5 @@
 // SID_FEM: what is written comes back; the blocks are those of the kinetic energy and of the
-// velocity-dependent forces computed by the inertia room; the classical dialect; faults.
+// velocity-dependent forces computed by the inertia room; the classical dialect; errors.
 #include "floatframe/formats/sid/sid_file.hpp"
 
 #include <fmt/format.h>
@@ -226,31 +226,31 @@ TEST(SidFile, InertiaAboutTheCentreOfMass) {
   for (Vec3& p : points.p) p += Vec3(3000.0, 4000.0, 0.0);
   FlexibleBody body = body_of(points, 2);
   body.K = 1e4 * MatX::Identity(2, 2);
-  const auto fault = [](const SidContent& content) {
+  const auto error = [](const SidContent& content) {
     return error_of([&] { sid_body(content, "far.SID_FEM"); });
   };
   SidContent c = sid_content(body);
-  EXPECT_EQ(fault(c), "no error");
+  EXPECT_EQ(error(c), "no error");
   c.J.line = 7;
   const double about_centre = body.invariants.inertia_about_centre()(2, 2);
   c.J.m0(2, 0) -= 3.0 * about_centre;
-  EXPECT_TRUE(fault(c).starts_with("far.SID_FEM:7: block J gives a moment of inertia of -"))
-      << fault(c);
+  EXPECT_TRUE(error(c).starts_with("far.SID_FEM:7: block J gives a moment of inertia of -"))
+      << error(c);
   c.J.m0(2, 0) += 7.0 * about_centre;
-  EXPECT_NE(fault(c).find("the largest is more than the sum of the others, which no body has"),
+  EXPECT_NE(error(c).find("the largest is more than the sum of the others, which no body has"),
             std::string::npos)
-      << fault(c);
+      << error(c);
   c = sid_content(body);
   c.Me.m0 *= 0.01;
-  EXPECT_NE(fault(c).find("the mass matrix at zero deformation is not positive: scaled to a unit "
+  EXPECT_NE(error(c).find("the mass matrix at zero deformation is not positive: scaled to a unit "
                           "diagonal its smallest eigenvalue is -"),
             std::string::npos)
-      << fault(c);
+      << error(c);
   c = sid_content(body);
   c.Ke.m0 *= -1.0;
-  EXPECT_NE(fault(c).find("block Ke holds a negative stiffness (-1e+04), expected none below zero"),
+  EXPECT_NE(error(c).find("block Ke holds a negative stiffness (-1e+04), expected none below zero"),
             std::string::npos)
-      << fault(c);
+      << error(c);
 }
 
 /// tests/data/fe/classical.SID_FEM: four points with two modes in the classical dialect (12 digits,
@@ -328,14 +328,14 @@ TEST(SidFile, WhatIsInDoubtIsSaid) {
   EXPECT_NE(read.notes[0].find("m1 of Oe does not give the modal masses"), std::string::npos);
 }
 
-struct SidFault {
+struct SidError {
   const char* from;
   const char* to;
   const char* sentence;
 };
 
-TEST(SidFile, Faults) {
-  const SidFault faults[] = {
+TEST(SidFile, Errors) {
+  const SidError errors[] = {
       {"    2   2    :No", "    two   2    :No",
        "arm.SID_FEM:1: found 'two   2    :No. nodes, No. modes: four p...', expected the numbers "
        "of "
@@ -367,31 +367,31 @@ TEST(SidFile, Faults) {
       {"m0( 2, 2)             = 7.50000000000D-01", "m0( 2, 1)             = 7.50000000000D-01",
        "arm.SID_FEM:301: 'm0(2,1)' in block De, whose structure 1 is diagonal"},
   };
-  for (const SidFault& fault : faults) {
+  for (const SidError& c : errors) {
     std::string text = classical();
-    const std::size_t at = text.find(fault.from);
-    ASSERT_NE(at, std::string::npos) << fault.from;
-    text.replace(at, std::string(fault.from).size(), fault.to);
+    const std::size_t at = text.find(c.from);
+    ASSERT_NE(at, std::string::npos) << c.from;
+    text.replace(at, std::string(c.from).size(), c.to);
     try {
       parse_sid(text, "arm.SID_FEM");
-      ADD_FAILURE() << "read without fault: " << fault.sentence;
+      ADD_FAILURE() << "read without error: " << c.sentence;
     } catch (const InputError& error) {
       const std::string what = error.what();
-      EXPECT_EQ(what.substr(0, what.find('\n')), fault.sentence);
+      EXPECT_EQ(what.substr(0, what.find('\n')), c.sentence);
     }
   }
-  const auto fault_of = [](const std::string& text) {
+  const auto error_in = [](const std::string& text) {
     return error_of([&] { parse_sid(text, "arm.SID_FEM"); });
   };
   const std::string text = classical();
-  EXPECT_EQ(fault_of(text.substr(0, text.find(" end part"))),
+  EXPECT_EQ(error_in(text.substr(0, text.find(" end part"))),
             "arm.SID_FEM:303: the file ends where 'end part' was expected");
-  EXPECT_EQ(fault_of(text.substr(0, text.find("           Ke\n"))),
+  EXPECT_EQ(error_in(text.substr(0, text.find("           Ke\n"))),
             "arm.SID_FEM:281: the file ends where 'end modal' was expected");
   std::string wrong = text;
   const std::size_t Me = wrong.find("mass                            = 4");
   wrong.replace(Me, 36, "mass = 0.1");
-  EXPECT_EQ(fault_of(wrong),
+  EXPECT_EQ(error_in(wrong),
             "arm.SID_FEM:146: block J gives a moment of inertia of -11.5692 about the centre of "
             "mass (with "
             "mass and mdCM), expected none below zero");

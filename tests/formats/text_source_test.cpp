@@ -29,13 +29,13 @@ std::string gzip(const std::string& text) {
   return out;
 }
 
-std::string fault_of(const std::string& bytes) {
+std::string error_of(const std::string& bytes) {
   try {
     decompressed(bytes, "a.inp.gz");
   } catch (const InputError& error) {
     return error.what();
   }
-  return "no fault";
+  return "no error";
 }
 
 TEST(Gzip, AFileThatIsDamagedFromItsBeginningIsNotEmpty) {
@@ -46,7 +46,7 @@ TEST(Gzip, AFileThatIsDamagedFromItsBeginningIsNotEmpty) {
     try {
       read_fe_file(file);
     } catch (const InputError& error) {
-      return error.faults().front().message;
+      return error.errors().front().message;
     }
     return "no error";
   };
@@ -120,14 +120,14 @@ TEST(TextSource, LinesEndingsAndPlaces) {
   EXPECT_EQ(source.mark(source.here()).line, 3);
 }
 
-TEST(TextSource, FaultsHaveAnEnd) {
+TEST(TextSource, ErrorsHaveAnEnd) {
   TextSource source("x\n", "a.inp");
   try {
-    for (int k = 0; k < 1000; ++k) source.fault("again");
+    for (int k = 0; k < 1000; ++k) source.error("again");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.faults().size(), TextSource::most_faults + 1);
-    EXPECT_EQ(error.faults().back().message, "reading ends after 50 faults");
+    EXPECT_EQ(error.errors().size(), TextSource::most_errors + 1);
+    EXPECT_EQ(error.errors().back().message, "reading ends after 50 errors");
   }
 }
 
@@ -145,18 +145,18 @@ TEST(Gzip, DamagedAndTruncated) {
   const std::string bytes = gzip(text);
   for (const std::size_t size :
        {std::size_t{2}, std::size_t{12}, bytes.size() / 2, bytes.size() - 5}) {
-    EXPECT_EQ(fault_of(bytes.substr(0, size)),
+    EXPECT_EQ(error_of(bytes.substr(0, size)),
               "a.inp.gz: the gzip data end too early: the file is truncated")
         << size;
   }
   std::string damaged = bytes;
   damaged[damaged.size() - 6] = static_cast<char>(damaged[damaged.size() - 6] ^ 0x55);
-  EXPECT_EQ(fault_of(damaged), "a.inp.gz: the gzip data are damaged (incorrect data check)");
+  EXPECT_EQ(error_of(damaged), "a.inp.gz: the gzip data are damaged (incorrect data check)");
 }
 
 TEST(Gzip, BombsAreNotRead) {
   // 70 MiB of zeros in 70 kB.
-  EXPECT_NE(fault_of(gzip(std::string(std::size_t{70} << 20, '0')))
+  EXPECT_NE(error_of(gzip(std::string(std::size_t{70} << 20, '0')))
                 .find("is compressed more than 200 times, which no deck is: it is not read"),
             std::string::npos);
 }

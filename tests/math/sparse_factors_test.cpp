@@ -1,5 +1,5 @@
 // Both engines of the sparse factors: solutions, count of negative eigenvalues, singular rows,
-// independence of units, faults; and MUMPS beside MPI in one process.
+// independence of units, errors; and MUMPS beside MPI in one process.
 #include "floatframe/math/sparse_factors.hpp"
 
 #include <dlfcn.h>
@@ -122,7 +122,7 @@ TEST_P(EveryEngine, UnitsDoNotMatter) {
   EXPECT_LT((unit.asDiagonal() * x - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST_P(EveryEngine, SmallestSizesAndFaults) {
+TEST_P(EveryEngine, SmallestSizesAndErrors) {
   EXPECT_EQ(SparseFactors(Sparse(0, 0), GetParam()).solve(MatX::Zero(0, 3)).cols(), 3);
   Sparse one(1, 1);
   one.insert(0, 0) = 4.0;

@@ -159,7 +159,7 @@ ModelDescription block_with_load(const std::string& input) {
   return d;
 }
 
-std::string faults(const ModelDescription& d) {
+std::string errors(const ModelDescription& d) {
   try {
     build_model(d);
   } catch (const InputError& error) {
@@ -180,13 +180,13 @@ TEST(BuildInputs, NamesBecomeIndices) {
   EXPECT_TRUE(std::isinf(model.inputs[0].low));
 }
 
-TEST(BuildInputs, FaultsAreNamed) {
+TEST(BuildInputs, ErrorsAreNamed) {
   ModelDescription d = block_with_load("c");
   d.inputs.push_back({"a", "", 0.0, {}, {}, false, {}});
   d.inputs.push_back({"a", "", 5.0, 0.0, 1.0, false, {}});
   d.inputs.push_back({"b", "", 0.0, 1.0, 1.0, false, {}});
   d.inputs.push_back({"d", "", 0.0, {}, {}, true, {}});
-  EXPECT_EQ(faults(d),
+  EXPECT_EQ(errors(d),
             "inputs.a: the name is taken, expected a name used once\n"
             "inputs.a.initial: found 5, expected a number not above max, 1\n"
             "inputs.b.max: found 1, expected a number above min, 1\n"

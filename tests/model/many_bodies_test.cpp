@@ -98,10 +98,10 @@ TEST(ManyBodies, AreRefused) {
     build_model(d);
     ADD_FAILURE();
   } catch (const InputError& error) {
-    ASSERT_EQ(error.faults().size(), d.joints.size());
-    EXPECT_EQ(error.faults()[0].text(),
+    ASSERT_EQ(error.errors().size(), d.joints.size());
+    EXPECT_EQ(error.errors()[0].text(),
               "joints.j19999.child: unknown body 'b19999x', did you mean 'b19999'?");
-    EXPECT_EQ(error.faults().back().text(), "joints.j1.child: unknown body 'b1x'");
+    EXPECT_EQ(error.errors().back().text(), "joints.j1.child: unknown body 'b1x'");
   }
 }
 

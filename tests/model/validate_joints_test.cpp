@@ -41,15 +41,14 @@ TEST(Validate, Joints) {
        },
        "joints.pin.velocity[2]: found nan, expected a number (numbers must be finite)"},
       {[](D& d) { d.joints[0].position = {1.0}; },
-       "joints.slide.position: found with a prescribed motion, which decides it, expected no such "
-       "key"},
+       "joints.slide.position: found with a prescribed motion, which decides it; remove this key"},
       {[](D& d) {
          d.joints[0].motion.reset();
          d.joints[0].velocity = {1.0, 2.0};
        },
        "joints.slide.velocity: found a list of 2, expected a number"},
       {[](D& d) { d.joints[1].motion.emplace(); },
-       "joints.pin.motion: is not used by a universal joint, expected no such key"},
+       "joints.pin.motion: is not used by a universal joint; remove this key"},
       {[](D& d) { d.joints[0].motion->amplitude = 1.0; },
        "joints.slide.motion.sine.frequency: found 0, expected a positive number [Hz]"},
       {[](D& d) { d.joints[0].motion->phase = nan; },
@@ -63,7 +62,7 @@ TEST(Validate, Joints) {
          d.joints[1].type = JointType::weld;
          d.outputs.clear();
        },
-       "joints.pin.position: a weld has no coordinates, expected no such key"},
+       "joints.pin.position: a weld has no coordinates; remove this key"},
       {[](D& d) { d.joints[2].keep = true; },
        "joints.ball.keep: found without 'position' and 'velocity', expected one of them to keep"},
       {[](D& d) { d.rods[0].length = 0.0; },

@@ -64,7 +64,7 @@ TEST(Validate, Simulation) {
   for (const auto& [change, expected] : cases) {
     ModelDescription d = valid_description();
     change(d.simulation);
-    EXPECT_EQ(faults(d), expected);
+    EXPECT_EQ(errors(d), expected);
     try {  // and what a run is given beside the model
       require_valid_run(d.simulation);
       ADD_FAILURE() << expected;
@@ -83,7 +83,7 @@ TEST(Validate, Simulation) {
   }
   ModelDescription d = valid_description();
   d.simulation.duration = 1e9;  // a shorter run may be asked for
-  EXPECT_EQ(faults(d), "no fault");
+  EXPECT_EQ(errors(d), "no error");
 }
 
 /// Where a sentence about the step and the duration stands.
@@ -96,7 +96,7 @@ TEST(Validate, PlaceOfStepAndDuration) {
     } catch (const InputError& error) {
       return std::string(error.what()).substr(0, std::string(error.what()).find("a duration"));
     }
-    return std::string("no fault");
+    return std::string("no error");
   };
   EXPECT_EQ(place(), "");
   s.origin.mark = {"m.yaml", 3, 1};
@@ -117,12 +117,12 @@ TEST(Validate, PlaceOfStepAndDuration) {
   EXPECT_EQ(place(), "");
 }
 
-TEST(Validate, AllFaultsAtOnce) {
+TEST(Validate, AllErrorsAtOnce) {
   ModelDescription d = valid_description();
   d.simulation.step = nan;
   rigid(d).mass = -1.0;
   d.outputs[0].component = 7;
-  EXPECT_EQ(faults(d),
+  EXPECT_EQ(errors(d),
             "bodies.block.rigid.mass: found -1, expected a number >= 0 [kg]\n"
             "outputs.z.axis: found 7, expected x, y or z\n"
             "simulation.step: found nan, expected a positive number [s] (numbers must be finite)");

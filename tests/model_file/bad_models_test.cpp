@@ -1,4 +1,4 @@
-// Every faulty model file of tests/data/bad_models gives the sentences that stand beside it, places
+// Every invalid model file of tests/data/bad_models gives the sentences that stand beside it, places
 // included.
 #include <gtest/gtest.h>
 
@@ -21,14 +21,14 @@ std::string without_folder(std::string text) {
   return text;
 }
 
-std::string faults_of(const std::string& path,
+std::string errors_of(const std::string& path,
                       const std::vector<ParameterOverride>& overrides = {}) {
   try {
     read_model(path, overrides);
   } catch (const InputError& error) {
     return without_folder(error.what());
   }
-  return "no fault";
+  return "no error";
 }
 
 void put(std::string& text, const std::string& name, const std::string& words) {
@@ -53,22 +53,22 @@ TEST(BadModels, GiveTheirSentences) {
     if (entry.is_directory() || entry.path().extension() == ".txt") continue;
     const std::string expected = expected_of(entry.path());
     EXPECT_FALSE(expected.empty()) << entry.path() << " has no file of its sentences";
-    EXPECT_EQ(faults_of(entry.path().string()), expected) << entry.path();
+    EXPECT_EQ(errors_of(entry.path().string()), expected) << entry.path();
     ++models;
   }
   EXPECT_GE(models, 40);
 }
 
 TEST(BadModels, FilesThatCannotBeRead) {
-  EXPECT_EQ(faults_of(folder + "nowhere.yaml"), "nowhere.yaml: the file does not exist");
-  EXPECT_EQ(faults_of(folder + "parts"), "parts: this is a folder, not a file");
-  EXPECT_EQ(faults_of("/dev/null"), "/dev/null: this is not a regular file");
+  EXPECT_EQ(errors_of(folder + "nowhere.yaml"), "nowhere.yaml: the file does not exist");
+  EXPECT_EQ(errors_of(folder + "parts"), "parts: this is a folder, not a file");
+  EXPECT_EQ(errors_of("/dev/null"), "/dev/null: this is not a regular file");
 }
 
 TEST(BadModels, Overrides) {
   const std::string iltis = FLOATFRAME_EXAMPLES "/iltis/iltis.yaml";
   const auto tail = [&](const std::vector<ParameterOverride>& o) {
-    const std::string text = faults_of(iltis, o);
+    const std::string text = errors_of(iltis, o);
     return text.compare(0, iltis.size(), iltis) == 0 ? text.substr(iltis.size()) : text;
   };
   EXPECT_EQ(tail({{"spead", "3"}}), ": --set: unknown parameter 'spead', did you mean 'speed'?");
@@ -77,9 +77,9 @@ TEST(BadModels, Overrides) {
   EXPECT_EQ(tail({{"speed", "${1/0}"}}), ": --set speed=${1/0}: division by zero");
 }
 
-TEST(BadModels, SameFaultsEveryTime) {
-  const std::string first = faults_of(folder + "many.yaml");
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(faults_of(folder + "many.yaml"), first);
+TEST(BadModels, SameErrorsEveryTime) {
+  const std::string first = errors_of(folder + "many.yaml");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(errors_of(folder + "many.yaml"), first);
 }
 
 }  // namespace

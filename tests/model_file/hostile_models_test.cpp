@@ -15,13 +15,13 @@ const std::string body = "bodies:\n  a: {rigid: {mass: 1}, position: [0, 0, 0]}\
 class Hostile : public testing::Test {
  protected:
   /// The sentences about model.yaml with `text`, without the folder.
-  std::vector<std::string> faults(const std::string& text) {
+  std::vector<std::string> errors(const std::string& text) {
     const std::string file = folder_.write("model.yaml", "floatframe: 1\n" + text);
     std::vector<std::string> out;
     try {
       read_model(file);
     } catch (const InputError& error) {
-      for (const InputFault& f : error.faults()) out.push_back(folder_.without(f.text()));
+      for (const ErrorEntry& f : error.errors()) out.push_back(folder_.without(f.text()));
     }
     return out;
   }
@@ -43,7 +43,7 @@ TEST_F(Hostile, ParametersThatDouble) {
     const std::string before = "${a" + std::to_string(k - 1) + "}";
     text += "  a" + std::to_string(k) + ": " + before + before + "\n";
   }
-  const Sentences found = faults(text + body);
+  const Sentences found = errors(text + body);
   ASSERT_EQ(found.size(), 3u);  // what follows from the first begins with a short text again
   EXPECT_EQ(found[0],
             "model.yaml:13:8: parameters.a10: in ${a9}${a9}: the text is longer than 16384 "
@@ -53,29 +53,29 @@ TEST_F(Hostile, ParametersThatDouble) {
 TEST_F(Hostile, ManyLongParameters) {
   const std::string text = "parameters:\n  long: " + std::string(8000, 'x') + "\n" +
                            many(100000, "  a", ": ${long}${long}\n");
-  EXPECT_EQ(faults(text + body),
+  EXPECT_EQ(errors(text + body),
             Sentences{"model.yaml:253:9: parameters.a249: found more than 4000000 characters in "
                       "the texts of all parameters, expected fewer"});
 }
 
 TEST_F(Hostile, LongTextsAndNames) {
-  EXPECT_EQ(faults("name: " + std::string(20000, 'x') + "\n" + body),
+  EXPECT_EQ(errors("name: " + std::string(20000, 'x') + "\n" + body),
             Sentences{"model.yaml:2:7: found a text of 20000 characters, expected at most 16384"});
-  EXPECT_EQ(faults("points: {" + std::string(101, 'p') + ": [0, 0, 0]}\n" + body),
+  EXPECT_EQ(errors("points: {" + std::string(101, 'p') + ": [0, 0, 0]}\n" + body),
             Sentences{"model.yaml:2:10: points." + std::string(40, 'p') +
                       "...: found a name of 101 characters, expected at most 100"});
 }
 
 TEST_F(Hostile, UnknownKeysAreCounted) {
   for (const int n : {21, 200000}) {
-    const Sentences found = faults(body + many(n, "key", ": 1\n"));
+    const Sentences found = errors(body + many(n, "key", ": 1\n"));
     ASSERT_EQ(found.size(), 21u) << n;
     EXPECT_EQ(found[0], "model.yaml:4:1: unknown key 'key0'");
     EXPECT_EQ(found[19], "model.yaml:23:1: unknown key 'key19'");
     EXPECT_EQ(found[20], "model.yaml:24:1: ... and " + std::to_string(n - 20) +
                              (n == 21 ? " more unknown key" : " more unknown keys"));
   }
-  const Sentences inside = faults("bodies:\n  a:\n    rigid: {mass: 1}\n    position: [0, 0, 0]\n" +
+  const Sentences inside = errors("bodies:\n  a:\n    rigid: {mass: 1}\n    position: [0, 0, 0]\n" +
                                   many(100000, "    mas", ": 1\n"));
   ASSERT_EQ(inside.size(), 21u);
   EXPECT_EQ(inside[0], "model.yaml:6:5: bodies.a: unknown key 'mas0', did you mean 'rigid.mass'?");
@@ -87,7 +87,7 @@ TEST_F(Hostile, UnknownReferencesAreCounted) {
   for (int k = 0; k < 15000; ++k)
     text += "  j" + std::to_string(k) + ": {type: spherical, child: b" + std::to_string(k) +
             ", at: [0, 0, 0]}\n";
-  const Sentences found = faults(text);
+  const Sentences found = errors(text);
   ASSERT_EQ(found.size(), 21u);
   EXPECT_EQ(found[0], "model.yaml:5:32: joints.j0.child: unknown body 'b0'");
   EXPECT_EQ(found[20], "model.yaml:25:33: ... and 14980 more of this kind");
@@ -97,7 +97,7 @@ TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
   const std::string bodies =
       "bodies:\n" + many(15000, "  body", ": {rigid: {mass: 1}, position: [0, 0, 0]}\n");
   for (const bool offset : {true, false}) {
-    const Sentences found = faults(
+    const Sentences found = errors(
         bodies +
         (offset ? "simulation: {start: {equilibrium: true, offset: {" : "initial: {amplitudes: {") +
         many(100000, "\n  bady", offset ? ": [0, 0, 0]," : ": [0],") + "}}" +
@@ -111,7 +111,7 @@ TEST_F(Hostile, UnknownBodiesOfStartValuesAreCounted) {
 }
 
 TEST_F(Hostile, UnknownParametersAreCounted) {
-  const Sentences found = faults("parameters:\n" + many(30000, "  known", ": 1\n") + body +
+  const Sentences found = errors("parameters:\n" + many(30000, "  known", ": 1\n") + body +
                                  "points:\n" + many(30000, "  p", ": [0, 0, \"${other}\"]\n"));
   ASSERT_EQ(found.size(), 21u);
   EXPECT_EQ(found[20], "model.yaml:30026:15: ... and 29980 more of this kind");
@@ -120,19 +120,19 @@ TEST_F(Hostile, UnknownParametersAreCounted) {
 TEST_F(Hostile, DuplicatesAreCounted) {
   std::string text = body + "points:\n";
   for (int k = 0; k < 50000; ++k) text += "  p: [0, 0, 0]\n";
-  const Sentences found = faults(text);
+  const Sentences found = errors(text);
   ASSERT_EQ(found.size(), 21u);
   EXPECT_EQ(found[0], "model.yaml:6:3: duplicate key 'p', first used in line 5");
   EXPECT_EQ(found[20], "model.yaml:26:3: ... and 49979 more of this kind");
 }
 
-TEST_F(Hostile, ManyKindsOfFaults) {
+TEST_F(Hostile, ManyKindsOfErrors) {
   std::string text = "bodies:\n";
   for (int k = 0; k < 2000; ++k)
     text += "  b" + std::to_string(k) + ": {rigid: {mass: x" + std::string(1 + k % 97, 'y') +
             std::string(1 + k % 89, 'z') + "}, position: [0, 0, 0], when: ${" +
             std::string(1 + k % 13, 'q') + "}}\n";
-  const Sentences found = faults(text);
+  const Sentences found = errors(text);
   EXPECT_LE(found.size(), 502u);
   EXPECT_GE(found.size(), 20u);
 }
@@ -140,13 +140,13 @@ TEST_F(Hostile, ManyKindsOfFaults) {
 TEST_F(Hostile, NestingAndBrackets) {
   const Sentences deep{
       "model.yaml:2:53: lists and maps are nested too deeply, at most 50 levels are allowed"};
-  EXPECT_EQ(faults("a: " + std::string(4000000, '[') + "\n"), deep);
-  EXPECT_EQ(faults("a: " + std::string(4000000, '{') + "\n"), deep);
+  EXPECT_EQ(errors("a: " + std::string(4000000, '[') + "\n"), deep);
+  EXPECT_EQ(errors("a: " + std::string(4000000, '{') + "\n"), deep);
   std::string dollars = "a: ";
   for (int k = 0; k < 200000; ++k) dollars += "$ ${x";
   dollars += "\n";
-  EXPECT_FALSE(faults(dollars + body).empty());
-  EXPECT_FALSE(faults("parameters: {a: \"${" + std::string(8000, '(') + "1" +
+  EXPECT_FALSE(errors(dollars + body).empty());
+  EXPECT_FALSE(errors("parameters: {a: \"${" + std::string(8000, '(') + "1" +
                       std::string(8000, ')') + "}\"}\n" + body)
                    .empty());
 }
@@ -154,20 +154,20 @@ TEST_F(Hostile, NestingAndBrackets) {
 TEST_F(Hostile, ManyValues) {
   std::string list = "points: {p: [";
   for (int k = 0; k < 1000001; ++k) list += "0,";
-  EXPECT_EQ(faults(body + list + "0]}\n"),
+  EXPECT_EQ(errors(body + list + "0]}\n"),
             Sentences{"model.yaml:4:1999974: found more than 1000000 values in one file, expected "
                       "fewer (tables may stand in CSV files)"});
 }
 
 TEST_F(Hostile, ManyEntities) {
   const Sentences found =
-      faults("bodies:\n" + many(20001, "  b", ": {rigid: {mass: 1}, position: [0, 0, 0]}\n"));
+      errors("bodies:\n" + many(20001, "  b", ": {rigid: {mass: 1}, position: [0, 0, 0]}\n"));
   EXPECT_EQ(found, Sentences{"model.yaml:20003:3: bodies.b20000: found more than 20000 bodies, "
                              "expected fewer"});
 }
 
 TEST_F(Hostile, ManyColumnsAndElements) {
-  const Sentences columns = faults(body + "outputs:\n" + many(7000, "  o", ": {position: a}\n"));
+  const Sentences columns = errors(body + "outputs:\n" + many(7000, "  o", ": {position: a}\n"));
   EXPECT_EQ(columns, Sentences{"model.yaml:6671:3: outputs: found more than 20000 columns, "
                                "expected fewer"});
   std::string text = "points: {p: [0, 0, 0], q: [1, 0, 0]}\nbodies:\n";
@@ -176,7 +176,7 @@ TEST_F(Hostile, ManyColumnsAndElements) {
             ": {flexible: {material: {young: 1, poisson: 0, density: 1}, clamped: [p], "
             "normal_modes: 1, bars: {b: {from: p, to: q, elements: 10000, section: {round: "
             "0.1}}}}}\n";
-  const Sentences elements = faults(text);
+  const Sentences elements = errors(text);
   ASSERT_FALSE(elements.empty());
   EXPECT_NE(elements[0].find("found more than 1000000 elements in all bars, expected fewer"),
             std::string::npos)
@@ -191,7 +191,7 @@ TEST_F(Hostile, SubsystemsThatMultiply) {
                                                            next + "}, r: {file: " + next + "}}\n");
   }
   folder_.write("sub31.yaml", "floatframe: 1\n" + body);
-  const Sentences found = faults("subsystems: {l: {file: sub1.yaml}, r: {file: sub1.yaml}}\n");
+  const Sentences found = errors("subsystems: {l: {file: sub1.yaml}, r: {file: sub1.yaml}}\n");
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].find("found more than 1000 subsystems, expected fewer"), std::string::npos);
 }
@@ -199,7 +199,7 @@ TEST_F(Hostile, SubsystemsThatMultiply) {
 TEST_F(Hostile, LargeSubsystemsUsedOften) {
   folder_.write("part.yaml",
                 "floatframe: 1\npoints:\n" + many(20000, "  p", ": [0, 0, 0]\n") + body);
-  const Sentences found = faults("subsystems:\n" + many(900, "  s", ": {file: part.yaml}\n"));
+  const Sentences found = errors("subsystems:\n" + many(900, "  s", ": {file: part.yaml}\n"));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0],
             "part.yaml:1:1: found more than 2000000 values in all files together (each counted as "
@@ -207,7 +207,7 @@ TEST_F(Hostile, LargeSubsystemsUsedOften) {
 }
 
 TEST_F(Hostile, ControlCharactersAreRefusedAndWrittenOut) {
-  const Sentences found = faults(body +
+  const Sentences found = errors(body +
                                  "outputs:\n"
                                  "  \"a\\0b\": {position: a}\n"
                                  "  \"c\\e[31m\": {position: a}\n"
@@ -227,7 +227,7 @@ TEST_F(Hostile, ControlCharactersAreRefusedAndWrittenOut) {
 }
 
 TEST_F(Hostile, AColumnMayNotBeCalledTime) {
-  EXPECT_EQ(faults(body + "outputs:\n  time: {position: a, axis: x}\n"),
+  EXPECT_EQ(errors(body + "outputs:\n  time: {position: a, axis: x}\n"),
             Sentences{"model.yaml:5:3: outputs: found the column 'time', the name of the first "
                       "column, expected another"});
 }

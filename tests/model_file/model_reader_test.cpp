@@ -224,17 +224,17 @@ TEST(Overrides, OfTextsAreTakenAsTheyAreWritten) {
   EXPECT_EQ(name("\"10\""), "10");
   EXPECT_EQ(name("${'a'}"), "a");
   for (const char* value : {"null", "~", "Null"}) EXPECT_EQ(name(value), value);
-  const auto fault = [&](const ParameterOverride& o) {
+  const auto error = [&](const ParameterOverride& o) {
     return test::error_of([&] { read_model(file, {o}); }).substr(file.size() + 2);
   };
-  EXPECT_EQ(fault({"n", "true"}), "--set.n: found true, expected a number");
-  EXPECT_EQ(fault({"n", "'4'"}), "--set.n: found '4', expected a number");
-  EXPECT_EQ(fault({"n", "010"}), "--set n=010: found 010 (a number must not start with 0)");
-  EXPECT_EQ(fault({"on", "yes"}), "--set on=yes: found yes (write true)");
-  EXPECT_EQ(fault({"on", "1"}), "--set.on: found 1, expected true or false");
-  EXPECT_EQ(fault({"name", ""}), "--set name=: found nothing, expected a value");
-  EXPECT_EQ(fault({"n", "null"}), "--set n=null: found null (this is no value)");
-  EXPECT_EQ(fault({"nam", "x"}), "--set: unknown parameter 'nam', did you mean 'name'?");
+  EXPECT_EQ(error({"n", "true"}), "--set.n: found true, expected a number");
+  EXPECT_EQ(error({"n", "'4'"}), "--set.n: found '4', expected a number");
+  EXPECT_EQ(error({"n", "010"}), "--set n=010: found 010 (a number must not start with 0)");
+  EXPECT_EQ(error({"on", "yes"}), "--set on=yes: found yes (write true)");
+  EXPECT_EQ(error({"on", "1"}), "--set.on: found 1, expected true or false");
+  EXPECT_EQ(error({"name", ""}), "--set name=: found nothing, expected a value");
+  EXPECT_EQ(error({"n", "null"}), "--set n=null: found null (this is no value)");
+  EXPECT_EQ(error({"nam", "x"}), "--set: unknown parameter 'nam', did you mean 'name'?");
 }
 
 TEST(Parameters, MayTakeThePlaceOfAConstant) {

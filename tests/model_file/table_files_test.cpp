@@ -1,5 +1,5 @@
 // Tables from CSV files: motions, laws and roads equal those of the same numbers in the model file;
-// faults have the place in the CSV file; sweeps and caches know that it was read.
+// errors have the place in the CSV file; sweeps and caches know that it was read.
 #include <gtest/gtest.h>
 
 #include "floatframe/core/content_hash.hpp"
@@ -26,11 +26,11 @@ class TableFiles : public testing::Test {
             spring + ", interpolation: cubic}}\nroads: {r: {profile: " + road + "}}\n");
     return read_model(folder_.file("model.yaml"), {}, used);
   }
-  std::string faults(const std::string& table) {
+  std::string errors(const std::string& table) {
     folder_.write("t.csv", table);
-    return fault_of_motion("t.csv");
+    return error_of_motion("t.csv");
   }
-  std::string fault_of_motion(const std::string& name) {
+  std::string error_of_motion(const std::string& name) {
     return folder_.without(test::error_of([&] { read(name, "[[0, 0], [1, 1]]", "[[0, 0]]"); }));
   }
 
@@ -67,43 +67,43 @@ TEST_F(TableFiles, AreAmongTheFilesOfTheFingerprint) {
   EXPECT_NE(before.files.at(folder_.file("t.csv")), after.files.at(folder_.file("t.csv")));
 }
 
-TEST_F(TableFiles, FaultsHaveTheirPlace) {
-  EXPECT_EQ(faults("t,f\n0,0\n1,x\n"),
+TEST_F(TableFiles, ErrorsHaveTheirPlace) {
+  EXPECT_EQ(errors("t,f\n0,0\n1,x\n"),
             "t.csv:3:1: found 'x', expected a number with a decimal point");
-  EXPECT_EQ(faults("0;0\n0,5;1\n"),
+  EXPECT_EQ(errors("0;0\n0,5;1\n"),
             "t.csv:2:1: found '0,5', expected a number with a decimal point");
-  EXPECT_EQ(faults("t,f\nu,v\n0,0\n1,1\n"),
+  EXPECT_EQ(errors("t,f\nu,v\n0,0\n1,1\n"),
             "t.csv:2:1: found 'u', expected a number with a decimal point");
-  EXPECT_EQ(faults("0,0\n1,nan\n"),
+  EXPECT_EQ(errors("0,0\n1,nan\n"),
             "t.csv:2:1: found 'nan', expected a number with a decimal point (numbers must be "
             "finite)");
-  EXPECT_EQ(faults("0,0,0\n1,1,1\n"), "t.csv:1:1: found 3 columns, expected two");
-  EXPECT_EQ(faults("t,1\n1,1\n2,2\n"),
+  EXPECT_EQ(errors("0,0,0\n1,1,1\n"), "t.csv:1:1: found 3 columns, expected two");
+  EXPECT_EQ(errors("t,1\n1,1\n2,2\n"),
             "t.csv:1:1: found 't', expected a number with a decimal point, or names in both "
             "columns of the first line");
-  EXPECT_EQ(faults("0;0,5\n1;1\n"),
+  EXPECT_EQ(errors("0;0,5\n1;1\n"),
             "t.csv:1:1: found '0,5', expected a number with a decimal point, or names in both "
             "columns of the first line");
-  EXPECT_EQ(faults("0,0\n2,1\n\n1,1\n"),
+  EXPECT_EQ(errors("0,0\n2,1\n\n1,1\n"),
             "t.csv:4:1: found x = 1 after 2, expected ascending x [s]");
   EXPECT_EQ(
-      faults("# nothing\nt,f\n0,0\n"),
+      errors("# nothing\nt,f\n0,0\n"),
       "model.yaml:3:81: joints.j.motion.table: found 1 row in 't.csv', expected a table of at "
       "least 2 points");
-  EXPECT_EQ(faults(""),
+  EXPECT_EQ(errors(""),
             "model.yaml:3:81: joints.j.motion.table: found 0 rows in 't.csv', expected a table of "
             "at least 2 points");
 }
 
 TEST_F(TableFiles, OnlyFilesThatAreThereAndRegular) {
   std::filesystem::create_directory(folder_ / "data");
-  EXPECT_NE(fault_of_motion("missing.csv").find("the file does not exist"), std::string::npos);
-  EXPECT_NE(fault_of_motion("data").find("this is a folder, not a file"), std::string::npos);
-  EXPECT_NE(fault_of_motion("/dev/zero").find("this is not a regular file"), std::string::npos);
-  EXPECT_NE(fault_of_motion("3").find(
+  EXPECT_NE(error_of_motion("missing.csv").find("the file does not exist"), std::string::npos);
+  EXPECT_NE(error_of_motion("data").find("this is a folder, not a file"), std::string::npos);
+  EXPECT_NE(error_of_motion("/dev/zero").find("this is not a regular file"), std::string::npos);
+  EXPECT_NE(error_of_motion("3").find(
                 "found 3, expected a list of points [x, f] or the name of a CSV file"),
             std::string::npos);
-  EXPECT_NE(fault_of_motion("{a: 1}").find(
+  EXPECT_NE(error_of_motion("{a: 1}").find(
                 "found a map, expected a list of points [x, f] or the name of a "
                 "CSV file"),
             std::string::npos);

@@ -21,7 +21,7 @@ class CheckIncludes(unittest.TestCase):
     def test_allowed_arrows_pass(self):
         self.assertEqual(self.check({"inertia/a.hpp": '#include "floatframe/body/b.hpp"\n#include <vector>\n'}), (0, ""))
 
-    def test_an_arrow_that_points_back_is_a_fault_with_its_line(self):
+    def test_an_arrow_that_points_back_is_an_error_with_its_line(self):
         code, text = self.check({"model/a.hpp": '#pragma once\n#include "floatframe/integrator/b.hpp"\n'})
         self.assertEqual(code, 1)
         self.assertTrue(text.startswith("model/a.hpp:2: 'model' must not use 'integrator'; it may use "), text)
@@ -43,7 +43,7 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual((code, text), (1, "sweep/a.cpp:1: 'sweep' must not use the public header model.hpp; "
                                            "include the header of its room\n"))
 
-    def test_a_folder_that_is_no_room_is_a_fault(self):
+    def test_a_folder_that_is_no_room_is_an_error(self):
         code, text = self.check({"util/a.hpp": ""})
         self.assertEqual(code, 1)
         self.assertIn("the folder 'util' is not a room", text)

@@ -78,8 +78,8 @@ TEST(RealTimeOptions, EachHasItsSentence) {
       run_real_time(model, simulation, options, &port);
       ADD_FAILURE() << "no error: " << c.sentence;
     } catch (const InputError& error) {
-      ASSERT_EQ(error.faults().size(), 1u) << error.what();
-      EXPECT_EQ(error.faults()[0].message.find(c.sentence), 0u) << error.what();
+      ASSERT_EQ(error.errors().size(), 1u) << error.what();
+      EXPECT_EQ(error.errors()[0].message.find(c.sentence), 0u) << error.what();
     }
   }
 }
@@ -91,7 +91,7 @@ TEST(RealTimeOptions, AllThatIsWrongIsSaid) {
     require_valid(options, SimulationDescription{});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.faults().size(), 2u) << error.what();
+    EXPECT_EQ(error.errors().size(), 2u) << error.what();
   }
 }
 

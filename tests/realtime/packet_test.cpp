@@ -42,7 +42,7 @@ TEST(Packet, ComesBack) {
   PacketHeader h;
   double values[2] = {};
   ASSERT_EQ(decode_packet(bytes_of(example), PacketKind::inputs, layout, h, values),
-            PacketFault::none);
+            PacketError::none);
   EXPECT_EQ(h.sequence, 42u);
   EXPECT_EQ(h.time, 1.5);
   EXPECT_EQ(h.flags, 1u);
@@ -57,12 +57,12 @@ TEST(Packet, EveryOtherByteOfTheHeaderIsRefused) {
     bytes[i] ^= std::byte{0x40};
     PacketHeader h;
     double values[2] = {7.0, 7.0};
-    const PacketFault fault = decode_packet(bytes, PacketKind::inputs, layout, h, values);
-    const PacketFault expected = i < 8                           ? PacketFault::foreign
-                                 : i < 16 || (i >= 32 && i < 36) ? PacketFault::layout
-                                                                 : PacketFault::none;
-    EXPECT_EQ(fault, expected) << i;
-    if (expected != PacketFault::none) {
+    const PacketError error = decode_packet(bytes, PacketKind::inputs, layout, h, values);
+    const PacketError expected = i < 8                           ? PacketError::foreign
+                                 : i < 16 || (i >= 32 && i < 36) ? PacketError::layout
+                                                                 : PacketError::none;
+    EXPECT_EQ(error, expected) << i;
+    if (expected != PacketError::none) {
       EXPECT_EQ(values[0], 7.0);
     }
   }
@@ -74,11 +74,11 @@ TEST(Packet, EveryOtherLengthIsRefused) {
   for (std::size_t n = 0; n < 200; ++n) {
     PacketHeader h;
     double values[2];
-    const PacketFault fault =
+    const PacketError error =
         decode_packet(std::span(bytes).first(n), PacketKind::inputs, layout, h, values);
-    EXPECT_EQ(fault, n < packet_header_size ? PacketFault::foreign
-                     : n == packet_size(2)  ? PacketFault::none
-                                            : PacketFault::layout)
+    EXPECT_EQ(error, n < packet_header_size ? PacketError::foreign
+                     : n == packet_size(2)  ? PacketError::none
+                                            : PacketError::layout)
         << n;
   }
 }

@@ -232,7 +232,7 @@ TEST(UdpPort, SendsOutputs) {
   double value = 0.0;
   ASSERT_EQ(decode_packet(std::span(bytes).first(n), PacketKind::outputs,
                           output_layout(loop.model).hash(), h, std::span(&value, 1)),
-            PacketFault::none);
+            PacketError::none);
   EXPECT_EQ(h.sequence, 7u);
   EXPECT_EQ(h.time, 0.25);
   EXPECT_EQ(h.flags, last_packet_flag);

@@ -110,7 +110,7 @@ TEST(ManyElements, LongBeamsAreExact) {
 }
 
 /// Unlike elements, so that none can be put together.
-std::string fault_of_unlike(int elements) {
+std::string error_of_unlike(int elements) {
   FeModel model = build_bar_frame(rod(elements));
   const BeamSection s = model.sections[0];
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
@@ -122,12 +122,12 @@ std::string fault_of_unlike(int elements) {
 }
 
 TEST(ManyElements, IsRefusedWhereDigitsAreLost) {
-  EXPECT_EQ(fault_of_unlike(150), "no error");
-  const std::string lost = fault_of_unlike(6000);
+  EXPECT_EQ(error_of_unlike(150), "no error");
+  const std::string lost = error_of_unlike(6000);
   EXPECT_TRUE(lost.starts_with("the 6000 elements are more than the digits of a double carry: "))
       << lost;
   EXPECT_NE(lost.find("use fewer elements"), std::string::npos) << lost;
-  const std::string singular = fault_of_unlike(20000);
+  const std::string singular = error_of_unlike(20000);
   EXPECT_NE(singular.find("digits of a double carry"), std::string::npos) << singular;
 }
 

@@ -1,5 +1,5 @@
 // Craig-Bampton modes: rebuilt reference bodies, analytic shapes as limits, options, and every
-// fault a user can make.
+// error a user can make.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -260,7 +260,7 @@ TEST(Reduction, GivenBasisAndMassModels) {
   EXPECT_FALSE(reduce(model, options).projection->six_dof());
 }
 
-TEST(ReductionFaults, EachHasItsSentence) {
+TEST(ReductionErrors, EachHasItsSentence) {
   const FeModel arm = build_bar_frame(a_arm_frame(5));
   const auto with = [&](auto change) {
     return error_of([&] {

@@ -1,4 +1,4 @@
-// Writers of results: CSV round trip, JSON keys and words, files that appear whole or not at all.
+// Writers of results: CSV round trip, JSON keys and words, files that are written atomically.
 #include <gtest/gtest.h>
 
 #include <cmath>

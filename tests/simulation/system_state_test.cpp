@@ -79,7 +79,7 @@ RunResult run_keeping(const Model& model, const SimulationDescription& o) {
   return run(model, o, options);
 }
 
-std::string fault_of(const std::function<void()>& action) {
+std::string error_of(const std::function<void()>& action) {
   try {
     action();
   } catch (const InputError& error) {
@@ -87,7 +87,7 @@ std::string fault_of(const std::function<void()>& action) {
   } catch (const RunError& error) {
     return error.what();
   }
-  return "no fault";
+  return "no error";
 }
 
 TEST(SystemState, FilesHoldEveryBit) {
@@ -235,10 +235,10 @@ TEST(SystemState, OffsetsFromTheEquilibrium) {
     // What the joint does not let move is turned about it: the wheel's origin goes on its circle.
     o.offset = {{"wheel", {Vec3(0, 0, 0.05), std::nullopt}},
                 {"chassis", {Vec3::Zero(), Vec3::Zero()}}};
-    EXPECT_NE(fault_of([&] { run(model, o); }), "no fault");
+    EXPECT_NE(error_of([&] { run(model, o); }), "no error");
   }
   o.offset = {{"nobody", {Vec3(0, 0, 0.05), std::nullopt}}};
-  EXPECT_EQ(fault_of([&] { run(model, o); }),
+  EXPECT_EQ(error_of([&] { run(model, o); }),
             "simulation.start.offset.nobody: unknown body 'nobody'");
 }
 
@@ -258,7 +258,7 @@ TEST(SystemState, OffsetsFromAState) {
   EXPECT_NEAR(moved.at(0, 0), 0.4, 1e-15);
   // A driven crank stays where its motion has it.
   o.offset = {{"crank", {Vec3(0, 0.1, 0), std::nullopt}}};
-  const std::string text = fault_of([&] { run(model, o); });
+  const std::string text = error_of([&] { run(model, o); });
   const std::string expected =
       "the offset at the start cannot be: with loops closed body 'crank' stays ";
   EXPECT_EQ(text.substr(0, expected.size()), expected);
@@ -274,11 +274,11 @@ TEST(SystemState, OfAnotherModel) {
     SimulationDescription o = model.simulation;
     o.start = Start::state;
     o.state = s;
-    std::string text = fault_of([&] { run(model, o); });
+    std::string text = error_of([&] { run(model, o); });
     const std::size_t end = text.find(" (the state was taken of");
     return end == std::string::npos ? text : text.substr(0, end);
   };
-  EXPECT_EQ(start([](SystemState&) {}), "no fault");
+  EXPECT_EQ(start([](SystemState&) {}), "no error");
   EXPECT_EQ(start([](SystemState& s) { s.joints.pop_back(); }),
             "s.json: found joint 'arm' nowhere in the state, expected it once");
   EXPECT_EQ(start([](SystemState& s) { s.joints.push_back(s.joints[0]); }),
@@ -298,8 +298,8 @@ TEST(SystemState, OfAnotherModel) {
             "s.json: found a time that is not finite");
   const std::string late = start([](SystemState& s) { s.time = -1e17; });
   EXPECT_EQ(late.substr(0, late.find(" of ")), "s.json: found the time -1e+17 s, at which steps");
-  EXPECT_EQ(start([&](SystemState& s) { s.time = 0.9e9 * model.simulation.step; }), "no fault");
-  EXPECT_NE(start([&](SystemState& s) { s.time = 1.1e9 * model.simulation.step; }), "no fault");
+  EXPECT_EQ(start([&](SystemState& s) { s.time = 0.9e9 * model.simulation.step; }), "no error");
+  EXPECT_NE(start([&](SystemState& s) { s.time = 1.1e9 * model.simulation.step; }), "no error");
   EXPECT_EQ(start([](SystemState& s) { s.bodies[1].amplitudes = VecX::Zero(2); }),
             "s.json: found 2 amplitudes and 0 rates of body 'wheel' in the state, expected 0");
   const std::string moved = start([](SystemState& s) { s.bodies[0].position.z() += 0.5; });
@@ -311,8 +311,8 @@ TEST(SystemState, DamagedFiles) {
   const auto read = [](const std::string& text) {
     const test::TemporaryFolder folder;
     const std::string file = folder.write("damaged.json", text) + ": ";
-    const std::string fault = fault_of([&] { read_state(folder.file("damaged.json")); });
-    return fault.starts_with(file) ? fault.substr(file.size()) : fault;
+    const std::string error = error_of([&] { read_state(folder.file("damaged.json")); });
+    return error.starts_with(file) ? error.substr(file.size()) : error;
   };
   EXPECT_EQ(read(""), "this is not a state file (damaged, or not JSON)");
   EXPECT_EQ(read("{\"floatframe_state\": 1, "), "this is not a state file (damaged, or not JSON)");

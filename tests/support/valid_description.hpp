@@ -174,13 +174,13 @@ inline ModelDescription valid_description() {
   return d;
 }
 
-inline std::string faults(const ModelDescription& d) {
+inline std::string errors(const ModelDescription& d) {
   try {
     build_model(d);
   } catch (const InputError& error) {
     return error.what();
   }
-  return "no fault";
+  return "no error";
 }
 
 template <class T>
@@ -205,7 +205,7 @@ inline void check(const std::vector<DescriptionCase>& cases) {
   for (const DescriptionCase& c : cases) {
     ModelDescription d = valid_description();
     c.change(d);
-    EXPECT_EQ(faults(d), c.expected);
+    EXPECT_EQ(errors(d), c.expected);
   }
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-std::string fault_of(const std::vector<std::string>& variations) {
+std::string error_of(const std::vector<std::string>& variations) {
   return test::error_of([&] { grid_plan(variations); });
 }
 
@@ -47,7 +47,7 @@ TEST(GridPlan, LogarithmicRangesHaveEqualRatios) {
   EXPECT_EQ(std::stod(plan.runs.back()[0]), 1e6);
 }
 
-TEST(GridPlan, FaultsAreOneSentence) {
+TEST(GridPlan, ErrorsAreOneSentence) {
   for (const auto& [variation, sentence] : std::vector<std::pair<std::string, std::string>>{
            {"speed", "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C"},
            {"=1,2", "expected NAME=LO:HI:N, NAME=LO:HI:N:log or NAME=A,B,C"},
@@ -62,16 +62,16 @@ TEST(GridPlan, FaultsAreOneSentence) {
            {"a=-1:2:3:log", "equal ratios need two ends of the same sign, neither of them zero"},
            {"a=1,,2", "found nothing, expected a value"},
            {"a=", "found nothing, expected a value"}})
-    EXPECT_EQ(fault_of({variation}), "--vary " + variation + ": " + sentence);
-  EXPECT_EQ(fault_of({"a=1,2", "a=3,4"}), "--vary: 'a' is varied twice");
-  EXPECT_EQ(fault_of({"a=1:2:2000", "b=1:2:2000"}),
+    EXPECT_EQ(error_of({variation}), "--vary " + variation + ": " + sentence);
+  EXPECT_EQ(error_of({"a=1,2", "a=3,4"}), "--vary: 'a' is varied twice");
+  EXPECT_EQ(error_of({"a=1:2:2000", "b=1:2:2000"}),
             "--vary: found 4e+06 combinations, expected at most 1000000");
 }
 
 class TablePlan : public testing::Test {
  protected:
   std::string write(const std::string& text) { return folder_.write("plan.csv", text); }
-  std::string fault_of_table(const std::string& text) {
+  std::string error_of_table(const std::string& text) {
     const std::string path = write(text);
     const std::string message = test::error_of([&] { table_plan(path); });
     return message.substr(message.find(path) + path.size());
@@ -87,17 +87,17 @@ TEST_F(TablePlan, OneRunALine) {
   EXPECT_EQ(plan.origins[1].substr(plan.origins[1].rfind(':')), ":4");
 }
 
-TEST_F(TablePlan, FaultsNameThePlace) {
-  EXPECT_EQ(fault_of_table(""), ":1:1: expected a line of names and at least one line of values");
-  EXPECT_EQ(fault_of_table("a,b\n"),
+TEST_F(TablePlan, ErrorsNameThePlace) {
+  EXPECT_EQ(error_of_table(""), ":1:1: expected a line of names and at least one line of values");
+  EXPECT_EQ(error_of_table("a,b\n"),
             ":1:1: expected a line of names and at least one line of values");
-  EXPECT_EQ(fault_of_table("a,b\n1,2\n1,2,3\n"),
+  EXPECT_EQ(error_of_table("a,b\n1,2\n1,2,3\n"),
             ":3:1: found 3 fields, expected 2: one for each name in the first line");
-  EXPECT_EQ(fault_of_table("a,b\n1, \n"), ":2:4: found nothing, expected a value of 'b'");
-  EXPECT_EQ(fault_of_table("a,b\n1,\"x\n"), ":2:3: a quoted field does not end here");
-  EXPECT_EQ(fault_of_table("a,,b\n1,2,3\n"),
+  EXPECT_EQ(error_of_table("a,b\n1, \n"), ":2:4: found nothing, expected a value of 'b'");
+  EXPECT_EQ(error_of_table("a,b\n1,\"x\n"), ":2:3: a quoted field does not end here");
+  EXPECT_EQ(error_of_table("a,,b\n1,2,3\n"),
             ":1:1: found nothing, expected the name of a parameter");
-  EXPECT_EQ(fault_of_table("a,a\n1,2\n"), ":1:1: 'a' is varied twice");
+  EXPECT_EQ(error_of_table("a,a\n1,2\n"), ":1:1: 'a' is varied twice");
   EXPECT_THROW(table_plan(folder_.file("nowhere.csv")), InputError);
 }
 

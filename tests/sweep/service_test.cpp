@@ -9,9 +9,9 @@ namespace {
 
 ServiceAnswer some_answer() {
   ServiceAnswer answer;
-  answer.kind = ServiceAnswer::Kind::faults;
+  answer.kind = ServiceAnswer::Kind::errors;
   answer.text = std::string("a\0b:3:\n", 7);
-  answer.faults = {{{"file \xff.yaml", 3, 14}, "found 'x'"}, {{}, ""}};
+  answer.errors = {{{"file \xff.yaml", 3, 14}, "found 'x'"}, {{}, ""}};
   answer.files = {{"a.yaml", "0123"}, {"", ""}};
   return answer;
 }
@@ -22,8 +22,8 @@ TEST(ServiceAnswer, ComesBackAsItWas) {
   ASSERT_TRUE(decode(encode(in), out));
   EXPECT_EQ(out.kind, in.kind);
   EXPECT_EQ(out.text, in.text);
-  ASSERT_EQ(out.faults.size(), 2u);
-  EXPECT_EQ(out.faults[0].text(), in.faults[0].text());
+  ASSERT_EQ(out.errors.size(), 2u);
+  EXPECT_EQ(out.errors[0].text(), in.errors[0].text());
   EXPECT_EQ(out.files, in.files);
 }
 

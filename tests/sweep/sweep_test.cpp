@@ -36,7 +36,7 @@ class Sweep : public testing::Test {
   SweepReport run() {
     return run_sweep(options_, stop_, [](const SweepProgress&) {});
   }
-  std::string fault() {
+  std::string error() {
     return test::error_of([&] { run(); });
   }
 
@@ -109,7 +109,7 @@ TEST(SimulationOption, AllNames) {
   EXPECT_EQ(set_simulation_option(s, "step", "0"), "found '0', expected a positive number [s]");
   s.step = 1e-12;
   s.duration = 1.0;
-  EXPECT_EQ(simulation_fault(s),
+  EXPECT_EQ(simulation_error(s),
             "a duration of 1 s with a step of 1e-12 s takes more than 1e+09 steps");
 }
 
@@ -195,20 +195,20 @@ TEST_F(Sweep, ARunThatTakesTooLongIsARowAndCanBeRepeated) {
 
 TEST_F(Sweep, BadInputIsRefusedBeforeAnythingIsWritten) {
   options_.plan = grid_plan({"mas=1,2"});
-  EXPECT_EQ(fault(), "--vary: 'mas' is neither a parameter of " + options_.model +
+  EXPECT_EQ(error(), "--vary: 'mas' is neither a parameter of " + options_.model +
                          " nor a simulation option, did you mean 'mass'?");
-  options_.plan = grid_plan({"mass=1,x,y", "push=1,2"});  // each fault once
-  EXPECT_EQ(fault(), options_.model + ": --vary.mass: found 'x', expected a number\n" +
+  options_.plan = grid_plan({"mass=1,x,y", "push=1,2"});  // each error once
+  EXPECT_EQ(error(), options_.model + ": --vary.mass: found 'x', expected a number\n" +
                          options_.model + ": --vary.mass: found 'y', expected a number");
   options_.plan = grid_plan({"mass=1,2", "tolerance=0,1e-9"});
-  EXPECT_EQ(fault(), "--vary: tolerance: found '0', expected a number from 1e-15 to 1");
+  EXPECT_EQ(error(), "--vary: tolerance: found '0', expected a number from 1e-15 to 1");
   options_.plan = grid_plan({"mass=1,2"});
   options_.measures = {sweep_measure("tip.x")};
-  EXPECT_EQ(fault(),
+  EXPECT_EQ(error(),
             "--measure: " + options_.model + " has no output 'tip.x', did you mean 'tip.z'?");
   options_.measures.clear();
   options_.fixed = {{"mass", "3"}};
-  EXPECT_EQ(fault(), "'mass' is both fixed and varied");
+  EXPECT_EQ(error(), "'mass' is both fixed and varied");
   EXPECT_FALSE(std::filesystem::exists(options_.folder));
 }
 
@@ -229,7 +229,7 @@ TEST_F(Sweep, ContinuesWhereItWasStopped) {
   EXPECT_EQ(std::count(continued.begin(), continued.end(), '\n'), 7);
 
   folder_.write("pendulum.yaml", std::string(pendulum) + "# changed\n");
-  EXPECT_NE(fault().find("(the file 'pendulum.yaml' has changed)"), std::string::npos) << fault();
+  EXPECT_NE(error().find("(the file 'pendulum.yaml' has changed)"), std::string::npos) << error();
   options_.fresh = true;
   EXPECT_EQ(run().before, 0u);
 }

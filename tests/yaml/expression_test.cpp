@@ -18,7 +18,7 @@ double number(const std::string& text) {
   return std::get<double>(evaluate_expression(text, scope));
 }
 bool truth(const std::string& text) { return std::get<bool>(evaluate_expression(text, scope)); }
-std::string fault(const std::string& text) {
+std::string error(const std::string& text) {
   try {
     evaluate_expression(text, scope);
   } catch (const ExpressionError& error) {
@@ -62,29 +62,29 @@ TEST(Expression, Conditions) {
             "coarse");
 }
 
-TEST(Expression, Faults) {
-  EXPECT_EQ(fault(""), "the expression is empty");
-  EXPECT_EQ(fault("1 +"), "a value is missing at the end");
-  EXPECT_EQ(fault("(1 + 2"), "a ')' is missing");
-  EXPECT_EQ(fault("1 2"), "unexpected '2'");
-  EXPECT_EQ(fault("nee"), "unknown parameter 'nee', did you mean 'ne'?");
-  EXPECT_EQ(fault("and"), "unexpected 'and'");
-  EXPECT_EQ(fault("sqr(2)"), "unknown function 'sqr', did you mean 'sqrt'?");
-  EXPECT_EQ(fault("sqrt(-1)"), "sqrt of -1 is not defined");
-  EXPECT_EQ(fault("log(0)"), "log of 0 is not defined");
-  EXPECT_EQ(fault("asin(2)"), "asin of 2 is not defined");
-  EXPECT_EQ(fault("1 / (ne - 10)"), "division by zero");
-  EXPECT_EQ(fault("10 ^ 400"), "the result is not a finite number");
-  EXPECT_EQ(fault("road + 1"), "'+' needs numbers, found 'stairs'");
-  EXPECT_EQ(fault("flexible * 2"), "'*' needs numbers, found true");
-  EXPECT_EQ(fault("not 3"), "'not' needs true or false, found 3");
-  EXPECT_EQ(fault("road == 3"), "cannot compare a text with a number");
-  EXPECT_EQ(fault("atan2(1)"), "atan2 takes 2 arguments, found 1");
-  EXPECT_EQ(fault("010"), "'010' is not a number (a number must not start with 0)");
-  EXPECT_EQ(fault("0x10"), "'0x10' is not a number (write a decimal number)");
-  EXPECT_EQ(fault("'open"), "a text is not closed");
-  EXPECT_EQ(fault(std::string(100000, '(')), "nested too deeply");
-  EXPECT_EQ(fault(std::string(100000, '-')), "nested too deeply");
+TEST(Expression, Errors) {
+  EXPECT_EQ(error(""), "the expression is empty");
+  EXPECT_EQ(error("1 +"), "a value is missing at the end");
+  EXPECT_EQ(error("(1 + 2"), "a ')' is missing");
+  EXPECT_EQ(error("1 2"), "unexpected '2'");
+  EXPECT_EQ(error("nee"), "unknown parameter 'nee', did you mean 'ne'?");
+  EXPECT_EQ(error("and"), "unexpected 'and'");
+  EXPECT_EQ(error("sqr(2)"), "unknown function 'sqr', did you mean 'sqrt'?");
+  EXPECT_EQ(error("sqrt(-1)"), "sqrt of -1 is not defined");
+  EXPECT_EQ(error("log(0)"), "log of 0 is not defined");
+  EXPECT_EQ(error("asin(2)"), "asin of 2 is not defined");
+  EXPECT_EQ(error("1 / (ne - 10)"), "division by zero");
+  EXPECT_EQ(error("10 ^ 400"), "the result is not a finite number");
+  EXPECT_EQ(error("road + 1"), "'+' needs numbers, found 'stairs'");
+  EXPECT_EQ(error("flexible * 2"), "'*' needs numbers, found true");
+  EXPECT_EQ(error("not 3"), "'not' needs true or false, found 3");
+  EXPECT_EQ(error("road == 3"), "cannot compare a text with a number");
+  EXPECT_EQ(error("atan2(1)"), "atan2 takes 2 arguments, found 1");
+  EXPECT_EQ(error("010"), "'010' is not a number (a number must not start with 0)");
+  EXPECT_EQ(error("0x10"), "'0x10' is not a number (write a decimal number)");
+  EXPECT_EQ(error("'open"), "a text is not closed");
+  EXPECT_EQ(error(std::string(100000, '(')), "nested too deeply");
+  EXPECT_EQ(error(std::string(100000, '-')), "nested too deeply");
 }
 
 TEST(Expression, OnlyWhatIsNeededIsComputed) {
@@ -133,7 +133,7 @@ TEST(Expression, Constants) {
   EXPECT_DOUBLE_EQ(number("3 * g0"), 29.41995);
   // A parameter of the user goes first.
   EXPECT_EQ(std::get<double>(evaluate_expression("2 * mm", {{"mm", 7.0}})), 14.0);
-  EXPECT_EQ(fault("dge"), "unknown parameter 'dge', did you mean 'deg'?");
+  EXPECT_EQ(error("dge"), "unknown parameter 'dge', did you mean 'deg'?");
 }
 
 TEST(Expression, LongTextsAreRefused) {

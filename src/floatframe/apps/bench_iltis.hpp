@@ -47,7 +47,7 @@ struct BenchOptions {
   std::function<void(double)> progress;
 };
 
-/// Throws InputError for a faulty model, RunError when a run fails.
+/// Throws InputError for an invalid model, RunError when a run fails.
 BenchResult bench_iltis(const BenchOptions& options);
 
 /// Tables for the terminal, the paper's figures beside ours.

@@ -16,22 +16,22 @@
 namespace floatframe {
 namespace {
 
-/// One fault per line, as compilers do; the number of faults last.
+/// One error per line, as compilers do; the number of errors last.
 int report(const InputError& error) {
   std::set<std::string> files;
-  for (const InputFault& fault : error.faults()) {
-    if (fault.mark.file.empty() || fault.mark.is_option()) {
-      say(fault.text());
+  for (const ErrorEntry& entry : error.errors()) {
+    if (entry.mark.file.empty() || entry.mark.is_option()) {
+      say(entry.text());
     } else {
-      files.insert(fault.mark.file);
-      say_line(fault.text());
+      files.insert(entry.mark.file);
+      say_line(entry.text());
     }
   }
-  if (error.faults().size() > 1) {
+  if (error.errors().size() > 1) {
     const std::string where = files.empty()       ? "the input"
                               : files.size() == 1 ? *files.begin()
                                                   : plural(static_cast<long>(files.size()), "file");
-    say_line(fmt::format("{} faults in {}", error.count(), where));
+    say_line(fmt::format("{} errors in {}", error.count(), where));
   }
   return exit_code::bad_input;
 }

@@ -1,6 +1,6 @@
 #pragma once
 // The program `floatframe`: `run`, `check`, `statics` and `bench`. Results go to files and standard
-// output, faults to standard error, one per line.
+// output, errors to standard error, one per line.
 
 namespace floatframe {
 

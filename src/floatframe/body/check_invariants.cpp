@@ -31,22 +31,22 @@ class Check {
   Check(const FlexibleBody& body, InvariantSource source)
       : b_(body), v_(body.invariants), nm_(body.modes()), source_(source) {}
 
-  std::vector<InvariantFault> run() {
+  std::vector<InvariantError> run() {
     if (!sizes_fit()) return {};
-    if (!finite()) return faults_;
+    if (!finite()) return errors_;
     mass();
     second_moments();
     modal_mass();
     stiffness();
     damping();
     // The whole only if its parts are right: one cause, one sentence.
-    if (faults_.empty()) together();
-    return faults_;
+    if (errors_.empty()) together();
+    return errors_;
   }
 
  private:
   void add(const std::string& quantity, const std::string& sentence) {
-    faults_.push_back({quantity, sentence});
+    errors_.push_back({quantity, sentence});
   }
 
   bool sizes_fit() const {
@@ -73,7 +73,7 @@ class Check {
     }
     look("K", b_.K);
     look("D", b_.D);
-    return faults_.empty();
+    return errors_.empty();
   }
 
   bool symmetric(const std::string& name, const MatX& m, double scale) {
@@ -119,7 +119,7 @@ class Check {
           add(fmt::format("S{}{}", i + 1, j + 1),
               fmt::format("found another matrix than the transpose of S{}{}, expected the same",
                           j + 1, i + 1));
-    if (!faults_.empty()) return;
+    if (!errors_.empty()) return;
     if (source_ != InvariantSource::parameters && scale == 0.0) {
       add("S11", "found zeros as in S22 and S33, expected modes that move mass");
       return;
@@ -239,12 +239,12 @@ class Check {
   InvariantSource source_;
   MatX M_ff_;
   VecX unit_;
-  std::vector<InvariantFault> faults_;
+  std::vector<InvariantError> errors_;
 };
 
 }  // namespace
 
-std::vector<InvariantFault> check_invariants(const FlexibleBody& body, InvariantSource source) {
+std::vector<InvariantError> check_invariants(const FlexibleBody& body, InvariantSource source) {
   return Check(body, source).run();
 }
 

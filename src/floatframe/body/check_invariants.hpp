@@ -26,7 +26,7 @@ namespace floatframe {
 
 /// One sentence about one quantity: {"P_u", "found ..., expected ..."}. Quantities are those of
 /// docs/body-file.md: m, m_u, P_u, S, S1, S11, K, D.
-struct InvariantFault {
+struct InvariantError {
   std::string quantity, sentence;
 };
 
@@ -38,6 +38,6 @@ enum class InvariantSource {
 };
 
 /// Sizes must fit each other (nothing is checked if they do not). Empty if all is well.
-std::vector<InvariantFault> check_invariants(const FlexibleBody& body, InvariantSource source);
+std::vector<InvariantError> check_invariants(const FlexibleBody& body, InvariantSource source);
 
 }  // namespace floatframe

@@ -3,7 +3,7 @@
 // ways; modes that are as many as these, together with the rigid motions, hold combinations that
 // move no mass: the mass matrix
 //   M = [M_rr G^T; G M_ff]     of the free rigid motions and the modes
-// is singular though every mode alone is sound. Such a model has no answer or any, so it is
+// is singular though every mode alone is valid. Such a model has no answer or any, so it is
 // refused.
 #include "floatframe/body/inertia_invariants.hpp"
 

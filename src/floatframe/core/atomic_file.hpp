@@ -1,5 +1,5 @@
 #pragma once
-// Output files appear whole or not at all: the content goes to a temporary file in the same folder,
+// Output files are written atomically: the content goes to a temporary file in the same folder,
 // which is renamed when it is complete. SIGINT, SIGTERM and SIGHUP wait while a file is written, so
 // no temporary file stays behind.
 #include <string>

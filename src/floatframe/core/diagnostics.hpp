@@ -1,6 +1,6 @@
 #pragma once
-// Faults in a user's input. Load-time code collects every fault and throws one InputError; each
-// fault is one sentence that names the entity, what was found and what was expected, with file,
+// Errors in a user's input. Load-time code collects every error and throws one InputError; each
+// error is one sentence that names the entity, what was found and what was expected, with file,
 // line and column if known.
 #include <cstddef>
 #include <exception>
@@ -30,10 +30,10 @@ struct Origin {
   }
 };
 
-struct InputFault {
+struct ErrorEntry {
   SourceMark mark;
   std::string message;
-  std::size_t count = 1;  ///< of the faults it stands for: "... and 180 more unknown keys"
+  std::size_t count = 1;  ///< of the errors it stands for: "... and 180 more unknown keys"
   /// "file:line:column: message", with what is known of the mark.
   std::string text() const {
     if (mark.file.empty()) return message;
@@ -46,46 +46,46 @@ struct InputFault {
 
 class InputError : public std::exception {
  public:
-  explicit InputError(std::vector<InputFault> faults) : faults_(std::move(faults)) { compose(); }
+  explicit InputError(std::vector<ErrorEntry> errors) : errors_(std::move(errors)) { compose(); }
   InputError(SourceMark mark, std::string message)
-      : InputError(std::vector<InputFault>{{std::move(mark), std::move(message)}}) {}
+      : InputError(std::vector<ErrorEntry>{{std::move(mark), std::move(message)}}) {}
   explicit InputError(std::string message) : InputError(SourceMark{}, std::move(message)) {}
-  const std::vector<InputFault>& faults() const noexcept { return faults_; }
-  /// Of the faults that all messages stand for.
+  const std::vector<ErrorEntry>& errors() const noexcept { return errors_; }
+  /// Of the errors that all messages stand for.
   std::size_t count() const noexcept {
     std::size_t sum = 0;
-    for (const InputFault& f : faults_) sum += f.count;
+    for (const ErrorEntry& f : errors_) sum += f.count;
     return sum;
   }
   const char* what() const noexcept override { return text_.c_str(); }
 
  private:
   void compose() {
-    for (const InputFault& f : faults_) {
+    for (const ErrorEntry& f : errors_) {
       if (!text_.empty()) text_ += '\n';
       text_ += f.text();
     }
   }
-  std::vector<InputFault> faults_;
+  std::vector<ErrorEntry> errors_;
   std::string text_;
 };
 
-/// Collects faults; `throw_if_any` ends a loading stage.
-class Faults {
+/// Collects errors; `throw_if_any` ends a loading stage.
+class ErrorList {
  public:
-  /// `count`: of the faults that the message stands for.
+  /// `count`: of the errors that the message stands for.
   void add(const SourceMark& mark, std::string message, std::size_t count = 1) {
-    faults_.push_back({mark, std::move(message), count});
+    errors_.push_back({mark, std::move(message), count});
   }
-  bool empty() const noexcept { return faults_.empty(); }
-  std::size_t size() const noexcept { return faults_.size(); }
-  std::vector<InputFault> take() { return std::move(faults_); }
+  bool empty() const noexcept { return errors_.empty(); }
+  std::size_t size() const noexcept { return errors_.size(); }
+  std::vector<ErrorEntry> take() { return std::move(errors_); }
   void throw_if_any() {
-    if (!faults_.empty()) throw InputError(std::move(faults_));
+    if (!errors_.empty()) throw InputError(std::move(errors_));
   }
 
  private:
-  std::vector<InputFault> faults_;
+  std::vector<ErrorEntry> errors_;
 };
 
 }  // namespace floatframe

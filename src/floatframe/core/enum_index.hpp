@@ -6,9 +6,7 @@
 namespace floatframe {
 
 template <class E>
-  requires std::is_enum_v<E>
-constexpr std::size_t index_of(E e) noexcept {
-  return static_cast<std::size_t>(e);
-}
+requires std::is_enum_v<E>
+constexpr std::size_t index_of(E e) noexcept { return static_cast<std::size_t>(e); }
 
 }  // namespace floatframe

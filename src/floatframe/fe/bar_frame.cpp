@@ -45,13 +45,13 @@ class FrameBuilder {
     for (const Bar& bar : frame_.bars) this->bar(bar);
     for (const auto& [name, mass] : frame_.masses) point_mass(name, mass);
     if (frame_.bars.empty()) add("the frame has no bars");
-    faults_.throw_if_any();
+    errors_.throw_if_any();
     validate(model_);
     return std::move(model_);
   }
 
  private:
-  void add(const std::string& text) { faults_.add({}, text); }
+  void add(const std::string& text) { errors_.add({}, text); }
 
   int new_node(const Vec3& p, const std::string& name) {
     model_.positions.push_back(p);
@@ -132,7 +132,7 @@ class FrameBuilder {
   }
 
   const BarFrame& frame_;
-  Faults faults_;
+  ErrorList errors_;
   FeModel model_;
   std::map<std::string, Vec3> points_;
   std::map<std::string, int> node_of_point_;

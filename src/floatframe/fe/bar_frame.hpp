@@ -29,7 +29,7 @@ struct BarFrame {
   std::vector<std::pair<std::string, double>> masses;  ///< point masses by node name [kg]
 };
 
-/// Throws InputError with every fault, naming bars and points. The result is validated.
+/// Throws InputError with every error, naming bars and points. The result is validated.
 FeModel build_bar_frame(const BarFrame& frame);
 
 }  // namespace floatframe

@@ -19,8 +19,8 @@ using Terms = DependentDofs::Terms;
 /// that are independent so far.
 class Resolver {
  public:
-  Resolver(const FeModel& model, const DofTable& table, Faults& faults)
-      : model_(model), table_(table), faults_(faults) {
+  Resolver(const FeModel& model, const DofTable& table, ErrorList& errors)
+      : model_(model), table_(table), errors_(errors) {
     out_.dependent.assign(table.size(), 0);
     out_.terms.resize(table.size());
     owner_.assign(table.size(), -1);
@@ -103,7 +103,7 @@ class Resolver {
   /// Once for a node, not for each of its dofs.
   void refuse(int owner, int node, int axis, const std::string& what) {
     if (refused_ != node || refused_owner_ != owner) {
-      faults_.add(mark_, owners_[owner] + ": " + node_dof_names[axis] + " of " +
+      errors_.add(mark_, owners_[owner] + ": " + node_dof_names[axis] + " of " +
                              model_.node_label(node) + what);
     }
     refused_ = node;
@@ -112,7 +112,7 @@ class Resolver {
 
   const FeModel& model_;
   const DofTable& table_;
-  Faults& faults_;
+  ErrorList& errors_;
   DependentDofs out_;
   std::vector<int> owner_;  ///< of each dependent dof, index into owners_
   std::vector<std::string> owners_;
@@ -171,14 +171,14 @@ Mat6 mean_sums(const FeModel& model, const DofTable& table, const Spider& s, dou
 ///   sum_i w_i A_i^T A_i q_r = sum_i w_i A_i^T u_i,  A_i = [1, -skew(x_i - x_r)].
 /// Solved for six dofs of the nodes, chosen by pivoting.
 void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Resolver& resolver,
-              Faults& faults) {
+              ErrorList& errors) {
   const int owner = resolver.begin_owner(spider_label(model, s), s.source);
   double size = 0.0;
   for (const int node : s.nodes) {
     size = std::max(size, (position(model, node) - position(model, s.reference)).norm());
   }
   const auto refuse = [&](const std::string& what) {
-    faults.add(resolver.mark(), spider_label(model, s) + ": " + what);
+    errors.add(resolver.mark(), spider_label(model, s) + ": " + what);
   };
   // Rotations times the size, so that all rows and columns are lengths.
   Vec6 scale;
@@ -242,7 +242,7 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
 }
 
 void add_equation(const FeModel& model, const DofTable& table, const LinearEquation& equation,
-                  Resolver& resolver, Faults& faults) {
+                  Resolver& resolver, ErrorList& errors) {
   const LinearEquation::Term& first = equation.terms.front();
   const int owner =
       resolver.begin_owner("equation for " + model.node_label(first.node), equation.source);
@@ -250,7 +250,7 @@ void add_equation(const FeModel& model, const DofTable& table, const LinearEquat
   for (const LinearEquation::Term& t : equation.terms) {
     const int dof = table.index(t.node, t.axis);
     if (dof < 0) {
-      faults.add(resolver.mark(), "equation for " + model.node_label(first.node) + ": " +
+      errors.add(resolver.mark(), "equation for " + model.node_label(first.node) + ": " +
                                       model.node_label(t.node) + " has no degree of freedom " +
                                       node_dof_names[t.axis]);
       return;
@@ -289,19 +289,19 @@ DofTable dof_table(const FeModel& model) {
 }
 
 DependentDofs resolve_dependences(const FeModel& model, const DofTable& table) {
-  Faults faults;
-  Resolver resolver(model, table, faults);
+  ErrorList errors;
+  Resolver resolver(model, table, errors);
   if (model.matrices) resolver.fix_missing(model.matrices->dofs);
   for (const LinearEquation& e : model.equations) {
-    add_equation(model, table, e, resolver, faults);
+    add_equation(model, table, e, resolver, errors);
   }
   for (const Spider& s : model.spiders) {
     if (s.kind == Spider::Kind::rigid) add_rigid(model, table, s, resolver);
   }
   for (const Spider& s : model.spiders) {
-    if (s.kind == Spider::Kind::mean) add_mean(model, table, s, resolver, faults);
+    if (s.kind == Spider::Kind::mean) add_mean(model, table, s, resolver, errors);
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
   return resolver.finish();
 }
 

@@ -28,7 +28,7 @@ struct DependentDofs {
   bool any = false;
 };
 
-/// Dofs that given matrices leave out are zero. Throws InputError with every fault: a dof that
+/// Dofs that given matrices leave out are zero. Throws InputError with every error: a dof that
 /// depends twice or on itself, dofs that do not exist, mean spiders whose nodes lie on a line.
 DependentDofs resolve_dependences(const FeModel& model, const DofTable& table);
 

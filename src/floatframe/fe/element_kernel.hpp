@@ -28,7 +28,7 @@ struct ElementKernel {
   int nodes;
   int dofs_per_node;  ///< 6: ux uy uz rx ry rz; 3: ux uy uz
   /// What is wrong with the geometry or section, as the end of a sentence; empty if nothing is.
-  std::string (*fault)(const ElementInput&);
+  std::string (*error)(const ElementInput&);
   /// Stiffness in body axes.
   void (*stiffness)(const ElementInput&, MatX&);
   /// Consistent mass in body axes.

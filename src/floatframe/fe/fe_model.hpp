@@ -4,7 +4,7 @@
 // units, except in what a reader of a file returns: that is in the units of the file until `to_si`
 // (unit_system.hpp). In models made of bars every node has six degrees of freedom (ux uy uz rx ry
 // rz) if there is any beam or shell, else three; `FeSystem` (fe_system.hpp) gives each node what it
-// needs. `validate` names every fault.
+// needs. `validate` names every error.
 #include <Eigen/SparseCore>
 #include <array>
 #include <map>
@@ -159,11 +159,11 @@ struct FeModel {
   std::string node_label(int node) const;
   /// The element's name, or "element 3 (beam2)".
   std::string element_label(int element) const;
-  /// For faults; empty if the model was not read from a file.
+  /// For errors; empty if the model was not read from a file.
   SourceMark mark(const FeSource& source) const;
 };
 
-/// Throws InputError with the faults, at most 20 of a kind: indices out of range, non-physical
+/// Throws InputError with the errors, at most 20 of a kind: indices out of range, non-physical
 /// materials, sections and masses, degenerate or inverted elements, spiders, equations and matrices
 /// that do not make sense. What is only suspicious: model_checks.hpp.
 void validate(const FeModel& model);

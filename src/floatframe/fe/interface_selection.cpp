@@ -245,13 +245,13 @@ std::optional<int> existing_reference(const FeModel& model, const InterfaceDescr
 int add_unnamed(FeModel& model, const InterfaceDescription& d) {
   const std::vector<int> nodes = choose_nodes(model, d.choice);
   const DofTable table = dof_table(model);
-  Faults faults;
+  ErrorList errors;
   for (const int node : nodes) {
     if (table.count(node) > 0) continue;
-    faults.add({}, model.node_label(node) + " belongs to no element");
+    errors.add({}, model.node_label(node) + " belongs to no element");
     break;
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
   if (const auto node = existing_reference(model, d, table, nodes)) {
     for (const Spider& s : model.spiders) {
       if (s.kind == Spider::Kind::rigid && nodes.size() == 1 && s.reference != *node &&
@@ -282,12 +282,12 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
     if (d.kind == Spider::Kind::mean && s.kind == Spider::Kind::mean) continue;
     for (const int node : nodes) {
       if (std::find(s.nodes.begin(), s.nodes.end(), node) == s.nodes.end()) continue;
-      faults.add({}, model.node_label(node) + " belongs to " + the_spider(model, s) +
+      errors.add({}, model.node_label(node) + " belongs to " + the_spider(model, s) +
                          " already; a node can follow only one reference");
       break;
     }
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
   Spider spider;
   spider.kind = d.kind;
   spider.name = d.name;
@@ -325,9 +325,9 @@ int add_interface(FeModel& model, const InterfaceDescription& d) {
     name_node(model, node, d.name);
     return node;
   } catch (const InputError& error) {
-    std::vector<InputFault> faults = error.faults();
-    for (InputFault& fault : faults) fault.message = label + fault.message;
-    throw InputError(std::move(faults));
+    std::vector<ErrorEntry> errors = error.errors();
+    for (ErrorEntry& entry : errors) entry.message = label + entry.message;
+    throw InputError(std::move(errors));
   }
 }
 

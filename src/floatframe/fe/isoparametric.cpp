@@ -82,7 +82,7 @@ IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
   return element;
 }
 
-std::string fault(const IsoparametricElement& element, const ElementInput& in) {
+std::string error(const IsoparametricElement& element, const ElementInput& in) {
   const Positions P = positions(in, element.nodes);
   const double size = (P.colwise() - P.col(0)).colwise().norm().maxCoeff();
   const double limit = 1e-12 * size * size * size;

@@ -55,7 +55,7 @@ Positions positions(const ElementInput& in, int nodes);
 /// dN/dx of all shape functions at point q, 3 x nodes; `detJ` as well.
 ShapeGradients gradients(const SampledRule& rule, int q, const Positions& P, double& detJ);
 
-std::string fault(const IsoparametricElement& element, const ElementInput& in);
+std::string error(const IsoparametricElement& element, const ElementInput& in);
 void stiffness(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 void scalar_mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 void mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
@@ -68,7 +68,7 @@ constexpr ElementKernel kernel(int nodes, const ElementShape& shape) {
   return {.family = ElementFamily::solid,
           .nodes = nodes,
           .dofs_per_node = 3,
-          .fault = [](const ElementInput& in) { return fault(element(), in); },
+          .error = [](const ElementInput& in) { return error(element(), in); },
           .stiffness = [](const ElementInput& in, MatX& out) { stiffness(element(), in, out); },
           .mass = [](const ElementInput& in, bool, MatX& out) { mass(element(), in, out); },
           .scalar_mass = [](const ElementInput& in, MatX& out) { scalar_mass(element(), in, out); },

@@ -89,12 +89,12 @@ void with_digits_hint(const FeModel& model, const std::function<void()>& factor)
     const auto beams = std::count_if(model.elements.begin(), model.elements.end(),
                                      [](const Element& e) { return is_beam(e.type); });
     if (beams < many_beams) throw;
-    std::vector<InputFault> faults = error.faults();
-    for (InputFault& fault : faults)
-      fault.message += fmt::format(
+    std::vector<ErrorEntry> errors = error.errors();
+    for (ErrorEntry& entry : errors)
+      entry.message += fmt::format(
           "; or the {} beams are more in a row than the digits of a double carry: use fewer",
           beams);
-    throw InputError(std::move(faults));
+    throw InputError(std::move(errors));
   }
 }
 

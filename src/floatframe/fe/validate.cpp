@@ -15,35 +15,35 @@ namespace {
 
 constexpr int most_of_a_kind = 20;
 
-/// Faults, at most 20 of a kind, then their number.
-class LimitedFaults {
+/// Errors, at most 20 of a kind, then their number.
+class LimitedErrors {
  public:
   void add(const char* kind, const SourceMark& mark, std::string text) {
-    if (++count_[kind] <= most_of_a_kind) faults_.add(mark, std::move(text));
+    if (++count_[kind] <= most_of_a_kind) errors_.add(mark, std::move(text));
   }
-  bool empty() const { return faults_.empty(); }
+  bool empty() const { return errors_.empty(); }
   void throw_if_any() {
     for (const auto& [kind, count] : count_) {
       if (count > most_of_a_kind) {
         const int more = count - most_of_a_kind;
-        faults_.add({}, fmt::format("and {} more {}", more, kind), more);
+        errors_.add({}, fmt::format("and {} more {}", more, kind), more);
       }
     }
-    faults_.throw_if_any();
+    errors_.throw_if_any();
   }
 
  private:
-  Faults faults_;
+  ErrorList errors_;
   std::map<std::string, int> count_;
 };
 
 bool in_range(int i, std::size_t size) { return i >= 0 && static_cast<std::size_t>(i) < size; }
 
-void check_nodes(const FeModel& model, LimitedFaults& faults) {
-  if (model.nodes() == 0) faults.add("nodes", {}, "the finite-element model has no nodes");
+void check_nodes(const FeModel& model, LimitedErrors& errors) {
+  if (model.nodes() == 0) errors.add("nodes", {}, "the finite-element model has no nodes");
   const auto lengths = [&](std::size_t size, const char* what) {
     if (size == 0 || size == model.positions.size()) return;
-    faults.add(
+    errors.add(
         "lists", {},
         fmt::format("the finite-element model has {} {} for {} nodes", size, what, model.nodes()));
   };
@@ -54,61 +54,61 @@ void check_nodes(const FeModel& model, LimitedFaults& faults) {
     const std::size_t i = k;
     if (model.positions[i].allFinite()) continue;
     const bool known = i < model.node_sources.size();
-    faults.add("nodes", known ? model.mark(model.node_sources[i]) : SourceMark{},
+    errors.add("nodes", known ? model.mark(model.node_sources[i]) : SourceMark{},
                model.node_label(k) + " has a position that is not finite");
   }
 }
 
-void check_materials(const FeModel& model, LimitedFaults& faults) {
+void check_materials(const FeModel& model, LimitedErrors& errors) {
   for (std::size_t i = 0; i < model.materials.size(); ++i) {
     const Material& m = model.materials[i];
     const bool named = i < model.material_names.size() && !model.material_names[i].empty();
     const std::string label =
         named ? "material '" + model.material_names[i] + "'" : "material " + std::to_string(i);
     if (!(m.young > 0.0) || !std::isfinite(m.young)) {
-      faults.add("materials", {},
+      errors.add("materials", {},
                  fmt::format("{}: found Young's modulus {:g}, expected a positive number", label,
                              m.young));
     }
     if (!(m.density >= 0.0) || !std::isfinite(m.density)) {
-      faults.add(
+      errors.add(
           "materials", {},
           fmt::format("{}: found the density {:g}, expected no negative number", label, m.density));
     }
     if (!(m.poisson > -1.0 && m.poisson < 0.5)) {
-      faults.add("materials", {},
+      errors.add("materials", {},
                  fmt::format("{}: found Poisson's ratio {:g}, expected a number between -1 and 0.5",
                              label, m.poisson));
     }
   }
   if (model.materials.empty() && !model.elements.empty()) {
-    faults.add("materials", {},
+    errors.add("materials", {},
                "the model has no material: give one (Young's modulus, Poisson's ratio, density)");
   }
 }
 
-void check_elements(const FeModel& model, LimitedFaults& faults) {
-  const bool sound_so_far = faults.empty();
+void check_elements(const FeModel& model, LimitedErrors& errors) {
+  const bool valid_so_far = errors.empty();
   for (int e = 0; e < static_cast<int>(model.elements.size()); ++e) {
     const Element& element = model.elements[e];
     const ElementKernel& kernel = element_kernel(element.type);
     const auto add = [&](const char* kind, const std::string& text) {
-      faults.add(kind, model.mark(element.source), model.element_label(e) + text);
+      errors.add(kind, model.mark(element.source), model.element_label(e) + text);
     };
-    bool sound = sound_so_far;
+    bool valid = valid_so_far;
     for (int a = 0; a < kernel.nodes; ++a) {
       const int node = element.nodes[a];
       if (!in_range(node, model.positions.size())) {
         add("node indices",
             fmt::format(": node index {} is out of range 0..{}", node, model.nodes() - 1));
-        sound = false;
+        valid = false;
       }
     }
     if (!model.materials.empty() && !in_range(element.material, model.materials.size())) {
       add("elements without material",
           element.material < 0 ? " has no material"
                                : fmt::format(": there is no material {}", element.material));
-      sound = false;
+      valid = false;
     }
     const std::size_t sections = is_beam(element.type)    ? model.sections.size()
                                  : is_shell(element.type) ? model.shells.size()
@@ -119,9 +119,9 @@ void check_elements(const FeModel& model, LimitedFaults& faults) {
               ? " has no section"
               : fmt::format(": there is no {} {}",
                             is_beam(element.type) ? "section" : "shell section", element.section));
-      sound = false;
+      valid = false;
     }
-    if (!sound) continue;
+    if (!valid) continue;
     bool twice = false;
     for (int a = 0; a < kernel.nodes && !twice; ++a) {
       for (int b = 0; b < a && !twice; ++b) {
@@ -132,8 +132,8 @@ void check_elements(const FeModel& model, LimitedFaults& faults) {
       }
     }
     if (twice) continue;
-    const std::string fault = kernel.fault(gather(model, element));
-    if (!fault.empty()) add("badly formed elements", " " + fault);
+    const std::string error = kernel.error(gather(model, element));
+    if (!error.empty()) add("badly formed elements", " " + error);
   }
 }
 
@@ -163,12 +163,12 @@ std::vector<char> nodes_with_rotations(const FeModel& model) {
   return with;
 }
 
-void check_masses(const FeModel& model, LimitedFaults& faults) {
+void check_masses(const FeModel& model, LimitedErrors& errors) {
   const std::vector<char> rotations = nodes_with_rotations(model);
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     const PointMass& m = model.masses[i];
     const std::string label = "point mass " + std::to_string(i);
-    const auto add = [&](const std::string& text) { faults.add("point masses", {}, label + text); };
+    const auto add = [&](const std::string& text) { errors.add("point masses", {}, label + text); };
     if (!in_range(m.node, model.positions.size())) {
       add(": node index " + std::to_string(m.node) + " is out of range");
       continue;
@@ -192,13 +192,13 @@ void check_masses(const FeModel& model, LimitedFaults& faults) {
   }
 }
 
-void check_spiders(const FeModel& model, LimitedFaults& faults) {
+void check_spiders(const FeModel& model, LimitedErrors& errors) {
   for (std::size_t i = 0; i < model.spiders.size(); ++i) {
     const Spider& s = model.spiders[i];
     const std::string label =
         s.name.empty() ? "spider " + std::to_string(i) : "spider '" + s.name + "'";
     const auto add = [&](const std::string& text) {
-      faults.add("spiders", model.mark(s.source), label + text);
+      errors.add("spiders", model.mark(s.source), label + text);
     };
     if (!in_range(s.reference, model.positions.size())) {
       add(" has no reference node");
@@ -225,43 +225,43 @@ void check_spiders(const FeModel& model, LimitedFaults& faults) {
   }
 }
 
-void check_equations(const FeModel& model, LimitedFaults& faults) {
+void check_equations(const FeModel& model, LimitedErrors& errors) {
   for (std::size_t i = 0; i < model.equations.size(); ++i) {
     const LinearEquation& equation = model.equations[i];
     const auto add = [&](const std::string& text) {
-      faults.add("equations", model.mark(equation.source),
+      errors.add("equations", model.mark(equation.source),
                  "equation " + std::to_string(i + 1) + text);
     };
     if (equation.terms.empty()) {
       add(" has no terms");
       continue;
     }
-    bool sound = true;
+    bool valid = true;
     for (const LinearEquation::Term& t : equation.terms) {
-      sound = sound && in_range(t.node, model.positions.size()) && t.axis >= 0 && t.axis < 6 &&
+      valid = valid && in_range(t.node, model.positions.size()) && t.axis >= 0 && t.axis < 6 &&
               std::isfinite(t.factor);
     }
-    if (!sound) add(" has a term without a node, a direction 1 to 6 or a finite factor");
+    if (!valid) add(" has a term without a node, a direction 1 to 6 or a finite factor");
     if (equation.terms.front().factor == 0.0) {
       add(": the factor of its first term must not be zero");
     }
   }
 }
 
-void check_sets(const FeModel& model, LimitedFaults& faults) {
+void check_sets(const FeModel& model, LimitedErrors& errors) {
   for (const auto& [name, nodes] : model.node_sets) {
     if (std::all_of(nodes.begin(), nodes.end(),
                     [&](int k) { return in_range(k, model.positions.size()); })) {
       continue;
     }
-    faults.add("sets", {}, "node set '" + name + "' holds a node that does not exist");
+    errors.add("sets", {}, "node set '" + name + "' holds a node that does not exist");
   }
   for (const auto& [name, elements] : model.element_sets) {
     if (std::all_of(elements.begin(), elements.end(),
                     [&](int e) { return in_range(e, model.elements.size()); })) {
       continue;
     }
-    faults.add("sets", {}, "element set '" + name + "' holds an element that does not exist");
+    errors.add("sets", {}, "element set '" + name + "' holds an element that does not exist");
   }
   for (const auto& [name, faces] : model.surfaces) {
     for (const ElementFace& f : faces) {
@@ -269,7 +269,7 @@ void check_sets(const FeModel& model, LimitedFaults& faults) {
           in_range(f.face, element_faces(model.elements[f.element].type).size())) {
         continue;
       }
-      faults.add("sets", {}, "surface '" + name + "' holds a face that does not exist");
+      errors.add("sets", {}, "surface '" + name + "' holds a face that does not exist");
       break;
     }
   }
@@ -290,10 +290,10 @@ double asymmetry(const SparseMatrix& A) {
   return largest > 0.0 ? error / largest : 0.0;
 }
 
-void check_matrices(const FeModel& model, LimitedFaults& faults) {
+void check_matrices(const FeModel& model, LimitedErrors& errors) {
   if (!model.matrices) return;
   const FeMatrices& m = *model.matrices;
-  const auto add = [&](const std::string& text) { faults.add("matrices", {}, text); };
+  const auto add = [&](const std::string& text) { errors.add("matrices", {}, text); };
   if (!model.elements.empty())
     add("the model has matrices and elements; it can have only one of both");
   const Eigen::Index n = static_cast<Eigen::Index>(m.dofs.size());
@@ -327,16 +327,16 @@ void check_matrices(const FeModel& model, LimitedFaults& faults) {
 }  // namespace
 
 void validate(const FeModel& model) {
-  LimitedFaults faults;
-  check_nodes(model, faults);
-  check_materials(model, faults);
-  check_elements(model, faults);
-  check_masses(model, faults);
-  check_spiders(model, faults);
-  check_equations(model, faults);
-  check_sets(model, faults);
-  check_matrices(model, faults);
-  faults.throw_if_any();
+  LimitedErrors errors;
+  check_nodes(model, errors);
+  check_materials(model, errors);
+  check_elements(model, errors);
+  check_masses(model, errors);
+  check_spiders(model, errors);
+  check_equations(model, errors);
+  check_sets(model, errors);
+  check_matrices(model, errors);
+  errors.throw_if_any();
 }
 
 }  // namespace floatframe

@@ -1,7 +1,7 @@
 #pragma once
 // Finite-element files of other programs. All readers give the same FeModel, in the units of the
 // file. A new format is one file with a reader and one entry in the list of fe_file.cpp. Files may
-// be compressed with gzip (.gz). Faults throw InputError with file:line, all that can be found at
+// be compressed with gzip (.gz). Errors throw InputError with file:line, all that can be found at
 // once.
 #include <filesystem>
 #include <optional>

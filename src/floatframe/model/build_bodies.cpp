@@ -45,13 +45,13 @@ void ModelBuilder::bodies() {
       body.data = std::make_shared<const FlexibleBody>(std::move(data));
     } else if (const auto* given = std::get_if<FlexibleBody>(&b.kind)) {
       if (given->modes() > 0)
-        for (const InvariantFault& f : check_invariants(*given, InvariantSource::parameters))
-          faults.add(b.origin.of("flexible"),
+        for (const InvariantError& f : check_invariants(*given, InvariantSource::parameters))
+          errors.add(b.origin.of("flexible"),
                      "bodies." + b.name + ": " + f.quantity + ": " + f.sentence);
       body.data = std::make_shared<const FlexibleBody>(
           b.mirror == Mat3::Identity() ? *given : mirrored(*given, b.mirror));
     } else {
-      body.data = flexible.build(b, faults);
+      body.data = flexible.build(b, errors);
     }
     if (!body.data) body.data = std::make_shared<const FlexibleBody>();
     if (b.rigid) body.data = std::make_shared<const FlexibleBody>(with_modes(*body.data, {}));
@@ -80,7 +80,7 @@ void ModelBuilder::modal_masses() {
     s << "bodies." << b.name << ": found " << b.modes()
       << " modes of which a combination moves no mass (relative modal mass " << own
       << "), expected fewer modes or more elements";
-    faults.add(d.bodies[i].origin.of("flexible"), s.str());
+    errors.add(d.bodies[i].origin.of("flexible"), s.str());
   }
 }
 
@@ -109,7 +109,7 @@ void ModelBuilder::finish() {
       const auto it = given.find(b.name);
       out.push_back(it == given.end() ? VecX() : it->second);
       if (it != given.end() && it->second.size() != b.modes())
-        faults.add(d.bodies[i].origin.of(key),
+        errors.add(d.bodies[i].origin.of(key),
                    std::string(key) + "." + b.name + ": found a list of " +
                        std::to_string(it->second.size()) + ", expected a list of " +
                        std::to_string(b.modes()) + " amplitudes, one per mode");

@@ -130,7 +130,7 @@ ReductionOptions reduction_of(const FlexibleDescription& f, Key& key) {
 }  // namespace
 
 std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription& body,
-                                                           Faults& faults) {
+                                                           ErrorList& errors) {
   const auto& f = std::get<FlexibleDescription>(body.kind);
   Key key;
   const BarFrame frame = frame_of(f, body.X_WT.inverse(), key);
@@ -142,9 +142,9 @@ std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription
     try {
       plain = std::make_shared<const FlexibleBody>(reduce(build_bar_frame(frame), options));
     } catch (const InputError& error) {
-      for (const InputFault& fault : error.faults())
-        faults.add(fault.mark.file.empty() ? body.origin.of("flexible") : fault.mark,
-                   "bodies." + body.name + ": " + fault.message, fault.count);
+      for (const ErrorEntry& entry : error.errors())
+        errors.add(entry.mark.file.empty() ? body.origin.of("flexible") : entry.mark,
+                   "bodies." + body.name + ": " + entry.message, entry.count);
       return nullptr;
     }
     known_.push_back({key.text(), plain});

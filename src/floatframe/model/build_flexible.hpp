@@ -11,8 +11,8 @@ namespace floatframe {
 
 class FlexibleBuilder {
  public:
-  /// Adds faults (with the entity's marks) and returns null if the body cannot be built.
-  std::shared_ptr<const FlexibleBody> build(const BodyDescription& body, Faults& faults);
+  /// Adds errors (with the entity's marks) and returns null if the body cannot be built.
+  std::shared_ptr<const FlexibleBody> build(const BodyDescription& body, ErrorList& errors);
 
  private:
   struct Known {

@@ -19,7 +19,7 @@ void ModelBuilder::rods() {
     rod.length = r.length ? *r.length : (design_point(rod.b) - design_point(rod.a)).norm();
     if (!r.length)  // of two nodes: where they are is known only now
       if (const auto complaint = sentences::rod_ends(design_point(rod.a), design_point(rod.b))) {
-        faults.add(r.origin.mark, "rods." + r.name + ": " + *complaint);
+        errors.add(r.origin.mark, "rods." + r.name + ": " + *complaint);
         continue;
       }
     model.rods.push_back(rod);
@@ -36,21 +36,21 @@ Model build_model(const ModelDescription& description) {
   b.model.name = description.name;
   b.model.gravity = description.gravity;
   b.model.simulation = description.simulation;
-  validate(description, b.faults);
-  b.faults.throw_if_any();
+  validate(description, b.errors);
+  b.errors.throw_if_any();
   b.bodies();
-  b.faults.throw_if_any();
+  b.errors.throw_if_any();
   b.roads();
   b.inputs();
   b.joints();
   b.rods();
   b.forces();
   b.outputs();
-  b.faults.throw_if_any();
+  b.errors.throw_if_any();
   b.free_joints();
   b.modal_masses();
   b.finish();
-  b.faults.throw_if_any();
+  b.errors.throw_if_any();
   return std::move(b.model);
 }
 

@@ -36,7 +36,7 @@ void ModelBuilder::outputs() {
         const int nm = model.bodies[out.body].modes();
         built = o.component >= 0 && o.component < nm;
         if (!built)
-          faults.add(
+          errors.add(
               o.origin.mark,
               who + ".mode: " + sentences::number_of("the number of a mode", o.component, nm));
         break;

@@ -105,7 +105,7 @@ bool ForceCheck::two_bodies(const std::string& a, const std::string& b) const {
   if (!good(a) || !good(b)) return false;
   const std::string body = place(a).body;
   if (body != place(b).body) return true;
-  fault("", sentences::both_ends_on(written(body)));
+  error("", sentences::both_ends_on(written(body)));
   return false;
 }
 
@@ -119,7 +119,7 @@ void ForceCheck::some_law() const {
     if (given(k.name)) return;
     laws.push_back(k.name);
   }
-  fault("", sentences::no_law(laws));
+  error("", sentences::no_law(laws));
 }
 
 }  // namespace floatframe

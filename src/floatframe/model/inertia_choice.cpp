@@ -3,12 +3,12 @@
 namespace floatframe {
 
 void check_inertia_method(const ModelDescription& description, InertiaMethod method) {
-  Faults faults;
+  ErrorList errors;
   for (const BodyDescription& b : description.bodies) {
     if (b.rigid) continue;
     const auto* part = std::get_if<FlexibleBody>(&b.kind);
     if (part && part->modes() > 0 && !part->projection && method == InertiaMethod::projection)
-      faults.add(b.origin.of(b.origin.keys.contains("part") ? "part" : "flexible"),
+      errors.add(b.origin.of(b.origin.keys.contains("part") ? "part" : "flexible"),
                  "bodies." + b.name +
                      ": the part was reduced without projection data, expected inertia terms by "
                      "preprocessing (or a reduction with projection: true)");
@@ -17,15 +17,15 @@ void check_inertia_method(const ModelDescription& description, InertiaMethod met
     const SourceMark& mark = b.origin.of("mass_model");
     const std::string who = "bodies." + b.name + ".flexible.mass_model: found ";
     if (method == InertiaMethod::projection && flexible->mass_model == MassModel::hermite)
-      faults.add(mark, who +
+      errors.add(mark, who +
                            "hermite with inertia terms by projection, expected isoparametric or "
                            "six_dof (or preprocessing)");
     if (method == InertiaMethod::preprocessing && flexible->mass_model == MassModel::six_dof)
-      faults.add(mark, who +
+      errors.add(mark, who +
                            "six_dof with inertia terms by preprocessing, expected isoparametric "
                            "or hermite (or projection)");
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 }  // namespace floatframe

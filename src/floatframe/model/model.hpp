@@ -131,7 +131,7 @@ struct Model {
 };
 
 /// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free
-/// joints to bodies no joint leads to. Throws InputError with every fault.
+/// joints to bodies no joint leads to. Throws InputError with every error.
 Model build_model(const ModelDescription& description);
 
 }  // namespace floatframe

@@ -1,5 +1,5 @@
 #pragma once
-// The work of build_model in stages that share names, markers and the list of faults; each stage in
+// The work of build_model in stages that share names, markers and the list of errors; each stage in
 // the file of its subject (build_*.cpp).
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ struct ModelBuilder {
   /// Body, node, whether it turns with the node, place and orientation of each marker on a body.
   std::map<std::array<double, 15>, int> marker_places;
   Model model;
-  Faults faults;
+  ErrorList errors;
 
   explicit ModelBuilder(const ModelDescription& description)
       : d(description),

@@ -15,9 +15,9 @@ namespace floatframe {
 
 /// All that can be known before bodies are reduced; nodes of flexible bodies and numbers of modes
 /// are left to `build_model`.
-void validate(const ModelDescription& description, Faults& faults);
+void validate(const ModelDescription& description, ErrorList& errors);
 /// The group `simulation`.
-void validate(const SimulationDescription& simulation, Faults& faults);
+void validate(const SimulationDescription& simulation, ErrorList& errors);
 /// Throws InputError with every error of the group.
 void require_valid(const SimulationDescription& simulation);
 /// The same, and the number of steps is one that a run can keep.
@@ -35,15 +35,15 @@ struct Names {
 
 /// One entity: adds "path.key: sentence" at the key's place, if one is known.
 struct Entity {
-  Faults& faults;
+  ErrorList& errors;
   const Origin& origin;
   std::string path;
 
-  void fault(const std::string& key, const std::string& sentence) const;
+  void error(const std::string& key, const std::string& sentence) const;
   /// "path: sentence"
-  void fault(const std::string& sentence) const;
+  void error(const std::string& sentence) const;
   void complain(const std::string& key, const std::optional<std::string>& complaint) const {
-    if (complaint) fault(key, *complaint);
+    if (complaint) error(key, *complaint);
   }
   /// Each: true if nothing is wrong.
   bool number(const std::string& key, double x, const NumberRule& rule) const;
@@ -72,16 +72,16 @@ struct Entity {
 void name(const char* kind, const std::string& name, std::set<std::string>& taken,
           const Entity& entity);
 
-void bodies(const ModelDescription& d, Faults& faults);
+void bodies(const ModelDescription& d, ErrorList& errors);
 void flexible(const FlexibleDescription& f, const Entity& body);
 void flexible(const FlexibleBody& f, const Entity& body);
-void joints(const ModelDescription& d, const Names& names, Faults& faults);
-void rods(const ModelDescription& d, const Names& names, Faults& faults);
-void forces(const ModelDescription& d, const Names& names, Faults& faults);
-void roads(const ModelDescription& d, Faults& faults);
-void inputs(const ModelDescription& d, Faults& faults);
-void outputs(const ModelDescription& d, const Names& names, Faults& faults);
-void amplitudes(const ModelDescription& d, const Names& names, Faults& faults);
+void joints(const ModelDescription& d, const Names& names, ErrorList& errors);
+void rods(const ModelDescription& d, const Names& names, ErrorList& errors);
+void forces(const ModelDescription& d, const Names& names, ErrorList& errors);
+void roads(const ModelDescription& d, ErrorList& errors);
+void inputs(const ModelDescription& d, ErrorList& errors);
+void outputs(const ModelDescription& d, const Names& names, ErrorList& errors);
+void amplitudes(const ModelDescription& d, const Names& names, ErrorList& errors);
 
 }  // namespace validation
 }  // namespace floatframe

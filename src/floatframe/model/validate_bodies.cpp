@@ -13,14 +13,14 @@ void rigid(const RigidDescription& r, const Entity& body) {
   body.number("rigid.mass", r.mass, rules::mass);
   body.vector("rigid.centre_of_mass", r.p_BC, "m");
   if (!r.J_C.allFinite()) {
-    body.fault("rigid.inertia",
+    body.error("rigid.inertia",
                "found numbers that are not finite, expected an inertia tensor "
                "[kg m2]");
     return;
   }
   const double size = r.J_C.cwiseAbs().maxCoeff();
   if ((r.J_C - r.J_C.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size)
-    body.fault("rigid.inertia",
+    body.error("rigid.inertia",
                "found a tensor that is not symmetric, expected equal products of "
                "inertia on both sides of the diagonal [kg m2]");
   else
@@ -75,12 +75,12 @@ class Arrays {
   template <class Matrix>
   void values(const std::string& what, const Matrix& m) {
     if (!m.allFinite())
-      body_.fault(what, "found numbers that are not finite, expected finite ones");
+      body_.error(what, "found numbers that are not finite, expected finite ones");
   }
   template <class Matrix>
   void size(const std::string& what, const Matrix& m, Eigen::Index rows, Eigen::Index columns) {
     if (m.rows() != rows || m.cols() != columns)
-      body_.fault(what, "found " + std::to_string(m.rows()) + " x " + std::to_string(m.cols()) +
+      body_.error(what, "found " + std::to_string(m.rows()) + " x " + std::to_string(m.cols()) +
                             " numbers, expected " + std::to_string(rows) + " x " +
                             std::to_string(columns) + " for " +
                             std::to_string(f_.invariants.S.cols()) + " modes");
@@ -90,19 +90,19 @@ class Arrays {
   void symmetric(const std::string& what, const MatX& m) {
     if (m.rows() != m.cols() || m.size() == 0 || !m.allFinite()) return;
     if ((m - m.transpose()).cwiseAbs().maxCoeff() > 1e-6 * m.cwiseAbs().maxCoeff())
-      body_.fault(what, "found a matrix that is not symmetric, expected a symmetric one");
+      body_.error(what, "found a matrix that is not symmetric, expected a symmetric one");
   }
   template <class Sparse>
   void sparse(const std::string& what, const Sparse& m, Eigen::Index n) {
     if (m.rows() != n || m.cols() != n) {
-      body_.fault(what, "found " + std::to_string(m.rows()) + " x " + std::to_string(m.cols()) +
+      body_.error(what, "found " + std::to_string(m.rows()) + " x " + std::to_string(m.cols()) +
                             " numbers, expected " + std::to_string(n) + " x " + std::to_string(n));
       return;
     }
     for (Eigen::Index k = 0; k < m.outerSize(); ++k)
       for (typename Sparse::InnerIterator it(m, k); it; ++it)
         if (!std::isfinite(it.value())) {
-          body_.fault(what, "found numbers that are not finite, expected finite ones");
+          body_.error(what, "found numbers that are not finite, expected finite ones");
           return;
         }
   }
@@ -126,20 +126,20 @@ class Arrays {
 
 void flexible(const FlexibleBody& f, const Entity& body) {
   body.word("flexible.mass_model", f.mass_model, rules::mass_models);
-  const Entity part{body.faults, body.origin, body.path + ".flexible"};
+  const Entity part{body.errors, body.origin, body.path + ".flexible"};
   Arrays(f, part).check();
 }
 
-void bodies(const ModelDescription& d, Faults& faults) {
-  if (d.bodies.empty()) faults.add({}, "bodies: found none, expected at least one body");
+void bodies(const ModelDescription& d, ErrorList& errors) {
+  if (d.bodies.empty()) errors.add({}, "bodies: found none, expected at least one body");
   std::set<std::string> taken;
   for (const BodyDescription& b : d.bodies) {
-    const Entity body{faults, b.origin, "bodies." + b.name};
+    const Entity body{errors, b.origin, "bodies." + b.name};
     name("bodies", b.name, taken, body);
     body.vector("position", b.X_WB.p, "m");
     body.rotation("orientation", b.X_WB.R);
     if (!is_mirror(b.mirror))
-      body.fault("mirror",
+      body.error("mirror",
                  "found a matrix that is not diagonal with 1 and -1, expected a reflection at "
                  "planes normal to the axes");
     body.vector("template.position", b.X_WT.p, "m");
@@ -150,16 +150,16 @@ void bodies(const ModelDescription& d, Faults& faults) {
   }
 }
 
-void amplitudes(const ModelDescription& d, const Names& names, Faults& faults) {
+void amplitudes(const ModelDescription& d, const Names& names, ErrorList& errors) {
   const auto check = [&](const char* key, const std::map<std::string, VecX>& given) {
     for (const auto& [body_name, values] : given) {
       const Origin none;
       const auto k = names.bodies.find(body_name);
-      const Entity entity{faults, k ? d.bodies[*k].origin : none, std::string("initial.") + key};
+      const Entity entity{errors, k ? d.bodies[*k].origin : none, std::string("initial.") + key};
       if (!entity.reference(body_name, "body", body_name, names.bodies)) continue;
       const BodyDescription& b = d.bodies[*k];
       if (b.rigid || std::holds_alternative<RigidDescription>(b.kind)) {
-        entity.fault(body_name, sentences::rigid_body_has_no_modes(b.rigid));
+        entity.error(body_name, sentences::rigid_body_has_no_modes(b.rigid));
         continue;
       }
       for (Eigen::Index i = 0; i < values.size(); ++i)

@@ -26,13 +26,13 @@ const SourceMark& mark_of(const Origin& origin, const std::string& key) {
 
 }  // namespace
 
-void Entity::fault(const std::string& key, const std::string& sentence) const {
-  faults.add(mark_of(origin, key),
+void Entity::error(const std::string& key, const std::string& sentence) const {
+  errors.add(mark_of(origin, key),
              printable(path + (path.empty() ? "" : ".") + key + ": " + sentence));
 }
 
-void Entity::fault(const std::string& sentence) const {
-  faults.add(origin.mark, printable(path + ": " + sentence));
+void Entity::error(const std::string& sentence) const {
+  errors.add(origin.mark, printable(path + ": " + sentence));
 }
 
 bool Entity::number(const std::string& key, double x, const NumberRule& rule) const {
@@ -72,18 +72,18 @@ bool Entity::direction(const std::string& key, const Vec3& v) const {
 
 bool Entity::rotation(const std::string& key, const Mat3& R) const {
   if (!R.allFinite()) {
-    fault(key, "found a matrix with numbers that are not finite, expected a rotation matrix");
+    error(key, "found a matrix with numbers that are not finite, expected a rotation matrix");
     return false;
   }
-  const double error = (R.transpose() * R - Mat3::Identity()).cwiseAbs().maxCoeff();
-  if (!(error <= 1e-9)) {
-    fault(key,
-          "found a matrix R with |R^T R - 1| = " + number_text(std::round(error * 1e12) / 1e12) +
+  const double distance = (R.transpose() * R - Mat3::Identity()).cwiseAbs().maxCoeff();
+  if (!(distance <= 1e-9)) {
+    error(key,
+          "found a matrix R with |R^T R - 1| = " + number_text(std::round(distance * 1e12) / 1e12) +
               ", expected a rotation matrix: orthonormal axes");
     return false;
   }
   if (!(R.determinant() > 0.0)) {
-    fault(key,
+    error(key,
           "found a reflection (determinant -1), expected a rotation matrix: right-handed axes");
     return false;
   }
@@ -93,8 +93,8 @@ bool Entity::rotation(const std::string& key, const Mat3& R) const {
 bool Entity::reference(const std::string& key, const char* kind, const std::string& name,
                        const NameIndex& known) const {
   if (known.find(name)) return true;
-  fault(key, std::string("unknown ") + kind + " '" + name + "'" +
-                 (faults.size() < most_suggestions ? did_you_mean(name, known.names()) : ""));
+  error(key, std::string("unknown ") + kind + " '" + name + "'" +
+                 (errors.size() < most_suggestions ? did_you_mean(name, known.names()) : ""));
   return false;
 }
 
@@ -103,12 +103,12 @@ bool Entity::place(const std::string& key, const AttachmentDescription& at, cons
   const std::string inside = key.empty() ? "" : key + ".";
   bool good = true;
   if (at.body == ground_name && !ground) {
-    fault(inside + "body", sentences::ground_is_no_body());
+    error(inside + "body", sentences::ground_is_no_body());
     good = false;
   } else if (at.body != ground_name) {
     good = reference(inside + "body", "body", at.body, names.bodies);
   } else if (at.node) {
-    fault(inside + "node", sentences::node_on_ground());
+    error(inside + "node", sentences::node_on_ground());
     good = false;
   }
   return vector(inside + "at", at.point, "m") && good;
@@ -118,7 +118,7 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
   const std::vector<double>& breaks = f.breaks();
   const std::size_t n = f.pieces().size();
   if (n != breaks.size() + 1) {
-    fault(key, "found " + std::to_string(n) + " pieces and " + std::to_string(breaks.size()) +
+    error(key, "found " + std::to_string(n) + " pieces and " + std::to_string(breaks.size()) +
                    " breaks between them, expected one piece more than breaks");
     return false;
   }
@@ -131,7 +131,7 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
     if (!number(piece(k, ".below"), breaks[k], any_number(""))) {
       good = false;
     } else if (k > 0 && (may_jump ? breaks[k] < breaks[k - 1] : breaks[k] <= breaks[k - 1])) {
-      fault(piece(k, ".below"), "found " + number_text(breaks[k]) +
+      error(piece(k, ".below"), "found " + number_text(breaks[k]) +
                                     ", expected a number above the previous one, " +
                                     number_text(breaks[k - 1]));
       good = false;
@@ -141,7 +141,7 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
     const PiecewisePolynomial::Piece& p = f.pieces()[k];
     good = number(piece(k, ".about"), p.centre, any_number("")) && good;
     if (p.coefficients.empty() || p.coefficients.size() > rules::most_coefficients) {
-      fault(piece(k, ".polynomial"), "found a list of " + std::to_string(p.coefficients.size()) +
+      error(piece(k, ".polynomial"), "found a list of " + std::to_string(p.coefficients.size()) +
                                          ", expected " + rules::coefficients);
       good = false;
     }
@@ -152,7 +152,7 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
   }
   if (!good || may_jump) return good;
   const auto jump = sentences::jump(f);
-  if (jump) fault(piece(jump->first, ""), jump->second);
+  if (jump) error(piece(jump->first, ""), jump->second);
   return !jump;
 }
 
@@ -179,13 +179,13 @@ void name(const char* kind, const std::string& name, std::set<std::string>& take
   }
   if (!good) {
     const std::string shown = name.size() > 40 ? name.substr(0, 40) + "..." : name;
-    entity.faults.add(entity.origin.mark,
+    entity.errors.add(entity.origin.mark,
                       kind + (": found the name '" + printable(shown)) +
                           "', expected letters, digits, _ and -, with a letter first");
   } else if (kind == std::string_view("bodies") && name == ground_name) {
-    entity.fault("the name 'ground' is taken by the ground");
+    entity.error("the name 'ground' is taken by the ground");
   } else if (!taken.insert(name).second) {
-    entity.fault("the name is taken, expected a name used once");
+    entity.error("the name is taken, expected a name used once");
   }
 }
 

@@ -15,14 +15,14 @@ namespace {
 class FlexibleCheck {
  public:
   FlexibleCheck(const FlexibleDescription& f, const Entity& body)
-      : f_(f), group_{body.faults, body.origin, body.path + ".flexible"} {}
+      : f_(f), group_{body.errors, body.origin, body.path + ".flexible"} {}
 
   void run() {
     material();
-    const std::size_t before = group_.faults.size();
+    const std::size_t before = group_.errors.size();
     points();
     bars();
-    geometry_good_ = group_.faults.size() == before;
+    geometry_good_ = group_.errors.size() == before;
     masses();
     modes();
   }
@@ -83,7 +83,7 @@ class FlexibleCheck {
   bool branch(const Entity& bar, const BarDescription& b, BarGeometry& g) {
     const auto it = geometry_.find(*b.from_bar);
     if (it == geometry_.end()) {
-      bar.fault("from.bar",
+      bar.error("from.bar",
                 sentences::unknown_bar(*b.from_bar, did_you_mean(*b.from_bar, keys_of(geometry_))));
       return false;
     }
@@ -94,9 +94,9 @@ class FlexibleCheck {
   }
 
   void bars() {
-    if (f_.bars.empty()) group_.fault("bars", sentences::no_bars());
+    if (f_.bars.empty()) group_.error("bars", sentences::no_bars());
     for (const BarDescription& b : f_.bars) {
-      const Entity bar{group_.faults, b.origin.mark.file.empty() ? group_.origin : b.origin,
+      const Entity bar{group_.errors, b.origin.mark.file.empty() ? group_.origin : b.origin,
                        group_.path + ".bars." + b.name};
       name((group_.path + ".bars").c_str(), b.name, taken_bars_, bar);
       BarGeometry g;
@@ -118,11 +118,11 @@ class FlexibleCheck {
       g.good = g.good && g.from.allFinite() && g.to.allFinite();
       if (g.good) {
         if (const auto complaint = sentences::bar_length((g.to - g.from).norm())) {
-          bar.fault(*complaint);
+          bar.error(*complaint);
           g.good = false;
         } else if (directed) {
           if (const auto zero = sentences::direction(b.reference))
-            bar.fault("reference", *zero);
+            bar.error("reference", *zero);
           else
             bar.complain("reference",
                          sentences::bar_reference(g.to - g.from, b.reference.stableNormalized()));
@@ -156,7 +156,7 @@ class FlexibleCheck {
       if (!g.good) return;
     for (const BarDescription& b : f_.bars)
       if (leader(geometry_.at(b.name).index) != leader(0)) {
-        group_.fault("bars." + b.name, sentences::bar_not_connected(f_.bars.front().name));
+        group_.error("bars." + b.name, sentences::bar_not_connected(f_.bars.front().name));
         return;
       }
   }
@@ -164,7 +164,7 @@ class FlexibleCheck {
   bool node(const std::string& key, const std::string& name) {
     if (bar_of_point_.contains(name)) return true;
     if (!geometry_good_) return false;  // a bar that is wrong makes no nodes
-    group_.fault(key, sentences::no_end_point(name) + did_you_mean(name, keys_of(bar_of_point_)));
+    group_.error(key, sentences::no_end_point(name) + did_you_mean(name, keys_of(bar_of_point_)));
     return false;
   }
 
@@ -182,14 +182,14 @@ class FlexibleCheck {
       const NodeDofs& d = given[i];
       const std::string item = std::string(key) + "[" + std::to_string(i + 1) + "]";
       if (d.mask == 0 || d.mask > 63u)
-        group_.fault(item + ".dofs", "found the mask " + std::to_string(d.mask) +
+        group_.error(item + ".dofs", "found the mask " + std::to_string(d.mask) +
                                          ", expected directions: bits 0 to 5 = x, y, z, rx, ry, "
                                          "rz");
       if (!node(item + ".point", d.node)) continue;
       for (unsigned k = 0; k < 6; ++k) {
         if (!(d.mask & (1u << k))) continue;
         if (!taken_dofs_.insert({d.node, k}).second)
-          group_.fault(item, sentences::dof_twice(d.node, k));
+          group_.error(item, sentences::dof_twice(d.node, k));
         else if (places)
           places->emplace_back(f_.points.at(d.node), k);
       }
@@ -205,15 +205,15 @@ class FlexibleCheck {
     }
     if (f_.basis) {
       if (!f_.basis->allFinite())
-        group_.fault("basis", "found numbers that are not finite, expected finite ones");
+        group_.error("basis", "found numbers that are not finite, expected finite ones");
       return;  // its rows are compared with the nodes when the body is reduced
     }
     if (!geometry_good_) return;
     std::vector<std::pair<Vec3, unsigned>> clamped;
-    const std::size_t before = group_.faults.size();
+    const std::size_t before = group_.errors.size();
     dofs("clamped", f_.clamped, &clamped);
     dofs("static_modes", f_.interfaces, nullptr);
-    const bool selection = group_.faults.size() == before;
+    const bool selection = group_.errors.size() == before;
     const bool number = group_.whole("normal_modes", f_.normal_modes, rules::normal_modes);
     if (f_.max_frequency != 0.0)
       group_.number("normal_modes.below", f_.max_frequency, rules::mode_frequency);
@@ -221,7 +221,7 @@ class FlexibleCheck {
       group_.complain("normal_modes", sentences::more_modes_than_dofs(f_.normal_modes, nodes_ + 1,
                                                                       isoparametric()));
     if (f_.interfaces.empty() && f_.normal_modes == 0 && f_.max_frequency == 0.0)
-      group_.fault(sentences::no_modes());
+      group_.error(sentences::no_modes());
     if (selection) group_.complain("clamped", sentences::body_reference(clamped));
   }
 

@@ -63,14 +63,14 @@ struct ForceValidation {
     using K = ForceKeyKind;
     const auto x = force_value(force, key);
     if (!x) {
-      if (key.required) entity.fault(std::string("missing key '") + key.name + "'");
+      if (key.required) entity.error(std::string("missing key '") + key.name + "'");
       return !key.required;
     }
     if (const char* what = other_type(key, *x)) {
-      entity.fault(key.name, std::string("found a value of another type, expected ") + what);
+      entity.error(key.name, std::string("found a value of another type, expected ") + what);
       return false;
     }
-    const std::size_t before = entity.faults.size();
+    const std::size_t before = entity.errors.size();
     switch (key.kind) {
       case K::place:
         entity.place(key.name, std::get<AttachmentDescription>(*x), names);
@@ -108,7 +108,7 @@ struct ForceValidation {
       case K::rebound_stop:
         break;
     }
-    return entity.faults.size() == before;
+    return entity.errors.size() == before;
   }
 
   void unknown_keys() const {
@@ -118,12 +118,12 @@ struct ForceValidation {
     for (const ForceKey& key : force_keys(force.type())) known.push_back(key.name);
     for (const auto& [key, value] : by_key->values)
       if (std::find(known.begin(), known.end(), key) == known.end())
-        entity.fault("unknown key '" + key + "'" + did_you_mean(key, known));
+        entity.error("unknown key '" + key + "'" + did_you_mean(key, known));
   }
 
   void all() const {
     if (const auto complaint = word_complaint(static_cast<int>(force.type()), force_words)) {
-      entity.fault("type", *complaint);
+      entity.error("type", *complaint);
       return;
     }
     unknown_keys();
@@ -131,8 +131,8 @@ struct ForceValidation {
     for (const ForceKey& key : force_keys(force.type()))
       if (!value(key)) check.wrong.insert(key.name);
     check.from_file = !force.origin.mark.file.empty();
-    check.fault = [&](const std::string& key, const std::string& sentence) {
-      key.empty() ? entity.fault(sentence) : entity.fault(key, sentence);
+    check.error = [&](const std::string& key, const std::string& sentence) {
+      key.empty() ? entity.error(sentence) : entity.error(key, sentence);
     };
     check.written = [](const std::string& name) { return name; };
     check.joint_type = [&](const std::string& joint) -> std::optional<JointType> {
@@ -145,19 +145,19 @@ struct ForceValidation {
 
 }  // namespace
 
-void forces(const ModelDescription& d, const Names& names, Faults& faults) {
+void forces(const ModelDescription& d, const Names& names, ErrorList& errors) {
   std::set<std::string> taken;
   for (const ForceDescription& f : d.forces) {
-    const Entity entity{faults, f.origin, "forces." + f.name};
+    const Entity entity{errors, f.origin, "forces." + f.name};
     name("forces", f.name, taken, entity);
     ForceValidation{d, names, entity, f}.all();
   }
 }
 
-void roads(const ModelDescription& d, Faults& faults) {
+void roads(const ModelDescription& d, ErrorList& errors) {
   std::set<std::string> taken;
   for (const RoadDescription& r : d.roads) {
-    const Entity entity{faults, r.origin, "roads." + r.name};
+    const Entity entity{errors, r.origin, "roads." + r.name};
     name("roads", r.name, taken, entity);
     entity.pieces("profile", r.pieces, true);
     for (std::size_t i = 0; i < r.bumps.size(); ++i) {

@@ -13,9 +13,9 @@ void start_values(const Entity& joint, const char* key, const std::vector<double
   const std::size_t n = joint_velocities(type);
   if (given.empty()) return;
   if (n == 0) {
-    joint.fault(key, sentences::weld_has_no_coordinates());
+    joint.error(key, sentences::weld_has_no_coordinates());
   } else if (given.size() != n) {
-    joint.fault(key, "found a list of " + std::to_string(given.size()) + ", expected " +
+    joint.error(key, "found a list of " + std::to_string(given.size()) + ", expected " +
                          (n == 1 ? std::string("a number")
                                  : "a list of " + std::to_string(n) + " numbers for a " +
                                        joint_type_name(type) + " joint"));
@@ -29,12 +29,12 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
   if (j.parent.body != ground_name)
     entity.reference("parent", "body", j.parent.body, names.bodies);
   else if (j.parent.node)
-    entity.fault("parent_node", sentences::node_on_ground());
+    entity.error("parent_node", sentences::node_on_ground());
   if (j.child.body == ground_name)
-    entity.fault("child", sentences::ground_as_child());
+    entity.error("child", sentences::ground_as_child());
   else if (entity.reference("child", "body", j.child.body, names.bodies) &&
            j.child.body == j.parent.body)
-    entity.fault("child", sentences::child_is_parent());
+    entity.error("child", sentences::child_is_parent());
   if (entity.vector("at", j.parent.point, "m")) entity.vector("at", j.child.point, "m");
   if (!type) return;
   const JointAxes axes = joint_kind(j.type).axes;
@@ -44,52 +44,52 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
   start_values(entity, "position", j.position, j.type);
   start_values(entity, "velocity", j.velocity, j.type);
   if (j.keep && j.position.empty() && j.velocity.empty())
-    entity.fault("keep", sentences::keep_alone());
+    entity.error("keep", sentences::keep_alone());
   if (!j.motion) return;
   if (!joint_has_one_coordinate(j.type)) {
-    entity.fault("motion", sentences::not_used_by_joint(joint_type_name(j.type)));
+    entity.error("motion", sentences::not_used_by_joint(joint_type_name(j.type)));
     return;
   }
   entity.function("motion", *j.motion);
-  if (!j.position.empty()) entity.fault("position", sentences::motion_and_start_value());
-  if (!j.velocity.empty()) entity.fault("velocity", sentences::motion_and_start_value());
+  if (!j.position.empty()) entity.error("position", sentences::motion_and_start_value());
+  if (!j.velocity.empty()) entity.error("velocity", sentences::motion_and_start_value());
 }
 
 }  // namespace
 
-void joints(const ModelDescription& d, const Names& names, Faults& faults) {
+void joints(const ModelDescription& d, const Names& names, ErrorList& errors) {
   std::set<std::string> taken;
   for (const JointDescription& j : d.joints) {
-    const Entity entity{faults, j.origin, "joints." + j.name};
+    const Entity entity{errors, j.origin, "joints." + j.name};
     name("joints", j.name, taken, entity);
     joint(j, names, entity);
   }
 }
 
-void rods(const ModelDescription& d, const Names& names, Faults& faults) {
+void rods(const ModelDescription& d, const Names& names, ErrorList& errors) {
   std::set<std::string> taken;
   for (const RodDescription& r : d.rods) {
-    const Entity entity{faults, r.origin, "rods." + r.name};
+    const Entity entity{errors, r.origin, "rods." + r.name};
     name("rods", r.name, taken, entity);
     const bool a = entity.place("from", r.a, names), b = entity.place("to", r.b, names);
     if (r.length) entity.number("length", *r.length, rules::rod_length);
     if (!a || !b) continue;
     if (r.a.body == r.b.body) {
-      entity.fault(sentences::both_ends_on(r.a.body));
+      entity.error(sentences::both_ends_on(r.a.body));
     } else if (!r.length && !r.a.node && !r.b.node) {
       if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point))
-        entity.fault(*complaint);
+        entity.error(*complaint);
     }
   }
 }
 
-void inputs(const ModelDescription& d, Faults& faults) {
+void inputs(const ModelDescription& d, ErrorList& errors) {
   std::set<std::string> taken;
   for (const InputDescription& i : d.inputs) {
-    const Entity entity{faults, i.origin, "inputs." + i.name};
+    const Entity entity{errors, i.origin, "inputs." + i.name};
     name("inputs", i.name, taken, entity);
     if (const auto complaint = sentences::unit(i.unit))
-      entity.fault("unit", "found '" + i.unit + "', " + *complaint);
+      entity.error("unit", "found '" + i.unit + "', " + *complaint);
     const char* unit = i.unit.c_str();
     bool good = entity.number("initial", i.initial, any_number(unit));
     if (i.low) good = entity.number("min", *i.low, any_number(unit)) && good;
@@ -97,7 +97,7 @@ void inputs(const ModelDescription& d, Faults& faults) {
     if (!good) continue;
     entity.complain("clamp", sentences::clamp_without_limits(i.clamp, i.low, i.high));
     if (const auto complaint = sentences::input_limits(i.low, i.high))
-      entity.fault("max", *complaint);
+      entity.error("max", *complaint);
     else
       entity.complain("initial", sentences::input_initial(i.initial, i.low, i.high));
   }

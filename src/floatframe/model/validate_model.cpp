@@ -5,34 +5,34 @@
 
 namespace floatframe {
 
-void validate(const ModelDescription& d, Faults& faults) {
+void validate(const ModelDescription& d, ErrorList& errors) {
   const Origin none;
-  const validation::Entity model{faults, none, ""};
+  const validation::Entity model{errors, none, ""};
   if (const auto complaint = sentences::model_name(d.name))
-    model.fault("name", "found '" + d.name + "', " + *complaint);
+    model.error("name", "found '" + d.name + "', " + *complaint);
   model.vector("gravity", d.gravity, "m/s2");
   const validation::Names names{NameIndex(d.bodies), NameIndex(d.joints), NameIndex(d.forces),
                                 NameIndex(d.roads), NameIndex(d.inputs)};
-  validation::bodies(d, faults);
-  validation::joints(d, names, faults);
-  validation::rods(d, names, faults);
-  validation::roads(d, faults);
-  validation::inputs(d, faults);
-  validation::forces(d, names, faults);
-  validation::amplitudes(d, names, faults);
-  validation::outputs(d, names, faults);
-  validate(d.simulation, faults);
+  validation::bodies(d, errors);
+  validation::joints(d, names, errors);
+  validation::rods(d, names, errors);
+  validation::roads(d, errors);
+  validation::inputs(d, errors);
+  validation::forces(d, names, errors);
+  validation::amplitudes(d, names, errors);
+  validation::outputs(d, names, errors);
+  validate(d.simulation, errors);
 }
 
-void validate(const SimulationDescription& s, Faults& faults) {
-  const validation::Entity group{faults, s.origin, "simulation"};
+void validate(const SimulationDescription& s, ErrorList& errors) {
+  const validation::Entity group{errors, s.origin, "simulation"};
   group.word("coordinates", s.coordinates, rules::coordinates);
   group.word("inertia", s.inertia, rules::inertia_methods);
   group.word("start", s.start, {"given", "equilibrium", "{state: file}"});
   if (s.start == Start::state && !s.state)
-    group.fault("start", "found no state, expected the state to start from");
+    group.error("start", "found no state, expected the state to start from");
   if (s.start == Start::given && !s.offset.empty())
-    group.fault("start.offset", sentences::offset_alone());
+    group.error("start.offset", sentences::offset_alone());
   for (const auto& [body, offset] : s.offset) {
     group.vector("start.offset." + body, offset.translation, "m");
     if (offset.rotation) group.vector("start.offset." + body, *offset.rotation, "rad");
@@ -52,9 +52,9 @@ void validate(const SimulationDescription& s, Faults& faults) {
 }
 
 void require_valid(const SimulationDescription& s) {
-  Faults faults;
-  validate(s, faults);
-  faults.throw_if_any();
+  ErrorList errors;
+  validate(s, errors);
+  errors.throw_if_any();
 }
 
 void require_valid_run(const SimulationDescription& s) {

@@ -18,9 +18,9 @@ void joint_output(const OutputDescription& o, const ModelDescription& d, const N
   if (word_complaint(static_cast<int>(type), joint_words)) return;
   const int n = joint_velocities(type);
   if (n == 0)
-    entity.fault(output_type_name(o.type), sentences::weld_does_not_move());
+    entity.error(output_type_name(o.type), sentences::weld_does_not_move());
   else if (o.component < 0 || o.component >= n)  // counted from 0 here and from 1 in model files
-    entity.fault("coordinate", sentences::number_of("the number of a coordinate", o.component, n));
+    entity.error("coordinate", sentences::number_of("the number of a coordinate", o.component, n));
 }
 
 void force_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
@@ -29,7 +29,7 @@ void force_output(const OutputDescription& o, const ModelDescription& d, const N
   const ForceType type = d.forces[*names.forces.find(o.entity)].type();
   if (word_complaint(static_cast<int>(type), force_words)) return;
   if (!force_has(type, output_kind(o.type).needs))
-    entity.fault(output_type_name(o.type),
+    entity.error(output_type_name(o.type),
                  sentences::load_without(force_type_name(type), output_type_name(o.type)));
 }
 
@@ -38,7 +38,7 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
   const std::string what = output_type_name(o.type);
   const auto moving_body = [&] {
     if (o.at.body == ground_name)
-      entity.fault(what, sentences::ground_is_no_body());
+      entity.error(what, sentences::ground_is_no_body());
     else
       entity.reference(what, "body", o.at.body, names.bodies);
   };
@@ -68,17 +68,17 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
 
 }  // namespace
 
-void outputs(const ModelDescription& d, const Names& names, Faults& faults) {
+void outputs(const ModelDescription& d, const Names& names, ErrorList& errors) {
   std::set<std::string> taken;
   for (const OutputDescription& o : d.outputs) {
-    const Entity entity{faults, o.origin, "outputs." + o.name};
+    const Entity entity{errors, o.origin, "outputs." + o.name};
     if (const auto complaint = sentences::column_name(o.name))
-      entity.fault(*complaint);
+      entity.error(*complaint);
     else if (const auto taken_by = sentences::column_taken(o.name, !taken.insert(o.name).second))
-      faults.add(o.origin.mark, "outputs: " + *taken_by);
+      errors.add(o.origin.mark, "outputs: " + *taken_by);
     const auto kind = word_complaint(static_cast<int>(o.type), output_words);
     if (kind)
-      entity.fault(*kind);
+      entity.error(*kind);
     else
       output(o, d, names, entity);
   }

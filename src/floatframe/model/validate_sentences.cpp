@@ -191,17 +191,17 @@ std::string target_without_law() {
 }
 
 std::string motion_and_start_value() {
-  return "found with a prescribed motion, which decides it, expected no such key";
+  return "found with a prescribed motion, which decides it; remove this key";
 }
 
 std::string keep_alone() {
   return "found without 'position' and 'velocity', expected one of them to keep";
 }
 
-std::string weld_has_no_coordinates() { return "a weld has no coordinates, expected no such key"; }
+std::string weld_has_no_coordinates() { return "a weld has no coordinates; remove this key"; }
 
 std::string not_used_by_joint(const std::string& type) {
-  return "is not used by a " + type + " joint, expected no such key";
+  return "is not used by a " + type + " joint; remove this key";
 }
 
 std::optional<std::pair<std::size_t, std::string>> jump(const PiecewisePolynomial& f) {

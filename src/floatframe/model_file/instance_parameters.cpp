@@ -36,10 +36,10 @@ std::string shown(const ParameterValue& v) {
 }  // namespace
 
 std::optional<GivenParameter> read_override(const ParameterOverride& o, const std::string& path,
-                                            ReadFaults& faults) {
+                                            ReadErrors& errors) {
   const SourceMark mark{path, 0, 0};
   const auto refuse = [&](const std::string& why) {
-    faults.add(mark, "--set " + o.name + "=" + o.value.substr(0, 100) + ": " + why);
+    errors.add(mark, "--set " + o.name + "=" + o.value.substr(0, 100) + ": " + why);
     return std::nullopt;
   };
   if (o.value.size() > longest_text)
@@ -74,7 +74,7 @@ std::optional<GivenParameter> read_override(const ParameterOverride& o, const st
 }
 
 void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& given) {
-  ReadFaults& faults = *self.context.faults;
+  ReadErrors& errors = *self.context.errors;
   std::multimap<std::string, std::size_t> by_name;  // in the order given
   for (std::size_t i = 0; i < given.size(); ++i) by_name.emplace(given[i].name, i);
   std::vector<bool> used(given.size(), false);
@@ -88,16 +88,16 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
     }
     for (const auto& [name, value] : declared) {
       if (is_reserved_name(name)) {
-        value.entity_fault("the name is used by the expression language");
+        value.entity_error("the name is used by the expression language");
         continue;
       }
       if (!is_identifier(name)) {
-        value.entity_fault("found a hyphen, expected letters, digits and _ in a parameter name");
+        value.entity_error("found a hyphen, expected letters, digits and _ in a parameter name");
         continue;
       }
       for (const std::string& later : hiding)
         if (value.is_scalar() && mentions(value.node().text, later))
-          value.fault("found " + value.found() + ", but the parameter '" + later +
+          value.error("found " + value.found() + ", but the parameter '" + later +
                       "', which takes the place of the constant, is declared later; expected it "
                       "before its uses");
       hiding.erase(name);
@@ -108,17 +108,17 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
         if (v && v->index() == 2 && !g.raw.empty())
           v = g.raw;
         else if (!g.complaint.empty())
-          faults.add(g.mark, g.subject + " " + name + "=" + g.raw + ": found " + g.raw + " (" +
+          errors.add(g.mark, g.subject + " " + name + "=" + g.raw + ": found " + g.raw + " (" +
                                  g.complaint + ")");
         else if (v && v->index() != g.value.index())
-          faults.add(g.mark, g.subject + "." + name + ": found " + shown(g.value) + ", expected " +
+          errors.add(g.mark, g.subject + "." + name + ": found " + shown(g.value) + ", expected " +
                                  type_name(*v));
         else
           v = g.value;
       }
       // A parameter that is wrong still exists, so that its uses are not errors too.
       if (v && v->index() == 2 &&
-          !faults.take_of("characters in the texts of all parameters",
+          !errors.take_of("characters in the texts of all parameters",
                           std::get<std::string>(*v).size(), limits::parameter_text, value.mark(),
                           value.path()))
         v = std::string("?");
@@ -127,8 +127,8 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
   }
   for (std::size_t i = 0; i < given.size(); ++i)
     if (!used[i])
-      faults.add(given[i].mark, given[i].subject + ": unknown parameter '" + given[i].name + "'" +
-                                    faults.suggestion(given[i].name, [&] { return known; }));
+      errors.add(given[i].mark, given[i].subject + ": unknown parameter '" + given[i].name + "'" +
+                                    errors.suggestion(given[i].name, [&] { return known; }));
 }
 
 }  // namespace floatframe

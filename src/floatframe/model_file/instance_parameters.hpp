@@ -22,7 +22,7 @@ struct GivenParameter {
 /// "--set name=value" for the file `path`. A text is taken as it is written; quotes around it may
 /// be there. nullopt and an error if it has no value.
 std::optional<GivenParameter> read_override(const ParameterOverride& o, const std::string& path,
-                                            ReadFaults& faults);
+                                            ReadErrors& errors);
 
 /// Fills the scope of an instance with what its file declares and what is given.
 void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& given);

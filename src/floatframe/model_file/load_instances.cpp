@@ -20,13 +20,13 @@ std::string joined(const std::vector<std::string>& words) {
 
 class Loader {
  public:
-  Loader(ModelFiles& files, ReadFaults& faults) : files_(files), faults_(faults) {}
+  Loader(ModelFiles& files, ReadErrors& errors) : files_(files), errors_(errors) {}
 
   std::unique_ptr<ModelInstance> open(const YamlDocument* document, ModelInstance* outer) {
     auto instance = std::make_unique<ModelInstance>();
     instance->document = document;
     instance->outer = outer;
-    instance->context = {&document->file, &instance->scope, &faults_};
+    instance->context = {&document->file, &instance->scope, &errors_};
     return instance;
   }
 
@@ -34,11 +34,11 @@ class Loader {
             std::vector<std::string>& stack) {
     const YamlValue top(self.context, self.document->root, "");
     if (!top.is_map()) {
-      faults_.add({self.document->file, self.document->root.line, self.document->root.column},
+      errors_.add({self.document->file, self.document->root.line, self.document->root.column},
                   "found " + top.found() + ", expected a map of keys such as 'bodies'");
       return;
     }
-    if (!faults_.take_of(
+    if (!errors_.take_of(
             "values in all files together (each counted as often as it is used)",
             self.document->values, limits::total_values,
             {self.document->file, self.document->root.line, self.document->root.column}, ""))
@@ -48,7 +48,7 @@ class Loader {
     if (const auto version = root.require("floatframe")) {
       const auto v = version->number(any_number(""));
       if (v && *v != 1.0)
-        version->fault("found version " + number_text(*v) + ", this program reads version 1");
+        version->error("found version " + number_text(*v) + ", this program reads version 1");
     }
     read_parameters(self, given);
     if (const auto points = root.get("points")) {
@@ -57,7 +57,7 @@ class Loader {
         self.points.emplace(name, value.vector("m").value_or(wrong));
     }
     for (std::size_t k = 0; k < entity_keys.size(); ++k) collect_names(self, k);
-    if (!faults_.exhausted()) subsystems(self, stack);
+    if (!errors_.exhausted()) subsystems(self, stack);
   }
 
  private:
@@ -74,11 +74,11 @@ class Loader {
           if (e.key == "when")
             active = YamlValue(self.context, e, value.path() + ".when").boolean().value_or(true);
       if (kind == 0 && name == ground_name) {
-        value.entity_fault("the name 'ground' is taken by the ground");
+        value.entity_error("the name 'ground' is taken by the ground");
         continue;
       }
-      if (active && !faults_.take_of(entity_keys[kind], 1, limits::entities,
-                                     value.entity_mark(), value.path()))
+      if (active && !errors_.take_of(entity_keys[kind], 1, limits::entities, value.entity_mark(),
+                                     value.path()))
         active = false;
       self.names[kind].emplace(name, active);
     }
@@ -106,13 +106,13 @@ class Loader {
       if (const auto c = section->get("connect"))
         connections = c->named("a map of external names to names");
       section->finish();
-      if (faults_.exhausted()) return;
+      if (errors_.exhausted()) return;
       if (!file_value) continue;
       const auto file = file_value->text("the name of a subsystem file");
       if (!file) continue;
       if (++instances_ > most_instances) {
         if (instances_ == most_instances + 1)
-          file_value->fault("found more than " + std::to_string(most_instances) +
+          file_value->error("found more than " + std::to_string(most_instances) +
                             " subsystems, expected fewer");
         continue;
       }
@@ -124,7 +124,7 @@ class Loader {
       bool recursive = false;
       for (const std::string& s : stack) recursive = recursive || s == canonical;
       if (recursive) {
-        file_value->fault("'" + full + "' includes itself");
+        file_value->error("'" + full + "' includes itself");
         continue;
       }
       const YamlDocument* document = files_.load(full, file_value->mark(), file_value->path());
@@ -176,8 +176,8 @@ class Loader {
     for (const auto& [name, value] : connections) {
       const auto target = value.text("the name of a body or road");
       if (!wanted.count(name)) {
-        value.entity_fault("'" + child.document->file + "' has no external name '" + name + "'" +
-                           faults_.suggestion(name, [&] { return order; }));
+        value.entity_error("'" + child.document->file + "' has no external name '" + name + "'" +
+                           errors_.suggestion(name, [&] { return order; }));
         continue;
       }
       given.insert(name);
@@ -195,9 +195,9 @@ class Loader {
         return out;
       };
       if (!exists && off)
-        value.fault("'" + *target + "' is switched off by its 'when'");
+        value.error("'" + *target + "' is switched off by its 'when'");
       else if (!exists)
-        value.fault("unknown name '" + *target + "'" + faults_.suggestion(*target, known));
+        value.error("unknown name '" + *target + "'" + errors_.suggestion(*target, known));
       child.external.emplace(name, exists ? *target : "");
     }
     std::vector<std::string> missing;
@@ -205,12 +205,12 @@ class Loader {
       if (!given.count(name)) missing.push_back(name);
     for (const std::string& name : missing) child.external.emplace(name, "");
     if (!missing.empty())
-      section.fault("'" + child.document->file + "' needs " + joined(missing) +
+      section.error("'" + child.document->file + "' needs " + joined(missing) +
                     ", expected it in 'connect'");
   }
 
   ModelFiles& files_;
-  ReadFaults& faults_;
+  ReadErrors& errors_;
   int instances_ = 0;
 };
 
@@ -221,11 +221,11 @@ const YamlDocument* ModelFiles::load(const std::string& file, const SourceMark& 
   for (const auto& [name, document] : documents_)
     if (name == file) return document.get();
   std::string text;
-  if (!read_text_file(file, text, faults_, where, subject)) return nullptr;
-  const std::size_t before = faults_.size();
-  auto document = std::make_unique<YamlDocument>(parse_yaml(file, text, faults_));
+  if (!read_text_file(file, text, errors_, where, subject)) return nullptr;
+  const std::size_t before = errors_.size();
+  auto document = std::make_unique<YamlDocument>(parse_yaml(file, text, errors_));
   // Nothing was understood: no second error about missing keys.
-  if (faults_.size() > before && document->root.line == 0) document.reset();
+  if (errors_.size() > before && document->root.line == 0) document.reset();
   documents_.emplace_back(file, std::move(document));
   return documents_.back().second.get();
 }
@@ -238,21 +238,21 @@ std::size_t ModelFiles::order(const std::string& file) const {
 
 std::unique_ptr<ModelInstance> load_instances(const std::string& path,
                                               const std::vector<ParameterOverride>& overrides,
-                                              ModelFiles& files, ReadFaults& faults) {
+                                              ModelFiles& files, ReadErrors& errors) {
   const YamlDocument* document = files.load(path, {}, "");
   if (!document) return nullptr;
-  Loader loader(files, faults);
+  Loader loader(files, errors);
   auto root = loader.open(document, nullptr);
   std::vector<GivenParameter> given;
   for (const ParameterOverride& o : overrides)
-    if (auto value = read_override(o, path, faults)) given.push_back(std::move(*value));
+    if (auto value = read_override(o, path, errors)) given.push_back(std::move(*value));
   std::error_code ignored;
   std::vector<std::string> stack{std::filesystem::weakly_canonical(path, ignored).string()};
   const YamlValue top(root->context, document->root, "");
   if (top.is_map()) {
     root->root.emplace(top);
     if (const auto e = root->root->get("external")) {
-      faults.add(e->entity_mark(),
+      errors.add(e->entity_mark(),
                  "external: this file is a subsystem, expected it to be used by a model file that "
                  "connects its "
                  "external names");

@@ -13,16 +13,16 @@ namespace floatframe {
 /// Files already parsed, each once.
 class ModelFiles {
  public:
-  explicit ModelFiles(ReadFaults& faults) : faults_(faults) {}
+  explicit ModelFiles(ReadErrors& errors) : errors_(errors) {}
   /// nullptr and an error if the file cannot be read. `where`, `subject`: the place that names the
   /// file.
   const YamlDocument* load(const std::string& file, const SourceMark& where,
                            const std::string& subject);
-  /// Position of the file in the order of loading (for sorting faults).
+  /// Position of the file in the order of loading (for sorting errors).
   std::size_t order(const std::string& file) const;
 
  private:
-  ReadFaults& faults_;
+  ReadErrors& errors_;
   std::vector<std::pair<std::string, std::unique_ptr<YamlDocument>>> documents_;
 };
 
@@ -30,6 +30,6 @@ class ModelFiles {
 /// entities. nullptr if the model file itself cannot be read.
 std::unique_ptr<ModelInstance> load_instances(const std::string& path,
                                               const std::vector<ParameterOverride>& overrides,
-                                              ModelFiles& files, ReadFaults& faults);
+                                              ModelFiles& files, ReadErrors& errors);
 
 }  // namespace floatframe

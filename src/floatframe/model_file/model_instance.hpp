@@ -46,7 +46,7 @@ struct ModelInstance {
   /// one switched off.
   std::optional<std::string> resolve(EntityKind kind, const std::string& name,
                                      bool* off = nullptr) const;
-  /// As above, with a fault at `value`. `bodies` include the ground.
+  /// As above, with an error at `value`. `bodies` include the ground.
   std::optional<std::string> reference(EntityKind kind, const YamlValue& value) const;
   /// The same of a body, not the ground, whose name is the key of `entry`.
   std::optional<std::string> moving_body(const std::string& name, const YamlValue& entry) const;

@@ -35,7 +35,7 @@ void check_keys(const ModelInstance& self) {
   } else {
     for (const char* key : {"gravity", "simulation"})
       if (const auto v = root.get(key))
-        self.context.faults->add(
+        self.context.errors->add(
             v->entity_mark(),
             std::string(key) + ": found in a subsystem file, expected it in the model file only");
   }
@@ -50,27 +50,27 @@ void read_top(const ModelInstance& self, const std::string& path, ReadModel& mod
     if (const auto name = v->text("the name of the model")) {
       const auto complaint = sentences::model_name(*name);
       if (complaint)
-        v->fault("found " + v->found() + ", " + *complaint);
+        v->error("found " + v->found() + ", " + *complaint);
       else
         model.description.name = *name;
     }
   if (const auto v = root.get("gravity"))
     if (const auto g = v->vector("m/s2")) model.description.gravity = *g;
   if (!root.has("bodies") && self.children.empty() && !root.has("subsystems"))
-    root.fault("missing key 'bodies'");
+    root.error("missing key 'bodies'");
 }
 
-/// Faults by file (in the order of loading), line and column, each once.
-std::vector<InputFault> sorted(std::vector<InputFault> faults, const ModelFiles& files) {
+/// Errors by file (in the order of loading), line and column, each once.
+std::vector<ErrorEntry> sorted(std::vector<ErrorEntry> errors, const ModelFiles& files) {
   std::set<std::tuple<std::string, int, int, std::string>> seen;
-  std::erase_if(faults, [&](const InputFault& f) {
+  std::erase_if(errors, [&](const ErrorEntry& f) {
     return !seen.insert({f.mark.file, f.mark.line, f.mark.column, f.message}).second;
   });
-  std::stable_sort(faults.begin(), faults.end(), [&](const InputFault& a, const InputFault& b) {
+  std::stable_sort(errors.begin(), errors.end(), [&](const ErrorEntry& a, const ErrorEntry& b) {
     return std::make_tuple(files.order(a.mark.file), a.mark.line, a.mark.column) <
            std::make_tuple(files.order(b.mark.file), b.mark.line, b.mark.column);
   });
-  return faults;
+  return errors;
 }
 
 }  // namespace
@@ -80,12 +80,12 @@ ModelDescription read_model(const std::string& path,
                             const ReadOptions& options) {
   std::optional<FilesRead> record;
   if (used) record.emplace(used->files);
-  ReadFaults faults;
-  ModelFiles files(faults);
+  ReadErrors errors;
+  ModelFiles files(errors);
   ReadModel model;
   model.options = options;
-  const auto root = load_instances(path, overrides, files, faults);
-  if (faults.exhausted()) throw InputError(sorted(faults.take(), files));
+  const auto root = load_instances(path, overrides, files, errors);
+  if (errors.exhausted()) throw InputError(sorted(errors.take(), files));
   if (root && used) {
     for (const auto& [name, value] : root->scope) used->parameters.push_back(name);
     fingerprint(*root, *used);
@@ -98,10 +98,10 @@ ModelDescription read_model(const std::string& path,
       every(*root, [&](const ModelInstance& self) { part(self, model); });
     read_simulation(*root, model);
     if (model.description.outputs.empty()) default_outputs(model);
-    if (faults.empty() && model.description.bodies.empty())
-      faults.add({path, 1, 1}, "bodies: found none, expected at least one body");
+    if (errors.empty() && model.description.bodies.empty())
+      errors.add({path, 1, 1}, "bodies: found none, expected at least one body");
   }
-  if (!faults.empty()) throw InputError(sorted(faults.take(), files));
+  if (!errors.empty()) throw InputError(sorted(errors.take(), files));
   return std::move(model.description);
 }
 

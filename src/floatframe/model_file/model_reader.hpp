@@ -18,7 +18,7 @@ struct ReadOptions {
   std::function<void(const std::string& line)> say;
 };
 
-/// Throws InputError with every fault found (file:line:column: sentence). `path` may hold subsystem
+/// Throws InputError with every error found (file:line:column: sentence). `path` may hold subsystem
 /// references, which are read relative to its folder. `used`, if given, receives what was read, as
 /// far as the reading came.
 ModelDescription read_model(const std::string& path,

@@ -32,8 +32,8 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
     const auto at = named.find(name);
     const ModalNode* node = at == named.end() ? nullptr : at->second;
     if (!node)
-      point.entity_fault("the part has no marker '" + name + "'" +
-                         self.context.faults->suggestion(name, [&] { return keys_of(named); }));
+      point.entity_error("the part has no marker '" + name + "'" +
+                         self.context.errors->suggestion(name, [&] { return keys_of(named); }));
     const auto w = self.read_point(point);
     good = good && node && w;
     if (node && w) pairs.push_back({point, node->p, *w});
@@ -41,7 +41,7 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
   if (!good || !value.is_map()) return std::nullopt;
   const auto n = static_cast<Eigen::Index>(pairs.size());
   if (n < 3) {
-    value.fault("found " + std::to_string(n) + (n == 1 ? " marker" : " markers") +
+    value.error("found " + std::to_string(n) + (n == 1 ? " marker" : " markers") +
                 ", expected at least three that do not lie on a line");
     return std::nullopt;
   }
@@ -55,7 +55,7 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
   w.colwise() -= w_mean;
   for (const bool of_part : {true, false})
     if (on_a_line(of_part ? p : w)) {
-      value.fault(std::string("found ") + (of_part ? "markers" : "points") +
+      value.error(std::string("found ") + (of_part ? "markers" : "points") +
                   " on a line, expected at least three that do not lie on a line");
       return std::nullopt;
     }
@@ -69,7 +69,7 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
   for (Eigen::Index k = 0; k < n; ++k) {
     const double distance = (X.R * p.col(k) - w.col(k)).norm();
     if (distance <= tolerance) continue;
-    pairs[k].value.fault("the marker stays " + number_text(std::round(distance * 1e9) / 1e9) +
+    pairs[k].value.error("the marker stays " + number_text(std::round(distance * 1e9) / 1e9) +
                          " m away from its point, expected at most " + number_text(tolerance) +
                          " m (align_tolerance)");
     good = false;

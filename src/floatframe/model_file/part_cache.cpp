@@ -52,8 +52,8 @@ std::optional<BodyFile> fresh(const fs::path& file, const PartJob& job, std::str
     for (const auto& [name, hash] : from.files)
       if (file_hash(folder / name) != hash) return std::nullopt;
     return found;
-  } catch (const InputError& fault) {  // damaged, or of another kind
-    damage = fault.faults().front().text();
+  } catch (const InputError& found) {  // damaged, or of another kind
+    damage = found.errors().front().text();
     return std::nullopt;
   }
 }

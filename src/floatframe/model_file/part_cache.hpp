@@ -1,6 +1,6 @@
 #pragma once
 // Reduced parts of model files, kept as body files: a part is reduced again only if its files, its
-// options or the program changed. Files of the cache appear whole; what cannot be read (with a
+// options or the program changed. Files of the cache are written atomically; what cannot be read (with a
 // line that says so) or belongs to something else is replaced.
 #include <filesystem>
 #include <functional>

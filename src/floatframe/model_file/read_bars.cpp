@@ -13,7 +13,7 @@ namespace {
 struct BarGeometry {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
   int elements = 1;
-  bool sound = false;
+  bool valid = false;
 };
 
 class BarReader {
@@ -23,11 +23,11 @@ class BarReader {
   void read(YamlSection& section) {
     if (const auto bars = section.require("bars")) {
       const auto list = bars->named("a map of names to bars");
-      if (bars->is_map() && list.empty()) bars->fault(sentences::no_bars());
+      if (bars->is_map() && list.empty()) bars->error(sentences::no_bars());
       for (const auto& [name, value] : list) bar(name, value);
     }
-    out_.sound = sound_ && !geometry_.empty();
-    if (out_.sound) connectivity();
+    out_.valid = valid_ && !geometry_.empty();
+    if (out_.valid) connectivity();
   }
 
  private:
@@ -69,7 +69,7 @@ class BarReader {
     }
     s->finish();
     if (forms != 1)
-      s->fault("found " + std::to_string(forms) +
+      s->error("found " + std::to_string(forms) +
                " sections, expected one of round, tube, rectangle, or area, Iy, Iz, J");
     return result;
   }
@@ -81,7 +81,7 @@ class BarReader {
     const auto p = self_.points.find(*name);
     if (p == self_.points.end()) {
       const auto known = [&] { return keys_of(self_.points); };
-      value.fault("unknown point '" + *name + "'" + self_.context.faults->suggestion(*name, known));
+      value.error("unknown point '" + *name + "'" + self_.context.errors->suggestion(*name, known));
       return std::nullopt;
     }
     if (!p->second.allFinite()) return std::nullopt;
@@ -99,7 +99,7 @@ class BarReader {
   void bar(const std::string& name, const YamlValue& value) {
     auto s = value.section("a bar with from, to, elements, section");
     if (!s) {
-      sound_ = false;
+      valid_ = false;
       return;
     }
     BarDescription b;
@@ -110,9 +110,9 @@ class BarReader {
     bool good = true;
     const auto elements = s->require("elements");
     b.elements = elements ? elements->integer(rules::elements).value_or(1) : 1;
-    if (!self_.context.faults->take_of("elements in all bars", b.elements, limits::elements,
+    if (!self_.context.errors->take_of("elements in all bars", b.elements, limits::elements,
                                        elements ? elements->mark() : s->mark(), value.path())) {
-      sound_ = false;
+      valid_ = false;
       return;
     }
     const auto from = s->require("from");
@@ -140,7 +140,7 @@ class BarReader {
     if (good) {
       const Vec3 axis = g.to - g.from;
       if (const auto complaint = sentences::bar_length(axis.norm())) {
-        s->fault(*complaint);
+        s->error(*complaint);
         good = false;
       } else {
         b.reference = direction.value_or(
@@ -149,7 +149,7 @@ class BarReader {
       }
     }
     g.elements = b.elements;
-    g.sound = good;
+    g.valid = good;
     if (good) {
       const std::size_t before = out_.nodes.size();
       for (int k = 1; k < b.elements; ++k) {
@@ -166,7 +166,7 @@ class BarReader {
       if (f().bars.empty()) out_.first_point = g.from;
       links_.emplace_back(start, value);
     } else {
-      sound_ = false;
+      valid_ = false;
     }
     geometry_[name] = g;
     f().bars.push_back(std::move(b));
@@ -184,17 +184,17 @@ class BarReader {
     const auto it = geometry_.find(*name);
     if (it == geometry_.end()) {
       const auto known = [&] { return keys_of(geometry_); };
-      bar_value->fault(
-          sentences::unknown_bar(*name, self_.context.faults->suggestion(*name, known)));
+      bar_value->error(
+          sentences::unknown_bar(*name, self_.context.errors->suggestion(*name, known)));
       return false;
     }
-    if (at < 0.0 || !it->second.sound) return false;
+    if (at < 0.0 || !it->second.valid) return false;
     const BarGeometry& other = it->second;
     const double position = at * other.elements;
     const double nearest = std::round(position);
     if (std::abs(position - nearest) > 1e-6) {
       const double low = std::floor(position), high = std::ceil(position);
-      at_value->fault("found " + number_text(at) + ", but bar '" + *name + "' has " +
+      at_value->error("found " + number_text(at) + ", but bar '" + *name + "' has " +
                       std::to_string(other.elements) +
                       " elements and no node there; the nearest are at " +
                       fraction(low, other.elements) + " and " + fraction(high, other.elements));
@@ -228,14 +228,14 @@ class BarReader {
   void connectivity() {
     for (const auto& [node, value] : links_)
       if (leader(node) != leader(links_.front().first)) {
-        value.entity_fault(sentences::bar_not_connected(f().bars.front().name));
+        value.entity_error(sentences::bar_not_connected(f().bars.front().name));
         return;
       }
   }
 
   const ModelInstance& self_;
   FlexibleRead& out_;
-  bool sound_ = true;
+  bool valid_ = true;
   std::map<std::string, BarGeometry> geometry_;
   // First inner node, start node and end node of a bar.
   std::map<std::string, std::size_t> inner_, starts_, ends_;

@@ -28,7 +28,7 @@ Mat3 read_orientation(const YamlValue& value) {
   if (v->size() == 3) return rotation_exp(Vec3((*v)[0], (*v)[1], (*v)[2]));
   const Eigen::Quaterniond q((*v)[0], (*v)[1], (*v)[2], (*v)[3]);
   if (std::abs(q.norm() - 1.0) > 1e-6) {
-    value.fault("found a quaternion of length " + number_text(std::round(q.norm() * 1e6) / 1e6) +
+    value.error("found a quaternion of length " + number_text(std::round(q.norm() * 1e6) / 1e6) +
                 ", expected length 1");
     return Mat3::Identity();
   }
@@ -71,7 +71,7 @@ RigidRead read_rigid(const ModelInstance& self, YamlSection s) {
 struct PartChoice {
   std::optional<YamlValue> value;  ///< of `part`, or of `flexible` alone
   bool on = true;                  ///< flexible: true or false beside `part`
-  bool sound = true;
+  bool valid = true;
 };
 
 PartChoice read_choice(YamlSection& s) {
@@ -81,25 +81,25 @@ PartChoice read_choice(YamlSection& s) {
   if (!flexible) return out;
   // A switch is true or false, also as the value of an expression.
   std::optional<bool> on;
-  const std::size_t before = flexible->context().faults->size();
+  const std::size_t before = flexible->context().errors->size();
   if (flexible->is_scalar())
     if (const auto v = flexible->parameter())
       if (const auto* truth = std::get_if<bool>(&*v)) on = *truth;
-  if (flexible->context().faults->size() > before) {
-    out.sound = false;
+  if (flexible->context().errors->size() > before) {
+    out.valid = false;
     return out;
   }
   if (out.value) {
     if (on)
       out.on = *on;
     else
-      flexible->fault("found " + flexible->found() +
+      flexible->error("found " + flexible->found() +
                       " beside 'part', expected true or false (or one of the two keys)");
   } else if (on) {
-    flexible->fault("found " + flexible->found() +
+    flexible->error("found " + flexible->found() +
                     " without 'part', expected a part: bars, a finite-element file or the name "
                     "of a body file");
-    out.sound = false;
+    out.valid = false;
   } else {
     out.value = flexible;
   }
@@ -111,19 +111,19 @@ void place_part(const ModelInstance& self, YamlSection& s, FlexibleRead& part,
                 const std::optional<Vec3>& position, const std::optional<YamlValue>& align,
                 double tolerance, BodyDescription& body) {
   if (!part.body) {  // bars are written in the coordinates of the model file
-    if (align && part.sound)
-      align->fault("found with bars, which are in place already, expected a part from a file");
+    if (align && part.valid)
+      align->error("found with bars, which are in place already, expected a part from a file");
     body.X_WB.p = position.value_or(part.first_point);
     return;
   }
   body.X_WB.p = position.value_or(Vec3::Zero());
   if (align) {
     for (const char* key : {"position", "orientation"})
-      if (s.has(key)) align->fault(std::string("found with '") + key + "', expected one of them");
+      if (s.has(key)) align->error(std::string("found with '") + key + "', expected one of them");
     if (const auto X = read_alignment(self, *align, tolerance, *part.body))
       body.X_WB = *X;
     else
-      part.sound = false;
+      part.valid = false;
   }
   for (Vec3& p : part.nodes) p = body.X_WB * p;
 }
@@ -133,12 +133,12 @@ std::optional<std::size_t> read_use(YamlSection& s, bool rigid, bool part) {
   const auto v = s.get("use");
   if (!v) {
     if (rigid && part)
-      s.fault("found both rigid and flexible, expected a key 'use' that says which");
+      s.error("found both rigid and flexible, expected a key 'use' that says which");
     return std::nullopt;
   }
   const auto use = v->word({"rigid", "flexible"});
   if (use && ((*use == 0 && !rigid) || (*use == 1 && !part)))
-    v->fault("found " + std::string(*use == 0 ? "rigid" : "flexible") +
+    v->error("found " + std::string(*use == 0 ? "rigid" : "flexible") +
              ", but the body has no such group");
   return use;
 }
@@ -151,9 +151,9 @@ void place_rigid(YamlSection& s, const YamlValue& group, RigidRead& rigid,
   if (!rigid.centre && !group.node().entries.empty() && !s.has("position")) {
     bool given = false;
     for (const YamlEntry& e : group.node().entries) given = given || e.key == "centre_of_mass";
-    if (!given) s.fault("found neither position nor rigid.centre_of_mass, expected at least one");
+    if (!given) s.error("found neither position nor rigid.centre_of_mass, expected at least one");
   }
-  if (align) align->fault("found on a rigid body, expected a part with markers");
+  if (align) align->error("found on a rigid body, expected a part with markers");
   body.X_WB.p = position.value_or(centre);
   rigid.description.p_BC = body.X_WB.R.transpose() * (centre - body.X_WB.p);
   body.kind = rigid.description;
@@ -177,8 +177,8 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
             "flexible.bars", "flexible.masses", "flexible.clamped", "flexible.static_modes",
             "flexible.normal_modes", "flexible.mass_model", "flexible.damping"});
   if (!rigid_value && !part.value) {
-    if (part.sound) s.fault("missing key 'rigid' or 'flexible'");
-    known.sound = false;
+    if (part.valid) s.error("missing key 'rigid' or 'flexible'");
+    known.valid = false;
   }
 
   std::optional<RigidRead> rigid;
@@ -199,7 +199,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
     known.flexible = part.on;
     body.rigid = !part.on;
     place_part(self, s, *flexible, position, align, tolerance, body);
-    known.sound = flexible->sound;
+    known.valid = flexible->valid;
     known.nodes = std::move(flexible->nodes);
     known.named_nodes = std::move(flexible->named_nodes);
     known.modes = flexible->modes;
@@ -211,7 +211,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
   } else if (rigid) {
     place_rigid(s, *rigid_value, *rigid, position, align, body);
   } else {
-    known.sound = false;
+    known.valid = false;
     body.kind = RigidDescription{};
   }
   body.X_WT = body.X_WB;

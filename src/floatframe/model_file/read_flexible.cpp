@@ -49,9 +49,9 @@ class FlexibleReader {
     const auto name = value.text("the name of an end point of a bar");
     if (!name) return std::nullopt;
     if (out_.named_nodes.count(*name)) return name;
-    if (!out_.sound) return std::nullopt;
+    if (!out_.valid) return std::nullopt;
     const auto known = [&] { return keys_of(out_.named_nodes); };
-    value.fault(sentences::no_end_point(*name) + value.context().faults->suggestion(*name, known));
+    value.error(sentences::no_end_point(*name) + value.context().errors->suggestion(*name, known));
     return std::nullopt;
   }
 
@@ -92,7 +92,7 @@ class FlexibleReader {
             for (const YamlValue& w : v->list())
               if (const auto k = w.word(dof_names)) bits.push_back(static_cast<unsigned>(*k));
             if (v->node().items.empty())
-              v->fault("found an empty list, expected directions such as [x, y, z]");
+              v->error("found an empty list, expected directions such as [x, y, z]");
           } else if (const auto t = v->text("all or a list of x, y, z, rx, ry, rz")) {
             if (*t == "all")
               bits = {0, 1, 2, 3, 4, 5};
@@ -109,7 +109,7 @@ class FlexibleReader {
       if (!name) continue;
       for (unsigned k : bits) {
         const auto [it, fresh] = taken_.insert({*name, k});
-        if (!fresh) item.fault(sentences::dof_twice(*name, k));
+        if (!fresh) item.error(sentences::dof_twice(*name, k));
         d.node = *name;
         d.mask = 1u << k;
         if (fresh) out.push_back(d);
@@ -127,7 +127,7 @@ class FlexibleReader {
       v->complain(sentences::section_inertia(f().section_inertia,
                                              f().mass_model == MassModel::isoparametric));
     f().damping_ratio = section_.number("damping", rules::damping_ratio, 0.0);
-    const std::size_t faults_before = self_.context.faults->size();
+    const std::size_t errors_before = self_.context.errors->size();
     f().clamped = dofs("clamped");
     f().interfaces = dofs("static_modes");
     const auto normal = section_.get("normal_modes");
@@ -146,11 +146,11 @@ class FlexibleReader {
     for (const char* key : {"clamped", "static_modes", "normal_modes"}) {
       if (!section_.has(key) || (!analytic && !basis)) continue;
       if (analytic || std::string(key) != "clamped")
-        section_.get(key)->fault(std::string("is not used with ") +
+        section_.get(key)->error(std::string("is not used with ") +
                                  (analytic ? "analytic shapes" : "a given basis") +
-                                 ", expected no such key");
+                                 "; remove this key");
     }
-    if (analytic && basis) basis->fault("found with analytic shapes, expected one of the two");
+    if (analytic && basis) basis->error("found with analytic shapes, expected one of the two");
     if (analytic) return;
     if (basis) {
       read_basis(*basis);
@@ -163,17 +163,17 @@ class FlexibleReader {
     } else if (normal) {
       const auto n = normal->integer(rules::normal_modes);
       f().normal_modes = n.value_or(0);
-      if (n && out_.sound)
+      if (n && out_.valid)
         normal->complain(sentences::more_modes_than_dofs(
             *n, out_.nodes.size(), f().mass_model == MassModel::isoparametric));
     }
     out_.modes =
         f().max_frequency > 0.0 ? -1 : static_cast<int>(f().interfaces.size()) + f().normal_modes;
-    if (out_.modes == 0 && self_.context.faults->size() == faults_before)
-      section_.fault(sentences::no_modes());
+    if (out_.modes == 0 && self_.context.errors->size() == errors_before)
+      section_.error(sentences::no_modes());
     if (!section_.has("clamped"))
-      section_.fault("missing key 'clamped'");
-    else if (out_.sound)
+      section_.error("missing key 'clamped'");
+    else if (out_.valid)
       reference_removes_rigid_motion();
   }
 
@@ -192,13 +192,13 @@ class FlexibleReader {
     if (!name) return;
     const std::string file = beside(self_, *name);
     std::string text;
-    if (!read_text_file(file, text, *value.context().faults, value.mark(), value.path())) return;
+    if (!read_text_file(file, text, *value.context().errors, value.mark(), value.path())) return;
     std::vector<std::vector<double>> rows;
     std::istringstream in(text);
     std::string line;
     int number = 0;
     const auto complain = [&](const std::string& sentence) {
-      value.context().faults->add({file, number, 1}, sentence);
+      value.context().errors->add({file, number, 1}, sentence);
     };
     while (std::getline(in, line)) {
       ++number;
@@ -221,8 +221,8 @@ class FlexibleReader {
                         std::to_string(rows.front().size()) + " as in the first row");
       rows.push_back(std::move(row));
     }
-    if (out_.sound && rows.size() != 6 * out_.nodes.size()) {
-      value.fault("'" + file + "' has " + std::to_string(rows.size()) +
+    if (out_.valid && rows.size() != 6 * out_.nodes.size()) {
+      value.error("'" + file + "' has " + std::to_string(rows.size()) +
                   " rows, expected 6 for each of the " + std::to_string(out_.nodes.size()) +
                   " nodes");
       return;

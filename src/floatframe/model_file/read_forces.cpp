@@ -20,12 +20,12 @@ std::optional<AttachmentDescription> own_place(const ModelInstance& self, const 
   const auto body = body_value ? self.reference(EntityKind::body, *body_value) : std::nullopt;
   const auto at = s.get("at");
   const auto node = s.get("node");
-  if (at && node) node->fault("found with 'at', expected one of the two");
+  if (at && node) node->error("found with 'at', expected one of the two");
   const auto point = at ? self.read_point(*at) : std::nullopt;
   if (!body || (at && !point)) return std::nullopt;
   a.body = *body;
   if (*body == ground_name) {
-    body_value->fault(sentences::ground_is_no_body());
+    body_value->error(sentences::ground_is_no_body());
     return std::nullopt;
   }
   const auto it = model.bodies.find(*body);
@@ -56,14 +56,14 @@ class ForceReader {
   void read() {
     const ForceKind& kind = force_kind(f_.type());
     for (const ForceKey& key : kind.keys) {
-      const std::size_t before = self_.context.faults->size();
+      const std::size_t before = self_.context.errors->size();
       if (const auto value = read(key)) set_force_value(f_, key, *value);
-      if (self_.context.faults->size() != before) check_.wrong.insert(key.name);
+      if (self_.context.errors->size() != before) check_.wrong.insert(key.name);
     }
     check_.from_file = true;
-    check_.fault = [&](const std::string& key, const std::string& sentence) {
+    check_.error = [&](const std::string& key, const std::string& sentence) {
       const auto value = key.empty() ? std::nullopt : s_.get(key.c_str());
-      value ? value->fault(sentence) : s_.fault(sentence);
+      value ? value->error(sentence) : s_.error(sentence);
     };
     check_.written = [&](const std::string& name) { return self_.written(name); };
     check_.joint_type = [&](const std::string& joint) { return joint_type(joint); };
@@ -183,17 +183,17 @@ class ForceReader {
 PiecewisePolynomial read_profile(const YamlValue& value) {
   const TableRows table = read_table_rows(value, any_number("m"), "a point [x, z] [m]");
   if (table.good && table.rows.empty())
-    value.fault(value.is_list() ? "found an empty list, expected points [x, z]"
+    value.error(value.is_list() ? "found an empty list, expected points [x, z]"
                                 : "found no rows in '" + table.file + "', expected points x, z");
   std::vector<TablePoint> points;
   for (const TableRow& row : table.rows) {
     const double x = row.point.x;
     const std::size_t n = points.size();
     if (n > 0 && x < points.back().x)
-      table.fault(row, "found x = " + number_text(x) + " after " + number_text(points.back().x) +
+      table.error(row, "found x = " + number_text(x) + " after " + number_text(points.back().x) +
                            ", expected x that does not decrease [m]");
     else if (n > 1 && x == points[n - 1].x && x == points[n - 2].x)
-      table.fault(row,
+      table.error(row,
                   "found x = " + number_text(x) + " a third time, expected two points at a jump");
     else
       points.push_back(row.point);

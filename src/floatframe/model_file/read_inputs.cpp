@@ -13,7 +13,7 @@ void read_inputs(const ModelInstance& self, ReadModel& model) {
       if (const auto unit = v->text("a unit, for example N")) {
         const auto complaint = sentences::unit(*unit);
         if (complaint)
-          v->fault("found " + v->found() + ", " + *complaint);
+          v->error("found " + v->found() + ", " + *complaint);
         else
           i.unit = *unit;
       }
@@ -24,16 +24,16 @@ void read_inputs(const ModelInstance& self, ReadModel& model) {
     i.clamp = s.boolean("clamp", false);
     s.finish();
     if (const auto complaint = sentences::clamp_without_limits(i.clamp, i.low, i.high)) {
-      s.get("clamp")->fault(*complaint);
+      s.get("clamp")->error(*complaint);
       continue;
     }
     if (const auto complaint = sentences::input_limits(i.low, i.high)) {
-      s.get("max")->fault(*complaint);
+      s.get("max")->error(*complaint);
       continue;
     }
     if (const auto complaint = sentences::input_initial(i.initial, i.low, i.high)) {
       const auto v = s.get("initial");
-      v ? v->fault(*complaint) : s.fault("initial: " + *complaint);
+      v ? v->error(*complaint) : s.error("initial: " + *complaint);
       continue;
     }
     model.description.inputs.push_back(std::move(i));

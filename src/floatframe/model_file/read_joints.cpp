@@ -16,7 +16,7 @@ std::vector<double> start_values(YamlSection& s, const char* key, JointType type
   if (!v) return {};
   const std::size_t n = joint_velocities(type);
   if (n == 0) {
-    v->fault(sentences::weld_has_no_coordinates());
+    v->error(sentences::weld_has_no_coordinates());
     return {};
   }
   if (n == 1 && !v->is_list()) {
@@ -54,9 +54,9 @@ JointBodies read_sides(const ModelInstance& self, YamlSection& s, JointDescripti
   const auto child_value = s.require("child");
   if (child_value) out.child = self.reference(EntityKind::body, *child_value);
   if (out.child && *out.child == ground_name)
-    child_value->fault(sentences::ground_as_child());
+    child_value->error(sentences::ground_as_child());
   else if (out.parent && out.child && *out.parent == *out.child)
-    child_value->fault(sentences::child_is_parent());
+    child_value->error(sentences::child_is_parent());
   j.parent.body = out.parent.value_or(ground_name);
   j.child.body = out.child.value_or(ground_name);
   j.parent.origin = j.child.origin = j.origin;
@@ -81,7 +81,7 @@ void read_place(const ModelInstance& self, const ReadModel& model, YamlSection& 
       if (child) point = frame_origin(self, model, *child);
       if (point && parent) check_node(self, model, *parent, *point, s.value());
     } else {
-      s.fault("missing key 'at'");
+      s.error("missing key 'at'");
     }
   }
   j.parent.point = j.child.point = point.value_or(Vec3::Zero());
@@ -125,7 +125,7 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   j.type = *type;
   read_axes(s, j);
   const auto unused = [&](const char* key) {
-    if (const auto v = s.get(key)) v->fault(sentences::not_used_by_joint(joint_words[*word]));
+    if (const auto v = s.get(key)) v->error(sentences::not_used_by_joint(joint_words[*word]));
   };
   const JointAxes axes = joint_kind(j.type).axes;
   if (axes == JointAxes::none) unused("axis");
@@ -135,12 +135,12 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   j.velocity = start_values(s, "velocity", j.type);
   j.keep = s.boolean("keep", false);
   if (j.keep && !s.has("position") && !s.has("velocity"))
-    s.get("keep")->fault(sentences::keep_alone());
+    s.get("keep")->error(sentences::keep_alone());
   if (joint_has_one_coordinate(j.type))
     if (const auto v = s.get("motion")) {
       j.motion = read_time_function(*v, joint_unit_name(j.type, 0), Interpolation::cubic);
       for (const char* key : {"position", "velocity"})
-        if (s.has(key)) s.get(key)->fault(sentences::motion_and_start_value());
+        if (s.has(key)) s.get(key)->error(sentences::motion_and_start_value());
     }
   j.cut = s.boolean("cut", false);
   s.finish();
@@ -174,7 +174,7 @@ std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& mod
 bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
                 const Vec3& point, const YamlValue& value) {
   const auto it = model.bodies.find(body);
-  if (it == model.bodies.end() || !it->second.flexible || !it->second.sound) return true;
+  if (it == model.bodies.end() || !it->second.flexible || !it->second.valid) return true;
   const Vec3 p = self.world.point(point);
   const std::vector<Vec3>& nodes = it->second.nodes;
   const auto nearer = [&](const Vec3& a, const Vec3& b) { return (a - p).norm() < (b - p).norm(); };
@@ -182,7 +182,7 @@ bool check_node(const ModelInstance& self, const ReadModel& model, const std::st
   if (nearest != nodes.end() && (*nearest - p).norm() <= rules::node_tolerance) return true;
   const Placement& w = self.world;
   const Vec3 there = nearest != nodes.end() ? Vec3(w.P * (*nearest - w.t)) : Vec3::Zero().eval();
-  value.fault(
+  value.error(
       sentences::no_node_at(point, self.written(body), nearest != nodes.end() ? &there : nullptr));
   return false;
 }
@@ -191,18 +191,18 @@ bool check_named_node(const ModelInstance& self, const ReadModel& model, const s
                       const std::string& node, const YamlValue& value) {
   const auto it = model.bodies.find(body);
   if (it == model.bodies.end()) {
-    if (body == ground_name) value.fault(sentences::node_on_ground());
+    if (body == ground_name) value.error(sentences::node_on_ground());
     return false;
   }
-  if (!it->second.sound) return false;
+  if (!it->second.valid) return false;
   if (!it->second.flexible && it->second.named_nodes.empty()) {
-    value.fault(sentences::node_on_rigid_body(self.written(body)));
+    value.error(sentences::node_on_rigid_body(self.written(body)));
     return false;
   }
   if (it->second.named_nodes.count(node)) return true;
   const auto known = [&] { return keys_of(it->second.named_nodes); };
-  value.fault(sentences::no_node_named(self.written(body), it->second.flexible, node) +
-              self.context.faults->suggestion(node, known));
+  value.error(sentences::no_node_named(self.written(body), it->second.flexible, node) +
+              self.context.errors->suggestion(node, known));
   return false;
 }
 
@@ -216,7 +216,7 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
   const auto node = s.get("node");
   s.finish();
   if (at && node) {
-    node->fault("found with 'at', expected one of the two");
+    node->error("found with 'at', expected one of the two");
     return std::nullopt;
   }
   const auto point = at ? self.read_point(*at) : std::nullopt;
@@ -238,7 +238,7 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
   }
   const auto origin = frame_origin(self, model, *body);
   if (!origin) {
-    s.fault("missing key 'at'");  // the ground has no frame origin of its own
+    s.error("missing key 'at'");  // the ground has no frame origin of its own
     return std::nullopt;
   }
   a.point = *origin;
@@ -267,10 +267,10 @@ void read_rods(const ModelInstance& self, ReadModel& model) {
     r.a = *ends[0];
     r.b = *ends[1];
     if (r.a.body == r.b.body)
-      s.fault(sentences::both_ends_on(self.written(r.a.body)));
+      s.error(sentences::both_ends_on(self.written(r.a.body)));
     else if (const auto complaint = sentences::rod_ends(r.a.point, r.b.point);
              complaint && !s.has("length"))
-      s.fault(*complaint);
+      s.error(*complaint);
     place(r, self.world);
     model.description.rods.push_back(std::move(r));
   }

@@ -34,7 +34,7 @@ PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units
             good = false;
       breaks.push_back(x.value_or(breaks.empty() ? 0.0 : breaks.back() + 1.0));
     } else if (const auto below = piece->get("below")) {
-      below->fault("the last piece has no upper end, expected no key 'below'");
+      below->error("the last piece has no upper end, expected no key 'below'");
     }
     const auto p = piece->require("polynomial");
     good = good && p;
@@ -44,7 +44,7 @@ PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units
   }
   if (!good) return {};
   const PiecewisePolynomial f(breaks, std::move(pieces));
-  if (const auto jump = sentences::jump(f)) items[jump->first].fault(jump->second);
+  if (const auto jump = sentences::jump(f)) items[jump->first].error(jump->second);
   return f;
 }
 
@@ -60,7 +60,7 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
     value.unexpected("a table of at least 2 points [x, f]");
     good = false;
   } else if (good && table.rows.size() < 2) {
-    value.fault("found " + std::to_string(table.rows.size()) +
+    value.error("found " + std::to_string(table.rows.size()) +
                 (table.rows.size() == 1 ? " row in '" : " rows in '") + table.file +
                 "', expected a table of at least 2 points");
     good = false;
@@ -68,7 +68,7 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
   std::vector<TablePoint> points;
   for (const TableRow& row : table.rows) {
     if (!points.empty() && row.point.x <= points.back().x) {
-      table.fault(row, "found x = " + number_text(row.point.x) + " after " +
+      table.error(row, "found x = " + number_text(row.point.x) + " after " +
                            number_text(points.back().x) + ", expected ascending x [" + x_unit +
                            "]");
       good = false;
@@ -80,7 +80,7 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
   for (std::size_t k = 1; k < points.size(); ++k)  // the piece between points k - 1 and k
     for (const double c : f.pieces()[k].coefficients)
       if (!std::isfinite(c)) {
-        table.fault(table.rows[k], "found the step from " + number_text(points[k - 1].f) + " to " +
+        table.error(table.rows[k], "found the step from " + number_text(points[k - 1].f) + " to " +
                                        number_text(points[k].f) + " over " +
                                        number_text(points[k].x - points[k - 1].x) + " [" + x_unit +
                                        "], expected a slope that is a finite number");
@@ -92,7 +92,7 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
 constexpr const char* time_laws =
     "a number or a map with one of polynomial, piecewise, table, and sine";
 
-/// The keys of a function of time; a fault with `expected` if there are none, unless it is null.
+/// The keys of a function of time; an error with `expected` if there are none, unless it is null.
 TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation table,
                         const char* expected) {
   TimeFunction f;
@@ -122,7 +122,7 @@ TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation ta
   }
   section.finish();
   if (laws > 1 || (laws == 0 && !sine && expected != nullptr))
-    section.fault("found " + std::to_string(laws) + " laws, expected " +
+    section.error("found " + std::to_string(laws) + " laws, expected " +
                   (expected != nullptr ? expected : time_laws));
   return f;
 }
@@ -178,7 +178,7 @@ PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits
     f = read_table(*section, *v, Interpolation::linear, Beyond::tangent, units.x);
   }
   section->finish();
-  if (laws != 1) section->fault("found " + std::to_string(laws) + " laws, expected " + forms);
+  if (laws != 1) section->error("found " + std::to_string(laws) + " laws, expected " + forms);
   return f;
 }
 

@@ -17,7 +17,7 @@ class OutputReader {
 
   void read(const std::string& name, const YamlValue& value) {
     if (const auto complaint = sentences::column_name(name)) {
-      value.entity_fault(*complaint);
+      value.entity_error(*complaint);
       return;
     }
     auto s = value.section("a quantity, for example {position: body, axis: z}");
@@ -33,7 +33,7 @@ class OutputReader {
         if (const char* key = output_kind(type).components.key) s->get(key);
       for (const char* key : {"mode", "coordinate"}) s->get(key);
       s->finish();
-      s->fault("found " + std::to_string(found) + " quantities, expected one of " +
+      s->error("found " + std::to_string(found) + " quantities, expected one of " +
                alternatives(output_words));
       return;
     }
@@ -71,7 +71,7 @@ class OutputReader {
           o.entity = *f;
           const auto type = model_.force_types.find(*f);
           if (type != model_.force_types.end() && !force_has(type->second, kind.needs))
-            what.fault(
+            what.error(
                 sentences::load_without(force_type_name(type->second), output_type_name(o.type)));
           components(name, *s, o);
         }
@@ -84,13 +84,13 @@ class OutputReader {
   void add(const std::string& name, OutputDescription o) {
     o.name = self_.prefix + name;
     place(o, self_.world);
-    ReadFaults& faults = *self_.context.faults;
+    ReadErrors& errors = *self_.context.errors;
     const bool exists = !model_.columns.insert(o.name).second;
     if (const auto complaint = sentences::column_taken(o.name, exists)) {
-      faults.add(o.origin.mark, "outputs: " + *complaint);
+      errors.add(o.origin.mark, "outputs: " + *complaint);
       return;
     }
-    if (!faults.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
+    if (!errors.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
     model_.description.outputs.push_back(std::move(o));
   }
 
@@ -117,7 +117,7 @@ class OutputReader {
   std::optional<std::string> moving_body(const YamlValue& value) {
     const auto body = self_.reference(EntityKind::body, value);
     if (body && *body == ground_name) {
-      value.fault(sentences::ground_is_no_body());
+      value.error(sentences::ground_is_no_body());
       return std::nullopt;
     }
     return body;
@@ -164,7 +164,7 @@ class OutputReader {
     if (it == model_.joints.end()) return;
     const int n = joint_velocities(it->second);
     if (n == 0) {
-      what.fault(sentences::weld_does_not_move());
+      what.error(sentences::weld_does_not_move());
       return;
     }
     if (coordinate) {
@@ -172,7 +172,7 @@ class OutputReader {
       if (!k) return;
       o.component = *k - 1;
     } else if (n > 1) {
-      s.fault("missing key 'coordinate'");
+      s.error("missing key 'coordinate'");
       return;
     }
     add(name, o);
@@ -184,9 +184,9 @@ class OutputReader {
     if (!body || !number) return;
     o.at.body = *body;
     const auto it = model_.bodies.find(*body);
-    if (it == model_.bodies.end() || !it->second.sound) return;
+    if (it == model_.bodies.end() || !it->second.valid) return;
     if (!it->second.flexible) {
-      what.fault(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
+      what.error(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
       return;
     }
     const auto k =
@@ -206,9 +206,9 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
     const auto body = self.moving_body(name, v);
     if (!body) continue;
     const auto it = model.bodies.find(*body);
-    if (it == model.bodies.end() || !it->second.sound) continue;
+    if (it == model.bodies.end() || !it->second.valid) continue;
     if (!it->second.flexible) {
-      v.entity_fault(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
+      v.entity_error(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
       continue;
     }
     const int n = it->second.modes;

@@ -19,7 +19,7 @@ FlexibleRead known_part(FlexibleBody body) {
     if (!body.nodes[k].name.empty()) out.named_nodes.emplace(body.nodes[k].name, k);
   }
   out.modes = body.modes();
-  out.sound = true;
+  out.valid = true;
   out.body = std::move(body);
   return out;
 }
@@ -34,13 +34,13 @@ FlexibleRead known_part(ReducedPart part) {
   return out;
 }
 
-/// Faults of a file keep their place; others belong to the value that names the file.
-void add_faults(const YamlValue& value, const InputError& error) {
-  for (const InputFault& fault : error.faults()) {
-    if (fault.mark.line > 0)
-      value.context().faults->add(fault.mark, fault.message, fault.count);
+/// Errors of a file keep their place; others belong to the value that names the file.
+void add_errors(const YamlValue& value, const InputError& error) {
+  for (const ErrorEntry& entry : error.errors()) {
+    if (entry.mark.line > 0)
+      value.context().errors->add(entry.mark, entry.message, entry.count);
     else
-      value.fault(fault.text(), fault.count);
+      value.error(entry.text(), entry.count);
   }
 }
 
@@ -66,7 +66,7 @@ FlexibleRead from_body_file(const ModelInstance& self, const ReadModel& model,
       for (const std::string& note : sid.notes) model.options.say(who + ": " + note);
     return known_part(std::move(sid.body));
   } catch (const InputError& error) {
-    add_faults(value, error);
+    add_errors(value, error);
     return {};
   }
 }
@@ -74,7 +74,7 @@ FlexibleRead from_body_file(const ModelInstance& self, const ReadModel& model,
 FlexibleRead from_job(const ModelInstance& self, const ReadModel& model, const std::string& who,
                       const YamlValue& value) {
   auto section = value.section();
-  const std::size_t before = self.context.faults->size();
+  const std::size_t before = self.context.errors->size();
   const auto job = read_part_job(self, *section);
   // A model that cannot run need not wait for reductions.
   if (!job || before > 0) return {};
@@ -86,7 +86,7 @@ FlexibleRead from_job(const ModelInstance& self, const ReadModel& model, const s
       note_file_read((job->file.parent_path() / name).string(), hash);
     return known_part(std::move(content.part));
   } catch (const InputError& error) {
-    add_faults(value, error);
+    add_errors(value, error);
     return {};
   }
 }
@@ -107,7 +107,7 @@ FlexibleRead read_part(const ModelInstance& self, const ReadModel& model, const 
   if (!group) return {};
   if (group->has("file")) return from_job(self, model, who, value);
   if (!group->has("bars") && !group->has("material")) {
-    group->fault("found neither 'bars' nor 'file', expected one of them");
+    group->error("found neither 'bars' nor 'file', expected one of them");
     return {};
   }
   return read_flexible(self, *group);

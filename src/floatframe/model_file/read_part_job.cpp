@@ -16,7 +16,7 @@ class JobReader {
   JobReader(const ModelInstance& self, YamlSection& section) : self_(self), s_(section) {}
 
   std::optional<PartJob> read() {
-    const std::size_t before = self_.context.faults->size();
+    const std::size_t before = self_.context.errors->size();
     files();
     if (const auto v = s_.get("interfaces"))
       for (const auto& [name, value] : v->named("a map of names to interfaces", true))
@@ -28,7 +28,7 @@ class JobReader {
     reference();
     switches();
     s_.finish();
-    if (self_.context.faults->size() > before) return std::nullopt;
+    if (self_.context.errors->size() > before) return std::nullopt;
     return std::move(job_);
   }
 
@@ -53,7 +53,7 @@ class JobReader {
         try {
           unit_system(*name);
         } catch (const InputError& error) {
-          v->fault(error.what());
+          v->error(error.what());
         }
       }
     if (const auto v = s_.get("format"))
@@ -82,7 +82,7 @@ class JobReader {
     return v ? v->vector("").value_or(Vec3::Zero()) : Vec3::Zero();
   }
 
-  /// The one way of choosing nodes; a fault at none or several.
+  /// The one way of choosing nodes; an error at none or several.
   void choice(YamlSection& s, NodeChoice& c) {
     int ways = 0;
     const auto group = [&](const char* key, NodeChoice::By by, const char* what) {
@@ -130,7 +130,7 @@ class JobReader {
     }
     c.tolerance = s.number("tolerance", positive_number(""), 0.0);
     if (ways != 1)
-      s.fault("found " + std::to_string(ways) +
+      s.error("found " + std::to_string(ways) +
               " ways to choose nodes, expected one of set, node, nearest, plane, cylinder, sphere");
   }
 
@@ -139,10 +139,10 @@ class JobReader {
     if (const auto d = v ? read_direction(*v) : std::nullopt) out = d->stableNormalized();
   }
 
-  /// False and a fault if the name is taken.
+  /// False and an error if the name is taken.
   bool name_is_new(const std::string& name, const YamlValue& value) {
     if (names_.insert(name).second) return true;
-    value.fault("found the name twice in interfaces and markers, expected once");
+    value.error("found the name twice in interfaces and markers, expected once");
     return false;
   }
 
@@ -166,7 +166,7 @@ class JobReader {
       for (const YamlValue& item : value.list())
         if (const auto k = item.word(dof_words)) mask |= 1u << *k;
       if (value.node().items.empty())
-        value.fault("found an empty list, expected directions such as [x, y, z]");
+        value.error("found an empty list, expected directions such as [x, y, z]");
       return mask;
     }
     const auto t = value.text("all or a list of x, y, z, rx, ry, rz");
@@ -210,8 +210,8 @@ class JobReader {
       for (const InterfaceDescription& i : o().interfaces) known.push_back(i.name);
       for (const std::string& k : known)
         if (k == *name) return;
-      node->fault("unknown interface '" + *name + "'" +
-                  self_.context.faults->suggestion(*name, [&] { return known; }));
+      node->error("unknown interface '" + *name + "'" +
+                  self_.context.errors->suggestion(*name, [&] { return known; }));
     } else if (const auto w = v->word({"mean_axis", "buckens"})) {
       o().reference.kind = static_cast<BodyReference::Kind>(*w);
     }

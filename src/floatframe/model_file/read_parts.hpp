@@ -19,7 +19,7 @@ struct PartJob;
 struct KnownBody {
   Vec3 origin = Vec3::Zero();  ///< of the body frame, world [m]
   bool flexible = false;       ///< has modes; a rigid part has none and keeps its named nodes
-  bool sound = true;           ///< its nodes are known (no fault in its bars or its file)
+  bool valid = true;           ///< its nodes are known (no error in its bars or its file)
   std::vector<Vec3> nodes;     ///< world design positions [m]
   std::map<std::string, std::size_t> named_nodes;
   int modes = 0;          ///< -1: decided by a frequency limit
@@ -51,7 +51,7 @@ void default_outputs(ReadModel& model);
 struct FlexibleRead {
   FlexibleDescription description;
   std::optional<FlexibleBody> body;  ///< from a file: takes the place of the description
-  bool sound = false;
+  bool valid = false;
   Vec3 first_point = Vec3::Zero();  ///< of the first bar
   std::vector<Vec3> nodes;          ///< coordinates of this file; of `body`: of the part
   std::map<std::string, std::size_t> named_nodes;
@@ -65,10 +65,10 @@ void read_bars(const ModelInstance& self, YamlSection& section, FlexibleRead& ou
 /// name of a body file. `body` is for messages.
 FlexibleRead read_part(const ModelInstance& self, const ReadModel& model, const std::string& body,
                        const YamlValue& value);
-/// A group with a finite-element file as a job. nullopt and faults if something in it is wrong.
+/// A group with a finite-element file as a job. nullopt and errors if something in it is wrong.
 std::optional<PartJob> read_part_job(const ModelInstance& self, YamlSection section);
 /// align: {marker: point}: the motion of the part that brings its markers to the points of this
-/// file, in the least-squares sense. nullopt and faults at markers that stay away from their
+/// file, in the least-squares sense. nullopt and errors at markers that stay away from their
 /// points.
 std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& value,
                                    double tolerance, const FlexibleBody& part);
@@ -91,10 +91,10 @@ std::optional<AttachmentDescription> read_attachment(const ModelInstance& self,
 /// body it need not be a node: a marker there belongs to the frame itself.
 std::optional<Vec3> frame_origin(const ModelInstance& self, const ReadModel& model,
                                  const std::string& body);
-/// Fault at `value` if a flexible body has no node at `point` (coordinates of this file).
+/// Error at `value` if a flexible body has no node at `point` (coordinates of this file).
 bool check_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
                 const Vec3& point, const YamlValue& value);
-/// Fault at `value` if the body has no node of that name.
+/// Error at `value` if the body has no node of that name.
 bool check_named_node(const ModelInstance& self, const ReadModel& model, const std::string& body,
                       const std::string& node, const YamlValue& value);
 

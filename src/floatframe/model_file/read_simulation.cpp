@@ -37,7 +37,7 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
   const auto offset = s->get("offset");
   s->finish();
   if (equilibrium && state) {
-    state->fault("found with 'equilibrium', expected one of the two");
+    state->error("found with 'equilibrium', expected one of the two");
     return;
   }
   if (!equilibrium && !state && !offset) {
@@ -51,11 +51,11 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
     try {
       d.state = std::make_shared<const SystemState>(read_state(beside(self, *file)));
     } catch (const InputError& error) {
-      for (const InputFault& f : error.faults()) state->fault(f.text(), f.count);
+      for (const ErrorEntry& f : error.errors()) state->error(f.text(), f.count);
     }
   }
   if (!offset) return;
-  if (!state && !on.value_or(false)) offset->fault(sentences::offset_alone());
+  if (!state && !on.value_or(false)) offset->error(sentences::offset_alone());
   read_offset(self, *offset, d);
 }
 

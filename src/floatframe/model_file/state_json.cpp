@@ -28,9 +28,9 @@ class StateReader {
   explicit StateReader(std::string file) : file_(std::move(file)) {}
 
   SystemState read() {
-    Faults faults;
+    ErrorList errors;
     std::string text;
-    if (!read_text_file(file_, text, faults, {}, "")) faults.throw_if_any();
+    if (!read_text_file(file_, text, errors, {}, "")) errors.throw_if_any();
     std::string why;
     const Json json = read_json(text, why);
     if (json.is_discarded()) fail("this is not a state file (" + why + ")");

@@ -31,7 +31,7 @@ void measure(FeModel model, FeFacts& out) {
     if (material < 0 || material >= static_cast<int>(model.materials.size())) element.material = 0;
     const ElementInput input = gather(model, element);
     const ElementKernel& kernel = element_kernel(element.type);
-    if (!kernel.fault(input).empty()) {
+    if (!kernel.error(input).empty()) {
       out.bad_elements.push_back(model.element_label(static_cast<int>(e)));
       continue;
     }

@@ -15,7 +15,7 @@ struct FeFacts {
   int point_masses = 0, equations = 0, supports = 0;
   int matrix_rows = 0;                           ///< of matrices from another program
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box
-  double volume = 0.0;                           ///< of solids, shells and beams that are sound
+  double volume = 0.0;                           ///< of solids, shells and beams that are valid
   double mass = 0.0;                             ///< volume times density, and point masses
   std::vector<std::string> bad_elements;         ///< labels of elements that are inverted or flat
   struct Set {

@@ -32,13 +32,13 @@ void InputFilter::take(std::span<const std::byte> bytes, std::size_t length,
   }
   PacketHeader header;
   // A packet longer than expected was cut: its header still tells whether it is one of ours.
-  PacketFault fault = decode_packet(bytes, PacketKind::inputs, layout_, header, scratch_);
-  if (fault == PacketFault::none && length > bytes.size()) fault = PacketFault::layout;
-  if (fault == PacketFault::foreign) {
+  PacketError error = decode_packet(bytes, PacketKind::inputs, layout_, header, scratch_);
+  if (error == PacketError::none && length > bytes.size()) error = PacketError::layout;
+  if (error == PacketError::foreign) {
     ++counts_.foreign;
     return;
   }
-  if (fault == PacketFault::layout) {
+  if (error == PacketError::layout) {
     ++counts_.mismatched;
     return;
   }

@@ -69,16 +69,16 @@ void encode_packet(const PacketHeader& header, std::span<const double> values,
   for (std::size_t i = 0; i < values.size(); ++i) put(at + packet_header_size + 8 * i, values[i]);
 }
 
-PacketFault decode_packet(std::span<const std::byte> bytes, PacketKind kind, std::uint64_t layout,
+PacketError decode_packet(std::span<const std::byte> bytes, PacketKind kind, std::uint64_t layout,
                           PacketHeader& header, std::span<double> values) noexcept {
   const std::byte* at = bytes.data();
   if (bytes.size() < packet_header_size || std::memcmp(at, magic, sizeof magic) != 0 ||
       get<std::uint16_t>(at + 4) != version ||
       get<std::uint16_t>(at + 6) != static_cast<std::uint16_t>(kind))
-    return PacketFault::foreign;
+    return PacketError::foreign;
   if (get<std::uint64_t>(at + 8) != layout || get<std::uint32_t>(at + 32) != values.size() ||
       bytes.size() != packet_size(values.size()))
-    return PacketFault::layout;
+    return PacketError::layout;
   header.kind = kind;
   header.layout = layout;
   header.sequence = get<std::uint64_t>(at + 16);
@@ -86,7 +86,7 @@ PacketFault decode_packet(std::span<const std::byte> bytes, PacketKind kind, std
   header.flags = get<std::uint32_t>(at + 36);
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = get_double(at + packet_header_size + 8 * i);
-  return PacketFault::none;
+  return PacketError::none;
 }
 
 }  // namespace floatframe

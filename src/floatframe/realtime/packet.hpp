@@ -63,11 +63,11 @@ void encode_packet(const PacketHeader& header, std::span<const double> values,
 
 /// foreign: not a packet of this protocol, version and direction. layout: it is one, but its hash,
 /// count or length is not that of this model.
-enum class PacketFault { none, foreign, layout };
+enum class PacketError { none, foreign, layout };
 
 /// Checks everything and reads the values; `values` sets the count that is expected and is
 /// untouched unless the packet is good.
-PacketFault decode_packet(std::span<const std::byte> bytes, PacketKind kind, std::uint64_t layout,
+PacketError decode_packet(std::span<const std::byte> bytes, PacketKind kind, std::uint64_t layout,
                           PacketHeader& header, std::span<double> values) noexcept;
 
 }  // namespace floatframe

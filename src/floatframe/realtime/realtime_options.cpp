@@ -11,15 +11,15 @@ namespace floatframe {
 namespace {
 
 /// The step and the duration with a clock; they are valid by themselves.
-void check_clock(const RealTimeOptions& o, const SimulationDescription& s, Faults& faults) {
+void check_clock(const RealTimeOptions& o, const SimulationDescription& s, ErrorList& errors) {
   namespace rules = realtime_rules;
   if (o.paced && !(s.step >= rules::shortest_step && s.step <= rules::longest_step))
-    faults.add(s.origin.of("step"),
+    errors.add(s.origin.of("step"),
                fmt::format("found a step of {:g} s, expected at least 1e-6 s and at most 1e6 s "
                            "in step with the wall clock",
                            s.step));
   if (!o.endless && s.duration > rules::most_steps * s.step)
-    faults.add(place_of_clock(s),
+    errors.add(place_of_clock(s),
                fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} "
                            "steps",
                            s.duration, s.step, rules::most_steps));
@@ -29,17 +29,17 @@ void check_clock(const RealTimeOptions& o, const SimulationDescription& s, Fault
 
 void require_valid(const RealTimeOptions& o, const SimulationDescription& s) {
   require_valid(s);
-  Faults faults;
+  ErrorList errors;
   const Origin none;
-  const validation::Entity group{faults, none, "realtime"};
+  const validation::Entity group{errors, none, "realtime"};
   group.whole("fixed_iterations", o.fixed_iterations, realtime_rules::fixed_iterations);
   group.number("time_budget", o.time_budget, realtime_rules::time_budget);
   group.number("max_lag", o.max_lag, realtime_rules::max_lag);
   group.number("input_timeout", o.input_timeout, realtime_rules::input_timeout);
   group.word("fallback", o.fallback, realtime_rules::fallbacks);
   group.whole("priority", o.priority, realtime_rules::priority);
-  check_clock(o, s, faults);
-  faults.throw_if_any();
+  check_clock(o, s, errors);
+  errors.throw_if_any();
   if (!o.endless) check_step(s);
 }
 

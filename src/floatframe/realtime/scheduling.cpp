@@ -50,13 +50,13 @@ RealTimeScheduling::RealTimeScheduling(const SchedulingRequest& request) {
     priority_before_ = before.sched_priority;
     sched_param wanted{};
     wanted.sched_priority = request.priority;
-    const int fault = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
-    priority_set_ = fault == 0;
+    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
+    priority_set_ = error == 0;
     if (!priority_set_)
       refusals_.push_back(
           fmt::format("priority {} is not granted ({}): it needs CAP_SYS_NICE or a limit of "
                       "real-time priority (ulimit -r)",
-                      request.priority, std::strerror(fault)));
+                      request.priority, std::strerror(error)));
   }
 }
 

@@ -84,14 +84,14 @@ void check_connected(const FeModel& model) {
   if (of_root.size() < 2) return;
   std::stable_sort(of_root.begin(), of_root.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
-  Faults faults;
+  ErrorList errors;
   for (std::size_t i = 1; i < of_root.size() && i < 6; ++i) {
-    faults.add({}, fmt::format("the part is in {} pieces: {} {} not connected with the other {} "
+    errors.add({}, fmt::format("the part is in {} pieces: {} {} not connected with the other {} "
                                "nodes",
                                of_root.size(), list_nodes(model, of_root[i]),
                                of_root[i].size() == 1 ? "is" : "are", of_root[0].size()));
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 std::string row_label(const FeModel& model, const FeSystem& system, int row) {

@@ -27,10 +27,11 @@ std::string vector_text(const Vec3& v) {
   return s.str();
 }
 
-int node_of(const FeModel& model, const DofSelection& selection, const char* what, Faults& faults) {
+int node_of(const FeModel& model, const DofSelection& selection, const char* what,
+            ErrorList& errors) {
   const int node = selection.node.empty() ? selection.index : model.find_node(selection.node);
   if (node < 0 || node >= model.nodes()) {
-    faults.add({}, std::string(what) + ": there is no node " +
+    errors.add({}, std::string(what) + ": there is no node " +
                        (selection.node.empty() ? std::to_string(selection.index)
                                                : "'" + selection.node + "'"));
     return -1;
@@ -143,12 +144,12 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
   for (int i = 0; i < total; ++i) {
     if (d == 6 && i % 6 >= 3 && diagonal(i) == 0.0) roles[i] = Role::inactive;
   }
-  Faults faults;
+  ErrorList errors;
   const auto dof_text = [&](int node, int axis) {
     return model.node_label(node) + " " + node_dof_names[axis];
   };
   for (const DofSelection& c : options.clamped) {
-    const int node = node_of(model, c, "the body reference", faults);
+    const int node = node_of(model, c, "the body reference", errors);
     for (int axis = 0; axis < d && node >= 0; ++axis) {
       if (((c.mask >> axis) & 1u) == 0) continue;
       Role& role = roles[node * d + axis];
@@ -158,25 +159,25 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
   std::vector<int> interface_dofs;
   std::vector<std::string> names;
   for (const DofSelection& c : options.interfaces) {
-    const int node = node_of(model, c, "the interface", faults);
+    const int node = node_of(model, c, "the interface", errors);
     if (node < 0) continue;
     if (c.mask == 0)
-      faults.add({}, "the interface at " + model.node_label(node) + " names no degree of freedom");
+      errors.add({}, "the interface at " + model.node_label(node) + " names no degree of freedom");
     for (int axis = 0; axis < 6; ++axis) {
       if (((c.mask >> axis) & 1u) == 0) continue;
       if (axis >= d) {
-        faults.add({}, "the interface asks for " + dof_text(node, axis) +
+        errors.add({}, "the interface asks for " + dof_text(node, axis) +
                            ", but the nodes of solid elements have no rotations");
         continue;
       }
       Role& role = roles[node * d + axis];
       if (role == Role::clamped) {
-        faults.add({},
+        errors.add({},
                    dof_text(node, axis) + " is both clamped and an interface degree of freedom");
       } else if (role == Role::interface) {
-        faults.add({}, dof_text(node, axis) + " is given twice as an interface degree of freedom");
+        errors.add({}, dof_text(node, axis) + " is given twice as an interface degree of freedom");
       } else if (role == Role::inactive) {
-        faults.add({}, dof_text(node, axis) +
+        errors.add({}, dof_text(node, axis) +
                            " has no stiffness and cannot be an interface degree of freedom");
       } else {
         role = Role::interface;
@@ -189,7 +190,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
       }
     }
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
   check_reference(model, roles, d);
 
   std::vector<int> zero;

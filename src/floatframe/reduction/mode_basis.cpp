@@ -76,8 +76,8 @@ void append(ModeBasis& basis, const MatX& X, const MatX& K, const std::vector<st
 }  // namespace
 
 void check_options(const PartOptions& options) {
-  Faults faults;
-  const auto add = [&](std::string text) { faults.add({}, std::move(text)); };
+  ErrorList errors;
+  const auto add = [&](std::string text) { errors.add({}, std::move(text)); };
   const bool free = options.method != ModeMethod::craig_bampton;
   if (options.modes && *options.modes < 0) add("the number of normal modes must not be negative");
   if (!(options.max_frequency >= 0.0) || !std::isfinite(options.max_frequency))
@@ -107,7 +107,7 @@ void check_options(const PartOptions& options) {
                       it->name));
     }
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, const MatX& R,

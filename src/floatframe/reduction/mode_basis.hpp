@@ -25,7 +25,7 @@ struct ModeBasis {
   std::string solver;
 };
 
-/// Faults of the options that need no model: contradictions, negative numbers.
+/// Errors of the options that need no model: contradictions, negative numbers.
 void check_options(const PartOptions& options);
 
 ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, const MatX& R,

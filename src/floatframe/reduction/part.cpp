@@ -156,12 +156,12 @@ void add_surface(const FeModel& model, const FeSystem& system, const MatX& X,
 
 /// What is written must be what can be read.
 void check_body(const FlexibleBody& body, bool rotary) {
-  Faults faults;
-  for (const InvariantFault& f :
+  ErrorList errors;
+  for (const InvariantError& f :
        check_invariants(body, rotary ? InvariantSource::rotary : InvariantSource::integrals))
-    faults.add(
+    errors.add(
         {}, fmt::format("the reduced part has no valid inertia: {}: {}", f.quantity, f.sentence));
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 /// Full model and boundary of the static check.

@@ -47,8 +47,8 @@ std::string number_label(const FeModel& model, int node) {
   return "node " + std::to_string(k < model.node_ids.size() ? model.node_ids[k] : node);
 }
 
-void append(Faults& faults, const InputError& error) {
-  for (const InputFault& fault : error.faults()) faults.add(fault.mark, fault.message, fault.count);
+void append(ErrorList& errors, const InputError& error) {
+  for (const ErrorEntry& entry : error.errors()) errors.add(entry.mark, entry.message, entry.count);
 }
 
 }  // namespace
@@ -60,11 +60,11 @@ Mat6 rigid_motion_at(const Vec3& p) {
 }
 
 std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options) {
-  Faults faults;
+  ErrorList errors;
   std::vector<InterfacePlace> places;
   for (const InterfaceDescription& d : options.interfaces) {
     if (d.name.empty()) {
-      faults.add({}, "an interface has no name");
+      errors.add({}, "an interface has no name");
       continue;
     }
     try {
@@ -91,22 +91,22 @@ std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& 
       }
       places.push_back(std::move(place));
     } catch (const InputError& error) {
-      append(faults, error);
+      append(errors, error);
     }
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
   return places;
 }
 
 std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& options) {
-  Faults faults;
+  ErrorList errors;
   std::vector<MarkerPlace> places;
   std::set<std::string> names;
   for (const InterfaceDescription& d : options.interfaces) names.insert(d.name);
   for (const MarkerDescription& d : options.markers) {
     const std::string label = "marker '" + d.name + "': ";
-    if (d.name.empty()) faults.add({}, "a marker has no name");
-    if (!names.insert(d.name).second) faults.add({}, label + "the name is given twice");
+    if (d.name.empty()) errors.add({}, "a marker has no name");
+    if (!names.insert(d.name).second) errors.add({}, label + "the name is given twice");
     try {
       MarkerPlace place;
       place.name = d.name;
@@ -116,17 +116,17 @@ std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& 
       if (!place.p.allFinite()) throw InputError("its position is not finite");
       places.push_back(std::move(place));
     } catch (const InputError& error) {
-      for (const InputFault& fault : error.faults())
-        faults.add(fault.mark, label + fault.message, fault.count);
+      for (const ErrorEntry& entry : error.errors())
+        errors.add(entry.mark, label + entry.message, entry.count);
     }
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
   return places;
 }
 
 void find_rows(const FeModel& model, const FeSystem& system,
                std::vector<InterfacePlace>& interfaces) {
-  Faults faults;
+  ErrorList errors;
   int count = 0;
   const VecX stiffness = system.K.diagonal(), mass = system.M.diagonal();
   for (InterfacePlace& place : interfaces) {
@@ -136,7 +136,7 @@ void find_rows(const FeModel& model, const FeSystem& system,
       if (((place.mask >> axis) & 1u) == 0) continue;
       const int row = system.row(place.node, axis);
       if (row < 0) {
-        faults.add({}, fmt::format("interface '{}': {} has no degree of freedom {} of its own",
+        errors.add({}, fmt::format("interface '{}': {} has no degree of freedom {} of its own",
                                    place.name, model.node_label(place.node), node_dof_names[axis]));
         continue;
       }
@@ -148,11 +148,11 @@ void find_rows(const FeModel& model, const FeSystem& system,
     }
     // As an inner node would be refused: the reference of a coupling of some directions only.
     if (!loose.empty())
-      faults.add({}, fmt::format("interface '{}': {} can move without resistance in {}: nothing of "
+      errors.add({}, fmt::format("interface '{}': {} can move without resistance in {}: nothing of "
                                  "the part follows it there",
                                  place.name, number_label(model, place.node), loose));
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 void find_motions(const FeModel& model, const FeSystem& system, std::vector<MarkerPlace>& markers) {

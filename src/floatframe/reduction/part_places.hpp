@@ -28,9 +28,9 @@ struct MarkerPlace {
   SparseRows translation, rotation;
 };
 
-/// Adds the interfaces to the model. Throws InputError with the faults of all of them.
+/// Adds the interfaces to the model. Throws InputError with the errors of all of them.
 std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options);
-/// Throws InputError with the faults of all markers.
+/// Throws InputError with the errors of all markers.
 std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& options);
 
 /// Completes the interfaces. Throws InputError if a dof does not exist or is given twice.

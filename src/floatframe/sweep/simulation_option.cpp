@@ -79,7 +79,7 @@ std::string set_simulation_option(SimulationDescription& s, const std::string& n
   return fmt::format("unknown option '{}'", name);
 }
 
-std::string simulation_fault(const SimulationDescription& s) {
+std::string simulation_error(const SimulationDescription& s) {
   constexpr double most_steps = 1e9;
   if (s.duration > most_steps * s.step)
     return fmt::format("a duration of {:g} s with a step of {:g} s takes more than {:g} steps",

@@ -17,6 +17,6 @@ std::string set_simulation_option(SimulationDescription& simulation, const std::
                                   const std::string& value);
 
 /// What is wrong with the options together, empty if nothing.
-std::string simulation_fault(const SimulationDescription& simulation);
+std::string simulation_error(const SimulationDescription& simulation);
 
 }  // namespace floatframe

@@ -17,18 +17,18 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 /// The reader knows values from outside as `--set`: here they may come from elsewhere.
-std::vector<InputFault> renamed(std::vector<InputFault> faults,
+std::vector<ErrorEntry> renamed(std::vector<ErrorEntry> errors,
                                 const std::vector<SweepSetting>& fixed, const std::string& origin) {
-  for (InputFault& fault : faults) {
-    if (fault.message.compare(0, 5, "--set") != 0) continue;
+  for (ErrorEntry& error : errors) {
+    if (error.message.compare(0, 5, "--set") != 0) continue;
     bool from_option = false;
     for (const SweepSetting& s : fixed)
       from_option = from_option ||
-                    fault.message.compare(0, 6 + s.name.size(), "--set." + s.name) == 0 ||
-                    fault.message.compare(0, 6 + s.name.size(), "--set " + s.name) == 0;
-    if (!from_option) fault.message = origin + fault.message.substr(5);
+                    error.message.compare(0, 6 + s.name.size(), "--set." + s.name) == 0 ||
+                    error.message.compare(0, 6 + s.name.size(), "--set " + s.name) == 0;
+    if (!from_option) error.message = origin + error.message.substr(5);
   }
-  return faults;
+  return errors;
 }
 
 }  // namespace
@@ -45,20 +45,20 @@ SweepCaseReader::SweepCaseReader(std::string model, const std::vector<SweepSetti
     if (file.model.empty()) throw;
   }
   parameters_ = file.parameters;
-  Faults faults;
-  for (const SweepSetting& s : fixed_) fixed_targets_.push_back(target(s.name, "--set", faults));
+  ErrorList errors;
+  for (const SweepSetting& s : fixed_) fixed_targets_.push_back(target(s.name, "--set", errors));
   for (const std::string& name : plan_.names) {
     const std::string& origin = plan_.origins.front();
     const bool table = origin != "--vary";
-    targets_.push_back(target(name, table ? origin.substr(0, origin.rfind(':')) : origin, faults));
+    targets_.push_back(target(name, table ? origin.substr(0, origin.rfind(':')) : origin, errors));
     for (const SweepSetting& s : fixed_)
-      if (s.name == name) faults.add({}, fmt::format("'{}' is both fixed and varied", name));
+      if (s.name == name) errors.add({}, fmt::format("'{}' is both fixed and varied", name));
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
 }
 
 SweepCaseReader::Target SweepCaseReader::target(const std::string& name, const std::string& subject,
-                                                Faults& faults) const {
+                                                ErrorList& errors) const {
   const std::string prefix = "simulation.";
   const bool explicit_option = name.compare(0, prefix.size(), prefix) == 0;
   const std::string option = explicit_option ? name.substr(prefix.size()) : name;
@@ -66,17 +66,17 @@ SweepCaseReader::Target SweepCaseReader::target(const std::string& name, const s
   if (contains(simulation_option_names(), option)) return {true, option};
   std::vector<std::string> known = parameters_;
   known.insert(known.end(), simulation_option_names().begin(), simulation_option_names().end());
-  faults.add({}, fmt::format("{}: '{}' is neither a parameter of {} nor a simulation option{}",
+  errors.add({}, fmt::format("{}: '{}' is neither a parameter of {} nor a simulation option{}",
                              subject, name, model_, did_you_mean(option, known)));
   return {};
 }
 
 void SweepCaseReader::apply(const Target& target, const std::string& value,
                             const std::string& subject, SimulationDescription& simulation,
-                            SweepCase& out, Faults& faults) const {
+                            SweepCase& out, ErrorList& errors) const {
   if (!target.option) return;
-  const std::string fault = set_simulation_option(simulation, target.name, value);
-  if (!fault.empty()) faults.add({}, fmt::format("{}: {}: {}", subject, target.name, fault));
+  const std::string error = set_simulation_option(simulation, target.name, value);
+  if (!error.empty()) errors.add({}, fmt::format("{}: {}: {}", subject, target.name, error));
   out.fingerprint.simulation =
       ContentHash().add(out.fingerprint.simulation).add(target.name).add(value).text();
 }
@@ -92,17 +92,17 @@ SweepCase SweepCaseReader::read(std::size_t run) const {
   try {
     out.description = read_model(model_, overrides, &out.fingerprint);
   } catch (const InputError& error) {
-    throw InputError(renamed(error.faults(), fixed_, plan_.origins[run]));
+    throw InputError(renamed(error.errors(), fixed_, plan_.origins[run]));
   }
-  Faults faults;
+  ErrorList errors;
   SimulationDescription& simulation = out.description.simulation;
   for (std::size_t k = 0; k < fixed_.size(); ++k)
-    apply(fixed_targets_[k], fixed_[k].value, "--set", simulation, out, faults);
+    apply(fixed_targets_[k], fixed_[k].value, "--set", simulation, out, errors);
   for (std::size_t k = 0; k < values.size(); ++k)
-    apply(targets_[k], values[k], plan_.origins[run], simulation, out, faults);
-  const std::string fault = simulation_fault(simulation);
-  if (!fault.empty()) faults.add({}, fault);
-  faults.throw_if_any();
+    apply(targets_[k], values[k], plan_.origins[run], simulation, out, errors);
+  const std::string error = simulation_error(simulation);
+  if (!error.empty()) errors.add({}, error);
+  errors.throw_if_any();
   check_inertia_method(out.description, simulation.inertia);
   return out;
 }

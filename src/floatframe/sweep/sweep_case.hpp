@@ -33,9 +33,9 @@ class SweepCaseReader {
     bool option = false;  ///< of the simulation, not a parameter
     std::string name;
   };
-  Target target(const std::string& name, const std::string& subject, Faults& faults) const;
+  Target target(const std::string& name, const std::string& subject, ErrorList& errors) const;
   void apply(const Target& target, const std::string& value, const std::string& subject,
-             SimulationDescription& simulation, SweepCase& out, Faults& faults) const;
+             SimulationDescription& simulation, SweepCase& out, ErrorList& errors) const;
 
   std::string model_;
   const std::vector<SweepSetting>& fixed_;

@@ -24,9 +24,9 @@ class Checker {
     // The first run alone: a part that it reduces is in the cache when the others need it.
     if (open() && alone(What::check)) {
       others(progress);
-      if (!out_.stopped) refuse_faults();
+      if (!out_.stopped) refuse_errors();
       if (!out_.stopped && !out_.lost.contains(0)) alone(What::build);
-      refuse_faults();
+      refuse_errors();
     }
     if (out_.stopped) workers_.give_up();
     return std::move(out_);
@@ -39,7 +39,7 @@ class Checker {
     if (!answer) return !(out_.stopped = true);
     if (!answer->lost.empty())
       throw RunError(fmt::format("{}: reading it {}", options_.model, answer->lost));
-    if (!answer->faults.empty()) throw InputError(answer->faults);
+    if (!answer->errors.empty()) throw InputError(answer->errors);
     return true;
   }
 
@@ -56,7 +56,7 @@ class Checker {
     if (!answer.lost.empty())
       out_.lost[answer.run] = fmt::format("{} while its model was {}", answer.lost,
                                           what == What::build ? "built" : "read");
-    if (!answer.faults.empty()) faults_[answer.run] = answer.faults;
+    if (!answer.errors.empty()) errors_[answer.run] = answer.errors;
     out_.stopped = out_.stopped || answer.kind == ServiceAnswer::Kind::given_up;
   }
 
@@ -76,18 +76,18 @@ class Checker {
     }
   }
 
-  void refuse_faults() {
-    std::vector<InputFault> all;
+  void refuse_errors() {
+    std::vector<ErrorEntry> all;
     std::set<std::string> seen;
-    for (const auto& [run, list] : faults_)
-      for (const InputFault& f : list)
+    for (const auto& [run, list] : errors_)
+      for (const ErrorEntry& f : list)
         if (seen.insert(f.text()).second) all.push_back(f);
     constexpr std::size_t most_shown = 20;
     if (all.size() > most_shown) {
       std::size_t more = 0;
       for (std::size_t k = most_shown; k < all.size(); ++k) more += all[k].count;
       all.resize(most_shown);
-      all.push_back({{}, fmt::format("and {} more faults of other runs", more), more});
+      all.push_back({{}, fmt::format("and {} more errors of other runs", more), more});
     }
     if (!all.empty()) throw InputError(std::move(all));
   }
@@ -97,7 +97,7 @@ class Checker {
   const std::atomic<bool>& stop_;
   CheckedRuns out_;
   std::size_t done_ = 0;
-  std::map<std::size_t, std::vector<InputFault>> faults_;
+  std::map<std::size_t, std::vector<ErrorEntry>> errors_;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ struct CheckedRuns {
 };
 
 /// Checks all runs and builds the model of the first. A run whose reading or building crashes or
-/// passes a limit is not bad input but a run that fails. Throws InputError with the faults of all
+/// passes a limit is not bad input but a run that fails. Throws InputError with the errors of all
 /// runs, each once, in the order of the runs; RunError.
 CheckedRuns check_runs(const SweepOptions& options, SweepWorkers& workers,
                        const std::atomic<bool>& stop,

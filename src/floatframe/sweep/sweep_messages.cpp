@@ -18,7 +18,7 @@ std::optional<std::string> line_of(const SweepOptions& options,
                                    const SweepWorkers::Answer& answer) {
   if (!answer.lost.empty()) return lost_line(options, answer.run, answer.lost);
   if (answer.kind == ServiceAnswer::Kind::given_up) return std::nullopt;
-  if (!answer.faults.empty()) throw InputError(answer.faults);
+  if (!answer.errors.empty()) throw InputError(answer.errors);
   return answer.text;
 }
 
@@ -28,7 +28,7 @@ std::optional<std::string> first_run_files(const SweepOptions& options, SweepWor
   if (!answer) return std::nullopt;
   if (!answer->lost.empty())
     throw RunError(fmt::format("{}: reading it {}", options.model, answer->lost));
-  if (!answer->faults.empty()) throw InputError(answer->faults);
+  if (!answer->errors.empty()) throw InputError(answer->errors);
   return answer->text;
 }
 

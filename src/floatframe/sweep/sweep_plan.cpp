@@ -158,9 +158,9 @@ SweepPlan grid_plan(const std::vector<std::string>& variations) {
 }
 
 SweepPlan table_plan(const std::string& file) {
-  Faults faults;
+  ErrorList errors;
   std::string text;
-  if (!read_text_file(file, text, faults, {}, "")) throw InputError(faults.take());
+  if (!read_text_file(file, text, errors, {}, "")) throw InputError(errors.take());
   if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
   if (text.find('\0') != std::string::npos)
     throw InputError({file, 1, 1}, "this is not a text file");
@@ -173,7 +173,7 @@ SweepPlan table_plan(const std::string& file) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (trimmed(line).empty()) continue;
     if (!fields_of(line, fields, columns)) {
-      faults.add({file, number_of_line, columns.back()}, "a quoted field does not end here");
+      errors.add({file, number_of_line, columns.back()}, "a quoted field does not end here");
       continue;
     }
     if (plan.names.empty()) {
@@ -182,14 +182,14 @@ SweepPlan table_plan(const std::string& file) {
       continue;
     }
     if (fields.size() != plan.names.size()) {
-      faults.add({file, number_of_line, 1},
+      errors.add({file, number_of_line, 1},
                  fmt::format("found {} fields, expected {}: one for each name in the first line",
                              fields.size(), plan.names.size()));
       continue;
     }
     for (std::size_t k = 0; k < fields.size(); ++k)
       if (fields[k].empty())
-        faults.add({file, number_of_line, columns[k]},
+        errors.add({file, number_of_line, columns[k]},
                    fmt::format("found nothing, expected a value of '{}'", plan.names[k]));
     plan.runs.push_back(fields);
     plan.origins.push_back(fmt::format("{}:{}", file, number_of_line));
@@ -197,7 +197,7 @@ SweepPlan table_plan(const std::string& file) {
       throw InputError({file, number_of_line, 1},
                        fmt::format("expected at most {} runs", most_sweep_runs));
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
   if (plan.runs.empty())
     throw InputError({file, 1, 1}, "expected a line of names and at least one line of values");
   return plan;

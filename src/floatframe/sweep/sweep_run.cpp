@@ -18,9 +18,9 @@
 namespace floatframe {
 namespace {
 
-/// A journal line holds one sentence: of several faults the first.
-std::string first_fault(const InputError& error) {
-  std::string text = error.faults().front().text();
+/// A journal line holds one sentence: of several errors the first.
+std::string first_error(const InputError& error) {
+  std::string text = error.errors().front().text();
   if (error.count() > 1) text += fmt::format(" (and {} more)", error.count() - 1);
   return text;
 }
@@ -145,7 +145,7 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
       result.summary = failed_summary(shared->name, prepared.simulation, error.what());
     }
   } catch (const InputError& error) {
-    row = failed_row(first_fault(error));
+    row = failed_row(first_error(error));
     result.summary.status = "failed";
     result.summary.message = row.message;
   }

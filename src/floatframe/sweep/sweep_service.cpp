@@ -69,13 +69,13 @@ std::string encode(const ServiceAnswer& answer) {
   std::string text;
   put(text, index_of(answer.kind));
   put(text, answer.text);
-  put(text, answer.faults.size());
-  for (const InputFault& fault : answer.faults) {
-    put(text, fault.mark.file);
-    put(text, fault.mark.line);
-    put(text, fault.mark.column);
-    put(text, fault.message);
-    put(text, fault.count);
+  put(text, answer.errors.size());
+  for (const ErrorEntry& error : answer.errors) {
+    put(text, error.mark.file);
+    put(text, error.mark.line);
+    put(text, error.mark.column);
+    put(text, error.message);
+    put(text, error.count);
   }
   put(text, answer.files.size());
   for (const auto& [file, hash] : answer.files) {
@@ -93,13 +93,13 @@ bool decode(const std::string& text, ServiceAnswer& answer) {
   answer.kind = static_cast<ServiceAnswer::Kind>(kind);
   answer.text = fields.text();
   for (std::size_t n = fields.count(); n > 0; --n) {
-    InputFault fault;
-    fault.mark.file = fields.text();
-    fault.mark.line = static_cast<int>(fields.number());
-    fault.mark.column = static_cast<int>(fields.number());
-    fault.message = fields.text();
-    fault.count = fields.number();
-    answer.faults.push_back(std::move(fault));
+    ErrorEntry error;
+    error.mark.file = fields.text();
+    error.mark.line = static_cast<int>(fields.number());
+    error.mark.column = static_cast<int>(fields.number());
+    error.message = fields.text();
+    error.count = fields.number();
+    answer.errors.push_back(std::move(error));
   }
   for (std::size_t n = fields.count(); n > 0; --n) {
     std::string file = fields.text();
@@ -139,8 +139,8 @@ std::string SweepService::serve(const std::string& request, WorkerState& state) 
   } catch (const RunGivenUp&) {
     out.kind = ServiceAnswer::Kind::given_up;
   } catch (const InputError& error) {
-    out.kind = ServiceAnswer::Kind::faults;
-    out.faults = error.faults();
+    out.kind = ServiceAnswer::Kind::errors;
+    out.errors = error.errors();
   } catch (const OutputError& error) {
     out.kind = ServiceAnswer::Kind::error;
     out.text = error.what();

@@ -27,12 +27,12 @@ std::string encode(const ServiceRequest& request);
 struct ServiceAnswer {
   enum class Kind {
     done,      ///< `text`: the line of a run or the fingerprint
-    faults,    ///< of the input
+    errors,    ///< of the input
     given_up,  ///< because the study ends
     error      ///< `text`: what must end the study
   } kind = Kind::done;
   std::string text;
-  std::vector<InputFault> faults;
+  std::vector<ErrorEntry> errors;
   std::map<std::string, std::string> files;  ///< read since the worker's last answer: fingerprints
 };
 std::string encode(const ServiceAnswer& answer);

@@ -58,7 +58,7 @@ class TableFile {
     };
     if (header && std::all_of(words.begin(), words.end(), is_name)) return true;
     if (words.size() != 2) {
-      out_.fault(place, "found " + std::to_string(words.size()) +
+      out_.error(place, "found " + std::to_string(words.size()) +
                             (words.size() == 1 ? " column" : " columns") + ", expected two");
       stop_ = true;  // the other rows have as many
       return false;
@@ -68,7 +68,7 @@ class TableFile {
       const PlainScalar p = classify_plain_scalar(words[k]);
       x[k] = p.number;
       if (p.kind == PlainScalar::Kind::number) continue;
-      out_.fault(place, "found '" + std::string(words[k].substr(0, 40)) +
+      out_.error(place, "found '" + std::string(words[k].substr(0, 40)) +
                             "', expected a number with a decimal point" +
                             (p.complaint.empty() ? "" : " (" + p.complaint + ")") +
                             (header ? ", or names in both columns of the first line" : ""));
@@ -76,10 +76,10 @@ class TableFile {
     }
     for (const double v : x)
       if (!rule_.holds(v)) {
-        out_.fault(place, "found " + number_text(v) + ", expected " + rule_.expectation());
+        out_.error(place, "found " + number_text(v) + ", expected " + rule_.expectation());
         return false;
       }
-    stop_ = !out_.faults->take_of("rows in all CSV files of tables", 1, limits::table_rows,
+    stop_ = !out_.errors->take_of("rows in all CSV files of tables", 1, limits::table_rows,
                                   value_.mark(), value_.path());
     out_.rows.push_back({{x[0], x[1]}, line, 1, place.number});
     return !stop_;
@@ -93,14 +93,14 @@ class TableFile {
 
 }  // namespace
 
-void TableRows::fault(const TableRow& row, const std::string& sentence) const {
+void TableRows::error(const TableRow& row, const std::string& sentence) const {
   const std::string who = path.empty() ? "" : path + "[" + std::to_string(row.number) + "]: ";
-  faults->add({file, row.line, row.column}, who + sentence);
+  errors->add({file, row.line, row.column}, who + sentence);
 }
 
 TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const char* point) {
   TableRows out;
-  out.faults = value.context().faults;
+  out.errors = value.context().errors;
   const std::string what = std::string("a list of points ") +
                            std::string(point).substr(std::string(point).find('[')) +
                            " or the name of a CSV file";
@@ -123,8 +123,8 @@ TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const 
                  .lexically_normal()
                  .string();
   std::string text;
-  if (!read_text_file(out.file, text, *out.faults, value.mark(), value.path()) ||
-      !out.faults->take_of("characters in all CSV files of tables", text.size(), limits::table_text,
+  if (!read_text_file(out.file, text, *out.errors, value.mark(), value.path()) ||
+      !out.errors->take_of("characters in all CSV files of tables", text.size(), limits::table_text,
                            value.mark(), value.path()))
     return out;
   out.good = true;

@@ -19,8 +19,8 @@ struct TableRows {
   bool good = false;  ///< nothing was wrong so far
   std::string file, path;
   std::vector<TableRow> rows;
-  ReadFaults* faults = nullptr;
-  void fault(const TableRow& row, const std::string& sentence) const;
+  ReadErrors* errors = nullptr;
+  void error(const TableRow& row, const std::string& sentence) const;
 };
 
 /// Reads a list of points, or the CSV file that `value` names relative to the file it is written

@@ -70,8 +70,8 @@ struct GaveUp {};
 
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  TreeBuilder(const std::string& file, YamlNode& root, ReadFaults& faults)
-      : file_(file), root_(root), faults_(faults) {}
+  TreeBuilder(const std::string& file, YamlNode& root, ReadErrors& errors)
+      : file_(file), root_(root), errors_(errors) {}
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -83,7 +83,7 @@ class TreeBuilder final : public YAML::EventHandler {
     scalar(std::move(n));
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    fault(mark, "aliases (*name) are not allowed, use parameters");
+    error(mark, "aliases (*name) are not allowed, use parameters");
     count(mark);
     YamlNode n;
     place(n, mark);
@@ -126,8 +126,8 @@ class TreeBuilder final : public YAML::EventHandler {
     std::map<std::string, int> keys;  // key -> line
   };
 
-  void fault(const YAML::Mark& mark, std::string message) {
-    faults_.add({file_, mark.line + 1, mark.column + 1}, std::move(message));
+  void error(const YAML::Mark& mark, std::string message) {
+    errors_.add({file_, mark.line + 1, mark.column + 1}, std::move(message));
   }
   void place(YamlNode& n, const YAML::Mark& mark) {
     n.line = mark.line + 1;
@@ -135,13 +135,13 @@ class TreeBuilder final : public YAML::EventHandler {
   }
   void count(const YAML::Mark& mark) {
     if (++values_ <= limits::file_values) return;
-    fault(mark, "found more than " + std::to_string(limits::file_values) +
+    error(mark, "found more than " + std::to_string(limits::file_values) +
                     " values in one file, expected fewer (tables may stand in CSV files)");
     throw GaveUp{};
   }
   bool check_characters(const YAML::Mark& mark, std::string& text) {
     if (text.size() > longest_text) {
-      fault(mark, "found a text of " + std::to_string(text.size()) +
+      error(mark, "found a text of " + std::to_string(text.size()) +
                       " characters, expected at most " + std::to_string(longest_text));
       text.resize(100);
       while (!text.empty() && utf8_length(text, text.size() - 1) == 0) text.pop_back();
@@ -149,22 +149,22 @@ class TreeBuilder final : public YAML::EventHandler {
     }
     for (std::size_t k = 0; k < text.size(); ++k)
       if (is_control(text, k) && text[k] != '\n' && text[k] != '\t') {
-        fault(mark, "found the text '" + printable(text.substr(0, 40)) +
+        error(mark, "found the text '" + printable(text.substr(0, 40)) +
                         "', expected no control characters");
         return false;
       }
     return true;
   }
   void refuse(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
-    if (anchor != 0) fault(mark, "anchors (&name) are not allowed, use parameters");
-    if (!tag.empty() && tag != "?" && tag != "!") fault(mark, "tags (!name) are not allowed");
+    if (anchor != 0) error(mark, "anchors (&name) are not allowed, use parameters");
+    if (!tag.empty() && tag != "?" && tag != "!") error(mark, "tags (!name) are not allowed");
   }
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
             YamlNode::Kind kind) {
     refuse(mark, tag, anchor);
     count(mark);
     if (stack_.size() >= static_cast<std::size_t>(deepest_nesting)) {
-      fault(mark, too_deep());
+      error(mark, too_deep());
       throw GaveUp{};
     }
     Level level;
@@ -205,15 +205,15 @@ class TreeBuilder final : public YAML::EventHandler {
     top.entry = YamlEntry{n.text, n.line, n.column, {}};
     const SourceMark mark{file_, n.line, n.column};
     if (compound || n.kind != YamlNode::Kind::scalar) {
-      faults_.add(mark, "a key must be a name");
+      errors_.add(mark, "a key must be a name");
       top.skip = true;
     } else if (n.text == "<<" && !n.quoted) {
-      faults_.add(mark, "merge keys (<<) are not allowed, use parameters or subsystems");
+      errors_.add(mark, "merge keys (<<) are not allowed, use parameters or subsystems");
       top.skip = true;
     } else {
       const auto [it, fresh] = top.keys.emplace(n.text, n.line);
       if (!fresh) {
-        faults_.add(mark, "duplicate key '" + n.text + "', first used in line " +
+        errors_.add(mark, "duplicate key '" + n.text + "', first used in line " +
                               std::to_string(it->second));
         top.skip = true;
       }
@@ -222,7 +222,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
   const std::string& file_;
   YamlNode& root_;
-  ReadFaults& faults_;
+  ReadErrors& errors_;
   std::vector<Level> stack_;
   std::size_t values_ = 0;
   bool seen_ = false;
@@ -230,7 +230,7 @@ class TreeBuilder final : public YAML::EventHandler {
 };
 
 /// Refuses binary data, line ends that YAML does not know and tabs in the indentation.
-bool check_text(const std::string& file, const std::string& text, ReadFaults& faults) {
+bool check_text(const std::string& file, const std::string& text, ReadErrors& errors) {
   int line = 1;
   std::size_t start = 0;
   bool indentation = true;
@@ -242,11 +242,11 @@ bool check_text(const std::string& file, const std::string& text, ReadFaults& fa
     const auto mark = [&] { return SourceMark{file, line, static_cast<int>(k - start) + 1}; };
     const auto u = static_cast<unsigned char>(c);
     if (n == 0 || u == 0x7F || (u < 0x20 && c != '\n' && c != '\r' && c != '\t')) {
-      faults.add(mark(), "this is not a text file (UTF-8)");
+      errors.add(mark(), "this is not a text file (UTF-8)");
       return false;
     }
     if (c == '\r' && k + 1 < text.size() && text[k + 1] != '\n') {
-      faults.add(mark(),
+      errors.add(mark(),
                  "a carriage return without a line feed, expected lines that end with LF "
                  "or CRLF");
       return false;
@@ -254,13 +254,13 @@ bool check_text(const std::string& file, const std::string& text, ReadFaults& fa
     if ((c == '[' || c == '{') && ++brackets == deepest_nesting) deep = mark();
     if ((c == ']' || c == '}') && brackets > 0) --brackets;
     if (brackets > most_open_brackets) {
-      faults.add(deep, too_deep());
+      errors.add(deep, too_deep());
       return false;
     }
     if (c == '\t' && indentation) {
       const std::size_t next = text.find_first_not_of(" \t\r", k);
       if (next != std::string::npos && text[next] != '\n' && text[next] != '#') {
-        faults.add(mark(), "a tab in the indentation, use spaces");
+        errors.add(mark(), "a tab in the indentation, use spaces");
         return false;
       }
       indentation = false;  // the line is blank
@@ -299,54 +299,54 @@ thread_local std::map<std::string, std::string>* files_read = nullptr;
 
 }  // namespace
 
-YamlDocument parse_yaml(const std::string& file, const std::string& original, ReadFaults& faults) {
+YamlDocument parse_yaml(const std::string& file, const std::string& original, ReadErrors& errors) {
   YamlDocument document{file, {}, 0};
   std::string text = original;
   if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
-  if (!check_text(file, text, faults)) return document;
+  if (!check_text(file, text, errors)) return document;
   hide_expressions(text);
   std::istringstream stream(text);
-  TreeBuilder builder(file, document.root, faults);
+  TreeBuilder builder(file, document.root, errors);
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder) || builder.empty()) {
-      faults.add({file, 1, 1}, "the file is empty");
+      errors.add({file, 1, 1}, "the file is empty");
       return document;
     }
     document.values = builder.values();
     if (const YAML::Mark& last = builder.last_quoted(); !last.is_null() && !is_closed(text, last)) {
-      faults.add({file, last.line + 1, last.column + 1},
+      errors.add({file, last.line + 1, last.column + 1},
                  "the text in quotes that begins here is not closed");
       return YamlDocument{file, {}, 0};
     }
     YamlNode second;
-    ReadFaults ignored;
+    ReadErrors ignored;
     TreeBuilder more(file, second, ignored);
     if (parser.HandleNextDocument(more))
-      faults.add({file, second.line > 0 ? second.line : 1, second.column > 0 ? second.column : 1},
+      errors.add({file, second.line > 0 ? second.line : 1, second.column > 0 ? second.column : 1},
                  "a second document starts here, a model file holds one");
   } catch (const GaveUp&) {
   } catch (const YAML::Exception& e) {
     SourceMark mark{file, e.mark.line + 1, e.mark.column + 1};
     if (e.mark.is_null()) mark.line = mark.column = 1;
     const bool open = e.msg == "illegal EOF in scalar";
-    faults.add(mark, open ? "a text in quotes is not closed" : "YAML syntax: " + revealed(e.msg));
+    errors.add(mark, open ? "a text in quotes is not closed" : "YAML syntax: " + revealed(e.msg));
   } catch (const std::exception& e) {  // the parser's own limit on recursion
-    faults.add({file, 1, 1}, std::string("YAML syntax: ") + e.what());
+    errors.add({file, 1, 1}, std::string("YAML syntax: ") + e.what());
   }
   return document;
 }
 
 namespace {
 
-template <class AnyFaults>
-bool read_text(const std::string& file, std::string& text, AnyFaults& faults,
+template <class AnyErrors>
+bool read_text(const std::string& file, std::string& text, AnyErrors& errors,
                const SourceMark& where, const std::string& subject) {
   const auto fail = [&](const std::string& why) {
     if (where.file.empty())
-      faults.add({file, 0, 0}, why);
+      errors.add({file, 0, 0}, why);
     else
-      faults.add(where, subject + ": '" + file + "': " + why);
+      errors.add(where, subject + ": '" + file + "': " + why);
     return false;
   };
   const std::string why = read_regular_file(file, largest_file, text);
@@ -357,14 +357,14 @@ bool read_text(const std::string& file, std::string& text, AnyFaults& faults,
 
 }  // namespace
 
-bool read_text_file(const std::string& file, std::string& text, Faults& faults,
+bool read_text_file(const std::string& file, std::string& text, ErrorList& errors,
                     const SourceMark& where, const std::string& subject) {
-  return read_text(file, text, faults, where, subject);
+  return read_text(file, text, errors, where, subject);
 }
 
-bool read_text_file(const std::string& file, std::string& text, ReadFaults& faults,
+bool read_text_file(const std::string& file, std::string& text, ReadErrors& errors,
                     const SourceMark& where, const std::string& subject) {
-  return read_text(file, text, faults, where, subject);
+  return read_text(file, text, errors, where, subject);
 }
 
 void note_file_read(const std::string& file, const std::string& hash) {

@@ -2,13 +2,13 @@
 // A YAML document as a tree that remembers where everything was written. Only the subset that model
 // files use is accepted: maps, lists and scalars. Duplicate keys, anchors, aliases, merge keys,
 // tags, several documents, tabs in the indentation, very deep nesting, control characters and
-// anything that is not UTF-8 text are faults, so that no file is read differently from what it
+// anything that is not UTF-8 text are errors, so that no file is read differently from what it
 // looks like.
 #include <map>
 #include <string>
 #include <vector>
 
-#include "floatframe/yaml/read_faults.hpp"
+#include "floatframe/yaml/read_errors.hpp"
 
 namespace floatframe {
 
@@ -37,15 +37,15 @@ struct YamlDocument {
   std::size_t values = 0;  ///< number of maps, lists and scalars, keys included
 };
 
-/// Parses `text`; faults go to `faults`. A document with faults is returned as far as it was
+/// Parses `text`; errors go to `errors`. A document with errors is returned as far as it was
 /// understood.
-YamlDocument parse_yaml(const std::string& file, const std::string& text, ReadFaults& faults);
+YamlDocument parse_yaml(const std::string& file, const std::string& text, ReadErrors& errors);
 
-/// Reads a regular file of at most 16 MB; a file that cannot be read gives a fault marked `where`
+/// Reads a regular file of at most 16 MB; a file that cannot be read gives an error marked `where`
 /// (or the file itself if `where` is empty) and false.
-bool read_text_file(const std::string& file, std::string& text, Faults& faults,
+bool read_text_file(const std::string& file, std::string& text, ErrorList& errors,
                     const SourceMark& where, const std::string& subject);
-bool read_text_file(const std::string& file, std::string& text, ReadFaults& faults,
+bool read_text_file(const std::string& file, std::string& text, ReadErrors& errors,
                     const SourceMark& where, const std::string& subject);
 
 /// Notes a file that was read in another way, with the fingerprint of its content (see FilesRead).

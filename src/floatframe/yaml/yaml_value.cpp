@@ -36,7 +36,7 @@ YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) con
   Scalar s;
   if (node_->refused) return s;
   const auto complain = [&](const std::string& sentence) {
-    if (!quiet) fault(sentence);
+    if (!quiet) error(sentence);
   };
   switch (node_->kind) {
     case YamlNode::Kind::null:
@@ -61,7 +61,7 @@ YamlValue::Scalar YamlValue::scalar(const std::string& expected, bool quiet) con
     } catch (const ExpressionError&) {
       if (quiet) return s;
       try {  // once more for the sentence
-        substitute_parameters(node_->text, *context_->scope, context_->faults->suggest());
+        substitute_parameters(node_->text, *context_->scope, context_->errors->suggest());
       } catch (const ExpressionError& error) {
         complain("in " + shortened(node_->text) + ": " + error.what());
       }
@@ -178,7 +178,7 @@ std::optional<std::size_t> YamlValue::word(std::span<const char* const> words) c
   const auto it = std::find(words.begin(), words.end(), *t);
   if (it != words.end()) return it - words.begin();
   const std::string hint = did_you_mean(*t, {words.begin(), words.end()});
-  fault("found " + found() + ", expected " + expected + hint);
+  error("found " + found() + ", expected " + expected + hint);
   return std::nullopt;
 }
 
@@ -256,20 +256,20 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::named(const char* what
   const std::string prefix = path_.empty() ? "" : path_ + ".";
   for (const YamlEntry& e : node_->entries) {
     if (e.key.size() > limits::name_length) {
-      context_->faults->add({*context_->file, e.line, e.column},
+      context_->errors->add({*context_->file, e.line, e.column},
                             prefix + shortened(e.key) + ": found a name of " +
                                 std::to_string(e.key.size()) + " characters, expected at most " +
                                 std::to_string(limits::name_length));
       continue;
     }
     if (free_names && e.key.find("${") != std::string::npos) {
-      context_->faults->add({*context_->file, e.line, e.column},
+      context_->errors->add({*context_->file, e.line, e.column},
                             path_ + ": found the name " + in_quotes(e.key) +
                                 ", but expressions stand for values, not in names");
       continue;
     }
     if (!free_names && !is_identifier(e.key, true)) {
-      context_->faults->add({*context_->file, e.line, e.column},
+      context_->errors->add({*context_->file, e.line, e.column},
                             path_ + ": found the name '" + shortened(e.key) +
                                 "', expected letters, digits, _ and -, with a letter first");
       continue;
@@ -307,12 +307,12 @@ std::optional<YamlValue> YamlSection::get(const char* key) {
 
 std::optional<YamlValue> YamlSection::require(const char* key) {
   auto v = get(key);
-  if (!v) fault("missing key '" + std::string(key) + "'");
+  if (!v) error("missing key '" + std::string(key) + "'");
   return v;
 }
 
 void YamlSection::finish(const std::vector<std::string>& elsewhere) {
-  ReadFaults& faults = *value_.context().faults;
+  ReadErrors& errors = *value_.context().errors;
   std::vector<const YamlEntry*> unknown;
   for (const YamlEntry& e : value_.node().entries)
     if (std::find(asked_.begin(), asked_.end(), e.key) == asked_.end()) unknown.push_back(&e);
@@ -323,20 +323,20 @@ void YamlSection::finish(const std::vector<std::string>& elsewhere) {
   const auto place = [&](const YamlEntry& e) {
     return SourceMark{*value_.context().file, e.line, e.column};
   };
-  const std::size_t shown = std::min(unknown.size(), limits::faults_of_a_kind);
+  const std::size_t shown = std::min(unknown.size(), limits::errors_of_a_kind);
   for (std::size_t i = 0; i < shown; ++i) {
     const YamlEntry& e = *unknown[i];
-    std::string hint = faults.suggestion(e.key, [&] { return free; });
+    std::string hint = errors.suggestion(e.key, [&] { return free; });
     if (hint.empty() && !elsewhere.empty()) {  // a key of another group: its path is the hint
       std::vector<std::string> last;
       for (const std::string& k : elsewhere) last.push_back(k.substr(k.rfind('.') + 1));
-      const std::string* best = faults.suggest() ? nearest(e.key, last) : nullptr;
+      const std::string* best = errors.suggest() ? nearest(e.key, last) : nullptr;
       if (best) hint = ", did you mean '" + elsewhere[best - last.data()] + "'?";
     }
-    faults.add(place(e), path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint);
+    errors.add(place(e), path_prefix() + "unknown key '" + shortened(e.key) + "'" + hint);
   }
   if (const std::size_t more = unknown.size() - shown; more > 0)
-    faults.add(place(*unknown[shown]),
+    errors.add(place(*unknown[shown]),
                path_prefix() + "... and " + std::to_string(more) +
                    (more == 1 ? " more unknown key" : " more unknown keys"),
                more);

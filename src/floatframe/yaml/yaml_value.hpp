@@ -1,8 +1,8 @@
 #pragma once
 // Typed, checked access to a YAML tree. A `YamlValue` is one value with its path in the file
 // ("bodies.arm.mass"), a `YamlSection` is a map whose keys are asked for one by one; keys that
-// nobody asked for are faults. Every accessor reports what it found and what was expected and lets
-// the reading go on, so that all faults of a file are found at once. Scalars may hold `${...}`
+// nobody asked for are errors. Every accessor reports what it found and what was expected and lets
+// the reading go on, so that all errors of a file are found at once. Scalars may hold `${...}`
 // expressions.
 #include <initializer_list>
 #include <limits>
@@ -23,7 +23,7 @@ namespace floatframe {
 struct ReadContext {
   const std::string* file = nullptr;
   const ParameterScope* scope = nullptr;
-  ReadFaults* faults = nullptr;
+  ReadErrors* errors = nullptr;
 };
 
 class YamlSection;
@@ -36,7 +36,7 @@ class YamlValue {
         path_(std::move(path)),
         line_(node.line),
         column_(node.column) {}
-  /// The value of a key; faults about the whole entity point at the key.
+  /// The value of a key; errors about the whole entity point at the key.
   YamlValue(const ReadContext& context, const YamlEntry& entry, std::string path)
       : context_(&context),
         node_(&entry.value),
@@ -53,25 +53,25 @@ class YamlValue {
   bool is_map() const { return node_->kind == YamlNode::Kind::map; }
   bool is_scalar() const { return node_->kind == YamlNode::Kind::scalar; }
 
-  /// Adds the fault "path: sentence" at this value.
-  void fault(const std::string& sentence, std::size_t count = 1) const {
-    context_->faults->add(mark(), path_ + ": " + sentence, count);
+  /// Adds the error "path: sentence" at this value.
+  void error(const std::string& sentence, std::size_t count = 1) const {
+    context_->errors->add(mark(), path_ + ": " + sentence, count);
   }
   /// The same at the key of the value.
-  void entity_fault(const std::string& sentence) const {
-    context_->faults->add(entity_mark(), path_ + ": " + sentence);
+  void entity_error(const std::string& sentence) const {
+    context_->errors->add(entity_mark(), path_ + ": " + sentence);
   }
   void complain(const std::optional<std::string>& complaint) const {
-    if (complaint) fault(*complaint);
+    if (complaint) error(*complaint);
   }
   /// "found ..., expected `what`".
   void unexpected(const std::string& what) const {
-    fault("found " + found() + ", expected " + what);
+    error("found " + found() + ", expected " + what);
   }
   /// What is written here, for sentences: -3, 'abc', a list of 2, a map, nothing.
   std::string found() const;
 
-  // Accessors: a fault and nullopt (or an empty list) if the value is not what is asked for.
+  // Accessors: an error and nullopt (or an empty list) if the value is not what is asked for.
   std::optional<double> number(const NumberRule& rule) const;
   std::optional<int> integer(int low, int high, const char* what) const {
     return integer(WholeNumberRule{what, low, high});
@@ -101,7 +101,7 @@ class YamlValue {
   /// (unless `free_names`), long ones are refused.
   std::vector<std::pair<std::string, YamlValue>> named(const char* what,
                                                        bool free_names = false) const;
-  /// True if the scalar holds a number (after substitution); adds no faults.
+  /// True if the scalar holds a number (after substitution); adds no errors.
   bool looks_like_number() const;
 
  private:
@@ -111,7 +111,7 @@ class YamlValue {
     double number = 0.0;
     std::string text;
   };
-  /// The substituted scalar; `quiet` adds no faults.
+  /// The substituted scalar; `quiet` adds no errors.
   Scalar scalar(const std::string& expected, bool quiet = false) const;
 
   const ReadContext* context_;
@@ -120,7 +120,7 @@ class YamlValue {
   int line_, column_;
 };
 
-/// A map being read. `mark` is the place of the key that opens it, for faults about the entity as a
+/// A map being read. `mark` is the place of the key that opens it, for errors about the entity as a
 /// whole.
 class YamlSection {
  public:
@@ -129,17 +129,17 @@ class YamlSection {
   const std::string& path() const { return value_.path(); }
   const SourceMark& mark() const { return mark_; }
   const YamlValue& value() const { return value_; }
-  void fault(const std::string& sentence) const {
-    value_.context().faults->add(mark_, path_prefix() + sentence);
+  void error(const std::string& sentence) const {
+    value_.context().errors->add(mark_, path_prefix() + sentence);
   }
   /// Mark of the value of `key`, or of the entity if it is absent.
   SourceMark mark_of(const char* key) const;
   bool has(const char* key) const { return find(key) != nullptr; }
   /// The value of an optional key.
   std::optional<YamlValue> get(const char* key);
-  /// The value of a key that must be there; a fault if it is not.
+  /// The value of a key that must be there; an error if it is not.
   std::optional<YamlValue> require(const char* key);
-  /// Faults for all keys nobody asked for. `elsewhere`: keys that belong into other groups, as
+  /// Errors for all keys nobody asked for. `elsewhere`: keys that belong into other groups, as
   /// "group.key", to suggest where nothing here is near.
   void finish(const std::vector<std::string>& elsewhere = {});
 

@@ -37,7 +37,7 @@ void to_body_axes(const Mat3& T, const Mat12& local, MatX& out) {
   }
 }
 
-std::string fault(const ElementInput& in) {
+std::string error(const ElementInput& in) {
   const Vec3 d = in.p[1] - in.p[0];
   const double length = d.norm();
   if (!(length > 1e-12 * (in.p[0].norm() + in.p[1].norm()))) return "has zero length";
@@ -122,7 +122,7 @@ Mat3 beam_axes(const ElementInput& in) {
 constinit const ElementKernel beam2_kernel{.family = ElementFamily::beam,
                                            .nodes = 2,
                                            .dofs_per_node = 6,
-                                           .fault = &fault,
+                                           .error = &error,
                                            .stiffness = &stiffness,
                                            .mass = &mass,
                                            .scalar_mass = &scalar_mass};

@@ -41,7 +41,7 @@ void integrate(const ElementInput& in, int points, Use&& use) {
   for (int q = 0; q < points; ++q) use(station(in, 2.0 * rule.u(q) - 1.0, 2.0 * rule.weight(q)));
 }
 
-std::string fault(const ElementInput& in) {
+std::string error(const ElementInput& in) {
   const double length = (in.p[2] - in.p[0]).norm();
   if (!(length > 1e-12 * (in.p[0].norm() + in.p[2].norm()))) return "has zero length";
   if (!(in.reference.norm() > 0.0)) return "has a reference vector of zero length";
@@ -110,7 +110,7 @@ void scalar_mass(const ElementInput& in, MatX& out) {
 constinit const ElementKernel beam3_kernel{.family = ElementFamily::beam,
                                            .nodes = 3,
                                            .dofs_per_node = 6,
-                                           .fault = &fault,
+                                           .error = &error,
                                            .stiffness = &stiffness,
                                            .mass = &mass,
                                            .scalar_mass = &scalar_mass};

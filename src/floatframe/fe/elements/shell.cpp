@@ -28,7 +28,7 @@ std::array<Vec3, 3> corners(const ElementInput& in, const Part& part) {
 }
 
 template <int nodes>
-std::string fault(const ElementInput& in) {
+std::string error(const ElementInput& in) {
   if (!(in.shell.thickness > 0.0) || !std::isfinite(in.shell.thickness)) {
     return "has a thickness that is not positive";
   }
@@ -99,7 +99,7 @@ constexpr ElementKernel shell_kernel(std::span<const FaceNodes> faces) {
   return {.family = ElementFamily::shell,
           .nodes = count,
           .dofs_per_node = 6,
-          .fault = &fault<count>,
+          .error = &error<count>,
           .stiffness = &stiffness<count>,
           .mass = &mass<count>,
           .scalar_mass = &scalar_mass<count>,

@@ -14,7 +14,7 @@ Mat3 edges(const ElementInput& in) {
   return J;
 }
 
-std::string fault(const ElementInput& in) {
+std::string error(const ElementInput& in) {
   const Mat3 J = edges(in);
   const double size = J.colwise().norm().maxCoeff();
   if (!(J.determinant() > 1e-12 * size * size * size)) {
@@ -56,7 +56,7 @@ void mass(const ElementInput& in, bool, MatX& out) {
 constinit const ElementKernel tet4_kernel{.family = ElementFamily::solid,
                                           .nodes = 4,
                                           .dofs_per_node = 3,
-                                          .fault = &fault,
+                                          .error = &error,
                                           .stiffness = &stiffness,
                                           .mass = &mass,
                                           .scalar_mass = &scalar_mass,

@@ -43,7 +43,7 @@ void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                                 shown(name)));
   }
   if (!part.empty() && part != content.part) {
-    lines.fault(keyword, fmt::format("is of the part {}, which is not there", shown(part)));
+    lines.error(keyword, fmt::format("is of the part {}, which is not there", shown(part)));
   }
   content.instance = name.empty() ? "?" : name;
   content.scope = AbaqusScope::part;
@@ -62,7 +62,7 @@ void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const Vec3 axis = vector(3, "axis of the instance's rotation") - place.a;
   const double degrees = lines.real_or(fields, 6, 0.0, "angle of the instance's rotation");
   if (!(axis.stableNorm() > 0.0) || !std::isfinite(axis.stableNorm())) {
-    lines.source().fault("the two points of the axis of the instance's rotation are one");
+    lines.source().error("the two points of the axis of the instance's rotation are one");
     return;
   }
   place.R = Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis.stableNormalized())

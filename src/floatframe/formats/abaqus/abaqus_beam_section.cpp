@@ -14,7 +14,7 @@ namespace {
 
 BeamSection pipe(AbaqusLines& lines, double radius, double wall) {
   if (wall > radius) {
-    lines.source().fault(
+    lines.source().error(
         fmt::format("the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall, radius));
   }
   return BeamSection::hollow_round(2.0 * radius, 2.0 * (radius - wall));
@@ -24,12 +24,12 @@ BeamSection pipe(AbaqusLines& lines, double radius, double wall) {
 /// of Bredt, 4 A_m^2 / (closed integral of ds / t).
 BeamSection box(AbaqusLines& lines, double a, double b, const std::array<double, 4>& t) {
   if (t[0] != t[2] || t[1] != t[3]) {
-    lines.source().fault(
+    lines.source().error(
         "opposite walls of the box differ, so that its centroid is not at the "
         "node, which is not supported");
   }
   const double inner_a = a - t[0] - t[2], inner_b = b - t[1] - t[3];
-  if (inner_a < 0.0 || inner_b < 0.0) lines.source().fault("the walls of the box overlap");
+  if (inner_a < 0.0 || inner_b < 0.0) lines.source().error("the walls of the box overlap");
   BeamSection s;
   s.A = a * b - inner_a * inner_b;
   s.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
@@ -73,7 +73,7 @@ constexpr std::array shapes{
 void no_offset(AbaqusLines& lines, const AbaqusKeyword& keyword) {
   for (const char* offset : {"OFFSET1", "OFFSET2"}) {
     if (keyword.has(offset) && parse_real(keyword.value(offset)).value_or(1.0) != 0.0) {
-      lines.fault(keyword, fmt::format("has an offset ({}), which is not supported", offset));
+      lines.error(keyword, fmt::format("has an offset ({}), which is not supported", offset));
     }
   }
 }
@@ -89,7 +89,7 @@ bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const Shape&
   const bool calculix = shape.calculix != 0 && n == shape.calculix;
   if (n != shape.numbers && !(calculix && dialect != DeckDialect::abaqus)) {
     const bool both = shape.calculix != 0 && dialect != DeckDialect::abaqus;
-    lines.fault(keyword,
+    lines.error(keyword,
                 fmt::format("has {} dimension{}, expected {}", n, n == 1 ? "" : "s",
                             both ? fmt::format("{} or {}", std::min(shape.numbers, shape.calculix),
                                                std::max(shape.numbers, shape.calculix))
@@ -97,11 +97,11 @@ bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const Shape&
     lines.skip_data();
     return false;
   }
-  const std::size_t before = lines.source().faults();
+  const std::size_t before = lines.source().errors();
   for (std::size_t k = 0; k < n; ++k) {
     numbers.push_back(positive_real(lines, fields[k], shape.what[k]));
   }
-  if (lines.source().faults() == before) return true;
+  if (lines.source().errors() == before) return true;
   lines.skip_data();
   return false;
 }
@@ -118,7 +118,7 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const auto shape = std::find_if(shapes.begin(), shapes.end(),
                                   [&](const Shape& s) { return section.shape == s.name; });
   if (shape == shapes.end() && !section.shape.empty()) {
-    lines.fault(keyword, fmt::format("has the section {}, expected RECT, CIRC, PIPE or BOX",
+    lines.error(keyword, fmt::format("has the section {}, expected RECT, CIRC, PIPE or BOX",
                                      shown(section.shape)));
   }
   if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::beam, section) ||
@@ -151,7 +151,7 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
           lines.real_or(fields, k, 0.0, "direction 1 of the section");
     }
     if (!(section.n1.stableNorm() > 0.0))
-      lines.source().fault("direction 1 of the section is zero");
+      lines.source().error("direction 1 of the section is zero");
   }
   content.sections.push_back(section);
 }

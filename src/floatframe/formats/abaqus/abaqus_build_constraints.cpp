@@ -82,14 +82,14 @@ void build_surfaces(AbaqusBuild& build) {
       continue;
     }
     std::vector<ElementFace> faces;
-    const std::size_t before = build.source.faults();
+    const std::size_t before = build.source.errors();
     for (const AbaqusSurface::Item& item : surface.items) {
       for (const int e : build.elements.resolve(item.where)) {
         const int index = build.element_index[e];
         const AbaqusElement& element = c.elements[e];
         const std::size_t count = index < 0 ? 0 : element_faces(model.elements[index].type).size();
         if (static_cast<std::size_t>(item.face) >= count) {
-          build.source.fault(item.where.at,
+          build.source.error(item.where.at,
                              fmt::format("surface {}: element {} ({}) has no face {}", shown(name),
                                          element.id, element.type->name, item.face + 1));
           break;
@@ -97,8 +97,8 @@ void build_surfaces(AbaqusBuild& build) {
         faces.push_back({index, item.face});
       }
     }
-    if (faces.empty() && build.source.faults() == before) {
-      build.source.fault(surface.at, fmt::format("surface {} is empty", shown(name)));
+    if (faces.empty() && build.source.errors() == before) {
+      build.source.error(surface.at, fmt::format("surface {} is empty", shown(name)));
     }
     model.surfaces[name] = std::move(faces);
   }
@@ -120,7 +120,7 @@ void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list)
       if (known.size() == most_known) break;
       known.push_back(c.names[key.second]);
     }
-    build.source.fault(spider.at, fmt::format("surface {} is not there{}", shown(name),
+    build.source.error(spider.at, fmt::format("surface {} is not there{}", shown(name),
                                               did_you_mean(name, known)));
     return;
   }
@@ -149,19 +149,19 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, 
   spider.name = raw.name;
   spider.mask = raw.mask;
   spider.source = raw.at;
-  const std::size_t before = build.source.faults();
+  const std::size_t before = build.source.errors();
   if (raw.reference_by_element) {
     const int e = build.elements.one(raw.reference, "*DISTRIBUTING COUPLING");
     if (e >= 0) {
       const AbaqusElement& element = c.elements[e];
       if (element.type->family != AbaqusType::Family::coupling) {
-        build.source.fault(raw.at, fmt::format("*DISTRIBUTING COUPLING names element {} ({}), "
+        build.source.error(raw.at, fmt::format("*DISTRIBUTING COUPLING names element {} ({}), "
                                                "expected one of type DCOUP3D",
                                                element.id, element.type->name));
       } else if (const std::vector<int> node = build.nodes_of_elements({e}); node.size() == 1) {
         spider.reference = node.front();
       } else {
-        build.source.fault(element.at,
+        build.source.error(element.at,
                            fmt::format("element {} ({}): node {} is not there", element.id,
                                        element.type->name, c.element_nodes[element.first]));
       }
@@ -186,9 +186,9 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, 
     }
   }
   if (raw.surface >= 0 && !only_nodes) add_surface(build, raw, list);
-  if (build.source.faults() != before) return;
+  if (build.source.errors() != before) return;
   if (list.nodes.empty() && !only_nodes) {
-    build.source.fault(raw.at, "the rigid body or coupling has no nodes beside its reference");
+    build.source.error(raw.at, "the rigid body or coupling has no nodes beside its reference");
     return;
   }
   spider.nodes = list.nodes;
@@ -216,12 +216,12 @@ class DofMap {
 
 void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap& dofs) {
   std::vector<std::vector<int>> nodes;
-  const std::size_t before = build.source.faults();
+  const std::size_t before = build.source.errors();
   for (const AbaqusEquation::Term& term : raw.terms) {
     nodes.push_back(build.nodes.resolve(term.nodes));
-    if (build.source.faults() != before) return;
+    if (build.source.errors() != before) return;
     if (nodes.back().size() != 1 && nodes.back().size() != nodes.front().size()) {
-      build.source.fault(raw.at, fmt::format("*EQUATION: {} has {} nodes, expected 1 or {} as in "
+      build.source.error(raw.at, fmt::format("*EQUATION: {} has {} nodes, expected 1 or {} as in "
                                              "the first term",
                                              build.content.text(term.nodes, "node"),
                                              nodes.back().size(), nodes.front().size()));

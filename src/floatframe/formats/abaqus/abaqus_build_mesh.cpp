@@ -30,7 +30,7 @@ void build_masses(AbaqusBuild& build) {
     const bool rotary = element.type->family == Family::rotary;
     if (!rotary && element.type->family != Family::mass) continue;
     if (section_of[e] < 0) {
-      build.source.fault(element.at, fmt::format("{} has no {}", abaqus_label(element),
+      build.source.error(element.at, fmt::format("{} has no {}", abaqus_label(element),
                                                  rotary ? "*ROTARY INERTIA" : "*MASS"));
       continue;
     }
@@ -38,7 +38,7 @@ void build_masses(AbaqusBuild& build) {
     const auto node =
         c.node_of_label.find(AbaqusContent::label(element.scope, c.element_nodes[element.first]));
     if (node == c.node_of_label.end()) {
-      build.source.fault(element.at, fmt::format("{}: node {} is not there", abaqus_label(element),
+      build.source.error(element.at, fmt::format("{}: node {} is not there", abaqus_label(element),
                                                  c.element_nodes[element.first]));
       continue;
     }
@@ -90,7 +90,7 @@ void build_abaqus_nodes(AbaqusBuild& build) {
     int id = node.id;
     if (!in_part && c.node_of_label.contains(AbaqusContent::label(AbaqusScope::part, id))) {
       if (free_number == std::numeric_limits<int>::max()) {
-        build.source.fault(node.at, fmt::format("node {} of the assembly has the number of a node "
+        build.source.error(node.at, fmt::format("node {} of the assembly has the number of a node "
                                                 "of the part",
                                                 id));
       } else {
@@ -123,7 +123,7 @@ struct ElementCounts {
 
 void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
   if (counts.structural.number == 0) {
-    build.source.fault({0, 0}, "the deck has no element with stiffness");
+    build.source.error({0, 0}, "the deck has no element with stiffness");
   }
   for (const auto& [type, count] : counts.skins) {
     build.note(count.at, fmt::format("{} elements of type {} have no section: skins of the mesh, "
@@ -138,7 +138,7 @@ void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
 
 void no_section(AbaqusBuild& build, const AbaqusElement& element) {
   const Family family = element.type->family;
-  build.source.fault(
+  build.source.error(
       element.at,
       fmt::format("{} has no section: no *{} SECTION names a set with it", abaqus_label(element),
                   family == Family::solid   ? "SOLID"
@@ -161,7 +161,7 @@ std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& eleme
     const int id = c.element_nodes[element.first + k];
     const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
     if (it == c.node_of_label.end()) {
-      build.source.fault(element.at,
+      build.source.error(element.at,
                          fmt::format("{}: node {} is not there", abaqus_label(element), id));
       return std::nullopt;
     }
@@ -175,9 +175,9 @@ std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& eleme
 void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
-  const std::size_t before = build.source.faults();
+  const std::size_t before = build.source.errors();
   const std::vector<int> section_of = sections_of_elements(build, c.sections);
-  const bool assigned = build.source.faults() == before;
+  const bool assigned = build.source.errors() == before;
   look_at_abaqus_beams(build, section_of);
   const std::vector<AbaqusProperties> properties = abaqus_properties(build);
   const bool mesh_only = c.sections.empty() && c.materials.empty();

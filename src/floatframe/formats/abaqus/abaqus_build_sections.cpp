@@ -25,7 +25,7 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section,
   const auto it = c.materials.find(section.material);
   Material material;
   if (it == c.materials.end()) {
-    build.source.fault(section.at,
+    build.source.error(section.at,
                        fmt::format("{} names the material {}, which is not there{}", section.shown,
                                    shown(section.material),
                                    c.material_order.size() > most_known
@@ -34,10 +34,10 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section,
   } else {
     const AbaqusMaterial& m = it->second;
     if (!m.young) {
-      build.source.fault(m.at, fmt::format("material {} has no *ELASTIC", shown(section.material)));
+      build.source.error(m.at, fmt::format("material {} has no *ELASTIC", shown(section.material)));
     }
     if (!m.density) {
-      build.source.fault(m.at, fmt::format("material {} has no *DENSITY", shown(section.material)));
+      build.source.error(m.at, fmt::format("material {} has no *DENSITY", shown(section.material)));
     }
     material = {m.young.value_or(0.0), m.poisson.value_or(0.0), m.density.value_or(0.0)};
   }
@@ -61,7 +61,7 @@ BeamSection round_section(AbaqusBuild& build, const AbaqusSection& section) {
                                        program_of(dialect), clue.what, mark.file, mark.line));
   }
   if (dialect == DeckDialect::by_content) {
-    build.source.fault(
+    build.source.error(
         section.at,
         fmt::format("{}, SECTION=CIRC: {:g} is a radius in Abaqus and a diameter in CalculiX, and "
                     "{}: give --dialect abaqus or --dialect calculix (in a model file 'dialect:')",
@@ -80,7 +80,7 @@ void check_form(AbaqusBuild& build, const AbaqusSection& section) {
     return;
   }
   const SourceMark mark = build.source.mark(clues.abaqus->at);
-  build.source.fault(
+  build.source.error(
       section.at,
       fmt::format("{}, SECTION={} has dimensions as in CalculiX, but the deck has {} ({}:{}), "
                   "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
@@ -113,9 +113,9 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
         at = static_cast<int>(s);
         continue;
       }
-      std::string fault;
+      std::string error;
       if (element.type->family != section.family) {
-        fault = element.type->family == Family::skin
+        error = element.type->family == Family::skin
                     ? fmt::format(
                           "{} names {}; elements of this type are read as skins only, "
                           "without a section",
@@ -124,12 +124,12 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
                                   abaqus_label(element));
       } else if (at >= 0) {
         const SourceMark first = build.source.mark(sections[at].at);
-        fault = fmt::format("{} names {}, which has one already ({}:{})", section.shown,
+        error = fmt::format("{} names {}, which has one already ({}:{})", section.shown,
                             abaqus_label(element), first.file, first.line);
       }
-      if (!fault.empty()) {
+      if (!error.empty()) {
         reported = true;
-        build.source.fault(section.at, fault);
+        build.source.error(section.at, error);
       }
       at = static_cast<int>(s);
     }

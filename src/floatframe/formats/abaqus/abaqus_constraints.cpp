@@ -40,7 +40,7 @@ unsigned abaqus_dofs(AbaqusLines& lines, const std::vector<std::string_view>& fi
     last = parse_integer(fields[index + 1]);
   }
   if (!first || !last || *first < 1 || *last > 6 || *last < *first) {
-    lines.source().fault(
+    lines.source().error(
         fmt::format("{}: the degrees of freedom are {}{}{}, expected numbers from "
                     "1 to 6",
                     what, field.empty() ? "missing" : shown(field), last != first ? " to " : "",
@@ -58,7 +58,7 @@ void read_abaqus_rigid_body(AbaqusLines& lines, const AbaqusKeyword& keyword,
   spider.at = keyword.at;
   const std::string_view reference = reference_node(lines, keyword);
   if (!keyword.value("POSITION").empty() && !same_word(keyword.value("POSITION"), "INPUT")) {
-    lines.fault(keyword,
+    lines.error(keyword,
                 "moves its reference to the centre of mass (POSITION), which is not "
                 "supported");
   }
@@ -73,7 +73,7 @@ void read_abaqus_rigid_body(AbaqusLines& lines, const AbaqusKeyword& keyword,
     if (spider.nodes.size() == 1) {
       spider.mask = bits(1, 3);
     } else {
-      lines.fault(keyword, "has PIN NSET beside another set, which is not supported");
+      lines.error(keyword, "has PIN NSET beside another set, which is not supported");
     }
   }
   if (keyword.has("ELSET")) {
@@ -81,7 +81,7 @@ void read_abaqus_rigid_body(AbaqusLines& lines, const AbaqusKeyword& keyword,
     spider.name = abaqus_name(keyword.value("ELSET"));
   }
   if (spider.nodes.empty() && spider.elements.empty()) {
-    lines.fault(keyword, "needs the parameter NSET or ELSET");
+    lines.error(keyword, "needs the parameter NSET or ELSET");
   }
   lines.skip_data();
   if (reference.empty()) return;
@@ -104,7 +104,7 @@ void read_abaqus_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
   AbaqusKeyword kind;
   std::string_view line;
   if (!lines.next_keyword(kind) || (kind.name != "KINEMATIC" && kind.name != "DISTRIBUTING")) {
-    lines.fault(keyword, "is not followed by *KINEMATIC or *DISTRIBUTING");
+    lines.error(keyword, "is not followed by *KINEMATIC or *DISTRIBUTING");
     if (!kind.name.empty()) lines.source().stop(kind.at, "reading ends here");
     return;
   }
@@ -120,7 +120,7 @@ void read_abaqus_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
     spider.kind = Spider::Kind::mean;
     const std::string_view method = kind.value("WEIGHTINGMETHOD");
     if (!method.empty() && !same_word(method, "UNIFORM")) {
-      lines.fault(kind, fmt::format("has the weighting {}, expected UNIFORM", shown(method)));
+      lines.error(kind, fmt::format("has the weighting {}, expected UNIFORM", shown(method)));
     }
     if (mask != 63u) {
       const SourceMark mark = lines.source().mark(kind.at);
@@ -150,13 +150,13 @@ void read_abaqus_kinematic_coupling(AbaqusLines& lines, const AbaqusKeyword& key
     spider.nodes.push_back(content.reference(fields[0], lines.source().here()));
     const unsigned dofs = fields.size() > 1 ? abaqus_dofs(lines, fields, 1, keyword.shown) : 63u;
     if (mask != 0 && dofs != mask) {
-      lines.source().fault(
+      lines.source().error(
           "*KINEMATIC COUPLING has other degrees of freedom than in the line "
           "before, which is not supported");
     }
     mask = dofs;
   }
-  if (spider.nodes.empty()) return lines.fault(keyword, "has no nodes");
+  if (spider.nodes.empty()) return lines.error(keyword, "has no nodes");
   if (reference.empty()) return;
   spider.mask = mask;
   spider.reference = content.reference(reference, keyword.at);
@@ -175,12 +175,12 @@ void read_abaqus_distributing_coupling(AbaqusLines& lines, const AbaqusKeyword& 
     spider.nodes.push_back(content.reference(fields[0], lines.source().here()));
     const double weight = lines.real_or(fields, 1, 1.0, "weight of a node");
     if (!(weight > 0.0)) {
-      lines.source().fault(
+      lines.source().error(
           fmt::format("the weight of a node is {:g}, expected more than 0", weight));
     }
     spider.weights.push_back(weight);
   }
-  if (spider.nodes.empty()) return lines.fault(keyword, "has no nodes");
+  if (spider.nodes.empty()) return lines.error(keyword, "has no nodes");
   if (elements.empty()) return;
   spider.reference = named(content, elements, keyword.at);
   spider.reference_by_element = true;
@@ -197,17 +197,17 @@ void read_abaqus_equation(AbaqusLines& lines, const AbaqusKeyword& keyword,
     equation.at = lines.source().here();
     const std::optional<int> count = parse_integer(fields[0]);
     if (!count || *count < 1 || *count > most_terms || fields.size() != 1) {
-      lines.source().fault(fmt::format("*EQUATION: {} is no number of terms", shown(fields[0])));
+      lines.source().error(fmt::format("*EQUATION: {} is no number of terms", shown(fields[0])));
       return lines.skip_data();
     }
     while (equation.terms.size() < static_cast<std::size_t>(*count)) {
       if (!lines.next_fields(fields)) {
-        lines.source().fault(equation.at, fmt::format("*EQUATION has {} terms, expected {}",
+        lines.source().error(equation.at, fmt::format("*EQUATION has {} terms, expected {}",
                                                       equation.terms.size(), *count));
         return;
       }
       if (fields.size() % 3 != 0) {
-        lines.source().fault("*EQUATION: a line of terms is node, degree of freedom, factor, ...");
+        lines.source().error("*EQUATION: a line of terms is node, degree of freedom, factor, ...");
         return lines.skip_data();
       }
       for (std::size_t k = 0; k + 2 < fields.size(); k += 3) {
@@ -216,7 +216,7 @@ void read_abaqus_equation(AbaqusLines& lines, const AbaqusKeyword& keyword,
         term.axis = lines.integer(fields[k + 1], "degree of freedom") - 1;
         term.factor = lines.real(fields[k + 2], "factor");
         if (term.axis < 0 || term.axis > 5) {
-          lines.source().fault(fmt::format(
+          lines.source().error(fmt::format(
               "*EQUATION: the degree of freedom is {}, expected 1 to 6", shown(fields[k + 1])));
           term.axis = 0;
         }
@@ -224,7 +224,7 @@ void read_abaqus_equation(AbaqusLines& lines, const AbaqusKeyword& keyword,
       }
     }
     if (equation.terms.front().factor == 0.0) {
-      lines.source().fault(equation.at, "*EQUATION: the factor of the first term is zero");
+      lines.source().error(equation.at, "*EQUATION: the factor of the first term is zero");
     }
     content.equations.push_back(std::move(equation));
   }

@@ -220,7 +220,7 @@ void read_abaqus_equation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_boundary(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 
 /// Degrees of freedom "first, last" (1..6; `last` may be missing) of the fields from `index` on, as
-/// a mask; 0 and a fault if they are none.
+/// a mask; 0 and an error if they are none.
 unsigned abaqus_dofs(AbaqusLines& lines, const std::vector<std::string_view>& fields,
                      std::size_t index, std::string_view what);
 

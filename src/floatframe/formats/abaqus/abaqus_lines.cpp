@@ -145,13 +145,13 @@ void AbaqusLines::skip_data() {
   }
 }
 
-void AbaqusLines::fault(const AbaqusKeyword& keyword, std::string_view text) {
-  source_.fault(keyword.at, fmt::format("{} {}", keyword.shown, text));
+void AbaqusLines::error(const AbaqusKeyword& keyword, std::string_view text) {
+  source_.error(keyword.at, fmt::format("{} {}", keyword.shown, text));
 }
 
 std::string_view AbaqusLines::required(const AbaqusKeyword& keyword, std::string_view parameter) {
   const std::string_view value = keyword.value(without_blanks(parameter));
-  if (value.empty()) fault(keyword, fmt::format("needs the parameter {}", parameter));
+  if (value.empty()) error(keyword, fmt::format("needs the parameter {}", parameter));
   return value;
 }
 
@@ -159,7 +159,7 @@ void AbaqusLines::allow_only(const AbaqusKeyword& keyword,
                              std::initializer_list<std::string_view> known) {
   for (const AbaqusKeyword::Parameter& p : keyword.parameters) {
     if (std::find(known.begin(), known.end(), p.name) == known.end()) {
-      fault(keyword, fmt::format("has the parameter {}, which is not supported", shown(p.name)));
+      error(keyword, fmt::format("has the parameter {}, which is not supported", shown(p.name)));
     }
   }
 }
@@ -171,7 +171,7 @@ void AbaqusLines::take_input(const AbaqusKeyword& keyword) {
 
 double AbaqusLines::real(std::string_view field, std::string_view what) {
   const std::optional<double> value = parse_real(field);
-  if (!value) source_.fault(fmt::format("{}: {}", what, not_a_real(field)));
+  if (!value) source_.error(fmt::format("{}: {}", what, not_a_real(field)));
   return value.value_or(0.0);
 }
 
@@ -183,7 +183,7 @@ double AbaqusLines::real_or(const std::vector<std::string_view>& fields, std::si
 
 int AbaqusLines::integer(std::string_view field, std::string_view what) {
   const std::optional<int> value = parse_integer(field);
-  if (!value) source_.fault(fmt::format("{}: {}", what, not_an_integer(field)));
+  if (!value) source_.error(fmt::format("{}: {}", what, not_an_integer(field)));
   return value.value_or(0);
 }
 

@@ -40,13 +40,13 @@ class AbaqusLines {
   bool next_fields(std::vector<std::string_view>& fields);
   void skip_data();
 
-  /// The value of a parameter ("REF NODE") that must be there; a fault and empty if it is not.
+  /// The value of a parameter ("REF NODE") that must be there; an error and empty if it is not.
   std::string_view required(const AbaqusKeyword& keyword, std::string_view parameter);
-  /// A fault for each parameter that is not among those known.
+  /// An error for each parameter that is not among those known.
   void allow_only(const AbaqusKeyword& keyword, std::initializer_list<std::string_view> known);
   /// Data lines come from the file of the parameter INPUT, if it is there.
   void take_input(const AbaqusKeyword& keyword);
-  /// A real field of the last data line; a fault that begins with `what` if it is none.
+  /// A real field of the last data line; an error that begins with `what` if it is none.
   double real(std::string_view field, std::string_view what);
   /// The same; an empty or missing field is `otherwise`.
   double real_or(const std::vector<std::string_view>& fields, std::size_t index, double otherwise,
@@ -54,8 +54,8 @@ class AbaqusLines {
   int integer(std::string_view field, std::string_view what);
 
   TextSource& source() noexcept { return source_; }
-  /// A fault at a keyword: "*SOLID SECTION " + text.
-  void fault(const AbaqusKeyword& keyword, std::string_view text);
+  /// An error at a keyword: "*SOLID SECTION " + text.
+  void error(const AbaqusKeyword& keyword, std::string_view text);
 
  private:
   bool next_line(std::string_view& line);

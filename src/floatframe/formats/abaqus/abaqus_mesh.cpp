@@ -92,7 +92,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
   if (set.at.line == 0) set.at = keyword.at;
   set.internal = keyword.has("INTERNAL");
   if (of_nodes && keyword.has("ELSET")) {
-    lines.fault(keyword,
+    lines.error(keyword,
                 "has the parameter 'ELSET', which is not supported; an element set can be "
                 "used wherever its nodes are wanted");
   }
@@ -100,7 +100,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
   if (const std::string_view instance = keyword.value("INSTANCE"); !instance.empty()) {
     scope = AbaqusScope::part;
     if (abaqus_name(instance) != content.instance) {
-      lines.fault(keyword,
+      lines.error(keyword,
                   fmt::format("names the instance {}, which is not there", shown(instance)));
     }
   }
@@ -111,7 +111,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
     const FeSource at = lines.source().here();
     if (keyword.has("GENERATE")) {
       if (fields.size() < 2 || fields.size() > 3) {
-        lines.source().fault(
+        lines.source().error(
             fmt::format("a line of GENERATE has {} numbers, expected first, last "
                         "and increment",
                         fields.size()));
@@ -124,7 +124,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
       range.scope = scope;
       range.at = at;
       if (range.first < 1 || range.last < range.first || range.step < 1) {
-        lines.source().fault(fmt::format("GENERATE from {} to {} by {} gives no numbers",
+        lines.source().error(fmt::format("GENERATE from {} to {} by {} gives no numbers",
                                          range.first, range.last, range.step));
         continue;
       }
@@ -140,7 +140,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
                           (field.front() >= 'a' && field.front() <= 'z');
       // "1.5", "-3" and "0" are no names.
       if (item.name >= 0 && !letter && parse_real(field).has_value()) {
-        lines.source().fault(fmt::format("{}: {}", what, not_an_integer(field)));
+        lines.source().error(fmt::format("{}: {}", what, not_an_integer(field)));
         continue;
       }
       set.items.push_back(item);
@@ -153,7 +153,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
 void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
   lines.allow_only(keyword, {"NSET", "SYSTEM", "INPUT"});
   if (keyword.has("SYSTEM") && !same_word(keyword.value("SYSTEM"), "R")) {
-    lines.fault(keyword, "has coordinates that are not rectangular, which is not supported");
+    lines.error(keyword, "has coordinates that are not rectangular, which is not supported");
   }
   AbaqusSet* const set = set_of_parameter(content.node_sets, keyword, "NSET", content);
   lines.take_input(keyword);
@@ -162,11 +162,11 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
     const FeSource at = lines.source().here();
     const std::optional<int> id = parse_label(fields[0]);
     if (!id) {
-      lines.source().fault("node number: " + not_an_integer(fields[0]));
+      lines.source().error("node number: " + not_an_integer(fields[0]));
       continue;
     }
     if (fields.size() > 4) {
-      lines.source().fault(
+      lines.source().error(
           fmt::format("node {} has {} fields, expected its number and three "
                       "coordinates",
                       *id, fields.size()));
@@ -177,7 +177,7 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
       if (fields[k].empty()) continue;
       const std::optional<double> value = parse_real(fields[k]);
       if (!value) {
-        lines.source().fault(
+        lines.source().error(
             fmt::format("coordinate {} of node {}: {}", k, *id, not_a_real(fields[k])));
         continue;
       }
@@ -187,7 +187,7 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
                                                            static_cast<int>(content.nodes.size()));
     if (!added) {
       const SourceMark first = lines.source().mark(content.nodes[it->second].at);
-      lines.source().fault(
+      lines.source().error(
           fmt::format("node {} is there already ({}:{})", *id, first.file, first.line));
       continue;
     }
@@ -203,7 +203,7 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (type_name.empty()) return lines.skip_data();
   const AbaqusType* const type = find_abaqus_type(type_name);
   if (type == nullptr) {
-    lines.fault(keyword, fmt::format("has the type {}, which is not supported{}", shown(type_name),
+    lines.error(keyword, fmt::format("has the type {}, which is not supported{}", shown(type_name),
                                      did_you_mean(type_name, abaqus_type_names())));
     return lines.skip_data();
   }
@@ -216,37 +216,37 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
   while (element_fields(lines, count, fields, at)) {
     const std::optional<int> id = parse_label(fields[0]);
     if (!id) {
-      lines.source().fault(at, "element number: " + not_an_integer(fields[0]));
+      lines.source().error(at, "element number: " + not_an_integer(fields[0]));
       continue;
     }
     const bool third_node = type->family == AbaqusType::Family::beam && fields.size() == count + 1;
     if (third_node) {
-      lines.source().fault(at, fmt::format("element {} ({}) has a node for its orientation, which "
+      lines.source().error(at, fmt::format("element {} ({}) has a node for its orientation, which "
                                            "is not supported: give the direction in *BEAM SECTION",
                                            *id, type->name));
       continue;
     }
     if (fields.size() != count) {
-      lines.source().fault(at, fmt::format("element {} ({}) has {} nodes, expected {}", *id,
+      lines.source().error(at, fmt::format("element {} ({}) has {} nodes, expected {}", *id,
                                            type->name, fields.size() - 1, type->nodes));
       continue;
     }
     AbaqusElement element{*id, content.scope, type, content.element_nodes.size(), at};
-    bool sound = true;
-    for (std::size_t k = 1; k < count && sound; ++k) {
+    bool valid = true;
+    for (std::size_t k = 1; k < count && valid; ++k) {
       const std::optional<int> node = parse_label(fields[k]);
       if (!node) {
-        lines.source().fault(
+        lines.source().error(
             at, fmt::format("node {} of element {}: {}", k, *id, not_an_integer(fields[k])));
       }
-      sound = node.has_value();
+      valid = node.has_value();
       content.element_nodes.push_back(node.value_or(0));
     }
     const auto [it, added] = content.element_of_label.emplace(
         AbaqusContent::label(content.scope, *id), static_cast<int>(content.elements.size()));
     if (!added) {
       const SourceMark first = lines.source().mark(content.elements[it->second].at);
-      lines.source().fault(
+      lines.source().error(
           at, fmt::format("element {} is there already ({}:{})", *id, first.file, first.line));
       continue;
     }
@@ -271,12 +271,12 @@ void read_abaqus_surface(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   const std::string_view type = keyword.value("TYPE");
   const bool of_nodes = same_word(type, "NODE");
   if (!type.empty() && !of_nodes && !same_word(type, "ELEMENT")) {
-    lines.fault(keyword, fmt::format("has the type {}, expected ELEMENT or NODE", shown(type)));
+    lines.error(keyword, fmt::format("has the type {}, expected ELEMENT or NODE", shown(type)));
   }
   if (name.empty()) return lines.skip_data();
   AbaqusSurface& surface = content.surfaces[{content.scope, content.intern(abaqus_name(name))}];
   if (surface.at.line != 0) {
-    lines.fault(keyword, fmt::format("names the surface {} a second time", shown(name)));
+    lines.error(keyword, fmt::format("names the surface {} a second time", shown(name)));
     return lines.skip_data();
   }
   surface.at = keyword.at;
@@ -298,7 +298,7 @@ void read_abaqus_surface(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
                  face[1] <= '6') {
         item.face = face[1] - '1';
       } else {
-        lines.source().fault(
+        lines.source().error(
             fmt::format("surface {}: the face is {}, expected S1 to S6, SPOS or "
                         "SNEG",
                         shown(name), face.empty() ? "missing" : shown(face)));

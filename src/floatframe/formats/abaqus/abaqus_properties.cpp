@@ -11,12 +11,12 @@ namespace {
 
 using Family = AbaqusType::Family;
 
-/// The material that *ELASTIC and *DENSITY belong to; null and a fault if there is none.
+/// The material that *ELASTIC and *DENSITY belong to; null and an error if there is none.
 AbaqusMaterial* present_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                  AbaqusContent& content) {
   const auto it = content.materials.find(content.material);
   if (it != content.materials.end()) return &it->second;
-  lines.fault(keyword, "belongs to no *MATERIAL");
+  lines.error(keyword, "belongs to no *MATERIAL");
   return nullptr;
 }
 
@@ -25,12 +25,12 @@ AbaqusMaterial* present_material(AbaqusLines& lines, const AbaqusKeyword& keywor
 bool one_line(AbaqusLines& lines, const AbaqusKeyword& keyword,
               std::vector<std::string_view>& fields) {
   if (!lines.next_fields(fields)) {
-    lines.fault(keyword, "has no data line");
+    lines.error(keyword, "has no data line");
     return false;
   }
   std::string_view more;
   if (lines.next_data(more)) {
-    lines.source().fault(
+    lines.source().error(
         fmt::format("{} depends on temperature or fields (a second line), which is "
                     "not supported",
                     keyword.shown));
@@ -43,7 +43,7 @@ bool one_line(AbaqusLines& lines, const AbaqusKeyword& keyword,
 
 bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
                           Family family, AbaqusSection& section) {
-  const std::size_t before = lines.source().faults();
+  const std::size_t before = lines.source().errors();
   section.family = family;
   section.shown = keyword.shown;
   section.at = keyword.at;
@@ -55,18 +55,18 @@ bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaq
     section.material = abaqus_name(lines.required(keyword, "MATERIAL"));
   }
   if (keyword.has("ORIENTATION")) {
-    lines.fault(keyword, "has the parameter 'ORIENTATION', which is not supported");
+    lines.error(keyword, "has the parameter 'ORIENTATION', which is not supported");
   }
-  if (lines.source().faults() == before) return true;
+  if (lines.source().errors() == before) return true;
   lines.skip_data();
   return false;
 }
 
 double positive_real(AbaqusLines& lines, std::string_view field, std::string_view what) {
-  const std::size_t before = lines.source().faults();
+  const std::size_t before = lines.source().errors();
   const double value = lines.real(field, what);
-  if (!(value > 0.0) && lines.source().faults() == before)
-    lines.source().fault(fmt::format("{} is {:g}, expected more than 0", what, value));
+  if (!(value > 0.0) && lines.source().errors() == before)
+    lines.source().error(fmt::format("{} is {:g}, expected more than 0", what, value));
   return value;
 }
 
@@ -77,7 +77,7 @@ void read_abaqus_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const auto [it, added] = content.materials.emplace(name, AbaqusMaterial{});
   if (!added) {
     const SourceMark first = lines.source().mark(it->second.at);
-    lines.fault(keyword, fmt::format("names the material {} a second time ({}:{})", shown(name),
+    lines.error(keyword, fmt::format("names the material {} a second time ({}:{})", shown(name),
                                      first.file, first.line));
   } else {
     it->second.at = keyword.at;
@@ -91,26 +91,26 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   AbaqusMaterial* const material = present_material(lines, keyword, content);
   const std::string type = abaqus_name(keyword.value("TYPE"));
   if (!type.empty() && type != "ISO" && type != "ISOTROPIC") {
-    lines.fault(keyword, fmt::format("has the type {}; only isotropic elasticity is supported",
+    lines.error(keyword, fmt::format("has the type {}; only isotropic elasticity is supported",
                                      shown(keyword.value("TYPE"))));
     return lines.skip_data();
   }
   std::vector<std::string_view> fields;
-  const std::size_t before = lines.source().faults();
+  const std::size_t before = lines.source().errors();
   if (!one_line(lines, keyword, fields) || material == nullptr) return;
   if (material->young) {
-    lines.fault(keyword, "is given a second time for its material");
+    lines.error(keyword, "is given a second time for its material");
     return;
   }
   material->young = lines.real(fields[0], "Young's modulus");
   material->poisson = lines.real_or(fields, 1, 0.0, "Poisson's ratio");
-  if (lines.source().faults() != before) return;
+  if (lines.source().errors() != before) return;
   if (!(*material->young > 0.0)) {
-    lines.fault(keyword,
+    lines.error(keyword,
                 fmt::format("has Young's modulus {:g}, expected more than 0", *material->young));
   }
   if (!(*material->poisson > -1.0 && *material->poisson < 0.5)) {
-    lines.fault(keyword,
+    lines.error(keyword,
                 fmt::format("has Poisson's ratio {:g}, expected more than -1 and less than "
                             "0.5",
                             *material->poisson));
@@ -123,12 +123,12 @@ void read_abaqus_density(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   std::vector<std::string_view> fields;
   if (!one_line(lines, keyword, fields) || material == nullptr) return;
   if (material->density) {
-    lines.fault(keyword, "is given a second time for its material");
+    lines.error(keyword, "is given a second time for its material");
     return;
   }
   material->density = lines.real(fields[0], "density");
   if (!(*material->density >= 0.0)) {
-    lines.fault(keyword, fmt::format("is {:g}, expected no negative density", *material->density));
+    lines.error(keyword, fmt::format("is {:g}, expected no negative density", *material->density));
   }
 }
 
@@ -148,15 +148,15 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
                              "SECTIONINTEGRATION", "TEMPERATURE", "POISSON"});
   const std::string offset = abaqus_name(keyword.value("OFFSET"));
   if (!offset.empty() && parse_real(offset).value_or(1.0) != 0.0) {
-    lines.fault(keyword, fmt::format("has the offset {}, which is not supported", shown(offset)));
+    lines.error(keyword, fmt::format("has the offset {}, which is not supported", shown(offset)));
   }
   if (!begin_abaqus_section(lines, keyword, content, Family::shell, section)) return;
   std::vector<std::string_view> fields;
-  if (!lines.next_fields(fields)) return lines.fault(keyword, "has no thickness");
+  if (!lines.next_fields(fields)) return lines.error(keyword, "has no thickness");
   section.thickness = positive_real(lines, fields[0], "thickness of the shell");
   std::string_view more;
   if (lines.next_data(more)) {
-    lines.source().fault("*SHELL SECTION has a second line, which is not supported");
+    lines.source().error("*SHELL SECTION has a second line, which is not supported");
     lines.skip_data();
   }
   content.sections.push_back(section);
@@ -167,7 +167,7 @@ void read_abaqus_surface_section(AbaqusLines& lines, const AbaqusKeyword& keywor
                                  AbaqusContent& content) {
   const std::string_view density = keyword.value("DENSITY");
   if (keyword.has("DENSITY") && parse_real(density).value_or(1.0) != 0.0) {
-    lines.fault(keyword, fmt::format("has the density {}: the mass of surface elements is not "
+    lines.error(keyword, fmt::format("has the density {}: the mass of surface elements is not "
                                      "read, use *MASS or shells",
                                      shown(density)));
   } else {
@@ -186,14 +186,14 @@ void read_abaqus_mass(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCo
   lines.allow_only(keyword, {"ELSET", "TYPE", "ALPHA", "COMPOSITE"});
   const std::string_view type = keyword.value("TYPE");
   if (!type.empty() && !same_word(type, "ISOTROPIC")) {
-    lines.fault(keyword, fmt::format("has the type {}, expected ISOTROPIC", shown(type)));
+    lines.error(keyword, fmt::format("has the type {}, expected ISOTROPIC", shown(type)));
   }
   if (!begin_abaqus_section(lines, keyword, content, Family::mass, section)) return;
   std::vector<std::string_view> fields;
   if (!one_line(lines, keyword, fields)) return;
   section.mass = lines.real(fields[0], "mass");
   if (section.mass < 0.0)
-    lines.fault(keyword, fmt::format("is {:g}, expected no negative mass", section.mass));
+    lines.error(keyword, fmt::format("is {:g}, expected no negative mass", section.mass));
   content.masses.push_back(section);
 }
 
@@ -210,7 +210,7 @@ void read_abaqus_rotary_inertia(AbaqusLines& lines, const AbaqusKeyword& keyword
   }
   for (std::size_t k = 3; k < 6; ++k) {
     if (lines.real_or(fields, k, 0.0, "product of inertia") != 0.0) {
-      lines.fault(keyword,
+      lines.error(keyword,
                   "has products of inertia, whose sign is not the same in all programs: "
                   "not supported");
       break;

@@ -46,7 +46,7 @@ void AbaqusResolver::missing(const AbaqusReference& reference) {
     }
     help = did_you_mean(content_.names[reference.name], known);
   }
-  source_.fault(reference.at,
+  source_.error(reference.at,
                 fmt::format("{} is not there{}", content_.text(reference, word_), help));
 }
 
@@ -80,7 +80,7 @@ void AbaqusResolver::append_range(const AbaqusReference& item, std::vector<int>&
   spend(looked_at, item.at);
   const long wanted = static_cast<long>((last - first) / item.step) + 1;
   if (found == 0) {
-    source_.fault(item.at,
+    source_.error(item.at,
                   fmt::format("none of the {}s {} to {} is there", word_, item.first, item.last));
   } else if (found < wanted) {
     if (gaps_ == 0) first_gap_ = item.at;
@@ -114,7 +114,7 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
     source_.stop(set.at, fmt::format("sets are nested deeper than {}", deepest_set));
   }
   result.state = State::busy;
-  const std::size_t before = source_.faults();
+  const std::size_t before = source_.errors();
   // A set that is opened again may name itself.
   const auto itself = [&](const AbaqusReference& item) {
     return item.name == key.second && item.scope == key.first;
@@ -135,8 +135,8 @@ const std::vector<int>& AbaqusResolver::members(const AbaqusContent::Key& key, i
   for (const AbaqusReference& item : set.items) {
     if (!itself(item)) append(item, list);
   }
-  if (list.empty() && source_.faults() == before) {
-    source_.fault(set.at,
+  if (list.empty() && source_.errors() == before) {
+    source_.error(set.at,
                   fmt::format("{} set {} is empty", word_, shown(content_.names[key.second])));
   }
   result.list = std::move(list);
@@ -165,7 +165,7 @@ int AbaqusResolver::one(const AbaqusReference& reference, std::string_view what)
   const std::vector<int> found = resolve(reference);
   if (found.size() == 1) return found.front();
   if (!found.empty()) {
-    source_.fault(reference.at, fmt::format("{}: {} has {} {}s, expected one", what,
+    source_.error(reference.at, fmt::format("{}: {} has {} {}s, expected one", what,
                                             content_.text(reference, word_), found.size(), word_));
   }
   return -1;

@@ -8,7 +8,7 @@
 
 namespace floatframe {
 
-/// Resolves references to nodes or to elements; what is not there is a fault, once. Sets of sets
+/// Resolves references to nodes or to elements; what is not there is an error, once. Sets of sets
 /// can name the same nodes again and again in a few bytes: the members that are named in all are
 /// limited in proportion to the deck.
 class AbaqusResolver {
@@ -18,7 +18,7 @@ class AbaqusResolver {
 
   /// Indices in the order of the deck, each once.
   std::vector<int> resolve(const AbaqusReference& reference);
-  /// The one node of a reference; -1 and a fault that begins with `what` if it is not one.
+  /// The one node of a reference; -1 and an error that begins with `what` if it is not one.
   int one(const AbaqusReference& reference, std::string_view what);
   /// All members of a set.
   const std::vector<int>& members(const AbaqusContent::Key& key);

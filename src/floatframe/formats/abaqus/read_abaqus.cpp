@@ -105,7 +105,7 @@ class DeckReader {
     if (rule.use == Use::harmless) {
       note(keyword, "is passed over");
     } else if (rule.use == Use::refused) {
-      fault(keyword, fmt::format("is not supported: {}", rule.advice));
+      error(keyword, fmt::format("is not supported: {}", rule.advice));
     } else {
       unknown(keyword);
     }
@@ -124,27 +124,27 @@ class DeckReader {
       const bool changes =
           changes_part_in_step(keyword.name) && !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
       if (content_.only_nodes || (!removes && !changes)) continue;
-      fault(keyword, fmt::format("stands in the *STEP of line {}, but the part must be complete "
+      error(keyword, fmt::format("stands in the *STEP of line {}, but the part must be complete "
                                  "before the first step",
                                  begin.at.line));
     }
   }
 
   /// Each keyword once: there may be millions of them.
-  void fault(const AbaqusKeyword& keyword, const std::string& text) {
-    if (faults_.insert(keyword.name).second) lines_.fault(keyword, text);
+  void error(const AbaqusKeyword& keyword, const std::string& text) {
+    if (errors_.insert(keyword.name).second) lines_.error(keyword, text);
   }
 
   void unknown(const AbaqusKeyword& keyword) {
-    if (faults_.contains(keyword.name) || noted_.contains(keyword.name)) return;
+    if (errors_.contains(keyword.name) || noted_.contains(keyword.name)) return;
     if (content_.only_nodes && noted_.size() >= most_notes) return;
     const std::string near = nearly(keyword.name);
     if (!near.empty()) {
-      fault(keyword, fmt::format("is not known, did you mean '*{}'?", near));
+      error(keyword, fmt::format("is not known, did you mean '*{}'?", near));
     } else if (content_.only_nodes) {
       note(keyword, "is not known and is passed over");
     } else {
-      fault(keyword,
+      error(keyword,
             "is not known and may change stiffness, mass or constraints: take it out of the deck "
             "if it does not");
     }
@@ -159,7 +159,7 @@ class DeckReader {
   static constexpr std::size_t most_notes = 500;  // the harmless ones are fewer
   AbaqusLines& lines_;
   AbaqusContent& content_;
-  std::set<std::string> noted_, faults_;
+  std::set<std::string> noted_, errors_;
 };
 
 }  // namespace
@@ -184,8 +184,8 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   content.only_nodes = part == DeckPart::nodes;
   AbaqusLines lines(source);
   DeckReader(lines, content).read();
-  if (content.nodes.empty() && source.faults() == 0) {
-    source.fault({0, 0}, "the deck has no nodes");
+  if (content.nodes.empty() && source.errors() == 0) {
+    source.error({0, 0}, "the deck has no nodes");
   }
   source.throw_if_any();
   const bool only_nodes = content.only_nodes;

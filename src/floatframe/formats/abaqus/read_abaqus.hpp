@@ -2,7 +2,7 @@
 // Abaqus and CalculiX decks (.inp): nodes, elements, sets, surfaces, isotropic materials, sections,
 // masses, rigid bodies, couplings, equations, supports; flat or with one part and one instance.
 // docs/fe-files.md lists the keywords. A keyword that would change stiffness or mass and is not
-// read is a fault; others are listed in the notes.
+// read is an error; others are listed in the notes.
 #include <string>
 #include <string_view>
 

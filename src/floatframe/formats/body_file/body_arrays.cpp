@@ -32,8 +32,8 @@ NpyArray list_of(const VecX& vector) {
   return {{size(vector.size())}, std::vector<double>(vector.data(), vector.data() + vector.size())};
 }
 
-void ArrayReader::fault(const std::string& name, const std::string& sentence) {
-  faults_.add({file_, 0, 0}, "member '" + name + ".npy': " + sentence);
+void ArrayReader::error(const std::string& name, const std::string& sentence) {
+  errors_.add({file_, 0, 0}, "member '" + name + ".npy': " + sentence);
 }
 
 const ZipMember* ArrayReader::find(const std::string& name) const {
@@ -45,13 +45,13 @@ const ZipMember* ArrayReader::find(const std::string& name) const {
 std::optional<NpyArray> ArrayReader::load(const std::string& name) {
   const ZipMember* m = find(name);
   if (!m) {
-    fault(name, "is missing");
+    error(name, "is missing");
     return std::nullopt;
   }
   try {
     return read_npy(m->content);
-  } catch (const InputError& error) {
-    fault(name, error.what());
+  } catch (const InputError& damage) {
+    error(name, damage.what());
     return std::nullopt;
   }
 }
@@ -62,13 +62,13 @@ std::optional<std::vector<double>> ArrayReader::doubles(const std::string& name,
   if (!array) return std::nullopt;
   auto* values = std::get_if<std::vector<double>>(&array->values);
   if (array->shape != shape || !values) {
-    fault(name, fmt::format("found {}{}, expected {}", shape_text(array->shape),
+    error(name, fmt::format("found {}{}, expected {}", shape_text(array->shape),
                             values ? "" : " of integers", shape_text(shape)));
     return std::nullopt;
   }
   for (std::size_t k = 0; k < values->size(); ++k)
     if (!std::isfinite((*values)[k])) {
-      fault(name,
+      error(name,
             fmt::format("found {} as value {}, expected finite numbers", (*values)[k], k + 1));
       return std::nullopt;
     }
@@ -77,7 +77,7 @@ std::optional<std::vector<double>> ArrayReader::doubles(const std::string& name,
 
 MatX ArrayReader::zeros(Eigen::Index rows, Eigen::Index columns) {
   // No memory for what a damaged file says and does not hold.
-  if (rows > 0 && columns > 1'000'000 / rows) faults_.throw_if_any();
+  if (rows > 0 && columns > 1'000'000 / rows) errors_.throw_if_any();
   return MatX::Zero(rows, columns);
 }
 
@@ -111,7 +111,7 @@ std::vector<int> ArrayReader::integers(const std::string& name, std::optional<st
   const bool right = array->shape.size() == (columns ? 2u : 1u) &&
                      (!columns || array->shape[1] == *columns) && array->values.index() > 0;
   if (!right) {
-    fault(name, fmt::format("found {}{}, expected {} integers", shape_text(array->shape),
+    error(name, fmt::format("found {}{}, expected {} integers", shape_text(array->shape),
                             array->values.index() == 0 ? " of doubles" : "",
                             columns ? fmt::format("rows of {}", *columns) : "a list of"));
     return {};
@@ -120,7 +120,7 @@ std::vector<int> ArrayReader::integers(const std::string& name, std::optional<st
   const auto take = [&](const auto& values) {
     for (const auto x : values) {
       if (x < 0 || x >= limit) {
-        fault(name, fmt::format("found {} as value {}, expected a number from 0 to {}", x,
+        error(name, fmt::format("found {} as value {}, expected a number from 0 to {}", x,
                                 out.size() + 1, limit - 1));
         out.clear();
         return;
@@ -137,7 +137,7 @@ Eigen::Index ArrayReader::length(const std::string& name) {
   const auto array = load(name);
   if (!array) return 0;
   if (array->shape.empty()) {
-    fault(name, "found " + shape_text(array->shape) + ", expected rows");
+    error(name, "found " + shape_text(array->shape) + ", expected rows");
     return 0;
   }
   const std::size_t values = std::visit([](const auto& v) { return v.size(); }, array->values);

@@ -25,13 +25,13 @@ NpyArray array_of(const std::vector<std::array<int, N>>& rows) {
   return {{rows.size(), N}, std::move(values)};
 }
 
-/// Arrays of an archive by name. Every accessor adds a fault that names the member if it is missing
+/// Arrays of an archive by name. Every accessor adds an error that names the member if it is missing
 /// or has another type or shape, or values that are not finite, and returns zeros of the right
-/// shape (or nothing), so that all faults of a file are found at once.
+/// shape (or nothing), so that all errors of a file are found at once.
 class ArrayReader {
  public:
-  ArrayReader(const std::vector<ZipMember>& members, std::string file, Faults& faults)
-      : members_(members), file_(std::move(file)), faults_(faults) {}
+  ArrayReader(const std::vector<ZipMember>& members, std::string file, ErrorList& errors)
+      : members_(members), file_(std::move(file)), errors_(errors) {}
 
   bool has(const std::string& name) const { return find(name) != nullptr; }
   double number(const std::string& name);
@@ -43,9 +43,9 @@ class ArrayReader {
   /// Integers from 0 to below `limit`; one dimension, or `columns` a row.
   std::vector<int> integers(const std::string& name, std::optional<std::size_t> columns,
                             std::int64_t limit);
-  /// Size of the first dimension; 0 and a fault if the member is missing or damaged.
+  /// Size of the first dimension; 0 and an error if the member is missing or damaged.
   Eigen::Index length(const std::string& name);
-  void fault(const std::string& name, const std::string& sentence);
+  void error(const std::string& name, const std::string& sentence);
 
  private:
   const ZipMember* find(const std::string& name) const;
@@ -57,7 +57,7 @@ class ArrayReader {
 
   const std::vector<ZipMember>& members_;
   std::string file_;
-  Faults& faults_;
+  ErrorList& errors_;
 };
 
 }  // namespace floatframe

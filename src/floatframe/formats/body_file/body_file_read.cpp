@@ -30,11 +30,11 @@ SparseRows read_sparse(ArrayReader& arrays, const std::string& name, Eigen::Inde
   const std::vector<int> columns = arrays.integers(name + "_indices", std::nullopt, n);
   const std::vector<int> starts = arrays.integers(name + "_indptr", std::nullopt, entries + 1);
   SparseRows out(n, n);
-  const bool sound = columns.size() == static_cast<std::size_t>(entries) &&
+  const bool valid = columns.size() == static_cast<std::size_t>(entries) &&
                      starts.size() == static_cast<std::size_t>(n) + 1 && starts.front() == 0 &&
                      starts.back() == entries && std::is_sorted(starts.begin(), starts.end());
-  if (!sound) {
-    arrays.fault(name + "_indptr",
+  if (!valid) {
+    arrays.error(name + "_indptr",
                  fmt::format("found {} rows for {} values in {} columns, expected the {} rows of a "
                              "sparse matrix",
                              starts.empty() ? 0 : starts.size() - 1, entries, columns.size(), n));
@@ -51,7 +51,7 @@ SparseRows read_sparse(ArrayReader& arrays, const std::string& name, Eigen::Inde
 class BodyReader {
  public:
   BodyReader(std::string_view bytes, const std::string& name)
-      : name_(name), members_(read_zip(bytes, name)), arrays_(members_, name, faults_) {}
+      : name_(name), members_(read_zip(bytes, name)), arrays_(members_, name, errors_) {}
 
   BodyFile read() {
     header();
@@ -59,16 +59,16 @@ class BodyReader {
     nodes();
     surface();
     if (arrays_.has("projection_p")) projection();
-    faults_.throw_if_any();
-    check_body_numbers(out_, header_, arrays_, faults_, name_);
-    faults_.throw_if_any();
+    errors_.throw_if_any();
+    check_body_numbers(out_, header_, arrays_, errors_, name_);
+    errors_.throw_if_any();
     return std::move(out_);
   }
 
  private:
   FlexibleBody& body() { return out_.part.body; }
-  void fault(const std::string& sentence) {
-    faults_.add({name_, 0, 0}, "member 'header.json': " + sentence);
+  void error(const std::string& sentence) {
+    errors_.add({name_, 0, 0}, "member 'header.json': " + sentence);
   }
 
   /// Nothing else can be read without it.
@@ -95,7 +95,7 @@ class BodyReader {
                       version == json.end() ? "none" : json_excerpt(*version), body_file_version,
                       excerpt(text_of(json, "floatframe"))));
     if (const auto units = json.find("units"); units != json.end() && *units != body_file_units)
-      fault(fmt::format("found the units {}, expected \"{}\": all members are in SI units",
+      error(fmt::format("found the units {}, expected \"{}\": all members are in SI units",
                         json_excerpt(*units), body_file_units));
     if (const auto m = json.find("modes"); m != json.end() && m->is_array())
       for (const Json& mode : *m) {
@@ -103,29 +103,29 @@ class BodyReader {
         const auto f = mode.is_object() ? mode.find("frequency_Hz") : mode.end();
         const bool given = mode.is_object() && f != mode.end() && !f->is_null();
         if (given && !f->is_number())
-          fault(fmt::format("found the frequency_Hz {} of mode {}, expected a number [Hz]",
+          error(fmt::format("found the frequency_Hz {} of mode {}, expected a number [Hz]",
                             json_excerpt(*f), header_.frequencies.size() + 1));
         header_.frequencies.push_back(given && f->is_number() ? f->get<double>() : -1.0);
       }
     else
-      fault("found no list of 'modes', expected one entry per mode");
+      error("found no list of 'modes', expected one entry per mode");
     std::set<std::string> names;
     if (const auto m = json.find("markers"); m != json.end() && m->is_array())
       for (const Json& marker : *m) {
         const std::string name = name_of(marker, "marker");
         body().nodes.emplace_back().name = name;
         if (name.empty() || !names.insert(name).second)
-          fault("found the marker name '" + excerpt(name) +
+          error("found the marker name '" + excerpt(name) +
                 "', expected names that are not empty and differ");
         followers(marker, name);
       }
     else
-      fault("found no list of 'markers', expected one");
+      error("found no list of 'markers', expected one");
     const std::string mass_model = text_of(json, "mass_model");
     const std::vector<std::string> models{"isoparametric", "six_dof", "hermite"};
     const auto model = std::find(models.begin(), models.end(), mass_model);
     if (model == models.end())
-      fault("found the mass model '" + excerpt(mass_model) +
+      error("found the mass model '" + excerpt(mass_model) +
             "', expected isoparametric, six_dof or hermite");
     else
       body().mass_model = static_cast<MassModel>(model - models.begin());
@@ -134,8 +134,8 @@ class BodyReader {
     try {
       if (const auto health = json.find("health"); health != json.end())
         out_.part.health = health_from_json(health->dump());
-    } catch (const InputError& error) {
-      fault(std::string("health: ") + error.what());
+    } catch (const InputError& damage) {
+      error(std::string("health: ") + damage.what());
     }
   }
 
@@ -143,7 +143,7 @@ class BodyReader {
   std::string name_of(const Json& object, const char* what) {
     std::string name = text_of(object, "name");
     if (printable(name) != name)
-      fault(fmt::format("found the {} name '{}', expected one without control characters", what,
+      error(fmt::format("found the {} name '{}', expected one without control characters", what,
                         printable(excerpt(name))));
     return name;
   }
@@ -160,7 +160,7 @@ class BodyReader {
     }
     if (right) return;
     list.clear();
-    fault(fmt::format("found moves_with {} of marker '{}', expected a list of surface points",
+    error(fmt::format("found moves_with {} of marker '{}', expected a list of surface points",
                       json_excerpt(*given), excerpt(name)));
   }
 
@@ -251,7 +251,7 @@ class BodyReader {
   }
 
   std::string name_;
-  Faults faults_;
+  ErrorList errors_;
   BodyHeader header_;
   std::vector<ZipMember> members_;
   ArrayReader arrays_;

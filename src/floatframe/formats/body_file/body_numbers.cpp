@@ -15,18 +15,18 @@ constexpr double same = 1e-6;  // numbers that were printed and read again
 
 class Check {
  public:
-  Check(const BodyFile& content, const BodyHeader& header, ArrayReader& arrays, Faults& faults,
+  Check(const BodyFile& content, const BodyHeader& header, ArrayReader& arrays, ErrorList& errors,
         const std::string& name)
-      : file_(content), header_(header), arrays_(arrays), faults_(faults), name_(name) {}
+      : file_(content), header_(header), arrays_(arrays), errors_(errors), name_(name) {}
 
   /// What the numbers must satisfy, and whether they are those of the header.
   void run() {
     // Of points only if the file says so: see check_invariants.hpp.
     const auto source = file_.part.health.rotary_inertia == false ? InvariantSource::integrals
                                                                   : InvariantSource::rotary;
-    for (const InvariantFault& f : check_invariants(file_.part.body, source))
-      arrays_.fault(f.quantity, f.sentence);
-    if (!faults_.empty()) return;
+    for (const InvariantError& f : check_invariants(file_.part.body, source))
+      arrays_.error(f.quantity, f.sentence);
+    if (!errors_.empty()) return;
     const InertiaInvariants& v = file_.part.body.invariants;
     if (const auto& p = file_.part.body.projection) {
       double m = 0.0;
@@ -38,7 +38,7 @@ class Check {
         m = p->M_s.sum();
       }
       if (!(std::abs(m - v.m) <= same * v.m))
-        arrays_.fault(p->six_dof() ? "projection_M_6_data" : "projection_M_s_data",
+        arrays_.error(p->six_dof() ? "projection_M_6_data" : "projection_M_s_data",
                       fmt::format("found {:g} kg in all, expected the mass of member 'm.npy', {:g} "
                                   "kg",
                                   m, v.m));
@@ -49,7 +49,7 @@ class Check {
       if (header_.frequencies[k] < 0.0 || !std::isfinite(f)) continue;
       if (std::abs(f - header_.frequencies[k]) <= same * std::max(f, header_.frequencies[k]))
         continue;
-      fault(
+      error(
           fmt::format("found {:.6g} Hz for mode {}, but K and the modal mass S11 + S22 + S33 give "
                       "{:.6g} Hz",
                       header_.frequencies[k], k + 1, f));
@@ -69,7 +69,7 @@ class Check {
       for (const std::int64_t point : header_.moves_with[k]) {
         const ModalNode& node = file_.part.body.nodes[k];
         if (point < 0 || point >= part.surface_positions.cols()) {
-          fault(
+          error(
               fmt::format("found the surface point {} for marker '{}', expected a number from 0 "
                           "to {}",
                           point, excerpt(node.name), part.surface_positions.cols() - 1));
@@ -77,7 +77,7 @@ class Check {
         }
         const double off = distance_from_rigid(part, node, static_cast<int>(point));
         if (off <= same * scale) continue;
-        arrays_.fault("marker_X",
+        arrays_.error("marker_X",
                       fmt::format("marker '{}' moves {:.3g} m per modal amplitude away from point "
                                   "{} of the surface, which moves with it (largest mode of the "
                                   "surface: {:.3g} m)",
@@ -92,10 +92,10 @@ class Check {
     const MassProperties& said = h.from_invariants;
     if (!(said.mass > 0.0)) return;  // no report
     if (h.modes != v.modes())
-      fault(
+      error(
           fmt::format("health: found {} modes, expected the {} of this file", h.modes, v.modes()));
     if (!(std::abs(v.m - said.mass) <= same * said.mass)) {
-      arrays_.fault("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg", v.m,
+      arrays_.error("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg", v.m,
                                      said.mass));
       return;
     }
@@ -104,12 +104,12 @@ class Check {
     const double length = std::sqrt(J.trace() / v.m);
     const Vec3 c = v.centre_of_mass();
     if (!((c - said.centre).norm() <= same * length))
-      arrays_.fault("m_u", fmt::format("found the centre of mass ({:.6g}, {:.6g}, {:.6g}) m, but "
+      arrays_.error("m_u", fmt::format("found the centre of mass ({:.6g}, {:.6g}, {:.6g}) m, but "
                                        "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
                                        c.x(), c.y(), c.z(), said.centre.x(), said.centre.y(),
                                        said.centre.z()));
     if (!((J - said.J_origin).norm() <= same * J.norm()))
-      arrays_.fault("P_u", fmt::format("found moments of inertia ({:.6g}, {:.6g}, {:.6g}) kg m2 "
+      arrays_.error("P_u", fmt::format("found moments of inertia ({:.6g}, {:.6g}, {:.6g}) kg m2 "
                                        "about the origin, but the health report says ({:.6g}, "
                                        "{:.6g}, {:.6g}) kg m2",
                                        J(0, 0), J(1, 1), J(2, 2), said.J_origin(0, 0),
@@ -118,7 +118,7 @@ class Check {
       for (const ModalNode& node : file_.part.body.nodes)
         if (node.name == interface.name &&
             !((node.p - interface.p).norm() <= same * (length + node.p.norm())))
-          arrays_.fault("marker_p", fmt::format("found ({:.6g}, {:.6g}, {:.6g}) m for '{}', but "
+          arrays_.error("marker_p", fmt::format("found ({:.6g}, {:.6g}, {:.6g}) m for '{}', but "
                                                 "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
                                                 node.p.x(), node.p.y(), node.p.z(), node.name,
                                                 interface.p.x(), interface.p.y(), interface.p.z()));
@@ -128,7 +128,7 @@ class Check {
   void of_the_part(const InertiaInvariants& v, const HealthReport& h) {
     const double m = h.from_elements.mass;
     if (m > 0.0 && !(std::abs(v.m - m) <= same * m))
-      arrays_.fault("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg of the "
+      arrays_.error("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg of the "
                                      "elements",
                                      v.m, m));
     normal_modes(h);
@@ -145,29 +145,29 @@ class Check {
       const double own = f(static_cast<Eigen::Index>(k));
       if (!std::isfinite(kept[k]) || std::abs(own - kept[k]) <= same * std::max(own, kept[k]))
         continue;
-      arrays_.fault("frequencies", fmt::format("found {:.6g} Hz for normal mode {}, but the health "
+      arrays_.error("frequencies", fmt::format("found {:.6g} Hz for normal mode {}, but the health "
                                                "report says {:.6g} Hz",
                                                own, k + 1, kept[k]));
       return;
     }
   }
 
-  void fault(const std::string& sentence) {
-    faults_.add({name_, 0, 0}, "member 'header.json': " + sentence);
+  void error(const std::string& sentence) {
+    errors_.add({name_, 0, 0}, "member 'header.json': " + sentence);
   }
 
   const BodyFile& file_;
   const BodyHeader& header_;
   ArrayReader& arrays_;
-  Faults& faults_;
+  ErrorList& errors_;
   const std::string& name_;
 };
 
 }  // namespace
 
 void check_body_numbers(const BodyFile& content, const BodyHeader& header, ArrayReader& arrays,
-                        Faults& faults, const std::string& name) {
-  Check(content, header, arrays, faults, name).run();
+                        ErrorList& errors, const std::string& name) {
+  Check(content, header, arrays, errors, name).run();
 }
 
 }  // namespace floatframe

@@ -19,6 +19,6 @@ struct BodyHeader {
 
 /// `content`: complete, of sizes that fit. `name`: of the file.
 void check_body_numbers(const BodyFile& content, const BodyHeader& header, ArrayReader& arrays,
-                        Faults& faults, const std::string& name);
+                        ErrorList& errors, const std::string& name);
 
 }  // namespace floatframe

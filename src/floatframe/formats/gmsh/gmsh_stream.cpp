@@ -16,13 +16,13 @@ GmshStream::Place GmshStream::here() {
   return {line_, at_};
 }
 
-InputFault GmshStream::fault(const Place& at, std::string message) const {
+ErrorEntry GmshStream::error(const Place& at, std::string message) const {
   if (binary_) return {{name_, 0, 0}, fmt::format("byte {}: {}", at.byte, message)};
   return {{name_, at.line, 0}, std::move(message)};
 }
 
 void GmshStream::stop(const Place& at, std::string message) const {
-  throw InputError({fault(at, std::move(message))});
+  throw InputError({error(at, std::move(message))});
 }
 
 bool GmshStream::next_line(std::string_view& line) {

@@ -19,14 +19,14 @@ class GmshStream {
   }
   bool binary() const noexcept { return binary_; }
 
-  /// Where a fault is: the line of an ASCII file, the byte (from 0) of a binary one.
+  /// Where an error is: the line of an ASCII file, the byte (from 0) of a binary one.
   struct Place {
     int line = 0;
     std::size_t byte = 0;
   };
   /// Of the next number.
   Place here();
-  InputFault fault(const Place& at, std::string message) const;
+  ErrorEntry error(const Place& at, std::string message) const;
   [[noreturn]] void stop(const Place& at, std::string message) const;
   [[noreturn]] void stop(std::string message) { stop(here(), std::move(message)); }
 
@@ -35,7 +35,7 @@ class GmshStream {
   /// To the line "$End<section>" and over it; what comes before it is left out. `begin`: of the
   /// section.
   void end_section(const Place& begin, std::string_view section);
-  /// The same when all numbers were read: anything before the end is a fault.
+  /// The same when all numbers were read: anything before the end is an error.
   void expect_end(std::string_view section);
 
   int integer(const char* what);

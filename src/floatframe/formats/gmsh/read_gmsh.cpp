@@ -32,16 +32,16 @@ class GmshModel {
       model_.notes.push_back(
           fmt::format("{}: section ${} is passed over", model_.files[0], section));
     }
-    if (!faults_.empty()) throw InputError(std::move(faults_));
+    if (!errors_.empty()) throw InputError(std::move(errors_));
     return std::move(model_);
   }
 
  private:
   using Place = GmshStream::Place;
 
-  void fault(const Place& at, std::string message) {
-    faults_.push_back(in_.fault(at, std::move(message)));
-    if (faults_.size() >= TextSource::most_faults) throw InputError(std::move(faults_));
+  void error(const Place& at, std::string message) {
+    errors_.push_back(in_.error(at, std::move(message)));
+    if (errors_.size() >= TextSource::most_errors) throw InputError(std::move(errors_));
   }
   FeSource source(const Place& at) const { return {0, in_.binary() ? 0 : at.line}; }
   std::string where(const Place& at) const {
@@ -58,7 +58,7 @@ class GmshModel {
       const auto [it, fresh] = index_.try_emplace(node.id, model_.nodes());
       if (!fresh) {
         const GmshNode& first = mesh_.nodes[it->second];
-        fault(node.at,
+        error(node.at,
               fmt::format("node {} is in the file twice, first {}", node.id, where(first.at)));
       }
       model_.positions.push_back(node.p);
@@ -80,14 +80,14 @@ class GmshModel {
     }
   }
 
-  /// The element's nodes as indices, in the order of the file; false if there is a fault.
+  /// The element's nodes as indices, in the order of the file; false if there is an error.
   bool gather(const GmshElement& e, std::vector<int>& nodes) {
     nodes.clear();
     for (int k = 0; k < e.type->nodes; ++k) {
       const int id = mesh_.element_nodes[e.first + k];
       const auto it = index_.find(id);
       if (it == index_.end()) {
-        fault(e.at, fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
+        error(e.at, fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
                                 e.type->name, id));
         return false;
       }
@@ -120,7 +120,7 @@ class GmshModel {
       const GmshElement& e = mesh_.elements[i];
       const auto [it, fresh] = seen.try_emplace(e.id, e.at);
       if (!fresh) {
-        fault(e.at,
+        error(e.at,
               fmt::format("element {} is in the file twice, first {}", e.id, where(it->second)));
       }
       if (e.type->dimension < 3) continue;
@@ -133,7 +133,7 @@ class GmshModel {
       key = nodes;
       std::sort(key.begin(), key.end());
       if (const auto twice = std::adjacent_find(key.begin(), key.end()); twice != key.end()) {
-        fault(e.at, fmt::format("element {} ({}) has node {} twice", e.id, e.type->name,
+        error(e.at, fmt::format("element {} ({}) has node {} twice", e.id, e.type->name,
                                 model_.node_ids[*twice]));
         continue;
       }
@@ -159,7 +159,7 @@ class GmshModel {
     }
     for (const auto& [number, first] : unsupported) {
       const GmshElement& e = *first.first;
-      fault(e.at, fmt::format("element {} is a {} (there are {}), which is not supported{}", e.id,
+      error(e.at, fmt::format("element {} is a {} (there are {}), which is not supported{}", e.id,
                               e.type->name, first.second, advice(number)));
     }
     if (repeated > 0) {
@@ -196,7 +196,7 @@ class GmshModel {
   void group_names() {
     for (const GmshGroup& group : mesh_.groups) {
       if (!names_.try_emplace({group.dimension, group.tag}, group.name).second) {
-        fault(group.at, fmt::format("physical group {} of dimension {} has a second name {}",
+        error(group.at, fmt::format("physical group {} of dimension {} has a second name {}",
                                     group.tag, group.dimension, shown(group.name)));
       }
     }
@@ -217,10 +217,10 @@ class GmshModel {
       named += mesh_.group_lists[e.groups].size() *
                (e.type->dimension < 3 ? static_cast<std::size_t>(e.type->nodes) : 1);
       if (named <= most) continue;
-      fault(e.at, fmt::format("the physical groups have more than {} members in all, too many for "
+      error(e.at, fmt::format("the physical groups have more than {} members in all, too many for "
                               "a mesh of {} nodes and {} elements",
                               most, mesh_.nodes.size(), mesh_.elements.size()));
-      throw InputError(std::move(faults_));
+      throw InputError(std::move(errors_));
     }
   }
 
@@ -270,7 +270,7 @@ class GmshModel {
   const GmshStream& in_;
   const FeReadOptions& options_;
   FeModel model_;
-  std::vector<InputFault> faults_;
+  std::vector<ErrorEntry> errors_;
   std::unordered_map<int, int> index_;  // of a node number
   std::vector<int> element_index_;      // in the model, of each element of the mesh
   std::map<std::pair<int, int>, std::string> names_;

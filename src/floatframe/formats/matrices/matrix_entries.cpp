@@ -31,14 +31,14 @@ bool read_matrix_line(TextSource& source, std::string_view line, int& row, int& 
   };
   const std::string_view first = next(), second = next(), third = next();
   if (third.empty() || !next().empty()) {
-    source.fault("the line is not row, column and value");
+    source.error("the line is not row, column and value");
     return false;
   }
   const std::optional<int> i = parse_label(first), j = parse_label(second);
   const std::optional<double> v = parse_real(third);
   if (!i || !j)
-    source.fault(fmt::format("{}: {}", !i ? "row" : "column", not_an_integer(!i ? first : second)));
-  if (!v) source.fault("value: " + not_a_real(third));
+    source.error(fmt::format("{}: {}", !i ? "row" : "column", not_an_integer(!i ? first : second)));
+  if (!v) source.error("value: " + not_a_real(third));
   if (!i || !j || !v) return false;
   row = *i - 1;
   column = *j - 1;
@@ -70,9 +70,9 @@ bool SymmetricEntries::check(const std::vector<std::string>& labels) {
   }
   double largest = 0.0;
   for (const Entry& e : entries_) largest = std::max(largest, std::abs(e.value));
-  const std::size_t faults = source_.faults();
-  const auto fault = [&](const Entry& e, const std::string& text) {
-    source_.fault({file_, std::abs(e.line)}, fmt::format("the {} {}", name(e, labels), text));
+  const std::size_t errors = source_.errors();
+  const auto error = [&](const Entry& e, const std::string& text) {
+    source_.error({file_, std::abs(e.line)}, fmt::format("the {} {}", name(e, labels), text));
   };
   std::size_t kept = 0;
   for (std::size_t k = 0; k < entries_.size();) {
@@ -80,25 +80,25 @@ bool SymmetricEntries::check(const std::vector<std::string>& labels) {
     for (int more = 0; k < entries_.size() && !before(e, entries_[k]); ++more, ++k) {
       const Entry& other = entries_[k];
       if (more > 0 || (e.line > 0) == (other.line > 0)) {
-        fault(other, fmt::format("is there already (line {})", std::abs(e.line)));
+        error(other, fmt::format("is there already (line {})", std::abs(e.line)));
       } else if (!(std::abs(e.value - other.value) <= half_tolerance * largest)) {
-        fault(other, fmt::format("is {:g}, but {:g} in the other half (line {}): the matrix is not "
+        error(other, fmt::format("is {:g}, but {:g} in the other half (line {}): the matrix is not "
                                  "symmetric",
                                  other.value, e.value, std::abs(e.line)));
       }
     }
     if (e.row == e.column && e.value < 0.0) {
-      fault(e, fmt::format("on the diagonal is {:g}, expected no negative value", e.value));
+      error(e, fmt::format("on the diagonal is {:g}, expected no negative value", e.value));
     }
     if (e.row == e.column && e.value >= penalty) {
-      fault(e, fmt::format("on the diagonal is {:g}, the penalty of a support: write the matrices "
+      error(e, fmt::format("on the diagonal is {:g}, the penalty of a support: write the matrices "
                            "without supports",
                            e.value));
     }
     entries_[kept++] = e;
   }
   entries_.resize(kept);
-  return source_.faults() == faults;
+  return source_.errors() == errors;
 }
 
 SparseMatrix SymmetricEntries::finish(int n, const std::vector<std::string>& labels,
@@ -112,7 +112,7 @@ SparseMatrix SymmetricEntries::finish(int n, const std::vector<std::string>& lab
     }
     const auto missing = std::find(there.begin(), there.end(), 0);
     if (missing != there.end()) {
-      source_.fault(fmt::format(
+      source_.error(fmt::format(
           "the {} ends without a diagonal entry for {} and {} more: "
           "the file is truncated or does not belong to these degrees of "
           "freedom",
@@ -150,13 +150,13 @@ SymmetricEntries read_triples(TextSource& source, const std::string& what, int n
     double value = 0.0;
     if (!read_matrix_line(source, line, row, column, value)) continue;
     if (row >= n || column >= n) {
-      source.fault(fmt::format("row {}, column {} is outside: {} has {} degrees of freedom",
+      source.error(fmt::format("row {}, column {} is outside: {} has {} degrees of freedom",
                                row + 1, column + 1, map, n));
       continue;
     }
     entries.add(row, column, value);
   }
-  if (entries.size() == 0) source.fault(FeSource{0, 0}, fmt::format("the {} has no entries", what));
+  if (entries.size() == 0) source.error(FeSource{0, 0}, fmt::format("the {} has no entries", what));
   source.throw_if_any();
   return entries;
 }

@@ -7,7 +7,7 @@
 
 namespace floatframe {
 
-/// Collects entries and makes the symmetric matrix with both halves. Faults: entries twice, halves
+/// Collects entries and makes the symmetric matrix with both halves. Errors: entries twice, halves
 /// that differ, a diagonal that is negative or a penalty.
 class SymmetricEntries {
  public:
@@ -40,7 +40,7 @@ class SymmetricEntries {
   int file_ = 0;
 };
 
-/// A line "row column value" with blanks or commas between, rows and columns from 1; a fault if it
+/// A line "row column value" with blanks or commas between, rows and columns from 1; an error if it
 /// is none.
 bool read_matrix_line(TextSource& source, std::string_view line, int& row, int& column,
                       double& value);

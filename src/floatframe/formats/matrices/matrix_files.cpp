@@ -54,7 +54,7 @@ Path before_word(const Path& file, std::string_view word) {
 }
 
 Path companion(const Path& file, const Path& given, const std::vector<Path>& candidates,
-               std::string_view what, std::string_view option, Faults& faults) {
+               std::string_view what, std::string_view option, ErrorList& errors) {
   if (!given.empty()) return given;
   std::vector<Path> named;
   for (const Path& candidate : candidates) {
@@ -65,7 +65,7 @@ Path companion(const Path& file, const Path& given, const std::vector<Path>& can
   for (const Path& candidate : named) {
     names += (names.empty() ? "" : " or ") + shown(candidate.filename().string());
   }
-  faults.add({file.string()},
+  errors.add({file.string()},
              fmt::format("{} not there: {}give the {} file", what,
                          names.empty() ? "" : "there is no " + names + " beside it; ", option));
   return {};

@@ -21,11 +21,11 @@ std::filesystem::path with_word(const std::filesystem::path& file, std::string_v
 std::filesystem::path before_word(const std::filesystem::path& file, std::string_view word);
 
 /// The file given in the options, or the first candidate that is there, also with .gz. Empty paths
-/// are no candidates. If there is none: a fault "`what` not there: ... give the `option` file".
+/// are no candidates. If there is none: an error "`what` not there: ... give the `option` file".
 std::filesystem::path companion(const std::filesystem::path& file,
                                 const std::filesystem::path& given,
                                 const std::vector<std::filesystem::path>& candidates,
-                                std::string_view what, std::string_view option, Faults& faults);
+                                std::string_view what, std::string_view option, ErrorList& errors);
 
 /// First line that is not empty and does not begin with one of `comments`.
 std::string_view first_line(std::string_view text, std::string_view comments);

@@ -143,13 +143,13 @@ std::vector<DofLabel> read_dof_labels(TextSource& source) {
     const std::optional<int> direction =
         fields.size() > 1 ? parse_label(fields[1]) : std::optional<int>{};
     if (!node || !direction || fields.size() != 2 || *direction > 6) {
-      source.fault(fmt::format("{} is no degree of freedom, expected node and direction 1 to 6",
+      source.error(fmt::format("{} is no degree of freedom, expected node and direction 1 to 6",
                                shown(line)));
       return;
     }
     labels.push_back({*node, *direction, source.here()});
   });
-  if (labels.empty()) source.fault(FeSource{0, 0}, "there are no degrees of freedom in the file");
+  if (labels.empty()) source.error(FeSource{0, 0}, "there are no degrees of freedom in the file");
   return labels;
 }
 
@@ -167,16 +167,16 @@ FeModel read_node_table(TextSource& source) {
   each_row(source, [&](std::string_view line) {
     split_blanks(line, fields);
     if (fields.size() != 4) {
-      source.fault(fmt::format("the line has {} fields, expected node, x, y, z", fields.size()));
+      source.error(fmt::format("the line has {} fields, expected node, x, y, z", fields.size()));
       return;
     }
     const std::optional<int> id = parse_label(fields[0]);
-    if (!id) return source.fault("node number: " + not_an_integer(fields[0]));
+    if (!id) return source.error("node number: " + not_an_integer(fields[0]));
     Vec3 p;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::optional<double> value = parse_real(fields[k + 1]);
       if (!value) {
-        source.fault(
+        source.error(
             fmt::format("coordinate {} of node {}: {}", k + 1, *id, not_a_real(fields[k + 1])));
         return;
       }
@@ -184,14 +184,14 @@ FeModel read_node_table(TextSource& source) {
     }
     const auto [it, added] = lines.emplace(*id, source.here().line);
     if (!added) {
-      source.fault(fmt::format("node {} is there already (line {})", *id, it->second));
+      source.error(fmt::format("node {} is there already (line {})", *id, it->second));
       return;
     }
     model.positions.push_back(p);
     model.node_ids.push_back(*id);
     model.node_sources.push_back(source.here());
   });
-  if (model.positions.empty()) source.fault(FeSource{0, 0}, "there are no nodes in the file");
+  if (model.positions.empty()) source.error(FeSource{0, 0}, "there are no nodes in the file");
   source.throw_if_any();
   model.files = source.files();
   return model;
@@ -234,7 +234,7 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
   for (const DofLabel& label : labels) {
     const auto node = index_of_id.find(label.node);
     if (node == index_of_id.end()) {
-      labels_source.fault(label.at,
+      labels_source.error(label.at,
                           fmt::format("node {} is not among the nodes of {}", label.node,
                                       model.files.empty() ? "the model" : model.files.front()));
       continue;

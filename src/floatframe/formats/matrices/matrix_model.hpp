@@ -29,7 +29,7 @@ FeModel read_nodes(const std::filesystem::path& file);
 /// Stiffness, mass and the nodes they belong to. Rows on the rotation node of a deck's spider are
 /// rotations of its reference. Spiders and equations of the deck are in the matrices already: the
 /// nodes that follow a spider and have no rows are left out, and so are their sets.
-/// `labels_source` for the places of faults and the names of files.
+/// `labels_source` for the places of errors and the names of files.
 FeModel matrix_model(FeModel nodes, const std::vector<DofLabel>& labels, SparseMatrix K,
                      SparseMatrix M, TextSource& labels_source,
                      const std::vector<std::string>& other_files);

@@ -44,24 +44,24 @@ SymmetricEntries read_quintuples(TextSource& source, const std::string& what, La
     if (line.empty() || line.front() == '*') continue;
     split_blanks(line, fields);
     if (fields.size() != 5) {
-      source.fault(
+      source.error(
           fmt::format("the line has {} fields, expected node, direction, node, direction, "
                       "value",
                       fields.size()));
       continue;
     }
     std::array<int, 4> number{};
-    bool sound = true;
-    for (std::size_t k = 0; k < 4 && sound; ++k) {
+    bool valid = true;
+    for (std::size_t k = 0; k < 4 && valid; ++k) {
       const std::optional<int> value = parse_integer(fields[k]);
-      if (!value) source.fault(fmt::format("label {}: {}", k + 1, not_an_integer(fields[k])));
-      sound = value.has_value();
+      if (!value) source.error(fmt::format("label {}: {}", k + 1, not_an_integer(fields[k])));
+      valid = value.has_value();
       number[k] = value.value_or(0);
     }
     const std::optional<double> value = parse_real(fields[4]);
-    if (sound && !value) source.fault("value: " + not_a_real(fields[4]));
-    if (!sound || !value) continue;
-    for (std::size_t k = 0; k < 4 && sound; k += 2) {
+    if (valid && !value) source.error("value: " + not_a_real(fields[4]));
+    if (!valid || !value) continue;
+    for (std::size_t k = 0; k < 4 && valid; k += 2) {
       if (number[k] < 1) {
         source.stop(source.here(),
                     fmt::format("node {} is internal to Abaqus (Lagrange multipliers of "
@@ -70,17 +70,17 @@ SymmetricEntries read_quintuples(TextSource& source, const std::string& what, La
                                 number[k]));
       }
       if (number[k + 1] < 1 || number[k + 1] > 6) {
-        source.fault(
+        source.error(
             fmt::format("direction {} of node {}: expected 1 to 6", number[k + 1], number[k]));
-        sound = false;
+        valid = false;
       }
     }
-    if (!sound) continue;
+    if (!valid) continue;
     const FeSource at = source.here();
     const int row = table.row(number[0], number[1], at);
     entries.add(row, table.row(number[2], number[3], at), *value);
   }
-  if (entries.size() == 0) source.fault(FeSource{0, 0}, fmt::format("the {} has no entries", what));
+  if (entries.size() == 0) source.error(FeSource{0, 0}, fmt::format("the {} has no entries", what));
   source.throw_if_any();
   return entries;
 }
@@ -119,19 +119,19 @@ FeModel read_abaqus_matrices(const std::filesystem::path& file, const FeReadOpti
   // arm_STIF2.mtx has arm_MASS2.mtx beside it and belongs to arm.inp.
   const std::filesystem::path mass_name = with_word(file, "STIF", "MASS");
   const std::filesystem::path job = before_word(file, "_STIF");
-  Faults faults;
+  ErrorList errors;
   const std::filesystem::path mass = companion(file, options.mass, {with_ending(mass_name, ".mtx")},
-                                               "the mass matrix is", "mass", faults);
+                                               "the mass matrix is", "mass", errors);
   const std::filesystem::path nodes =
       companion(file, options.nodes, {with_ending(job, ".inp"), with_ending(job, "_nodes.csv")},
-                "the coordinates of the nodes are", "nodes", faults);
+                "the coordinates of the nodes are", "nodes", errors);
   const bool labels = !is_triple(first_line(read_beginning(file, 65536), "*"));
   std::filesystem::path map;
   if (!labels) {
     map = companion(file, options.dofs, {with_ending(job, "_dofs.csv")},
-                    "the map of degrees of freedom is", "dofs", faults);
+                    "the map of degrees of freedom is", "dofs", errors);
   }
-  faults.throw_if_any();
+  errors.throw_if_any();
   TextSource stiffness_source(file), mass_source(mass);
   if (labels) {
     return read_abaqus_matrices(stiffness_source, mass_source, nullptr, read_nodes(nodes));

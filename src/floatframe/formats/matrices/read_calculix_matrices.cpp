@@ -20,17 +20,17 @@ FeModel read_calculix_matrices(TextSource& stiffness, TextSource& mass, TextSour
 
 FeModel read_calculix_matrices(const std::filesystem::path& file, const FeReadOptions& options) {
   const std::filesystem::path stem = stem_of(file);
-  Faults faults;
+  ErrorList errors;
   const std::filesystem::path stiffness =
-      companion(file, {}, {with_ending(stem, ".sti")}, "the stiffness is", "stiffness", faults);
+      companion(file, {}, {with_ending(stem, ".sti")}, "the stiffness is", "stiffness", errors);
   const std::filesystem::path mass = companion(file, options.mass, {with_ending(stem, ".mas")},
-                                               "the mass matrix is", "mass", faults);
+                                               "the mass matrix is", "mass", errors);
   const std::filesystem::path dofs = companion(file, options.dofs, {with_ending(stem, ".dof")},
-                                               "the map of degrees of freedom is", "dofs", faults);
+                                               "the map of degrees of freedom is", "dofs", errors);
   const std::filesystem::path nodes =
       companion(file, options.nodes, {with_ending(stem, ".inp"), with_ending(stem, ".csv")},
-                "the coordinates of the nodes are", "nodes", faults);
-  faults.throw_if_any();
+                "the coordinates of the nodes are", "nodes", errors);
+  errors.throw_if_any();
   TextSource dof_source(dofs), stiffness_source(stiffness), mass_source(mass);
   return read_calculix_matrices(stiffness_source, mass_source, dof_source, read_nodes(nodes));
 }

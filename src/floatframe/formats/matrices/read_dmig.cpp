@@ -43,7 +43,7 @@ class DmigFile {
     source.throw_if_any();
   }
 
-  /// The entries of the only matrix whose name begins with a letter; a fault if there are none or
+  /// The entries of the only matrix whose name begins with a letter; an error if there are none or
   /// several.
   const std::vector<DmigEntry>& matrix(char letter, const char* what, const char* advice) {
     std::vector<std::string> found;
@@ -80,22 +80,22 @@ class DmigFile {
   void header(const std::string& name, NastranFields& f) {
     const int form = f.integer(2, "the form IFO", 0), type = f.integer(3, "the type TIN", 0);
     if (!names_.insert(name).second) {
-      f.fault("the matrix has a second header");
+      f.error("the matrix has a second header");
     }
     if (!wanted(name)) return;
     matrices_[name];
     if (form != 1 && form != 6) {
-      f.fault(fmt::format("IFO is {}, expected 1 (square) or 6 (symmetric)", form));
+      f.error(fmt::format("IFO is {}, expected 1 (square) or 6 (symmetric)", form));
     }
     if (type != 1 && type != 2) {
-      f.fault(fmt::format("TIN is {}, expected 1 or 2 (real)", type));
+      f.error(fmt::format("TIN is {}, expected 1 or 2 (real)", type));
     }
   }
 
   void column(const std::string& name, NastranFields& f, const NastranCard& card) {
     const auto it = matrices_.find(name);
     if (it == matrices_.end()) {
-      f.fault("the matrix has no header before its first column");
+      f.error("the matrix has no header before its first column");
       matrices_[name];
       names_.insert(name);
       return;
@@ -119,7 +119,7 @@ class DmigFile {
                                node, upper_case(card.field(0))));
     }
     if (component < 1 || component > 6) {
-      f.fault(fmt::format("component {} of node {}, expected 1 to 6", component, node));
+      f.error(fmt::format("component {} of node {}, expected 1 to 6", component, node));
     }
     return {node, component};
   }
@@ -209,13 +209,13 @@ FeModel read_dmig(const std::filesystem::path& file, const FeReadOptions& option
       if (card.name == "GRID") nodes = file;
     }
   }
-  Faults faults;
+  ErrorList errors;
   nodes =
       companion(file, nodes,
                 {with_ending(stem, ".bdf"), with_ending(stem, ".dat"), with_ending(stem, ".nas"),
                  with_ending(stem, ".fem"), with_ending(stem, "_nodes.csv")},
-                "the coordinates of the nodes are", "nodes", faults);
-  faults.throw_if_any();
+                "the coordinates of the nodes are", "nodes", errors);
+  errors.throw_if_any();
   TextSource stiffness(file);
   if (options.mass.empty()) return read_dmig(stiffness, nullptr, read_nodes(nodes));
   TextSource mass(options.mass);

@@ -10,20 +10,20 @@
 namespace floatframe {
 namespace {
 
-/// The banner; false and a fault if the matrix cannot be read.
+/// The banner; false and an error if the matrix cannot be read.
 bool read_banner(TextSource& source) {
   std::string_view line;
   std::vector<std::string_view> words;
   if (source.next(line)) split_blanks(line, words);
   if (words.size() != 5 || !same_word(words[0], "%%MatrixMarket")) {
-    source.fault("the first line is not '%%MatrixMarket matrix coordinate real symmetric'");
+    source.error("the first line is not '%%MatrixMarket matrix coordinate real symmetric'");
     return false;
   }
   const auto one_of = [&](std::size_t k, std::initializer_list<const char*> known) {
     for (const char* word : known) {
       if (same_word(words[k], word)) return true;
     }
-    source.fault(
+    source.error(
         fmt::format("the banner says {}, expected {}", shown(words[k]), fmt::join(known, " or ")));
     return false;
   };
@@ -68,15 +68,15 @@ SymmetricEntries read_entries(TextSource& source, const std::string& what, int n
     double value = 0.0;
     if (!read_matrix_line(source, line, row, column, value)) continue;
     if (row >= n || column >= n) {
-      source.fault(fmt::format("row {}, column {} is outside: the matrix is {} x {}", row + 1,
+      source.error(fmt::format("row {}, column {} is outside: the matrix is {} x {}", row + 1,
                                column + 1, n, n));
       continue;
     }
     entries.add(row, column, value);
   }
-  if (!sized) source.fault("the line with rows, columns and number of entries is missing");
+  if (!sized) source.error("the line with rows, columns and number of entries is missing");
   if (sized && found != count) {
-    source.fault(at, fmt::format("the {} has {} entries, expected {}", what, found, count));
+    source.error(at, fmt::format("the {} has {} entries, expected {}", what, found, count));
   }
   source.throw_if_any();
   return entries;
@@ -111,15 +111,15 @@ FeModel read_matrix_market(const std::filesystem::path& file, const FeReadOption
     begin = file.parent_path() / name.substr(0, name.size() - 2);
     mass = begin.string() + (name.ends_with("_K") ? "_M.mtx" : "_m.mtx");
   }
-  Faults faults;
-  mass = companion(file, options.mass, {mass}, "the mass matrix is", "mass", faults);
+  ErrorList errors;
+  mass = companion(file, options.mass, {mass}, "the mass matrix is", "mass", errors);
   const std::filesystem::path dofs =
       companion(file, options.dofs, {with_ending(begin, "_dofs.csv")},
-                "the map of degrees of freedom is", "dofs", faults);
+                "the map of degrees of freedom is", "dofs", errors);
   const std::filesystem::path nodes =
       companion(file, options.nodes, {with_ending(begin, "_nodes.csv"), with_ending(begin, ".inp")},
-                "the coordinates of the nodes are", "nodes", faults);
-  faults.throw_if_any();
+                "the coordinates of the nodes are", "nodes", errors);
+  errors.throw_if_any();
   TextSource stiffness_source(file), mass_source(mass), dof_source(dofs);
   return read_matrix_market(stiffness_source, mass_source, dof_source, read_nodes(nodes));
 }

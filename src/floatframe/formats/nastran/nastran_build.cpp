@@ -29,7 +29,7 @@ Vec3 to_basic(const NastranFrame& f, const Vec3& x) {
 int NastranBuild::node(int id, const FeSource& at, const std::string& who) {
   const auto it = node_of.find(id);
   if (it != node_of.end()) return it->second;
-  if (id > 0) source.fault(at, fmt::format("{} has node {}, which is not in the file", who, id));
+  if (id > 0) source.error(at, fmt::format("{} has node {}, which is not in the file", who, id));
   return -1;
 }
 
@@ -44,7 +44,7 @@ void NastranBuild::spend(std::size_t members, const FeSource& at) {
 }
 
 void NastranBuild::note(const FeSource& at, const std::string& text) {
-  model.notes.push_back(InputFault{source.mark(at), text}.text());
+  model.notes.push_back(ErrorEntry{source.mark(at), text}.text());
 }
 
 const NastranFrame& NastranBuild::frame(int id, const FeSource& at) {
@@ -58,7 +58,7 @@ NastranFrame NastranBuild::made(int id, const FeSource& at) {
   const auto it = content.systems.find(id);
   if (it == content.systems.end()) {
     const auto other = content.other_systems.find(id);
-    source.fault(at, other == content.other_systems.end()
+    source.error(at, other == content.other_systems.end()
                          ? fmt::format("coordinate system {} is not in the file", id)
                          : fmt::format("coordinate system {} is a {}, which is not read (CORD2R, "
                                        "CORD2C and CORD2S are)",
@@ -67,7 +67,7 @@ NastranFrame NastranBuild::made(int id, const FeSource& at) {
   }
   const NastranSystem& s = it->second;
   if (!open_.insert(id).second || open_.size() > 100) {
-    source.fault(s.at, fmt::format("coordinate system {} refers to itself through its reference "
+    source.error(s.at, fmt::format("coordinate system {} refers to itself through its reference "
                                    "systems, or these are more than 100 deep",
                                    id));
     return {};
@@ -80,7 +80,7 @@ NastranFrame NastranBuild::made(int id, const FeSource& at) {
   f.origin = a;
   const Vec3 z = b - a, y = z.cross(c - a);
   if (z.norm() == 0.0 || y.norm() <= 1e-12 * z.norm() * (c - a).norm()) {
-    source.fault(s.at,
+    source.error(s.at,
                  fmt::format("coordinate system {}: its points A, B and C are on a line", id));
     return f;
   }
@@ -102,7 +102,7 @@ void build_nastran_nodes(NastranBuild& build) {
     const auto [it, fresh] = build.node_of.try_emplace(g.id, model.nodes());
     if (!fresh && g.id > 0) {
       const FeSource& first = model.node_sources[it->second];
-      build.source.fault(
+      build.source.error(
           g.at, fmt::format("node {} is in the file twice, first in line {}", g.id, first.line));
     }
     model.positions.push_back(to_basic(build.frame(g.cp, g.at), g.x));
@@ -112,7 +112,7 @@ void build_nastran_nodes(NastranBuild& build) {
     const NastranFrame* cd = g.cd == 0 || g.cd == -1 ? nullptr : &build.frame(g.cd, g.at);
     build.turned.push_back(cd != nullptr && (cd->kind != 'R' || !cd->R.isIdentity(1e-9)));
   }
-  if (n == 0) build.source.fault({0, 0}, "the file has no nodes (GRID)");
+  if (n == 0) build.source.error({0, 0}, "the file has no nodes (GRID)");
 }
 
 }  // namespace floatframe

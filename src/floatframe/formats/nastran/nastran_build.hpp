@@ -25,9 +25,9 @@ struct NastranBuild {
   std::vector<char> turned;              ///< nodes whose displacements are in a turned system
 
   NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
-  /// Index of a node; a fault and -1 if it is not there.
+  /// Index of a node; an error and -1 if it is not there.
   int node(int id, const FeSource& at, const std::string& who);
-  /// The system in basic coordinates; a fault (once a system) and basic axes if it is not there.
+  /// The system in basic coordinates; an error (once a system) and basic axes if it is not there.
   const NastranFrame& frame(int id, const FeSource& at);
   void note(const FeSource& at, const std::string& text);
   /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if

@@ -42,7 +42,7 @@ class ConstraintBuilder {
 
   void turned(int node, unsigned mask, const FeSource& at, const std::string& who) {
     if (b_.turned[index(node)] != 0 && !any_axes(mask)) {
-      b_.source.fault(at,
+      b_.source.error(at,
                       fmt::format("{}: directions of node {} are in its turned system CD, which "
                                   "is not supported",
                                   who, b_.model.node_ids[index(node)]));
@@ -52,11 +52,11 @@ class ConstraintBuilder {
   void spider(const NastranSpider& s) {
     const std::string who = fmt::format("{} {}", s.card, s.id);
     if (s.nodes.empty()) {
-      b_.source.fault(s.at, fmt::format("{} has no nodes", who));
+      b_.source.error(s.at, fmt::format("{} has no nodes", who));
       return;
     }
     if (s.mask == 0) {
-      b_.source.fault(s.at, fmt::format("{} has no components", who));
+      b_.source.error(s.at, fmt::format("{} has no components", who));
       return;
     }
     Spider spider;
@@ -71,7 +71,7 @@ class ConstraintBuilder {
       if (node < 0) return;
       turned(node, s.kind == Spider::Kind::mean ? all_six : s.mask, s.at, who);
       if (s.weighs_rotations && rotates_[index(node)] != 0) {
-        b_.source.fault(s.at, fmt::format("{}: node {} has rotations, whose weights (components "
+        b_.source.error(s.at, fmt::format("{}: node {} has rotations, whose weights (components "
                                           "456) are not supported; give 123",
                                           who, id));
         return;
@@ -95,7 +95,7 @@ class ConstraintBuilder {
     if (node < 0) return;
     const NastranFrame axes = m.system > 0 ? b_.frame(m.system, m.at) : NastranFrame{};
     if (axes.kind != 'R') {
-      b_.source.fault(m.at, fmt::format("{}: its system {} is not rectangular", who, m.system));
+      b_.source.error(m.at, fmt::format("{}: its system {} is not rectangular", who, m.system));
       return;
     }
     PointMass point;
@@ -107,7 +107,7 @@ class ConstraintBuilder {
     const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(axes.R * m.offset);
     if (rotates_[index(node)] == 0) {
       if (offset.norm() > 0.0) {
-        b_.source.fault(m.at, fmt::format("{} has an offset, but node {} has no rotations; tie the "
+        b_.source.error(m.at, fmt::format("{} has an offset, but node {} has no rotations; tie the "
                                           "mass to several nodes (RBE2, RBE3)",
                                           who, m.node));
         return;
@@ -158,7 +158,7 @@ class ConstraintBuilder {
     const auto& selected = b_.content.control.mpc;
     for (const auto& [id, at] : selected) {
       if (id != selected.front().first) {
-        b_.source.fault(at, fmt::format("the case control selects MPC sets {} and {}; only one can "
+        b_.source.error(at, fmt::format("the case control selects MPC sets {} and {}; only one can "
                                         "be read, remove the other",
                                         selected.front().first, id));
         return sets;
@@ -184,7 +184,7 @@ class ConstraintBuilder {
         continue;
       }
       if (!by_control && set != 0 && e.set != set) {
-        b_.source.fault(e.at, fmt::format("the file has MPC sets {} and {}; only one can be read, "
+        b_.source.error(e.at, fmt::format("the file has MPC sets {} and {}; only one can be read, "
                                           "remove the other",
                                           set, e.set));
         return;
@@ -205,8 +205,8 @@ class ConstraintBuilder {
                                  "select: they are not applied",
                                  passed_over));
     }
-    if (by_control && !selected.empty() && b_.model.equations.empty() && b_.source.faults() == 0) {
-      b_.source.fault(b_.content.control.mpc.front().second,
+    if (by_control && !selected.empty() && b_.model.equations.empty() && b_.source.errors() == 0) {
+      b_.source.error(b_.content.control.mpc.front().second,
                       fmt::format("the case control selects MPC set {}, which is not in the file",
                                   b_.content.control.mpc.front().first));
     }
@@ -231,7 +231,7 @@ void build_nastran_supports(NastranBuild& build) {
       const int node = build.node(s.first, s.at, "a support (SPC)");
       if (node >= 0) nodes.push_back(node);
     } else if (!numbers.append(s.first, s.last, nodes)) {
-      build.source.fault(s.at,
+      build.source.error(s.at,
                          fmt::format("SPC1: there is no node from {} to {}", s.first, s.last));
     }
     build.spend(nodes.size(), s.at);

@@ -25,7 +25,7 @@ class ElementBuilder {
     for (const NastranElement& e : c_.elements) {
       const auto [it, fresh] = seen.try_emplace(e.id, e.at);
       if (!fresh && e.id > 0) {
-        b_.source.fault(e.at, fmt::format("{}: this element number is in the file twice, first in "
+        b_.source.error(e.at, fmt::format("{}: this element number is in the file twice, first in "
                                           "line {}",
                                           label(e), it->second.line));
       }
@@ -60,20 +60,20 @@ class ElementBuilder {
     }
   }
 
-  /// The element's property, of one of the given cards; null with a fault.
+  /// The element's property, of one of the given cards; null with an error.
   const NastranProperty* property(const NastranElement& e,
                                   std::initializer_list<const char*> cards) {
     const auto it = c_.properties.find(e.property);
     if (it == c_.properties.end()) {
       if (missing_.insert(e.property).second) {
-        b_.source.fault(e.at,
+        b_.source.error(e.at,
                         fmt::format("{}: property {} is not in the file", label(e), e.property));
       }
       return nullptr;
     }
     const std::string_view card = it->second.card;
     if (std::find(cards.begin(), cards.end(), card) == cards.end()) {
-      b_.source.fault(e.at, fmt::format("{}: property {} is a {}, expected a {}", label(e),
+      b_.source.error(e.at, fmt::format("{}: property {} is a {}, expected a {}", label(e),
                                         e.property, card, *cards.begin()));
       return nullptr;
     }
@@ -96,7 +96,7 @@ class ElementBuilder {
       const NastranProperty* p = property(e, {"PSHELL"});
       if (p == nullptr) return;
       if (e.other) {
-        b_.source.fault(e.at, fmt::format("{}: this kind of shell is not supported (CTRIA3 and "
+        b_.source.error(e.at, fmt::format("{}: this kind of shell is not supported (CTRIA3 and "
                                           "CQUAD4 are)",
                                           label(e)));
         return;
@@ -132,7 +132,7 @@ class ElementBuilder {
     } else {
       result.reference = e.orientation;
       if (b_.turned[result.nodes[0]] != 0) {
-        b_.source.fault(e.at,
+        b_.source.error(e.at,
                         fmt::format("{}: its orientation vector is in the turned system CD of "
                                     "its first node, which is not supported; use node G0",
                                     label(e)));
@@ -156,7 +156,7 @@ class ElementBuilder {
 
   void must_be_positive(const NastranProperty& p, int id, const char* what, double value) {
     if (!(value > 0.0))
-      b_.source.fault(
+      b_.source.error(
           p.at, fmt::format("{} {}: {} is {:g}, expected more than 0", p.card, id, what, value));
   }
 
@@ -168,7 +168,7 @@ class ElementBuilder {
     const NastranMaterial& m = it->second;
     if (!m.young || !m.shear || !m.poisson) return 1.0;
     if (!(*m.shear > 0.0)) {
-      b_.source.fault(
+      b_.source.error(
           m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 for bars", id, *m.shear));
       return 1.0;
     }
@@ -195,7 +195,7 @@ class ElementBuilder {
       m = elastic(found->first, found->second);
       m.density = (found->second.density.value_or(0.0) + nonstructural) * c_.mass_factor;
       if (!found->second.density && nonstructural == 0.0) {
-        b_.source.fault(found->second.at,
+        b_.source.error(found->second.at,
                         fmt::format("MAT1 {}: RHO is missing; give the density (0.0 if all mass is "
                                     "in point masses)",
                                     p.material));
@@ -207,7 +207,7 @@ class ElementBuilder {
       }
     } else {
       const auto other = c_.other_materials.find(p.material);
-      b_.source.fault(
+      b_.source.error(
           p.at, other == c_.other_materials.end()
                     ? fmt::format("{}: material {} is not in the file", p.card, p.material)
                     : fmt::format("{}: material {} is a {}, only MAT1 is read", p.card, p.material,
@@ -226,7 +226,7 @@ class ElementBuilder {
     Material result;
     const int given = (m.young ? 1 : 0) + (m.shear ? 1 : 0) + (m.poisson ? 1 : 0);
     if (given < 2) {
-      b_.source.fault(m.at, fmt::format("MAT1 {}: {} of E, G and NU given, expected two", id,
+      b_.source.error(m.at, fmt::format("MAT1 {}: {} of E, G and NU given, expected two", id,
                                         given == 0 ? "none" : "one"));
       return result;
     }
@@ -238,7 +238,7 @@ class ElementBuilder {
     } else {
       // The same sentence for each use of the material would not help.
       if (checked_.insert(id).second)
-        b_.source.fault(m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 where it gives "
+        b_.source.error(m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 where it gives "
                                           "NU with E",
                                           id, *m.shear));
       return result;
@@ -253,7 +253,7 @@ class ElementBuilder {
     const auto expect = [&](bool valid, const char* what, double found, const std::string& origin,
                             const char* expected) {
       if (!valid)
-        b_.source.fault(m.at, fmt::format("MAT1 {}: {} is {:g}{}, expected {}", id, what, found,
+        b_.source.error(m.at, fmt::format("MAT1 {}: {} is {:g}{}, expected {}", id, what, found,
                                           origin, expected));
     };
     const auto from = [](const std::optional<double>& own, const char* a, double x, const char* b,
@@ -276,8 +276,8 @@ class ElementBuilder {
   }
 
   void notes() {
-    if (b_.model.elements.empty() && b_.source.faults() == 0) {
-      b_.source.fault({0, 0},
+    if (b_.model.elements.empty() && b_.source.errors() == 0) {
+      b_.source.error({0, 0},
                       mesh_only_ && skins_ > 0
                           ? "the file has no solid elements, and its shells and bars have no "
                             "properties"

@@ -41,7 +41,7 @@ void build_nastran_sets(NastranBuild& build, bool only_nodes) {
       if (found) continue;
       complete = false;
       if (!set.strict || first == 0) continue;
-      build.source.fault(
+      build.source.error(
           set.at,
           first == last
               ? fmt::format("set {} has {} {}, which is not in the file", set.id, what, first)

@@ -145,7 +145,7 @@ void NastranCards::split(std::string_view text, Line& line) {
     line.large = line.name.ends_with('*') || line.name.starts_with('*');
     const std::size_t width = line.large ? 4 : 8;
     if (fields.size() > width + 2) {
-      source_.fault(fmt::format("the line has {} fields; a line in free field has at most {}",
+      source_.error(fmt::format("the line has {} fields; a line in free field has at most {}",
                                 fields.size(), width + 2));
     }
     for (std::size_t i = 1; i <= width; ++i) {
@@ -241,7 +241,7 @@ bool NastranCards::next(NastranCard& card) {
     }
     const std::string_view expected = without_sign(mark), found = without_sign(line.name);
     if (!expected.empty() && !found.empty() && expected != found) {
-      source_.fault(
+      source_.error(
           fmt::format("the continuation {} does not follow the card with this mark; the "
                       "card before ({} in line {}) has {}",
                       shown(line.name), card.name, card.at.line, shown(mark)));

@@ -38,14 +38,14 @@ void read_nastran_rbe3(NastranFields& f, NastranContent& c) {
   s.kind = Spider::Kind::mean;
   s.reference = f.label(2, "node REFGRID");
   if (f.components(3, "the components REFC") != 63u) {
-    f.fault(fmt::format("REFC is {}, only 123456 is read", shown(f.text(3))));
+    f.error(fmt::format("REFC is {}, only 123456 is read", shown(f.text(3))));
   }
   double weight = 1.0;
   for (std::size_t i = 4; i < f.size(); ++i) {
     if (f.blank(i)) continue;
     if (same_word(f.text(i), "ALPHA")) break;
     if (same_word(f.text(i), "UM")) {
-      f.fault("dependent components of its own (UM) are not supported");
+      f.error("dependent components of its own (UM) are not supported");
       break;
     }
     if (is_real(f.text(i))) {
@@ -53,7 +53,7 @@ void read_nastran_rbe3(NastranFields& f, NastranContent& c) {
       const unsigned mask = f.components(++i, "the components of a weight");
       s.weighs_rotations = s.weighs_rotations || mask == 63u;
       if (mask != 7u && mask != 63u) {
-        f.fault(
+        f.error(
             fmt::format("the components of a weight are {}, only 123 is read", shown(f.text(i))));
       }
       continue;
@@ -70,7 +70,7 @@ void read_nastran_rbar(NastranFields& f, NastranContent& c) {
   const unsigned na = f.components(3, "CNA"), nb = f.components(4, "CNB");
   const bool from_a = na == 63u && nb == 0, from_b = nb == 63u && na == 0;
   if (!from_a && !from_b) {
-    f.fault("one of CNA and CNB must be 123456 and the other blank");
+    f.error("one of CNA and CNB must be 123456 and the other blank");
     return;
   }
   const std::size_t dependent = from_a ? 6 : 5;
@@ -91,13 +91,13 @@ void read_nastran_mpc(NastranFields& f, NastranContent& c) {
     int component = 0;
     while (component < 6 && mask != (1u << component)) ++component;
     if (component == 6) {
-      f.fault(fmt::format("the component is {}, expected one of 1 to 6", shown(f.text(i + 1))));
+      f.error(fmt::format("the component is {}, expected one of 1 to 6", shown(f.text(i + 1))));
       return;
     }
     e.terms.push_back({f.label(i, "a node"), component, f.real(i + 2, "a coefficient", 0.0)});
   }
   if (e.terms.empty() || e.terms[0].factor == 0.0) {
-    f.fault("the first term needs a coefficient that is not zero");
+    f.error("the first term needs a coefficient that is not zero");
     return;
   }
   c.equations.push_back(std::move(e));

@@ -81,7 +81,7 @@ class ContentReader {
     const bool units = name == "DTI" && same_word(f.text(0), "UNITS");
     if (!units && !is_harmless_nastran_card(name)) {
       unknown_[name].add(f.at());
-      if (unknown_.size() > TextSource::most_faults) finish();  // throws
+      if (unknown_.size() > TextSource::most_errors) finish();  // throws
       return;
     }
     if (name.starts_with("CORD1")) {
@@ -136,7 +136,7 @@ class ContentReader {
         break;
       case NastranParameter::unknown:
         unknown_["PARAM " + name].add(f.at());
-        if (unknown_.size() > TextSource::most_faults) finish();  // throws
+        if (unknown_.size() > TextSource::most_errors) finish();  // throws
     }
   }
 
@@ -145,7 +145,7 @@ class ContentReader {
   double factor(F& f, const std::string& name) {
     const double value = f.real(1, name.c_str());
     if (!(value > 0.0)) {
-      f.fault(fmt::format("{} is {}, expected more than 0", name, shown(f.text(1))));
+      f.error(fmt::format("{} is {}, expected more than 0", name, shown(f.text(1))));
       return 1.0;
     }
     f.must_be_zero(2, "an imaginary part");
@@ -153,7 +153,7 @@ class ContentReader {
     if (fresh) return value;
     if (value != it->second.value) {
       const SourceMark first = source_.mark(it->second.at);
-      f.fault(
+      f.error(
           fmt::format("{} is {}, but {:g} in {}:{}; a part can have only one of them, remove "
                       "the other",
                       name, shown(f.text(1)), it->second.value, first.file, first.line));
@@ -170,13 +170,13 @@ class ContentReader {
     }
     if (!only_nodes_) {
       for (const auto& [command, at] : c_.control.additions) {
-        source_.fault(at, fmt::format("the case control has {}, which adds stiffness or mass and "
+        source_.error(at, fmt::format("the case control has {}, which adds stiffness or mass and "
                                       "is not read",
                                       command));
       }
     }
     for (const auto& [name, passed] : unknown_) {
-      source_.fault(
+      source_.error(
           passed.at,
           fmt::format(
               "{} is not read and may change stiffness or mass{}", name.substr(0, 40),
@@ -209,7 +209,7 @@ class ContentReader {
 }  // namespace
 
 void nastran_twice(NastranFields& f, const FeSource& first) {
-  f.fault(fmt::format("this number is in the file twice, first in line {}", first.line));
+  f.error(fmt::format("this number is in the file twice, first in line {}", first.line));
 }
 
 NastranContent read_nastran_content(TextSource& source, bool has_control, bool only_nodes) {

@@ -122,7 +122,7 @@ struct NastranContent {
   std::vector<std::string> notes;
 };
 
-/// Faults are collected in the source. With `only_nodes` all but nodes, coordinate systems and
+/// Errors are collected in the source. With `only_nodes` all but nodes, coordinate systems and
 /// supports is passed over.
 NastranContent read_nastran_content(TextSource& source, bool has_control, bool only_nodes);
 

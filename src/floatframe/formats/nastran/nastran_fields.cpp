@@ -6,16 +6,16 @@
 
 namespace floatframe {
 
-void NastranFields::fault_at(const FeSource& at, const std::string& message) {
+void NastranFields::error_at(const FeSource& at, const std::string& message) {
   const std::string_view id = card_.field(0);
-  source_.fault(at, parse_label(id) ? fmt::format("{} {}: {}", card_.name, id, message)
+  source_.error(at, parse_label(id) ? fmt::format("{} {}: {}", card_.name, id, message)
                                     : fmt::format("{}: {}", card_.name, message));
 }
 
 int NastranFields::label(std::size_t i, const char* what) {
   const auto value = parse_label(card_.field(i));
   if (!value) {
-    fault_in(i, blank(i) ? fmt::format("{} is missing", what)
+    error_in(i, blank(i) ? fmt::format("{} is missing", what)
                          : fmt::format("{} is {}, expected a whole number from 1", what,
                                        shown(card_.field(i))));
   }
@@ -25,13 +25,13 @@ int NastranFields::label(std::size_t i, const char* what) {
 int NastranFields::integer(std::size_t i, const char* what, int otherwise) {
   if (blank(i)) return otherwise;
   const auto value = parse_integer(card_.field(i));
-  if (!value) fault_in(i, fmt::format("{}: {}", what, not_an_integer(card_.field(i))));
+  if (!value) error_in(i, fmt::format("{}: {}", what, not_an_integer(card_.field(i))));
   return value.value_or(otherwise);
 }
 
 double NastranFields::real(std::size_t i, const char* what) {
   if (blank(i)) {
-    fault_in(i, fmt::format("{} is missing", what));
+    error_in(i, fmt::format("{} is missing", what));
     return 1.0;
   }
   return real(i, what, 1.0);
@@ -40,7 +40,7 @@ double NastranFields::real(std::size_t i, const char* what) {
 double NastranFields::real(std::size_t i, const char* what, double otherwise) {
   if (blank(i)) return otherwise;
   const auto value = parse_real(card_.field(i));
-  if (!value) fault_in(i, fmt::format("{}: {}", what, not_a_real(card_.field(i))));
+  if (!value) error_in(i, fmt::format("{}: {}", what, not_a_real(card_.field(i))));
   return value.value_or(otherwise);
 }
 
@@ -55,7 +55,7 @@ unsigned NastranFields::components(std::size_t i, const char* what) {
     if (c == '0') continue;
     const unsigned bit = c >= '1' && c <= '6' ? 1u << (c - '1') : 0u;
     if (bit == 0 || (mask & bit) != 0) {
-      fault_in(i, fmt::format("{} are {}, expected some of the digits 1 to 6", what,
+      error_in(i, fmt::format("{} are {}, expected some of the digits 1 to 6", what,
                               shown(card_.field(i))));
       return 0;
     }
@@ -66,7 +66,7 @@ unsigned NastranFields::components(std::size_t i, const char* what) {
 
 void NastranFields::must_be_zero(std::size_t i, const char* what) {
   if (real(i, what, 0.0) != 0.0) {
-    fault_in(i, fmt::format("{} is {}, which is not supported", what, shown(card_.field(i))));
+    error_in(i, fmt::format("{} is {}, which is not supported", what, shown(card_.field(i))));
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Fields of one Nastran card as numbers, with faults that name the card and what is expected.
+// Fields of one Nastran card as numbers, with errors that name the card and what is expected.
 #include <optional>
 #include <string>
 
@@ -18,7 +18,7 @@ class NastranFields {
   FeSource at() const { return card_.at; }
   const std::string& name() const { return card_.name; }
 
-  /// A number that names something; 0 with a fault if it is none.
+  /// A number that names something; 0 with an error if it is none.
   int label(std::size_t i, const char* what);
   int integer(std::size_t i, const char* what, int otherwise);
   double real(std::size_t i, const char* what);  ///< must be there
@@ -28,14 +28,14 @@ class NastranFields {
   unsigned components(std::size_t i, const char* what);
 
   /// "CTETRA 12: ..." at the card, or at the line of a field.
-  void fault(const std::string& message) { fault_at(card_.at, message); }
-  /// Fault if the field is neither blank nor zero.
+  void error(const std::string& message) { error_at(card_.at, message); }
+  /// Error if the field is neither blank nor zero.
   void must_be_zero(std::size_t i, const char* what);
 
  private:
-  void fault_at(const FeSource& at, const std::string& message);
-  void fault_in(std::size_t field, const std::string& message) {
-    fault_at(card_.place(field), message);
+  void error_at(const FeSource& at, const std::string& message);
+  void error_in(std::size_t field, const std::string& message) {
+    error_at(card_.place(field), message);
   }
 
   TextSource& source_;

@@ -58,12 +58,12 @@ void read_nastran_solid(NastranFields& f, NastranContent& c) {
   std::size_t given = 0;
   for (std::size_t k = corners; k < all; ++k) given += f.blank(2 + k) ? 0 : 1;
   if (given > 0 && given < all - corners) {
-    f.fault(fmt::format("{} of its {} mid-side nodes are given; all or none must be", given,
+    f.error(fmt::format("{} of its {} mid-side nodes are given; all or none must be", given,
                         all - corners));
     return;
   }
   if (f.size() > 2 + all) {
-    f.fault(fmt::format("it has more than {} nodes", all));
+    f.error(fmt::format("it has more than {} nodes", all));
     return;
   }
   e.count = static_cast<int>(given > 0 ? all : corners);
@@ -99,7 +99,7 @@ void read_nastran_surface(NastranFields& f, NastranContent& c) {
     f.must_be_zero(3 + corners, "the offset ZOFFS");
     for (std::size_t k = 10; k < 10 + corners; ++k) {
       if (!f.blank(k)) {
-        f.fault("thicknesses of the corners are not supported; give one with PSHELL");
+        f.error("thicknesses of the corners are not supported; give one with PSHELL");
         break;
       }
     }
@@ -114,14 +114,14 @@ void read_nastran_bar(NastranFields& f, NastranContent& c) {
   e.nodes[0] = f.label(2, "node GA");
   e.nodes[1] = f.label(3, "node GB");
   if (f.blank(4) && f.blank(5) && f.blank(6)) {
-    f.fault("the orientation vector is missing");
+    f.error("the orientation vector is missing");
   } else if (f.blank(5) && f.blank(6) && parse_label(f.text(4))) {
     e.orientation_node = f.label(4, "node G0");
   } else {
     e.orientation = f.vector(4, "the orientation vector");
   }
   for (std::size_t i = 8; i < 10; ++i) {
-    if (!f.blank(i) && f.text(i) != "0") f.fault("pins (PA, PB) are not supported");
+    if (!f.blank(i) && f.text(i) != "0") f.error("pins (PA, PB) are not supported");
   }
   for (std::size_t i = 10; i < 16; ++i) f.must_be_zero(i, "an offset of the ends (WA, WB)");
   c.elements.push_back(e);
@@ -146,7 +146,7 @@ void read_nastran_mass(NastranFields& f, NastranContent& c) {
   m.node = f.label(1, "the node");
   m.system = f.integer(2, "the coordinate system CID", 0);
   m.mass = f.real(3, "the mass");
-  if (m.mass < 0.0) f.fault(fmt::format("the mass is {:g}, expected no negative number", m.mass));
+  if (m.mass < 0.0) f.error(fmt::format("the mass is {:g}, expected no negative number", m.mass));
   m.offset = f.vector(4, "the offset");
   const double I11 = f.real(8, "I11", 0.0), I21 = f.real(9, "I21", 0.0);
   const double I22 = f.real(10, "I22", 0.0), I31 = f.real(11, "I31", 0.0);

@@ -18,7 +18,7 @@ void psolid(NastranFields& f, NastranProperty& p) {
   const bool points = in == "2" || in == "3" || same_word(in, "TWO") || same_word(in, "THREE");
   p.full_integration = points && (isop == "1" || same_word(isop, "FULL"));
   if (!f.blank(6) && !same_word(f.text(6), "SMECH")) {
-    f.fault(fmt::format("FCTN is {}, only solids (SMECH) are read", shown(f.text(6))));
+    f.error(fmt::format("FCTN is {}, only solids (SMECH) are read", shown(f.text(6))));
   }
 }
 
@@ -26,25 +26,25 @@ void pshell(NastranFields& f, NastranProperty& p) {
   p.material = f.label(1, "the material (MID1)");
   p.thickness = f.real(2, "the thickness");
   if (f.blank(3)) {
-    f.fault("MID2 is blank: a membrane without bending stiffness is not supported");
+    f.error("MID2 is blank: a membrane without bending stiffness is not supported");
   } else if (f.text(3) != "-1" && f.label(3, "MID2") != p.material) {
-    f.fault("MID2 is not MID1: only homogeneous shells are supported");
+    f.error("MID2 is not MID1: only homogeneous shells are supported");
   }
-  if (f.text(3) == "-1") f.fault("MID2 is -1: plane strain is not supported");
+  if (f.text(3) == "-1") f.error("MID2 is -1: plane strain is not supported");
   if (std::abs(f.real(4, "12I/T**3", 1.0) - 1.0) > 1e-6) {
-    f.fault("12I/T**3 is not 1: only homogeneous shells are supported");
+    f.error("12I/T**3 is not 1: only homogeneous shells are supported");
   }
   if (!f.blank(5)) {
     if (f.label(5, "MID3") != p.material) {
-      f.fault("MID3 is not MID1: only homogeneous shells are supported");
+      f.error("MID3 is not MID1: only homogeneous shells are supported");
     }
     if (std::abs(f.real(6, "TS/T", 5.0 / 6.0) - 5.0 / 6.0) > 1e-3) {
-      f.fault(fmt::format("TS/T is {}, expected 0.833333: only homogeneous shells are supported",
+      f.error(fmt::format("TS/T is {}, expected 0.833333: only homogeneous shells are supported",
                           shown(f.text(6))));
     }
   }
   p.nonstructural = f.real(7, "the nonstructural mass", 0.0);
-  if (!f.blank(10)) f.fault("MID4 is given: only homogeneous shells are supported");
+  if (!f.blank(10)) f.error("MID4 is given: only homogeneous shells are supported");
 }
 
 /// A, I1, I2, J as one section.
@@ -77,7 +77,7 @@ void named_section(NastranFields& f, NastranProperty& p) {
     if (type == name) count = n;
   }
   if (count == 0) {
-    f.fault(
+    f.error(
         fmt::format("the section {} is not read (ROD, TUBE, TUBE2, BAR and BOX are); give A, I1, "
                     "I2 and J with {}",
                     shown(f.text(3)), f.name() == "PBARL" ? "PBAR" : "PBEAM"));
@@ -86,12 +86,12 @@ void named_section(NastranFields& f, NastranProperty& p) {
   double d[4] = {};
   for (std::size_t i = 0; i < count; ++i) {
     d[i] = f.real(8 + i, "a dimension of the section");
-    if (d[i] < 0.0) f.fault("a dimension of the section is negative");
+    if (d[i] < 0.0) f.error("a dimension of the section is negative");
   }
   p.nonstructural = f.real(8 + count, "the nonstructural mass", 0.0);
-  if (f.size() > 9 + count) f.fault("a tapered beam is not supported");
+  if (f.size() > 9 + count) f.error("a tapered beam is not supported");
   if ((type == "TUBE" || type == "TUBE2") && d[1] > d[0]) {
-    f.fault(fmt::format("the {} of the {} is more than its outer radius",
+    f.error(fmt::format("the {} of the {} is more than its outer radius",
                         type == "TUBE" ? "inner radius" : "wall", type));
   }
   if (type == "ROD") {
@@ -104,7 +104,7 @@ void named_section(NastranFields& f, NastranProperty& p) {
     p.section = BeamSection::rectangle(d[1], d[0]);
   } else {
     const double w = d[0], h = d[1], th = d[2], tw = d[3], wi = w - 2.0 * tw, hi = h - 2.0 * th;
-    if (wi <= 0.0 || hi <= 0.0) f.fault("the walls of the BOX are thicker than the box");
+    if (wi <= 0.0 || hi <= 0.0) f.error("the walls of the BOX are thicker than the box");
     const double denominator = w * tw + h * th - tw * tw - th * th;
     p.section = section(w * h - wi * hi, (w * h * h * h - wi * hi * hi * hi) / 12.0,
                         (h * w * w * w - hi * wi * wi * wi) / 12.0,
@@ -130,7 +130,7 @@ void pbeam(NastranFields& f, NastranProperty& p) {
     for (std::size_t k = 0; k < 6; ++k) {
       const double first = f.real(2 + k, names[k], 0.0), here = f.real(i + 2 + k, names[k], first);
       if (std::abs(here - first) > 1e-6 * std::abs(first)) {
-        f.fault(
+        f.error(
             fmt::format("a tapered beam is not supported: {} is {} at end A and {} at a station",
                         names[k], shown(f.text(2 + k)), shown(f.text(i + 2 + k))));
         return;

@@ -42,7 +42,7 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
   } else {
     for (const NastranGrid& g : content.grids) {
       if (build.turned[&g - content.grids.data()] == 0) continue;
-      source.fault(g.at, fmt::format("node {} has its displacements in the turned system CD {}; "
+      source.error(g.at, fmt::format("node {} has its displacements in the turned system CD {}; "
                                      "matrices in such systems are not supported",
                                      g.id, g.cd));
     }

@@ -2,7 +2,7 @@
 // Nastran bulk data (.bdf, .dat, .nas, .fem): nodes with coordinate systems, solids, flat shells,
 // bars, point masses, rigid and averaging elements, multi-point constraints, supports;
 // docs/fe-files.md lists the cards. A card that may change stiffness or mass and is not read is a
-// fault; others are listed in the notes. WTMASS is applied. A file without properties and materials
+// error; others are listed in the notes. WTMASS is applied. A file without properties and materials
 // is a mesh: surfaces in it are skins that make node sets. Sets are "PID 3" and
 // "SET 5"; names that pre-processors leave in comments take their place or come beside them.
 #include <string_view>

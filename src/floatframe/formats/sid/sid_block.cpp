@@ -47,26 +47,26 @@ class BlockReader {
  private:
   void read_header(const SidItem& item) {
     if (seen0_.size() > 0) {
-      source_.fault(fmt::format("{} of block {} comes after its entries", shown(item.key), name_));
+      source_.error(fmt::format("{} of block {} comes after its entries", shown(item.key), name_));
       return;
     }
     const auto value = parse_integer(item.value);
     if (!value) {
-      source_.fault(
+      source_.error(
           fmt::format("{} of block {}: {}", shown(item.key), name_, not_an_integer(item.value)));
       return;
     }
     const auto size = [&](Eigen::Index expected, const char* why) {
       if (*value == expected) return;
       sizes_fit_ = false;
-      source_.fault(
+      source_.error(
           fmt::format("block {}: {} is {}, expected {}{}", name_, item.key, *value, expected, why));
     };
     if (item.key == "order") {
       order_ = *value;
       if (order_ < 0 || order_ > 1) {
         sizes_fit_ = false;
-        source_.fault(fmt::format("block {}: order is {}, expected 0 or 1", name_, *value));
+        source_.error(fmt::format("block {}: order is {}, expected 0 or 1", name_, *value));
       }
     } else if (item.key == "nrow") {
       if (name_ == "J" && *value == 3) {
@@ -88,16 +88,16 @@ class BlockReader {
       structure_ = *value;
       if (structure_ < 0 || structure_ > 4) {
         sizes_fit_ = false;
-        source_.fault(fmt::format("block {}: structure is {}, expected 0 to 4", name_, *value));
+        source_.error(fmt::format("block {}: structure is {}, expected 0 to 4", name_, *value));
       } else if (structure_ == 4 && block_.m0.rows() != block_.m0.cols()) {
         sizes_fit_ = false;
-        source_.fault(
+        source_.error(
             fmt::format("block {}: structure 4 (unit matrix) needs a square block, not "
                         "{} x {}",
                         name_, block_.m0.rows(), block_.m0.cols()));
       }
     } else {
-      source_.fault(
+      source_.error(
           fmt::format("unknown item {} in block {} (expected order, nrow, ncol, nq, nqn, "
                       "structure, m0 or m1)",
                       shown(item.key), name_));
@@ -115,7 +115,7 @@ class BlockReader {
     for (const std::string_view field : fields)
       index.push_back(parse_integer(field).value_or(0) - 1);
     if (close + 1 != key.size() || index.size() != (e.order == 1 ? 3u : 2u)) {
-      source_.fault(
+      source_.error(
           fmt::format("{} in block {} is no entry; expected m0(row,column) or "
                       "m1(row,mode,column)",
                       shown(key), name_));
@@ -126,12 +126,12 @@ class BlockReader {
     if (e.order == 1) e.mode = index[1];
     if (e.row < 0 || e.row >= block_.m0.rows() || e.column < 0 || e.column >= block_.m0.cols() ||
         e.mode < 0 || (e.order == 1 && e.mode >= modes_)) {
-      source_.fault(fmt::format("{} is outside of block {}, which is {} x {} with {} modes",
+      source_.error(fmt::format("{} is outside of block {}, which is {} x {} with {} modes",
                                 shown(key), name_, block_.m0.rows(), block_.m0.cols(), modes_));
       return std::nullopt;
     }
     if (e.order == 1 && order_ == 0) {
-      source_.fault(fmt::format("{} in block {}, whose order is 0", shown(key), name_));
+      source_.error(fmt::format("{} in block {}, whose order is 0", shown(key), name_));
       return std::nullopt;
     }
     return e;
@@ -143,12 +143,12 @@ class BlockReader {
     const auto value = real(item.value);
     if (!value) return;
     if (structure_ == 0 || structure_ == 4) {
-      source_.fault(fmt::format("{} in block {}, whose structure {} has no entries",
+      source_.error(fmt::format("{} in block {}, whose structure {} has no entries",
                                 shown(item.key), name_, structure_));
       return;
     }
     if (structure_ == 1 && e->row != e->column && *value != 0.0) {
-      source_.fault(
+      source_.error(
           fmt::format("{} in block {}, whose structure 1 is diagonal", shown(item.key), name_));
       return;
     }
@@ -162,7 +162,7 @@ class BlockReader {
     MatX& values = e->order == 1 ? block_.m1[mode] : block_.m0;
     double& line = (e->order == 1 ? seen1_[mode] : seen0_)(e->row, e->column);
     if (line > 0.0) {
-      source_.fault(fmt::format("{} of block {} is in the file twice, first in line {}",
+      source_.error(fmt::format("{} of block {} is in the file twice, first in line {}",
                                 shown(item.key), name_, line));
       return;
     }
@@ -186,7 +186,7 @@ class BlockReader {
         } else if (seen0_(c, r) == 0.0) {
           upper = lower;
         } else if (std::abs(upper - lower) > 1e-6 * scale) {
-          source_.fault(
+          source_.error(
               {0, static_cast<int>(std::max(seen0_(r, c), seen0_(c, r)))},
               fmt::format("block {} is symmetric by its structure 2, but m0({},{}) = {} and "
                           "m0({},{}) = {}",
@@ -198,7 +198,7 @@ class BlockReader {
 
   std::optional<double> real(std::string_view field) {
     const auto value = parse_real(field);
-    if (!value) source_.fault(not_a_real(field));
+    if (!value) source_.error(not_a_real(field));
     return value;
   }
 

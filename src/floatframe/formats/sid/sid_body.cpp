@@ -44,17 +44,17 @@ class BodyOfSid {
     out_.body.mode_names = c_.mode_names;
     for (const SidFrame& f : c_.frames) add_node(f);
     left_out();
-    if (faults_.empty()) check_inertia(v);
-    if (faults_.empty()) check_mass_matrix(v);
-    if (faults_.empty()) check_energy();
-    faults_.throw_if_any();
+    if (errors_.empty()) check_inertia(v);
+    if (errors_.empty()) check_mass_matrix(v);
+    if (errors_.empty()) check_energy();
+    errors_.throw_if_any();
     return std::move(out_);
   }
 
  private:
   SourceMark mark(int line) const { return {name_, line, 0}; }
   void note(int line, const std::string& text) {
-    out_.notes.push_back(InputFault{mark(line), text}.text());
+    out_.notes.push_back(ErrorEntry{mark(line), text}.text());
   }
 
   static Mat3 inertia(const MatX& j) {
@@ -74,7 +74,7 @@ class BodyOfSid {
     const double scale = block.m0.size() > 0 ? block.m0.cwiseAbs().maxCoeff() : 0.0;
     const double skew = scale > 0.0 ? (block.m0 - block.m0.transpose()).cwiseAbs().maxCoeff() : 0.0;
     if (skew > same * scale) {
-      faults_.add(mark(block.line),
+      errors_.add(mark(block.line),
                   fmt::format("block {} is not symmetric: entries differ by {:.3g} of the largest",
                               name, skew / scale));
     }
@@ -88,7 +88,7 @@ class BodyOfSid {
       const Vec3 m1 = c_.mdCM.m1[k];
       const double scale = std::max(m1.norm(), v.S.norm());
       if ((m1 - v.S.col(k)).norm() > same * scale) {
-        faults_.add(
+        errors_.add(
             mark(c_.Ct.line),
             fmt::format("row {} of block Ct is ({:.6g} {:.6g} {:.6g}), but m1 of mdCM in "
                         "line {} is ({:.6g} {:.6g} {:.6g}): they must be equal",
@@ -248,7 +248,7 @@ class BodyOfSid {
       const auto column = static_cast<Eigen::Index>(k);
       const double scale = std::max(f.origin.m1[k].norm(), f.phi.m0.norm());
       if ((f.origin.m1[k] - f.phi.m0.col(column)).norm() > same * scale) {
-        faults_.add(mark(f.phi.line),
+        errors_.add(mark(f.phi.line),
                     fmt::format("column {} of phi of node {} differs from m1 of origin in line {}: "
                                 "they must be equal",
                                 k + 1, f.node, f.origin.line));
@@ -261,7 +261,7 @@ class BodyOfSid {
 
   void left_out() {
     if (c_.ksigma.m0.size() > 0 && c_.ksigma.m0.cwiseAbs().maxCoeff() > 0.0) {
-      faults_.add(mark(c_.ksigma.line),
+      errors_.add(mark(c_.ksigma.line),
                   "block ksigma holds forces of an initial stress, which a body cannot have; write "
                   "the file about the unstressed state");
     }
@@ -289,7 +289,7 @@ class BodyOfSid {
     const double size = moments.cwiseAbs().maxCoeff();
     const double digits = 1e-12 * v.inertia_about_origin().cwiseAbs().maxCoeff();
     if (moments(0) < -own_digits * size - digits) {
-      faults_.add(
+      errors_.add(
           mark(c_.J.line),
           fmt::format("block J gives a moment of inertia of {:.6g} about the centre of mass "
                       "(with mass and mdCM), expected none below zero",
@@ -303,7 +303,7 @@ class BodyOfSid {
         "the largest is more than the sum of the others, which no body has",
         moments(0), moments(1), moments(2));
     if (excess > close * size)
-      faults_.add(mark(c_.J.line), text);
+      errors_.add(mark(c_.J.line), text);
     else
       note(c_.J.line, text);
   }
@@ -321,7 +321,7 @@ class BodyOfSid {
               ? (*matrix)(k, k)
               : symmetric_eigenvalues(unit.asDiagonal() * *matrix * unit.asDiagonal())(0);
       if (least < -same)
-        faults_.add(mark(block->line),
+        errors_.add(mark(block->line),
                     fmt::format("block {} holds a negative {} ({:.3g}), expected none below zero",
                                 block == &c_.Ke ? "Ke" : "De", what, least));
     }
@@ -346,7 +346,7 @@ class BodyOfSid {
     for (int i = 0; i < 6 + nq_; ++i) {
       if (M(i, i) >= 0.0) continue;
       const int line = i < 3 ? c_.mass_line : i < 6 ? c_.J.line : c_.Me.line;
-      faults_.add(mark(line),
+      errors_.add(mark(line),
                   fmt::format("a diagonal entry of the mass matrix is negative: {:.6g}", M(i, i)));
       return;
     }
@@ -355,7 +355,7 @@ class BodyOfSid {
     const MatX scaled = d.asDiagonal() * M * d.asDiagonal();
     const double least = symmetric_eigenvalues(scaled)(0);
     if (!(least >= -same)) {
-      faults_.add(
+      errors_.add(
           mark(c_.Me.line),
           fmt::format("the mass matrix at zero deformation is not positive: scaled to a unit "
                       "diagonal its smallest eigenvalue is {:.3g}; mass, mdCM, J, Ct, Cr "
@@ -368,7 +368,7 @@ class BodyOfSid {
   int nq_;
   std::string name_;
   SidBody out_;
-  Faults faults_;
+  ErrorList errors_;
   int stiffening_nodes_ = 0;
 };
 

@@ -66,7 +66,7 @@ SidContent sid_content(const FlexibleBody& body);
 /// The text of a file.
 std::string sid_text(const SidContent& content);
 
-/// Throws InputError with every fault of the text. Dimensions are checked; blocks that are missing
+/// Throws InputError with every error of the text. Dimensions are checked; blocks that are missing
 /// have the right size and line 0.
 SidContent parse_sid_content(std::string_view text, const std::string& name);
 

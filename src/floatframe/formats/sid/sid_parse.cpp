@@ -37,12 +37,12 @@ class SidParser {
         frames();
       } else if (SidTaylor* block = modal_block(item.key)) {
         if (block->line > 0) {
-          source_.fault(fmt::format("block {} is in the file twice, first in line {}", item.key,
+          source_.error(fmt::format("block {} is in the file twice, first in line {}", item.key,
                                     block->line));
         }
         read_sid_block(source_, item.key, content_.modes, *block);
       } else {
-        source_.fault(fmt::format(
+        source_.error(fmt::format(
             "unknown block {} (expected refmod, frame, mdCM, J, Ct, Cr, Me, Gr, Ge, Oe, ksigma, Ke "
             "or De)",
             shown(item.key)));
@@ -119,17 +119,17 @@ class SidParser {
       if (item.key == "mass") {
         content_.mass_line = source_.here().line;
         content_.mass = real(item.value).value_or(1.0);
-        if (content_.mass <= 0.0) source_.fault("the mass is not positive");
+        if (content_.mass <= 0.0) source_.error("the mass is not positive");
       } else if (item.key == "nelastq") {
         const auto n = parse_integer(item.value);
         if (!n || *n != content_.modes) {
-          source_.fault(fmt::format("nelastq is {}, the first line of the file says {} modes",
+          source_.error(fmt::format("nelastq is {}, the first line of the file says {} modes",
                                     shown(item.value), content_.modes));
         }
       } else if (item.key.starts_with("ielastq")) {
         mode_name(item);
       } else {
-        source_.fault(fmt::format("unknown item {} in refmod (expected mass, nelastq or ielastq)",
+        source_.error(fmt::format("unknown item {} in refmod (expected mass, nelastq or ielastq)",
                                   shown(item.key)));
       }
     }
@@ -140,7 +140,7 @@ class SidParser {
     if (number.size() > 2) number = number.substr(1, number.size() - 2);
     const auto k = parse_integer(number);
     if (!k || *k < 1 || *k > content_.modes) {
-      source_.fault(
+      source_.error(
           fmt::format("{} names no mode (there are {})", shown(item.key), content_.modes));
       return;
     }
@@ -152,7 +152,7 @@ class SidParser {
 
   void frames() {
     if (frame_line_ > 0) {
-      source_.fault(fmt::format("block frame is in the file twice, first in line {}", frame_line_));
+      source_.error(fmt::format("block frame is in the file twice, first in line {}", frame_line_));
     }
     frame_line_ = source_.here().line;
     while (true) {
@@ -164,7 +164,7 @@ class SidParser {
       node(std::string(item.value));
     }
     if (static_cast<int>(content_.frames.size()) != nodes_) {
-      source_.fault({0, frame_line_},
+      source_.error({0, frame_line_},
                     fmt::format("block frame has {} nodes, the first line of the file says {}",
                                 content_.frames.size(), nodes_));
     }
@@ -193,39 +193,39 @@ class SidParser {
         read_sid_block(source_, item.key, content_.modes, *block);
       } else if (item.key == "rframe") {
         if (!same_word(without_blanks(item.value), "bodyref")) {
-          source_.fault(
+          source_.error(
               fmt::format("rframe is {}, expected 'body ref': nodes relative to another "
                           "frame are not read",
                           shown(item.value)));
         }
       } else {
-        source_.fault(fmt::format(
+        source_.error(fmt::format(
             "unknown item {} in a node (expected rframe, origin, phi, psi, AP or sigma)",
             shown(item.key)));
         if (!item.has_value) skip_sid_block(source_, item.key);
       }
     }
     if (f.origin.line == 0) {
-      source_.fault(begin, fmt::format("node {} has no origin", shown(f.node)));
+      source_.error(begin, fmt::format("node {} has no origin", shown(f.node)));
     }
     if (f.phi.line == 0 && nq > 0) {
-      source_.fault(begin, fmt::format("node {} has no phi", shown(f.node)));
+      source_.error(begin, fmt::format("node {} has no phi", shown(f.node)));
     }
     if (!taken_.insert(f.node).second) {
-      source_.fault(begin, fmt::format("node {} is in the file twice", shown(f.node)));
+      source_.error(begin, fmt::format("node {} is in the file twice", shown(f.node)));
     }
     content_.frames.push_back(std::move(f));
   }
 
   std::optional<double> real(std::string_view field) {
     const auto value = parse_real(field);
-    if (!value) source_.fault(not_a_real(field));
+    if (!value) source_.error(not_a_real(field));
     return value;
   }
 
   void check_complete() {
     const auto need = [&](const char* name, bool there) {
-      if (!there) source_.fault(fmt::format("the file has no {}", name));
+      if (!there) source_.error(fmt::format("the file has no {}", name));
     };
     need("mass in block refmod", content_.mass_line > 0);
     if (nodes_ > 0) need("block frame", frame_line_ > 0);

@@ -1,6 +1,6 @@
 #pragma once
 // Fields of a line: splitting, numbers in the ways of Fortran programs, upper case, and how a field
-// is shown in a fault.
+// is shown in an error.
 #include <optional>
 #include <string>
 #include <string_view>

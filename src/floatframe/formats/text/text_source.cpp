@@ -155,8 +155,8 @@ TextSource::TextSource(std::string text, std::string name, FileLoader loader)
 }
 
 int TextSource::add_file(std::string name, std::string text) {
-  const std::string fault = not_text(text);
-  if (!fault.empty()) throw InputError({name}, fault);
+  const std::string error = not_text(text);
+  if (!error.empty()) throw InputError({name}, error);
   keys_.push_back(name);
   names_.push_back(std::move(name));
   texts_.push_back(std::make_unique<const std::string>(std::move(text)));
@@ -260,7 +260,7 @@ void TextSource::include(std::string_view path, const FeSource& at) {
       index = add_file(file.string(), loader_(file));
     } catch (const InputError& e) {
       stop(at, fmt::format("the include file {} cannot be read: {}", shown(target),
-                           e.faults().front().message));
+                           e.errors().front().message));
     }
     keys_.back() = key;
     index_of_key_.emplace(key, index);
@@ -277,17 +277,17 @@ SourceMark TextSource::mark(const FeSource& source) const {
   return {names_[source.file], source.line, 0};
 }
 
-void TextSource::fault(const FeSource& at, std::string message) {
-  faults_.add(mark(at), std::move(message));
-  if (faults_.size() < most_faults) return;
-  faults_.add({}, fmt::format("reading ends after {} faults", most_faults), 0);
-  faults_.throw_if_any();
+void TextSource::error(const FeSource& at, std::string message) {
+  errors_.add(mark(at), std::move(message));
+  if (errors_.size() < most_errors) return;
+  errors_.add({}, fmt::format("reading ends after {} errors", most_errors), 0);
+  errors_.throw_if_any();
 }
 
 void TextSource::stop(const FeSource& at, std::string message) {
-  faults_.add(mark(at), std::move(message));
-  faults_.throw_if_any();
-  std::abort();  // not reached: there is a fault
+  errors_.add(mark(at), std::move(message));
+  errors_.throw_if_any();
+  std::abort();  // not reached: there is an error
 }
 
 }  // namespace floatframe

@@ -1,6 +1,6 @@
 #pragma once
 // Text files of finite-element programs: read whole (decompressed if they are gzip), given line by
-// line with their place, through includes. Faults are collected with file and line.
+// line with their place, through includes. Errors are collected with file and line.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -37,12 +37,12 @@ std::string not_text(std::string_view bytes);
 /// Reads the file behind a path; throws InputError if it cannot.
 using FileLoader = std::function<std::string(const std::filesystem::path&)>;
 
-/// Lines of a text with its includes, and the faults found in it.
+/// Lines of a text with its includes, and the errors found in it.
 class TextSource {
  public:
   /// A file on disk.
   explicit TextSource(const std::filesystem::path& file);
-  /// A text in memory; without a loader every include is a fault. Throws InputError if the text is
+  /// A text in memory; without a loader every include is an error. Throws InputError if the text is
   /// binary.
   TextSource(std::string text, std::string name, FileLoader loader = {});
   TextSource(const TextSource&) = delete;
@@ -63,19 +63,19 @@ class TextSource {
 
   /// Goes on with the first line of another file and comes back after its last. The path (quotes
   /// are removed, backslashes become slashes) is looked for beside the including file, then beside
-  /// the first file, also with `.gz`. Faults (missing, circular, too deep, too many) are thrown at
+  /// the first file, also with `.gz`. Errors (missing, circular, too deep, too many) are thrown at
   /// once.
   void include(std::string_view path, const FeSource& at);
 
   SourceMark mark(const FeSource& source) const;
-  /// Collects a fault; throws all of them when there are `most_faults`.
-  void fault(const FeSource& at, std::string message);
-  /// Collects a fault at the last line.
-  void fault(std::string message) { fault(here_, std::move(message)); }
+  /// Collects an error; throws all of them when there are `most_errors`.
+  void error(const FeSource& at, std::string message);
+  /// Collects an error at the last line.
+  void error(std::string message) { error(here_, std::move(message)); }
   [[noreturn]] void stop(const FeSource& at, std::string message);
-  void throw_if_any() { faults_.throw_if_any(); }
-  std::size_t faults() const noexcept { return faults_.size(); }
-  static constexpr std::size_t most_faults = 50;
+  void throw_if_any() { errors_.throw_if_any(); }
+  std::size_t errors() const noexcept { return errors_.size(); }
+  static constexpr std::size_t most_errors = 50;
 
   /// Names of the files read so far, for FeModel::files.
   const std::vector<std::string>& files() const noexcept { return names_; }
@@ -100,7 +100,7 @@ class TextSource {
   std::string_view line_;
   bool again_ = false;
   FeSource here_, before_;
-  Faults faults_;
+  ErrorList errors_;
 };
 
 }  // namespace floatframe

@@ -210,7 +210,7 @@ void bushing_validate(const ForceCheck& check) {
   if (!check.wrong.contains("axis") && !check.wrong.contains("axis_2"))
     if (const auto complaint =
             sentences::second_axis(check.direction("axis"), check.direction("axis_2")))
-      check.fault("axis_2", *complaint);
+      check.error("axis_2", *complaint);
   check.some_law();
 }
 

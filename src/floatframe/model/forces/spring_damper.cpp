@@ -133,7 +133,7 @@ void spring_damper_validate(const ForceCheck& check) {
     const AttachmentDescription a = check.place("from"), b = check.place("to");
     if (check.from_file || (!a.node && !b.node))
       if (const auto complaint = sentences::spring_ends(a.point, b.point))
-        check.fault("", *complaint);
+        check.error("", *complaint);
   }
   check.some_law();
 }

@@ -17,10 +17,10 @@ std::string message(FeModel model, const PartOptions& options) {
   } catch (const InputError& e) {
     return e.what();
   }
-  return "no fault";
+  return "no error";
 }
 
-TEST(PartFaults, EachHasItsSentence) {
+TEST(PartErrors, EachHasItsSentence) {
   PartOptions options = both_ends();
   options.interfaces.clear();
   EXPECT_EQ(message(beam(), options),
@@ -102,7 +102,7 @@ TEST(PartFaults, EachHasItsSentence) {
 
 // Cubes that share an edge (a hinge) or a corner (a ball): so few elements that the seventh motion
 // is as simple as a motion of the whole.
-TEST(PartFaults, MechanismsOfTwoElementsNameNodes) {
+TEST(PartErrors, MechanismsOfTwoElementsNameNodes) {
   for (const double size : {1.0, 1e-3}) {
     for (const Vec3& shift : {Vec3(1, 0, 1), Vec3(1, 1, 1)}) {
       FeModel model = brick_beam(1, 1, 1, size, size);
@@ -132,7 +132,7 @@ TEST(PartFaults, MechanismsOfTwoElementsNameNodes) {
 
 // The reference of a coupling that holds some directions only is as loose at an interface as
 // inside.
-TEST(PartFaults, FreedomsThatNothingFollowsAreNamed) {
+TEST(PartErrors, FreedomsThatNothingFollowsAreNamed) {
   FeModel model = beam();
   Spider coupling;
   coupling.reference = model.nodes();
@@ -152,7 +152,7 @@ TEST(PartFaults, FreedomsThatNothingFollowsAreNamed) {
             "neither the stiffness nor the mass of the free part holds node 117 uy");
 }
 
-TEST(PartFaults, CombinationsWithoutMassAreRefused) {
+TEST(PartErrors, CombinationsWithoutMassAreRefused) {
   InertiaInvariants raw = InertiaInvariants::zero(9);
   raw.m = 1.0;
   raw.P_u = Mat3::Identity();
@@ -160,7 +160,7 @@ TEST(PartFaults, CombinationsWithoutMassAreRefused) {
   MatX B = MatX::Identity(6, 9);
   EXPECT_EQ(elastic_modes(MatX::Identity(9, 9), raw, B).lambda.size(), 3);
   raw.Sij[0][0](7, 8) = raw.Sij[0][0](8, 7) = 1.0;  // the same motion twice
-  const auto fault = [&] {
+  const auto error = [&] {
     try {
       elastic_modes(MatX::Identity(9, 9), raw, B);
     } catch (const InputError& e) {
@@ -168,11 +168,11 @@ TEST(PartFaults, CombinationsWithoutMassAreRefused) {
     }
     return std::string();
   };
-  EXPECT_EQ(fault(),
+  EXPECT_EQ(error(),
             "the modes hold a combination that moves no mass: there are more interface degrees of "
             "freedom and modes than the mesh has ways to move; use fewer, or a finer mesh");
   B.row(5).setZero();
-  EXPECT_EQ(fault(), "the body reference does not remove all rigid motions of the part");
+  EXPECT_EQ(error(), "the body reference does not remove all rigid motions of the part");
 }
 
 }  // namespace

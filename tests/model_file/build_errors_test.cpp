@@ -1,4 +1,4 @@
-// Faults that show only when a model from a file is built, with their places.
+// Errors that show only when a model from a file is built, with their places.
 #include <gtest/gtest.h>
 
 #include "floatframe/model/inertia_choice.hpp"
@@ -10,10 +10,10 @@
 namespace floatframe {
 namespace {
 
-/// A clamped bar with `modes` in place of its last lines, `more` below; the fault without the
+/// A clamped bar with `modes` in place of its last lines, `more` below; the error without the
 /// folder.
 template <class Use>
-std::string fault_of(const std::string& modes, const std::string& more, const Use& use,
+std::string error_of(const std::string& modes, const std::string& more, const Use& use,
                      int elements = 10, const std::string& clamped = "      clamped: [a]\n") {
   const test::TemporaryFolder folder;
   const std::string path = folder.write(
@@ -32,43 +32,43 @@ std::string fault_of(const std::string& modes, const std::string& more, const Us
 
 const auto build = [](const ModelDescription& d) { build_model(d); };
 
-TEST(BuildFaults, AmplitudesOfModesBelowAFrequency) {
+TEST(BuildErrors, AmplitudesOfModesBelowAFrequency) {
   const std::string modes =
       "      static_modes: [{point: b, dofs: [y, z]}]\n"
       "      normal_modes: {below: 500}\n";
-  EXPECT_EQ(fault_of(modes, "initial: {amplitudes: {bar: [0.1]}}\n", build),
+  EXPECT_EQ(error_of(modes, "initial: {amplitudes: {bar: [0.1]}}\n", build),
             ":11:29: initial.amplitudes.bar: found a list of 1, expected a list of 10 amplitudes, "
             "one per mode");
-  EXPECT_EQ(fault_of(modes, "initial:\n  amplitude_rates:\n    bar: [0.1, 0.2]\n", build),
+  EXPECT_EQ(error_of(modes, "initial:\n  amplitude_rates:\n    bar: [0.1, 0.2]\n", build),
             ":13:10: initial.amplitude_rates.bar: found a list of 2, expected a list of 10 "
             "amplitudes, one per mode");
 }
 
-TEST(BuildFaults, MassModelThatDoesNotGoWithTheInertiaMethod) {
+TEST(BuildErrors, MassModelThatDoesNotGoWithTheInertiaMethod) {
   const std::string modes =
       "      static_modes: [{point: b, dofs: [y, z]}]\n"
       "      mass_model: ";
   const auto with = [](InertiaMethod method) {
     return [method](const ModelDescription& d) { check_inertia_method(d, method); };
   };
-  EXPECT_EQ(fault_of(modes + "six_dof\n", "", with(InertiaMethod::preprocessing)),
+  EXPECT_EQ(error_of(modes + "six_dof\n", "", with(InertiaMethod::preprocessing)),
             ":10:19: bodies.bar.flexible.mass_model: found six_dof with inertia terms by "
             "preprocessing, expected isoparametric or hermite (or projection)");
-  EXPECT_EQ(fault_of(modes + "hermite\n", "", with(InertiaMethod::projection)),
+  EXPECT_EQ(error_of(modes + "hermite\n", "", with(InertiaMethod::projection)),
             ":10:19: bodies.bar.flexible.mass_model: found hermite with inertia terms by "
             "projection, expected isoparametric or six_dof (or preprocessing)");
-  EXPECT_EQ(fault_of(modes + "six_dof\n", "", with(InertiaMethod::projection)), "no error");
-  EXPECT_EQ(fault_of(modes + "hermite\n", "", with(InertiaMethod::preprocessing)), "no error");
-  EXPECT_EQ(fault_of(modes + "isoparametric\n", "", with(InertiaMethod::projection)), "no error");
+  EXPECT_EQ(error_of(modes + "six_dof\n", "", with(InertiaMethod::projection)), "no error");
+  EXPECT_EQ(error_of(modes + "hermite\n", "", with(InertiaMethod::preprocessing)), "no error");
+  EXPECT_EQ(error_of(modes + "isoparametric\n", "", with(InertiaMethod::projection)), "no error");
 }
 
 // Twenty shapes on the twenty transverse dofs that the ten free nodes of a bar have.
-TEST(BuildFaults, AsManyModesAsTheMeshHasWaysToMove) {
+TEST(BuildErrors, AsManyModesAsTheMeshHasWaysToMove) {
   const auto text = [](int shapes, const std::string& joint, int elements) {
     const std::string bar = "      analytic: {dynamic_per_plane: " + std::to_string(shapes) + "}\n";
-    std::string fault = fault_of(bar, joint, build, elements, "");
-    const std::size_t number = fault.find("(relative");
-    return number == std::string::npos ? fault : fault.substr(0, number);
+    std::string error = error_of(bar, joint, build, elements, "");
+    const std::size_t number = error.find("(relative");
+    return number == std::string::npos ? error : error.substr(0, number);
   };
   const std::string hinge =
       "joints: {h: {type: universal, child: bar, at: a, axis: y, axis_2: z}}\n";

@@ -1,5 +1,5 @@
 #pragma once
-// The faults of one reading of a model file: each once, a few of every kind, the rest counted; and
+// The errors of one reading of a model file: each once, a few of every kind, the rest counted; and
 // what one reading may take in all, so that no file, however odd, costs more than time in
 // proportion to its length and memory within bounds.
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace floatframe {
 
 /// Limits of a model file and its subsystems; docs/model-file.md lists them.
 namespace limits {
-inline constexpr std::size_t faults_of_a_kind = 20;
-inline constexpr std::size_t faults = 500;
+inline constexpr std::size_t errors_of_a_kind = 20;
+inline constexpr std::size_t errors = 500;
 inline constexpr std::size_t name_length = 100;
 inline constexpr std::size_t file_values = 1'000'000;     ///< maps, lists and scalars of one file
 inline constexpr std::size_t total_values = 2'000'000;    ///< of all uses of files
@@ -29,17 +29,17 @@ inline constexpr std::size_t table_rows = 1'000'000;      ///< of all CSV files 
 inline constexpr std::size_t table_text = 64'000'000;     ///< of all CSV files of tables [bytes]
 }  // namespace limits
 
-class ReadFaults {
+class ReadErrors {
  public:
   /// Kept unless it was added before (a file may be used many times) or enough of its kind are
   /// there: sentences that differ only in names, numbers and places are of one kind.
-  /// `count`: of the faults that the message stands for.
+  /// `count`: of the errors that the message stands for.
   void add(const SourceMark& mark, std::string message, std::size_t count = 1);
   bool empty() const noexcept { return added_ == 0; }
   /// Number of messages added, kept or not.
   std::size_t size() const noexcept { return added_; }
   /// Those kept, and where some were not, how many.
-  std::vector<InputFault> take();
+  std::vector<ErrorEntry> take();
 
   /// ", did you mean ...?" for a name not found among `known()`, as long as suggestions are not too
   /// many.
@@ -50,7 +50,7 @@ class ReadFaults {
   /// True a limited number of times.
   bool suggest() noexcept { return suggestions_ < most_suggestions && ++suggestions_ > 0; }
 
-  /// Adds `amount` to what was taken of something; false beyond `most`, with a fault the first
+  /// Adds `amount` to what was taken of something; false beyond `most`, with an error the first
   /// time.
   bool take_of(const char* what, std::size_t amount, std::size_t most, const SourceMark& mark,
                const std::string& path);
@@ -62,7 +62,7 @@ class ReadFaults {
     std::size_t kept = 0, passed_over = 0;
     SourceMark first;  ///< passed over
   };
-  std::vector<InputFault> faults_;
+  std::vector<ErrorEntry> errors_;
   std::unordered_set<std::uint64_t> seen_;
   std::unordered_map<std::uint64_t, Kind> kinds_;
   std::unordered_map<std::string, std::size_t> taken_;

@@ -1,4 +1,4 @@
-#include "floatframe/yaml/read_faults.hpp"
+#include "floatframe/yaml/read_errors.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -34,25 +34,25 @@ std::string skeleton(std::string_view message) {
   return out;
 }
 
-InputFault more(const SourceMark& first, std::size_t n, const char* what) {
+ErrorEntry more(const SourceMark& first, std::size_t n, const char* what) {
   return {first, "... and " + std::to_string(n) + " more of " + what, n};
 }
 
 }  // namespace
 
-void ReadFaults::add(const SourceMark& mark, std::string message, std::size_t count) {
+void ReadErrors::add(const SourceMark& mark, std::string message, std::size_t count) {
   ++added_;
   const std::string_view sentence = without_suggestion(message);
-  const InputFault same{mark, std::string(sentence)};
+  const ErrorEntry same{mark, std::string(sentence)};
   if (!seen_.insert(hash(same.text())).second) return;
   Kind* kind = &others_;
   const std::uint64_t key = hash(skeleton(sentence));
   if (const auto it = kinds_.find(key); it != kinds_.end())
     kind = &it->second;
-  else if (kinds_.size() < limits::faults)
+  else if (kinds_.size() < limits::errors)
     kind = &kinds_[key];
-  if (kind != &others_ && kind->kept < limits::faults_of_a_kind &&
-      faults_.size() < limits::faults) {
+  if (kind != &others_ && kind->kept < limits::errors_of_a_kind &&
+      errors_.size() < limits::errors) {
     ++kind->kept;
     std::string text = printable(message);
     if (text.size() > longest_message) {
@@ -61,7 +61,7 @@ void ReadFaults::add(const SourceMark& mark, std::string message, std::size_t co
       text.resize(end);
       text += " ...";
     }
-    faults_.push_back({mark, std::move(text), count});
+    errors_.push_back({mark, std::move(text), count});
     return;
   }
   if (kind->kept == 0) kind = &others_;  // of a kind that is not shown
@@ -69,15 +69,15 @@ void ReadFaults::add(const SourceMark& mark, std::string message, std::size_t co
   kind->passed_over += count;
 }
 
-std::vector<InputFault> ReadFaults::take() {
+std::vector<ErrorEntry> ReadErrors::take() {
   for (const auto& [key, kind] : kinds_)
-    if (kind.passed_over > 0) faults_.push_back(more(kind.first, kind.passed_over, "this kind"));
+    if (kind.passed_over > 0) errors_.push_back(more(kind.first, kind.passed_over, "this kind"));
   if (others_.passed_over > 0)
-    faults_.push_back(more(others_.first, others_.passed_over, "other kinds"));
-  return std::move(faults_);
+    errors_.push_back(more(others_.first, others_.passed_over, "other kinds"));
+  return std::move(errors_);
 }
 
-bool ReadFaults::take_of(const char* what, std::size_t amount, std::size_t most,
+bool ReadErrors::take_of(const char* what, std::size_t amount, std::size_t most,
                          const SourceMark& mark, const std::string& path) {
   std::size_t& taken = taken_[what];
   const bool before = taken <= most;
