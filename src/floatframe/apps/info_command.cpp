@@ -14,8 +14,8 @@ namespace floatframe {
 namespace {
 
 struct InfoArguments {
-  std::string file, format, dialect, material, nodes, mass, dofs;
-  FeReadOptions read;
+  PartArguments options;
+  std::string file;
   bool json = false;
 };
 
@@ -25,26 +25,22 @@ bool is_sid(const std::string& file) {
   return text.find("part") != std::string::npos && text.find("new modal") != std::string::npos;
 }
 
-int info(InfoArguments a) {
+int info(const InfoArguments& a) {
   std::error_code error;
   if (!std::filesystem::exists(a.file, error))
     throw InputError({a.file, 0, 0}, "the file does not exist");
   if (!std::filesystem::is_regular_file(a.file, error))
     throw InputError({a.file, 0, 0}, "this is not a regular file");
-  a.read.nodes = a.nodes;
-  a.read.mass = a.mass;
-  a.read.dofs = a.dofs;
-  a.read.dialect = deck_dialect(a.dialect).value_or(DeckDialect::by_content);
-  if (!a.material.empty()) a.read.material = material_argument(a.material);
-  if (a.format.empty() && is_body_file(a.file)) {
+  const PartJob job = a.options.job();
+  if (job.format.empty() && is_body_file(a.file)) {
     const BodyFile content = read_body_file(a.file);
     print(a.json ? body_info_json(a.file, content) : body_info_text(a.file, content));
-  } else if (a.format.empty() && is_sid(a.file)) {
+  } else if (job.format.empty() && is_sid(a.file)) {
     const SidBody sid = read_sid(a.file);
     print(a.json ? sid_info_json(a.file, sid.body, sid.notes)
                  : sid_info_text(a.file, sid.body, sid.notes));
   } else {
-    const FeModel model = read_fe_file(a.file, a.read, a.format);
+    const FeModel model = read_fe_file(a.file, job.read, job.format);
     print(a.json ? fe_info_json(a.file, model) : fe_info_text(a.file, model));
   }
   return 0;
@@ -58,16 +54,9 @@ Command info_command() {
       .name = "info",
       .help = "Show what is in a finite-element file, a body file or a SID_FEM file",
       .options =
-          {file_position("FILE", a->file, "Finite-element file (also .gz), .ffb or SID_FEM"),
-           flag("--json", a->json, "JSON on standard output"),
-           text_option("--format", a->format, "NAME", "Format of FILE; default: by its content"),
-           word_option("--dialect", a->dialect, {"abaqus", "calculix"},
-                       "Whose deck FILE is, abaqus or calculix; default: by its content"),
-           text_option("--material", a->material, "E,NU,RHO",
-                       "young,poisson,density for files without, their units"),
-           text_option("--nodes", a->nodes, "FILE", "File with the nodes of matrices"),
-           text_option("--mass", a->mass, "FILE", "Mass matrix, if it is not beside the stiffness"),
-           text_option("--dofs", a->dofs, "FILE", "Dof map of matrices, if not beside them")},
+          joined({file_position("FILE", a->file, "Finite-element file (also .gz), .ffb or SID_FEM"),
+                  flag("--json", a->json, "JSON on standard output")},
+                 a->options.table(true)),
       .footer =
           "Finite-element files: numbers in the units of the file; sets and spiders that could be\n"
           "interfaces of `floatframe reduce`; what the reader passed over. Body files: SI units, "

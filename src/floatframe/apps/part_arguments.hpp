@@ -1,20 +1,33 @@
 #pragma once
-// Words of the command line that describe parts. The grammar of a place:
-//   NAME=WAY:VALUE[,KEY=VALUE ...]     BALL=set:BALL   EYE=cylinder:0,0,0,axis=z,radius=12,at=0,0,5
-// A piece between commas without '=' belongs to the value before it, so vectors need no brackets
-// and nothing needs quotes in a shell. Lengths are in the units of the file.
+// The options of parts on the command line, as the list of them says (parts/part_options.hpp).
 #include <string>
+#include <vector>
 
-#include "floatframe/parts/part_job.hpp"
+#include "floatframe/apps/options.hpp"
+#include "floatframe/parts/part_options.hpp"
 
 namespace floatframe {
 
-/// Each throws InputError with one sentence that names the option and what was expected.
-InterfaceDescription interface_argument(const std::string& text);
-MarkerDescription marker_argument(const std::string& text);
-/// "young,poisson,density" in the units of the file.
-Material material_argument(const std::string& text);
-/// "mean_axis", "buckens" or "node:NAME"
-BodyReference reference_argument(const std::string& text);
+/// What the command line gives of each option. The table of options points into it.
+class PartArguments {
+ public:
+  PartArguments();
+  PartArguments(const PartArguments&) = delete;
+  PartArguments& operator=(const PartArguments&) = delete;
+
+  /// `reading`: only those that decide how a file is read.
+  std::vector<Option> table(bool reading);
+  /// Job of the options given. Throws InputError.
+  PartJob job() const;
+
+ private:
+  struct Given {
+    const PartOption* option;
+    std::string text;
+    std::vector<std::string> texts;  // of repeated options
+    bool flag = false;
+  };
+  std::vector<Given> given_;
+};
 
 }  // namespace floatframe

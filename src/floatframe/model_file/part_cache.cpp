@@ -10,6 +10,7 @@
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/library_path.hpp"
+#include "floatframe/parts/part_options.hpp"
 
 namespace floatframe {
 namespace {
@@ -26,16 +27,6 @@ std::string program_stamp() {
     return fmt::format("{} {} {}", version(), size, time.time_since_epoch().count());
   }();
   return stamp;
-}
-
-fs::path cache_file(const PartJob& job, const fs::path& cache) {
-  ContentHash key;
-  key.add(program_stamp()).add(file_hash(job.file)).add(job.file.filename().string());
-  for (const auto& [option, value] : option_list(job)) key.add(option).add(value);
-  for (const fs::path& p : {job.read.nodes, job.read.mass, job.read.dofs})
-    key.add(p.empty() ? "" : file_hash(p));
-  return cache / fmt::format("{}-{}.ffb", file_name_from(job.file.stem().string()),
-                             key.text().substr(0, 16));
 }
 
 /// The body file if it is of this job and all files that it was made from are as they were then.
@@ -62,6 +53,15 @@ bool can_be_written(const fs::path& folder) { return ::access(folder.c_str(), W_
 
 }  // namespace
 
+fs::path part_cache_file(const PartJob& job, const fs::path& cache) {
+  ContentHash key;
+  key.add(program_stamp()).add(file_hash(job.file)).add(job.file.filename().string());
+  for (const auto& [option, value] : option_list(job)) key.add(option).add(value);
+  for (const fs::path& p : other_files(job)) key.add(file_hash(p));
+  return cache / fmt::format("{}-{}.ffb", file_name_from(job.file.stem().string()),
+                             key.text().substr(0, 16));
+}
+
 fs::path part_cache_folder(const fs::path& folder) {
   if (const char* given = std::getenv("FLOATFRAME_CACHE"))
     return std::string(given) == "off" ? fs::path() : fs::path(given);
@@ -81,7 +81,7 @@ BodyFile cached_part(const PartJob& job, const fs::path& cache, const std::strin
     if (say) say(who + ": " + line);
   };
   const std::string source = job.file.string();
-  const fs::path file = cache.empty() ? fs::path() : cache_file(job, cache);
+  const fs::path file = cache.empty() ? fs::path() : part_cache_file(job, cache);
   std::string damage;
   if (!file.empty())
     if (auto found = fresh(file, job, damage)) {

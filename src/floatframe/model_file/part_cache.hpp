@@ -16,6 +16,10 @@ namespace floatframe {
 /// $XDG_CACHE_HOME/floatframe or ~/.cache/floatframe. Empty: nothing is kept.
 std::filesystem::path part_cache_folder(const std::filesystem::path& folder);
 
+/// Where the body of a job is kept: a name made of the contents of its files, of all its options and
+/// of the program.
+std::filesystem::path part_cache_file(const PartJob& job, const std::filesystem::path& cache);
+
 /// The part from the cache, or reduced now and put there. `say` receives which. Throws InputError.
 BodyFile cached_part(const PartJob& job, const std::filesystem::path& cache, const std::string& who,
                      const std::function<void(const std::string&)>& say);

@@ -2,14 +2,17 @@
 // material are in the units of that file.
 #include <set>
 
+#include "floatframe/model/rules.hpp"
 #include "floatframe/model_file/read_parts.hpp"
-#include "floatframe/parts/part_job.hpp"
+#include "floatframe/parts/node_ways.hpp"
+#include "floatframe/parts/part_options.hpp"
+#include "floatframe/parts/part_text.hpp"
 
 namespace floatframe {
 namespace {
 
 const std::vector<std::string> dof_words{"x", "y", "z", "rx", "ry", "rz"};
-const NumberRule fraction{"a number above 0 and up to 1", "", 0.0, 1.0, true};
+using Special = PartOption::Special;
 
 class JobReader {
  public:
@@ -17,16 +20,10 @@ class JobReader {
 
   std::optional<PartJob> read() {
     const std::size_t before = self_.context.errors->size();
-    files();
-    if (const auto v = s_.get("interfaces"))
-      for (const auto& [name, value] : v->named("a map of names to interfaces", true))
-        interface(name, value);
-    if (const auto v = s_.get("markers"))
-      for (const auto& [name, value] : v->named("a map of names to markers", true))
-        marker(name, value);
-    selection();
-    reference();
-    switches();
+    s_.require("file");
+    job_.file = path("file");
+    for (const PartOption& option : part_options())
+      std::visit([&](const auto& kind) { value(option, kind); }, option.kind);
     s_.finish();
     if (self_.context.errors->size() > before) return std::nullopt;
     return std::move(job_);
@@ -35,108 +32,141 @@ class JobReader {
  private:
   PartOptions& o() { return job_.options; }
 
+  void value(const PartOption& option, const PartOption::Number& number) {
+    o().*number.at = s_.number(option.key, number.rule, 0.0);
+  }
+  void value(const PartOption& option, const PartOption::Count& count) {
+    if (const auto v = s_.get(option.key)) o().*count.at = v->integer(count.rule);
+  }
+  void value(const PartOption& option, const PartOption::Word& word) {
+    if (const auto v = s_.get(option.key))
+      if (const auto k = v->word(word.words)) word.set(job_, word.first + static_cast<int>(*k));
+  }
+  void value(const PartOption& option, const PartOption::Switch& on) {
+    o().*on.at = s_.boolean(option.key, on.absent);
+  }
+  void value(const PartOption& option, const PartOption::File& file) {
+    job_.read.*file.at = path(option.key);
+  }
+  void value(const PartOption& option, const Special& special) {
+    switch (special.what) {
+      case Special::What::units:
+        return units(option.key);
+      case Special::What::format:
+        return format(option.key);
+      case Special::What::material:
+        return material(option.key);
+      case Special::What::interfaces:
+        if (const auto v = s_.get(option.key))
+          for (const auto& [name, place] : v->named("a map of names to interfaces", true))
+            interface(name, place);
+        return;
+      case Special::What::markers:
+        if (const auto v = s_.get(option.key))
+          for (const auto& [name, place] : v->named("a map of names to markers", true))
+            marker(name, place);
+        return;
+      case Special::What::reference:
+        return reference(option.key);
+    }
+  }
+
   std::filesystem::path path(const char* key) {
     const auto v = s_.get(key);
     const auto name = v ? v->text("the name of a file") : std::nullopt;
     return name ? std::filesystem::path(beside(self_, *name)) : std::filesystem::path();
   }
 
-  void files() {
-    s_.require("file");
-    job_.file = path("file");
-    job_.read.nodes = path("nodes");
-    job_.read.mass = path("mass");
-    job_.read.dofs = path("dofs");
-    if (const auto v = s_.require("units"))
-      if (const auto name = v->text("a unit system such as mm-t-s")) {
-        job_.units = *name;
-        try {
-          unit_system(*name);
-        } catch (const InputError& error) {
-          v->error(error.what());
-        }
-      }
-    if (const auto v = s_.get("format"))
-      if (const auto name = v->text("the name of a format")) {
-        std::vector<std::string> known;
-        for (const FeFormat& f : fe_formats()) known.emplace_back(f.name);
-        if (const auto k = v->word(known)) job_.format = known[*k];
-      }
-    if (const auto v = s_.get("dialect"))
-      if (const auto k = v->word({"abaqus", "calculix"}))
-        job_.read.dialect = *k == 0 ? DeckDialect::abaqus : DeckDialect::calculix;
-    if (const auto v = s_.get("material"))
-      if (auto m = v->section("a map with young, poisson, density")) {
-        Material material;
-        material.young = m->required_number("young", positive_number(""), 1.0);
-        material.poisson = m->required_number(
-            "poisson", {"a number above -1 and below 0.5", "", -1.0, 0.5, true, true}, 0.3);
-        material.density = m->required_number("density", positive_number(""), 1.0);
-        m->finish();
-        job_.read.material = material;
-      }
+  void units(const char* key) {
+    const auto v = s_.require(key);
+    const auto name = v ? v->text("a unit system such as mm-t-s") : std::nullopt;
+    if (!name) return;
+    job_.units = *name;
+    try {
+      unit_system(*name);
+    } catch (const InputError& error) {
+      v->error(error.what());
+    }
   }
 
-  Vec3 vector(YamlSection& s, const char* key) {
-    const auto v = s.require(key);
-    return v ? v->vector("").value_or(Vec3::Zero()) : Vec3::Zero();
+  void format(const char* key) {
+    const auto v = s_.get(key);
+    if (!v || !v->text("the name of a format")) return;
+    std::vector<std::string> known;
+    for (const FeFormat& f : fe_formats()) known.emplace_back(f.name);
+    if (const auto k = v->word(known)) job_.format = known[*k];
+  }
+
+  void material(const char* key) {
+    const auto v = s_.get(key);
+    auto m = v ? v->section("a map with young, poisson, density") : std::nullopt;
+    if (!m) return;
+    Material material;
+    material.young = m->required_number("young", positive_number(""), 1.0);
+    material.poisson = m->required_number("poisson", rules::poisson, 0.3);
+    material.density = m->required_number("density", positive_number(""), 1.0);
+    m->finish();
+    job_.read.material = material;
   }
 
   /// The one way of choosing nodes; an error at none or several.
   void choice(YamlSection& s, NodeChoice& c) {
     int ways = 0;
-    const auto group = [&](const char* key, NodeChoice::By by, const char* what) {
-      const auto v = s.get(key);
-      std::optional<YamlSection> g;
-      if (v) {
-        ++ways;
-        c.by = by;
-        g = v->section(what);
-      }
-      return g;
-    };
-    if (const auto v = s.get("set")) {
+    std::vector<const char*> words;
+    for (const NodeWay& way : node_ways()) {
+      words.push_back(way.word);
+      const auto v = s.get(way.word);
+      if (!v) continue;
       ++ways;
-      c.by = NodeChoice::By::set;
-      c.set = v->text("the name of a set").value_or("");
-    }
-    if (const auto v = s.get("node")) {
-      ++ways;
-      c.by = NodeChoice::By::node;
-      c.number = v->integer(1, 2147483647, "the number of a node").value_or(1);
-    }
-    if (const auto v = s.get("nearest")) {
-      ++ways;
-      c.by = NodeChoice::By::nearest;
-      c.point = v->vector("").value_or(Vec3::Zero());
-    }
-    if (auto g = group("plane", NodeChoice::By::plane, "a map with point and normal")) {
-      c.point = vector(*g, "point");
-      direction(*g, "normal", c.axis);
-      g->finish();
-    }
-    if (auto g = group("cylinder", NodeChoice::By::cylinder,
-                       "a map with point, axis, radius and length")) {
-      c.point = vector(*g, "point");
-      direction(*g, "axis", c.axis);
-      c.radius = g->required_number("radius", positive_number(""), 1.0);
-      c.length = g->number("length", positive_number(""), 0.0);
-      g->finish();
-    }
-    if (auto g = group("sphere", NodeChoice::By::sphere, "a map with point and radius")) {
-      c.point = vector(*g, "point");
-      c.radius = g->required_number("radius", positive_number(""), 1.0);
-      g->finish();
+      c.by = way.by;
+      if (way.values.size() == 1)
+        put(c, *v, way.values.front());
+      else
+        values(c, *v, way);
     }
     c.tolerance = s.number("tolerance", positive_number(""), 0.0);
     if (ways != 1)
-      s.error("found " + std::to_string(ways) +
-              " ways to choose nodes, expected one of set, node, nearest, plane, cylinder, sphere");
+      s.error("found " + std::to_string(ways) + " ways to choose nodes, expected one of " +
+              joined(words, ", "));
   }
 
-  static void direction(YamlSection& s, const char* key, Vec3& out) {
-    const auto v = s.require(key);
-    if (const auto d = v ? read_direction(*v) : std::nullopt) out = d->stableNormalized();
+  /// The map of a way with several values.
+  static void values(NodeChoice& c, const YamlValue& value, const NodeWay& way) {
+    std::vector<const char*> keys;
+    for (const NodeWayValue& v : way.values) keys.push_back(v.key);
+    const char* last = keys.back();
+    keys.pop_back();
+    auto s = value.section(("a map with " + joined(keys, ", ") + " and " + last).c_str());
+    if (!s) return;
+    for (const NodeWayValue& v : way.values) {
+      const auto* length = std::get_if<NodeWayValue::Length>(&v.kind);
+      const bool required = !length || length->required;
+      if (const auto given = required ? s->require(v.key) : s->get(v.key)) put(c, *given, v);
+    }
+    s->finish();
+  }
+
+  static void put(NodeChoice& c, const YamlValue& given, const NodeWayValue& value) {
+    using V = NodeWayValue;
+    if (const auto* name = std::get_if<V::Name>(&value.kind)) {
+      const std::string what = std::string("the name of a ") + value.key;
+      c.*name->at = given.text(what.c_str()).value_or("");
+    } else if (const auto* whole = std::get_if<V::Number>(&value.kind)) {
+      const std::string what = std::string("the number of a ") + value.key;
+      c.*whole->at = given.integer(1, 2147483647, what.c_str()).value_or(1);
+    } else if (const auto* point = std::get_if<V::Point>(&value.kind)) {
+      c.*point->at = given.vector("").value_or(Vec3::Zero());
+    } else if (const auto* axis = std::get_if<V::Direction>(&value.kind)) {
+      if (const auto d = read_direction(given)) c.*axis->at = d->stableNormalized();
+    } else {
+      c.*std::get<V::Length>(value.kind).at = given.number(positive_number("")).value_or(1.0);
+    }
+  }
+
+  static std::string joined(const std::vector<const char*>& words, const char* between) {
+    std::string text;
+    for (const char* word : words) text += (text.empty() ? "" : between) + std::string(word);
+    return text;
   }
 
   /// False and an error if the name is taken.
@@ -154,7 +184,7 @@ class JobReader {
     choice(*s, i.choice);
     if (const auto v = s->get("at")) i.at = v->vector("");
     if (const auto v = s->get("type"))
-      if (v->word({"rigid", "mean"}) == std::size_t{1}) i.kind = Spider::Kind::mean;
+      if (const auto k = v->word(tie_words)) i.kind = static_cast<Spider::Kind>(*k);
     if (const auto v = s->get("dofs")) i.mask = dofs(*v);
     s->finish();
     o().interfaces.push_back(std::move(i));
@@ -186,18 +216,8 @@ class JobReader {
     o().markers.push_back(std::move(m));
   }
 
-  void selection() {
-    if (const auto v = s_.get("modes")) o().modes = v->integer(0, 10000, "a number of modes");
-    o().max_frequency = s_.number("fmax", positive_number("Hz"), 0.0);
-    o().effective_mass = s_.number("effective_mass", fraction, 0.0);
-    if (!s_.has("modes") && !s_.has("fmax") && !s_.has("effective_mass")) o().modes = default_modes;
-  }
-
-  void reference() {
-    if (const auto v = s_.get("method"))
-      if (const auto w = v->word({"craig_bampton", "free_free", "craig_chang"}))
-        o().method = static_cast<ModeMethod>(*w);
-    const auto v = s_.get("reference");
+  void reference(const char* key) {
+    const auto v = s_.get(key);
     if (!v) return;
     if (v->is_map()) {
       auto s = v->section();
@@ -212,22 +232,9 @@ class JobReader {
         if (k == *name) return;
       node->error("unknown interface '" + *name + "'" +
                   self_.context.errors->suggestion(*name, [&] { return known; }));
-    } else if (const auto w = v->word({"mean_axis", "buckens"})) {
+    } else if (const auto w = v->word(reference_words)) {
       o().reference.kind = static_cast<BodyReference::Kind>(*w);
     }
-  }
-
-  void switches() {
-    if (const auto v = s_.get("integration"))
-      if (v->word({"exact", "ccx"}) == std::size_t{1}) o().integration = Integration::ccx;
-    o().damping_ratio =
-        s_.number("damping", {"a fraction of critical damping from 0 to 1", "", 0.0, 1.0}, 0.0);
-    o().check_free_modes = s_.boolean("free_check", true);
-    o().stresses = s_.boolean("stresses", false);
-    o().keep_projection = s_.boolean("projection", false);
-    if (const auto v = s_.get("solver"))
-      if (const auto w = v->word({"auto", "mumps", "eigen"}))
-        o().solver = static_cast<SparseSolver>(*w);
   }
 
   const ModelInstance& self_;

@@ -26,13 +26,8 @@ struct PartJob {
 BodyFile reduce_part_file(const PartJob& job);
 
 /// Everything that decides the result except the contents of files, as (option, value) in the words
-/// of the command line: equal lists and equal files give equal bodies.
+/// of the command line (part_options.hpp): equal lists and equal files give equal bodies.
 std::vector<std::pair<std::string, std::string>> option_list(const PartJob& job);
-
-/// "BUSH_F" -> 'set:BUSH_F', as on the command line.
-std::string choice_text(const NodeChoice& choice);
-/// "xyz", "x+rz", "all"
-std::string dofs_text(unsigned mask);
 
 /// The unit system; InputError (without a place) that names those known, with did-you-mean.
 UnitSystem unit_system(const std::string& name);
@@ -41,7 +36,5 @@ UnitSystem unit_system(const std::string& name);
 std::string file_hash(const std::filesystem::path& file);
 /// "2026-01-02T03:04:05Z"
 std::string date_now();
-
-const char* word(ModeMethod method) noexcept;
 
 }  // namespace floatframe

@@ -32,11 +32,16 @@ MatX about_centre(const MatX& R, const SparseMatrix& M) {
 
 }  // namespace
 
+std::optional<int> most_normal_modes(const PartOptions& options) {
+  const bool limited = options.max_frequency > 0.0 || options.effective_mass > 0.0;
+  if (options.modes || limited) return options.modes;
+  return default_modes;
+}
+
 Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
                               const std::vector<int>& boundary, const PartOptions& options,
                               std::vector<ModeHealth>& list) {
-  const bool limited = options.max_frequency > 0.0 || options.effective_mass > 0.0;
-  int count = options.modes.value_or(limited ? fixed.inner() : default_modes);
+  int count = most_normal_modes(options).value_or(fixed.inner());
   if (options.max_frequency > 0.0)
     count = std::min(count, fixed.count_below(options.max_frequency));
   const MatX C = about_centre(R, system.M);
@@ -82,8 +87,7 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
 
 Eigenpairs select_free_modes(const FreeStructure& structure, const FeSystem& system,
                              const PartOptions& options, std::vector<ModeHealth>& list) {
-  int count =
-      options.modes.value_or(options.max_frequency > 0.0 ? system.size() - 6 : default_modes);
+  int count = most_normal_modes(options).value_or(system.size() - 6);
   if (options.max_frequency > 0.0)
     count = std::clamp(structure.count_below(options.max_frequency) - 6, 0, count);
   if (count > system.size() - 6) {

@@ -10,6 +10,9 @@
 
 namespace floatframe {
 
+/// The number of normal modes that ends the list; nullopt: the other limits do.
+std::optional<int> most_normal_modes(const PartOptions& options);
+
 /// Modes kept; `list` has them with their effective masses. R: about any point.
 Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
                               const std::vector<int>& boundary, const PartOptions& options,

@@ -1,0 +1,200 @@
+#include "floatframe/parts/part_options.hpp"
+
+#include <fmt/format.h>
+
+#include "floatframe/parts/part_text.hpp"
+#include "floatframe/reduction/mode_selection.hpp"
+
+namespace floatframe {
+namespace {
+
+using O = PartOption;
+using Special = O::Special;
+using Texts = std::vector<std::string>;
+
+/// An enumerator in a member of the job's options.
+template <auto member>
+O::Word enumerator(std::vector<const char*> words, std::optional<int> unwritten = {}) {
+  return {std::move(words), 0,
+          [](const PartJob& job) { return static_cast<int>(job.options.*member); },
+          [](PartJob& job, int k) {
+            auto& value = job.options.*member;
+            value = static_cast<std::remove_reference_t<decltype(value)>>(k);
+          },
+          unwritten};
+}
+
+O::Word dialect() {
+  return {{word(DeckDialect::abaqus), word(DeckDialect::calculix)},
+          static_cast<int>(DeckDialect::abaqus),
+          [](const PartJob& job) { return static_cast<int>(job.read.dialect); },
+          [](PartJob& job, int k) { job.read.dialect = static_cast<DeckDialect>(k); },
+          static_cast<int>(DeckDialect::by_content)};
+}
+
+Special units() {
+  return {Special::What::units, [](const PartJob& job) { return Texts{job.units}; },
+          [](PartJob& job, const std::string& text) {
+            unit_system(text);
+            job.units = text;
+          }};
+}
+
+Special format() {
+  return {Special::What::format,
+          [](const PartJob& job) { return job.format.empty() ? Texts() : Texts{job.format}; },
+          [](PartJob& job, const std::string& text) { job.format = text; }};
+}
+
+Special material() {
+  return {
+      Special::What::material,
+      [](const PartJob& job) {
+        return job.read.material ? Texts{material_text(*job.read.material)} : Texts();
+      },
+      [](PartJob& job, const std::string& text) { job.read.material = material_argument(text); }};
+}
+
+Special interfaces() {
+  return {Special::What::interfaces,
+          [](const PartJob& job) {
+            Texts out;
+            for (const InterfaceDescription& i : job.options.interfaces)
+              out.push_back(interface_text(i));
+            return out;
+          },
+          [](PartJob& job, const std::string& text) {
+            job.options.interfaces.push_back(interface_argument(text));
+          },
+          true};
+}
+
+Special markers() {
+  return {Special::What::markers,
+          [](const PartJob& job) {
+            Texts out;
+            for (const MarkerDescription& m : job.options.markers) out.push_back(marker_text(m));
+            return out;
+          },
+          [](PartJob& job, const std::string& text) {
+            job.options.markers.push_back(marker_argument(text));
+          },
+          true};
+}
+
+Special reference() {
+  return {Special::What::reference,
+          [](const PartJob& job) { return Texts{reference_text(job.options.reference)}; },
+          [](PartJob& job, const std::string& text) {
+            job.options.reference = reference_argument(text);
+          }};
+}
+
+constexpr NumberRule effective_mass{"a number above 0 and up to 1", "", 0.0, 1.0, true};
+constexpr NumberRule damping{"a fraction of critical damping from 0 to 1", "", 0.0, 1.0};
+constexpr WholeNumberRule modes{"a number of modes", 0, 10000};
+
+std::vector<PartOption> list() {
+  using P = PartOptions;
+  using R = FeReadOptions;
+  const int automatic = static_cast<int>(SparseSolver::automatic);
+  return {
+      {"units", "units", "UNITS", "Unit system of PART: mm-t-s, m-kg-s (si), ...; required",
+       units()},
+      {"format", "format", "NAME", "Format of the file; default: by its content", format(), true},
+      {"dialect", "dialect", "WORD",
+       "Whose deck the file is, abaqus or calculix; default: by its content", dialect(), true},
+      {"material", "material", "E,NU,RHO",
+       "young,poisson,density for files without, in their units", material(), true},
+      {"nodes", "nodes", "FILE", "File with the nodes of matrices", O::File{&R::nodes}, true},
+      {"mass", "mass", "FILE", "Mass matrix, if it is not beside the stiffness", O::File{&R::mass},
+       true},
+      {"dofs", "dofs", "FILE", "Dof map of matrices, if not beside them", O::File{&R::dofs}, true},
+      {"interfaces", "interface", "NAME=...", "Where the part is held or driven; repeatable",
+       interfaces()},
+      {"markers", "marker", "NAME=...",
+       "Where loads act (residual) or outputs are taken; repeatable", markers()},
+      {"method", "method", "WORD", "craig_bampton (default), free_free or craig_chang",
+       enumerator<&P::method>({"craig_bampton", "free_free", "craig_chang"})},
+      {"modes", "modes", "N", "Number of normal modes; default 20 if nothing selects them",
+       O::Count{modes, &P::modes, most_normal_modes}},
+      {"fmax", "fmax", "HZ", "All normal modes below this frequency [Hz]",
+       O::Number{positive_number("Hz"), &P::max_frequency}},
+      {"effective_mass", "effective-mass", "FRACTION",
+       "Normal modes until this fraction of the effective mass is reached",
+       O::Number{effective_mass, &P::effective_mass}},
+      {"reference", "reference", "WORD",
+       "Body frame: mean_axis (default), buckens or node:NAME of an interface", reference()},
+      {"integration", "integration", "WORD", "exact (default), or ccx: as CalculiX",
+       enumerator<&P::integration>({"exact", "ccx"})},
+      {"damping", "damping", "FRACTION", "Modal damping, fraction of critical; default 0",
+       O::Number{damping, &P::damping_ratio}},
+      // The solvers differ in rounding, and one that is asked for is to be used.
+      {"solver", "solver", "WORD", "auto (default), mumps or eigen",
+       enumerator<&P::solver>({"auto", "mumps", "eigen"}, automatic)},
+      {"free_check", "no-free-check", "",
+       "No free modes of the full model in the report (saves a factorisation)",
+       O::Switch{&P::check_free_modes, false, true}},
+      {"stresses", "no-stress", "", "No stress modes in the body file",
+       O::Switch{&P::stresses, false, false}},
+      {"projection", "projection", "",
+       "Nodes and mass matrix in the body file, for inertia terms by projection",
+       O::Switch{&P::keep_projection, true, false}}};
+}
+
+/// A new member does not compile here until it is named, and has its entry above.
+[[maybe_unused]] void every_member_has_an_entry(const PartJob& job) {
+  // The content of the file is part of every key.
+  [[maybe_unused]] const auto& [file, format, units, read, options] = job;
+  [[maybe_unused]] const auto& [material, nodes, mass, dofs, dialect] = read;
+  // `progress` decides nothing.
+  [[maybe_unused]] const auto& [interfaces, markers, method, modes, max_frequency, effective_mass,
+                                reference, integration, damping_ratio, check_free_modes, stresses,
+                                keep_projection, solver, progress] = options;
+}
+
+struct Written {
+  const PartJob& job;
+
+  Texts operator()(const O::Number& o) const {
+    const double x = job.options.*o.at;
+    return x != 0.0 ? Texts{fmt::format("{}", x)} : Texts();
+  }
+  Texts operator()(const O::Count& o) const {
+    const std::optional<int> n = o.written(job.options);
+    return n ? Texts{std::to_string(*n)} : Texts();
+  }
+  Texts operator()(const O::Word& o) const {
+    const int k = o.get(job);
+    return k != o.unwritten ? Texts{o.words.at(k - o.first)} : Texts();
+  }
+  Texts operator()(const O::Switch& o) const {
+    return job.options.*o.at == o.flag ? Texts{"true"} : Texts();
+  }
+  Texts operator()(const O::File& o) const {
+    const std::filesystem::path& file = job.read.*o.at;
+    return file.empty() ? Texts() : Texts{file.filename().string()};
+  }
+  Texts operator()(const Special& o) const { return o.texts(job); }
+};
+
+}  // namespace
+
+std::span<const PartOption> part_options() {
+  static const std::vector<PartOption> options = list();
+  return options;
+}
+
+std::vector<std::string> option_texts(const PartOption& option, const PartJob& job) {
+  return std::visit(Written{job}, option.kind);
+}
+
+std::vector<std::filesystem::path> other_files(const PartJob& job) {
+  std::vector<std::filesystem::path> out;
+  for (const PartOption& option : part_options())
+    if (const auto* file = std::get_if<O::File>(&option.kind))
+      if (const auto& path = job.read.*file->at; !path.empty()) out.push_back(path);
+  return out;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,31 @@
+#pragma once
+// How the command line and the provenance of a body write what describes a part. The grammar of a
+// place:
+//   NAME=WAY:VALUE[,KEY=VALUE ...]     BALL=set:BALL   EYE=cylinder:0,0,0,axis=z,radius=12,at=0,0,5
+// A piece between commas without '=' belongs to the value before it, so vectors need no brackets
+// and nothing needs quotes in a shell. Lengths are in the units of the file.
+#include <string>
+
+#include "floatframe/parts/part_job.hpp"
+
+namespace floatframe {
+
+/// How an interface holds its nodes: the words of Spider::Kind.
+inline constexpr const char* tie_words[] = {"rigid", "mean"};
+/// Body references but `node`: the words of BodyReference::Kind.
+inline constexpr const char* reference_words[] = {"mean_axis", "buckens"};
+
+std::string interface_text(const InterfaceDescription& interface);
+std::string marker_text(const MarkerDescription& marker);
+std::string material_text(const Material& material);
+std::string reference_text(const BodyReference& reference);
+/// The texts read again. Each throws InputError with one sentence that names the option and what
+/// was expected.
+InterfaceDescription interface_argument(const std::string& text);
+MarkerDescription marker_argument(const std::string& text);
+/// "young,poisson,density" in the units of the file.
+Material material_argument(const std::string& text);
+/// "mean_axis", "buckens" or "node:NAME"
+BodyReference reference_argument(const std::string& text);
+
+}  // namespace floatframe
