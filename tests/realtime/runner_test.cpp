@@ -251,14 +251,8 @@ class Plain final : public SignalPort {
 template <class F>
 void check_allocations(bool paced) {
   const Model m = model();
-  RelativeFormulation tree(m, InertiaMethod::preprocessing);
-  const State start = relative_start(tree, Start::given);
-  F f(m, InertiaMethod::preprocessing);
-  State state = start;
-  if constexpr (std::is_same_v<F, AbsoluteFormulation>)
-    f.start_from(tree, start.q, start.v, state.q, state.v);
-  const StepOptions step_options = floatframe::step_options(m, m.simulation);
-  start_accelerations(f, state, step_options.penalty_mass);
+  const SimulationDescription d = simulation(0.1, 0.001);
+  SteppedModel<F> steps(m, d, {.duration = d.duration});
   RealTimeOptions options;
   options.paced = paced;
   options.input_timeout = 0.003;
@@ -268,9 +262,8 @@ void check_allocations(bool paced) {
   options.log = &log;
   Plain port;
   RealTimeReport report;
-  RealTimeRunner<F> runner(f, step_options, options, 0.001, 0.1, &port, report);
-  runner.state() = state;
-  MotionWatch<F> watch(f, 0.001);
+  RealTimeRunner<F> runner(steps, options, &port, report);
+  MotionWatch<F> watch(steps.formulation(), d.step);
   runner.watched_by(watch);
   const AllocationScope scope;
   const auto end = runner.run();

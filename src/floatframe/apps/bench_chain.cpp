@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "floatframe/apps/chain_model.hpp"
+#include "floatframe/core/thread_clock.hpp"
 #include "floatframe/math/dense_factorization.hpp"
 #include "floatframe/simulation/simulation.hpp"
 

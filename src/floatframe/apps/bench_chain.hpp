@@ -24,7 +24,7 @@ struct StepTime {
   double least = 0, median = 0;  ///< [s] of processor time per step
   long steps = 0;
   int runs = 0;
-  StepCounts counts;  ///< of one run
+  StepCounters counts;  ///< of one run
 };
 
 /// The largest of 1, 2, 5, 10, 20, ... that is not above n.

@@ -5,6 +5,7 @@
 
 #include "floatframe/apps/chain_model.hpp"
 #include "floatframe/apps/solid_link.hpp"
+#include "floatframe/core/thread_clock.hpp"
 #include "floatframe/math/dense_factorization.hpp"
 #include "floatframe/reduction/reduction.hpp"
 #include "floatframe/simulation/simulation.hpp"

@@ -70,7 +70,7 @@ int run_steps(const StepArguments& a) {
   const long steps = a.iterations > 0 ? 0 : std::max(1L, std::lround(o.duration / o.step));
   if (!floatframe_counted_steps(stepper.get(), steps, a.iterations))
     throw RunError(stepper->failure());
-  const StepCounts c = stepper->counts();
+  const StepCounters c = stepper->counts();
   if (!a.json_file.empty()) {
     const nlohmann::ordered_json json = {{"model", model.name},
                                          {"coordinates", word(o.coordinates)},

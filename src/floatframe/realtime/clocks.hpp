@@ -5,25 +5,13 @@
 // time stolen by the hypervisor may count as processor time; only the host can tell.)
 #include <time.h>
 
-#include <cstdint>
+#include "floatframe/core/thread_clock.hpp"
 
 namespace floatframe {
-
-using Nanoseconds = std::int64_t;
-
-inline Nanoseconds nanoseconds(const timespec& t) noexcept {
-  return static_cast<Nanoseconds>(t.tv_sec) * 1'000'000'000 + t.tv_nsec;
-}
 
 inline Nanoseconds wall_clock() noexcept {
   timespec t{};
   clock_gettime(CLOCK_MONOTONIC, &t);
-  return nanoseconds(t);
-}
-
-inline Nanoseconds thread_cpu_clock() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return nanoseconds(t);
 }
 

@@ -6,31 +6,32 @@
 #include "floatframe/realtime/realtime_runner.hpp"
 #include "floatframe/realtime/scheduling.hpp"
 #include "floatframe/simulation/forcing.hpp"
-#include "floatframe/simulation/initial_state.hpp"
-#include "floatframe/simulation/light_motion.hpp"
-#include "floatframe/simulation/simulation.hpp"
-#include "floatframe/simulation/start_up.hpp"
+#include "floatframe/simulation/run_error.hpp"
+#include "floatframe/simulation/stepped_model.hpp"
 
 namespace floatframe {
 namespace {
 
-StepOptions bounded(StepOptions s, const RealTimeOptions& options) {
-  s.fixed_iterations = options.fixed_iterations;
-  s.time_budget = options.time_budget;
-  return s;
+/// A step may be divided into few parts only, or into none: its work is bounded.
+StepLimits limits(const SimulationDescription& d, const RealTimeOptions& options) {
+  constexpr double smallest_part = 0.125;
+  StepLimits l;
+  l.duration = options.endless ? TimeGrid::endless : d.duration;
+  l.min_step = options.fixed_iterations > 0 ? d.step : smallest_part * d.step;
+  l.fixed_iterations = options.fixed_iterations;
+  l.time_budget = options.time_budget;
+  return l;
 }
 
 /// A few steps of a second system of the same kind: program pages are mapped, calls into libraries
 /// are resolved, caches and branch predictors know the code. Nothing of it touches the run.
 template <class F>
-void warm_up(const Model& model, const SimulationDescription& d, const StepOptions& step_options,
-             const State& start) {
-  F f(model, d.inertia);
+void warm_up(const SteppedModel<F>& model) {
+  SteppedModel<F> second(model, 20.0 * model.grid().step());
   RealTimeReport report;
   RealTimeOptions options;
   options.paced = false;
-  RealTimeRunner<F> runner(f, step_options, options, d.step, 20.0 * d.step, nullptr, report);
-  runner.state() = start;
+  RealTimeRunner<F> runner(second, options, nullptr, report);
   runner.run();
   runner.sample();
 }
@@ -38,14 +39,10 @@ void warm_up(const Model& model, const SimulationDescription& d, const StepOptio
 template <class F>
 void run_with(const Model& given, const SimulationDescription& d, const RealTimeOptions& options,
               SignalPort* port, RealTimeReport& report) {
-  StartedModel<F> started(given, d);
-  F& f = started.formulation();
-  const State& start = started.state();
-  report.start = started.report();
-  const StepOptions step_options = bounded(started.step_options(), options);
-  RealTimeRunner<F> runner(f, step_options, options, d.step, d.duration, port, report);
-  runner.state() = start;
-  MotionWatch<F> watch(f, d.step);
+  SteppedModel<F> steps(given, d, limits(d, options));
+  report.start = steps.start_report();
+  RealTimeRunner<F> runner(steps, options, port, report);
+  MotionWatch<F> watch(steps.formulation(), d.step);
   if (options.watch) runner.watched_by(watch);
   const RealTimeScheduling scheduling({options.priority, options.lock_memory});
   report.priority = scheduling.has_priority();
@@ -56,7 +53,7 @@ void run_with(const Model& given, const SimulationDescription& d, const RealTime
   End end = End::completed;
   {
     const FlushDenormals flush;
-    if (options.paced) warm_up<F>(f.model(), d, step_options, start);
+    if (options.paced) warm_up(steps);
     const double stolen_before = stolen_time();
     end = runner.run();
     report.stolen = stolen_time() - stolen_before;
@@ -69,13 +66,12 @@ void run_with(const Model& given, const SimulationDescription& d, const RealTime
       break;
     case End::failed:
       report.status = "failed";
-      report.message = runner.failure();
-      report.message += light_motion_note(f, runner.state());  // moves f
+      report.message = steps.failure();
       break;
     case End::no_inputs:
       report.status = "failed";
       report.message =
-          fmt::format("no inputs came in answer to the outputs at t = {:.9g} s", runner.state().t);
+          fmt::format("no inputs came in answer to the outputs at t = {:.9g} s", report.time);
       break;
     case End::silent:
       report.status = "failed";
@@ -84,7 +80,8 @@ void run_with(const Model& given, const SimulationDescription& d, const RealTime
       break;
   }
   if (options.watch) {
-    report.warnings = unresolved_forcing(f.model(), d.step, start.t, report.time - start.t);
+    report.warnings =
+        unresolved_forcing(steps.model(), d.step, steps.begin(), report.time - steps.begin());
     const auto left = watch.range().warnings(EnergySummary(), d.spectral_radius);
     report.warnings.insert(report.warnings.end(), left.begin(), left.end());
   }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "floatframe/realtime/input_watch.hpp"
@@ -13,37 +12,31 @@
 #include "floatframe/realtime/realtime_rules.hpp"
 #include "floatframe/realtime/signal_log.hpp"
 #include "floatframe/simulation/motion_watch.hpp"
-#include "floatframe/simulation/runner.hpp"
+#include "floatframe/simulation/stepped_model.hpp"
 
 namespace floatframe {
 
 template <class F>
 class RealTimeRunner {
  public:
-  /// `step`, `duration` [s]; `report` is filled by `run`.
-  RealTimeRunner(F& formulation, const StepOptions& step_options, const RealTimeOptions& options,
-                 double step, double duration, SignalPort* port, RealTimeReport& report)
-      : f_(formulation),
-        runner_(formulation, step_options,
-                step_options.fixed_iterations > 0 ? step : smallest_part * step),
+  /// Makes the steps of the grid of `model`; `report` is filled by `run`.
+  RealTimeRunner(SteppedModel<F>& model, const RealTimeOptions& options, SignalPort* port,
+                 RealTimeReport& report)
+      : f_(model.formulation()),
+        steps_(model),
         options_(options),
-        step_(step),
-        duration_(duration),
         port_(port),
-        inputs_(formulation.model()),
-        row_(formulation.model().outputs.size() + 1, 0.0),
+        inputs_(model.model()),
+        row_(model.model().outputs.size() + 1, 0.0),
         report_(report) {}
 
-  State& state() noexcept { return runner_.state(); }
   /// Looks at the start and after every step whose end the formulation holds, else at two steps of
   /// every `watch_every`. What it finds is read after `run`.
   void watched_by(MotionWatch<F>& watch) noexcept { watch_ = &watch; }
   const InputBuffer& inputs() const noexcept { return inputs_; }
-  /// The cause of a failed step (allocates: after `run`).
-  std::string failure() const { return runner_.failure(); }
   /// Time and outputs at the present state.
   std::span<const double> sample() noexcept {
-    runner_.sample(row_.data());
+    steps_.sample(row_.data());
     return row_;
   }
 
@@ -55,18 +48,19 @@ class RealTimeRunner {
     const rusage after = usage();
     report_.preemptions = after.ru_nivcsw - before.ru_nivcsw;
     report_.page_faults = after.ru_minflt - before.ru_minflt + after.ru_majflt - before.ru_majflt;
-    report_.substeps = runner_.substeps();
-    report_.iterations = runner_.iterations();
-    report_.factorizations = runner_.factorizations();
-    report_.cut_short = runner_.cut_short();
-    report_.max_position_violation = runner_.max_position_violation();
-    report_.max_velocity_violation = runner_.max_velocity_violation();
-    report_.time = runner_.state().t;
+    const StepCounters& c = steps_.counters();
+    report_.steps = c.steps;
+    report_.substeps = c.substeps;
+    report_.iterations = c.iterations;
+    report_.factorizations = c.factorizations;
+    report_.cut_short = c.cut_short;
+    report_.max_position_violation = c.max_position_violation;
+    report_.max_velocity_violation = c.max_velocity_violation;
+    report_.time = steps_.state().t;
     return end;
   }
 
  private:
-  static constexpr double smallest_part = 0.125;
   /// Evaluating the end of a step once more costs some per cent of a step. A number of steps that
   /// hardly any vibration of four or five steps fits into.
   static constexpr long watch_every = 17;
@@ -81,12 +75,10 @@ class RealTimeRunner {
   }
 
   End loop() noexcept {
-    const double begin = runner_.state().t;
-    const long steps = options_.endless ? std::numeric_limits<long>::max()
-                                        : std::lround(std::ceil(duration_ / step_ - 1e-9));
-    const double h = 1e9 * std::min(step_, realtime_rules::longest_step);
+    const long steps = steps_.grid().steps();
+    const double h = 1e9 * std::min(steps_.grid().step(), realtime_rules::longest_step);
     const auto period = static_cast<Nanoseconds>(h);
-    InputWatch watch(options_, step_,
+    InputWatch watch(options_, steps_.grid().step(),
                      port_ != nullptr && port_->gives_inputs() && inputs_.size() > 0, report_);
     f_.set_inputs(inputs_.values());
     send(0, steps == 0);
@@ -109,31 +101,27 @@ class RealTimeRunner {
         end = End::silent;
         break;
       }
-      // Steps of one and the same size; only the last may be a part of one.
-      const bool part = k + 1 == steps && static_cast<double>(steps) * step_ > duration_;
-      const double to = begin + (part ? duration_ : static_cast<double>(k + 1) * step_);
-      const long iterations = runner_.iterations();
-      const bool good = runner_.advance(part ? duration_ - static_cast<double>(k) * step_ : step_);
+      const long iterations = steps_.counters().iterations;
+      const PlannedStep planned = steps_.grid().next();
+      const bool good = steps_.advance(planned);
       if (good) {
-        runner_.state().t = to;
-        ++report_.steps;
         const bool sampled = send(static_cast<std::uint64_t>(k) + 1, k + 1 == steps);
-        watch_step(k, sampled, !part);
+        watch_step(k, sampled, planned.whole);
       }
       const Nanoseconds cpu = thread_cpu_clock() - cpu_begin;
       const Nanoseconds wall_end = wall_clock();
-      count(cpu, wall_end - wall_begin, period, runner_.iterations() - iterations);
+      count(cpu, wall_end - wall_begin, period, steps_.counters().iterations - iterations);
       if (options_.paced && wall_end > due + period) ++report_.late_steps;
       if (options_.progress != nullptr)
-        options_.progress->store(runner_.state().t, std::memory_order_relaxed);
+        options_.progress->store(steps_.state().t, std::memory_order_relaxed);
       if (!good) {
         end = End::failed;
         break;
       }
     }
     report_.wall = 1e-9 * static_cast<double>(wall_clock() - start);
-    watch.finish(runner_.state().t);
-    if (end != End::completed) send(static_cast<std::uint64_t>(report_.steps), true);
+    watch.finish(steps_.state().t);
+    if (end != End::completed) send(static_cast<std::uint64_t>(steps_.counters().steps), true);
     return end;
   }
 
@@ -159,7 +147,7 @@ class RealTimeRunner {
   /// Inputs that have come, or what is done without. False: the run ends for it.
   bool take_inputs(InputWatch& watch) noexcept {
     if (port_ != nullptr && port_->receive(inputs_)) {
-      watch.came(runner_.state().t);
+      watch.came(steps_.state().t);
       f_.set_inputs(inputs_.values());
     } else if (watch.missed()) {
       if (options_.fallback == SilenceFallback::stop && report_.inputs_came) return false;
@@ -174,7 +162,7 @@ class RealTimeRunner {
   void count(Nanoseconds cpu, Nanoseconds elapsed, Nanoseconds period, long iterations) noexcept {
     const double seconds = 1e-9 * static_cast<double>(cpu);
     if (seconds > report_.cpu.max()) {
-      report_.worst_cpu_at = runner_.state().t;
+      report_.worst_cpu_at = steps_.state().t;
       report_.worst_cpu_iterations = iterations;
     }
     const auto most = static_cast<long>(report_.by_iterations.size()) - 1;
@@ -193,8 +181,8 @@ class RealTimeRunner {
   void watch_start() noexcept {
     if (watch_ == nullptr) return;
     evaluate();
-    watch_->look(state());
-    watch_->start(state());
+    watch_->look(steps_.state());
+    watch_->start(steps_.state());
   }
 
   /// After the outputs are gone: nobody waits for it. Phases are those of one step.
@@ -205,16 +193,17 @@ class RealTimeRunner {
     const long turn = held ? 1 : step % watch_every;
     if (turn > 1) return;
     if (!held) evaluate();
-    watch_->look(state());
+    watch_->look(steps_.state());
     if (turn == 0)
-      watch_->start(state());
+      watch_->start(steps_.state());
     else if (full)
-      watch_->follow(state());
+      watch_->follow(steps_.state());
   }
 
   void evaluate() noexcept {
-    f_.positions(state().t, state().q);
-    f_.velocities(state().v);
+    const State& state = steps_.state();
+    f_.positions(state.t, state.q);
+    f_.velocities(state.v);
   }
 
   /// Outputs to the port and, once for each state, inputs and outputs to the log. True: sampled.
@@ -222,7 +211,7 @@ class RealTimeRunner {
     const bool wanted = port_ != nullptr && port_->wants_outputs();
     const bool logged = options_.log != nullptr && step == next_logged_;
     if (!wanted && !logged) return false;
-    runner_.sample(row_.data());
+    steps_.sample(row_.data());
     const std::span<const double> outputs = std::span<const double>(row_).subspan(1);
     if (wanted) port_->send(step, row_[0], outputs, last);
     if (!logged) return true;
@@ -232,9 +221,8 @@ class RealTimeRunner {
   }
 
   F& f_;
-  Runner<F> runner_;
+  SteppedModel<F>& steps_;
   RealTimeOptions options_;
-  double step_, duration_;
   SignalPort* port_;
   InputBuffer inputs_;
   std::vector<double> row_;

@@ -4,19 +4,10 @@
 #include <string>
 
 #include "floatframe/model/model.hpp"
+#include "floatframe/simulation/energies.hpp"
+#include "floatframe/simulation/step_report.hpp"
 
 namespace floatframe {
-
-/// Sums since the start or the last `restart`.
-struct StepCounts {
-  long steps = 0, iterations = 0, factorizations = 0;
-  long substeps = 0;  ///< by halving of steps that did not converge
-};
-
-struct Energies {
-  double kinetic = 0, potential = 0, elastic = 0;  ///< [J]
-  double total() const noexcept { return kinetic + potential + elastic; }
-};
 
 /// One combination of coordinates and inertia method.
 class BenchStepper {
@@ -31,16 +22,15 @@ class BenchStepper {
   /// Full Newton iterations at the present state, which stays as it is: kinematics, inertia terms,
   /// forces, residual, factorisation, solution.
   virtual void iterate(long iterations) noexcept = 0;
-  virtual StepCounts counts() const noexcept = 0;
+  /// Since the start or the last `restart`.
+  virtual StepCounters counts() const noexcept = 0;
   /// Velocities of the formulation.
   virtual int freedoms() const noexcept = 0;
-  /// Rounded to whole steps [s].
-  virtual double time() const noexcept = 0;
   /// Time and the model's outputs in their order.
   virtual VecX sample() = 0;
   virtual Energies energies() = 0;
   /// Why the last `advance` failed, in words.
-  virtual std::string failure() const = 0;
+  virtual std::string failure() = 0;
 };
 
 /// Finds the start of the run. The model must outlive the stepper. Throws InputError, RunError.
@@ -49,8 +39,5 @@ std::unique_ptr<BenchStepper> make_bench_stepper(const Model& model,
 
 /// Least time of one full Newton iteration [s of processor time], measured for about `seconds`.
 double time_iteration(BenchStepper& stepper, double seconds);
-
-/// Processor time of this thread [s].
-double thread_seconds() noexcept;
 
 }  // namespace floatframe

@@ -58,7 +58,10 @@ class Runner {
     StepAttempt r = integrator_.step(state_, h);
     count(r);
     last_ = r;
-    if (r.accepted()) return true;
+    if (r.accepted()) {
+      ++memory_.counters.steps;
+      return true;
+    }
     double remaining = h, sub = 0.5 * h;
     const double end = state_.t + h;
     while (remaining > 1e-9 * h) {
@@ -76,6 +79,7 @@ class Runner {
       }
     }
     state_.t = end;
+    ++memory_.counters.steps;
     return true;
   }
   /// The same with a smallest substep for this step and those after it.

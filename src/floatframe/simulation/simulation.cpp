@@ -3,30 +3,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <ctime>
 #include <optional>
 
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/core/thread_clock.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/simulation/forcing.hpp"
 #include "floatframe/simulation/initial_state.hpp"
-#include "floatframe/simulation/light_motion.hpp"
 #include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/run_watch.hpp"
-#include "floatframe/simulation/runner.hpp"
-#include "floatframe/simulation/start_up.hpp"
-#include "floatframe/simulation/system_state.hpp"
+#include "floatframe/simulation/stepped_model.hpp"
 
 namespace floatframe {
 
 namespace {
-
-double cpu_seconds() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 RunSummary summary_of(const std::string& model, const SimulationDescription& o) {
   RunSummary s;
@@ -44,35 +35,34 @@ class Run {
   Run(const Model& given, const SimulationDescription& o, const RunOptions& options)
       : o_(o),
         options_(options),
-        start_(given, o),
-        f_(start_.formulation()),
-        runner_(f_, start_.step_options(), start_.min_step()),
-        begin_(start_.state().t),
-        steps_(std::max(0L, std::lround(std::ceil(o.duration / o.step - 1e-9)))),
+        steps_(given, o, {.duration = o.duration}),
+        planned_(steps_.grid().steps()),
         every_(o.output_interval > 0.0 ? std::max(1L, std::lround(o.output_interval / o.step))
                                        : 1) {
     RunSummary& s = result_.summary;
-    s = summary_of(start_.model().name, o);
-    s.start = start_.report();
-    runner_.state() = start_.state();
-    EnergySummary& e = s.energy;
-    energies(e.kinetic_start, e.potential_start, e.elastic_start, e.total_start);
+    s = summary_of(steps_.model().name, o);
+    s.start = steps_.start_report();
+    const Energies e = steps_.energies();
+    s.energy.kinetic_start = e.kinetic;
+    s.energy.potential_start = e.potential;
+    s.energy.elastic_start = e.elastic;
+    s.energy.total_start = e.total();
     begin_table();
     if (options.keep_state) {
-      joints_.emplace(start_.model());
-      system_state(f_, runner_.state(), *joints_);
+      joints_.emplace(steps_.model());
+      joints_->follow(steps_.formulation(), steps_.state());
     }
     if (options.record && options.watch) {
-      watch_.emplace(f_, o.step, steps_ / every_);
-      watch_->start(runner_.state());
+      watch_.emplace(steps_.formulation(), o.step, planned_ / every_);
+      watch_->start(steps_.state());
     }
   }
 
   RunResult result() {
-    const long report_every = std::max(1L, steps_ / 100);
-    for (long k = 0; k < steps_ && step(k); ++k)
-      if (options_.progress && (k + 1) % report_every == 0)
-        options_.progress(static_cast<double>(k + 1) / static_cast<double>(steps_));
+    const long report_every = std::max(1L, planned_ / 100);
+    for (long k = 1; k <= planned_ && step(k); ++k)
+      if (options_.progress && k % report_every == 0)
+        options_.progress(static_cast<double>(k) / static_cast<double>(planned_));
     finish();
     return std::move(result_);
   }
@@ -81,79 +71,64 @@ class Run {
   void begin_table() {
     ResultTable& table = result_.table;
     table.columns.push_back({"time", "s"});
-    for (const Output& out : start_.model().outputs) table.columns.push_back({out.name, out.unit});
+    for (const Output& out : steps_.model().outputs) table.columns.push_back({out.name, out.unit});
     if (!options_.record) return;
-    table.data.assign((static_cast<std::size_t>(steps_ / every_) + 3) * table.columns.size(), 0.0);
+    table.data.assign((static_cast<std::size_t>(planned_ / every_) + 3) * table.columns.size(),
+                      0.0);
     sample();
   }
 
   void sample() noexcept {
     ResultTable& table = result_.table;
-    runner_.sample(table.data.data() + table.columns.size() * rows_++);
+    steps_.sample(table.data.data() + table.columns.size() * rows_++);
   }
 
-  /// False: it failed.
+  /// Step k, counted from 1. False: it failed.
   bool step(long k) {
     RunSummary& s = result_.summary;
-    const double from = begin_ + static_cast<double>(k) * o_.step;
-    const double to = std::min(begin_ + static_cast<double>(k + 1) * o_.step, begin_ + o_.duration);
-    const double before = cpu_seconds();
-    // Exactly the step, not a difference of times that varies in its last bits.
-    const bool part = to - from < (1.0 - 1e-9) * o_.step;
-    const bool good = runner_.advance(part ? to - from : o_.step);
-    const bool sampled = good && options_.record && ((k + 1) % every_ == 0 || k + 1 == steps_);
-    if (good) {
-      runner_.state().t = to;
-      ++s.steps;
-      if (sampled) sample();
-    }
-    s.cpu += cpu_seconds() - before;
-    if (good && joints_) joints_->follow(f_, runner_.state());
-    if (good && watch_) watch_->step(runner_.state(), runner_.reactions(), sampled, !part);
+    const Nanoseconds before = thread_cpu_clock();
+    const PlannedStep planned = steps_.grid().next();
+    const bool good = steps_.advance(planned);
+    const bool sampled = good && options_.record && (k % every_ == 0 || k == planned_);
+    if (sampled) sample();
+    s.cpu += 1e-9 * static_cast<double>(thread_cpu_clock() - before);
+    if (good && joints_) joints_->follow(steps_.formulation(), steps_.state());
+    if (good && watch_) watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole);
     if (good) return true;
     s.status = "failed";
-    s.message = runner_.failure();
-    s.message += light_motion_note(f_, runner_.state());  // moves f_
+    s.message = steps_.failure();
     return false;
   }
 
   void finish() {
     RunSummary& s = result_.summary;
     result_.table.data.resize(rows_ * result_.table.columns.size());
-    s.duration = runner_.state().t - begin_;
-    s.substeps = runner_.substeps();
-    s.iterations = runner_.iterations();
-    s.factorizations = runner_.factorizations();
+    const StepCounters& c = steps_.counters();
+    s.duration = steps_.state().t - steps_.begin();
+    s.steps = c.steps;
+    s.substeps = c.substeps;
+    s.iterations = c.iterations;
+    s.factorizations = c.factorizations;
     s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
-    s.max_position_violation = runner_.max_position_violation();
-    s.max_velocity_violation = runner_.max_velocity_violation();
-    EnergySummary& e = s.energy;
-    energies(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end);
-    if (joints_) {
-      result_.state = std::make_shared<SystemState>(system_state(f_, runner_.state(), *joints_));
-      place_bodies(start_.model(), o_.inertia, *result_.state);
-    }
+    s.max_position_violation = c.max_position_violation;
+    s.max_velocity_violation = c.max_velocity_violation;
+    const Energies e = steps_.energies();
+    s.energy.kinetic_end = e.kinetic;
+    s.energy.potential_end = e.potential;
+    s.energy.elastic_end = e.elastic;
+    s.energy.total_end = e.total();
+    if (joints_) result_.state = std::make_shared<SystemState>(steps_.system_state(*joints_));
     if (!watch_) return;
-    watch_->finish(runner_.state(), o_.spectral_radius, s);
-    const auto unresolved = unresolved_forcing(start_.model(), o_.step, begin_, o_.duration);
+    watch_->finish(steps_.state(), o_.spectral_radius, s);
+    const auto unresolved =
+        unresolved_forcing(steps_.model(), o_.step, steps_.begin(), o_.duration);
     s.warnings.insert(s.warnings.begin(), unresolved.begin(), unresolved.end());
-  }
-
-  /// At the present state, to which the formulation is brought.
-  void energies(double& kinetic, double& potential, double& elastic, double& total) noexcept {
-    potential = runner_.potential_energy();  // brings it there
-    elastic = runner_.elastic_energy();
-    kinetic = runner_.kinetic_energy();
-    total = kinetic + potential + elastic;
   }
 
   const SimulationDescription& o_;
   const RunOptions& options_;
-  StartedModel<F> start_;
-  F& f_;
-  Runner<F> runner_;
-  const double begin_;
-  const long steps_, every_;  ///< every so many steps are sampled
+  SteppedModel<F> steps_;
+  const long planned_, every_;  ///< every so many of the planned steps are sampled
   RunResult result_;
   std::size_t rows_ = 0;
   std::optional<JointFollower> joints_;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/simulation/runner.hpp"
 #include "floatframe/simulation/simulation_state.hpp"
+#include "floatframe/simulation/stepped_model.hpp"
 
 namespace floatframe {
 
@@ -16,13 +16,8 @@ struct SimulationState::Data {
   double step = 0.0, spectral_radius = 0.0, tolerance = 0.0, min_step = 0.0, penalty = 0.0;
   double position_tolerance = 0.0, velocity_tolerance = 0.0;
 
-  /// Times of steps are base + k step, so that rounding does not add up.
-  double base = 0.0;
-  std::int64_t steps_since_base = 0;
-  State state;
-  std::vector<double> spring_angles;  ///< turns of joint springs
+  SteppedMemory steps;
   std::vector<double> inputs;
-  RunnerMemory memory;
   std::vector<double> row;     ///< time and outputs
   std::vector<double> joints;  ///< coordinates, turns counted, and rates
   double joints_time = 0.0;

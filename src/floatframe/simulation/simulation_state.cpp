@@ -24,18 +24,19 @@ std::string checksum(std::span<const std::byte> bytes) {
 /// The content in one order, for writing and for reading.
 template <class Stream, class Data>
 void walk(Stream& s, Data& d) {
+  auto& m = d.steps;
   s(d.fingerprint);
-  for (auto* n : {&d.coordinates, &d.inertia, &d.max_iterations, &d.steps_since_base}) s(*n);
+  for (auto* n : {&d.coordinates, &d.inertia, &d.max_iterations, &m.since_base}) s(*n);
   for (auto* x :
        {&d.step, &d.spectral_radius, &d.tolerance, &d.min_step, &d.penalty, &d.position_tolerance,
-        &d.velocity_tolerance, &d.base, &d.joints_time, &d.state.t})
+        &d.velocity_tolerance, &m.base, &d.joints_time, &m.state.t})
     s(*x);
-  for (auto* v : {&d.state.q, &d.state.v, &d.state.a, &d.state.a_alg, &d.state.lambda}) s(*v);
-  for (auto* v : {&d.spring_angles, &d.inputs, &d.row, &d.joints}) s(*v);
-  s(d.memory.experience.continues_at);
-  s(d.memory.experience.reuse_rate);
-  s(d.memory.outputs);
-  auto& c = d.memory.counters;
+  for (auto* v : {&m.state.q, &m.state.v, &m.state.a, &m.state.a_alg, &m.state.lambda}) s(*v);
+  for (auto* v : {&m.spring_angles, &d.inputs, &d.row, &d.joints}) s(*v);
+  s(m.runner.experience.continues_at);
+  s(m.runner.experience.reuse_rate);
+  s(m.runner.outputs);
+  auto& c = m.runner.counters;
   for (auto* n : {&c.steps, &c.substeps, &c.iterations, &c.factorizations, &c.cut_short}) s(*n);
   s(c.max_position_violation);
   s(c.max_velocity_violation);
@@ -128,7 +129,7 @@ class StateReader {
 
 }  // namespace
 
-double SimulationState::time() const noexcept { return data_ ? data_->state.t : 0.0; }
+double SimulationState::time() const noexcept { return data_ ? data_->steps.state.t : 0.0; }
 
 std::vector<std::byte> SimulationState::to_bytes() const {
   if (!data_) throw InputError("found a saved state that is empty, expected one of a simulation");

@@ -3,6 +3,7 @@
 // ask for, a formulation, the state at the start with loops closed or in equilibrium, accelerations
 // and constraint forces, the options of the integrator.
 #include <optional>
+#include <vector>
 
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
@@ -17,12 +18,14 @@ class StartedModel {
   /// The options must be valid (`require_valid`); the model must outlive this. Throws InputError
   /// for a state of another model, RunError if the start cannot be.
   StartedModel(const Model& given, const SimulationDescription& options);
-  StartedModel(const StartedModel&) = delete;
+  /// Another system at the start of `found`, which must outlive it: nothing is searched for again.
+  StartedModel(const StartedModel& found);
   StartedModel& operator=(const StartedModel&) = delete;
 
   /// That of the formulation: with the start values of the state, if the run starts from one.
   const Model& model() const noexcept { return changed_ ? *changed_ : given_; }
   F& formulation() noexcept { return f_; }
+  InertiaMethod inertia() const noexcept { return inertia_; }
   const State& state() const noexcept { return state_; }
   const StartReport& report() const noexcept { return report_; }
   const StepOptions& step_options() const noexcept { return step_options_; }
@@ -32,8 +35,10 @@ class StartedModel {
  private:
   const Model& given_;
   std::optional<Model> changed_;
+  InertiaMethod inertia_;
   F f_;
   State state_;
+  std::vector<double> spring_angles_;  ///< at the start: the turns that springs count from
   StartReport report_;
   StepOptions step_options_;
   double min_step_;

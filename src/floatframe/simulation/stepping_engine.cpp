@@ -89,14 +89,11 @@ StepStatus Simulation::Engine::call_back(std::string_view& where) noexcept {
   return StepStatus::completed;
 }
 
-StepReport Simulation::Engine::made(double h, bool regular) noexcept {
+StepReport Simulation::Engine::made(const PlannedStep& step) noexcept {
   if (busy_) return refused(StepStatus::busy);
   if (failed_) return refused(StepStatus::failed_before, last_.where);
-  const double from = time();
-  const double to =
-      regular ? base_ + static_cast<double>(steps_since_base_ + 1) * o_.step : from + h;
-  if (!(h > 0.0) || !std::isfinite(to) || !(to > from)) {
-    refused_value_ = h;
+  if (!(step.size > 0.0) || !std::isfinite(step.to) || !(step.to > time())) {
+    refused_value_ = step.size;
     return refused(StepStatus::invalid_step);
   }
   if (callback_) {
@@ -104,7 +101,7 @@ StepReport Simulation::Engine::made(double h, bool regular) noexcept {
     if (const StepStatus s = call_back(where); s != StepStatus::completed) return refused(s, where);
   }
   const StepCounters before = counters();
-  const bool good = advance(h, to);
+  const bool good = advance(step);
   const StepCounters after = counters();
   last_ = StepReport();
   last_.iterations = static_cast<int>(after.iterations - before.iterations);
@@ -113,15 +110,7 @@ StepReport Simulation::Engine::made(double h, bool regular) noexcept {
   last_.position_violation = attempt().position_violation;
   last_.velocity_violation = attempt().velocity_violation;
   last_.time = time();
-  if (good) {
-    if (regular) {
-      ++steps_since_base_;
-    } else {
-      base_ = to;
-      steps_since_base_ = 0;
-    }
-    return last_;
-  }
+  if (good) return last_;
   failed_ = true;
   sentence_.clear();
   const Place p = place();

@@ -1,6 +1,6 @@
 #pragma once
 // What is behind a Simulation: the part that knows no formulation, and what it asks of the one that
-// does. One virtual call per step.
+// does. A few virtual calls per step, none within.
 #include <exception>
 
 #include "floatframe/model/input_value.hpp"
@@ -24,8 +24,8 @@ class Simulation::Engine {
     return std::span<const double>(row_).subspan(1);
   }
 
-  StepReport step() noexcept { return made(o_.step, true); }
-  StepReport step(double size) noexcept { return made(size, size == o_.step); }
+  StepReport step() noexcept { return made(grid().next()); }
+  StepReport step(double size) noexcept { return made(grid().of_size(size, time())); }
   std::string failure();
   void set_input(std::size_t index, double value);
   void on_force(ForceCallback callback);
@@ -45,8 +45,9 @@ class Simulation::Engine {
     int owner = -1;
     double time = 0.0;  ///< that was reached [s]
   };
-  /// Makes a step of size h that ends at `to`, and samples there. False if it failed.
-  virtual bool advance(double h, double to) noexcept = 0;
+  virtual const TimeGrid& grid() const noexcept = 0;
+  /// Makes a step and samples at its end. False if it failed.
+  virtual bool advance(const PlannedStep& step) noexcept = 0;
   virtual Place place() const noexcept = 0;
   virtual const StepAttempt& attempt() const noexcept = 0;
   /// In words, of the step that has just failed.
@@ -59,10 +60,9 @@ class Simulation::Engine {
   std::vector<std::string> owners_;  ///< of coordinates, then constraints, then forces
   std::vector<double> row_;          ///< time and outputs
   std::vector<double> inputs_;
-  double base_ = 0.0;
 
  private:
-  StepReport made(double h, bool regular) noexcept;
+  StepReport made(const PlannedStep& step) noexcept;
   StepStatus call_back(std::string_view& where) noexcept;
   StepReport refused(StepStatus status, std::string_view where = {}) noexcept;
   const std::string& fingerprint();
@@ -71,7 +71,6 @@ class Simulation::Engine {
 
   const Model model_;
   const SimulationDescription o_;
-  std::int64_t steps_since_base_ = 0;
   bool failed_ = false, busy_ = false;
   StepReport last_;
   ForceCallback callback_;

@@ -64,8 +64,6 @@ std::shared_ptr<SimulationState::Data> Simulation::Engine::present() {
   data->penalty = o_.penalty;
   data->position_tolerance = o_.position_tolerance;
   data->velocity_tolerance = o_.velocity_tolerance;
-  data->base = base_;
-  data->steps_since_base = steps_since_base_;
   data->inputs = inputs_;
   data->row = row_;
   collect(*data);
@@ -104,12 +102,12 @@ std::string Simulation::Engine::complaint(const SimulationState::Data& d,
     return fmt::format("is damaged: {} {}", name, what);
   };
   for (const NamedNumbers& x : std::initializer_list<NamedNumbers>{
-           {"coordinates", numbers(d.state.q), numbers(own.state.q)},
-           {"velocities", numbers(d.state.v), numbers(own.state.v)},
-           {"accelerations", numbers(d.state.a), numbers(own.state.a)},
-           {"accelerations", numbers(d.state.a_alg), numbers(own.state.a_alg)},
-           {"multipliers", numbers(d.state.lambda), numbers(own.state.lambda)},
-           {"spring angles", d.spring_angles, own.spring_angles},
+           {"coordinates", numbers(d.steps.state.q), numbers(own.steps.state.q)},
+           {"velocities", numbers(d.steps.state.v), numbers(own.steps.state.v)},
+           {"accelerations", numbers(d.steps.state.a), numbers(own.steps.state.a)},
+           {"accelerations", numbers(d.steps.state.a_alg), numbers(own.steps.state.a_alg)},
+           {"multipliers", numbers(d.steps.state.lambda), numbers(own.steps.state.lambda)},
+           {"spring angles", d.steps.spring_angles, own.steps.spring_angles},
            {"inputs", d.inputs, own.inputs},
            {"joint coordinates", d.joints, own.joints},
            {"outputs", d.row, own.row}}) {
@@ -117,17 +115,17 @@ std::string Simulation::Engine::complaint(const SimulationState::Data& d,
     if (x.given.data() != d.row.data() && !all_finite(x.given))
       return damaged(x.name, "that are not finite");
   }
-  if (d.memory.outputs.size() != own.memory.outputs.size())
+  if (d.steps.runner.outputs.size() != own.steps.runner.outputs.size())
     return damaged("outputs", "of another number");
-  for (const FollowedOutput& o : d.memory.outputs)
+  for (const FollowedOutput& o : d.steps.runner.outputs)
     if (!std::isfinite(o.time) || !std::isfinite(o.position) || !std::isfinite(o.rate))
       return damaged("outputs", "that are not finite");
   for (std::size_t k = 0; k < d.inputs.size(); ++k)
     if (accepted_value(model_.inputs[k], d.inputs[k]) != d.inputs[k])
       return damaged("inputs", "outside of their limits");
-  if (!consistent(d.state.t, d.base, d.steps_since_base, d.step, d.memory.counters,
-                  d.memory.experience) ||
-      !std::isfinite(d.joints_time) || d.row[0] != d.state.t)
+  if (!consistent(d.steps.state.t, d.steps.base, d.steps.since_base, d.step,
+                  d.steps.runner.counters, d.steps.runner.experience) ||
+      !std::isfinite(d.joints_time) || d.row[0] != d.steps.state.t)
     return damaged("times or counters", "that do not fit together");
   return {};
 }
@@ -139,8 +137,6 @@ void Simulation::Engine::restore(const SimulationState& state) {
   const SimulationState::Data& given = *state.data_;
   if (const std::string text = complaint(given, *present()); !text.empty())
     throw InputError("the saved state " + text);
-  base_ = given.base;
-  steps_since_base_ = given.steps_since_base;
   inputs_ = given.inputs;
   row_ = given.row;
   apply(given);

@@ -1,0 +1,105 @@
+#include "floatframe/simulation/stepped_model.hpp"
+
+#include <algorithm>
+
+#include "floatframe/simulation/light_motion.hpp"
+
+namespace floatframe {
+namespace {
+
+StepOptions limited(StepOptions options, const StepLimits& limits) {
+  options.fixed_iterations = limits.fixed_iterations;
+  options.time_budget = limits.time_budget;
+  return options;
+}
+
+}  // namespace
+
+template <class F>
+SteppedModel<F>::SteppedModel(const Model& model, const SimulationDescription& options,
+                              const StepLimits& limits)
+    : start_(model, options),
+      f_(start_.formulation()),
+      step_options_(limited(start_.step_options(), limits)),
+      min_step_(limits.min_step.value_or(start_.min_step())),
+      runner_(f_, step_options_, min_step_),
+      grid_(start_.state().t, options.step, limits.duration) {
+  begin_at_start();
+}
+
+template <class F>
+SteppedModel<F>::SteppedModel(const SteppedModel& found, double duration)
+    : start_(found.start_),
+      f_(start_.formulation()),
+      step_options_(found.step_options_),
+      min_step_(found.min_step_),
+      runner_(f_, step_options_, min_step_),
+      grid_(start_.state().t, found.grid_.step(), duration) {
+  begin_at_start();
+}
+
+template <class F>
+void SteppedModel<F>::begin_at_start() {
+  runner_.state() = start_.state();
+  first_ = memory();
+}
+
+template <class F>
+bool SteppedModel<F>::advance(const PlannedStep& step) noexcept {
+  if (!runner_.advance(step.size, min_step_ * std::max(1.0, step.size / grid_.step())))
+    return false;
+  runner_.state().t = step.to;
+  grid_.made(step);
+  return true;
+}
+
+template <class F>
+void SteppedModel<F>::sample(double* row) noexcept {
+  runner_.sample(row);
+}
+
+template <class F>
+Energies SteppedModel<F>::energies() noexcept {
+  Energies e;
+  e.potential = runner_.potential_energy();  // brings the formulation there
+  e.elastic = runner_.elastic_energy();
+  e.kinetic = runner_.kinetic_energy();
+  return e;
+}
+
+template <class F>
+std::string SteppedModel<F>::failure() {
+  const std::string text = runner_.failure();  // first: of the iteration that failed
+  return text + light_motion_note(f_, runner_.state());
+}
+
+template <class F>
+SystemState SteppedModel<F>::system_state(JointFollower& joints) {
+  SystemState s = floatframe::system_state(f_, runner_.state(), joints);
+  place_bodies(model(), start_.inertia(), s);
+  return s;
+}
+
+template <class F>
+SteppedMemory SteppedModel<F>::memory() const {
+  SteppedMemory m;
+  m.base = grid_.base();
+  m.since_base = grid_.since_base();
+  m.state = runner_.state();
+  m.spring_angles.assign(f_.spring_angles().begin(), f_.spring_angles().end());
+  m.runner = runner_.memory();
+  return m;
+}
+
+template <class F>
+void SteppedModel<F>::set_memory(const SteppedMemory& m) {
+  grid_.restore(m.base, m.since_base);
+  runner_.state() = m.state;
+  f_.set_spring_angles(m.spring_angles);
+  runner_.set_memory(m.runner);
+}
+
+template class SteppedModel<RelativeFormulation>;
+template class SteppedModel<AbsoluteFormulation>;
+
+}  // namespace floatframe

@@ -1,0 +1,106 @@
+#pragma once
+// A model in one formulation that makes steps: its start, its runner, the grid of its times. The
+// loops of `run`, `Simulation`, real time and `bench` are written around it, so that all of them
+// start alike and make the same steps, bit for bit; what they do between steps - sample, watch,
+// pace, measure - is theirs. After construction nothing allocates but `failure`, `system_state` and
+// `memory`.
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "floatframe/simulation/energies.hpp"
+#include "floatframe/simulation/runner.hpp"
+#include "floatframe/simulation/start_up.hpp"
+#include "floatframe/simulation/system_state.hpp"
+#include "floatframe/simulation/time_grid.hpp"
+
+namespace floatframe {
+
+/// What a loop asks for beside the options of the model.
+struct StepLimits {
+  double duration = TimeGrid::endless;  ///< of the grid [s]
+  std::optional<double> min_step = {};  ///< smallest substep [s]; else that of the options
+  int fixed_iterations = 0;             ///< see StepOptions
+  double time_budget = 0.0;             ///< see StepOptions [s]
+};
+
+/// All that decides the next steps, beside the inputs.
+struct SteppedMemory {
+  /// Of the grid.
+  double base = 0.0;
+  std::int64_t since_base = 0;
+  State state;
+  std::vector<double> spring_angles;  ///< turns of joint springs
+  RunnerMemory runner;
+};
+
+/// F: RelativeFormulation or AbsoluteFormulation.
+template <class F>
+class SteppedModel {
+ public:
+  /// Finds the start; see StartedModel for what it asks and throws.
+  SteppedModel(const Model& model, const SimulationDescription& options,
+               const StepLimits& limits = {});
+  /// Another system at the start of `found`, which must outlive it: nothing is searched for again.
+  SteppedModel(const SteppedModel& found, double duration);
+  SteppedModel(const SteppedModel&) = delete;
+  SteppedModel& operator=(const SteppedModel&) = delete;
+
+  const Model& model() const noexcept { return start_.model(); }
+  const StartReport& start_report() const noexcept { return start_.report(); }
+  const StepOptions& step_options() const noexcept { return step_options_; }
+  double begin() const noexcept { return start_.state().t; }  ///< [s]
+  F& formulation() noexcept { return f_; }
+  const F& formulation() const noexcept { return f_; }
+  const TimeGrid& grid() const noexcept { return grid_; }
+
+  /// The next step of the grid. False: it failed, and the formulation is left as it shows where to
+  /// look; the state is the last good one.
+  bool advance() noexcept { return advance(grid_.next()); }
+  /// One that `grid()` has planned. A step longer than those of the grid is not divided into more
+  /// parts than one of them: its work is bounded.
+  bool advance(const PlannedStep& step) noexcept;
+
+  const State& state() const noexcept { return runner_.state(); }
+  /// The last attempt at a step, and of the last accepted one the multipliers that go with its
+  /// accelerations.
+  const StepAttempt& last() const noexcept { return runner_.last(); }
+  const VecX& reactions() const noexcept { return runner_.reactions(); }
+  const StepCounters& counters() const noexcept { return runner_.counters(); }
+  /// Index of the force element with the largest force at the last evaluation; -1: there is none.
+  int largest_force() const noexcept { return runner_.largest_force(); }
+
+  /// Time and outputs at the present state, to which the formulation is brought. Outputs count
+  /// turns from one sample to the next.
+  void sample(double* row) noexcept;
+  /// At the present state, to which the formulation is brought.
+  Energies energies() noexcept;
+  /// Why the last step failed, in a sentence. Moves the formulation.
+  std::string failure();
+  /// By the names of joints and bodies; `joints` has followed the steps. Brings the formulation to
+  /// the present state.
+  SystemState system_state(JointFollower& joints);
+
+  SteppedMemory memory() const;
+  /// `m` is of the same model and options.
+  void set_memory(const SteppedMemory& m);
+  /// Back to the start.
+  void restart() { set_memory(first_); }
+
+ private:
+  void begin_at_start();
+
+  StartedModel<F> start_;
+  F& f_;
+  StepOptions step_options_;
+  double min_step_;  ///< [s]
+  Runner<F> runner_;
+  TimeGrid grid_;
+  SteppedMemory first_;
+};
+
+extern template class SteppedModel<RelativeFormulation>;
+extern template class SteppedModel<AbsoluteFormulation>;
+
+}  // namespace floatframe

@@ -1,0 +1,49 @@
+#pragma once
+// The times of the steps of a run. Step k ends at base + (k + 1) h, so that rounding does not add
+// up, and has exactly the size h, not a difference of times that varies in its last bits; only the
+// last step of a duration may be a part of one.
+#include <cstdint>
+#include <limits>
+
+namespace floatframe {
+
+/// A step that is to be made.
+struct PlannedStep {
+  double size = 0.0;    ///< [s]
+  double to = 0.0;      ///< its end [s]
+  bool whole = true;    ///< of the size of the grid
+  bool on_grid = true;  ///< false: the grid begins anew at its end
+};
+
+class TimeGrid {
+ public:
+  static constexpr double endless = std::numeric_limits<double>::infinity();
+
+  /// `duration`: from `base` on [s].
+  TimeGrid(double base, double step, double duration) noexcept
+      : base_(base), step_(step), duration_(duration) {}
+
+  double step() const noexcept { return step_; }
+  /// In the duration, a last part counted as one.
+  long steps() const noexcept;
+
+  /// The step after those that were made.
+  PlannedStep next() const noexcept;
+  /// One of size h from the time `now`: the next one if it is of the size of the grid.
+  PlannedStep of_size(double h, double now) const noexcept;
+  void made(const PlannedStep& step) noexcept;
+
+  double base() const noexcept { return base_; }
+  /// Steps that were made since `base`.
+  std::int64_t since_base() const noexcept { return since_base_; }
+  void restore(double base, std::int64_t since_base) noexcept {
+    base_ = base;
+    since_base_ = since_base;
+  }
+
+ private:
+  double base_, step_, duration_;
+  std::int64_t since_base_ = 0;
+};
+
+}  // namespace floatframe
