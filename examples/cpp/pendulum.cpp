@@ -1,6 +1,7 @@
 // A pendulum without a model file: a rod of 1 m on a hinge, described, built and stepped by the
 // program. Its period is compared with that of the physical pendulum,
-//   T = 2 pi sqrt(J / (m g c)) (1 + a^2/16 + 11 a^4/3072 + ...),   a: amplitude.
+//   T = 2 pi sqrt(J / (m g c)) (1 + a^2/16 + 11 a^4/3072 + ...),   a: amplitude,
+// whose first factor, the period of small swings, is also that of the linear system about hanging.
 #include <cmath>
 #include <cstdio>
 #include <floatframe/floatframe.hpp>
@@ -65,6 +66,10 @@ int main() try {
   const double expected = 2 * std::numbers::pi * std::sqrt(2 * length / (3 * 9.81)) *
                           (1 + a2 / 16 + 11 * a2 * a2 / 3072);
   std::printf("period %.5f s, expected %.5f s\n", period, expected);
+
+  const ff::Linearization l = ff::linearize(model, {.start = ff::Start::equilibrium});
+  std::printf("small swings of %s: %.5f s\n", l.coordinates.front().c_str(),
+              2 * std::numbers::pi * std::sqrt(l.M(0, 0) / l.K(0, 0)));
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

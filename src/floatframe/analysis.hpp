@@ -1,6 +1,8 @@
 #pragma once
-// One call, one result: a run, the static equilibrium, counts of coordinates and constraints, advice
-// on modes. Each takes a model, most of them options, and returns a plain struct.
+// One call, one result: a run, the static equilibrium, counts of coordinates and constraints, a
+// linear system near a state, advice on modes. Each takes a model, most of them options, and returns
+// a plain struct.
+#include "floatframe/simulation/linearize.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
 #include "floatframe/simulation/results.hpp"
 #include "floatframe/simulation/simulation.hpp"

@@ -29,7 +29,7 @@ simulation: {step: 0.001, duration: 1}
   State s;
   f.start(s.q, s.v);
   s.lambda = VecX::Zero(0);
-  const Linearization l = linearize(f, s);
+  const LinearTerms l = linearize(f, s);
   EXPECT_NEAR(l.r[0], 0.0, 1e-14);
   EXPECT_NEAR(l.M(0, 0), 2 * 1.5 * 1.5, 1e-12);
   EXPECT_NEAR(l.K(0, 0), 2 * 1.5 * model.gravity.norm(), 1e-8);
@@ -49,7 +49,7 @@ simulation: {step: 0.001, duration: 1}
   VecX q, v;
   f.start(q, v);
   q[0] = 0.25;
-  const Linearization l = linearize(f, at(f, q, VecX::Constant(1, 0.5)));
+  const LinearTerms l = linearize(f, at(f, q, VecX::Constant(1, 0.5)));
   EXPECT_NEAR(l.r[0], 40 * 0.25 + 7 * 0.5, 1e-12);
   EXPECT_NEAR(l.M(0, 0), 3, 1e-12);
   EXPECT_NEAR(l.K(0, 0), 40, 1e-7);
@@ -75,7 +75,7 @@ TEST(Linearization, StiffnessOfATreeIsAHessian) {
   Random random(3);
   VecX q, v;
   random_configuration(f, random, q, v);
-  const Linearization l = linearize(f, at(f, q, VecX::Zero(f.velocities())));
+  const LinearTerms l = linearize(f, at(f, q, VecX::Zero(f.velocities())));
   EXPECT_GT(largest(l.K), 1.0);
   EXPECT_LT(largest(l.K - l.K.transpose()), 1e-6 * largest(l.K));
   EXPECT_LT(largest(l.M - l.M.transpose()), 1e-12 * largest(l.M));
@@ -87,7 +87,7 @@ void expect_second_order(F& f, const VecX& q, const VecX& v) {
   const State moving = at(f, q, v), still = at(f, q, VecX::Zero(v.size()));
   const VecX part =
       residual_at(f, 0.0, q, v, moving.lambda) - residual_at(f, 0.0, q, still.v, still.lambda);
-  const Linearization l = linearize(f, moving);
+  const LinearTerms l = linearize(f, moving);
   EXPECT_GT(largest(part), 1e-2);
   EXPECT_LT(largest(l.C * v - 2.0 * part), 1e-8 * largest(part));
 }
@@ -104,8 +104,8 @@ TEST(Linearization, InertiaForcesInBothFormulations) {
   expect_second_order(absolute, qa, va);
   // The same masses, and rows of the cut joint, seen through the map of velocities.
   const MatX map = velocity_map(relative, absolute, q);
-  const Linearization r = linearize(relative, at(relative, q, v));
-  const Linearization a = linearize(absolute, at(absolute, qa, va));
+  const LinearTerms r = linearize(relative, at(relative, q, v));
+  const LinearTerms a = linearize(absolute, at(absolute, qa, va));
   EXPECT_LT(largest(map.transpose() * a.M * map - r.M), 1e-10 * largest(r.M));
   const std::vector<ConstraintPart>& parts = absolute.constraint_set().parts();
   std::size_t loop = parts.size();
@@ -125,7 +125,7 @@ TEST(Linearization, PredictsTheResidualOfASmallMotion) {
   random_configuration(f, random, q, v);
   State s = at(f, q, v);
   s.lambda = random.vector(f.constraints(), 5.0);
-  const Linearization l = linearize(f, s);
+  const LinearTerms l = linearize(f, s);
   const int nv = f.velocities();
   const VecX x = random.vector(nv, 1.0), xdot = random.vector(nv, 1.0);
   const VecX dlambda = random.vector(f.constraints(), 1.0);

@@ -81,7 +81,7 @@ MatX damping_matrix(F& f, const State& s) {
   });
 }
 
-struct Linearization {
+struct LinearTerms {
   VecX r, phi;   ///< at the state, without accelerations
   MatX M, C, K;  ///< nv x nv
   MatX J;        ///< nc x nv
@@ -89,8 +89,8 @@ struct Linearization {
 
 /// (1) at t, q, v, lambda of the state, where `f` is afterwards.
 template <EquationsOfMotion F>
-Linearization linearize(F& f, const State& s) {
-  Linearization l;
+LinearTerms linearize(F& f, const State& s) {
+  LinearTerms l;
   l.K = stiffness_matrix(f, s);
   l.C = damping_matrix(f, s);
   l.r = residual_at(f, s.t, s.q, s.v, s.lambda);

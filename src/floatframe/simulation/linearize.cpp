@@ -1,0 +1,40 @@
+#include "floatframe/simulation/linearize.hpp"
+
+#include "floatframe/simulation/linearization.hpp"
+#include "floatframe/simulation/simulation_options.hpp"
+#include "floatframe/simulation/start_up.hpp"
+#include "floatframe/simulation/system_state.hpp"
+
+namespace floatframe {
+namespace {
+
+template <class F>
+Linearization linearized(const Model& model, const SimulationDescription& options) {
+  StartedModel<F> started(model, options);
+  F& f = started.formulation();
+  LinearTerms terms = linearize(f, started.state());
+  Linearization l;
+  l.M = std::move(terms.M);
+  l.C = std::move(terms.C);
+  l.K = std::move(terms.K);
+  l.J = std::move(terms.J);
+  l.r = std::move(terms.r);
+  for (int k = 0; k < f.velocities(); ++k) l.coordinates.push_back(f.coordinate_owner(k));
+  for (int k = 0; k < f.constraints(); ++k)
+    l.constraints.push_back(f.constraint_set().owner_of_row(k));
+  JointFollower joints(started.model());
+  l.state = system_state(f, started.state(), joints);
+  place_bodies(started.model(), options.inertia, l.state);
+  l.start = started.report();
+  return l;
+}
+
+}  // namespace
+
+Linearization linearize(const Model& model, const SimulationOptions& options) {
+  const SimulationDescription d = described(model, options);
+  return d.coordinates == Coordinates::relative ? linearized<RelativeFormulation>(model, d)
+                                                : linearized<AbsoluteFormulation>(model, d);
+}
+
+}  // namespace floatframe

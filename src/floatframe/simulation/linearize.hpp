@@ -1,0 +1,47 @@
+#pragma once
+// A model as a linear system near a state, for vibrations, stability and controllers.
+//
+// In the coordinates of the options, with small changes x of the configuration from the state and
+// dlambda of the constraint forces there,
+//   M xddot + C xdot + K x + J^T dlambda = -r,   J x = 0.                                       (1)
+// In equilibrium r = 0. Motions that the constraints allow are x = N y with the null space N of J:
+//   (N^T M N) yddot + (N^T C N) ydot + (N^T K N) y = 0                                          (2)
+// has the vibrations of the model, the same in all coordinates.
+//
+// What is left out: all terms are taken without accelerations a. Where the state accelerates, r is
+// not zero, and K lacks (dM/dq) a, how M turns with the configuration; N changes with it, too. So
+// (2) holds in equilibrium (`Start::equilibrium`), and elsewhere as far as the accelerations are
+// small. Time and inputs are held as they are at the state. K and C are central differences over
+// 1e-6 [m, rad] and 1e-3 [m/s, rad/s]: a kink of a law within them is averaged.
+#include <string>
+#include <vector>
+
+#include "floatframe/math/types.hpp"
+#include "floatframe/model/model.hpp"
+#include "floatframe/model/system_state.hpp"
+#include "floatframe/simulation/start_report.hpp"
+#include "floatframe/simulation/stepping.hpp"
+
+namespace floatframe {
+
+struct Linearization {
+  /// Mass; damping, gyroscopic and centrifugal terms; stiffness with the geometric one of gravity,
+  /// applied and constraint forces. nv x nv, not symmetrised.
+  MatX M, C, K;
+  MatX J;                                ///< constraint Jacobian, nc x nv
+  VecX r;                                ///< unbalanced forces: -M times the accelerations
+  std::vector<std::string> coordinates;  ///< nv: "joint 'crank'", "mode 2 of body 'beam'"
+  std::vector<std::string> constraints;  ///< nc: "joint 'guide'"
+  SystemState state;                     ///< where: joints, bodies, time
+  StartReport start;                     ///< what became of the start values
+};
+
+/// At the start that the options ask for: given values with loops closed, the equilibrium, or a
+/// state (`.state = std::make_shared<SystemState>(simulation.state())`). Relative coordinates are
+/// those of joints and modes; absolute ones 12 for each body frame (position, then the three axes)
+/// and modes, with J that keeps the axes orthonormal. Dense, 4 evaluations of the system for each
+/// coordinate. Throws InputError for options that are not valid and for a state of another model,
+/// RunError if the start cannot be.
+Linearization linearize(const Model& model, const SimulationOptions& options = {});
+
+}  // namespace floatframe
