@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/model/build_flexible.hpp"
-#include "floatframe/reduction/modal_damping.hpp"
 #include "floatframe/reduction/reduction.hpp"
 #include "support/mechanism_builder.hpp"
 

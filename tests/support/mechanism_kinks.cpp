@@ -1,9 +1,11 @@
 // Kinks of laws, functions of time and roads that a run passed.
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "floatframe/model/constraint_part.hpp"
+#include "floatframe/model/force_outputs.hpp"
 #include "support/mechanism_check.hpp"
 
 namespace floatframe::test {
@@ -25,6 +27,14 @@ int kinks_below(const PiecewisePolynomial& f, double x) {
 
 int kinks_in_time(const TimeFunction& f, double end) {
   return kinks_below(f.pieces, end) - kinks_below(f.pieces, 0.0);
+}
+
+/// Of a table of results: where a quantity of a force element is.
+std::size_t column_of(const Model& model, OutputType quantity, std::size_t force) {
+  for (std::size_t c = 0; c < model.outputs.size(); ++c)
+    if (model.outputs[c].type == quantity && model.outputs[c].force == static_cast<int>(force))
+      return c + 1;
+  throw std::logic_error("the results do not hold all of force '" + model.forces[force].name + "'");
 }
 
 }  // namespace
@@ -59,18 +69,20 @@ double steps_on_kinks(const Model& model, double steps) {
   return best;
 }
 
-// Forces come last in a row, with force, length and rate each.
 bool passes_kinks(const Model& model, const ResultTable& t) {
-  const std::size_t first = 1 + model.outputs.size() - 3 * model.forces.size();
   for (std::size_t k = 0; k < model.forces.size(); ++k) {
     const Force& f = model.forces[k];
     const double end = model.simulation.duration;
     if (kinks_in_time(f.magnitude, end) || kinks_in_time(f.target.function, end) ||
         kinks_in_time(f.target_rate.function, end))
       return true;
+    if (!force_has(f.type, ForceQuantity::length)) continue;  // a load: time alone decides
+    const std::size_t force_column = column_of(model, OutputType::force, k),
+                      length_column = column_of(model, OutputType::length, k),
+                      rate_column = column_of(model, OutputType::rate, k);
     const auto side = [&](std::size_t row) {
-      const double time = t.at(row, 0), force = t.at(row, first + 3 * k);
-      double length = t.at(row, first + 3 * k + 1), rate = t.at(row, first + 3 * k + 2);
+      const double time = t.at(row, 0), force = t.at(row, force_column);
+      double length = t.at(row, length_column), rate = t.at(row, rate_column);
       if (f.type == ForceType::tyre) return force > 0.0 ? 1 : 0;
       if (f.targeted) {
         const auto input = [&](const Signal& s) {

@@ -109,7 +109,7 @@ class Check {
 
   void modal_mass() {
     if (nm_ == 0) return;
-    M_ff_ = v_.Sij[0][0] + v_.Sij[1][1] + v_.Sij[2][2];
+    M_ff_ = floatframe::modal_mass(v_);
     double scale = 0.0;
     for (const auto& row : v_.Sij)
       for (const MatX& s : row) scale = std::max(scale, largest(s));

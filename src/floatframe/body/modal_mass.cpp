@@ -26,6 +26,8 @@ MatX momentum_of_modes(const InertiaInvariants& v) {
   return B;
 }
 
+MatX modal_mass(const InertiaInvariants& v) { return v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2]; }
+
 MatX mass_matrix_at_rest(const InertiaInvariants& v) {
   const Eigen::Index nm = v.modes();
   MatX M = MatX::Zero(6 + nm, 6 + nm);
@@ -35,13 +37,13 @@ MatX mass_matrix_at_rest(const InertiaInvariants& v) {
   M.block<3, 3>(3, 3) = v.inertia_about_origin();
   M.topRightCorner(6, nm) = momentum_of_modes(v);
   M.bottomLeftCorner(nm, 6) = M.topRightCorner(6, nm).transpose();
-  M.bottomRightCorner(nm, nm) = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
+  M.bottomRightCorner(nm, nm) = modal_mass(v);
   return M;
 }
 
 double relative_modal_mass(const InertiaInvariants& v, const Mat6X& free, const MatX& K) {
   const Eigen::Index nm = v.modes();
-  const MatX M_ff = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
+  const MatX M_ff = modal_mass(v);
   const double top = nm > 0 ? M_ff.diagonal().maxCoeff() : 0.0;
   std::vector<Eigen::Index> massive;
   // A mode without mass has a frequency of its own that is beyond all others.

@@ -9,6 +9,9 @@
 
 namespace floatframe {
 
+/// M_ff = int X^T X dm = S11 + S22 + S33, nm x nm.
+MatX modal_mass(const InertiaInvariants& invariants);
+
 /// 6 x nm: int X dm and int r_u x X dm.
 MatX momentum_of_modes(const InertiaInvariants& invariants);
 

@@ -1,5 +1,6 @@
 #include "floatframe/inertia/preprocessing.hpp"
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -48,7 +49,7 @@ PreprocessingData::PreprocessingData(const InertiaInvariants& v)
   Si.resize(9, nm);
   Sij.resize(9 * nm, nm);
   Sij_sum.resize(6, nm * nm);
-  M_ff = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];  // (40)
+  M_ff = modal_mass(v);  // (40)
   for (int i = 0; i < 3; ++i) Si.middleRows<3>(3 * i) = v.Si[i];
   const int nl = by_modes.stride = (nm + 3) & ~3;
   by_modes.S = VecX::Zero(3 * nl);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/printable.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
@@ -21,8 +22,7 @@ using Json = nlohmann::ordered_json;
 /// Frequencies of the free modes with the body frame held: K x = w^2 M_ff x [Hz]; empty if the
 /// modal mass is singular.
 std::vector<double> frequencies(const FlexibleBody& body) {
-  const InertiaInvariants& v = body.invariants;
-  const MatX M = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
+  const MatX M = modal_mass(body.invariants);
   std::vector<double> out;
   if (M.rows() == 0) return out;
   const SymmetricEigen modes = generalised_eigenvalues(body.K, M);

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "floatframe/body/fe_invariants.hpp"
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/reduction/modal_damping.hpp"
 
 namespace floatframe {
 

@@ -1,14 +1,9 @@
 #pragma once
 // Modal damping: a matrix D with which every mode of (K, M_ff) has the same ratio of critical
 // damping.
-#include "floatframe/body/inertia_invariants.hpp"
+#include "floatframe/math/types.hpp"
 
 namespace floatframe {
-
-/// M_ff = int X^T X dm
-inline MatX modal_mass(const InertiaInvariants& v) {
-  return v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
-}
 
 /// With M x = mu K x, x^T K x = 1, w = 1/sqrt(mu): D = sum 2 ratio sqrt(mu) (K x)(K x)^T; massless
 /// modes (mu = 0) get none. Throws InputError unless K > 0.

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "floatframe/body/fe_invariants.hpp"
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/dense.hpp"

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -13,8 +14,6 @@ namespace floatframe {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
-
-MatX modal_mass(const InertiaInvariants& v) { return v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2]; }
 
 /// M_ff - M_fr M_rr^-1 M_rf: the modal mass of a body that is free to recoil.
 MatX recoil_mass(const InertiaInvariants& v) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/math/dense.hpp"
 
@@ -18,9 +19,8 @@ double largest_column(const Mat3X& X, Eigen::Index k) { return X.col(k).norm(); 
 
 /// Lowest angular frequency of K x = w^2 M x, also with modes without mass: M x = (1/w^2) K x.
 double lowest_frequency_of(const FlexibleBody& body) {
-  const InertiaInvariants& v = body.invariants;
   if (body.modes() == 0) return 0.0;
-  const MatX M = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
+  const MatX M = modal_mass(body.invariants);
   const SymmetricEigen inverse = generalised_eigenvalues(M, body.K);
   if (!inverse.found) return 0.0;
   const double most = inverse.values.maxCoeff();
@@ -142,8 +142,8 @@ RangeWatch::RangeWatch(const Model& model, double step, const RangeLimits& limit
     const InertiaInvariants& v = model.bodies[i].data->invariants;
     const double turning = v.inertia_about_centre().trace() / 3.0;
     std::vector<PhaseMeter> meters{PhaseMeter(v.m), PhaseMeter(std::max(0.0, turning))};
-    for (Eigen::Index k = 0; k < v.modes(); ++k)
-      meters.emplace_back(v.Sij[0][0](k, k) + v.Sij[1][1](k, k) + v.Sij[2][2](k, k));
+    const MatX M_ff = modal_mass(v);
+    for (Eigen::Index k = 0; k < v.modes(); ++k) meters.emplace_back(M_ff(k, k));
     meters_.push_back(std::move(meters));
   }
 }

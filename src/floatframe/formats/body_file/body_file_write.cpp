@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/formats/body_file/body_arrays.hpp"
@@ -104,12 +105,10 @@ std::vector<int> surface_points_that_follow(const ReducedPart& part, const Modal
 }
 
 VecX mode_frequencies(const FlexibleBody& body) {
-  const InertiaInvariants& v = body.invariants;
+  const MatX M = modal_mass(body.invariants);
   VecX out(body.modes());
-  for (Eigen::Index k = 0; k < out.size(); ++k) {
-    const double m = v.Sij[0][0](k, k) + v.Sij[1][1](k, k) + v.Sij[2][2](k, k);
-    out[k] = hertz(std::sqrt(std::max(0.0, body.K(k, k)) / m));
-  }
+  for (Eigen::Index k = 0; k < out.size(); ++k)
+    out[k] = hertz(std::sqrt(std::max(0.0, body.K(k, k)) / M(k, k)));
   return out;
 }
 

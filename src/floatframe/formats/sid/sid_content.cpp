@@ -6,6 +6,7 @@
 #include <cctype>
 #include <set>
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
@@ -45,7 +46,7 @@ void inertia_blocks(const InertiaInvariants& v, SidContent& c) {
   c.Ct.m0 = v.S.transpose();
   c.Cr = SidTaylor(nq, 3, nq);
   c.Me = SidTaylor(nq, nq, 0);
-  const MatX Me = v.Sij[0][0] + v.Sij[1][1] + v.Sij[2][2];
+  const MatX Me = modal_mass(v);
   c.Me.m0 = 0.5 * (Me + Me.transpose());
   c.Gr = SidTaylor(3, 3 * nq, 0);
   c.Ge = SidTaylor(nq, 3 * nq, 0);
