@@ -25,8 +25,8 @@
 namespace floatframe {
 
 struct Linearization {
-  /// Mass; damping, gyroscopic and centrifugal terms; stiffness with the geometric one of gravity,
-  /// applied and constraint forces. nv x nv, not symmetrised.
+  /// Mass; damping and gyroscopic terms; stiffness with the geometric one of gravity, of applied
+  /// and of constraint forces and the centrifugal terms. nv x nv, not symmetrised.
   MatX M, C, K;
   MatX J;                                ///< constraint Jacobian, nc x nv
   VecX r;                                ///< unbalanced forces: -M times the accelerations
@@ -38,8 +38,8 @@ struct Linearization {
 
 /// At the start that the options ask for: given values with loops closed, the equilibrium, or a
 /// state (`.state = std::make_shared<SystemState>(simulation.state())`). Relative coordinates are
-/// those of joints and modes; absolute ones 12 for each body frame (position, then the three axes)
-/// and modes, with J that keeps the axes orthonormal. Dense, 4 evaluations of the system for each
+/// those of joints and modes; absolute ones 12 for each body frame (position, then the three axes),
+/// modes and outer points, with J that keeps the axes orthonormal. Dense, 4 evaluations of the system for each
 /// coordinate. Throws InputError for options that are not valid and for a state of another model,
 /// RunError if the start cannot be.
 Linearization linearize(const Model& model, const SimulationOptions& options = {});
