@@ -91,7 +91,7 @@ def figures(run):
             found[f"chain {row['links']} links, {row['modes']} modes, {short(row)}: a step"] = (
                 "LLT", row["us_per_step_min"] / run["chain"]["dense_llt_98_us"])
     for row in run.get("iltis", {}).get("rows", []):
-        found[f"Iltis {row['elements_per_bar']} elements a bar, {short(row)}: a step"] = (
+        found[f"Iltis {row['elements_per_bar']} elements per bar, {short(row)}: a step"] = (
             "LLT", 1e6 * row["cpu_s_min"] / row["steps"] / run["iltis"]["dense_llt_98_us"])
     if "iltis" in run:
         found["Iltis Rel+P: one full iteration"] = (

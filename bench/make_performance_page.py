@@ -81,9 +81,9 @@ def summary(run):
     for links in (64, 256):
         if links in bodies and 16 in bodies:
             value = bodies[links] / bodies[16]
-            add(f"chain of {links}, an iteration a link, over that of 16 links", value, "within 15 %",
+            add(f"chain of {links}, an iteration per link, over that of 16 links", value, "within 15 %",
                 abs(value - 1) <= 0.15)
-    for sweep, what in (("elements", "36 to 100 206 degrees of freedom a link"), ("interface-nodes", "4 to 100 interface nodes")):
+    for sweep, what in (("elements", "36 to 100 206 degrees of freedom per link"), ("interface-nodes", "4 to 100 interface nodes")):
         ratios = [r["iteration_ratio"] for r in scaling if r["sweep"] == sweep and name(r) == "Rel. + P"]
         if ratios:
             worst = max(ratios, key=lambda x: abs(x - 1))
@@ -147,7 +147,7 @@ def sweep_table(run, sweep, header):
     for c, i in combinations:
         head += [f"{name(dict(coordinates=c, inertia=i))}, µs per iteration", "ratio"]
         if sweep == "bodies":
-            head += ["a link"]
+            head += ["per link"]
     if counted:
         head += ["Rel. + P, instructions per iteration"]
     lines = []
@@ -179,7 +179,7 @@ def scaling_plots(run):
     mesh = series("elements", "finite_element_dofs", "iteration_ratio")
     if mesh:
         (FIGURES / "mesh.svg").write_text(svg_chart.curves(
-            "Time of a Newton iteration against the mesh (20 elements: 1)", "degrees of freedom a link", "ratio", mesh,
+            "Time of a Newton iteration against the mesh (20 elements: 1)", "degrees of freedom per link", "ratio", mesh,
             y_log=False, y_range=(0.0, 1.5)))
     modes = series("modes", "value", "us_per_iteration_min")
     if modes:
@@ -187,7 +187,7 @@ def scaling_plots(run):
         if base:
             modes.append(("k²*", [(k, base * (k / 8) ** 2) for k, _ in modes[0][1] if k >= 8]))
         (FIGURES / "modes.svg").write_text(svg_chart.curves(
-            "Chain of four links: time of a Newton iteration", "modes a link", "µs", modes))
+            "Chain of four links: time of a Newton iteration", "modes per link", "µs", modes))
 
 
 def iltis(run):
@@ -211,7 +211,7 @@ def iltis(run):
     one = run["iltis"]["rel_p_iteration_us"]
     return "\n\n".join([
         table([""] + [str(n) for n in elements], times),
-        f"The cost of a step at {elements[-1]} elements a bar:",
+        f"The cost of a step at {elements[-1]} elements per bar:",
         table(["", "µs per iteration", "µs per step", "LLTs", "times real time", "iterations", "factorisations",
                "positions [m]", "velocities [m/s]"], cost),
         f"One full Newton iteration, Rel. + P (kinematics, inertia, forces, residual, factorisation, solution): "

@@ -39,7 +39,7 @@ class Compare(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         lines = {line.split(":")[0]: line for line in done.stdout.splitlines()}
         self.assertIn("1.500  slower", lines["chain 4 links, 8 modes, Rel+P"])
-        self.assertIn("1.000", lines["Iltis 5 elements a bar, Rel+P"])
+        self.assertIn("1.000", lines["Iltis 5 elements per bar, Rel+P"])
         self.assertIn("0.900  faster", lines["a case"])
 
     def test_more_instructions_than_allowed(self):

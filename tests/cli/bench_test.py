@@ -87,8 +87,8 @@ class Chain(Bench):
                 (("--links", "1,x"), "--links"),
                 (("--links", "5000"), "--links"),
                 (("--modes", "0"), "--modes"),
-                (("--modes", "8,200"), "--modes: found 200, expected at most 40 with 20 elements a link"),
-                (("--modes", "9", "--elements", "1"), "--modes: found 9, expected at most 1 with 1 element a link"),
+                (("--modes", "8,200"), "--modes: found 200, expected at most 40 with 20 elements per link"),
+                (("--modes", "9", "--elements", "1"), "--modes: found 9, expected at most 1 with 1 element per link"),
                 (("--elements", "0"), "--elements"),
                 (("--step", "0"), "--step: found '0', expected a positive number"),
                 (("--step", "nan"), "--step: found 'nan'"),
@@ -117,7 +117,7 @@ class Scaling(Bench):
     def test_a_sweep(self):
         done = self.bench("scaling", "--sweep", "modes", "--steps", 5, "--repeat", 1, "--seconds", 0.001, "--coordinates",
                           "relative", "--json", "scaling.json")
-        self.assertIn("Modes a link", done.stdout)
+        self.assertIn("Modes per link", done.stdout)
         self.assertNotIn("Links (", done.stdout)
         rows = json.loads((self.folder / "scaling.json").read_text())["rows"]
         self.assertEqual([r["value"] for r in rows], [4, 8, 16, 32, 64])

@@ -142,7 +142,7 @@ class RealTime(unittest.TestCase):
     def test_layout(self):
         done = self.floatframe("cart.yaml", "--layout")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r"inputs of cart: kind 1, layout 0x[0-9a-f]{16}, 48 bytes a packet")
+        self.assertRegex(done.stdout, r"inputs of cart: kind 1, layout 0x[0-9a-f]{16}, 48 bytes per packet")
         self.assertRegex(done.stdout, r"40 +push +N +0\.5 +-20 +20\n")
         self.assertRegex(done.stdout, r"48 +v +m/s\n")
         layout = json.loads(self.floatframe("cart.yaml", "--layout", "--json").stdout)
@@ -333,7 +333,7 @@ class RealTime(unittest.TestCase):
         text, errors = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 0, errors)
         self.assertEqual(self.report()["inputs"]["push"]["value"], 4.0)
-        self.assertIn(f"not heard           127.0.0.1:{port.address[1]} (", text)
+        self.assertIn(f"not accepted        127.0.0.1:{port.address[1]} (", text)
         self.assertIn(f"to 127.0.0.1:{peer.address[1]}, sending to", text)
 
     def test_send_alone_does_not_listen_to_other_networks(self):
@@ -381,7 +381,7 @@ class RealTime(unittest.TestCase):
                 if quiet:
                     self.assertEqual(text, "")
                 else:
-                    self.assertRegex(text, r"inputs stayed away  \d+ times? for more than 0.1 s")
+                    self.assertRegex(text, r"inputs missing      \d+ times? for more than 0.1 s")
 
     def test_log(self):
         rows = self.lock_step(lambda link, outputs: link.send({"push": outputs["sequence"] % 7}), "--log", "log.csv")

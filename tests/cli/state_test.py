@@ -87,7 +87,7 @@ class States(unittest.TestCase):
     def test_an_offset_that_cannot_be(self):
         self.model("{equilibrium: true, offset: {bar: [0, 0, 0.1]}}")  # its origin is the hinge
         error = self.run_program("run", "swing.yaml", "--out", "out", code=1).stderr
-        self.assertIn("the offset at the start cannot be: with loops closed body 'bar' stays 0.1 (m or rad)", error)
+        self.assertIn("the offset at the start is not possible: with loops closed body 'bar' stays 0.1 (m or rad)", error)
         self.model("{equilibrium: true, offset: {bar: [0, 0, 0, 0, 0.1, 0]}}")
         self.run_program("run", "swing.yaml", "--out", "out", "--no-report")
 

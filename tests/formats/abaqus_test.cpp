@@ -215,7 +215,7 @@ TEST(Abaqus, SetsOfSetsRangesAndSetsOpenedAgain) {
   EXPECT_EQ(model.node_sets.at("GAPS"), (std::vector<int>{3, 4, 5}));
   EXPECT_EQ(model.element_sets.at("E"), (std::vector<int>{1, 0}));
   ASSERT_EQ(model.notes.size(), 1u);
-  EXPECT_EQ(model.notes[0], "deck.inp:27: 3 numbers of GENERATE are not there");
+  EXPECT_EQ(model.notes[0], "deck.inp:27: 3 numbers of GENERATE do not exist");
 }
 
 TEST(Abaqus, OnePartAndOneInstance) {

@@ -60,10 +60,10 @@ const Case decks[] = {
     {"too_few_nodes", "7: 1, 1, 2, 3", "bad.inp:7: element 1 (C3D4) has 3 nodes, expected 4"},
     {"too_many_nodes", "7: 1, 1, 2, 3, 4, 1",
      "bad.inp:7: element 1 (C3D4) has 5 nodes, expected 4"},
-    {"missing_node_of_element", "5:", "bad.inp:6: element 1 (C3D4): node 4 is not there"},
-    {"missing_node_of_set", "+*NSET, NSET=HOLE\n1, 2, 17\n", "bad.inp:15: node 17 is not there"},
+    {"missing_node_of_element", "5:", "bad.inp:6: element 1 (C3D4): node 4 does not exist"},
+    {"missing_node_of_set", "+*NSET, NSET=HOLE\n1, 2, 17\n", "bad.inp:15: node 17 does not exist"},
     {"missing_set", "+*NSET, NSET=HOLE\n1, 2\n*BOUNDARY\nHOLES, 1, 3\n",
-     "bad.inp:17: node set 'HOLES' is not there, did you mean 'HOLE'?"},
+     "bad.inp:17: node set 'HOLES' does not exist, did you mean 'HOLE'?"},
     {"unknown_type", "6: *ELEMENT, TYPE=C3D27, ELSET=BODY",
      "bad.inp:6: *ELEMENT has the type 'C3D27', which is not supported, did you mean 'C3D20'?"},
     {"plane_type_with_section", "6: *ELEMENT, TYPE=CPS4, ELSET=BODY",
@@ -79,7 +79,7 @@ const Case decks[] = {
     {"material_twice", "+*MATERIAL, NAME=Steel\n",
      "bad.inp:14: *MATERIAL names the material 'STEEL' a second time (bad.inp:8)"},
     {"missing_material", "8: *MATERIAL, NAME=STEAL",
-     "bad.inp:13: *SOLID SECTION names the material 'STEEL', which is not there, did you mean "
+     "bad.inp:13: *SOLID SECTION names the material 'STEEL', which does not exist, did you mean "
      "'STEAL'?"},
     {"missing_density", "11: *PLASTIC", "bad.inp:8: material 'STEEL' has no *DENSITY"},
     {"missing_elasticity", "9: *EXPANSION", "bad.inp:8: material 'STEEL' has no *ELASTIC"},
@@ -100,11 +100,11 @@ const Case decks[] = {
     {"two_sections", "+*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL\n",
      "bad.inp:14: *SOLID SECTION names element 1 (C3D4), which has one already (bad.inp:13)"},
     {"section_of_missing_set", "13: *SOLID SECTION, ELSET=BODDY, MATERIAL=STEEL",
-     "bad.inp:13: element set 'BODDY' is not there, did you mean 'BODY'?"},
+     "bad.inp:13: element set 'BODDY' does not exist, did you mean 'BODY'?"},
     {"orientation", "13: *SOLID SECTION, ELSET=BODY, MATERIAL=STEEL, ORIENTATION=OR1",
      "bad.inp:13: *SOLID SECTION has the parameter 'ORIENTATION', which is not supported"},
     {"utf16", "=\xff\xfe*\x01N\x01",
-     "bad.inp: the file is text of 16 bits a character (UTF-16); save it as ASCII or UTF-8"},
+     "bad.inp: the file is text of 16 bits per character (UTF-16); save it as ASCII or UTF-8"},
     {"control_bytes", "=*NODE\n\x01\x02\x03\x04\x05\x06\n",
      "bad.inp: the file is binary, not text: byte 0x01 in line 2"},
     {"words_first", "=solid part\n*NODE\n1\n",
@@ -140,7 +140,7 @@ const Case decks[] = {
      "bad.inp:15: surface 'S': element 1 (C3D4) has no face 5"},
     {"missing_surface",
      "+*SURFACE, NAME=BORE\nBODY, S1\n*COUPLING, REF NODE=4, SURFACE=BOER\n*KINEMATIC\n",
-     "bad.inp:16: surface 'BOER' is not there, did you mean 'BORE'?"},
+     "bad.inp:16: surface 'BOER' does not exist, did you mean 'BORE'?"},
     {"missing_parameter", "+*RIGID BODY, NSET=BODY\n",
      "bad.inp:14: *RIGID BODY needs the parameter REF NODE"},
     {"reference_of_several", "+*NSET, NSET=R\n1, 2\n*RIGID BODY, NSET=R, REF NODE=R\n",
@@ -359,9 +359,9 @@ TEST_F(BadFiles, UnknownFormatAndMissingFile) {
 TEST_F(BadFiles, MatricesWithoutTheirCompanions) {
   write("a.sti", matrix_text);
   EXPECT_EQ(errors("a.sti"),
-            "a.sti: the mass matrix is not there: there is no 'a.mas' beside it; give the mass "
-            "file\na.sti: the map of degrees of freedom is not there: there is no 'a.dof' beside "
-            "it; give the dofs file\na.sti: the coordinates of the nodes are not there: there is "
+            "a.sti: the mass matrix is missing: there is no 'a.mas' beside it; give the mass "
+            "file\na.sti: the map of degrees of freedom is missing: there is no 'a.dof' beside "
+            "it; give the dofs file\na.sti: the coordinates of the nodes are missing: there is "
             "no 'a.inp' or 'a.csv' beside it; give the nodes file");
 }
 

@@ -126,10 +126,10 @@ TEST(DeckKeywords, BesideMatricesOnlyNodesCount) {
 
 TEST(DeckKeywords, StepsDoNotChangeThePart) {
   EXPECT_EQ(error(tetrahedron + "*STEP\n*STATIC\n*ELEMENT, TYPE=MASS, ELSET=M\n9, 1\n"),
-            "deck.inp:16: *ELEMENT stands in the *STEP of line 14, but the part must be complete "
+            "deck.inp:16: *ELEMENT is inside the *STEP of line 14, but the part must be complete "
             "before the first step");
   EXPECT_EQ(error(tetrahedron + "*STEP\n*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nBODY\n*END STEP\n"),
-            "deck.inp:15: *MODEL CHANGE stands in the *STEP of line 14, but the part must be "
+            "deck.inp:15: *MODEL CHANGE is inside the *STEP of line 14, but the part must be "
             "complete before the first step");
   EXPECT_EQ(error(tetrahedron + "*STEP\n*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nA, B\n"
                                 "*CHANGE FRICTION\n*BOUNDARY\n1, 1, 3\n*EQUATION, REMOVE\n1, 1\n"

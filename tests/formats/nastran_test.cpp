@@ -424,11 +424,10 @@ TEST(Dmig, NodesInTheFileOrBesideIt) {
     read_fe_file(folder / "arm.pch", options);
     ADD_FAILURE() << "read without nodes";
   } catch (const InputError& error) {
-    EXPECT_EQ(
-        std::string(error.what()),
-        (folder / "arm.pch").string() +
-            ": the coordinates of the nodes are not there: there is no 'arm.bdf' or 'arm.dat' "
-            "or 'arm.nas' or 'arm.fem' or 'arm_nodes.csv' beside it; give the nodes file");
+    EXPECT_EQ(std::string(error.what()),
+              (folder / "arm.pch").string() +
+                  ": the coordinates of the nodes are missing: there is no 'arm.bdf' or 'arm.dat' "
+                  "or 'arm.nas' or 'arm.fem' or 'arm_nodes.csv' beside it; give the nodes file");
   }
   folder.write("arm.bdf", punch_nodes);
   const FeModel beside = read_fe_file(folder / "arm.pch", options);

@@ -68,8 +68,9 @@ TEST(Validate, FlexibleBodiesOfBars) {
          bars(d).bars[1].from_bar = "three";
          bars(d).masses.clear();
        },
-       "bodies.arm.flexible.bars.two.from.bar: unknown bar 'three' (bars are known after they are "
-       "written)"},
+       "bodies.arm.flexible.bars.two.from.bar: unknown bar 'three' (a bar must be defined before "
+       "it is "
+       "used)"},
       {[](D& d) {
          bars(d).bars[1].from_fraction = 1.5;
          bars(d).masses.clear();
@@ -96,7 +97,7 @@ TEST(Validate, FlexibleBodiesOfBars) {
          bars(d).points["d"] = Vec3(5, 0, 0);
        },
        "bodies.arm.flexible.bars.two: the bar is not connected to 'one', expected all bars of a "
-       "body to hang together"},
+       "body to be connected"},
       {[](D& d) { bars(d).masses[0].node = "q"; },
        "bodies.arm.flexible.masses[1].point: found 'q', expected an end point of a bar of this "
        "body"},

@@ -124,11 +124,10 @@ std::string error_of_unlike(int elements) {
 TEST(ManyElements, IsRefusedWhereDigitsAreLost) {
   EXPECT_EQ(error_of_unlike(150), "no error");
   const std::string lost = error_of_unlike(6000);
-  EXPECT_TRUE(lost.starts_with("the 6000 elements are more than the digits of a double carry: "))
-      << lost;
+  EXPECT_TRUE(lost.starts_with("the 6000 elements are too many for double precision: ")) << lost;
   EXPECT_NE(lost.find("use fewer elements"), std::string::npos) << lost;
   const std::string singular = error_of_unlike(20000);
-  EXPECT_NE(singular.find("digits of a double carry"), std::string::npos) << singular;
+  EXPECT_NE(singular.find("too many for double precision"), std::string::npos) << singular;
 }
 
 /// A basis of the user: the stiffness of its shapes.

@@ -92,7 +92,7 @@ TEST(CraigBampton, ConstraintModesAreUnitDisplacements) {
 }
 
 TEST(CraigBampton, SparseAndDenseEigensolversAgree) {
-  // 40 elements a bar: 486 dofs, subspace iteration; against the dense solver by asking for many
+  // 40 elements per bar: 486 dofs, subspace iteration; against the dense solver by asking for many
   // modes.
   const FeModel model = build_bar_frame(a_arm_frame(40));
   ReductionOptions options = a_arm_options();
@@ -298,10 +298,10 @@ TEST(ReductionErrors, EachHasItsSentence) {
             }),
             "node 'ball' uz is given twice as an interface degree of freedom");
   EXPECT_EQ(with([](ReductionOptions& o) { o.normal_modes = 1000; }),
-            "1000 normal modes are asked for, but only 58 degrees of freedom are left inside the "
+            "1000 normal modes are requested, but only 58 degrees of freedom are left inside the "
             "interface");
   EXPECT_EQ(with([](ReductionOptions& o) { o.normal_modes = 50; }),
-            "50 normal modes are asked for, but the mass inside the interface allows only 28");
+            "50 normal modes are requested, but the mass inside the interface allows only 28");
   EXPECT_EQ(with([](ReductionOptions& o) { o.damping_ratio = -0.1; }),
             "the modal damping ratio must not be negative");
   EXPECT_EQ(with([](ReductionOptions& o) { o.basis = MatX::Zero(5, 1); }),

@@ -32,7 +32,7 @@ TEST(PartErrors, EachHasItsSentence) {
   options = both_ends();
   options.modes = 400;
   EXPECT_EQ(message(beam(), options),
-            "400 normal modes are asked for, but only 297 degrees of freedom are left inside the "
+            "400 normal modes are requested, but only 297 degrees of freedom are left inside the "
             "interface");
   options = both_ends();
   options.method = ModeMethod::free_free;

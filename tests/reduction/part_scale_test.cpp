@@ -27,7 +27,7 @@ void scale(FeModel& model, double s) {
 /// What depends on the units of length by its purpose, or shows a frequency.
 bool of_units(const std::string& warning) {
   return warning.find("unusual") != std::string::npos ||
-         warning.find("which no usual part has") != std::string::npos ||
+         warning.find("which is unusual for a part") != std::string::npos ||
          warning.find(" Hz ") != std::string::npos;
 }
 

@@ -59,10 +59,9 @@ TEST(Equilibrium, OfTooManyCoordinatesIsRefused) {
     d.joints.push_back(free);
   }
   const Model model = build_model(d);
-  EXPECT_EQ(
-      run_error_of(model),
-      "the static equilibrium of the model 'stones' is not looked for: found 10002 coordinates "
-      "and 0 constraints, expected at most 10000 together");
+  EXPECT_EQ(run_error_of(model),
+            "the static equilibrium of the model 'stones' is not computed: found 10002 coordinates "
+            "and 0 constraints, expected at most 10000 together");
 }
 
 }  // namespace

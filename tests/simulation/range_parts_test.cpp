@@ -45,7 +45,7 @@ TEST_F(RangeOfParts, SurfaceBetweenMarkersThatStandStill) {
   for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
     const std::string sentence = far(0.4, c);
     EXPECT_NE(sentence.find("s the surface point at ("), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find(" m is 0.436 m ("), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find(" m is displaced by 0.436 m ("), std::string::npos) << sentence;
     EXPECT_EQ(far(0.04, c), "");
   }
 }

@@ -49,7 +49,7 @@ TEST(Range, BeamBentBeyondItsLength) {
     EXPECT_EQ(s.status, "completed");
     const std::string far = warning(s, "deforms too far");
     EXPECT_TRUE(says(far, "body 'beam'")) << far;
-    EXPECT_TRUE(says(far, "node 'tip' is 7.")) << far;
+    EXPECT_TRUE(says(far, "node 'tip' is displaced by 7.")) << far;
     EXPECT_TRUE(says(far, "more than 10 % of its size of 1 m")) << far;
     EXPECT_TRUE(says(warning(s, "bends too far"), "0.2 rad"));
     EXPECT_EQ(s.warnings.size(), 2u);
@@ -68,7 +68,7 @@ TEST(Range, PendulumWithAStepOfHalfASecond) {
   for (const Coordinates c : both) {
     const RunSummary s = summary_of(RANGE("pendulum"), {}, c);
     EXPECT_TRUE(says(warning(s, "turns too far in one step of 0.5 s"), "body 'bob'"));
-    EXPECT_TRUE(says(warning(s, "is too long for"), "steps to a period"));
+    EXPECT_TRUE(says(warning(s, "is too long for"), "steps per period"));
     EXPECT_TRUE(says(warning(s, "energy balance does not close"), "J exchanged (limit 5 %)"));
   }
 }
@@ -140,7 +140,7 @@ TEST(Range, OscillationThatTheStepDoesNotResolve) {
   for (const Coordinates c : both) {
     const RunSummary s = summary_of(d, c);
     const std::string w = warning(s, "is too long for the motion of body 'mass'");
-    EXPECT_TRUE(says(w, "steps to a period")) << w;
+    EXPECT_TRUE(says(w, "steps per period")) << w;
     EXPECT_LT(std::abs(s.energy.remainder), 0.05 * s.energy.exchanged);
   }
   d.simulation.step = 0.002;

@@ -127,14 +127,14 @@ TEST(StartValues, MotionsThatContradictEachOther) {
     // In the design position the rocker of 0.4 m goes at half the rate of the crank of 0.2 m.
     EXPECT_EQ(message("[0, 2]", "[0, 5]", cut),
               "the start velocities do not fit: the prescribed motions of joints 'a' and 'd' "
-              "contradict each other: joint 'a' misses its own by 8 rad/s if the rest is met")
+              "contradict each other: joint 'a' is off by 8 rad/s if the rest is met")
         << cut;
     run_of(
         model_of(four_bar(", motion: {polynomial: [0, 2]}", ", motion: {polynomial: [0, 1]}", cut)),
         combinations[0]);
     expect_in(message("[0, 0]", "[0.1, 0]", cut),
               "the model cannot be assembled: the prescribed motions of joints 'a' and 'd' "
-              "contradict each other: joint 'a' misses its own by 0.2 rad if the rest is met");
+              "contradict each other: joint 'a' is off by 0.2 rad if the rest is met");
   }
 }
 

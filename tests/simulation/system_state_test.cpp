@@ -260,7 +260,7 @@ TEST(SystemState, OffsetsFromAState) {
   o.offset = {{"crank", {Vec3(0, 0.1, 0), std::nullopt}}};
   const std::string text = error_of([&] { run(model, o); });
   const std::string expected =
-      "the offset at the start cannot be: with loops closed body 'crank' stays ";
+      "the offset at the start is not possible: with loops closed body 'crank' stays ";
   EXPECT_EQ(text.substr(0, expected.size()), expected);
 }
 

@@ -171,7 +171,7 @@ TEST(ProcessPool, MemoryThatTheSystemRefuses) {
 #endif
   ProcessPool pool(1, {}, work);
   for (const std::string request : {"too much", "too much, noexcept"}) {
-    EXPECT_EQ(lost(pool, request), "needed more memory than there is");
+    EXPECT_EQ(lost(pool, request), "needed more memory than was available");
     EXPECT_EQ(lost(pool, "x"), "answered done x");
   }
 }

@@ -146,10 +146,12 @@ Command advise_command() {
                        "Time step [s]; default: that of the model file"),
            text_option("--duration", a->duration, "SECONDS",
                        "Time to simulate [s]; default: that of the model file"),
-           fraction_option("--share", a->options.drop_share,
-                           "Modes with smaller static and dynamic shares may go; default 0.001"),
-           fraction_option("--tolerance", a->options.tolerance,
-                           "Difference of outputs allowed, of the range of each; default 0.01"),
+           fraction_option(
+               "--share", a->options.drop_share,
+               "Modes with smaller static and dynamic shares may be dropped; default 0.001"),
+           fraction_option(
+               "--tolerance", a->options.tolerance,
+               "Largest change of an output allowed, as a fraction of its range; default 0.01"),
            whole_option("--repeat", a->options.repeat, 1, 1000,
                         "Timed runs of both models, the quickest counts; default 3"),
            flag("--json", a->json, "JSON on standard output")}),

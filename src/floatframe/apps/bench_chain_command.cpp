@@ -38,7 +38,7 @@ ChainOptions checked(const ChainArguments& a) {
   const int most = largest_chain_modes(o.elements);
   for (const int modes : o.modes) {
     if (modes > most)
-      throw InputError(fmt::format("--modes: found {}, expected at most {} with {} a link", modes,
+      throw InputError(fmt::format("--modes: found {}, expected at most {} with {} per link", modes,
                                    most, plural(o.elements, "element")));
   }
   return o;
@@ -65,28 +65,26 @@ Command bench_chain_command() {
   return {
       .name = "chain",
       .help = "Chains of flexible links: time per step, iterations, accuracy, energy",
-      .options = {whole_list("--links", a->options.links, 1, 4096,
-                             "Numbers of links, comma-separated (default 1,4,16,64,256)"),
-                  whole_list("--modes", a->options.modes, 1, 1000,
-                             "Modes a link, comma-separated (default 8: six static, two normal)"),
-                  whole_option("--elements", a->options.elements, 1, 100000,
-                               "Elements a link (default 20)"),
-                  text_option("--step", a->step, "SECONDS", "Time step [s] (default 0.001)"),
-                  text_option("--duration", a->duration, "SECONDS",
-                              "Time to simulate [s] (default 2)"),
-                  coordinates_option(a->coordinates, "Only these: relative or absolute"),
-                  inertia_option(a->inertia, "Only this method: preprocessing or projection"),
-                  text_option("--tolerance", a->tolerance, "NUMBER",
-                              "Newton tolerance: largest coordinate increment (default 1e-9)"),
-                  text_option(
-                      "--spectral-radius", a->spectral_radius, "NUMBER",
-                      "Of the integrator at infinite frequency (default 0.9; 1: trapezoidal rule)"),
-                  whole_option("--repeat", a->options.runs, 1, 1000,
-                               "Timed runs of a row, at least (default 5)"),
-                  text_option("--seconds", a->seconds, "SECONDS",
-                              "Processor time for the timed runs of a row, about (default 2)"),
-                  text_option("--json", a->json_file, "FILE",
-                              "Write the figures to this file as JSON")},
+      .options =
+          {whole_list("--links", a->options.links, 1, 4096,
+                      "Numbers of links, comma-separated (default 1,4,16,64,256)"),
+           whole_list("--modes", a->options.modes, 1, 1000,
+                      "Modes per link, comma-separated (default 8: six static, two normal)"),
+           whole_option("--elements", a->options.elements, 1, 100000,
+                        "Elements per link (default 20)"),
+           text_option("--step", a->step, "SECONDS", "Time step [s] (default 0.001)"),
+           text_option("--duration", a->duration, "SECONDS", "Time to simulate [s] (default 2)"),
+           coordinates_option(a->coordinates, "Only these coordinates: relative or absolute"),
+           inertia_option(a->inertia, "Only this method: preprocessing or projection"),
+           text_option("--tolerance", a->tolerance, "NUMBER",
+                       "Newton tolerance: largest coordinate increment (default 1e-9)"),
+           text_option("--spectral-radius", a->spectral_radius, "NUMBER",
+                       "Spectral radius at infinite frequency (default 0.9; 1: trapezoidal rule)"),
+           whole_option("--repeat", a->options.runs, 1, 1000,
+                        "Least number of timed runs of a row (default 5)"),
+           text_option("--seconds", a->seconds, "SECONDS",
+                       "Approximate processor time for the timed runs of a row (default 2)"),
+           text_option("--json", a->json_file, "FILE", "Write the figures to this file as JSON")},
       .footer =
           "Links are steel beams of 1 m hung by parallel hinges and released from the horizontal.\n"
           "Times are processor times of stepping, without input and output.",

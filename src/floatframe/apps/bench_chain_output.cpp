@@ -30,7 +30,7 @@ std::string small(const std::optional<double>& x) { return x ? fmt::format("{:.1
 std::string chain_text(const ChainResult& result) {
   const ChainOptions& o = result.options;
   TextTable table(
-      {"links", "modes", "", "us per step, min", "median", "LLTs", "us a link", "iterations",
+      {"links", "modes", "", "us per step, min", "median", "LLTs", "us per link", "iterations",
        "us each", "factoris.", "tip error [m]", "to published", "energy drift", "steps"},
       {2});
   std::string failures;
@@ -53,7 +53,8 @@ std::string chain_text(const ChainResult& result) {
                               short_name(row.combination), row.failure);
   }
   std::string text = fmt::format(
-      "Chain of flexible links released from the horizontal: {:g} s at {:g} ms, {} a link, Newton "
+      "Chain of flexible links released from the horizontal: {:g} s at {:g} ms, {} per link, "
+      "Newton "
       "tolerance {:g}, spectral radius {:g}\n"
       "Processor time per step, B projection, P preprocessing; LLTs: in units of one dense LLT of "
       "a "
@@ -62,7 +63,7 @@ std::string chain_text(const ChainResult& result) {
   text += table.text(2);
   text += fmt::format(
       "\n  min, median: of every block of 20 steps over {} runs or more, summed over the blocks.\n"
-      "  tip error: at 1 s against an own run at {:g} ms (up to {} links); to published: distance "
+      "  tip error: at 1 s against a run at {:g} ms (up to {} links); to published: distance "
       "of the tip of\n"
       "  four links to another program's. energy drift: over the range of the potential energy.\n",
       o.runs, 1e3 * result.tip_reference_step, largest_reference_chain);

@@ -35,7 +35,7 @@ BenchRow measure(const Model& model, SimulationDescription simulation,
   const RunSummary summary = run(model, simulation, run_options).summary;
   if (summary.status != "completed") {
     throw RunError(
-        fmt::format("{} coordinates, inertia terms by {}, {} elements a bar: the run failed: {}",
+        fmt::format("{} coordinates, inertia terms by {}, {} elements per bar: the run failed: {}",
                     word(row.coordinates), word(row.inertia), elements, summary.message));
   }
   row.steps = summary.steps;

@@ -1,6 +1,6 @@
 #pragma once
 // Table 1 of the paper on this machine: processor time of the Iltis manoeuvre in the four
-// combinations of coordinates and inertia method against the number of elements a bar; what the
+// combinations of coordinates and inertia method against the number of elements per bar; what the
 // model's preparation costs; and two yardsticks measured in the same run, a dense Cholesky
 // factorisation and one full Newton iteration.
 #include <functional>
@@ -31,7 +31,7 @@ struct BenchBuild {
 };
 
 struct BenchResult {
-  std::vector<BenchRow> rows;      ///< by combination, then by elements a bar
+  std::vector<BenchRow> rows;      ///< by combination, then by elements per bar
   std::vector<BenchBuild> builds;  ///< one for each number of elements
   double step = 0, duration = 0;   ///< [s]
   int repeats = 0;

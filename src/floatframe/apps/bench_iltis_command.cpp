@@ -44,7 +44,7 @@ Command bench_iltis_command() {
                   whole_option("--repeat", a->options.repeats, 1, 1000,
                                "Runs of each combination (default 5)"),
                   whole_list("--elements", a->options.elements, 1, 100000,
-                             "Elements a bar, comma-separated (default 5,10,50,100)"),
+                             "Elements per bar, comma-separated (default 5,10,50,100)"),
                   text_option("--model", a->options.model, "FILE",
                               "Model file with a parameter ne (default: the example iltis.yaml)"),
                   text_option("--step", a->step, "SECONDS",

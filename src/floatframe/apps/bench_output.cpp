@@ -18,7 +18,7 @@ namespace {
 
 using Key = std::pair<Coordinates, InertiaMethod>;
 
-/// CPU seconds of Table 1 (machine not stated) at 5, 10, 50 and 100 elements a bar.
+/// CPU seconds of Table 1 (machine not stated) at 5, 10, 50 and 100 elements per bar.
 std::optional<double> paper_seconds(const BenchRow& row) {
   static const std::map<Key, std::array<double, 4>> table1{
       {{Coordinates::absolute, InertiaMethod::projection}, {4.19, 4.48, 7.58, 12.59}},
@@ -48,7 +48,7 @@ std::string combination_name(const BenchRow& row) {
 }
 
 std::string table1_text(const BenchResult& result) {
-  std::vector<std::string> header{"elements a bar", ""}, totals{"elements in all", ""};
+  std::vector<std::string> header{"elements per bar", ""}, totals{"elements in all", ""};
   for (const BenchBuild& build : result.builds) {
     header.push_back(std::to_string(build.elements_per_bar));
     totals.push_back(std::to_string(16 * build.elements_per_bar + 4));
@@ -81,7 +81,7 @@ std::string table1_text(const BenchResult& result) {
 }
 
 std::string work_text(const BenchResult& result) {
-  TextTable table({"", "elements a bar", "steps", "by halving", "Newton iterations",
+  TextTable table({"", "elements per bar", "steps", "by halving", "Newton iterations",
                    "us per iteration", "us per step", "LLTs per step", "positions [m]",
                    "velocities [m/s]"});
   for (const BenchRow& row : result.rows) {

@@ -17,9 +17,10 @@ const char* word(Sweep sweep) noexcept;
 
 struct ScalingRow {
   Sweep sweep = Sweep::elements;
-  int value = 0;  ///< of what is varied: elements a link, nodes of an end face, modes a link, links
+  /// Of what is varied: elements per link, nodes of an end face, modes per link, links.
+  int value = 0;
   int links = 0, modes = 0;
-  int elements = 0;             ///< finite elements a link
+  int elements = 0;             ///< finite elements per link
   int finite_element_dofs = 0;  ///< of a link, before reduction
   Combination combination{Coordinates::relative, InertiaMethod::preprocessing};
   int freedoms = 0;  ///< velocities of the formulation

@@ -15,11 +15,11 @@ namespace {
 const char* title(Sweep sweep) {
   switch (sweep) {
     case Sweep::elements:
-      return "Elements a link (beams; 4 links, 8 modes)";
+      return "Elements per link (beams; 4 links, 8 modes)";
     case Sweep::interface_nodes:
       return "Nodes of each end face tied to the joint (bricks; 4 links, 8 modes)";
     case Sweep::modes:
-      return "Modes a link (4 links, 40 elements)";
+      return "Modes per link (4 links, 40 elements)";
     case Sweep::bodies:
       return "Links (8 modes, 20 elements)";
   }
@@ -66,7 +66,7 @@ std::string scaling_text(const ScalingResult& result) {
       plural(result.options.steps, "step"), 1e3 * result.options.step);
   std::string failures;
   for (const Sweep sweep : result.options.sweeps) {
-    TextTable table({word(sweep), "", "dofs a link", "us per iteration", "ratio", "us a link",
+    TextTable table({word(sweep), "", "dofs per link", "us per iteration", "ratio", "us per link",
                      "iterations per step", "us per step", "LLTs", "build [s]"},
                     {1});
     for (const ScalingRow& row : result.rows) {

@@ -42,8 +42,8 @@ ModelDescription described(const StepArguments& a) {
     }
     const int most = largest_chain_modes(a.elements);
     if (a.modes > most)
-      throw InputError(fmt::format("--modes: found {}, expected at most {} with {} a link", a.modes,
-                                   most, plural(a.elements, "element")));
+      throw InputError(fmt::format("--modes: found {}, expected at most {} with {} per link",
+                                   a.modes, most, plural(a.elements, "element")));
     ModelDescription d = chain_model(a.links, a.modes, a.elements);
     d.simulation.spectral_radius = chain_spectral_radius;
     return d;
@@ -103,17 +103,17 @@ Command bench_step_command() {
   const auto a = std::make_shared<StepArguments>();
   return {
       .name = "step",
-      .help = "Only the steps of a run, to be watched by a profiler or an instruction counter",
+      .help = "Only the steps of a run, for a profiler or an instruction counter",
       .options =
           {text_position("MODEL", a->model, "chain (default), iltis or a model file"),
            repeated_option("--set", a->settings, "NAME=VALUE",
                            "Change a parameter of the model file; may be repeated"),
            whole_option("--links", a->links, 1, 4096, "Links of the chain (default 4)"),
-           whole_option("--modes", a->modes, 1, 1000, "Modes a link of the chain (default 8)"),
+           whole_option("--modes", a->modes, 1, 1000, "Modes per link of the chain (default 8)"),
            whole_option("--elements", a->elements, 1, 100000,
-                        "Elements a link of the chain (default 20)"),
+                        "Elements per link of the chain (default 20)"),
            whole_option("--iterations", a->iterations, 1, 1000000,
-                        "Instead of steps, so many full Newton iterations at the start"),
+                        "Instead of steps, N full Newton iterations at the start"),
            one_of({"1", "3", "5", "7", "9"},
                   whole_option("--bricks", a->across, 1, 9,
                                "Links of N x N x 50 bricks with (N + 1)^2 nodes of each end tied "
@@ -126,7 +126,7 @@ Command bench_step_command() {
            text_option("--tolerance", a->tolerance, "NUMBER",
                        "Newton tolerance; default: that of the model"),
            text_option("--spectral-radius", a->spectral_radius, "NUMBER",
-                       "Of the integrator at infinite frequency; default: that of the model"),
+                       "Spectral radius at infinite frequency; default: that of the model"),
            text_option("--json", a->json_file, "FILE", "Write the counts to this file as JSON")},
       .footer =
           "All steps are made inside the function floatframe_counted_steps, for instance:\n"

@@ -233,22 +233,22 @@ std::vector<Option> options_of(RealTimeArguments& a) {
       text_option("--listen", a.listen, "HOST:PORT",
                   "Where inputs come in; default: port 47100 of the address that the partner sees"),
       text_option("--send", a.send, "HOST:PORT",
-                  "Where outputs go to, and the only one whose inputs are heard; default: "
+                  "Where outputs go to, and the only sender accepted; default: "
                   "127.0.0.1:47101"),
       text_option("--peer", a.peer, "HOST[:PORT]",
-                  "The only one whose inputs are heard; default: --send if it is given, else who "
-                  "sends first"),
+                  "The only sender accepted; default: that of --send, or else the first to send"),
       flag("--lockstep", a.lock_step,
            "Wait before each step for the inputs that answer the last outputs"),
       seconds("--timeout", a.timeout, "Longest wait of --lockstep; default: 5"),
       seconds("--input-timeout", a.input_timeout,
-              "Inputs that stay away for so long are reported; default: 1; 0: never"),
+              "Report if no inputs arrive for so long; default: 1; 0: never"),
       word_option("--fallback", a.fallback, {"hold", "initial", "stop"},
-                  "What then happens to them: hold the last values (default), initial values, or "
+                  "Inputs from then on: hold the last values (default), initial values, or "
                   "stop"),
       whole_option("--iterations", a.iterations, 1, realtime_rules::fixed_iterations.high,
                    "Fixed number of Newton iterations per step; default: to convergence"),
-      seconds("--budget", a.budget, "No Newton iteration begins later in a step than this"),
+      seconds("--budget", a.budget,
+              "No Newton iteration starts later than this after the start of a step"),
       seconds("--max-lag", a.max_lag,
               "Late steps catch up to this lag, then the clock is moved; default: 0.1"),
       whole_option("--priority", a.priority, 1, realtime_rules::priority.high,
@@ -260,7 +260,7 @@ std::vector<Option> options_of(RealTimeArguments& a) {
                   "Write figures and histograms to this file as JSON"),
       text_option("--log", a.log, "FILE",
                   "Write inputs and outputs of every step to this CSV file"),
-      flag("--layout", a.layout, "Print names and order of the values in the packets only"),
+      flag("--layout", a.layout, "Only print names and order of the values in the packets"),
       flag("--json", a.json, "With --layout: as JSON"),
       flag("--quiet", a.quiet,
            "No progress, no summary; errors and silent partners are still shown")};
@@ -272,7 +272,7 @@ Command realtime_command() {
   const auto a = std::make_shared<RealTimeArguments>();
   return {
       .name = "realtime",
-      .help = "Step a model with the wall clock; exchange inputs and outputs by UDP",
+      .help = "Run a model in step with the wall clock; exchange inputs and outputs by UDP",
       .options = joined(model_options(a->model), options_of(*a)),
       .footer =
           "Ctrl-C ends the run with its summary. The packets are described in docs/realtime.md.\n"

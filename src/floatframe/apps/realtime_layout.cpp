@@ -28,8 +28,8 @@ Json direction_json(const SignalLayout& layout) {
 
 std::string layout_text(const Model& model) {
   const SignalLayout in = input_layout(model), out = output_layout(model);
-  std::string text = fmt::format("inputs of {}: kind 1, layout {}, {} bytes a packet\n", model.name,
-                                 hash_text(in), packet_size(in.signals.size()));
+  std::string text = fmt::format("inputs of {}: kind 1, layout {}, {} bytes per packet\n",
+                                 model.name, hash_text(in), packet_size(in.signals.size()));
   TextTable inputs({"offset", "name", "unit", "initial", "min", "max"}, {1, 2});
   for (std::size_t i = 0; i < model.inputs.size(); ++i) {
     const Input& x = model.inputs[i];
@@ -37,7 +37,7 @@ std::string layout_text(const Model& model) {
                 limit(x.low), limit(x.high)});
   }
   text += inputs.empty() ? "  none\n" : inputs.text(2);
-  text += fmt::format("\noutputs of {}: kind 2, layout {}, {} bytes a packet\n", model.name,
+  text += fmt::format("\noutputs of {}: kind 2, layout {}, {} bytes per packet\n", model.name,
                       hash_text(out), packet_size(out.signals.size()));
   TextTable outputs({"offset", "name", "unit"}, {1, 2});
   for (std::size_t i = 0; i < out.signals.size(); ++i)

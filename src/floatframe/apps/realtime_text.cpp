@@ -66,9 +66,9 @@ std::string iterations_text(const RealTimeReport& r) {
 
 std::string silence_text(const RealTimeReport& r, SilenceFallback fallback, double timeout) {
   if (r.input_timeouts == 0) return "";
-  if (!r.inputs_came) return "  no inputs ever came\n";
+  if (!r.inputs_came) return "  no inputs received\n";
   std::string text = fmt::format(
-      "  inputs stayed away  {} for more than {:g} s ({}):", plural(r.input_timeouts, "time"),
+      "  inputs missing      {} for more than {:g} s ({}):", plural(r.input_timeouts, "time"),
       timeout,
       fallback == SilenceFallback::hold      ? "last values held"
       : fallback == SilenceFallback::initial ? "back to the initial values"
@@ -85,17 +85,17 @@ std::string silence_text(const RealTimeReport& r, SilenceFallback fallback, doub
 std::string senders_text(const UdpPort& port) {
   std::string text;
   if (port.gives_inputs())
-    text += fmt::format("  heard               {}\n",
+    text += fmt::format("  partner             {}\n",
                         port.peer().known() ? port.peer().text() : "nobody");
   long listed = 0;
   for (const OtherSender& o : port.other_senders()) {
-    text += fmt::format("{}{} ({})", listed == 0 ? "  not heard           " : ", ",
+    text += fmt::format("{}{} ({})", listed == 0 ? "  not accepted        " : ", ",
                         o.address.text(), plural(o.packets, "packet"));
     listed += o.packets;
   }
   const long others = port.counts().other;
   if (others > listed) text += fmt::format(" and others ({})", plural(others - listed, "packet"));
-  return listed == 0 ? text : text + "; --peer says who is\n";
+  return listed == 0 ? text : text + "; --peer names the partner\n";
 }
 
 std::string port_text(const RealTimeReport& r, const RealTimeOptions& options, const Model& model,

@@ -27,7 +27,7 @@ struct ReduceArguments {
   } catch (const InputError&) {  // its errors are reported when the units are known
   }
   throw InputError(fmt::format(
-      "--units is missing: nothing in the file says its units; known are {}, or any "
+      "--units is missing: the file does not state its units; known are {}, or any "
       "<length>-<mass>-<time>{}",
       fmt::join(unit_system_names(), ", "),
       likely.empty() ? ""
@@ -108,7 +108,7 @@ Command reduce_command() {
           "Example: floatframe reduce arm.inp --units mm-t-s --interface BALL=set:BALL \\\n"
           "  --interface EYE=cylinder:0,0,0,axis=y,radius=12 --modes 20 -o arm.ffb\n"
           "Report on standard output, progress on standard error. docs/parts.md explains both.\n"
-          "Exit codes: 0 done, 1 failed, 2 bad input; nothing half-written stays.",
+          "Exit codes: 0 done, 1 failed, 2 bad input; files are written atomically.",
       .run = [a] { return reduce_file(*a); }};
 }
 

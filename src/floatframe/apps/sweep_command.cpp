@@ -225,23 +225,25 @@ Command sweep_command() {
   const auto a = std::make_shared<SweepArguments>();
   return {
       .name = "sweep",
-      .help = "Run a model many times with other values; one row of results per run",
+      .help = "Run a model many times with different values; one row of results per run",
       .options =
           {file_position("MODEL", a->model.path, "Model file (YAML)"),
-           repeated_option("--vary", a->vary, "NAME=VALUES",
-                           "What changes: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: all "
-                           "combinations"),
-           text_option("--table", a->table, "FILE",
-                       "Instead: CSV file, names in the first line, then one run per line"),
+           repeated_option(
+               "--vary", a->vary, "NAME=VALUES",
+               "Values to vary: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: all "
+               "combinations"),
+           text_option(
+               "--table", a->table, "FILE",
+               "Instead of --vary: CSV file, names in the first line, then one run per line"),
            repeated_option("--set", a->model.settings, "NAME=VALUE",
-                           "The same for all runs; may be repeated"),
+                           "Set a parameter for all runs; may be repeated"),
            repeated_option(
                "--measure", a->measures, "OUTPUT[:STATISTIC]",
                "Only these outputs in the table: final, min, time_of_min, max, time_of_max or rms; "
-               "may be repeated; default: all of all"),
-           whole_option("--threads", a->threads, 1, 4096,
-                        "Runs at a time, each in a process of its own; default: the processors at "
-                        "hand"),
+               "may be repeated; default: all statistics of all outputs"),
+           whole_option(
+               "--threads", a->threads, 1, 4096,
+               "Runs at a time, each in a process of its own; default: number of processors"),
            coordinates_option(a->coordinates, "relative or absolute, for all runs"),
            inertia_option(a->inertia, "preprocessing or projection, for all runs"),
            text_option("--step", a->step, "SECONDS", "Time step of all runs [s]"),
@@ -252,11 +254,12 @@ Command sweep_command() {
                 "Keep results.csv and summary.json of every run below DIR/runs"),
            flag("--fresh", a->fresh, "Do not continue the study in DIR: start again"),
            flag("--retry-failed", a->retry_failed, "Continue, and repeat the runs that failed"),
-           flag("--strict", a->strict, "A run with warnings has failed; its figures are kept"),
+           flag("--strict", a->strict,
+                "A run with warnings counts as failed; its figures are kept"),
            text_option("--case-timeout", a->case_timeout, "SECONDS",
-                       "A run that takes longer is stopped and has failed"),
+                       "A run that takes longer is stopped and counts as failed"),
            text_option("--case-memory", a->case_memory, "MB",
-                       "A run that needs more memory is stopped and has failed [MB]"),
+                       "A run that needs more memory is stopped and counts as failed [MB]"),
            flag("--quiet", a->quiet,
                 "No progress bar, no summary; errors and warnings are still shown")},
       .footer =
@@ -266,11 +269,11 @@ Command sweep_command() {
           "(simulation.step "
           "if\n"
           "the file has a parameter of that name too).\n"
-          "Files: DIR/sweep.csv, the same to the byte whatever the number of threads and "
+          "Files: DIR/sweep.csv, identical byte by byte whatever the number of threads and "
           "processes;\n"
           "DIR/sweep.journal, from which an interrupted study continues when the command is "
           "repeated.\n"
-          "A run that crashes has its row, \"failed\" and why, and the study goes on.\n"
+          "A run that crashes gets a row with \"failed\" and the reason; the study goes on.\n"
           "`mpirun -n 4 floatframe sweep ...` spreads the runs over processes.\n"
           "Exit codes: 0 completed, 1 a run failed or the study was interrupted, 2 bad input.",
       .run = [a] { return sweep(*a); }};

@@ -6,9 +6,8 @@
 // holds all integrals: S^ij, S^i, S, P_u, m_u and m are blocks of it.
 //   isoparametric  linear elements, G = sum_e Z_e^T M_e Z_e with the scalar element mass: exact
 //   hermite        beams with their cubic shape functions, five Gauss points along the axis: exact;
-//   with the section
-//                  inertia the displacement of a section is u = u_0 + theta x (0, y, z), theta =
-//                  (rx, -w', v')
+//                  with the section inertia the displacement of a section is
+//                  u = u_0 + theta x (0, y, z), theta = (rx, -w', v')
 // Point masses are included. SI units, body frame.
 #include "floatframe/body/inertia_invariants.hpp"
 #include "floatframe/fe/fe_model.hpp"

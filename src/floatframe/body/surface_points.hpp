@@ -13,7 +13,7 @@ bool is_surface_point(const ModalNode& node) noexcept;
 
 /// The points that move most in a mode, at most one per mode, and at most `most_hidden_points` that
 /// move most in combinations of modes in which the nodes of the body and the points taken before
-/// stand still. `positions`: 3 x points [m]; `modes`: three rows a point, one column per mode.
+/// stand still. `positions`: 3 x points [m]; `modes`: three rows per point, one column per mode.
 std::vector<ModalNode> surface_points(const FlexibleBody& body, const Mat3X& positions,
                                       const MatX& modes);
 inline constexpr int most_hidden_points = 20;

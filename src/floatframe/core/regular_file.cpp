@@ -92,7 +92,7 @@ std::string read_regular_file(const std::filesystem::path& file, std::uint64_t l
     return read_up_to(file, largest, true, content);
   } catch (const std::bad_alloc&) {
     content = {};
-    return "the file needs more memory than there is";
+    return "the file needs more memory than is available";
   }
 }
 

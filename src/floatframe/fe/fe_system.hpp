@@ -5,8 +5,7 @@
 // Dependent dofs have no row of their own. Models given by matrices keep those matrices' dofs.
 //   rigid spider  u_i = u_r + theta_r x (x_i - x_r)
 //   mean spider   u_r, theta_r = weighted least squares of the u_i: six dofs of the nodes (chosen
-//   by
-//                 pivoting) depend on q_r and the other dofs of the nodes
+//                 by pivoting) depend on q_r and the other dofs of the nodes
 // Load time: allocates and throws InputError (a node that depends twice, an RBE3 whose nodes lie on
 // a line, ...).
 #include <vector>

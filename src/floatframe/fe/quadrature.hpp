@@ -1,6 +1,6 @@
 #pragma once
 // Numerical integration over the parent domains of the solid elements. Product rules of Gauss
-// points, collapsed (Gauss-Jacobi) towards a corner of triangles and tetrahedra: n points a
+// points, collapsed (Gauss-Jacobi) towards a corner of triangles and tetrahedra: n points per
 // direction integrate every polynomial of degree 2n - 1 exactly, with positive weights.
 #include <vector>
 

@@ -1,7 +1,10 @@
 // Membrane: the optimal triangle with drilling freedoms of Felippa (2003, "A study of optimal
 // membrane triangles with drilling freedoms"), which is exact in plane bending of rectangular
-// patches. Plate: discrete Kirchhoff triangle of Batoz, Bathe and Ho (1980); no transverse shear
-// strain. Mass: linear displacements, rotary inertia of the thickness, none about the normal.
+// patches: K = L E L^T / (A h) + 3/4 beta_0 A h T^T K_theta T with plane stress E, alpha = 3/2 in L
+// and beta_0 = max((1 - 4 nu^2)/2, 0.01), the values of that paper; 0.01 keeps the drilling
+// stiffness positive as nu nears 1/2. Plate: discrete Kirchhoff triangle of Batoz, Bathe and Ho
+// (1980); no transverse shear strain. Mass: linear displacements, rotary inertia of the thickness,
+// none about the normal.
 #include "floatframe/fe/shell_triangle.hpp"
 
 #include <algorithm>
@@ -41,7 +44,7 @@ Mat3 plane_stress(const Material& m) {
   return D;
 }
 
-/// Dofs (u, v, rz) a node: basic part (constant stress) + 3/4 beta_0 of the higher-order part.
+/// Dofs (u, v, rz) per node: basic part (constant stress) + 3/4 beta_0 of the higher-order part.
 Mat9 membrane(const Plane& t, const Material& material, double h) {
   const Mat3 E = plane_stress(material);
   const double A = t.area;
@@ -135,7 +138,7 @@ Mat39 curvatures(const Plane& t, double xi, double eta) {
   return B;
 }
 
-/// Dofs (w, rx, ry) a node; the curvatures are linear, so the middles of the sides are exact.
+/// Dofs (w, rx, ry) per node; the curvatures are linear, so the middles of the sides are exact.
 Mat9 plate(const Plane& t, const Material& material, double h) {
   const Mat3 D = plane_stress(material) * (h * h * h / 12.0);
   const Vec2 middle[3] = {Vec2(0.5, 0.0), Vec2(0.5, 0.5), Vec2(0.0, 0.5)};

@@ -13,7 +13,7 @@ using Mat18 = Eigen::Matrix<double, 18, 18>;
 Mat3 triangle_axes(const std::array<Vec3, 3>& p);
 double triangle_area(const std::array<Vec3, 3>& p);
 
-/// In body axes, (ux uy uz rx ry rz) a node.
+/// In body axes, (ux uy uz rx ry rz) per node.
 Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& material,
                                double thickness);
 Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const Material& material, double thickness,

@@ -75,7 +75,7 @@ void check_digits(const FeModel& model, const MatX& U, const MatX& Theta, const 
     if (!(error(k) <= error(worst))) worst = k;
   if (error(worst) <= sixth_digit) return;
   throw InputError(fmt::format(
-      "the {} elements are more than the digits of a double carry: the stiffness of the mode '{}' "
+      "the {} elements are too many for double precision: the stiffness of the mode '{}' "
       "and its strain energy differ by {:.1e}, at most {:.0e} is accepted (six digits of a "
       "frequency; rounding grows with the fourth power of the number of elements in a row); use "
       "fewer elements",
@@ -92,8 +92,7 @@ void with_digits_hint(const FeModel& model, const std::function<void()>& factor)
     std::vector<ErrorEntry> errors = error.errors();
     for (ErrorEntry& entry : errors)
       entry.message += fmt::format(
-          "; or the {} beams are more in a row than the digits of a double carry: use fewer",
-          beams);
+          "; or the {} beams in a row are too many for double precision: use fewer", beams);
     throw InputError(std::move(errors));
   }
 }

@@ -4,8 +4,9 @@
 // formulation/equations_of_motion.hpp asks for them.
 //
 // Unknown of a step of size h: the increment x of the configuration, q_n+1 = q_n (+) x (rotation
-// vectors for quaternions). With the generalised-alpha family of the spectral radius rho (rho = 1
-// is the trapezoidal rule of the paper: gamma = 1/2, beta = 1/4, alpha_m = alpha_f = 0)
+// vectors for quaternions). With the generalised-alpha family (Chung and Hulbert 1993; Arnold and
+// Bruels 2007) of the spectral radius rho (rho = 1 is the trapezoidal rule of the paper:
+// gamma = 1/2, beta = 1/4, alpha_m = alpha_f = 0)
 //   alpha_m = (2 rho - 1)/(rho + 1),  alpha_f = rho/(rho + 1),
 //   gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2 / 4
 //   a_alg_n+1 = (x - h v_n - h^2 (1/2 - beta) a_alg_n) / (beta h^2)                             (a)
@@ -18,7 +19,10 @@
 //   T dx = -s [M a + Phi_q^T (alpha Phi + lambda) - Q]                                          (f)
 //   T = M + (c1/c2) C + s (K + Phi_q^T alpha Phi_q)                                             (g)
 //   x (+)= dx,  lambda += alpha (Phi + Phi_q dx)                                                (h)
-// where (h) is alpha Phi(q) but for the curvature of the constraints.
+// where (h) is alpha Phi(q) but for the curvature of the constraints. C and K hold modal damping
+// and stiffness, what the rows of forces have of their tangents (force_evaluation.hpp) and
+// geometric stiffness; derivatives of M and Q_v are left out of T, which costs iterations, not
+// accuracy. Multipliers act with -Phi_q^T lambda.
 // Projections, (2), with a metric of their own, factorised once per step with the Jacobian frozen:
 //   W = M + 0.01 s K,  T_p = W + 300 s Phi_q^T alpha Phi_q                                      (i)
 //   v -= T_p^-1 300 s Phi_q^T alpha Phi_dot(v),  a -= T_p^-1 300 s Phi_q^T alpha Phi_ddot(a),   (j)
@@ -209,12 +213,13 @@ class AugmentedLagrangian {
     return false;
   }
 
-  /// Would a fresh tangent get there sooner than the one at hand?
+  /// Would a fresh tangent get there sooner than the one at hand? A rate above 0.9 hardly
+  /// converges; else iterations left at that rate against one with its factorisation.
   void choose_tangent(Iterate& it) noexcept {
     it.renew = experience_.reuse_rate > 0.9 ||
                std::log(options_.tolerance / it.increment) / std::log(experience_.reuse_rate) >
                    1.0 + F::factorization_cost;
-    // An old experience is trusted less and less.
+    // An old experience is trusted less and less: in time reuse is tried again.
     if (it.renew) experience_.reuse_rate *= 0.8;
   }
 
@@ -301,6 +306,8 @@ class AugmentedLagrangian {
     double violation = first;
     reactions_ = lambda_;
     for (int pass = 0; pass < options_.max_projections; ++pass) {
+      // To 1e-6 m/s2 or nine digits. What four passes have not halved is round-off or constraints
+      // that contradict each other.
       if (violation < 1e-6 + 1e-9 * first || (pass > 3 && violation > 0.5 * first)) break;
       correct(a_, penalty);
       violation = largest(rate_);

@@ -1,8 +1,9 @@
 #pragma once
 // Dense partial factorisation F = L D L^T of the leading columns of a symmetric front (multifrontal
 // elimination). The front holds its lower triangle, column major. After `partial_ldlt(n, ne)`:
-//   columns 0..ne-1 below the diagonal: L; diagonal: 1/D; trailing (n-ne) block: the Schur
-//   complement.
+//   columns 0..ne-1 below the diagonal   L
+//   their diagonal                       1/D
+//   trailing (n-ne) block                the Schur complement
 // No pivoting: the tangents of this code are dominated by mass and penalty. A pivot that cancels to
 // round-off, or is not finite, stops the factorisation. Cost: sum over eliminated columns of
 // (n-j)^2/2 multiplications.

@@ -2,7 +2,7 @@
 // Builders of piecewise polynomials: tables, joined polynomials, road profiles, sums.
 //   linear:  straight lines between the points
 //   cubic:   monotone cubic Hermite pieces (PCHIP: harmonic-mean slopes, Fritsch and Butland 1984),
-//   C1, no overshoot
+//            C1, no overshoot
 // Beyond the ends either the tangent continues or the end value is held.
 #include <cstddef>
 #include <vector>

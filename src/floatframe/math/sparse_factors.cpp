@@ -66,7 +66,7 @@ std::vector<int> nested_dissection(const Eigen::SparseMatrix<double>& A) {
   auto size = static_cast<idx_t>(n);
   if (METIS_NodeND(&size, start.data(), neighbours.data(), nullptr, options, order.data(),
                    place.data()) != METIS_OK)
-    throw std::runtime_error("the ordering of a sparse matrix needs more memory than there is");
+    throw std::runtime_error("the ordering of a sparse matrix needs more memory than is available");
   return place;
 }
 
@@ -121,7 +121,7 @@ SparseFactors::SparseFactors(const Eigen::SparseMatrix<double>& A, SparseSolver 
     }
   } catch (const std::bad_alloc&) {
     throw std::runtime_error("the sparse factors of " + std::to_string(A.rows()) +
-                             " equations need more memory than there is");
+                             " equations need more memory than is available");
   }
 }
 

@@ -4,9 +4,9 @@
 // with the derivatives that guided springs, joint springs and the constraints along an axis share.
 // With de = dpi_a x e:
 //   gradient      g  = (-e, e x d, e, 0)                     = ds/d(motion) = dsdot/d(rates)
-//   of the rate   g' = (-w x e, e x (v + d x w), w x e, 0)   = dsdot/d(motion), v = v_b - v_a, w =
-//   w_a curvature     dg/d(motion): not symmetric in (dpi_a, dpi_a), because increments of a
-//   rotation
+//   of the rate   g' = (-w x e, e x (v + d x w), w x e, 0)   = dsdot/d(motion) at fixed rates,
+//                 v = v_b - v_a, w = w_a
+//   curvature     dg/d(motion): not symmetric in (dpi_a, dpi_a), because increments of a rotation
 //                 multiply from the left
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/marker_state.hpp"

@@ -2,9 +2,10 @@
 // Constraints as small parts between two markers a and b; every joint type is a list of parts
 // (paper section 6, theory section 10). Each row has its value phi, its gradient (a wrench row) and
 // quad = Phi_q-dot q-dot without the markers' own bias accelerations; rows of directions are scaled
-// to metres by a body length. A kind of part is one file model/constraints/<name>.cpp, which begins
-// with its formulas, and one entry in constraint_list.hpp: both formulations, messages and the
-// generic tests run over the list.
+// to metres by a body length, so all multipliers are in N. Directions in the formulas have world
+// axes. A multiplier lambda acts on the markers with the wrench -lambda gradient. A kind of part is
+// one file model/constraints/<name>.cpp, which begins with its formulas, and one entry in
+// constraint_list.hpp: both formulations, messages and the generic tests run over the list.
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace floatframe {
 struct ConstraintPart {
   ConstraintType type = ConstraintType::coincident;
   int a = -1, b = -1;  ///< markers
+  /// Perpendicular: the two directions, in axes of a and of b.
   Vec3 e_a = Vec3::UnitZ(), n_b = Vec3::UnitX();
   double c = 0.0;      ///< perpendicular: value of e_a.n_b to keep
   double scale = 1.0;  ///< l, or L of a distance

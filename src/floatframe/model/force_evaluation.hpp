@@ -3,7 +3,7 @@
 // with gradient g, tension positive: generalised force Q = -f g. The formulas stand in the file of
 // each type (model/forces/<type>.cpp).
 //
-// A step wants the wrench and the part of the tangent that a symmetric factorisation can use: rows
+// A step needs the wrench and the part of the tangent that a symmetric factorisation can use: rows
 // g with weights, -dQ/dq ~ sum k g g^T, -dQ/dqdot ~ sum c g g^T. The exact derivatives are in
 // ForceTangent. What the rows leave out of them, kind by kind, is said in its list of regimes and
 // held by the tests: the dependence of rates on positions (smaller than the damping by h |v| / s, h

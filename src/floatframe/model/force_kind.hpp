@@ -4,8 +4,8 @@
 // table of the documentation and the generic tests run over the list.
 //
 // An element acts on markers a and b (or on b alone) and never sees a coordinate. Step time calls
-// force_of and force_tangent_of by name, without a pointer: noexcept, no allocation. The pointers of
-// a ForceKind serve load time only.
+// force_of and force_tangent_of by name, without a pointer: noexcept, no allocation. The pointers
+// of a ForceKind serve load time only.
 #include <array>
 #include <span>
 
@@ -48,7 +48,9 @@ struct ForceRegime {
   /// At rest the wrench is minus the gradient of the energy, and moving only takes energy out.
   bool conservative = true;
   bool acts = true;     ///< some wrench in at least some of the examples
-  bool regular = true;  ///< has a tangent here; at a singular place it only has to stay finite
+  bool regular = true;  ///< the wrench has a derivative here. False where it has none (the ends of
+                        ///< a spring coincide, a wheel lies on the road): there the tests only ask
+                        ///< that the tangent is finite
 };
 
 struct ForceExample {

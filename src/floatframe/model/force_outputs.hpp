@@ -14,7 +14,8 @@ bool force_has(ForceType type, ForceQuantity quantity) noexcept;
 
 /// Where the energy that an element exchanges is booked (simulation/energy_balance.hpp).
 enum class ForceAccount {
-  springs,  ///< it keeps ForceState::energy; the rest is of dampers and actuators
+  springs,  ///< it keeps ForceState::energy (zero if it only damps); ForceState::damping is of
+            ///< dampers, the rest of actuators and targets
   tyres,    ///< the same, but its energy may jump
   loads     ///< it keeps nothing
 };

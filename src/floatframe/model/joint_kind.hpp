@@ -25,8 +25,8 @@ namespace floatframe {
 template <JointType type>
 void joint_motion_of(const JointDirections& axes, const double* q, JointMotion& m) noexcept;
 
-/// Fills bias = Hdot v, which comes as zero, from H of the same configuration. Empty where H is
-/// constant.
+/// Fills bias = Hdot v, which comes as zero. `m` holds p_FM, R_FM and H of the same configuration.
+/// Empty where H is constant.
 template <JointType type>
 void joint_bias_of(const double* v, JointMotion& m) noexcept;
 

@@ -87,7 +87,7 @@ std::string no_modes() {
 std::string no_bars() { return "found no bars, expected at least one"; }
 
 std::string unknown_bar(const std::string& name, const std::string& hint) {
-  return "unknown bar '" + name + "'" + hint + " (bars are known after they are written)";
+  return "unknown bar '" + name + "'" + hint + " (a bar must be defined before it is used)";
 }
 
 std::string no_end_point(const std::string& name) {
@@ -96,7 +96,7 @@ std::string no_end_point(const std::string& name) {
 
 std::string bar_not_connected(const std::string& first_bar) {
   return "the bar is not connected to '" + first_bar +
-         "', expected all bars of a body to hang together";
+         "', expected all bars of a body to be connected";
 }
 
 Complaint body_reference(const std::vector<std::pair<Vec3, unsigned>>& clamped) {

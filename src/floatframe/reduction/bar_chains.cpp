@@ -205,13 +205,13 @@ Eigenmodes BarChains::normal_modes(int count) const {
   if (count < 0) throw InputError("the number of normal modes must not be negative");
   if (count > inner())
     throw InputError(fmt::format(
-        "{} normal modes are asked for, but only {} degrees of freedom are left inside the "
+        "{} normal modes are requested, but only {} degrees of freedom are left inside the "
         "interface",
         count, inner()));
   Eigenmodes modes = lowest_modes([this](const MatX& f) { return solve(f); }, M_inner_, count);
   if (modes.omega.size() < count)
     throw InputError(fmt::format(
-        "{} normal modes are asked for, but the mass inside the interface allows only {}", count,
+        "{} normal modes are requested, but the mass inside the interface allows only {}", count,
         modes.omega.size()));
   MatX shapes = MatX::Zero(size_, modes.shapes.cols());
   shapes(inner_, Eigen::all) = modes.shapes;

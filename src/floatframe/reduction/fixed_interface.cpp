@@ -110,14 +110,14 @@ Eigenmodes FixedInterface::normal_modes(int count) const {
   if (count < 0) throw InputError("the number of normal modes must not be negative");
   if (count > inner()) {
     throw InputError(fmt::format(
-        "{} normal modes are asked for, but only {} degrees of freedom are left inside the "
+        "{} normal modes are requested, but only {} degrees of freedom are left inside the "
         "interface",
         count, inner()));
   }
   Eigenmodes modes = lowest_modes(Kii_, factors_, Mii_, count);
   if (modes.omega.size() < count) {
     throw InputError(fmt::format(
-        "{} normal modes are asked for, but the mass inside the interface allows only {}", count,
+        "{} normal modes are requested, but the mass inside the interface allows only {}", count,
         modes.omega.size()));
   }
   modes.shapes = with_all_rows(modes.shapes);

@@ -92,12 +92,12 @@ Eigenpairs select_free_modes(const FreeStructure& structure, const FeSystem& sys
     count = std::clamp(structure.count_below(options.max_frequency) - 6, 0, count);
   if (count > system.size() - 6) {
     throw InputError(
-        fmt::format("{} normal modes are asked for, but the part has only {} degrees of freedom",
+        fmt::format("{} normal modes are requested, but the part has only {} degrees of freedom",
                     count, system.size()));
   }
   const Eigenpairs all = structure.modes(count + 6);
   if (all.lambda.size() < count + 6) {
-    throw InputError(fmt::format("{} normal modes are asked for, but the mass allows only {}",
+    throw InputError(fmt::format("{} normal modes are requested, but the mass allows only {}",
                                  count, std::max<Eigen::Index>(all.lambda.size() - 6, 0)));
   }
   Eigenpairs elastic{all.lambda.tail(count), all.shapes.rightCols(count)};

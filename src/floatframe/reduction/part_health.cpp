@@ -78,7 +78,7 @@ void add_warnings(const FeModel& model, const PointModel& points, HealthReport& 
   for (const FrequencyPair& pair : health.free_frequencies) {
     if (pair.reduced >= lowest_usual && pair.reduced <= highest_usual) break;
     list.push_back(fmt::format(
-        "the first elastic frequency is {:.3g} Hz, which no usual part has; check the units",
+        "the first elastic frequency is {:.3g} Hz, which is unusual for a part; check the units",
         pair.reduced));
     break;
   }

@@ -175,7 +175,7 @@ void check_size(const RelativeFormulation& f) {
   const long nv = f.velocities(), nc = f.constraints();
   if (nv + nc > largest_equilibrium)
     throw RunError(fmt::format(
-        "the static equilibrium of the model '{}' is not looked for: found {} coordinates "
+        "the static equilibrium of the model '{}' is not computed: found {} coordinates "
         "and {} constraints, expected at most {} together",
         f.model().name, nv, nc, largest_equilibrium));
 }

@@ -101,12 +101,13 @@ std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, do
   if (worst)
     out.push_back(
         {RangeLimit::sine,
-         fmt::format("the step of {:g} s is too long for {}: its sine of {:g} Hz goes through "
-                     "{:.3g} rad of "
-                     "phase in each (limit {:g} rad), {:.2g} steps to a period; take a step of at "
-                     "most {:.2g} s",
-                     step, subject(*worst, count - 1), std::abs(worst->function->frequency), phase,
-                     limits.phase, 2.0 * std::numbers::pi / phase, step * limits.phase / phase)});
+         fmt::format(
+             "the step of {:g} s is too long for {}: its sine of {:g} Hz goes through "
+             "{:.3g} rad of "
+             "phase in each step (limit {:g} rad), {:.2g} steps per period; take a step of at "
+             "most {:.2g} s",
+             step, subject(*worst, count - 1), std::abs(worst->function->frequency), phase,
+             limits.phase, 2.0 * std::numbers::pi / phase, step * limits.phase / phase)});
   worst = nullptr;
   count = 0;
   Passed most;

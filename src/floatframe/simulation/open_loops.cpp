@@ -55,7 +55,7 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
   const Eigen::Index row = constraints.offset(worst);
   const double own = out_of_reach(VecX::Unit(residual.size(), row))[row];
   const ConstraintPart& part = constraints.parts()[worst];
-  return fmt::format("the prescribed {} of {} {}: {} misses its own by {:.3g} {} if {} met",
+  return fmt::format("the prescribed {} of {} {}: {} is off by {:.3g} {} if {} met",
                      names.size() == 1 ? "motion" : "motions", named_text("joint", "joints", names),
                      names.size() == 1 ? "contradicts the constraints" : "contradict each other",
                      owner_name(f.model(), part.owner), in_unit(part, e[row] / own),

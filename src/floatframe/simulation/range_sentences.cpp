@@ -40,14 +40,14 @@ class Writer {
         [&](const std::string& body, const BodyRange& b, const Largest& x) {
           if (at_rest())
             return fmt::format(
-                "{} deforms too far for small deformations: in the equilibrium {} is {:.3g} m ({}) "
-                "off its place in the body frame, more than {} of its size of {:.3g} m; divide it "
+                "{} deforms too far for small deformations: in the equilibrium {} is displaced by "
+                "{:.3g} m ({}) in the body frame, more than {} of its size of {:.3g} m; divide it "
                 "into several bodies",
                 body, b.node_name(x.node), x.value, percent(x.value / b.size()),
                 percent(limits_.displacement), b.size());
           return fmt::format(
               "{} deforms too far for small deformations: from t = {:.4g} s on by more than {} of "
-              "its size of {:.3g} m, at t = {:.4g} s {} is {:.3g} m ({}) off its place in the "
+              "its size of {:.3g} m, at t = {:.4g} s {} is displaced by {:.3g} m ({}) in the "
               "body frame; divide it into several bodies",
               body, x.first, percent(limits_.displacement), b.size(), x.at, b.node_name(x.node),
               x.value, percent(x.value / b.size()));
@@ -139,7 +139,8 @@ class Writer {
         {RangeLimit::phase,
          fmt::format(
              "the step of {:g} s is too long for {}{}: it goes through {:.3g} rad of phase in each "
-             "(limit {:g} rad), {:.2g} steps to a period, and carries {} of the kinetic energy of "
+             "step "
+             "(limit {:g} rad), {:.2g} steps per period, and carries {} of the kinetic energy of "
              "{}; "
              "take a step of at most {:.2g} s",
              step_, motion, subject(worst), m.phase(), limits_.phase,
@@ -158,8 +159,8 @@ class Writer {
     if (damped && part > limits_.dissipation)
       out.push_back({RangeLimit::damping,
                      fmt::format("the numerical damping of the integrator (spectral radius {:g}) "
-                                 "has taken {:.4g} J out "
-                                 "of the system by t = {:.4g} s, {} of the {:.4g} J exchanged "
+                                 "has removed {:.4g} J "
+                                 "from the system by t = {:.4g} s, {} of the {:.4g} J exchanged "
                                  "(limit {}); take a smaller "
                                  "step than {:g} s or a spectral radius nearer to 1",
                                  spectral_radius, x, e.largest_remainder_at, percent(part),

@@ -126,8 +126,8 @@ class Runner {
     if (const std::string text = unreachable_tolerance(); !text.empty()) return text;
     const char* what =
         last_.status == AttemptStatus::singular_tangent ? "the tangent matrix is singular at "
-        : last_.status == AttemptStatus::not_finite ? "the state is not finite any more; look at "
-                                                    : "no convergence; look at ";
+        : last_.status == AttemptStatus::not_finite     ? "the state is no longer finite; look at "
+                                                        : "no convergence; look at ";
     const std::string who = last_.constraint >= 0
                                 ? f_.constraint_set().owner_of_row(last_.constraint)
                             : last_.coordinate >= 0 ? f_.coordinate_owner(last_.coordinate)

@@ -130,10 +130,10 @@ void apply_offsets(RelativeFormulation& f, const std::map<std::string, StartOffs
   q = from;
   const double left = move_to(f, goal, t, false, q);
   if (left < met) return;
-  throw RunError(
-      fmt::format("the offset at the start cannot be: with loops closed body '{}'{} stays {:.3g} "
-                  "(m or rad) away from its place; its joints do not let it move there",
-                  goal.first(), offsets.size() > 1 ? " or another one" : "", left));
+  throw RunError(fmt::format(
+      "the offset at the start is not possible: with loops closed body '{}'{} stays {:.3g} "
+      "(m or rad) away from its place; its joints do not let it move there",
+      goal.first(), offsets.size() > 1 ? " or another one" : "", left));
 }
 
 }  // namespace floatframe

@@ -92,7 +92,7 @@ std::string end_in_words(int status, bool out_of_memory, const WorkerLimits& lim
   if (out_of_memory)
     return limits.megabytes > 0.0
                ? fmt::format("needed more than {:.15g} MB (--case-memory)", limits.megabytes)
-               : "needed more memory than there is";
+               : "needed more memory than was available";
   if (WIFEXITED(status))
     return fmt::format("ended the process with exit code {}", WEXITSTATUS(status));
   const int signal = WTERMSIG(status);

@@ -1,7 +1,16 @@
-// 2-node Euler-Bernoulli beam in space: linear axial and torsion, cubic Hermite bending in two
-// planes. Local degrees of freedom (u v w rx ry rz) at each end, ry = -w', rz = v'. Source:
-// Przemieniecki, Theory of Matrix Structural Analysis (1968), consistent mass with rotary and
-// torsional inertia.
+// 2-node Euler-Bernoulli beam in space, straight, of one section: linear axial and torsion, cubic
+// Hermite bending in two planes, no shear deformation. Local axes T = [x y z] (beam_axes), degrees
+// of freedom (u v w rx ry rz) at each end with rz = v', ry = -w'. With s = x/L and the shape
+// functions N of the end values:
+//   axial, torsion  N = (1 - s, s):  K = EA/L [1 -1; -1 1] of u, GJ/L [1 -1; -1 1] of rx
+//   bending         N = (1 - 3 s^2 + 2 s^3, L (s - 2 s^2 + s^3), 3 s^2 - 2 s^3, L (s^3 - s^2)) of
+//                   (v, v') at both ends:  K = EI int N'' N''^T dx, EIz in xy, EIy in xz
+//   mass            rho A int N N^T dx of u, v, w; with section inertia also rho I int N' N'^T dx
+//                   of v, w and rho (Iy + Iz) int N N^T dx of rx
+//   scalar mass     rho A L/6 [2 1; 1 2]
+// K and M turn into body axes by T on each group of three. Loads at the ends are answered exactly.
+// Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), consistent mass with rotary
+// and torsional inertia.
 #include <cmath>
 
 #include "floatframe/fe/element_kernel.hpp"
@@ -40,9 +49,11 @@ void to_body_axes(const Mat3& T, const Mat12& local, MatX& out) {
 std::string error(const ElementInput& in) {
   const Vec3 d = in.p[1] - in.p[0];
   const double length = d.norm();
+  // A shorter one is round-off of the coordinates.
   if (!(length > 1e-12 * (in.p[0].norm() + in.p[1].norm()))) return "has zero length";
   const double r = in.reference.norm();
   if (!(r > 0.0)) return "has a reference vector of zero length";
+  // Its part across the axis gives y: a smaller one is the rounding of numbers in files.
   if (d.cross(in.reference).norm() < 1e-6 * length * r) {
     return "has a reference vector parallel to its axis";
   }

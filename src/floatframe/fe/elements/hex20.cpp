@@ -1,6 +1,10 @@
 // 20-node serendipity brick. Corners as hex8, then the middles of the edges 12 23 34 41 56 67 78 85
-// 15 26 37 48. Stiffness with 3 x 3 x 3 points, reduced: 2 x 2 x 2 (no hourglass modes that survive
-// in a mesh of several elements). Mass with 5 x 5 x 5 points: exact with curved edges.
+// 15 26 37 48. With the local coordinates c of node a, 0 along the edge of a middle node:
+//   corners  N = 1/8 prod_i (1 + c_i xi_i) (c.xi - 2)
+//   middles  N = 1/4 (1 - xi_k^2) prod_(i not k) (1 + c_i xi_i), k along the edge
+// K and M as in isoparametric.hpp. Stiffness with 3 x 3 x 3 points, reduced: 2 x 2 x 2 (no
+// hourglass modes that survive in a mesh of several elements). Mass with 5 x 5 x 5 points: exact
+// with curved edges.
 #include "floatframe/fe/isoparametric.hpp"
 #include "floatframe/fe/solid_shapes.hpp"
 

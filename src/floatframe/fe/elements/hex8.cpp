@@ -1,10 +1,15 @@
 // 8-node bricks. Nodes: bottom face 1-4 counter-clockwise seen from above, top face 5-8 above them.
-//   hex8   trilinear, 2 x 2 x 2 points: too stiff in bending
-//   hex8i  with the incompatible modes 1 - xi^2 of Wilson, gradients with the Jacobian of the
-//   centre
-//          (Taylor, Beresford, Wilson 1976) so that the patch test holds
-//   hex8r  mean gradients (Flanagan, Belytschko 1981), hourglass stiffness from hex8i of the
-//          parallelepiped at the centre: no locking, and no weak modes
+// N_a = 1/8 prod_i (1 + c_i xi_i) with the local coordinates c of the corner; M as in
+// isoparametric.hpp, stiffness with 2 x 2 x 2 points:
+//   hex8   as in isoparametric.hpp: too stiff in bending
+//   hex8i  also with the incompatible modes 1 - xi_k^2 of Wilson in each direction. Their strains
+//          are those of the gradients j_0/j J_0^-T grad (1 - xi_k^2), J_0 and j_0 = det J_0 at the
+//          centre (Taylor, Beresford, Wilson 1976), so that the patch test holds; their amplitudes
+//          are eliminated, K = K_uu - K_ua K_aa^-1 K_au
+//   hex8r  gradients b_i averaged over the volume (Flanagan, Belytschko 1981), and in the hourglass
+//          patterns h = (xy, yz, zx, xyz) of the corners the stiffness K_i of hex8i of the
+//          parallelepiped at the centre: no locking, and no weak modes.
+//          K = V B^T D B + Gamma^T (H^T K_i H) Gamma, gamma = (h - sum_i (h.x_i) b_i)/8
 // Mass of all with 3 x 3 x 3 points, which is exact on distorted bricks because N^T N det J has
 // degree 4 in each direction.
 #include <Eigen/LU>

@@ -1,5 +1,6 @@
-// Flat thin shells with six dofs per node: tri3 is one triangle (shell_triangle.hpp), quad4 the mean
-// of its two divisions into triangles, which also serves quadrilaterals that are not flat.
+// Flat thin shells with six dofs per node: tri3 is one triangle (shell_triangle.hpp), quad4 the
+// mean of its two divisions into triangles (each with half its matrices), which also serves
+// quadrilaterals that are not flat. Scalar mass: of displacements that are linear in each triangle.
 #include <cmath>
 
 #include "floatframe/fe/shell_triangle.hpp"
@@ -39,6 +40,7 @@ std::string error(const ElementInput& in) {
   for (const Part& part : parts<nodes>()) {
     const std::array<Vec3, 3> p = corners(in, part);
     const double twice = (p[1] - p[0]).cross(p[2] - p[0]).dot(n.normalized());
+    // Thinner than 1e-9 of its size it is flat to the digits of its coordinates.
     if (!(twice > 1e-9 * size * size)) {
       return nodes == 3 ? "is flat (its corners lie on a line)"
                         : "is not convex, or its corners are in the wrong order";

@@ -1,6 +1,8 @@
-// 10-node tetrahedron. Corners as tet4, then the middles of the edges 12 23 13 14 24 34. Stiffness
-// with 4 points (exact with straight edges); mass with 64 points, exact with curved edges as well:
-// N^T N det J has degree 4 + 3.
+// 10-node tetrahedron. Corners as tet4, then the middles of the edges 12 23 13 14 24 34. With the
+// volume coordinates L = (1 - sum xi, xi_1, xi_2, xi_3):
+//   corners N = L_i (2 L_i - 1),  middles N = 4 L_i L_j;  K and M as in isoparametric.hpp
+// Stiffness with 4 points (exact with straight edges); mass with 64 points, exact with curved edges
+// as well: N^T N det J has degree 4 + 3.
 #include "floatframe/fe/isoparametric.hpp"
 #include "floatframe/fe/solid_shapes.hpp"
 

@@ -1,5 +1,7 @@
-// 4-node tetrahedron, constant strain. Nodes 1-3 counter-clockwise seen from node 4's opposite
-// side: positive volume V = (p2-p1) . ((p3-p1) x (p4-p1)) / 6. Scalar mass rho V/20 (1 1^T + I).
+// 4-node tetrahedron, constant strain. Nodes 1-3 counter-clockwise seen from node 4: the volume
+// V = (p2-p1) . ((p3-p1) x (p4-p1)) / 6 is positive. With J = [p2-p1  p3-p1  p4-p1] the gradients
+// of the shape functions 2-4 are the rows of J^-1, that of 1 is minus their sum;
+//   K = V B^T D B,  scalar mass rho V/20 (1 1^T + I), with one point (ccx) rho V/16 1 1^T
 #include <Eigen/LU>
 
 #include "floatframe/fe/solid_element.hpp"
@@ -17,6 +19,7 @@ Mat3 edges(const ElementInput& in) {
 std::string error(const ElementInput& in) {
   const Mat3 J = edges(in);
   const double size = J.colwise().norm().maxCoeff();
+  // Of a flat one round-off is left, about 1e-16 of the cube of its size.
   if (!(J.determinant() > 1e-12 * size * size * size)) {
     return "is inverted or flat (its volume is not positive)";
   }

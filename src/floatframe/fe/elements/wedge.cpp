@@ -1,8 +1,12 @@
 // Wedges with 6 and 15 nodes. Triangle 1-3 below triangle 4-6, in the direction of its normal; then
-// the middles of the edges 12 23 31 45 56 64 14 25 36. Stiffness with 3 x 2 and 3 x 3 points;
-// CalculiX takes 1 x 2 for 6 nodes, which leaves a twist without energy. Mass exact, with curved
-// edges too: N^T N det J has degree 3 in the triangle and 4 along the edges for 6 nodes, 8 and 9
-// for 15.
+// the middles of the edges 12 23 31 45 56 64 14 25 36. With the area coordinates
+// L = (1 - xi_1 - xi_2, xi_1, xi_2) and t = xi_3, upper signs for the upper triangle:
+//   6 nodes   N = L_i (1 +- t)/2
+//   15 nodes  corners N = L_i (1 +- t)(2 L_i - 2 +- t)/2, edges of the triangles
+//             2 L_i L_j (1 +- t), edges between them L_i (1 - t^2)
+// K and M as in isoparametric.hpp. Stiffness with 3 x 2 and 3 x 3 points; CalculiX takes 1 x 2 for
+// 6 nodes, which leaves a twist without energy. Mass exact, with curved edges too: N^T N det J has
+// degree 3 in the triangle and 4 along the edges for 6 nodes, 8 and 9 for 15.
 #include <cmath>
 
 #include "floatframe/fe/isoparametric.hpp"

@@ -43,7 +43,7 @@ void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                                 shown(name)));
   }
   if (!part.empty() && part != content.part) {
-    lines.error(keyword, fmt::format("is of the part {}, which is not there", shown(part)));
+    lines.error(keyword, fmt::format("is of the part {}, which does not exist", shown(part)));
   }
   content.instance = name.empty() ? "?" : name;
   content.scope = AbaqusScope::part;

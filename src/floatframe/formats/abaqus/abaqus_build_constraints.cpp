@@ -120,7 +120,7 @@ void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list)
       if (known.size() == most_known) break;
       known.push_back(c.names[key.second]);
     }
-    build.source.error(spider.at, fmt::format("surface {} is not there{}", shown(name),
+    build.source.error(spider.at, fmt::format("surface {} does not exist{}", shown(name),
                                               did_you_mean(name, known)));
     return;
   }
@@ -162,7 +162,7 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, 
         spider.reference = node.front();
       } else {
         build.source.error(element.at,
-                           fmt::format("element {} ({}): node {} is not there", element.id,
+                           fmt::format("element {} ({}): node {} does not exist", element.id,
                                        element.type->name, c.element_nodes[element.first]));
       }
     }

@@ -38,8 +38,9 @@ void build_masses(AbaqusBuild& build) {
     const auto node =
         c.node_of_label.find(AbaqusContent::label(element.scope, c.element_nodes[element.first]));
     if (node == c.node_of_label.end()) {
-      build.source.error(element.at, fmt::format("{}: node {} is not there", abaqus_label(element),
-                                                 c.element_nodes[element.first]));
+      build.source.error(element.at,
+                         fmt::format("{}: node {} does not exist", abaqus_label(element),
+                                     c.element_nodes[element.first]));
       continue;
     }
     const Mat3& R = c.placement.R;
@@ -162,7 +163,7 @@ std::optional<Element> element_of(AbaqusBuild& build, const AbaqusElement& eleme
     const auto it = c.node_of_label.find(AbaqusContent::label(element.scope, id));
     if (it == c.node_of_label.end()) {
       build.source.error(element.at,
-                         fmt::format("{}: node {} is not there", abaqus_label(element), id));
+                         fmt::format("{}: node {} does not exist", abaqus_label(element), id));
       return std::nullopt;
     }
     result.nodes[k] = it->second;
@@ -259,7 +260,7 @@ void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
   for (const auto* resolver : {&build.nodes, &build.elements}) {
     if (resolver->gaps() == 0) continue;
     build.note(resolver->first_gap(),
-               fmt::format("{} numbers of GENERATE are not there", resolver->gaps()));
+               fmt::format("{} numbers of GENERATE do not exist", resolver->gaps()));
   }
 }
 

@@ -25,12 +25,12 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section,
   const auto it = c.materials.find(section.material);
   Material material;
   if (it == c.materials.end()) {
-    build.source.error(section.at,
-                       fmt::format("{} names the material {}, which is not there{}", section.shown,
-                                   shown(section.material),
-                                   c.material_order.size() > most_known
-                                       ? ""
-                                       : did_you_mean(section.material, c.material_order)));
+    build.source.error(
+        section.at, fmt::format("{} names the material {}, which does not exist{}", section.shown,
+                                shown(section.material),
+                                c.material_order.size() > most_known
+                                    ? ""
+                                    : did_you_mean(section.material, c.material_order)));
   } else {
     const AbaqusMaterial& m = it->second;
     if (!m.young) {

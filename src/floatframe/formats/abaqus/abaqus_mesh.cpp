@@ -101,7 +101,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
     scope = AbaqusScope::part;
     if (abaqus_name(instance) != content.instance) {
       lines.error(keyword,
-                  fmt::format("names the instance {}, which is not there", shown(instance)));
+                  fmt::format("names the instance {}, which does not exist", shown(instance)));
     }
   }
   const std::string_view what = of_nodes ? "node number" : "element number";

@@ -47,7 +47,7 @@ void AbaqusResolver::missing(const AbaqusReference& reference) {
     help = did_you_mean(content_.names[reference.name], known);
   }
   source_.error(reference.at,
-                fmt::format("{} is not there{}", content_.text(reference, word_), help));
+                fmt::format("{} does not exist{}", content_.text(reference, word_), help));
 }
 
 void AbaqusResolver::spend(std::uint64_t count, const FeSource& at) {

@@ -124,7 +124,7 @@ class DeckReader {
       const bool changes =
           changes_part_in_step(keyword.name) && !keyword.has("REMOVE") && !keyword.has("REMOVEALL");
       if (content_.only_nodes || (!removes && !changes)) continue;
-      error(keyword, fmt::format("stands in the *STEP of line {}, but the part must be complete "
+      error(keyword, fmt::format("is inside the *STEP of line {}, but the part must be complete "
                                  "before the first step",
                                  begin.at.line));
     }

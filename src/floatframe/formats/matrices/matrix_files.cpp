@@ -66,7 +66,7 @@ Path companion(const Path& file, const Path& given, const std::vector<Path>& can
     names += (names.empty() ? "" : " or ") + shown(candidate.filename().string());
   }
   errors.add({file.string()},
-             fmt::format("{} not there: {}give the {} file", what,
+             fmt::format("{} missing: {}give the {} file", what,
                          names.empty() ? "" : "there is no " + names + " beside it; ", option));
   return {};
 }

@@ -119,7 +119,7 @@ std::string read_beginning(const std::filesystem::path& file, std::size_t bytes)
 
 std::string not_text(std::string_view bytes) {
   if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) {
-    return "the file is text of 16 bits a character (UTF-16); save it as ASCII or UTF-8";
+    return "the file is text of 16 bits per character (UTF-16); save it as ASCII or UTF-8";
   }
   const std::size_t zero = bytes.find('\0');
   if (zero != std::string_view::npos) {

@@ -1,4 +1,5 @@
-// Perpendicular: a direction e of a and a direction n of b keep the product c (0: a right angle).
+// Perpendicular: a direction e = R_a e_a of a and a direction n = R_b n_b of b keep the product c
+// (0: a right angle).
 // The row is scaled by a body length l.
 //   phi        l (e.n - c) = 0                                1 row
 //   gradient   l e x n on pi_a, -l e x n on pi_b: ds = dpi_a.(e x n) - dpi_b.(e x n)

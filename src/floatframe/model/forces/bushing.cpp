@@ -1,13 +1,13 @@
 // Bushing: elastic connection of two frames in all six directions. Marker a (`from`) carries the
 // axes e_1..3 = columns of R_a; both markers have the same orientation in the design configuration.
 //   displacements  s_i = e_i.d, d = r_b - r_a                        (axis_measure.hpp)
-//   rotations      theta = rotation vector of R_ab = R_a^T R_b: R_ab = exp(skew(theta)), |theta| <= pi
+//   rotations      theta = rotation vector of R_ab = R_a^T R_b = exp(skew(theta)), |theta| <= pi
 // Each measure has a spring and a damper of its own:
 //   energy         U = sum_i int spring_i(s_i) ds_i + sum_i int spring_i(theta_i) dtheta_i
 //   forces         f_i = spring_i(s_i) + damper_i(sdot_i),  tau_i likewise of theta_i
-//   wrench         Q = -sum f_i g_i - sum tau_i h_i with the gradients g_i of s_i and h_i of theta_i,
-//                  so that springs keep U, dampers only take energy out, and the wrench on a is minus
-//                  that on b about any common point
+//   wrench         Q = -sum f_i g_i - sum tau_i h_i with the gradients g_i of s_i, h_i of theta_i,
+//                  so that springs keep U, dampers only take energy out, and the wrench on a is
+//                  minus that on b about any common point
 // Rotations. With u = R_a^T (w_b - w_a), the angular velocity of b in axes of a, u = H(theta)
 // thetadot (so3.hpp), so
 //   thetadot = B u,  B = H^-1 = I - 1/2 T + beta T^2,  T = skew(theta),
@@ -21,9 +21,11 @@
 //   d(thetadot)    = E(u) B dphi + B R_a^T skew(w_b - w_a) dpi_a
 //   d(R_a B^T tau) = dpi_a x (R_a B^T tau) + R_a D(tau) B dphi
 //   stiffness  sum f_s g g^T + f_sdot g (dsdot/d(motion))^T + f dg/d(motion),  damping f_sdot g g^T
-// over all six. At |theta| = pi the rotation vector jumps: a bushing is meant for less.
-// Mirrored: axis and axis_2 are polar, so e_2 = e_3 x e_1 and the axial theta reflect such that, for
-// an odd number of planes, s_2, theta_1 and theta_3 change their signs: their laws become -f(-x).
+// over all six; the rows of the step hold f_s g g^T and the damping. At |theta| = pi the rotation
+// vector jumps: a bushing is meant for less.
+// Mirrored: axis and axis_2 are polar, so e_2 = e_3 x e_1 and the axial theta reflect such that,
+// for an odd number of planes, s_2, theta_1 and theta_3 change their signs: their laws become
+// -f(-x).
 #include <cmath>
 
 #include "floatframe/model/axis_measure.hpp"
@@ -34,7 +36,8 @@ namespace floatframe {
 
 namespace {
 
-/// beta and gamma, by their series where their formulas lose digits.
+/// beta and gamma. Below |theta| = 0.3 by their series, which leave out less than 1e-12 of the sum;
+/// above it the formulas keep ten digits or more.
 struct AngleCoefficients {
   double beta, gamma;
   explicit AngleCoefficients(double t2) noexcept {
@@ -273,7 +276,7 @@ constinit const ForceKind bushing_element = {
         "elastic connection of two bodies with a law for each displacement along and each rotation "
         "about axes fixed in the body of `from`; the rotations are the components of the rotation "
         "vector of the other body in these axes, of less than half a turn. Displacements of laws "
-        "that are a number count from the design configuration; a preload stands in the law. "
+        "that are a number count from the design configuration; a preload goes into the law. "
         "Results: size of the force, distance of the points and its rate",
     .keys = bushing_keys,
     .free_value = design_displacement,

@@ -1,6 +1,10 @@
-// Spring along an axis e fixed in the body of a (leaf spring): s = e.(r_a - r_b). The reaction acts
-// on the body of a at the point r_b. With the gradient g of e.d (axis_measure.hpp) s has -g:
+// Spring along an axis e fixed in the body of a (leaf spring). With d = r_b - r_a and the gradient
+// g of e.d (axis_measure.hpp):
+//   measure      s = e.(r_a - r_b) = -e.d, gradient -g
+//   force        f = spring(s) + damper(sdot) + actuator, tension positive: f e on b, and -f e on
+//                the body of a at the point r_b, which is -f e at r_a with the torque f e x d
 //   stiffness    f_s g g^T + f_sdot g g'^T - f dg/d(motion),   damping   f_sdot g g^T
+// The row of the step holds f_s g g^T and the damping.
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/force_kind.hpp"
 

@@ -1,14 +1,15 @@
 // Spring on the coordinate of a prismatic or revolute joint, z the axis of marker a:
-// f = spring(s - target) + damper(sdot - rate of the target) - actuator; with a target it is a
-// motor.
+// f = spring(s - target) + damper(sdot - rate of the target) - actuator, and -f acts on the
+// coordinate; with a target it is a motor.
 //   along   s = z.d (axis_measure.hpp), Q = -f g
 //   about   s = angle of x_b about z, followed over several turns; g = (0, -z, 0, z),
 //           sdot = z.(w_b - w_a)
 // The markers of a hinge share the axis. Where they do not (cut joints before they close) the angle
-// changes by m.(dpi_b - dpi_a), m = (p x_b x y_a - q x_b x x_a)/(p^2 + q^2), p = x_b.x_a, q =
-// x_b.y_a; m = z on the axis. The torque stays along z.
-//   stiffness    f_s g s_x^T + f_sdot g (dsdot/d(motion))^T + f dg/d(motion),   damping   f_sdot g
-//   g^T
+// changes by m.(dpi_b - dpi_a), m = (p x_b x y_a - q x_b x x_a)/(p^2 + q^2), p = x_b.x_a,
+// q = x_b.y_a; m = z on the axis. The torque stays along z.
+//   stiffness    f_s g (ds/d(motion))^T + f_sdot g (dsdot/d(motion))^T + f dg/d(motion)
+//   damping      f_sdot g g^T
+// The row of the step holds f_s g g^T and the damping.
 #include <cmath>
 #include <numbers>
 

@@ -1,13 +1,15 @@
 // Penalty tyre on a road profile of slope sigma and curvature kappa below the wheel centre, at the
 // height h above the road; it pushes or does nothing.
 //   vertical   f = k (R - h) - c hdot upwards at the centre, hdot = v_z - sigma v_x
-//   radial     f = q (k (R - h) - c hdot), q = 1/sqrt(1 + sigma^2), along the normal n = q (-sigma,
-//              0, 1) of the straight line through the road point below the centre. It acts at the
-//              contact point, r_w below the centre in the plane of the wheel:
+//   radial     f = q (k (R - h) - c hdot), q = 1/sqrt(1 + sigma^2), along the normal
+//              n = q (-sigma, 0, 1) of the straight line through the road point below the centre.
+//              It acts at the contact point, r_w below the centre in the plane of the wheel:
 //              e_x = axis x n / |axis x n|, e_z = e_x x axis, arm = -r_w e_z, r_w = h q^2 / e_z.z
-// Derivatives, with dsigma = kappa dx, dh = dz - sigma dx, dq = -sigma q^3 dsigma, dn = -q^2 tau
-// dsigma, tau = q (1, 0, sigma) along the road:
-//   df = q (-k dh + c v_x dsigma) + f dq/q,  d(torque) = d(arm) x f n + arm x d(f n)
+//   energy     k/2 (q (R - h))^2 while it touches
+// Derivatives, with dsigma = kappa dx, dh = dz - sigma dx, dq = -sigma q^3 dsigma,
+// dn = -q^2 tau dsigma, tau = q (1, 0, sigma) along the road:
+//   df = q (-k dh + c v_x dsigma) + f dq/q - q c (dv_z - sigma dv_x)
+//   d(torque) = d(arm) x f n + arm x d(f n)
 // On a straight road -df = k n.dr of a radial tyre: one row. What the row leaves out does not
 // change the number of iterations of a vehicle on stairs.
 #include <cmath>
@@ -48,7 +50,8 @@ struct Wheel {
   double r_w;
 };
 
-/// False for a wheel that lies on the road: it has no contact point below its centre.
+/// False for a wheel that lies on the road: it has no contact point below its centre. At 1e-6 rad
+/// from there e_x is a quotient of small numbers and r_w is far longer than the radius.
 bool upright(const ForceInput& in, const Contact& c, Wheel& w) noexcept {
   w.axis = in.b.R * in.force.axis;
   const Vec3 u = w.axis.cross(c.n);

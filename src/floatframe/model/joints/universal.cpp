@@ -7,7 +7,8 @@
 //   parts        r_M = r_F; e1.e2' keeps its value
 //   measured     q1 turns e2 about e1 onto e2'; q2 is what is left about e2. With c = e1.e2',
 //                a = e1.w_FM = q1dot + c q2dot, b = e2'.w_FM = c q1dot + q2dot:
-//                q1dot = (a - c b)/(1 - c^2), q2dot = (b - c a)/(1 - c^2)
+//                q1dot = (a - c b)/(1 - c^2), q2dot = (b - c a)/(1 - c^2). c = e1.e2 at any q1, so
+//                it never reaches 1: parallel axes are refused in the design configuration
 //   mirrored     both axes are axial
 //   reversed     R_MF = exp(-q2 e2) exp(-q1 e1): the axes change places, the angles too, and sign
 #include <utility>
