@@ -18,7 +18,7 @@
 
 namespace floatframe {
 
-/// What worker processes can see: set to give up what is in work.
+/// What worker processes can see: set to cancel running requests.
 struct SharedFlags {
   std::atomic<bool> give_up{false};
 };
@@ -36,7 +36,7 @@ class ProcessPool {
 
   /// Throws RunError if the system refuses more processes.
   ProcessPool(int workers, const WorkerLimits& limits, const Work& work);
-  /// Ends what is in work at once.
+  /// Ends running requests at once.
   ~ProcessPool();
   ProcessPool(const ProcessPool&) = delete;
   ProcessPool& operator=(const ProcessPool&) = delete;
@@ -51,15 +51,15 @@ class ProcessPool {
   std::vector<Answer> answers(std::chrono::milliseconds timeout);
   /// Gives a request and waits for its answer; for a pool at rest. None if `stop` was set first.
   std::optional<Answer> ask(int worker, const std::string& request, const std::atomic<bool>& stop);
-  /// Sum over the requests in work of the fraction done.
+  /// Sum over the running requests of the fraction done.
   double in_work() const;
-  /// Asks the work to give up.
+  /// Asks running requests to cancel.
   void give_up() { flags_->give_up.store(true); }
 
  private:
   struct Worker {
     int socket = -1, process = -1;
-    std::string request;  ///< in work; empty: idle
+    std::string request;  ///< running; empty: idle
     std::chrono::steady_clock::time_point start;
     MessageReader reader;
     WorkerState* state = nullptr;

@@ -92,7 +92,7 @@ class Coordinator {
     }
   }
 
-  /// The runs in work are given up, which they notice after some steps; those that do not are ended
+  /// Running jobs are cancelled, which they notice after some steps; those that do not are ended
   /// with their workers.
   void wind_up() {
     workers_.give_up();
@@ -102,7 +102,7 @@ class Coordinator {
         if (answer.lost.empty()) take(answer);
   }
 
-  /// False if the run was given up.
+  /// False if the run was cancelled.
   bool take(const SweepWorkers::Answer& answer) {
     const auto line = line_of(options_, answer);
     if (line) journal_.add(*line);

@@ -20,7 +20,7 @@ namespace floatframe {
 std::string word_of(const std::string& message);
 std::string rest_of(const std::string& message);
 
-/// The line of a run whose worker has answered; none if it was given up. Throws InputError.
+/// The line of a run whose worker has answered; none if it was cancelled. Throws InputError.
 std::optional<std::string> line_of(const SweepOptions& options, const SweepWorkers::Answer& answer);
 
 /// Fingerprint of the files of the first run, as this process sees them; none if stopped. Throws

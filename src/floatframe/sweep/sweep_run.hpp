@@ -22,7 +22,7 @@ struct PreparedRun {
   std::shared_ptr<const Files> files;
 };
 
-/// A run given up because the study ends.
+/// A run cancelled because the study ends.
 struct RunGivenUp {};
 
 class SweepRunner {

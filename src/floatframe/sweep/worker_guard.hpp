@@ -15,7 +15,7 @@ namespace floatframe {
 
 /// Memory that a worker shares with the program; a cache line of its own.
 struct alignas(64) WorkerState {
-  std::atomic<double> progress{0.0};  ///< of the request in work, 0 .. 1; set by the work
+  std::atomic<double> progress{0.0};  ///< of the running request, 0 .. 1; set by the work
   std::atomic<bool> out_of_memory{false};
 };
 
