@@ -164,8 +164,8 @@ TEST(BenchStepper, StepsAsARunDoes) {
 
 TEST(BenchScaling, BrickLinksAreLikeBeamLinks) {
   ReductionOptions options;
-  options.clamped = {{"start", -1, all_dofs}};
-  options.interfaces = {{"end", -1, all_dofs}};
+  options.clamped = {{"start", all_dofs}};
+  options.interfaces = {{"end", all_dofs}};
   options.normal_modes = 2;
   for (const int across : {1, 3}) {
     const FeModel mesh = solid_link(across, 50);

@@ -50,8 +50,8 @@ TEST(CheckInvariants, AnyDistributionOfMassPasses) {
 TEST(CheckInvariants, BarsOfAllMassModelsPass) {
   for (const MassModel model : {MassModel::isoparametric, MassModel::six_dof, MassModel::hermite}) {
     ReductionOptions options;
-    options.clamped = {{"inner", -1, all_dofs}};
-    options.interfaces = {{"outer", -1, all_dofs}};  // torsion moves no mass
+    options.clamped = {{"inner", all_dofs}};
+    options.interfaces = {{"outer", all_dofs}};  // torsion moves no mass
     options.normal_modes = 3;
     options.mass_model = model;
     options.damping_ratio = 0.01;

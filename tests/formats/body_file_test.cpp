@@ -35,8 +35,8 @@ BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
     frame.bars.push_back(bar);
   }
   ReductionOptions options;
-  options.clamped = {{"foot", -1, all_dofs}};
-  options.interfaces = {{"eye", -1, all_translations}};
+  options.clamped = {{"foot", all_dofs}};
+  options.interfaces = {{"eye", all_translations}};
   options.normal_modes = 2;
   options.mass_model = mass_model;
   options.damping_ratio = 0.01;

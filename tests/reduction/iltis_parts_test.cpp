@@ -49,7 +49,7 @@ TEST(IltisParts, AArm) {
 void check_bar(double length, double diameter, const char* statics, const char* first,
                const char* second, const char* format_second) {
   ReductionOptions options;
-  options.analytic_dynamic_per_plane = 2;
+  options.analytic = AnalyticShapes{2};
   const FlexibleBody body = reduce(build_bar_frame(straight_bar(length, diameter, 10)), options);
   ASSERT_EQ(body.modes(), 6);
   const MatX M = body.invariants.Sij[0][0] + body.invariants.Sij[1][1] + body.invariants.Sij[2][2];

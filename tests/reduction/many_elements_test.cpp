@@ -42,8 +42,8 @@ BarFrame rod(int elements) {
 
 ReductionOptions options_of(int normal_modes) {
   ReductionOptions options;
-  options.clamped = {{"inner", -1, all_dofs}};
-  options.interfaces = {{"outer", -1, all_dofs}};
+  options.clamped = {{"inner", all_dofs}};
+  options.interfaces = {{"outer", all_dofs}};
   options.normal_modes = normal_modes;
   options.mass_model = MassModel::hermite;
   return options;

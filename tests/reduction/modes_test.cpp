@@ -30,12 +30,12 @@ double subspace_distance(const MatX& a, const MatX& b) {
 
 struct Rebuild {
   const char* name;
-  std::vector<DofSelection> clamped, interfaces;
+  std::vector<NodeDofs> clamped, interfaces;
   int normal_modes;
 };
 
 TEST(ReferenceModes, FrequenciesAndSubspace) {
-  const auto node = [](int k, unsigned mask) { return DofSelection{"", k, mask}; };
+  const auto node = [](int k, unsigned mask) { return NodeDofs{"", mask, k}; };
   const std::vector<Rebuild> cases = {
       {"aarm_eb_section",
        {node(0, 7), node(3, 7), node(6, 63 - 4), node(7, 3)},
@@ -126,9 +126,9 @@ TEST(CraigBampton, BarModesConvergeToAnalyticShapes) {
   for (const int elements : {4, 8, 16}) {
     const FeModel model = build_bar_frame(straight_bar(L, 0.030, elements));
     ReductionOptions options;
-    options.clamped = {{"inner", -1, all_dofs}};
+    options.clamped = {{"inner", all_dofs}};
     // y and z of the tip; ux and rx of a round bar do not couple.
-    options.interfaces = {{"outer", -1, 6u}};
+    options.interfaces = {{"outer", 6u}};
     options.normal_modes = 4;
     options.mass_model = MassModel::hermite;
     const ModeSet fe = craig_bampton_modes(model, options);
@@ -212,7 +212,7 @@ TEST(Reduction, ChordFrameOfARod) {
   // Pinned-pinned reference: both ends without translation, no rotation about the axis at one end.
   const FeModel model = build_bar_frame(straight_bar(0.4, 0.02, 10));
   ReductionOptions options;
-  options.clamped = {{"inner", -1, 7u + 8u}, {"outer", -1, 7u}};
+  options.clamped = {{"inner", 7u + 8u}, {"outer", 7u}};
   options.normal_modes = 2;
   options.mass_model = MassModel::hermite;
   const FlexibleBody body = reduce(model, options);
@@ -272,29 +272,29 @@ TEST(ReductionErrors, EachHasItsSentence) {
   EXPECT_EQ(with([](ReductionOptions& o) { o.clamped.clear(); }),
             "the body reference clamps no degree of freedom, so the body is free to move rigidly");
   EXPECT_EQ(with([](ReductionOptions& o) {
-              o.clamped = {{"front", -1, 7u}, {"rear", -1, 7u}};
+              o.clamped = {{"front", 7u}, {"rear", 7u}};
             }),
             "the body reference does not remove the rotation about the direction (1, 0, 0) "
             "(clamped: node 'front' "
             "and others)");
   EXPECT_EQ(with([](ReductionOptions& o) {
-              o.clamped = {{"front", -1, 2u + 4u + 56u}};
+              o.clamped = {{"front", 2u + 4u + 56u}};
             }),
             "the body reference does not remove the translation along (1, 0, 0)");
   EXPECT_EQ(with([](ReductionOptions& o) {
-              o.clamped.push_back({"frnt", -1, 7u});
+              o.clamped.push_back({"frnt", 7u});
             }),
             "the body reference: there is no node 'frnt'");
   EXPECT_EQ(with([](ReductionOptions& o) {
-              o.interfaces = {{"", 99, 4u}};
+              o.interfaces = {{"", 4u, 99}};
             }),
             "the interface: there is no node 99");
   EXPECT_EQ(with([](ReductionOptions& o) {
-              o.interfaces = {{"front", -1, 4u}};
+              o.interfaces = {{"front", 4u}};
             }),
             "node 'front' uz is both clamped and an interface degree of freedom");
   EXPECT_EQ(with([](ReductionOptions& o) {
-              o.interfaces.push_back({"ball", -1, 4u});
+              o.interfaces.push_back({"ball", 4u});
             }),
             "node 'ball' uz is given twice as an interface degree of freedom");
   EXPECT_EQ(with([](ReductionOptions& o) { o.normal_modes = 1000; }),
@@ -306,7 +306,7 @@ TEST(ReductionErrors, EachHasItsSentence) {
             "the modal damping ratio must not be negative");
   EXPECT_EQ(with([](ReductionOptions& o) { o.basis = MatX::Zero(5, 1); }),
             "the given basis has 5 rows; 12 nodes need 72");
-  EXPECT_EQ(with([](ReductionOptions& o) { o.analytic_dynamic_per_plane = 2; }),
+  EXPECT_EQ(with([](ReductionOptions& o) { o.analytic = AnalyticShapes{2}; }),
             "analytic shapes need one straight bar, but bar 'rear bar', element 1 leaves its line");
 
   FeModel loose = arm;
@@ -322,8 +322,8 @@ TEST(ReductionErrors, EachHasItsSentence) {
             std::string::npos);
   const FeModel tet = to_model(reference_body("tet4"));
   ReductionOptions options;
-  options.clamped = {{"", 0, 7u}, {"", 3, 7u}, {"", 6, 7u}};
-  options.interfaces = {{"", 11, 8u}};
+  options.clamped = {{"", 7u, 0}, {"", 7u, 3}, {"", 7u, 6}};
+  options.interfaces = {{"", 8u, 11}};
   EXPECT_EQ(error_of([&] { reduce(tet, options); }),
             "the interface asks for node 11 rx, but the nodes of solid elements have no rotations");
 }

@@ -29,8 +29,8 @@ inline BarFrame a_arm_frame(int elements) {
 
 inline ReductionOptions a_arm_options() {
   ReductionOptions options;
-  options.clamped = {{"front", -1, all_dofs}, {"rear", -1, all_dofs}};
-  options.interfaces = {{"shock", -1, 4u}, {"ball", -1, 4u}};
+  options.clamped = {{"front", all_dofs}, {"rear", all_dofs}};
+  options.interfaces = {{"shock", 4u}, {"ball", 4u}};
   options.normal_modes = 2;
   return options;
 }

@@ -40,8 +40,8 @@ inline FlexibleDescription bar_description() {
   branch.reference = Vec3::UnitY();
   f.bars = {bar, branch};
   f.masses = {{"c", 0.1, {}}};
-  f.clamped = {{"a", 63u, {}}};
-  f.interfaces = {{"b", 6u, {}}};
+  f.clamped = {{"a", 63u}};
+  f.interfaces = {{"b", 6u}};
   f.normal_modes = 2;
   return f;
 }

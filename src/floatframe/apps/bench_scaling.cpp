@@ -109,8 +109,8 @@ const char* word(Sweep sweep) noexcept {
 
 ModelDescription solid_chain(int links, int across) {
   ReductionOptions options;
-  options.clamped = {{"start", -1, all_dofs}};
-  options.interfaces = {{"end", -1, all_dofs}};
+  options.clamped = {{"start", all_dofs}};
+  options.interfaces = {{"end", all_dofs}};
   options.normal_modes = 2;
   return chain_model(links, reduce(solid_link(across, bricks_along), options));
 }

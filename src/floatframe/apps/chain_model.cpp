@@ -76,11 +76,11 @@ ModelDescription chain_model(int links, int modes, int elements) {
     bar.elements = elements;
     bar.section = Rectangle{side, side};
     beam.bars.push_back(bar);
-    beam.clamped.push_back({"start", 63u, {}});
+    beam.clamped.push_back({"start", 63u});
     // One entry a degree of freedom: the order of the modes is that of the entries.
     constexpr unsigned order[static_modes] = {1u << 2, 1u << 4, 1u << 1, 1u << 5, 1u << 0, 1u << 3};
     for (int k = 0; k < std::min(modes, static_modes); ++k)
-      beam.interfaces.push_back({"end", order[k], {}});
+      beam.interfaces.push_back({"end", order[k]});
     beam.normal_modes = std::max(0, modes - static_modes);
     BodyDescription body = placed_link(i);
     body.kind = beam;

@@ -27,13 +27,8 @@ BeamSection section_of(const SectionDescription& s) {
   return b;
 }
 
-std::vector<DofSelection> selection(const std::vector<NodeDofs>& dofs) {
-  std::vector<DofSelection> out;
-  for (const NodeDofs& d : dofs) out.push_back({d.node, -1, d.mask});
-  return out;
-}
-
-/// Collects the bytes of everything that decides a reduction.
+/// Collects the bytes of everything that decides a reduction. Every structure is taken apart by a
+/// structured binding: one that gets a new member does not compile here until it is in the key.
 class Key {
  public:
   void add(double x) {
@@ -42,16 +37,78 @@ class Key {
     std::memcpy(bytes, &x, sizeof x);
     text_.append(bytes, sizeof x);
   }
-  void add(const std::string& s) { text_ += s + '\0'; }
+  void add(int n) { add(static_cast<double>(n)); }
+  void add(unsigned n) { add(static_cast<double>(n)); }
+  void add(bool b) { add(b ? 1.0 : 0.0); }
+  void add(MassModel m) { add(static_cast<int>(m)); }
+  void add(const std::string& s) {
+    add(static_cast<double>(s.size()));
+    text_ += s;
+  }
+  void add(const MatX& m) {
+    add(static_cast<double>(m.rows()));
+    add(static_cast<double>(m.cols()));
+    for (Eigen::Index i = 0; i < m.size(); ++i) add(m.data()[i]);
+  }
   void add(const Vec3& v) {
     for (int i = 0; i < 3; ++i) add(v[i]);
   }
-  void add(const std::vector<NodeDofs>& dofs) {
-    add(static_cast<double>(dofs.size()));
-    for (const NodeDofs& d : dofs) {
-      add(d.node);
-      add(static_cast<double>(d.mask));
-    }
+  template <class T>
+  void add(const std::optional<T>& x) {
+    add(x.has_value());
+    if (x) add(*x);
+  }
+  template <class T>
+  void add(const std::vector<T>& list) {
+    add(static_cast<double>(list.size()));
+    for (const T& x : list) add(x);
+  }
+  template <class A, class B>
+  void add(const std::pair<A, B>& x) {
+    all(x.first, x.second);
+  }
+  template <class... T>
+  void all(const T&... x) {
+    (add(x), ...);
+  }
+
+  void add(const NodeDofs& d) {
+    const auto& [node, mask, index, origin] = d;
+    all(node, mask, index);
+  }
+  void add(const AnalyticShapes& a) {
+    const auto& [dynamic_per_plane] = a;
+    add(dynamic_per_plane);
+  }
+  void add(const ReductionOptions& options) {
+    const auto& [clamped, interfaces, normal_modes, max_frequency, analytic, basis, orthonormalise,
+                 mass_model, eigen_mass, section_inertia, damping_ratio] = options;
+    all(clamped, interfaces, normal_modes, max_frequency, analytic, basis, orthonormalise,
+        mass_model, eigen_mass, section_inertia, damping_ratio);
+  }
+  void add(const Material& m) {
+    const auto& [young, poisson, density] = m;
+    all(young, poisson, density);
+  }
+  void add(const BeamSection& s) {
+    const auto& [A, Iy, Iz, J] = s;
+    all(A, Iy, Iz, J);
+  }
+  void add(const Bar& b) {
+    const auto& [name, from, to, from_bar, from_fraction, elements, section, reference] = b;
+    all(name, from, to, from_bar, from_fraction, elements, section, reference);
+  }
+  /// Equal bodies at other places differ by round-off of their coordinates: points are rounded to
+  /// about a billionth of the size, a power of two.
+  void add(const BarFrame& frame) {
+    const auto& [points, bars, material, masses] = frame;
+    double size = 0.0;
+    for (const auto& [name, p] : points) size = std::max(size, (p - points.front().second).norm());
+    const double digit = size > 0.0 ? std::exp2(std::round(std::log2(size)) - 30.0) : 1e-9;
+    add(digit);
+    add(static_cast<double>(points.size()));
+    for (const auto& [name, p] : points) all(name, Vec3((p / digit).array().round().matrix()));
+    all(bars, material, masses);
   }
   const std::string& text() const { return text_; }
 
@@ -59,23 +116,11 @@ class Key {
   std::string text_;
 };
 
-/// The frame in axes of the body; `key` takes all that decides its stiffness and mass.
-BarFrame frame_of(const FlexibleDescription& f, const Pose& X_TW, Key& key) {
+/// The frame in axes of the body.
+BarFrame frame_of(const FrameDescription& f, const Pose& X_TW) {
   BarFrame frame;
   frame.material = {f.young, f.poisson, f.density};
-  // About a billionth of the size, a power of two.
-  double size = 0.0;
-  for (const auto& [name, p] : f.points)
-    size = std::max(size, (p - f.points.begin()->second).norm());
-  const double digit = size > 0.0 ? std::exp2(std::round(std::log2(size)) - 30.0) : 1e-9;
-  key.add(digit);
-  for (const auto& [name, p] : f.points) {
-    frame.points.emplace_back(name, X_TW * p);
-    key.add(name);
-    // Equal bodies at other places differ by round-off of their coordinates.
-    key.add(Vec3((frame.points.back().second / digit).array().round().matrix()));
-  }
-  for (double x : {f.young, f.poisson, f.density}) key.add(x);
+  for (const auto& [name, p] : f.points) frame.points.emplace_back(name, X_TW * p);
   for (const BarDescription& b : f.bars) {
     Bar bar;
     bar.name = b.name;
@@ -87,44 +132,9 @@ BarFrame frame_of(const FlexibleDescription& f, const Pose& X_TW, Key& key) {
     bar.section = section_of(b.section);
     bar.reference = X_TW.R * b.reference;
     frame.bars.push_back(bar);
-    for (const std::string& s : {bar.name, bar.from, bar.to, bar.from_bar}) key.add(s);
-    for (double x : {bar.from_fraction, static_cast<double>(bar.elements), bar.section.A,
-                     bar.section.Iy, bar.section.Iz, bar.section.J})
-      key.add(x);
-    key.add(bar.reference);
   }
-  for (const NodeMass& m : f.masses) {
-    frame.masses.emplace_back(m.node, m.mass);
-    key.add(m.node);
-    key.add(m.mass);
-  }
+  for (const NodeMass& m : f.masses) frame.masses.emplace_back(m.node, m.mass);
   return frame;
-}
-
-/// The same for how the frame is reduced.
-ReductionOptions reduction_of(const FlexibleDescription& f, Key& key) {
-  ReductionOptions options;
-  options.clamped = selection(f.clamped);
-  options.interfaces = selection(f.interfaces);
-  options.normal_modes = f.normal_modes;
-  options.max_frequency = f.max_frequency;
-  if (f.analytic) options.analytic_dynamic_per_plane = f.analytic->dynamic_per_plane;
-  options.basis = f.basis;
-  options.orthonormalise = f.orthonormalise;
-  options.mass_model = f.mass_model;
-  options.section_inertia = f.section_inertia;
-  options.damping_ratio = f.damping_ratio;
-  key.add(f.clamped);
-  key.add(f.interfaces);
-  for (double x :
-       {static_cast<double>(f.normal_modes), f.max_frequency,
-        f.analytic ? static_cast<double>(f.analytic->dynamic_per_plane) : -1.0,
-        static_cast<double>(f.orthonormalise), static_cast<double>(static_cast<int>(f.mass_model)),
-        static_cast<double>(f.section_inertia), f.damping_ratio})
-    key.add(x);
-  if (f.basis)
-    for (Eigen::Index i = 0; i < f.basis->size(); ++i) key.add(f.basis->data()[i]);
-  return options;
 }
 
 }  // namespace
@@ -132,9 +142,10 @@ ReductionOptions reduction_of(const FlexibleDescription& f, Key& key) {
 std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription& body,
                                                            ErrorList& errors) {
   const auto& f = std::get<FlexibleDescription>(body.kind);
+  const BarFrame frame = frame_of(f, body.X_WT.inverse());
+  const ReductionOptions& options = f;
   Key key;
-  const BarFrame frame = frame_of(f, body.X_WT.inverse(), key);
-  const ReductionOptions options = reduction_of(f, key);
+  key.all(frame, options);
   std::shared_ptr<const FlexibleBody> plain;
   for (const Known& k : known_)
     if (k.key == key.text()) plain = k.body;

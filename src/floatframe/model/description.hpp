@@ -22,6 +22,7 @@
 #include "floatframe/model/force_list.hpp"
 #include "floatframe/model/joint_list.hpp"
 #include "floatframe/model/output_list.hpp"
+#include "floatframe/reduction/reduction_options.hpp"
 
 namespace floatframe {
 
@@ -58,43 +59,22 @@ struct BarDescription {
   Origin origin;
 };
 
-/// Degrees of freedom of a node: bit 0..5 = ux uy uz rx ry rz, along the body-frame axes.
-struct NodeDofs {
-  std::string node;
-  unsigned mask = 0;
-  Origin origin;
-};
-
 struct NodeMass {
   std::string node;
   double mass = 0.0;  ///< [kg]
   Origin origin;
 };
 
-/// Analytic shapes of one straight bar clamped at its first point: per transverse plane the static
-/// tip shape and `dynamic_per_plane` clamped-pinned shapes.
-struct AnalyticShapes {
-  int dynamic_per_plane = 0;
-};
-
-struct FlexibleDescription {
+/// A frame of bars.
+struct FrameDescription {
   double young = 0.0, poisson = 0.0, density = 0.0;  ///< [Pa], [-], [kg/m3]
   std::map<std::string, Vec3> points;                ///< template design coordinates [m]
   std::vector<BarDescription> bars;
   std::vector<NodeMass> masses;
-  std::vector<NodeDofs> clamped;     ///< the body reference: dofs that all modes leave at zero
-  std::vector<NodeDofs> interfaces;  ///< one static mode per dof, in this order
-  int normal_modes = 0;              ///< fixed-interface normal modes by number ...
-  double max_frequency = 0.0;        ///< ... or all below this frequency [Hz] if positive
-  std::optional<AnalyticShapes> analytic;  ///< replaces interfaces and normal_modes
-  std::optional<MatX>
-      basis;  ///< user-given Rayleigh-Ritz basis: 6 rows per node (ux..rz), one column per mode
-  bool orthonormalise = false;
-  MassModel mass_model = MassModel::isoparametric;
-  bool section_inertia =
-      false;  ///< rotary and torsional inertia of the section (six_dof and hermite)
-  double damping_ratio = 0.0;  ///< modal damping, fraction of critical
 };
+
+/// A frame and how it is reduced: its nodes are those of the ends of bars, by the names of points.
+struct FlexibleDescription : FrameDescription, ReductionOptions {};
 
 struct RigidDescription {
   double mass = 0.0;         ///< [kg]; zero is legitimate (massless link)

@@ -6,6 +6,7 @@
 #include "floatframe/core/printable.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/piecewise_build.hpp"
+#include "floatframe/math/rigid_motion.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 
@@ -110,16 +111,7 @@ Complaint body_reference(const std::vector<std::pair<Vec3, unsigned>>& clamped) 
   MatX rows(static_cast<Eigen::Index>(clamped.size()), 6);
   for (std::size_t i = 0; i < clamped.size(); ++i) {
     const Vec3 p = (clamped[i].first - centre) / size;
-    const unsigned k = clamped[i].second;
-    Vec6 row = Vec6::Zero();  // row . (translation, rotation) = motion of this dof
-    const Vec3 e = Vec3::Unit(static_cast<Eigen::Index>(k % 3));
-    if (k < 3) {
-      row.head<3>() = e;
-      row.tail<3>() = p.cross(e);
-    } else {
-      row.tail<3>() = e;
-    }
-    rows.row(static_cast<Eigen::Index>(i)) = row.transpose();
+    rows.row(static_cast<Eigen::Index>(i)) = rigid_motion_at(p).row(clamped[i].second);
   }
   const Eigen::Index rank = pivoted_rank(rows, 1e-9);
   if (rank >= 6) return std::nullopt;

@@ -1,7 +1,5 @@
 #include "floatframe/reduction/bar_chains.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -201,18 +199,12 @@ MatX BarChains::guyan_stiffness(const MatX&) const {
   return coarse_->guyan_stiffness(coarse_->constraint_modes());
 }
 
+Eigenmodes BarChains::lowest(int count) const {
+  return lowest_modes([this](const MatX& f) { return solve(f); }, M_inner_, count);
+}
+
 Eigenmodes BarChains::normal_modes(int count) const {
-  if (count < 0) throw InputError("the number of normal modes must not be negative");
-  if (count > inner())
-    throw InputError(fmt::format(
-        "{} normal modes are requested, but only {} degrees of freedom are left inside the "
-        "interface",
-        count, inner()));
-  Eigenmodes modes = lowest_modes([this](const MatX& f) { return solve(f); }, M_inner_, count);
-  if (modes.omega.size() < count)
-    throw InputError(fmt::format(
-        "{} normal modes are requested, but the mass inside the interface allows only {}", count,
-        modes.omega.size()));
+  Eigenmodes modes = inner_modes(count, inner(), [this](int n) { return lowest(n); });
   MatX shapes = MatX::Zero(size_, modes.shapes.cols());
   shapes(inner_, Eigen::all) = modes.shapes;
   modes.shapes = std::move(shapes);
@@ -225,8 +217,7 @@ int BarChains::count_below(double frequency) const {
   // above.
   for (int count = 16;; count *= 2) {
     count = std::min(count, inner());
-    const Eigenmodes modes =
-        lowest_modes([this](const MatX& f) { return solve(f); }, M_inner_, count);
+    const Eigenmodes modes = lowest(count);
     const auto below = static_cast<int>((modes.omega.array() < omega).count());
     if (below < modes.omega.size() || modes.omega.size() < count || count == inner()) return below;
   }

@@ -40,6 +40,7 @@ class BarChains {
             const std::vector<int>& boundary, const std::vector<int>& zero,
             const std::function<std::string(int)>& label, const std::vector<char>& kept);
   MatX solve(const MatX& f) const;
+  Eigenmodes lowest(int count) const;
 
   int size_ = 0;
   std::vector<int> inner_;   ///< dofs that are neither boundary nor zero

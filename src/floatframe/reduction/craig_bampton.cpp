@@ -1,7 +1,6 @@
 // Choice of dofs, check of the body reference, constraint modes and fixed-interface modes.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -9,7 +8,7 @@
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/math/so3.hpp"
+#include "floatframe/math/rigid_motion.hpp"
 #include "floatframe/reduction/bar_chains.hpp"
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/reduction.hpp"
@@ -27,8 +26,7 @@ std::string vector_text(const Vec3& v) {
   return s.str();
 }
 
-int node_of(const FeModel& model, const DofSelection& selection, const char* what,
-            ErrorList& errors) {
+int node_of(const FeModel& model, const NodeDofs& selection, const char* what, ErrorList& errors) {
   const int node = selection.node.empty() ? selection.index : model.find_node(selection.node);
   if (node < 0 || node >= model.nodes()) {
     errors.add({}, std::string(what) + ": there is no node " +
@@ -62,14 +60,7 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
     if (roles[i] != Role::clamped) continue;
     const int axis = static_cast<int>(i) % d;
     const Vec3 p = (model.positions[i / d] - centre) / size;
-    if (axis < 3) {
-      R.block<1, 3>(row, 0) = Vec3::Unit(axis).transpose();
-      R.block<1, 3>(row, 3) = -skew(p).row(axis);
-    } else {
-      R.block<1, 3>(row, 0).setZero();
-      R.block<1, 3>(row, 3) = Vec3::Unit(axis - 3).transpose();
-    }
-    ++row;
+    R.row(row++) = rigid_motion_at(p).row(axis);
   }
   const Singular svd = singular_values(R);
   const VecX& s = svd.values;
@@ -110,26 +101,12 @@ SparseMatrix eigen_mass(const FeModel& model, const ReductionOptions& options) {
 
 /// Static modes, then normal modes.
 template <class Fixed>
-ModeSet mode_set(const Fixed& fixed, int nb, const ReductionOptions& options,
+ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options,
                  std::vector<std::string> names) {
-  int nn = options.normal_modes;
-  if (options.max_frequency > 0.0) {
-    const int below = fixed.count_below(options.max_frequency);
-    nn = options.normal_modes > 0 ? std::min(below, options.normal_modes) : below;
-  }
-  const Eigenmodes normal = fixed.normal_modes(nn);
-  ModeSet set;
-  set.X.resize(normal.shapes.rows(), nb + nn);
-  set.X.leftCols(nb) = fixed.constraint_modes();
-  set.X.rightCols(nn) = normal.shapes;
-  for (int a = 0; a < nn; ++a) names.push_back("normal " + std::to_string(a + 1));
-  // Static and dynamic modes do not couple in the stiffness, dynamic ones not among themselves.
-  set.K = MatX::Zero(nb + nn, nb + nn);
-  set.K.topLeftCorner(nb, nb) = fixed.guyan_stiffness(set.X.leftCols(nb));
-  set.K.diagonal().tail(nn) = normal.omega.cwiseAbs2();
-  set.frequencies = normal.omega / (2.0 * std::numbers::pi);
-  set.names = std::move(names);
-  return set;
+  std::optional<int> number;
+  if (options.normal_modes != 0 || !(options.max_frequency > 0.0)) number = options.normal_modes;
+  const int count = normal_mode_count(fixed, number, options.max_frequency);
+  return craig_bampton_set(fixed, fixed.normal_modes(count), std::move(names));
 }
 
 }  // namespace
@@ -148,7 +125,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
   const auto dof_text = [&](int node, int axis) {
     return model.node_label(node) + " " + node_dof_names[axis];
   };
-  for (const DofSelection& c : options.clamped) {
+  for (const NodeDofs& c : options.clamped) {
     const int node = node_of(model, c, "the body reference", errors);
     for (int axis = 0; axis < d && node >= 0; ++axis) {
       if (((c.mask >> axis) & 1u) == 0) continue;
@@ -158,7 +135,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
   }
   std::vector<int> interface_dofs;
   std::vector<std::string> names;
-  for (const DofSelection& c : options.interfaces) {
+  for (const NodeDofs& c : options.interfaces) {
     const int node = node_of(model, c, "the interface", errors);
     if (node < 0) continue;
     if (c.mask == 0)
@@ -202,11 +179,11 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
   const auto label = [&](int dof) { return dof_text(dof / d, dof % d); };
   ModeSet set;
   if (const auto chains = BarChains::make(model, K, M, interface_dofs, zero, label)) {
-    set = mode_set(*chains, static_cast<int>(interface_dofs.size()), options, std::move(names));
+    set = mode_set(*chains, options, std::move(names));
   } else {
     std::optional<FixedInterface> fixed;
     with_digits_hint(model, [&] { fixed.emplace(K, M, interface_dofs, zero, label); });
-    set = mode_set(*fixed, static_cast<int>(interface_dofs.size()), options, std::move(names));
+    set = mode_set(*fixed, options, std::move(names));
   }
   if (d == 6)
     check_digits(model, rows_of_nodes(set.X, 0), rows_of_nodes(set.X, 3), set.K.diagonal(),

@@ -29,12 +29,8 @@ Eigenpairs finish(const VecX& mu, const MatX& shapes, double sigma, int count) {
   modes.shapes.resize(shapes.rows(), kept);
   for (int i = 0; i < kept; ++i) {
     modes.lambda(i) = sigma + 1.0 / mu(i);
-    VecX x = shapes.col(i) / std::sqrt(mu(i));
-    // The first of the components that are largest but for rounding decides the sign.
-    const double limit = (1.0 - 1e-6) * x.cwiseAbs().maxCoeff();
-    Eigen::Index k = 0;
-    while (std::abs(x(k)) < limit) ++k;
-    modes.shapes.col(i) = x(k) < 0.0 ? VecX(-x) : x;
+    const VecX x = shapes.col(i) / std::sqrt(mu(i));
+    modes.shapes.col(i) = sign_of_largest(x) * x;
   }
   return modes;
 }
@@ -124,6 +120,13 @@ Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int 
 }
 
 }  // namespace
+
+double sign_of_largest(const VecX& x) {
+  const double limit = (1.0 - 1e-6) * x.cwiseAbs().maxCoeff();
+  Eigen::Index k = 0;
+  while (std::abs(x(k)) < limit) ++k;
+  return x(k) < 0.0 ? -1.0 : 1.0;
+}
 
 Eigenpairs lowest_eigenpairs(const SparseMatrix& A, const SparseFactors& factors, double sigma,
                              const SparseMatrix& M, int count) {

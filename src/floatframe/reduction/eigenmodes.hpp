@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/math/sparse_factors.hpp"
 
 namespace floatframe {
@@ -16,7 +17,12 @@ namespace floatframe {
 struct Eigenmodes {
   VecX omega;   ///< [rad/s], ascending
   MatX shapes;  ///< columns, x^T M x = 1, largest component positive
+  VecX frequencies() const { return omega.unaryExpr(&hertz); }
 };
+
+/// -1 if the largest component of x is negative, else 1. Of components that are largest but for
+/// rounding the first decides, so that rounding decides no sign.
+double sign_of_largest(const VecX& x);
 
 /// The `count` lowest modes, K > 0; fewer if M has a smaller rank.
 Eigenmodes lowest_modes(const SparseMatrix& K, const SparseMatrix& M, int count);

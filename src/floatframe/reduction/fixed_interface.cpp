@@ -106,20 +106,26 @@ MatX FixedInterface::inner_response(const MatX& forces) const {
   return with_all_rows(factors_.solve(inner));
 }
 
-Eigenmodes FixedInterface::normal_modes(int count) const {
+Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve) {
   if (count < 0) throw InputError("the number of normal modes must not be negative");
-  if (count > inner()) {
+  if (count > inner) {
     throw InputError(fmt::format(
         "{} normal modes are requested, but only {} degrees of freedom are left inside the "
         "interface",
-        count, inner()));
+        count, inner));
   }
-  Eigenmodes modes = lowest_modes(Kii_, factors_, Mii_, count);
+  Eigenmodes modes = solve(count);
   if (modes.omega.size() < count) {
     throw InputError(fmt::format(
         "{} normal modes are requested, but the mass inside the interface allows only {}", count,
         modes.omega.size()));
   }
+  return modes;
+}
+
+Eigenmodes FixedInterface::normal_modes(int count) const {
+  Eigenmodes modes =
+      inner_modes(count, inner(), [&](int n) { return lowest_modes(Kii_, factors_, Mii_, n); });
   modes.shapes = with_all_rows(modes.shapes);
   return modes;
 }

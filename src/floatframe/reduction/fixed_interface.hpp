@@ -14,6 +14,10 @@
 
 namespace floatframe {
 
+/// `solve` gives the normal modes of `inner` dofs. Throws InputError if `count` is more than the
+/// dofs or their mass allow.
+Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve);
+
 class FixedInterface {
  public:
   /// `boundary`: rows of K; `zero`: further rows that are held in every mode. `label` names a row

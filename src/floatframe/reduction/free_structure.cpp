@@ -7,20 +7,15 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
+#include "floatframe/math/rigid_motion.hpp"
 
 namespace floatframe {
 
 MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& origin) {
-  MatX R = MatX::Zero(system.size(), 6);
+  MatX R(system.size(), 6);
   for (int row = 0; row < system.size(); ++row) {
     const Dof& dof = system.dofs[row];
-    if (dof.axis >= 3) {
-      R(row, dof.axis) = 1.0;
-      continue;
-    }
-    const Vec3 p = model.positions[dof.node] - origin;
-    R(row, dof.axis) = 1.0;
-    for (int k = 0; k < 3; ++k) R(row, 3 + k) = Vec3::Unit(k).cross(p)(dof.axis);
+    R.row(row) = rigid_motion_at(model.positions[dof.node] - origin).row(dof.axis);
   }
   return R;
 }

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/reduction/connectivity.hpp"
 #include "floatframe/reduction/mode_selection.hpp"
 #include "floatframe/reduction/rigid_check.hpp"
@@ -114,30 +114,24 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
                               const std::vector<InterfacePlace>& interfaces,
                               const std::vector<MarkerPlace>& markers, const PartOptions& options,
                               std::optional<FixedInterface>& fixed) {
-  ModeBasis basis;
   std::vector<int> boundary;
+  std::vector<std::string> names;
   for (const InterfacePlace& place : interfaces) {
     boundary.insert(boundary.end(), place.rows.begin(), place.rows.end());
     for (const int axis : place.axes)
-      basis.names.push_back("static " + place.name + " " + node_dof_names[axis]);
+      names.push_back("static " + place.name + " " + node_dof_names[axis]);
   }
-  const auto nb = static_cast<Eigen::Index>(boundary.size());
   with_digits_hint(model, [&] {
     fixed.emplace(
         system.K, system.M, boundary, std::vector<int>{},
         [&](int row) { return row_label(model, system, row); }, options.solver);
   });
+  ModeBasis basis;
   basis.solver = fixed->solver_name();
-  basis.X = fixed->constraint_modes();
-  basis.K = fixed->guyan_stiffness(basis.X);
-
   const Eigenmodes normal = select_fixed_modes(*fixed, system, R, boundary, options, basis.modes);
+  static_cast<ModeSet&>(basis) = craig_bampton_set(*fixed, normal, names);
+  const auto nb = static_cast<Eigen::Index>(boundary.size());
   basis.first_normal = static_cast<int>(nb);
-  basis.frequencies = normal.omega / (2.0 * std::numbers::pi);
-  std::vector<std::string> names;
-  for (const ModeHealth& m : basis.modes)
-    if (m.kept) names.push_back(m.name);
-  append(basis, normal.shapes, normal.omega.cwiseAbs2().asDiagonal(), names);
 
   names.clear();
   const MatX F = forces_of(markers, system.size(), names);
@@ -179,7 +173,7 @@ ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R
   basis.K = MatX::Zero(6 + count, 6 + count);
   basis.K.diagonal().tail(count) = elastic.lambda;
   basis.first_normal = 6;
-  basis.frequencies = elastic.lambda.cwiseSqrt() / (2.0 * std::numbers::pi);
+  basis.frequencies = elastic.lambda.cwiseSqrt().unaryExpr(&hertz);
   for (const char* axis : node_dof_names) basis.names.push_back(std::string("rigid ") + axis);
   for (const ModeHealth& m : basis.modes) basis.names.push_back(m.name);
 

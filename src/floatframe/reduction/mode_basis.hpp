@@ -10,17 +10,14 @@
 
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/free_structure.hpp"
+#include "floatframe/reduction/mode_set.hpp"
 #include "floatframe/reduction/part_places.hpp"
 
 namespace floatframe {
 
-struct ModeBasis {
-  MatX X;      ///< n x nr
-  MatX K;      ///< X^T K X
-  MatX rigid;  ///< nr x 6: X rigid = R
-  std::vector<std::string> names;
+struct ModeBasis : ModeSet {
+  MatX rigid;                     ///< nm x 6: X rigid = R
   int first_normal = 0;           ///< column of the first normal mode
-  VecX frequencies;               ///< [Hz] of the normal modes
   std::vector<ModeHealth> modes;  ///< of the normal modes
   std::string solver;
 };

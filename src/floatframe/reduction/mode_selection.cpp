@@ -41,9 +41,7 @@ std::optional<int> most_normal_modes(const PartOptions& options) {
 Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
                               const std::vector<int>& boundary, const PartOptions& options,
                               std::vector<ModeHealth>& list) {
-  int count = most_normal_modes(options).value_or(fixed.inner());
-  if (options.max_frequency > 0.0)
-    count = std::min(count, fixed.count_below(options.max_frequency));
+  const int count = normal_mode_count(fixed, most_normal_modes(options), options.max_frequency);
   const MatX C = about_centre(R, system.M);
   const MatX MC = system.M * C;
   const Vec6 total = (C.transpose() * MC).diagonal();

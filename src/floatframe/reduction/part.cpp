@@ -17,7 +17,6 @@
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/reduction/body_reference.hpp"
 #include "floatframe/reduction/connectivity.hpp"
-#include "floatframe/reduction/modal_damping.hpp"
 #include "floatframe/reduction/mode_basis.hpp"
 #include "floatframe/reduction/part_health.hpp"
 #include "floatframe/reduction/rigid_check.hpp"
@@ -49,11 +48,7 @@ class Stages {
 /// Columns get the sign that makes their largest component positive.
 void fix_signs(const MatX& X, MatX& C) {
   for (Eigen::Index a = 0; a < C.cols(); ++a) {
-    const VecX x = X * C.col(a);
-    const double limit = (1.0 - 1e-6) * x.cwiseAbs().maxCoeff();
-    Eigen::Index k = 0;
-    while (std::abs(x(k)) < limit) ++k;
-    if (x(k) < 0.0) C.col(a) = -C.col(a).eval();
+    C.col(a) *= sign_of_largest(X * C.col(a));
   }
 }
 
@@ -217,13 +212,9 @@ FlexibleBody body_of(const FeModel& model, const FeSystem& system, const PointMo
                      const ElasticModes& modes, const MatX& X,
                      const std::vector<InterfacePlace>& interfaces,
                      const std::vector<MarkerPlace>& markers, const PartOptions& options) {
-  FlexibleBody body;
-  body.invariants = combined(raw, modes.C);
-  body.K = modes.lambda.asDiagonal();
-  body.D = modal_damping(body.K, modal_mass(body.invariants), options.damping_ratio);
-  body.fixed_interface_frequencies = basis.frequencies;
-  for (Eigen::Index a = 0; a < X.cols(); ++a)
-    body.mode_names.push_back(fmt::format("elastic {}", a + 1));
+  ModeSet set{X, modes.lambda.asDiagonal(), basis.frequencies, {}};
+  for (Eigen::Index a = 0; a < X.cols(); ++a) set.names.push_back(fmt::format("elastic {}", a + 1));
+  FlexibleBody body = body_of_modes(std::move(set), combined(raw, modes.C), options.damping_ratio);
   for (const InterfacePlace& place : interfaces)
     body.nodes.push_back(interface_node(model, system, place, X));
   for (const MarkerPlace& marker : markers)

@@ -53,12 +53,6 @@ void append(ErrorList& errors, const InputError& error) {
 
 }  // namespace
 
-Mat6 rigid_motion_at(const Vec3& p) {
-  Mat6 R = Mat6::Identity();
-  R.topRightCorner<3, 3>() = -skew(p);
-  return R;
-}
-
 std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options) {
   ErrorList errors;
   std::vector<InterfacePlace> places;

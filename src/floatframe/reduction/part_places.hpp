@@ -40,7 +40,4 @@ void find_rows(const FeModel& model, const FeSystem& system,
 /// node its own rotation if it has one, else none.
 void find_motions(const FeModel& model, const FeSystem& system, std::vector<MarkerPlace>& markers);
 
-/// Rows of the node's rigid motion about the origin: 6 x 6.
-Mat6 rigid_motion_at(const Vec3& p);
-
 }  // namespace floatframe

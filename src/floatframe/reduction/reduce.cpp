@@ -1,13 +1,12 @@
 // Mode set -> flexible body: inertia integrals, projection data, modal damping.
 #include <cmath>
-#include <numbers>
 
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/reduction/modal_damping.hpp"
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
 namespace floatframe {
@@ -35,9 +34,7 @@ void orthonormalise(const FeModel& model, const ReductionOptions& options, ModeS
   set.K = modes.values.asDiagonal();
   set.names.clear();
   for (Eigen::Index a = 0; a < X.cols(); ++a) {
-    Eigen::Index k = 0;
-    X.col(a).cwiseAbs().maxCoeff(&k);
-    if (X(k, a) < 0.0) X.col(a) = -X.col(a).eval();
+    X.col(a) *= sign_of_largest(X.col(a));
     set.names.push_back("orthonormal " + std::to_string(a + 1));
   }
   set.X = X;
@@ -98,38 +95,33 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
   }
   if (!(options.damping_ratio >= 0.0))
     throw InputError("the modal damping ratio must not be negative");
-  ModeSet set = options.basis ? user_basis(model, *options.basis)
-                : options.analytic_dynamic_per_plane
-                    ? analytic_bar_modes(model, *options.analytic_dynamic_per_plane)
-                    : craig_bampton_modes(model, options);
+  ModeSet set = options.basis      ? user_basis(model, *options.basis)
+                : options.analytic ? analytic_bar_modes(model, options.analytic->dynamic_per_plane)
+                                   : craig_bampton_modes(model, options);
   if (options.orthonormalise) orthonormalise(model, options, set);
 
-  FlexibleBody body;
-  body.mass_model = options.mass_model;
-  body.invariants = compute_invariants(model, set.X, options);
-  body.K = set.K;
-  const MatX M_ff = modal_mass(body.invariants);
-  body.D = modal_damping(body.K, M_ff, options.damping_ratio);
-  if (options.analytic_dynamic_per_plane && !options.basis && !options.orthonormalise) {
+  InertiaInvariants invariants = compute_invariants(model, set.X, options);
+  if (options.analytic && !options.basis && !options.orthonormalise) {
     // Of the dynamic shapes, each by itself.
-    const Eigen::Index dynamic = body.K.rows() - 2;
+    const Eigen::Index dynamic = set.K.rows() - 2;
+    const VecX m = modal_mass(invariants).diagonal().tail(dynamic);
     set.frequencies =
-        (body.K.diagonal().tail(dynamic).array() / M_ff.diagonal().tail(dynamic).array()).sqrt() /
-        (2.0 * std::numbers::pi);
+        (set.K.diagonal().tail(dynamic).array() / m.array()).sqrt().matrix().unaryExpr(&hertz);
   }
-  body.fixed_interface_frequencies = set.frequencies;
-  body.mode_names = set.names;
-  body.projection = projection_data(model, set.X, options);
+  const MatX X = set.X;
+  FlexibleBody body = body_of_modes(std::move(set), std::move(invariants), options.damping_ratio);
+  body.mass_model = options.mass_model;
+  body.projection = projection_data(model, X, options);
   const int d = model.dofs_per_node();
-  const Eigen::Index nm = set.X.cols();
+  const Eigen::Index nm = X.cols();
   body.nodes.resize(model.nodes());
   for (int k = 0; k < model.nodes(); ++k) {
     ModalNode& node = body.nodes[k];
     if (!model.node_names.empty()) node.name = model.node_names[k];
     node.p = model.positions[k];
-    node.X = set.X.middleRows<3>(d * k);
+    node.X = X.middleRows<3>(d * k);
     node.X_theta = Mat3X::Zero(3, nm);
-    if (d == 6) node.X_theta = set.X.middleRows<3>(6 * k + 3);
+    if (d == 6) node.X_theta = X.middleRows<3>(6 * k + 3);
   }
   return body;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/rigid_motion.hpp"
 
 namespace floatframe {
 namespace {

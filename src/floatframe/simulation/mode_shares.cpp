@@ -17,16 +17,9 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// M_ff - M_fr M_rr^-1 M_rf: the modal mass of a body that is free to recoil.
 MatX recoil_mass(const InertiaInvariants& v) {
-  Eigen::Matrix<double, 6, 6> M_rr = Eigen::Matrix<double, 6, 6>::Zero();
-  M_rr.topLeftCorner<3, 3>() = v.m * Mat3::Identity();
-  M_rr.topRightCorner<3, 3>() = -skew(v.m_u);
-  M_rr.bottomLeftCorner<3, 3>() = skew(v.m_u);
-  M_rr.bottomRightCorner<3, 3>() = v.inertia_about_origin();
-  MatX M_rf(6, v.modes());
-  M_rf.topRows(3) = v.S;
-  M_rf.row(3) = v.Si[1].row(2) - v.Si[2].row(1);  // int r_u x X dm
-  M_rf.row(4) = v.Si[2].row(0) - v.Si[0].row(2);
-  M_rf.row(5) = v.Si[0].row(1) - v.Si[1].row(0);
+  const MatX M = mass_matrix_at_rest(v);
+  const Mat6 M_rr = M.topLeftCorner<6, 6>();
+  const MatX M_rf = M.topRightCorner(6, v.modes());
   // A thin rod has no inertia about its axis: the least solution leaves that rotation alone.
   return modal_mass(v) - M_rf.transpose() * LeastNorm(M_rr, 1e-12).solve(M_rf);
 }

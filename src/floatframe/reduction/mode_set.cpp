@@ -1,7 +1,8 @@
-#include "floatframe/reduction/modal_damping.hpp"
+#include "floatframe/reduction/mode_set.hpp"
 
 #include <cmath>
 
+#include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/dense.hpp"
 
@@ -21,6 +22,16 @@ MatX modal_damping(const MatX& K, const MatX& M, double ratio) {
     D += 2.0 * ratio * std::sqrt(mu) * Kx * Kx.transpose();
   }
   return 0.5 * (D + D.transpose());
+}
+
+FlexibleBody body_of_modes(ModeSet modes, InertiaInvariants invariants, double damping_ratio) {
+  FlexibleBody body;
+  body.invariants = std::move(invariants);
+  body.K = std::move(modes.K);
+  body.D = modal_damping(body.K, modal_mass(body.invariants), damping_ratio);
+  body.fixed_interface_frequencies = std::move(modes.frequencies);
+  body.mode_names = std::move(modes.names);
+  return body;
 }
 
 }  // namespace floatframe

@@ -1,0 +1,57 @@
+#pragma once
+// Modes by whatever method, and the body that is made of them: the road that bars and parts share.
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floatframe/body/flexible_body.hpp"
+#include "floatframe/reduction/eigenmodes.hpp"
+
+namespace floatframe {
+
+/// Mode shapes and what is known about them, before the body is made.
+struct ModeSet {
+  MatX X;            ///< rows of the structure x nm
+  MatX K;            ///< nm x nm
+  VecX frequencies;  ///< of the dynamic modes [Hz]
+  std::vector<std::string> names;
+};
+
+/// Of a structure held at its interfaces (FixedInterface, BarChains): the number of normal modes
+/// that a largest number and a frequency limit [Hz] (0: none) leave.
+template <class Fixed>
+int normal_mode_count(const Fixed& fixed, std::optional<int> number, double max_frequency) {
+  if (!(max_frequency > 0.0)) return number.value_or(fixed.inner());
+  const int below = fixed.count_below(max_frequency);
+  return number ? std::min(below, *number) : below;
+}
+
+/// Constraint modes of the interface dofs, named by `names`, then the normal modes. They do not
+/// couple in the stiffness, normal modes not among themselves.
+template <class Fixed>
+ModeSet craig_bampton_set(const Fixed& fixed, const Eigenmodes& normal,
+                          std::vector<std::string> names) {
+  const auto nb = static_cast<Eigen::Index>(names.size()), nn = normal.omega.size();
+  ModeSet set;
+  set.X.resize(normal.shapes.rows(), nb + nn);
+  set.X.leftCols(nb) = fixed.constraint_modes();
+  set.X.rightCols(nn) = normal.shapes;
+  set.K = MatX::Zero(nb + nn, nb + nn);
+  set.K.topLeftCorner(nb, nb) = fixed.guyan_stiffness(set.X.leftCols(nb));
+  set.K.diagonal().tail(nn) = normal.omega.cwiseAbs2();
+  set.frequencies = normal.frequencies();
+  for (Eigen::Index a = 0; a < nn; ++a) names.push_back("normal " + std::to_string(a + 1));
+  set.names = std::move(names);
+  return set;
+}
+
+/// The body of modes: everything but its nodes and the data of the projection method.
+FlexibleBody body_of_modes(ModeSet modes, InertiaInvariants invariants, double damping_ratio);
+
+/// With M x = mu K x, x^T K x = 1, w = 1/sqrt(mu): D = sum 2 ratio sqrt(mu) (K x)(K x)^T, with
+/// which every mode of (K, M) has the same ratio of critical damping; massless modes (mu = 0) get
+/// none. Throws InputError unless K > 0.
+MatX modal_damping(const MatX& K, const MatX& M, double ratio);
+
+}  // namespace floatframe
