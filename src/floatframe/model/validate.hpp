@@ -72,6 +72,14 @@ struct Entity {
 void name(const char* kind, const std::string& name, std::set<std::string>& taken,
           const Entity& entity);
 
+// What one entity means by itself, without the others: `validate` asks this of every description,
+// and the reader of model files of each entity it has read.
+void input(const InputDescription& input, const Entity& entity);
+/// Mass properties of a rigid body, keys of the group `rigid`.
+void rigid(const RigidDescription& rigid, const Entity& body);
+/// Axes and start values of a joint, whose type is one of the list, and whether they go with its motion.
+void joint_values(const JointDescription& joint, const Entity& entity);
+
 void bodies(const ModelDescription& d, ErrorList& errors);
 void flexible(const FlexibleDescription& f, const Entity& body);
 void flexible(const FlexibleBody& f, const Entity& body);

@@ -7,8 +7,6 @@
 
 namespace floatframe::validation {
 
-namespace {
-
 void rigid(const RigidDescription& r, const Entity& body) {
   body.number("rigid.mass", r.mass, rules::mass);
   body.vector("rigid.centre_of_mass", r.p_BC, "m");
@@ -26,6 +24,8 @@ void rigid(const RigidDescription& r, const Entity& body) {
   else
     body.complain("rigid.inertia", sentences::inertia(r.J_C));
 }
+
+namespace {
 
 bool is_mirror(const Mat3& P) {
   for (Eigen::Index i = 0; i < 3; ++i)

@@ -37,6 +37,13 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
     entity.error("child", sentences::child_is_parent());
   if (entity.vector("at", j.parent.point, "m")) entity.vector("at", j.child.point, "m");
   if (!type) return;
+  joint_values(j, entity);
+  if (j.motion && joint_has_one_coordinate(j.type)) entity.function("motion", *j.motion);
+}
+
+}  // namespace
+
+void joint_values(const JointDescription& j, const Entity& entity) {
   const JointAxes axes = joint_kind(j.type).axes;
   if (axes != JointAxes::none && entity.direction("axis", j.axis) && axes == JointAxes::two &&
       entity.direction("axis_2", j.axis_2))
@@ -50,12 +57,9 @@ void joint(const JointDescription& j, const Names& names, const Entity& entity) 
     entity.error("motion", sentences::not_used_by_joint(joint_type_name(j.type)));
     return;
   }
-  entity.function("motion", *j.motion);
   if (!j.position.empty()) entity.error("position", sentences::motion_and_start_value());
   if (!j.velocity.empty()) entity.error("velocity", sentences::motion_and_start_value());
 }
-
-}  // namespace
 
 void joints(const ModelDescription& d, const Names& names, ErrorList& errors) {
   std::set<std::string> taken;
@@ -83,23 +87,42 @@ void rods(const ModelDescription& d, const Names& names, ErrorList& errors) {
   }
 }
 
+namespace {
+
+void initial_value(const InputDescription& i, const Entity& entity) {
+  const auto complaint = sentences::input_initial(i.initial, i.low, i.high);
+  if (!complaint) return;
+  // A file that leaves the key out has no place of it.
+  if (i.origin.keys.empty() || i.origin.keys.contains("initial"))
+    entity.error("initial", *complaint);
+  else
+    entity.error("initial: " + *complaint);
+}
+
+}  // namespace
+
+void input(const InputDescription& i, const Entity& entity) {
+  if (const auto complaint = sentences::unit(i.unit))
+    entity.error("unit", "found '" + i.unit + "', " + *complaint);
+  const char* unit = i.unit.c_str();
+  bool good = entity.number("initial", i.initial, any_number(unit));
+  if (i.low) good = entity.number("min", *i.low, any_number(unit)) && good;
+  if (i.high) good = entity.number("max", *i.high, any_number(unit)) && good;
+  if (!good) return;
+  if (const auto complaint = sentences::clamp_without_limits(i.clamp, i.low, i.high))
+    entity.error("clamp", *complaint);
+  else if (const auto limits = sentences::input_limits(i.low, i.high))
+    entity.error("max", *limits);
+  else
+    initial_value(i, entity);
+}
+
 void inputs(const ModelDescription& d, ErrorList& errors) {
   std::set<std::string> taken;
   for (const InputDescription& i : d.inputs) {
     const Entity entity{errors, i.origin, "inputs." + i.name};
     name("inputs", i.name, taken, entity);
-    if (const auto complaint = sentences::unit(i.unit))
-      entity.error("unit", "found '" + i.unit + "', " + *complaint);
-    const char* unit = i.unit.c_str();
-    bool good = entity.number("initial", i.initial, any_number(unit));
-    if (i.low) good = entity.number("min", *i.low, any_number(unit)) && good;
-    if (i.high) good = entity.number("max", *i.high, any_number(unit)) && good;
-    if (!good) continue;
-    entity.complain("clamp", sentences::clamp_without_limits(i.clamp, i.low, i.high));
-    if (const auto complaint = sentences::input_limits(i.low, i.high))
-      entity.error("max", *complaint);
-    else
-      entity.complain("initial", sentences::input_initial(i.initial, i.low, i.high));
+    input(i, entity);
   }
 }
 

@@ -5,7 +5,6 @@
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/rules.hpp"
-#include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {
@@ -49,7 +48,6 @@ Mat3 read_inertia(const YamlValue& value) {
     J(0, 2) = J(2, 0) = (*v)[4];
     J(1, 2) = J(2, 1) = (*v)[5];
   }
-  value.complain(sentences::inertia(J));
   return J;
 }
 
@@ -159,6 +157,11 @@ void place_rigid(YamlSection& s, const YamlValue& group, RigidRead& rigid,
   body.kind = rigid.description;
 }
 
+/// Places of the keys of a group, for what is found when the body is built.
+void note_keys(const YamlSection& group, Origin& origin) {
+  for (const auto& [key, mark] : group.origin().keys) origin.keys.emplace(key, mark);
+}
+
 void read_body(const ModelInstance& self, const std::string& name, YamlSection& s,
                ReadModel& model) {
   BodyDescription body;
@@ -185,13 +188,19 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
   std::optional<FlexibleRead> flexible;
   if (rigid_value)
     if (auto group = rigid_value->section("a map with mass, centre_of_mass, inertia")) {
-      for (const auto& [key, mark] : group->origin().keys) body.origin.keys.emplace(key, mark);
+      note_keys(*group, body.origin);
       rigid = read_rigid(self, *group);
+      judge(s, body.origin, [&](const validation::Entity& entity) {
+        validation::rigid(rigid->description, entity);
+      });
     }
   if (part.value) {
-    if (part.value->is_map())
-      for (const auto& [key, mark] : YamlSection(*part.value).origin().keys)
-        body.origin.keys.emplace(key, mark);
+    if (part.value->is_map()) {
+      YamlSection group(*part.value);
+      note_keys(group, body.origin);
+      if (const auto material = group.get("material"); material && material->is_map())
+        note_keys(YamlSection(*material), body.origin);
+    }
     flexible = read_part(self, model, body.name, *part.value);
   }
   const bool take_part = part.value && (!rigid_value || (use && *use == 1));

@@ -15,18 +15,12 @@ std::vector<double> start_values(YamlSection& s, const char* key, JointType type
   const auto v = s.get(key);
   if (!v) return {};
   const std::size_t n = joint_velocities(type);
-  if (n == 0) {
-    v->error(sentences::weld_has_no_coordinates());
-    return {};
-  }
-  if (n == 1 && !v->is_list()) {
-    const auto x = v->number(any_number(""));
-    return x ? std::vector<double>{*x} : std::vector<double>{};
-  }
+  if (n == 0) return {0.0};  // `joint_values` refuses it
+  if (n == 1 && !v->is_list()) return {v->number(any_number("")).value_or(0.0)};
   const std::string what = n == 1 ? "a number"
                                   : "a list of " + std::to_string(n) + " numbers for a " +
                                         joint_type_name(type) + " joint";
-  return v->numbers(n, n, any_number(""), what.c_str()).value_or(std::vector<double>{});
+  return v->numbers(n, n, any_number(""), what.c_str()).value_or(std::vector<double>(n, 0.0));
 }
 
 /// A node named for one side of a joint; its design point in coordinates of this file.
@@ -103,7 +97,6 @@ void read_axes(YamlSection& s, JointDescription& j) {
   const auto b = second ? read_direction(*second) : std::nullopt;
   if (!a || !b) return;
   j.axis_2 = b->stableNormalized();
-  second->complain(sentences::second_axis(j.axis, j.axis_2));
 }
 
 void read_joint(const ModelInstance& self, const std::string& name, YamlSection& s,
@@ -134,16 +127,13 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   j.position = start_values(s, "position", j.type);
   j.velocity = start_values(s, "velocity", j.type);
   j.keep = s.boolean("keep", false);
-  if (j.keep && !s.has("position") && !s.has("velocity"))
-    s.get("keep")->error(sentences::keep_alone());
   if (joint_has_one_coordinate(j.type))
-    if (const auto v = s.get("motion")) {
+    if (const auto v = s.get("motion"))
       j.motion = read_time_function(*v, joint_unit_name(j.type, 0), Interpolation::cubic);
-      for (const char* key : {"position", "velocity"})
-        if (s.has(key)) s.get(key)->error(sentences::motion_and_start_value());
-    }
   j.cut = s.boolean("cut", false);
   s.finish();
+  judge(s, j.origin,
+        [&](const validation::Entity& entity) { validation::joint_values(j, entity); });
   model.joints.emplace(j.name, j.type);
   place(j, self.world);
   model.description.joints.push_back(std::move(j));

@@ -2,6 +2,7 @@
 // The parts of the model reader, one subject a file. Each reads one key of a model file from one
 // instance, in the coordinates of that file, places the result in the world and appends it to the
 // description.
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "floatframe/math/piecewise_build.hpp"
+#include "floatframe/model/validate.hpp"
 #include "floatframe/model_file/model_instance.hpp"
 
 namespace floatframe {
@@ -78,6 +80,12 @@ std::string beside(const ModelInstance& self, const std::string& file);
 /// Entities of a kind that are not switched off, as sections with `when` already asked for.
 std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInstance& self,
                                                                  EntityKind kind);
+
+/// What `check` (of model/validate.hpp) finds wrong with an entity that has been read, at the places
+/// of its keys. Values that could not be read are to stand in the entity as valid ones by then, so
+/// that nothing is said twice.
+void judge(const YamlSection& section, const Origin& origin,
+           const std::function<void(const validation::Entity&)>& check);
 
 /// A direction: [x, y, z] of any length but zero, or x, y, z, -x, -y, -z. Returned as given (not
 /// normalised).

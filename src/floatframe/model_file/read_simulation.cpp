@@ -35,6 +35,7 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
   auto s = value.section();
   const auto equilibrium = s->get("equilibrium"), state = s->get("state");
   const auto offset = s->get("offset");
+  if (offset) d.origin.keys.emplace("offset", offset->mark());
   s->finish();
   if (equilibrium && state) {
     state->error("found with 'equilibrium', expected one of the two");
@@ -86,13 +87,14 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
   if (const auto v = s.get("max_iterations"))
     d.max_iterations = v->integer(rules::max_iterations).value_or(d.max_iterations);
   d.min_step = s.number("min_step", rules::min_step, d.min_step);
-  if (const auto v = s.get("min_step")) v->complain(sentences::min_step(d.min_step, d.step));
   d.penalty = s.number("penalty", rules::penalty, d.penalty);
   d.position_tolerance =
       s.number("position_tolerance", rules::position_tolerance, d.position_tolerance);
   d.velocity_tolerance =
       s.number("velocity_tolerance", rules::velocity_tolerance, d.velocity_tolerance);
   s.finish();
+  if (d.start == Start::state && !d.state) return;  // the file could not be read
+  judge(s, d.origin, [&](const validation::Entity& group) { validate(d, group.errors); });
 }
 
 }  // namespace floatframe

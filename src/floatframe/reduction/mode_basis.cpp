@@ -82,7 +82,7 @@ void check_options(const PartOptions& options) {
   if (options.modes && *options.modes < 0) add("the number of normal modes must not be negative");
   if (!(options.max_frequency >= 0.0) || !std::isfinite(options.max_frequency))
     add("the highest frequency must be positive");
-  if (!(options.effective_mass >= 0.0 && options.effective_mass < 1.0))
+  if (!(options.effective_mass >= 0.0 && options.effective_mass <= 1.0))
     add("the effective mass to be reached must be a fraction between 0 and 1");
   if (free && options.effective_mass > 0.0)
     add("free modes have no effective mass; select them by number or by frequency");
