@@ -31,9 +31,9 @@ BenchResult example() {
 
 TEST(BenchOutput, TextHasThePapersFiguresWhereThereAreAny) {
   const std::string text = bench_text(example());
-  EXPECT_NE(text.find("Abs. + P         paper                 3.85       -"), std::string::npos)
+  EXPECT_NE(text.find("Abs. + P          paper                 3.85       -"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("Rel. + P         paper                 0.79       -"), std::string::npos)
+  EXPECT_NE(text.find("Rel. + P          paper                 0.79       -"), std::string::npos)
       << text;
   EXPECT_NE(text.find("= 1.50 LLTs"), std::string::npos) << text;
 }
