@@ -148,7 +148,7 @@ TEST(BadNastran, Lines) {
 }
 
 /// One node with two degrees of freedom.
-const char* const punch =
+const char* const good_punch =
     "DMIG    KAAX           0       6       2       0                       2\n"  // 1
     "DMIG*   KAAX                           1               1\n"                  // 2
     "*                      1               1 2.000000000D+06\n"                  // 3
@@ -169,7 +169,7 @@ std::string punch_error(const std::string& text) {
 }
 
 TEST(BadNastran, Matrices) {
-  ASSERT_EQ(punch_error(punch), "no error");
+  ASSERT_EQ(punch_error(good_punch), "no error");
   const Error errors[] = {
       {"KAAX           0       6", "KAAX           0       9",
        "arm.pch:1: DMIG: IFO is 9, expected 1 (square) or 6 (symmetric)"},
@@ -196,14 +196,14 @@ TEST(BadNastran, Matrices) {
        "value"},
   };
   for (const Error& error : errors) {
-    std::string text = punch;
+    std::string text = good_punch;
     const std::size_t at = text.find(error.from);
     ASSERT_NE(at, std::string::npos) << error.from;
     text.replace(at, std::string(error.from).size(), error.to);
     EXPECT_EQ(punch_error(text), error.sentence) << error.to;
   }
   EXPECT_EQ(
-      punch_error(std::string(punch).substr(0, std::string(punch).find("DMIG    MAAX"))),
+      punch_error(std::string(good_punch).substr(0, std::string(good_punch).find("DMIG    MAAX"))),
       "arm.pch: the file has no mass matrix (its matrices: KAAX); expected one whose name begins "
       "with M; or give the mass file");
 }

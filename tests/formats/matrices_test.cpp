@@ -13,7 +13,7 @@
 namespace floatframe {
 namespace {
 
-const std::string folder = FLOATFRAME_TEST_DATA "/fe/";
+const std::string matrices_folder = FLOATFRAME_TEST_DATA "/fe/";
 
 /// Rigid motions of all rows: three translations, three rotations about the origin.
 MatX rigid_motions(const FeModel& model) {
@@ -90,7 +90,7 @@ void expect_same(const FeModel& a, const FeModel& b) {
   }
 }
 
-FeModel two_bricks() { return read_fe_file(folder + "two_bricks.sti.gz"); }
+FeModel two_bricks() { return read_fe_file(matrices_folder + "two_bricks.sti.gz"); }
 
 TEST(Matrices, CalculixExportWithARigidSpider) {
   const FeModel model = two_bricks();
@@ -121,7 +121,7 @@ TEST(Matrices, CalculixExportWithARigidSpider) {
   EXPECT_NEAR(rigid(5, 5), m * (1.0 / 3.0 + 1.0 / 3.0), 1e-12 * m);
   EXPECT_NEAR(rigid(0, 4), m * 1.0, 1e-12 * m);
   ASSERT_EQ(model.notes.size(), 2u);
-  EXPECT_EQ(model.notes[1], folder +
+  EXPECT_EQ(model.notes[1], matrices_folder +
                                 "two_bricks.inp:31: spider 'TOP' is in the matrices already: its 4 "
                                 "nodes have no rows, its "
                                 "reference is node 20");

@@ -13,13 +13,13 @@
 namespace floatframe::test {
 namespace {
 
-FeModel deck(const std::string& text) {
+FeModel read_deck(const std::string& text) {
   TextSource source(text, "arm.bdf");
   return read_nastran(source, has_begin_bulk(text), {});
 }
 
 std::string error_in(const std::string& text) {
-  return test::error_of([&] { deck(text); });
+  return test::error_of([&] { read_deck(text); });
 }
 
 const std::string bulk =
@@ -49,9 +49,9 @@ TEST(NastranRules, SuperelementsAreRefused) {
 }
 
 TEST(NastranRules, FactorsOfMassAndStiffness) {
-  const FeModel plain = deck(bulk), mass = deck(bulk + "PARAM,CM1,2.5\n"),
-                stiffness = deck(bulk + "PARAM*,CK1,.5,0.\n"),
-                both = deck(bulk + "PARAM,WTMASS,.1\nPARAM,CM1,3.\nPARAM,CM1,3.\n");
+  const FeModel plain = read_deck(bulk), mass = read_deck(bulk + "PARAM,CM1,2.5\n"),
+                stiffness = read_deck(bulk + "PARAM*,CK1,.5,0.\n"),
+                both = read_deck(bulk + "PARAM,WTMASS,.1\nPARAM,CM1,3.\nPARAM,CM1,3.\n");
   EXPECT_DOUBLE_EQ(mass.materials.at(0).density, 2.5 * plain.materials.at(0).density);
   EXPECT_EQ(mass.materials.at(0).young, plain.materials.at(0).young);
   EXPECT_EQ(mass.notes.back(), "arm.bdf: PARAM CM1: the mass of the part is multiplied by 2.5");
@@ -66,8 +66,8 @@ TEST(NastranRules, FactorsOfMassAndStiffness) {
 }
 
 TEST(NastranRules, ParametersOfTheCaseControlCount) {
-  const FeModel plain = deck(bulk);
-  const FeModel model = deck(
+  const FeModel plain = read_deck(bulk);
+  const FeModel model = read_deck(
       "PARAM //C,N,ADD $ of an alter\nCEND\nTITLE = PARAM\nPARAM,WTMASS,.5\nparam, post, -1\nBEGIN "
       "BULK\n" +
       bulk);
@@ -93,13 +93,13 @@ TEST(NastranRules, FactorsThatDisagreeStop) {
       error_in(bulk + "PARAM,CM1,2.\nPARAM,CM1,3.\n"),
       "arm.bdf:11: PARAM: CM1 is '3.', but 2 in arm.bdf:10; a part can have only one of them, "
       "remove the other");
-  EXPECT_DOUBLE_EQ(deck(subcases("CM1,2.0", "CM1,2.")).materials.at(0).density, 16000.0);
+  EXPECT_DOUBLE_EQ(read_deck(subcases("CM1,2.0", "CM1,2.")).materials.at(0).density, 16000.0);
 }
 
 TEST(NastranRules, BeginAloneBeginsTheBulkData) {
-  const FeModel plain = deck(bulk);
+  const FeModel plain = read_deck(bulk);
   for (const char* begin : {"BEGIN\n", "  begin $ bulk\n"}) {
-    const FeModel model = deck(std::string("SOL 103\nCEND\nPARAM,WTMASS,.5\n") + begin + bulk);
+    const FeModel model = read_deck(std::string("SOL 103\nCEND\nPARAM,WTMASS,.5\n") + begin + bulk);
     EXPECT_DOUBLE_EQ(model.materials.at(0).density, 0.5 * plain.materials.at(0).density);
   }
   EXPECT_EQ(error_in("BEGIN\n" + bulk + "BEGIN\n"),
@@ -143,8 +143,8 @@ TEST(NastranRules, MatricesAndMassOfTheCaseControlStop) {
 
 TEST(NastranRules, BarsTwistByTheirOwnShearModulus) {
   const double J = 2e-7, from_E = 2e11 / 2.5;
-  EXPECT_DOUBLE_EQ(deck(bulk).sections.at(0).J, J);
-  const FeModel model = deck(with("MAT1,1,2.+11,,.25", "MAT1,1,2.+11,2.+10,.25"));
+  EXPECT_DOUBLE_EQ(read_deck(bulk).sections.at(0).J, J);
+  const FeModel model = read_deck(with("MAT1,1,2.+11,,.25", "MAT1,1,2.+11,2.+10,.25"));
   const Material& m = model.materials.at(0);
   EXPECT_DOUBLE_EQ(m.shear(), from_E);  // of the tetrahedron
   EXPECT_DOUBLE_EQ(m.shear() * model.sections.at(0).J, 2e10 * J);
@@ -159,12 +159,13 @@ const std::string equations = "MPC,8,1,1,1.,2,1,-.5\nMPC,9,1,2,1.,2,2,-1.\n";
 
 TEST(NastranRules, TheCaseControlSelectsEquations) {
   const std::string control = "SOL 103\nCEND\n", begin = "BEGIN BULK\n";
-  const FeModel model = deck(control + "MPC = 9\n" + begin + bulk + equations);
+  const FeModel model = read_deck(control + "MPC = 9\n" + begin + bulk + equations);
   ASSERT_EQ(model.equations.size(), 1u);
   EXPECT_EQ(model.equations[0].terms[0].axis, 1);
   EXPECT_EQ(
-      deck(control + "MPC=5\n" + begin + bulk + equations + "MPCADD,5,8,9\n").equations.size(), 2u);
-  const FeModel none = deck(control + begin + bulk + equations);
+      read_deck(control + "MPC=5\n" + begin + bulk + equations + "MPCADD,5,8,9\n").equations.size(),
+      2u);
+  const FeModel none = read_deck(control + begin + bulk + equations);
   EXPECT_TRUE(none.equations.empty());
   EXPECT_EQ(none.notes.at(0),
             "arm.bdf:13: 2 MPC equations are in sets that the case control does not select: they "
@@ -186,7 +187,7 @@ TEST(NastranRules, SectionsThatAreNotWhatTheyLook) {
   EXPECT_EQ(error_in(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,TUBE2\n,.01,.015")),
             "arm.bdf:8: PBARL 2: the wall of the TUBE2 is more than its outer radius");
   const FeModel bar =
-      deck(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBAR,2,1,1.-3,1.-7,1.-7,2.-7\n,\n,.5,.5"));
+      read_deck(with("PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBAR,2,1,1.-3,1.-7,1.-7,2.-7\n,\n,.5,.5"));
   EXPECT_EQ(bar.notes.at(0),
             "arm.bdf:8: 1 PBAR have shear factors (K1, K2): their bars are read without shear "
             "deformation");

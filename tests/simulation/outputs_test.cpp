@@ -35,7 +35,7 @@ initial:
 simulation: {step: 1.0e-3, duration: 0}
 )";
 
-std::string column(OutputType type) {
+std::string columns_of_type(OutputType type) {
   const auto reference = [&]() -> std::string {
     switch (output_kind(type).of) {
       case OutputOf::point:
@@ -69,7 +69,7 @@ ResultTable sampled(const std::string& columns, Coordinates coordinates, double 
 
 TEST(Outputs, OfTheListAreThoseOfEitherFormulation) {
   std::string columns;
-  for (const OutputType type : output_types) columns += column(type);
+  for (const OutputType type : output_types) columns += columns_of_type(type);
   const ResultTable a = sampled(columns, Coordinates::absolute, 0.0);
   const ResultTable b = sampled(columns, Coordinates::relative, 0.0);
   ASSERT_EQ(a.columns.size(), b.columns.size());

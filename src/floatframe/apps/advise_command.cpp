@@ -22,7 +22,7 @@ struct AdviseArguments {
   bool json = false;
 };
 
-std::string hertz(double f) { return std::isfinite(f) ? fmt::format("{:.4g}", f) : "-"; }
+std::string frequency_cell(double f) { return std::isfinite(f) ? fmt::format("{:.4g}", f) : "-"; }
 std::string percent(double share) { return fmt::format("{:.3g}", 100.0 * share); }
 
 std::string modes_text(const ModeAdviceReport& r) {
@@ -31,8 +31,8 @@ std::string modes_text(const ModeAdviceReport& r) {
                   {2, 10});
   for (const BodyAdvice& body : r.bodies)
     for (const ModeAdvice& m : body.modes)
-      table.add({body.name, std::to_string(m.mode + 1), m.name, hertz(m.frequency),
-                 hertz(m.free_frequency), fmt::format("{:.3g}", m.step_phase),
+      table.add({body.name, std::to_string(m.mode + 1), m.name, frequency_cell(m.frequency),
+                 frequency_cell(m.free_frequency), fmt::format("{:.3g}", m.step_phase),
                  percent(m.static_share), percent(m.dynamic_share),
                  fmt::format("{:.2g}", m.kinetic_ratio), fmt::format("{:.2g}", m.rms),
                  std::string(word(m.action)) + (m.retained ? " (dropping changes results)" : "")});

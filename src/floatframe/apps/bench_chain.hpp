@@ -18,6 +18,9 @@ struct Combination {
   InertiaMethod inertia;
 };
 
+/// "Abs. + B" and so on, as the paper calls them (B: projection, P: preprocessing).
+std::string short_name(const Combination& combination);
+
 /// Blocks of steps timed in several runs that do the same work: of each block the least and the
 /// median time over the runs, summed over the blocks. A disturbance spoils one block of one run.
 struct StepTime {

@@ -12,12 +12,13 @@
 #include "floatframe/core/text_table.hpp"
 
 namespace floatframe {
-namespace {
 
 std::string short_name(const Combination& c) {
   return fmt::format("{} + {}", c.coordinates == Coordinates::absolute ? "Abs." : "Rel.",
                      c.inertia == InertiaMethod::projection ? "B" : "P");
 }
+
+namespace {
 
 double a_step(long count, const ChainRow& row) {
   return static_cast<double>(count) / static_cast<double>(std::max(row.time.steps, 1L));

@@ -50,11 +50,6 @@ double iterations_a_step(const ScalingRow& row) {
          static_cast<double>(std::max(row.time.steps, 1L));
 }
 
-std::string short_name(const Combination& c) {
-  return fmt::format("{} + {}", c.coordinates == Coordinates::absolute ? "Abs." : "Rel.",
-                     c.inertia == InertiaMethod::projection ? "B" : "P");
-}
-
 }  // namespace
 
 std::string scaling_text(const ScalingResult& result) {

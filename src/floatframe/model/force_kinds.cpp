@@ -8,7 +8,7 @@ namespace floatframe {
 namespace {
 
 #define FLOATFRAME_KIND(name) &name##_element,
-constexpr const ForceKind* list[] = {FLOATFRAME_FORCES(FLOATFRAME_KIND)};
+constexpr const ForceKind* force_list[] = {FLOATFRAME_FORCES(FLOATFRAME_KIND)};
 #undef FLOATFRAME_KIND
 
 /// Calls f<type> of the force's type: a chain of comparisons with direct calls.
@@ -31,7 +31,7 @@ using Types = std::make_index_sequence<std::size(force_types)>;
 
 }  // namespace
 
-const ForceKind& force_kind(ForceType type) noexcept { return *list[index_of(type)]; }
+const ForceKind& force_kind(ForceType type) noexcept { return *force_list[index_of(type)]; }
 
 ForceAccount force_account(ForceType type) noexcept { return force_kind(type).account; }
 

@@ -11,7 +11,7 @@ namespace floatframe {
 namespace {
 
 #define FLOATFRAME_KIND(name) &name##_joint,
-constexpr const JointKind* list[] = {FLOATFRAME_JOINTS(FLOATFRAME_KIND)};
+constexpr const JointKind* joint_list[] = {FLOATFRAME_JOINTS(FLOATFRAME_KIND)};
 #undef FLOATFRAME_KIND
 
 /// Calls f with the type as a constant: comparisons and direct calls, no pointer.
@@ -22,11 +22,11 @@ void with_type(JointType type, std::index_sequence<I...>, F f) noexcept {
                      ...));
 }
 
-constexpr std::make_index_sequence<std::size(list)> all_types;
+constexpr std::make_index_sequence<std::size(joint_list)> all_types;
 
 }  // namespace
 
-const JointKind& joint_kind(JointType type) noexcept { return *list[index_of(type)]; }
+const JointKind& joint_kind(JointType type) noexcept { return *joint_list[index_of(type)]; }
 
 void joint_motion(JointType type, const JointDirections& axes, const double* q,
                   JointMotion& m) noexcept {

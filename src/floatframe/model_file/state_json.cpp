@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int version = 1;
+constexpr int state_version = 1;
 
 template <class Numbers>
 Json array_of(const Numbers& v) {
@@ -37,7 +37,7 @@ class StateReader {
     if (!json.is_object() || !json.contains("floatframe_state"))
       fail("this is not a state file (it has no key 'floatframe_state')");
     const Json& number = json.at("floatframe_state");
-    if (!number.is_number_integer() || number.get<long>() != version)
+    if (!number.is_number_integer() || number.get<long>() != state_version)
       fail("floatframe_state: found " + json_excerpt(number) + ", this program reads version 1");
     SystemState s;
     s.file = file_;
@@ -143,7 +143,7 @@ std::string state_json(const SystemState& s) {
         {"position", array_of(b.position)},     {"quaternion", array_of(b.orientation)},
         {"velocity", array_of(b.velocity)},     {"angular_velocity", array_of(b.angular_velocity)},
         {"amplitudes", array_of(b.amplitudes)}, {"amplitude_rates", array_of(b.amplitude_rates)}};
-  const Json json = {{"floatframe_state", version},
+  const Json json = {{"floatframe_state", state_version},
                      {"model", s.model},
                      {"time", s.time},
                      {"joints", joints},

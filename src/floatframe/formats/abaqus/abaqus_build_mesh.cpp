@@ -11,7 +11,7 @@ namespace {
 
 using Family = AbaqusType::Family;
 
-constexpr int most_notes = 20;  // of a kind
+constexpr int most_renumbered = 20;  // of a kind
 
 /// How many elements of a type there are, and where the first stands.
 struct Count {
@@ -96,7 +96,7 @@ void build_abaqus_nodes(AbaqusBuild& build) {
                                                 id));
       } else {
         id = ++free_number;
-        if (++renumbered <= most_notes) {
+        if (++renumbered <= most_renumbered) {
           build.note(node.at, fmt::format("node {} of the assembly has the number of a node of the "
                                           "part: it becomes node {}",
                                           node.id, id));
@@ -106,11 +106,11 @@ void build_abaqus_nodes(AbaqusBuild& build) {
     model.node_ids.push_back(id);
     model.node_sources.push_back(node.at);
   }
-  if (renumbered > most_notes) {
+  if (renumbered > most_renumbered) {
     build.note({0, 0},
                fmt::format("{} more nodes of the assembly have numbers of nodes of the part "
                            "and become others",
-                           renumbered - most_notes));
+                           renumbered - most_renumbered));
   }
 }
 
