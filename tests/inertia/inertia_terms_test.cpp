@@ -57,5 +57,27 @@ TEST(InertiaTerms, WhatDoesNotFitIsRefused) {
             "found a body without nodal masses, expected one that keeps ProjectionData");
 }
 
+TEST(InertiaTerms, SizesThatDoNotFit) {
+  FlexibleBody body = reduce(build_bar_frame(a_arm_frame(5)), a_arm_options());
+  const FlexibleBody good = body;
+  body.invariants.Si[1].resize(3, 1);
+  EXPECT_EQ(error_of([&] { relative_preprocessing(body, {}); }).substr(0, 34),
+            "found an integral Si of the size 3");
+  body = good;
+  body.invariants.Sij[0][2].resize(0, 0);
+  EXPECT_EQ(error_of([&] { absolute_preprocessing(body, {}); }).substr(0, 35),
+            "found an integral Sij of the size 0");
+  body = good;
+  ProjectionData data = *good.projection;
+  data.X.conservativeResize(3, data.X.cols());
+  body.projection = std::make_shared<ProjectionData>(data);
+  EXPECT_EQ(error_of([&] { relative_projection(body, {}); }).substr(0, 29),
+            "found modal translations of t");
+  data = *good.projection;
+  data.M_s.resize(1, 1);
+  body.projection = std::make_shared<ProjectionData>(data);
+  EXPECT_NE(error_of([&] { absolute_projection(body, {}); }), "no error");
+}
+
 }  // namespace
 }  // namespace floatframe::test

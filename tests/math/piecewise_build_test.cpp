@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+
+#include "support/error_of.hpp"
 
 namespace floatframe {
 namespace {
@@ -83,6 +86,27 @@ TEST(Continuity, JumpAgainstRange) {
   EXPECT_FALSE(largest_jump(jump).continuous());
   EXPECT_NEAR(largest_jump(jump).jump, 0.01, 1e-12);
   EXPECT_TRUE(largest_jump(PiecewisePolynomial()).continuous());
+}
+
+TEST(Table, PointsThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto table = [](const std::vector<TablePoint>& p) {
+    return test::error_of([&] { table_function(p, Interpolation::cubic, Beyond::hold); });
+  };
+  EXPECT_EQ(table({}), "found 0 points of a table, expected at least 2");
+  EXPECT_EQ(table({{0, 1}}), "found 1 points of a table, expected at least 2");
+  EXPECT_EQ(table({{0, 1}, {0, 2}}),
+            "point 2 of a table: found an x that is not above the one before it, expected "
+            "ascending x");
+  EXPECT_EQ(table({{0, 1}, {1, nan}}), "point 2 of a table: found a number that is not finite");
+  const auto profile = [](const std::vector<TablePoint>& p) {
+    return test::error_of([&] { profile_function(p); });
+  };
+  EXPECT_EQ(profile({}), "found 0 points of a table, expected at least 1");
+  EXPECT_EQ(profile({{1, 0}, {0, 0}}),
+            "point 2 of a table: found an x that is below the one before it, expected ascending "
+            "x");
+  EXPECT_EQ(profile({{0, 0}, {0, 1}}), "no error");
 }
 
 }  // namespace

@@ -244,5 +244,22 @@ TEST_F(Sweep, StoppedAtOnceItFinishesNothingMore) {
   EXPECT_EQ(std::filesystem::exists(options_.folder + "/sweep.csv"), !report.interrupted);
 }
 
+TEST_F(Sweep, PlansOfAProgram) {
+  options_.plan.names = {"push"};
+  EXPECT_EQ(error(), "found a plan without runs, expected at least one");
+  options_.plan.runs = {{"1"}, {"2", "3"}};
+  EXPECT_EQ(error(), "run 2 of the plan: found 2 values, expected 1: one for each name");
+  options_.plan.runs = {{"1"}, {"2"}};
+  options_.plan.origins = {"here"};
+  EXPECT_EQ(error(), "found 1 origins in a plan of 2 runs, expected one for each run or none");
+  options_.plan.origins.clear();
+  options_.threads = 0;
+  EXPECT_EQ(error(), "threads: found 0, expected at least 1");
+  options_.threads = 1;
+  EXPECT_EQ(run_sweep(options_, stop_, {}).finished, 2u);  // no progress asked for
+  options_.plan.names = {"pull"};
+  EXPECT_NE(error().find("run 1 of the plan"), std::string::npos) << error();
+}
+
 }  // namespace
 }  // namespace floatframe

@@ -10,8 +10,19 @@
 namespace floatframe {
 namespace {
 
+void require_size(const char* what, const auto& x, Eigen::Index rows, Eigen::Index columns) {
+  if (x.rows() != rows || x.cols() != columns)
+    throw InputError(fmt::format("found {} of the size {} x {}, expected {} x {}", what, x.rows(),
+                                 x.cols(), rows, columns));
+}
+
 /// With amplitudes of the size of the body.
 BodyMotion complete(const FlexibleBody& body, BodyMotion motion) {
+  const int nm = body.modes();
+  for (int i = 0; i < 3; ++i) {
+    require_size("an integral Si", body.invariants.Si[i], 3, nm);
+    for (int j = 0; j < 3; ++j) require_size("an integral Sij", body.invariants.Sij[i][j], nm, nm);
+  }
   for (VecX* x : {&motion.y, &motion.ydot}) {
     if (x->size() == 0) *x = VecX::Zero(body.modes());
     if (x->size() != body.modes())
@@ -26,7 +37,16 @@ InertiaTerms zero_terms(int n) { return {MatX::Zero(n, n), VecX::Zero(n)}; }
 const ProjectionData& projection_data(const FlexibleBody& body) {
   if (!body.projection)
     throw InputError("found a body without nodal masses, expected one that keeps ProjectionData");
-  return *body.projection;
+  const ProjectionData& data = *body.projection;
+  const int n = data.nodes(), nm = body.modes();
+  require_size("modal translations", data.X, 3 * n, nm);
+  if (data.six_dof()) {
+    require_size("modal rotations", data.X_theta, 3 * n, nm);
+    require_size("a mass matrix of the nodes", data.M_6, 6 * n, 6 * n);
+  } else {
+    require_size("a mass matrix of the nodes", data.M_s, n, n);
+  }
+  return data;
 }
 
 }  // namespace

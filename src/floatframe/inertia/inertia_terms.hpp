@@ -23,7 +23,7 @@ struct InertiaTerms {
   VecX Qv;  ///< forces that depend on velocities
 };
 
-/// From the 16 constant integrals. Throw InputError if amplitudes do not fit the body.
+/// From the 16 constant integrals. Throw InputError if sizes do not fit each other.
 InertiaTerms relative_preprocessing(const FlexibleBody& body, const BodyMotion& motion);
 InertiaTerms absolute_preprocessing(const FlexibleBody& body, const BodyMotion& motion);
 

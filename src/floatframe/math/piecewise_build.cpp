@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "floatframe/core/diagnostics.hpp"
 
 namespace floatframe {
 namespace {
@@ -44,8 +47,29 @@ std::vector<double> shifted(const PiecewisePolynomial::Piece& piece, double cent
 
 }  // namespace
 
+namespace {
+
+/// `jumps`: two points may have the same x.
+void require_ascending(const std::vector<TablePoint>& p, std::size_t least, bool jumps) {
+  if (p.size() < least)
+    throw InputError("found " + std::to_string(p.size()) +
+                     " points of a table, expected at least " + std::to_string(least));
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!std::isfinite(p[i].x) || !std::isfinite(p[i].f))
+      throw InputError("point " + std::to_string(i + 1) +
+                       " of a table: found a number that is not finite");
+    if (i > 0 && !(jumps ? p[i].x >= p[i - 1].x : p[i].x > p[i - 1].x))
+      throw InputError("point " + std::to_string(i + 1) + " of a table: found an x that is " +
+                       (jumps ? "below" : "not above") +
+                       " the one before it, expected ascending x");
+  }
+}
+
+}  // namespace
+
 PiecewisePolynomial table_function(const std::vector<TablePoint>& p, Interpolation interpolation,
                                    Beyond beyond) {
+  require_ascending(p, 2, false);
   const std::size_t n = p.size();
   std::vector<double> breaks;
   for (const TablePoint& q : p) breaks.push_back(q.x);
@@ -75,6 +99,7 @@ PiecewisePolynomial table_function(const std::vector<TablePoint>& p, Interpolati
 }
 
 PiecewisePolynomial profile_function(const std::vector<TablePoint>& p) {
+  require_ascending(p, 1, true);
   std::vector<double> breaks{p.front().x};
   std::vector<PiecewisePolynomial::Piece> pieces{{p.front().x, {p.front().f}}};
   for (std::size_t i = 0; i + 1 < p.size(); ++i) {

@@ -17,13 +17,13 @@ struct TablePoint {
 enum class Interpolation { linear, cubic };
 enum class Beyond { tangent, hold };
 
-/// At least two points, x strictly ascending. With `hold` the cubic has zero slope at both ends, so
+/// At least two points, x strictly ascending, else InputError. With `hold` the cubic has zero slope at both ends, so
 /// it stays C1.
 PiecewisePolynomial table_function(const std::vector<TablePoint>& points,
                                    Interpolation interpolation, Beyond beyond);
 
 /// Straight lines between points with x ascending; two equal x make a jump (to the value of the
-/// second point at the jump). Flat beyond the ends. At least one point.
+/// second point at the jump). Flat beyond the ends. At least one point, else InputError.
 PiecewisePolynomial profile_function(const std::vector<TablePoint>& points);
 
 /// Sum of two functions; breaks are merged.

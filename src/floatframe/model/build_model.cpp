@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model/validate.hpp"
@@ -29,6 +31,19 @@ void ModelBuilder::rods() {
 const std::string& Model::body_name(int body) const {
   static const std::string ground = ground_name;
   return body < 0 ? ground : bodies[body].name;
+}
+
+const Model& built(const Model& model) {
+  const std::size_t n = model.bodies.size();
+  const bool whole = n > 0 && model.amplitudes.size() == n && model.amplitude_rates.size() == n &&
+                     std::all_of(model.bodies.begin(), model.bodies.end(),
+                                 [](const Body& body) { return body.data != nullptr; });
+  if (!whole)
+    throw InputError(n == 0
+                         ? "found a model without bodies, expected one of build_model or load_model"
+                         : "found a model whose bodies have lost their data or start values, "
+                           "expected one of build_model or load_model");
+  return model;
 }
 
 Model build_model(const ModelDescription& description) {

@@ -134,4 +134,8 @@ struct Model {
 /// joints to bodies no joint leads to. Throws InputError with every error.
 Model build_model(const ModelDescription& description);
 
+/// The model itself if `build_model` has made it; InputError if it is empty (default-constructed or
+/// moved from) or its parts do not belong together.
+const Model& built(const Model& model);
+
 }  // namespace floatframe

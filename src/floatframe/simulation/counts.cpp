@@ -9,7 +9,7 @@
 namespace floatframe {
 
 ModelCounts check(const Model& model) {
-  started_model(model, model.simulation);  // a state of another model is refused as by a run
+  started_model(built(model), model.simulation);  // a state of another model is refused as by a run
   RelativeFormulation relative(model, model.simulation.inertia);
   const AbsoluteFormulation absolute(model, model.simulation.inertia);
   ModelCounts c;
@@ -34,7 +34,7 @@ ModelCounts check(const Model& model) {
 }
 
 StaticsResult statics(const Model& model) {
-  RelativeFormulation f(model, model.simulation.inertia);
+  RelativeFormulation f(built(model), model.simulation.inertia);
   State state;
   f.start(state.q, state.v);
   state.v.setZero();

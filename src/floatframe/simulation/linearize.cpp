@@ -32,7 +32,7 @@ Linearization linearized(const Model& model, const SimulationDescription& option
 }  // namespace
 
 Linearization linearize(const Model& model, const SimulationOptions& options) {
-  const SimulationDescription d = described(model, options);
+  const SimulationDescription d = described(built(model), options);
   return d.coordinates == Coordinates::relative ? linearized<RelativeFormulation>(model, d)
                                                 : linearized<AbsoluteFormulation>(model, d);
 }

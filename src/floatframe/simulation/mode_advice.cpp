@@ -1,5 +1,7 @@
 #include "floatframe/simulation/mode_advice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +10,7 @@
 #include <span>
 
 #include "floatframe/body/with_modes.hpp"
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/mode_shares.hpp"
 #include "floatframe/simulation/output_differences.hpp"
@@ -56,7 +59,39 @@ const char* word(ModeAction action) noexcept {
   return "";
 }
 
+namespace {
+
+void require_modes(const Model& model, const std::vector<std::vector<int>>& keep) {
+  if (keep.size() != model.bodies.size())
+    throw InputError(
+        fmt::format("found lists of modes for {} bodies, expected {}: one for each body",
+                    keep.size(), model.bodies.size()));
+  for (std::size_t i = 0; i < keep.size(); ++i)
+    for (std::size_t k = 0; k < keep[i].size(); ++k)
+      if (keep[i][k] < 0 || keep[i][k] >= model.bodies[i].modes() ||
+          (k > 0 && keep[i][k] <= keep[i][k - 1]))
+        throw InputError(
+            fmt::format("body '{}': found mode {} to be kept, expected ascending indices "
+                        "from 0 below its {} modes",
+                        model.bodies[i].name, keep[i][k], model.bodies[i].modes()));
+}
+
+void require_valid(const AdviceOptions& o) {
+  const auto share = [](const char* name, double x) {
+    if (!(x >= 0.0 && std::isfinite(x)))
+      throw InputError(fmt::format("{}: found {:g}, expected a number of at least 0", name, x));
+  };
+  share("drop_share", o.drop_share);
+  share("static_ratio", o.static_ratio);
+  share("tolerance", o.tolerance);
+  if (o.repeat < 1)
+    throw InputError(fmt::format("repeat: found {}, expected at least 1 run", o.repeat));
+}
+
+}  // namespace
+
 Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep) {
+  require_modes(built(model), keep);
   Model out = model;
   // Bodies that shared their data share it afterwards.
   std::map<std::pair<const FlexibleBody*, std::vector<int>>, std::shared_ptr<const FlexibleBody>>
@@ -240,6 +275,8 @@ void measure(const Model& model, const Model& reduced, const SimulationDescripti
 
 ModeAdviceReport advise(const Model& model, const SimulationDescription& given,
                         const AdviceOptions& options) {
+  require_valid(options);
+  built(model);
   // What a mode does to the outputs must not drown in what the Newton tolerance does to them (a
   // tyre that meets an edge a moment later): runs that are compared have a tolerance of their own.
   SimulationDescription simulation = given;

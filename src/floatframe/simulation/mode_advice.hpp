@@ -89,12 +89,12 @@ struct ModeAdviceReport {
   double flops_full = 0, flops_reduced = 0;
 };
 
-/// Runs the model (several times) with `simulation`. Throws RunError if the full model cannot run.
+/// Runs the model (several times) with `simulation`. Throws InputError for options that are not valid, RunError if the full model cannot run.
 ModeAdviceReport advise(const Model& model, const SimulationDescription& simulation,
                         const AdviceOptions& options);
 
 /// The model with some amplitudes of some bodies held at zero: `keep[i]` for body i. Outputs of
-/// amplitudes that are gone go too.
+/// amplitudes that are gone go too. Throws InputError for indices that are not those of modes.
 Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep);
 
 /// "keep", "quasi-static", "drop"

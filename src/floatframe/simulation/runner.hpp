@@ -136,7 +136,7 @@ class Runner {
     const int force = largest_force();
     std::string text =
         fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}{}", state_.t,
-                    min_step_, what, who);
+                    smallest(), what, who);
     if (force >= 0)
       text += fmt::format(" (largest force: '{}', {:.3g} N)", f_.model().forces[force].name,
                           f_.force(force).force);
@@ -166,7 +166,7 @@ class Runner {
       text = overflow_text(f_, state_, state_.t + min_step_, largest_beside_one);
     if (text.empty()) return text;
     return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}", state_.t,
-                       min_step_, overflow_sentence(text, state_.t, largest_beside_one));
+                       smallest(), overflow_sentence(text, state_.t, largest_beside_one));
   }
 
   /// Why the last step failed if a tolerance asks for more digits than double precision has.
@@ -181,7 +181,7 @@ class Runner {
     return fmt::format(
         "step failed at t = {:.6g} s after substeps down to {:.3g} s: the {} of {:g} is below the "
         "rounding of double precision, about {:.1g} with coordinates up to {:.3g}; expected more",
-        state_.t, min_step_, newton ? "tolerance" : "position_tolerance", tolerance, least,
+        state_.t, smallest(), newton ? "tolerance" : "position_tolerance", tolerance, least,
         size - 1.0);
   }
 
@@ -195,6 +195,9 @@ class Runner {
   double max_velocity_violation() const noexcept { return counters().max_velocity_violation; }
 
  private:
+  /// Substep that was tried last [s].
+  double smallest() const noexcept { return std::min(min_step_, asked_); }
+
   void count(const StepAttempt& r) noexcept {
     StepCounters& c = memory_.counters;
     c.iterations += r.iterations;

@@ -9,7 +9,7 @@ namespace floatframe {
 
 template <class F>
 StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o)
-    : given_(given),
+    : given_(built(given)),
       changed_(started_model(given, o)),
       inertia_(o.inertia),
       f_(model(), inertia_),

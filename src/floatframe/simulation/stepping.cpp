@@ -114,7 +114,7 @@ std::size_t place_of(const std::vector<Entity>& list, const char* kind, std::ptr
 }  // namespace
 
 Simulation::Simulation(const Model& model, const SimulationOptions& options) {
-  const SimulationDescription d = described(model, options);
+  const SimulationDescription d = described(built(model), options);
   if (d.coordinates == Coordinates::relative)
     engine_ = std::make_unique<EngineOf<RelativeFormulation>>(model, d);
   else

@@ -10,6 +10,9 @@
 namespace floatframe {
 namespace {
 
+/// Of the step of the options. Squares of smaller ones vanish beside the masses.
+constexpr double smallest_part = 1e-9;
+
 std::string input_expectation(const Input& input) {
   const std::string unit = input.unit.empty() ? "" : " [" + input.unit + "]";
   if (std::isinf(input.low) && std::isinf(input.high)) return "a number" + unit;
@@ -92,7 +95,7 @@ StepStatus Simulation::Engine::call_back(std::string_view& where) noexcept {
 StepReport Simulation::Engine::made(const PlannedStep& step) noexcept {
   if (busy_) return refused(StepStatus::busy);
   if (failed_) return refused(StepStatus::failed_before, last_.where);
-  if (!(step.size > 0.0) || !std::isfinite(step.to) || !(step.to > time())) {
+  if (!(step.size >= smallest_part * o_.step) || !std::isfinite(step.to) || !(step.to > time())) {
     refused_value_ = step.size;
     return refused(StepStatus::invalid_step);
   }
@@ -128,9 +131,9 @@ std::string Simulation::Engine::failure() {
       return {};
     case StepStatus::invalid_step:
       return fmt::format(
-          "found a step of {:g} s at t = {:.9g} s, expected a positive number [s] "
-          "that is not lost in the rounding of the time",
-          refused_value_, last_.time);
+          "found a step of {:g} s at t = {:.9g} s, expected a positive number [s] of at least "
+          "{:g} that is not lost in the rounding of the time",
+          refused_value_, last_.time, smallest_part * o_.step);
     case StepStatus::invalid_input:
       for (std::size_t k = 0; k < input_owners_.size(); ++k)
         if (last_.where == input_owners_[k])

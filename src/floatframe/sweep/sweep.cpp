@@ -219,10 +219,37 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
   return report;
 }
 
+namespace {
+
+/// With an origin for each run. Throws InputError for a plan whose parts do not belong together.
+SweepOptions completed(SweepOptions options) {
+  SweepPlan& plan = options.plan;
+  if (plan.runs.empty()) throw InputError("found a plan without runs, expected at least one");
+  for (std::size_t k = 0; k < plan.runs.size(); ++k)
+    if (plan.runs[k].size() != plan.names.size())
+      throw InputError(
+          fmt::format("run {} of the plan: found {} values, expected {}: one for each name", k + 1,
+                      plan.runs[k].size(), plan.names.size()));
+  if (plan.origins.empty())
+    for (std::size_t k = 0; k < plan.runs.size(); ++k)
+      plan.origins.push_back(fmt::format("run {} of the plan", k + 1));
+  if (plan.origins.size() != plan.runs.size())
+    throw InputError(
+        fmt::format("found {} origins in a plan of {} runs, expected one for each run or none",
+                    plan.origins.size(), plan.runs.size()));
+  if (options.threads < 1)
+    throw InputError(fmt::format("threads: found {}, expected at least 1", options.threads));
+  return options;
+}
+
+}  // namespace
+
 SweepReport run_sweep(const SweepOptions& options, const std::atomic<bool>& stop,
                       const std::function<void(const SweepProgress&)>& progress) {
-  SweepWorkers workers(options);
-  return run_sweep(options, workers, nullptr, stop, progress);
+  const SweepOptions whole = completed(options);
+  SweepWorkers workers(whole);
+  return run_sweep(
+      whole, workers, nullptr, stop, progress ? progress : [](const SweepProgress&) {});
 }
 
 }  // namespace floatframe

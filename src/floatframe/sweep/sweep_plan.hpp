@@ -16,7 +16,8 @@ struct SweepSetting {
 struct SweepPlan {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> runs;  ///< one value a name
-  /// Where the values come from, for messages: "--vary" or "runs.csv:3" (one entry per run).
+  /// Where the values come from, for messages: "--vary" or "runs.csv:3" (one entry per run, or
+  /// none at all).
   std::vector<std::string> origins;
 };
 

@@ -1,0 +1,86 @@
+// What a program may hand to the analyses besides a model of build_model ends in an InputError.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <utility>
+
+#include "floatframe/simulation/linearize.hpp"
+#include "floatframe/simulation/mode_advice.hpp"
+#include "floatframe/simulation/simulation.hpp"
+#include "simulation/stepping_models.hpp"
+#include "support/error_of.hpp"
+
+namespace floatframe::test {
+namespace {
+
+const std::string empty = "found a model without bodies, expected one of build_model or load_model";
+
+TEST(ProgramMisuse, ModelsThatAreNotBuilt) {
+  Model model = model_of(stepped_machine);
+  const SimulationDescription options = model.simulation;
+  const Model nothing;
+  const Model moved = std::move(model);
+  EXPECT_EQ(error_of([&] { Simulation s(nothing); }), empty);
+  for (const Model* m : {&nothing, static_cast<const Model*>(&model)}) {
+    EXPECT_EQ(error_of([&] { Simulation s(*m, {.step = 1e-3}); }), empty);
+    EXPECT_EQ(error_of([&] { run(*m, options); }), empty);
+    EXPECT_EQ(error_of([&] { check(*m); }), empty);
+    EXPECT_EQ(error_of([&] { statics(*m); }), empty);
+    EXPECT_EQ(error_of([&] { linearize(*m, {.step = 1e-3}); }), empty);
+    EXPECT_EQ(error_of([&] { advise(*m, options, {}); }), empty);
+    EXPECT_EQ(error_of([&] { with_modes(*m, {}); }), empty);
+  }
+  Model torn = moved;
+  torn.bodies.front().data = nullptr;
+  EXPECT_EQ(error_of([&] { Simulation s(torn); }).substr(0, 53),
+            "found a model whose bodies have lost their data or st");
+  torn = moved;
+  torn.amplitudes.pop_back();
+  EXPECT_NE(error_of([&] { Simulation s(torn); }), "no error");
+  EXPECT_EQ(error_of([&] { Simulation s(moved); }), "no error");
+}
+
+TEST(ProgramMisuse, ModesToKeep) {
+  const Model model = model_of(stepped_machine);
+  std::vector<std::vector<int>> all;
+  for (const Body& body : model.bodies) {
+    all.emplace_back();
+    for (int k = 0; k < body.modes(); ++k) all.back().push_back(k);
+  }
+  EXPECT_EQ(error_of([&] { with_modes(model, all); }), "no error");
+  EXPECT_EQ(error_of([&] { with_modes(model, {}); }),
+            "found lists of modes for 0 bodies, expected " + std::to_string(all.size()) +
+                ": one for each body");
+  for (const std::vector<int>& wrong : {std::vector<int>{-1}, {1000}, {0, 0}, {1, 0}}) {
+    std::vector<std::vector<int>> keep = all;
+    keep.back() = wrong;
+    EXPECT_EQ(error_of([&] { with_modes(model, keep); }).substr(0, 6), "body '");
+  }
+}
+
+TEST(ProgramMisuse, OptionsOfTheAdvice) {
+  const Model model = model_of(stepped_machine);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [&](const AdviceOptions& o) {
+    return error_of([&] { advise(model, model.simulation, o); });
+  };
+  EXPECT_EQ(refused({.drop_share = nan}), "drop_share: found nan, expected a number of at least 0");
+  EXPECT_EQ(refused({.static_ratio = -1.0}),
+            "static_ratio: found -1, expected a number of at least 0");
+  EXPECT_EQ(refused({.tolerance = -2.0}), "tolerance: found -2, expected a number of at least 0");
+  EXPECT_EQ(refused({.repeat = 0}), "repeat: found 0, expected at least 1 run");
+}
+
+TEST(ProgramMisuse, StepsThatAreTooSmall) {
+  const Model model = model_of(stepped_machine);
+  Simulation s(model);
+  for (const double h : {1e-300, 1e-160, 1e-20, 1e-14}) {
+    EXPECT_EQ(s.step(h).status, StepStatus::invalid_step);
+    EXPECT_NE(s.failure().find("expected a positive number [s] of at least"), std::string::npos);
+  }
+  EXPECT_TRUE(s.step());
+  EXPECT_TRUE(s.step(1e-6));
+}
+
+}  // namespace
+}  // namespace floatframe::test
