@@ -47,7 +47,9 @@ ALLOWED = {
 # Rooms, and single files, that public headers may reach.
 PUBLIC = {"core", "math", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "parts", "model", "model_file",
           "formulation/counts.hpp", "simulation", "report", "realtime", "sweep"}
-FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)(\w+[./]\S*)>')
+FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
+# Programs and modules beside the library see one header of it each.
+OUTSIDE = {"main": "apps/command_line.hpp", "mpi": "sweep/ranks.hpp", "mumps": "math/sparse_engine.hpp"}
 
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]floatframe/([^">]+)[">]')
 
@@ -64,6 +66,26 @@ def included(path):
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         if match := INCLUDE.match(line):
             yield number, match.group(1)
+
+
+QUOTED = re.compile(r'\s*#\s*include\s*"([^"]*)"')
+
+
+def odd_paths(path):
+    """What in quotes is not one of our headers by its full name, and so would not be seen by the other checks."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        if (match := QUOTED.match(line)) and (not match.group(1).startswith("floatframe/") or ".." in match.group(1)):
+            yield (f"{path}:{number}: found \"{match.group(1)}\", expected \"floatframe/...\" for a header of ours, <...> "
+                   "for any other")
+
+
+def errors_outside(root):
+    for folder, allowed in OUTSIDE.items():
+        for path in sorted((root.parent / folder).glob("*.[ch]pp")):
+            yield from odd_paths(path)
+            for number, header in included(path):
+                if header != allowed:
+                    yield f"{path}:{number}: '{folder}' must not use {header}; it may use {allowed}"
 
 
 def public_errors(root):
@@ -87,6 +109,7 @@ def public_errors(root):
 
 def errors(root):
     yield from public_errors(root)
+    yield from errors_outside(root)
     for path in sorted(root.rglob("*")):
         if path.suffix not in (".hpp", ".cpp", ".h", ".inl") or path.parent == root:
             continue
@@ -94,6 +117,7 @@ def errors(root):
         if room not in ALLOWED:
             yield f"{path}:1: the folder '{room}' is not a room; add it to ALLOWED in {pathlib.Path(__file__).name}"
             continue
+        yield from odd_paths(path)
         for number, header in included(path):
             used = room_of(header)
             if not used:

@@ -86,6 +86,14 @@ TEST(Validation, NamesElementsOfTheFile) {
   EXPECT_EQ(f[3], "block.inp:18: element 8 (hex8): node index -3 is out of range 0..26");
 }
 
+TEST(Validation, TypesOutOfTheList) {
+  FeModel model = block(ElementType::hex8, 1);
+  model.elements[0].type = static_cast<ElementType>(1000);
+  EXPECT_THROW(validate(model), InputError);
+  model.elements[0].type = static_cast<ElementType>(-1);
+  EXPECT_THROW(validate(model), InputError);
+}
+
 TEST(Validation, TwentyOfAKind) {
   FeModel model = block(ElementType::tet4, 2);
   for (Element& e : model.elements) std::swap(e.nodes[0], e.nodes[1]);

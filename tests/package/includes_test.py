@@ -9,13 +9,13 @@ SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "check_includ
 
 
 class CheckIncludes(unittest.TestCase):
-    def check(self, files):
+    def check(self, files, inside=""):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             for name, text in files.items():
-                (root / name).parent.mkdir(exist_ok=True)
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(text)
-            result = subprocess.run([sys.executable, "-B", str(SCRIPT), folder], capture_output=True, text=True)
+            result = subprocess.run([sys.executable, "-B", str(SCRIPT), str(root / inside)], capture_output=True, text=True)
             return result.returncode, result.stderr.replace(folder + "/", "")
 
     def test_allowed_arrows_pass(self):
@@ -42,6 +42,24 @@ class CheckIncludes(unittest.TestCase):
         code, text = self.check({"model.hpp": "", "sweep/a.cpp": '#include "floatframe/model.hpp"\n'})
         self.assertEqual((code, text), (1, "sweep/a.cpp:1: 'sweep' must not use the public header model.hpp; "
                                            "include the header of its room\n"))
+
+    def test_public_headers_reach_no_library_with_a_hyphen(self):
+        code, text = self.check({"model.hpp": "#include <yaml-cpp/yaml.h>\n"})
+        self.assertEqual(code, 1)
+        self.assertIn("must not reach <yaml-cpp/yaml.h>", text)
+
+    def test_headers_are_named_in_full(self):
+        for odd in ("nlohmann/json.hpp", "../simulation/run.hpp", "floatframe/core/../simulation/run.hpp"):
+            code, text = self.check({"core/a.cpp": f'#include "{odd}"\n'})
+            self.assertEqual(code, 1, odd)
+            self.assertIn(f'core/a.cpp:1: found "{odd}"', text)
+
+    def test_modules_use_one_header(self):
+        code, text = self.check({"floatframe/sweep/ranks.hpp": "", "mpi/a.cpp": '#include "floatframe/sweep/ranks.hpp"\n'
+                                                                               '#include "floatframe/sweep/sweep.hpp"\n'},
+                                inside="floatframe")
+        self.assertEqual(code, 1)
+        self.assertIn("mpi/a.cpp:2: 'mpi' must not use sweep/sweep.hpp; it may use sweep/ranks.hpp", text)
 
     def test_a_folder_that_is_no_room_is_an_error(self):
         code, text = self.check({"util/a.hpp": ""})

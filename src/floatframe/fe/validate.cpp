@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -85,6 +86,15 @@ void check_materials(const FeModel& model, LimitedErrors& errors) {
     errors.add("materials", {},
                "the model has no material: give one (Young's modulus, Poisson's ratio, density)");
   }
+}
+
+/// What follows looks up kernels by the type.
+void check_types(const FeModel& model, LimitedErrors& errors) {
+  for (int e = 0; e < static_cast<int>(model.elements.size()); ++e)
+    if (index_of(model.elements[e].type) >= std::size(element_types))
+      errors.add("elements", model.mark(model.elements[e].source),
+                 fmt::format("element {} has a type that is not in the list of elements", e + 1));
+  errors.throw_if_any();
 }
 
 void check_elements(const FeModel& model, LimitedErrors& errors) {
@@ -328,6 +338,7 @@ void check_matrices(const FeModel& model, LimitedErrors& errors) {
 
 void validate(const FeModel& model) {
   LimitedErrors errors;
+  check_types(model, errors);
   check_nodes(model, errors);
   check_materials(model, errors);
   check_elements(model, errors);

@@ -107,12 +107,6 @@ const FeFormat& recognised(const std::filesystem::path& file) {
 
 std::span<const FeFormat> fe_formats() { return formats(); }
 
-std::optional<DeckDialect> deck_dialect(std::string_view word) {
-  if (word == "abaqus") return DeckDialect::abaqus;
-  if (word == "calculix") return DeckDialect::calculix;
-  return std::nullopt;
-}
-
 const char* word(DeckDialect dialect) noexcept {
   switch (dialect) {
     case DeckDialect::abaqus:

@@ -31,8 +31,7 @@ struct FeReadOptions {
   DeckDialect dialect = DeckDialect::by_content;
 };
 
-/// By its word on the command line and in model files: "abaqus", "calculix".
-std::optional<DeckDialect> deck_dialect(std::string_view word);
+/// On the command line and in model files: "abaqus", "calculix".
 const char* word(DeckDialect dialect) noexcept;
 
 struct FeFormat {

@@ -113,7 +113,6 @@ class TreeKinematics {
   const TreeBody& body(int i) const noexcept { return bodies_[i]; }
   const std::vector<TreeBody>& bodies() const noexcept { return bodies_; }
   const TreeMarker& marker(int i) const noexcept { return markers_[i]; }
-  int marker_count() const noexcept { return static_cast<int>(markers_.size()); }
   /// Parents before children.
   const std::vector<int>& order() const noexcept { return order_; }
   /// p_WO of the last `positions`.

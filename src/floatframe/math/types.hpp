@@ -21,6 +21,5 @@ using Mat3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 using Mat6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// Read-only view of a contiguous vector (no copy for contiguous arguments).
-using ConstVec = Eigen::Ref<const VecX>;
 
 }  // namespace floatframe

@@ -28,11 +28,6 @@ void ModelBuilder::rods() {
   }
 }
 
-const std::string& Model::body_name(int body) const {
-  static const std::string ground = ground_name;
-  return body < 0 ? ground : bodies[body].name;
-}
-
 const Model& built(const Model& model) {
   const std::size_t n = model.bodies.size();
   const bool whole = n > 0 && model.amplitudes.size() == n && model.amplitude_rates.size() == n &&

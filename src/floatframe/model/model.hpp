@@ -125,9 +125,6 @@ struct Model {
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;
-
-  /// Name of a marker's body.
-  const std::string& body_name(int body) const;
 };
 
 /// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free

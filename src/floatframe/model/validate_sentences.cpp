@@ -4,6 +4,7 @@
 
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/printable.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/piecewise_build.hpp"
 #include "floatframe/math/rigid_motion.hpp"
@@ -13,8 +14,6 @@
 namespace floatframe::sentences {
 
 namespace {
-
-constexpr const char* dof_names[] = {"x", "y", "z", "rx", "ry", "rz"};
 
 /// "[1, 2, 3]", to a nanometre.
 std::string point_text(const Vec3& p) {
@@ -77,7 +76,7 @@ Complaint more_modes_than_dofs(int modes, std::size_t nodes, bool isoparametric)
 }
 
 std::string dof_twice(const std::string& node, unsigned dof) {
-  return std::string("the direction ") + dof_names[dof] + " of '" + node +
+  return std::string("the direction ") + node_dof_words[dof] + " of '" + node +
          "' is named twice in clamped and static_modes, expected once";
 }
 

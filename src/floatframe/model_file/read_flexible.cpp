@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
@@ -14,7 +15,7 @@
 namespace floatframe {
 namespace {
 
-const std::vector<std::string> dof_names{"x", "y", "z", "rx", "ry", "rz"};
+const std::vector<std::string> dof_names(std::begin(node_dof_words), std::end(node_dof_words));
 
 class FlexibleReader {
  public:

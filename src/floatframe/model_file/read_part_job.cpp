@@ -2,6 +2,7 @@
 // material are in the units of that file.
 #include <set>
 
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/parts/node_ways.hpp"
@@ -11,7 +12,7 @@
 namespace floatframe {
 namespace {
 
-const std::vector<std::string> dof_words{"x", "y", "z", "rx", "ry", "rz"};
+const std::vector<std::string> dof_words(std::begin(node_dof_words), std::end(node_dof_words));
 using Special = PartOption::Special;
 
 class JobReader {

@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/reduction/mode_basis.hpp"
 
 namespace floatframe {
 namespace {
 
-constexpr const char* direction_names[6] = {"x", "y", "z", "rx", "ry", "rz"};
 constexpr int most_modes = 400;
 
 /// Rigid motions about the centre of mass.
@@ -74,7 +74,7 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
       throw InputError(fmt::format(
           "{} fixed-interface modes reach only {:.1f} % of the effective mass in {}, not {:.1f} %; "
           "ask for less, or for a number of modes",
-          most_modes, 100.0 * sum(worst) / reachable(worst), direction_names[worst],
+          most_modes, 100.0 * sum(worst) / reachable(worst), node_dof_words[worst],
           100.0 * options.effective_mass));
     }
     solved = std::min({count, 2 * solved, most_modes});
