@@ -143,8 +143,8 @@ class Help(CommandLine):
 class Misuse(CommandLine):
     def test_bad_options_exit_2_with_one_line(self):
         for arguments, message in (
-                ((), "a command is required: run, check, statics, realtime, bench, sweep, advise, reduce or info"),
-                (("fly",), "found the command 'fly', expected run, check, statics, realtime, bench, sweep, advise, reduce or info"),
+                ((), "a command is required: run, check, statics, advise, realtime, bench, sweep, reduce or info"),
+                (("fly",), "found the command 'fly', expected run, check, statics, advise, realtime, bench, sweep, reduce or info"),
                 (("run",), "MODEL is required"),
                 (("run", ""), "MODEL: found an empty name, expected a file"),
                 (("sweep", "", "--vary", "a=1,2"), "MODEL: found an empty name, expected a file"),

@@ -106,21 +106,6 @@ TEST(SummaryJson, WhatNobodyMeasuredIsLeftOut) {
   EXPECT_EQ(keys(ended).size(), 18u);
 }
 
-TEST(CountsJson, HasTheDocumentedKeys) {
-  ModelCounts counts;
-  counts.bodies = 17;
-  counts.relative = {34, 64, 98, 24};
-  counts.cut_joint_names = {"front_left.rod_ball"};
-  const auto json = nlohmann::json::parse(counts_json(counts));
-  EXPECT_EQ(json["bodies"], 17);
-  EXPECT_EQ(json["relative"].dump(), R"({"constraints":24,"elastic":64,"rigid":34,"total":98})");
-  for (const char* key : {"flexible_bodies", "joints", "cut_joints", "absolute",
-                          "degrees_of_freedom", "redundant_constraints"}) {
-    EXPECT_TRUE(json.contains(key)) << key;
-  }
-  EXPECT_EQ(json["cut_joint_names"][0], "front_left.rod_ball");
-}
-
 TEST(SummaryJson, SaysWhatBecameOfTheStartValues) {
   RunSummary summary;
   summary.start.changes.push_back({"joint 'crank'", "angle", false, "rad", 0.3, 0.076});
@@ -133,32 +118,6 @@ TEST(SummaryJson, SaysWhatBecameOfTheStartValues) {
   EXPECT_EQ(start["changes"][0]["rate"], false);
   EXPECT_EQ(start["redundant"][0]["direction"], "rotation about x");
   EXPECT_EQ(start["notes"].size(), 2u);
-}
-
-TEST(StaticsJson, MarksReactionsThatAreNotUnique) {
-  StaticsResult statics;
-  statics.joints.push_back({"weld", "weld", Vec3(1, 2, 3), Vec3(4, 5, 6)});
-  statics.joints.push_back(statics.joints[0]);
-  statics.joints[1].unique_force[2] = false;
-  const auto joints = nlohmann::json::parse(statics_json("m", statics))["joints"];
-  EXPECT_EQ(joints[0]["unique"], true);
-  EXPECT_EQ(joints[1]["unique"], false);
-  EXPECT_EQ(joints[1]["unique_force"].dump(), "[true,true,false]");
-  EXPECT_EQ(joints[1]["unique_torque"].dump(), "[true,true,true]");
-}
-
-TEST(StaticsJson, ListsForcesJointsAndBodies) {
-  StaticsResult statics;
-  statics.forces.push_back({"leaf", "guided_spring", -2728.86, 0.07});
-  statics.joints.push_back({"hinge", "revolute", Vec3(1, 2, 3), Vec3(4, 5, 6)});
-  StaticsBody body;
-  body.name = "arm";
-  body.amplitudes = VecX::Constant(2, 0.5);
-  statics.bodies.push_back(body);
-  const auto json = nlohmann::json::parse(statics_json("iltis", statics));
-  EXPECT_EQ(json["forces"][0]["force"], -2728.86);
-  EXPECT_EQ(json["joints"][0]["torque"].dump(), "[4.0,5.0,6.0]");
-  EXPECT_EQ(json["bodies"][0]["amplitudes"].dump(), "[0.5,0.5]");
 }
 
 TEST(AtomicFile, ReplacesTheFileAndLeavesNothingElse) {

@@ -132,16 +132,6 @@ InertiaMethod inertia_from(const std::string& text) {
   return text == "projection" ? InertiaMethod::projection : InertiaMethod::preprocessing;
 }
 
-std::string bodies_text(const ModelCounts& counts) {
-  return fmt::format("{} ({} flexible)", plural(counts.bodies, "body", "bodies"),
-                     counts.flexible_bodies);
-}
-
-std::string plural(long count, const std::string& one, const std::string& many) {
-  if (count == 1) return "1 " + one;
-  return std::to_string(count) + " " + (many.empty() ? one + "s" : many);
-}
-
 void print(const std::string& text) {
   errno = 0;
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/apps/options.hpp"
 #include "floatframe/core/number_rule.hpp"
+#include "floatframe/core/options.hpp"
 #include "floatframe/core/output_files.hpp"
+#include "floatframe/core/plural.hpp"
 #include "floatframe/model/description.hpp"
-#include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
 
@@ -67,12 +67,6 @@ const char* word(Coordinates coordinates) noexcept;
 const char* word(InertiaMethod inertia) noexcept;
 Coordinates coordinates_from(const std::string& word);
 InertiaMethod inertia_from(const std::string& word);
-
-/// "17 bodies (12 flexible)"
-std::string bodies_text(const ModelCounts& counts);
-
-/// 1, "body" -> "1 body"; 2, "body", "bodies" -> "2 bodies"; without plural an "s" is added.
-std::string plural(long count, const std::string& one, const std::string& many = "");
 
 /// Writes to standard output; throws OutputError if that fails (a full disk).
 void print(const std::string& text);

@@ -33,7 +33,8 @@ bool is_whole(const Option& option) {
 }
 
 bool is_number(const Option& option) {
-  return is_whole(option) || std::holds_alternative<double*>(option.target);
+  return is_whole(option) || std::holds_alternative<double*>(option.target) ||
+         std::holds_alternative<std::vector<double>*>(option.target);
 }
 
 /// What a value must be; empty if any will do.

@@ -1,24 +1,27 @@
 #pragma once
-// All commands of the program, in the order of the help. A new one is a file and an entry here.
+// All commands of the program, in the order of the help. A new one is a file and an entry here; an
+// analysis becomes a command by its entry in analyses/analysis_list.hpp.
 #include <vector>
 
+#include "floatframe/apps/analysis_command.hpp"
 #include "floatframe/apps/command.hpp"
 
 namespace floatframe {
 
 Command run_command();
-Command check_command();
-Command statics_command();
 Command realtime_command();
 Command bench_command();
 Command sweep_command();
-Command advise_command();
 Command reduce_command();
 Command info_command();
 
 inline std::vector<Command> all_commands() {
-  return {run_command(),   check_command(),  statics_command(), realtime_command(), bench_command(),
-          sweep_command(), advise_command(), reduce_command(),  info_command()};
+  std::vector<Command> commands{run_command()};
+  for (Command& analysis : analysis_commands()) commands.push_back(std::move(analysis));
+  for (const auto make :
+       {realtime_command, bench_command, sweep_command, reduce_command, info_command})
+    commands.push_back(make());
+  return commands;
 }
 
 }  // namespace floatframe

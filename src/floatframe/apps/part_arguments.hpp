@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/apps/options.hpp"
+#include "floatframe/core/options.hpp"
 #include "floatframe/parts/part_options.hpp"
 
 namespace floatframe {

@@ -6,10 +6,10 @@
 #include <cstring>
 
 #include "floatframe/apps/command.hpp"
-#include "floatframe/apps/notes.hpp"
 #include "floatframe/apps/realtime_output.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/realtime/signal_log.hpp"
+#include "floatframe/report/notes_text.hpp"
 
 namespace floatframe {
 namespace {

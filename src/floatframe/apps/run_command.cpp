@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "floatframe/apps/commands.hpp"
-#include "floatframe/apps/notes.hpp"
 #include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
@@ -13,6 +12,7 @@
 #include "floatframe/model/validate.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/state_json.hpp"
+#include "floatframe/report/notes_text.hpp"
 #include "floatframe/report/report_html.hpp"
 #include "floatframe/report/results_csv.hpp"
 #include "floatframe/report/summary_json.hpp"

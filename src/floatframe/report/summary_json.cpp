@@ -2,28 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "floatframe/report/json_values.hpp"
+
 namespace floatframe {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Text from files may hold bytes that are not UTF-8: they are replaced, never an error.
-std::string dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-Json array_of(const VecX& v) {
-  Json array = Json::array();
-  for (Eigen::Index i = 0; i < v.size(); ++i) array.push_back(v[i]);
-  return array;
-}
-
-Json coordinate_counts(const CoordinateCounts& c) {
-  return {{"rigid", c.rigid},
-          {"elastic", c.elastic},
-          {"total", c.total},
-          {"constraints", c.constraints}};
-}
 
 Json energy(double kinetic, double potential, double elastic, double total) {
   return {{"kinetic_J", kinetic},
@@ -56,26 +40,6 @@ Json balance(const EnergySummary& e) {
           {"exchanged_J", e.exchanged}};
 }
 
-Json redundant_directions(const std::vector<RedundantDirection>& redundant) {
-  Json array = Json::array();
-  for (const RedundantDirection& r : redundant)
-    array.push_back({{"constraint", r.owner}, {"direction", r.direction}});
-  return array;
-}
-
-Json start(const StartReport& s) {
-  Json changes = Json::array();
-  for (const StartChange& c : s.changes)
-    changes.push_back({{"owner", c.owner},
-                       {"quantity", c.quantity},
-                       {"rate", c.rate},
-                       {"unit", c.unit},
-                       {"given", c.given},
-                       {"used", c.used}});
-  return {
-      {"notes", s.notes}, {"changes", changes}, {"redundant", redundant_directions(s.redundant)}};
-}
-
 Json measured(const RunSummary& s) {
   const EnergySummary& e = s.energy;
   return {{"duration_s", s.duration},
@@ -92,7 +56,7 @@ Json measured(const RunSummary& s) {
             {"end", energy(e.kinetic_end, e.potential_end, e.elastic_end, e.total_end)},
             {"balance", balance(e)}}},
           {"warnings", sentences(s.warnings)},
-          {"start", start(s.start)}};
+          {"start", start_json(s.start)}};
 }
 
 }  // namespace
@@ -113,57 +77,7 @@ std::string summary_json(const RunSummary& s) {
     json["settings"] = settings(s.settings);
     json["files"] = s.files;
   }
-  return dump(json);
-}
-
-std::string counts_json(const ModelCounts& c) {
-  const Json json = {{"bodies", c.bodies},
-                     {"flexible_bodies", c.flexible_bodies},
-                     {"joints", c.joints},
-                     {"cut_joints", c.cut_joints},
-                     {"relative", coordinate_counts(c.relative)},
-                     {"absolute", coordinate_counts(c.absolute)},
-                     {"degrees_of_freedom", c.degrees_of_freedom},
-                     {"redundant_constraints", c.redundant_constraints},
-                     {"cut_joint_names", c.cut_joint_names},
-                     {"start", start(c.start)}};
-  return dump(json);
-}
-
-std::string statics_json(const std::string& model, const StaticsResult& statics,
-                         const std::vector<RangeWarning>& warnings) {
-  Json forces = Json::array(), joints = Json::array(), bodies = Json::array();
-  for (const StaticsForce& f : statics.forces) {
-    forces.push_back({{"name", f.name},
-                      {"type", f.type},
-                      {"force", f.force},
-                      {"length", f.length},
-                      {"unique", f.unique}});
-  }
-  for (const StaticsJoint& j : statics.joints) {
-    joints.push_back({{"name", j.name},
-                      {"type", j.type},
-                      {"force", array_of(j.force)},
-                      {"torque", array_of(j.torque)},
-                      {"unique", j.unique()},
-                      {"unique_force", j.unique_force},
-                      {"unique_torque", j.unique_torque}});
-  }
-  for (const StaticsBody& b : statics.bodies) {
-    bodies.push_back({{"name", b.name},
-                      {"position", array_of(b.position)},
-                      {"roll_pitch_yaw", array_of(b.roll_pitch_yaw)},
-                      {"amplitudes", array_of(b.amplitudes)}});
-  }
-  const Json json = {{"model", model},
-                     {"iterations", statics.iterations},
-                     {"residual", statics.residual},
-                     {"forces", forces},
-                     {"joints", joints},
-                     {"bodies", bodies},
-                     {"redundant", redundant_directions(statics.redundant)},
-                     {"warnings", sentences(warnings)}};
-  return dump(json);
+  return json_document(json);
 }
 
 }  // namespace floatframe

@@ -1,26 +1,17 @@
-// floatframe advise: which modes a model could do without at a given step, verified by a run.
+// Advice: which modes a model could do without at a given step, verified by a run.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "floatframe/apps/commands.hpp"
-#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/analyses/analysis.hpp"
+#include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
-#include "floatframe/model/inertia_choice.hpp"
-#include "floatframe/model/validate.hpp"
-#include "floatframe/report/advice_json.hpp"
-#include "floatframe/simulation/mode_advice.hpp"
+#include "floatframe/report/json_values.hpp"
 
 namespace floatframe {
 namespace {
-
-struct AdviseArguments {
-  ModelArguments model;
-  std::string step, duration;
-  AdviceOptions options;
-  bool json = false;
-};
 
 std::string frequency_cell(double f) { return std::isfinite(f) ? fmt::format("{:.4g}", f) : "-"; }
 std::string percent(double share) { return fmt::format("{:.3g}", 100.0 * share); }
@@ -110,58 +101,103 @@ std::string advice_text(const std::string& model, const SimulationDescription& s
   return text;
 }
 
-int advise(const AdviseArguments& a) {
-  ModelDescription description = read_model(a.model);
-  SimulationDescription& simulation = description.simulation;
-  set_clock(simulation, a.step, a.duration);
-  if (simulation.duration > 1e7 * simulation.step)
-    throw InputError(place_of_clock(simulation),
-                     fmt::format("a duration of {:g} s with a step of {:g} s takes more than 1e+07 "
-                                 "steps; give a shorter --duration",
-                                 simulation.duration, simulation.step));
-  if (!(simulation.duration >= simulation.step))
-    throw InputError(place_of_clock(simulation),
-                     "the run is shorter than one step; give a --duration");
-  check_inertia_method(description, simulation.inertia);
-  const Model model = build_model(description);
-  const ModeAdviceReport report = advise(model, simulation, a.options);
-  print(a.json ? advice_json(description.name, simulation.step, report, a.options)
-               : advice_text(description.name, simulation, report, a.options));
-  for (const RangeWarning& warning : report.full.warnings) say("warning: " + warning.sentence);
-  for (const RangeWarning& warning : report.reduced.warnings)
-    say("warning: without the modes that are dropped: " + warning.sentence);
-  return 0;
+nlohmann::ordered_json cost_json(const RunSummary& s, double flops) {
+  const double steps = static_cast<double>(std::max(1L, s.steps));
+  return {{"steps", s.steps},
+          {"iterations_per_step", static_cast<double>(s.iterations) / steps},
+          {"cpu_us_per_step", 1e6 * s.cpu / steps},
+          {"flops_per_step", flops},
+          {"warnings", sentences(s.warnings)}};
+}
+
+/// Infinite frequencies (modes without mass) become null.
+std::string advice_json(const Model& model, const ModeAdviceReport& r,
+                        const AdviceOptions& options) {
+  using Json = nlohmann::ordered_json;
+  Json bodies = Json::array();
+  for (const BodyAdvice& body : r.bodies) {
+    Json modes = Json::array();
+    for (const ModeAdvice& m : body.modes)
+      modes.push_back({{"mode", m.mode + 1},
+                       {"name", m.name},
+                       {"frequency_Hz", m.frequency},
+                       {"free_frequency_Hz", m.free_frequency},
+                       {"omega_h", m.step_phase},
+                       {"static_share", m.static_share},
+                       {"dynamic_share", m.dynamic_share},
+                       {"kinetic_ratio", m.kinetic_ratio},
+                       {"rms", m.rms},
+                       {"peak", m.peak},
+                       {"action", word(m.action)},
+                       {"retained_by_verification", m.retained}});
+    bodies.push_back({{"body", body.name},
+                      {"free_frequencies_Hz", json_array(body.free_frequencies)},
+                      {"modes", modes}});
+  }
+  Json differences = Json::array();
+  for (const OutputDifference& d : r.differences)
+    differences.push_back({{"output", d.name},
+                           {"unit", d.unit},
+                           {"range", d.range},
+                           {"rms_difference", d.rms},
+                           {"largest_difference", d.largest},
+                           {"difference_of_peaks", d.peaks},
+                           {"solver_noise", d.noise},
+                           {"relative", d.relative}});
+  return json_document({{"model", model.name},
+                        {"step_s", model.simulation.step},
+                        {"modes", r.modes},
+                        {"dropped", r.dropped},
+                        {"quasi_static", r.quasi_static},
+                        {"candidates", r.candidates},
+                        {"reduced_models_run", r.trials},
+                        {"newton_tolerance_compared", r.tolerance},
+                        {"thresholds",
+                         {{"drop_share", options.drop_share},
+                          {"static_ratio", options.static_ratio},
+                          {"tolerance", options.tolerance}}},
+                        {"full", cost_json(r.full, r.flops_full)},
+                        {"reduced", cost_json(r.reduced, r.flops_reduced)},
+                        {"refused_by", r.refused_by},
+                        {"refused_difference", r.refused_difference},
+                        {"bodies", bodies},
+                        {"differences", differences}});
+}
+
+AnalysisReport report_advice(const Model& model, const AdviceOptions& options) {
+  const ModeAdviceReport r = advise(model, model.simulation, options);
+  std::vector<std::string> warnings = sentences(r.full.warnings);
+  for (const std::string& sentence : sentences(r.reduced.warnings))
+    warnings.push_back("without the modes that are dropped: " + sentence);
+  return {.text = advice_text(model.name, model.simulation, r, options),
+          .json = advice_json(model, r, options),
+          .warnings = std::move(warnings)};
 }
 
 }  // namespace
 
-Command advise_command() {
-  const auto a = std::make_shared<AdviseArguments>();
+Analysis advise_analysis() {
+  const auto o = std::make_shared<AdviceOptions>();
   return {
       .name = "advise",
       .help = "Find out which modes of flexible bodies a model could do without",
-      .options = joined(
-          model_options(a->model),
-          {text_option("--step", a->step, "SECONDS",
-                       "Time step [s]; default: that of the model file"),
-           text_option("--duration", a->duration, "SECONDS",
-                       "Time to simulate [s]; default: that of the model file"),
-           fraction_option(
-               "--share", a->options.drop_share,
+      .makes_steps = true,
+      .options =
+          {fraction_option(
+               "--share", o->drop_share,
                "Modes with smaller static and dynamic shares may be dropped; default 0.001"),
            fraction_option(
-               "--tolerance", a->options.tolerance,
+               "--tolerance", o->tolerance,
                "Largest change of an output allowed, as a fraction of its range; default 0.01"),
-           whole_option("--repeat", a->options.repeat, 1, 1000,
-                        "Timed runs of both models, the quickest counts; default 3"),
-           flag("--json", a->json, "JSON on standard output")}),
+           whole_option("--repeat", o->repeat, 1, 1000,
+                        "Timed runs of both models, the quickest counts; default 3")},
       .footer =
           "The model is run with the options of its file, then without the modes whose shares are "
           "small;\n"
           "modes are only called droppable if that run agrees. Shares and thresholds: "
           "docs/mode-advisor.md.\n"
           "Exit codes: 0 done, 1 the model does not run, 2 bad input.",
-      .run = [a] { return advise(*a); }};
+      .run = [o](const Model& model) { return report_advice(model, *o); }};
 }
 
 }  // namespace floatframe

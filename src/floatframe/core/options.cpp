@@ -1,4 +1,4 @@
-#include "floatframe/apps/options.hpp"
+#include "floatframe/core/options.hpp"
 
 #include <utility>
 
@@ -49,12 +49,27 @@ Option one_of(std::vector<std::string> words, Option option) {
   return option;
 }
 
-Option fraction_option(std::string name, double& target, std::string help) {
+Option number_option(std::string name, double& target, double low, double high, std::string type,
+                     std::string help) {
   Option option{
-      .name = std::move(name), .type = "FRACTION", .help = std::move(help), .target = &target};
-  option.low = 0.0;
-  option.high = 1.0;
+      .name = std::move(name), .type = std::move(type), .help = std::move(help), .target = &target};
+  option.low = low;
+  option.high = high;
   return option;
+}
+
+Option number_list(std::string name, std::vector<double>& target, double low, double high,
+                   std::string type, std::string help) {
+  Option option{
+      .name = std::move(name), .type = std::move(type), .help = std::move(help), .target = &target};
+  option.low = low;
+  option.high = high;
+  option.commas = true;
+  return option;
+}
+
+Option fraction_option(std::string name, double& target, std::string help) {
+  return number_option(std::move(name), target, 0.0, 1.0, "FRACTION", std::move(help));
 }
 
 Option repeated_option(std::string name, std::vector<std::string>& target, std::string type,

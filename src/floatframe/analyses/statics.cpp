@@ -1,19 +1,16 @@
-// floatframe statics: the static equilibrium with the forces in all force elements and joints and
+// Statics: the static equilibrium with the forces in all force elements and joints and
 // the poses of bodies.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "floatframe/apps/commands.hpp"
-#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/analyses/analysis.hpp"
+#include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/model/force_outputs.hpp"
-#include "floatframe/model/inertia_choice.hpp"
-#include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/state_json.hpp"
-#include "floatframe/report/summary_json.hpp"
+#include "floatframe/report/json_values.hpp"
 #include "floatframe/simulation/range_watch.hpp"
-#include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
 namespace {
@@ -55,7 +52,7 @@ std::string joints_text(const StaticsResult& statics) {
   return table.empty() ? "" : "\n" + table.text();
 }
 
-std::string bodies_text(const StaticsResult& statics) {
+std::string poses_text(const StaticsResult& statics) {
   TextTable table({"body", "x [m]", "y [m]", "z [m]", "roll [rad]", "pitch [rad]", "yaw [rad]"});
   for (const StaticsBody& b : statics.bodies) {
     std::vector<std::string> row{b.name};
@@ -87,60 +84,70 @@ std::string redundancy_note(const StaticsResult& statics) {
       redundancy_text(statics.redundant));
 }
 
-/// Says them; the exit code.
-int warn(const std::vector<RangeWarning>& warnings, bool strict) {
-  for (const RangeWarning& warning : warnings) say("warning: " + warning.sentence);
-  if (warnings.empty() || !strict) return 0;
-  say(fmt::format("the equilibrium counts as failed: {} under --strict",
-                  plural(static_cast<long>(warnings.size()), "warning counts as an error",
-                         "warnings count as errors")));
-  return 1;
+std::string statics_json(const Model& model, const StaticsResult& statics,
+                         const std::vector<std::string>& warnings) {
+  using Json = nlohmann::ordered_json;
+  Json forces = Json::array(), joints = Json::array(), bodies = Json::array();
+  for (const StaticsForce& f : statics.forces) {
+    forces.push_back({{"name", f.name},
+                      {"type", f.type},
+                      {"force", f.force},
+                      {"length", f.length},
+                      {"unique", f.unique}});
+  }
+  for (const StaticsJoint& j : statics.joints) {
+    joints.push_back({{"name", j.name},
+                      {"type", j.type},
+                      {"force", json_array(j.force)},
+                      {"torque", json_array(j.torque)},
+                      {"unique", j.unique()},
+                      {"unique_force", j.unique_force},
+                      {"unique_torque", j.unique_torque}});
+  }
+  for (const StaticsBody& b : statics.bodies) {
+    bodies.push_back({{"name", b.name},
+                      {"position", json_array(b.position)},
+                      {"roll_pitch_yaw", json_array(b.roll_pitch_yaw)},
+                      {"amplitudes", json_array(b.amplitudes)}});
+  }
+  return json_document({{"model", model.name},
+                        {"iterations", statics.iterations},
+                        {"residual", statics.residual},
+                        {"forces", forces},
+                        {"joints", joints},
+                        {"bodies", bodies},
+                        {"redundant", redundancy_json(statics.redundant)},
+                        {"warnings", warnings}});
 }
 
-struct StaticsArguments {
-  ModelArguments model;
-  std::string write_state;
-  bool json = false, strict = false;
-};
-
-int show_statics(const StaticsArguments& a) {
-  ModelFingerprint used;
-  const ModelDescription description = read_model(a.model, false, &used);
-  require_writable({{"--write-state", a.write_state}}, files_of(used));
-  check_inertia_method(description, description.simulation.inertia);
-  const Model model = build_model(description);
-  const StaticsResult result = statics(model);
-  if (!a.write_state.empty()) write_file(a.write_state, state_json(*result.state));
-  const std::vector<RangeWarning> warnings = equilibrium_warnings(model, result.bodies);
-  if (a.json) {
-    print(statics_json(description.name, result, warnings));
-    return warn(warnings, a.strict);
-  }
-  print(fmt::format("{}: static equilibrium after {}, largest unbalanced force {:.2g} N\n",
-                    description.name, plural(result.iterations, "iteration"), result.residual) +
-        forces_text(model, result) + joints_text(result) + bodies_text(result) +
-        amplitudes_text(result) +
-        "\nForces: tension is positive, tyres: vertical force on the wheel. Joints: on the child, "
-        "world axes, about "
-        "the\njoint's point. Bodies: origin of the body frame; angles from the design pose.\n" +
-        redundancy_note(result));
-  return warn(warnings, a.strict);
+AnalysisReport report_statics(const Model& model) {
+  const StaticsResult s = statics(model);
+  // Where the equilibrium leaves the range of the method.
+  const std::vector<std::string> warnings = sentences(equilibrium_warnings(model, s.bodies));
+  return {
+      .text = fmt::format("{}: static equilibrium after {}, largest unbalanced force {:.2g} N\n",
+                          model.name, plural(s.iterations, "iteration"), s.residual) +
+              forces_text(model, s) + joints_text(s) + poses_text(s) + amplitudes_text(s) +
+              "\nForces: tension is positive, tyres: vertical force on the wheel. Joints: on "
+              "the child, world axes, about the\njoint's point. Bodies: origin of the body "
+              "frame; angles from the design pose.\n" +
+              redundancy_note(s),
+      .json = statics_json(model, s, warnings),
+      .files = {state_json(*s.state)},
+      .warnings = warnings};
 }
 
 }  // namespace
 
-Command statics_command() {
-  const auto a = std::make_shared<StaticsArguments>();
+Analysis statics_analysis() {
   return {
       .name = "statics",
       .help = "Find the static equilibrium; show forces [N], torques [N m] and poses [m, rad]",
-      .options = joined(model_options(a->model),
-                        {flag("--json", a->json, "JSON on standard output (N, N m, m, rad)"),
-                         text_option("--write-state", a->write_state, "FILE",
-                                     "Write the equilibrium as a state, for start: {state: FILE}"),
-                         flag("--strict", a->strict, "Warnings count as errors: exit code 1")}),
+      .json_help = "JSON on standard output (N, N m, m, rad)",
+      .files = {{"--write-state", "Write the equilibrium as a state, for start: {state: FILE}"}},
+      .strict = "equilibrium",
       .footer = "Exit codes: 0 found, 1 no equilibrium or, with --strict, warnings, 2 bad input.",
-      .run = [a] { return show_statics(*a); }};
+      .run = report_statics};
 }
 
 }  // namespace floatframe

@@ -11,7 +11,7 @@ namespace floatframe {
 struct Option {
   /// Where the value goes; vectors take several, a bool is a flag.
   using Target = std::variant<bool*, int*, double*, std::string*, std::vector<std::string>*,
-                              std::vector<int>*>;
+                              std::vector<int>*, std::vector<double>*>;
 
   std::string name;  ///< "--step", "-o,--out", or "MODEL": a position
   std::string type;  ///< "SECONDS", as the help shows it
@@ -38,6 +38,11 @@ Option word_list(std::string name, std::vector<std::string>& target, std::vector
                  std::string help);
 /// `option` with these values only.
 Option one_of(std::vector<std::string> words, Option option);
+/// Numbers of `low` to `high`, one or several separated by commas. `type`: what it is, "HERTZ".
+Option number_option(std::string name, double& target, double low, double high, std::string type,
+                     std::string help);
+Option number_list(std::string name, std::vector<double>& target, double low, double high,
+                   std::string type, std::string help);
 /// A number from 0 to 1.
 Option fraction_option(std::string name, double& target, std::string help);
 /// May be repeated, one value each time.

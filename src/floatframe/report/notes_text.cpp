@@ -1,4 +1,4 @@
-#include "floatframe/apps/notes.hpp"
+#include "floatframe/report/notes_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,14 @@
+#pragma once
+// All analyses: one call with a model, one plain struct. An analysis is the header with its result
+// and its function, included here, and one entry: the name of the file analyses/<name>.cpp, which
+// ends in what makes a command of it, `Analysis <name>_analysis()` (analysis.hpp). The public header
+// floatframe/analysis.hpp and the program run over this list, in its order.
+#include "floatframe/simulation/mode_advice.hpp"
+#include "floatframe/simulation/simulation.hpp"
+
+// clang-format off
+#define FLOATFRAME_ANALYSES(entry) \
+  entry(check)                     \
+  entry(statics)                   \
+  entry(advise)
+// clang-format on

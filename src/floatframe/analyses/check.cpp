@@ -1,0 +1,108 @@
+// Check: a model that can be read, built and assembled; its coordinates in both formulations.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "floatframe/analyses/analysis.hpp"
+#include "floatframe/core/plural.hpp"
+#include "floatframe/core/text_table.hpp"
+#include "floatframe/formats/body_file/health_text.hpp"
+#include "floatframe/report/json_values.hpp"
+#include "floatframe/report/notes_text.hpp"
+
+namespace floatframe {
+namespace {
+
+std::string counts_text(const ModelCounts& c) {
+  TextTable table({"", "relative", "absolute"});
+  const auto add = [&](const char* name, int relative, int absolute) {
+    table.add({name, std::to_string(relative), std::to_string(absolute)});
+  };
+  add("rigid coordinates", c.relative.rigid, c.absolute.rigid);
+  add("elastic coordinates", c.relative.elastic, c.absolute.elastic);
+  add("all coordinates", c.relative.total, c.absolute.total);
+  add("constraints", c.relative.constraints, c.absolute.constraints);
+  std::string text = table.text(2);
+  text += fmt::format("  degrees of freedom: {}\n  redundant constraints: {}\n",
+                      c.degrees_of_freedom, c.redundant_constraints);
+  if (c.cut_joint_names.empty()) return text;
+  text += "  joints cut in the relative formulation:\n";
+  for (const std::string& name : c.cut_joint_names) text += "    " + name + '\n';
+  return text;
+}
+
+std::string flexible_bodies_text(const Model& model) {
+  TextTable table(
+      {"flexible body", "modes", "mass [kg]", "nodes", "fixed-interface frequencies [Hz]"}, {4});
+  for (const Body& body : model.bodies) {
+    if (body.modes() == 0) continue;
+    std::string frequencies;
+    for (const double f : body.data->fixed_interface_frequencies) {
+      frequencies += (frequencies.empty() ? "" : "  ") + hertz_text(f);
+    }
+    table.add({body.name, std::to_string(body.modes()),
+               fmt::format("{:.6g}", body.data->invariants.m),
+               std::to_string(body.data->nodes.size()), frequencies.empty() ? "-" : frequencies});
+  }
+  return table.empty() ? "" : "\n" + table.text(2);
+}
+
+/// "17 bodies (12 flexible)"
+std::string bodies_counted(const ModelCounts& counts) {
+  return fmt::format("{} ({} flexible)", plural(counts.bodies, "body", "bodies"),
+                     counts.flexible_bodies);
+}
+
+nlohmann::ordered_json coordinates_json(const CoordinateCounts& c) {
+  return {{"rigid", c.rigid},
+          {"elastic", c.elastic},
+          {"total", c.total},
+          {"constraints", c.constraints}};
+}
+
+std::string check_json(const ModelCounts& c, const Model& model) {
+  using Json = nlohmann::ordered_json;
+  Json flexible = Json::array();
+  for (const Body& body : model.bodies) {
+    if (body.modes() == 0) continue;
+    flexible.push_back({{"name", body.name},
+                        {"modes", body.modes()},
+                        {"mass_kg", body.data->invariants.m},
+                        {"nodes", body.data->nodes.size()},
+                        {"mode_names", body.data->mode_names},
+                        {"frequencies_Hz", json_array(body.data->fixed_interface_frequencies)}});
+  }
+  return json_document({{"bodies", c.bodies},
+                        {"flexible_bodies", c.flexible_bodies},
+                        {"joints", c.joints},
+                        {"cut_joints", c.cut_joints},
+                        {"relative", coordinates_json(c.relative)},
+                        {"absolute", coordinates_json(c.absolute)},
+                        {"degrees_of_freedom", c.degrees_of_freedom},
+                        {"redundant_constraints", c.redundant_constraints},
+                        {"cut_joint_names", c.cut_joint_names},
+                        {"start", start_json(c.start)},
+                        {"flexible", flexible}});
+}
+
+AnalysisReport report_check(const Model& model) {
+  const ModelCounts counts = check(model);
+  return {.text = fmt::format("{}: {}, {} ({} cut)\n\n", model.name, bodies_counted(counts),
+                              plural(counts.joints, "joint"), counts.cut_joints) +
+                  counts_text(counts) + flexible_bodies_text(model) +
+                  notes_text(counts.start.notes),
+          .json = check_json(counts, model)};
+}
+
+}  // namespace
+
+Analysis check_analysis() {
+  return {.name = "check",
+          .help = "Check a model file and count its coordinates and constraints",
+          .footer =
+              "Prints masses [kg] and frequencies [Hz] of the flexible bodies as well.\n"
+              "Exit codes: 0 the model is valid, 1 it cannot be assembled, 2 bad input.",
+          .run = report_check};
+}
+
+}  // namespace floatframe

@@ -1,0 +1,95 @@
+// A command for each analysis: reads and builds the model, runs the analysis, prints what it found.
+#include "floatframe/apps/analysis_command.hpp"
+
+#include <fmt/format.h>
+
+#include "floatframe/analyses/analysis.hpp"
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/model/inertia_choice.hpp"
+#include "floatframe/model/validate.hpp"
+#include "floatframe/model_file/model_fingerprint.hpp"
+
+namespace floatframe {
+namespace {
+
+struct AnalysisArguments {
+  ModelArguments model;
+  std::string step, duration;
+  bool json = false, strict = false;
+  std::vector<std::string> files;  ///< their names, in the order of `Analysis::files`
+};
+
+/// Of an analysis that runs the model, perhaps many times.
+void require_steps(const SimulationDescription& simulation) {
+  if (simulation.duration > 1e7 * simulation.step)
+    throw InputError(place_of_clock(simulation),
+                     fmt::format("a duration of {:g} s with a step of {:g} s takes more than 1e+07 "
+                                 "steps; give a shorter --duration",
+                                 simulation.duration, simulation.step));
+  if (!(simulation.duration >= simulation.step))
+    throw InputError(place_of_clock(simulation),
+                     "the run is shorter than one step; give a --duration");
+}
+
+std::vector<OutputFile> output_files(const Analysis& analysis, const AnalysisArguments& a) {
+  std::vector<OutputFile> files;
+  for (std::size_t k = 0; k < analysis.files.size(); ++k)
+    files.push_back({analysis.files[k].option, a.files[k]});
+  return files;
+}
+
+int run_analysis(const Analysis& analysis, const AnalysisArguments& a) {
+  ModelFingerprint used;
+  ModelDescription description = read_model(a.model, false, &used);
+  require_writable(output_files(analysis, a), files_of(used));
+  if (analysis.makes_steps) {
+    set_clock(description.simulation, a.step, a.duration);
+    require_steps(description.simulation);
+  }
+  check_inertia_method(description, description.simulation.inertia);
+  const AnalysisReport report = analysis.run(build_model(description));
+  for (std::size_t k = 0; k < a.files.size(); ++k)
+    if (!a.files[k].empty()) write_file(a.files[k], report.files.at(k));
+  print(a.json ? report.json : report.text);
+  for (const std::string& warning : report.warnings) say("warning: " + warning);
+  if (report.warnings.empty() || !a.strict) return exit_code::done;
+  say(fmt::format("the {} counts as failed: {} under --strict", analysis.strict,
+                  plural(static_cast<long>(report.warnings.size()), "warning counts as an error",
+                         "warnings count as errors")));
+  return exit_code::failed;
+}
+
+Command analysis_command(const Analysis& analysis) {
+  const auto a = std::make_shared<AnalysisArguments>();
+  a->files.resize(analysis.files.size());
+  std::vector<Option> options = model_options(a->model);
+  if (analysis.makes_steps) {
+    options.push_back(text_option("--step", a->step, "SECONDS",
+                                  "Time step [s]; default: that of the model file"));
+    options.push_back(text_option("--duration", a->duration, "SECONDS",
+                                  "Time to simulate [s]; default: that of the model file"));
+  }
+  options = joined(options, analysis.options);
+  options.push_back(flag("--json", a->json, analysis.json_help));
+  for (std::size_t k = 0; k < analysis.files.size(); ++k)
+    options.push_back(
+        text_option(analysis.files[k].option, a->files[k], "FILE", analysis.files[k].help));
+  if (!analysis.strict.empty())
+    options.push_back(flag("--strict", a->strict, "Warnings count as errors: exit code 1"));
+  return {.name = analysis.name,
+          .help = analysis.help,
+          .options = std::move(options),
+          .footer = analysis.footer,
+          .run = [analysis, a] { return run_analysis(analysis, *a); }};
+}
+
+}  // namespace
+
+std::vector<Command> analysis_commands() {
+  std::vector<Command> commands;
+  for (const Analysis& analysis : all_analyses()) commands.push_back(analysis_command(analysis));
+  return commands;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,24 @@
+#pragma once
+// What the JSON of several results shares (RFC 8259). SI units; the unit is in the key where it is
+// not obvious. A number that is not finite becomes null.
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "floatframe/math/types.hpp"
+#include "floatframe/simulation/start_report.hpp"
+
+namespace floatframe {
+
+/// A document, with a line break at its end. Text from files may hold bytes that are not UTF-8:
+/// they are replaced, never an error.
+std::string json_document(const nlohmann::ordered_json& value);
+
+/// [x, y, z]; of a matrix its rows.
+nlohmann::ordered_json json_array(const VecX& v);
+nlohmann::ordered_json json_rows(const MatX& m);
+
+nlohmann::ordered_json start_json(const StartReport& start);
+nlohmann::ordered_json redundancy_json(const std::vector<RedundantDirection>& redundant);
+
+}  // namespace floatframe
