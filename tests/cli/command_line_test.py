@@ -143,8 +143,8 @@ class Help(CommandLine):
 class Misuse(CommandLine):
     def test_bad_options_exit_2_with_one_line(self):
         for arguments, message in (
-                ((), "a command is required: run, check, statics, advise, realtime, bench, sweep, reduce or info"),
-                (("fly",), "found the command 'fly', expected run, check, statics, advise, realtime, bench, sweep, reduce or info"),
+                ((), "a command is required: run, check, statics, advise, mass, realtime, bench, sweep, reduce or info"),
+                (("fly",), "found the command 'fly', expected run, check, statics, advise, mass, realtime, bench, sweep, reduce or info"),
                 (("run",), "MODEL is required"),
                 (("run", ""), "MODEL: found an empty name, expected a file"),
                 (("sweep", "", "--vary", "a=1,2"), "MODEL: found an empty name, expected a file"),
@@ -369,7 +369,7 @@ class CheckAndStatics(CommandLine):
 
     def test_mass_models_that_do_not_go_with_the_inertia_method_have_a_place(self):
         pathlib.Path(self.folder, "bar.yaml").write_text(BAR)
-        for command in ("check", "statics", "run", "advise"):
+        for command in ("check", "statics", "run", "advise", "mass"):
             self.expect(2, command, "bar.yaml", err="bar.yaml:10:19: bodies.bar.flexible.mass_model: found six_dof with inertia "
                         "terms by preprocessing, expected isoparametric or hermite (or projection)")
 
@@ -380,6 +380,17 @@ class CheckAndStatics(CommandLine):
         force = result["joints"][0]["force"]
         self.assertAlmostEqual(force[2], 2 * 9.81, 6)
         self.expect(0, "statics", "pendulum.yaml", out="hinge")
+
+    def test_mass(self):
+        result = json.loads(self.expect(0, "mass", "pendulum.yaml", "--set", "mass=3", "--json").stdout)
+        self.assertEqual((result["model"], result["mass_kg"], result["time_s"]), ("pendulum", 3, 0))
+        self.assertEqual(result["centre_of_mass_m"], [0.5, 0, 0])
+        for row, expected in zip(result["inertia_kg_m2"], ([0.01, 0, 0], [0, 0.2, 0], [0, 0, 0.2])):
+            for value, wanted in zip(row, expected):
+                self.assertAlmostEqual(value, wanted, 14)
+        self.assertEqual([body["name"] for body in result["bodies"]], ["rod"])
+        self.expect(0, "mass", "pendulum.yaml", out="pendulum: mass 2 kg, t = 0 s\n")
+        self.expect(2, "mass", "pendulum.yaml", "--set", "mass=0", err="found bodies without mass, expected one with mass")
 
 
 class Bench(CommandLine):

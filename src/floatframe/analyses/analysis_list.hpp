@@ -3,6 +3,7 @@
 // and its function, included here, and one entry: the name of the file analyses/<name>.cpp, which
 // ends in what makes a command of it, `Analysis <name>_analysis()` (analysis.hpp). The public header
 // floatframe/analysis.hpp and the program run over this list, in its order.
+#include "floatframe/analyses/mass_properties.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
@@ -10,5 +11,6 @@
 #define FLOATFRAME_ANALYSES(entry) \
   entry(check)                     \
   entry(statics)                   \
-  entry(advise)
+  entry(advise)                    \
+  entry(mass_properties)
 // clang-format on
