@@ -10,8 +10,15 @@ namespace floatframe {
 namespace {
 
 std::string of(OutputOf what) {
-  static const char* const words[] = {"point", "two points",    "body",
-                                      "joint", "flexible body", "force element"};
+  static const char* const words[] = {"point",
+                                      "two points",
+                                      "body",
+                                      "joint",
+                                      "flexible body",
+                                      "force element",
+                                      "joint or `{rod: name}`",
+                                      "rod",
+                                      "joint with a motion"};
   return words[index_of(what)];
 }
 
@@ -22,7 +29,8 @@ std::string component(const OutputKind& kind) {
   std::string words;
   for (const char* word : kind.components.words)
     words += std::string(words.empty() ? "" : ", ") + word;
-  return "`" + std::string(kind.components.key) + "`: " + words;
+  const char* const more = kind.of == OutputOf::reaction ? "; `about`, `in` (below)" : "";
+  return "`" + std::string(kind.components.key) + "`: " + words + more;
 }
 
 std::string output_row(OutputType type) {

@@ -24,9 +24,12 @@ bodies:
       clamped: [hinge]
       static_modes: [{point: tip, dofs: [x, y, z]}]
   puck: {rigid: {mass: 2, centre_of_mass: [2, 1, 0.5], inertia: [0.1, 0.2, 0.3]}}
+  bob: {position: [3, 0.3, 1], rigid: {mass: 1, inertia: [0.1, 0.2, 0.3]}}
 joints:
   hinge: {type: revolute, child: arm, at: hinge, axis: y, position: 0.4, velocity: 1.5}
+  drive: {type: revolute, child: bob, at: [3, 0, 1.2], axis: [0, 1, 1], motion: {piecewise: [{polynomial: [0.1, 2, 3]}]}}
   loose: {type: free, child: puck, at: [2, 1, 0.5], velocity: [3, -0.4, 0.5, 1, 2, -3]}
+rods: {tie: {from: {body: ground, at: [1, 2, 1.5]}, to: {body: puck}}}
 forces:
   coil: {type: spring_damper, from: {body: arm, at: tip}, to: {body: puck}, spring: 100, damper: 20}
 initial:
@@ -50,11 +53,20 @@ std::string columns_of_type(OutputType type) {
         return "arm, mode: 2";
       case OutputOf::force:
         return "coil";
+      case OutputOf::reaction:
+        return "hinge, in: child, about: {body: arm, at: tip}";
+      case OutputOf::rod:
+        return "tie";
+      case OutputOf::motion:
+        return "drive";
     }
     return "";
   };
   const std::string word = output_type_name(type);
-  return "  " + word + ": {" + word + ": " + reference() + "}\n";
+  std::string what = reference();
+  if (type == OutputType::joint_force) what = "{rod: tie}, in: {body: arm}";
+  if (type == OutputType::elastic_energy) what = "arm";
+  return "  " + word + ": {" + word + ": " + what + "}\n";
 }
 
 ResultTable sampled(const std::string& columns, Coordinates coordinates, double duration) {

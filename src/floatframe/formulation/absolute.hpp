@@ -89,18 +89,27 @@ class AbsoluteFormulation {
 
   const MarkerState& marker(int index) const noexcept { return markers_[index].s; }
   Vec3 origin() const noexcept { return Vec3::Zero(); }
+  const LocalMarker& local_marker(int index) const noexcept { return markers_[index]; }
   const ForceState& force(int index) const noexcept { return force_set_.state(index); }
   void set_accelerations(const VecX& a) noexcept { a_ = a; }
   Vec3 marker_acceleration(int index) const noexcept;
   const Mat3& body_rotation(int i) const noexcept { return bodies_[i].A; }
   Vec3 body_angular_velocity(int i) const noexcept { return bodies_[i].w_WB; }
   Vec3 body_velocity(int i) const noexcept { return bodies_[i].v_WB; }
+  PointMotion body_acceleration(int i) const noexcept;
   double amplitude(const VecX& q, int i, int mode) const noexcept {
     return q[bodies_[i].offset + 12 + mode];
   }
   double amplitude_rate(const VecX& v, int i, int mode) const noexcept {
     return v[bodies_[i].offset + 12 + mode];
   }
+  double amplitude_rate(int i, int mode) const noexcept { return bodies_[i].yd[mode]; }
+  double amplitude_acceleration(int i, int mode) const noexcept {
+    return a_[bodies_[i].offset + 12 + mode];
+  }
+  double body_kinetic_energy(int i) const noexcept;
+  double body_gravity_energy(int i) const noexcept;
+  double body_elastic_energy(int i) const noexcept;
   double modal_damping_power(const VecX& v) const noexcept;
   double motion_power(const VecX& lambda) const noexcept {
     return constraint_set_.motion_power(lambda);

@@ -4,6 +4,41 @@
 
 namespace floatframe {
 
+PointMotion AbsoluteFormulation::body_acceleration(int i) const noexcept {
+  const BodyData& b = bodies_[i];
+  PointMotion x{a_.segment<3>(b.offset), Vec3::Zero()};
+  for (int c = 0; c < 3; ++c)  // of (4): Adot x Adot is zero
+    x.angular += 0.5 * b.A.col(c).cross(a_.segment<3>(b.offset + 3 + 3 * c));
+  return x;
+}
+
+double AbsoluteFormulation::body_kinetic_energy(int i) const noexcept {
+  const BodyData& b = bodies_[i];
+  const auto rate = [&](Eigen::Index k) {
+    return k < 3 ? b.v_WB[k] : k < 12 ? b.Adot((k - 3) % 3, (k - 3) / 3) : b.yd[k - 12];
+  };
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < b.M.cols(); ++k)
+    for (Eigen::Index l = 0; l < b.M.rows(); ++l) sum += 0.5 * rate(k) * b.M(l, k) * rate(l);
+  return sum;
+}
+
+double AbsoluteFormulation::body_gravity_energy(int i) const noexcept {
+  const BodyData& b = bodies_[i];
+  const PreprocessingData& d = b.inertia.data();
+  Vec3 m_bar = d.m_u;
+  for (int k = 0; k < b.nm; ++k) m_bar += d.S.col(k) * b.y[k];
+  return -model_.gravity.dot(d.m * b.p_WB + b.A * m_bar);
+}
+
+double AbsoluteFormulation::body_elastic_energy(int i) const noexcept {
+  const BodyData& b = bodies_[i];
+  const MatX& K = model_.bodies[i].data->K;
+  double sum = 0.0;
+  for (int k = 0; k < b.nm; ++k) sum += 0.5 * b.y[k] * K.col(k).dot(b.y);
+  return sum;
+}
+
 double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
   double sum = 0.0;
   for (BodyData& b : bodies_) {

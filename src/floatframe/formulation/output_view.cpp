@@ -5,17 +5,21 @@
 
 namespace floatframe {
 
-OutputView::OutputView(const RelativeFormulation& formulation, double t, const VecX& q) noexcept
+OutputView::OutputView(const RelativeFormulation& formulation, double t, const VecX& q,
+                       const Reactions* reactions) noexcept
     : relative_(&formulation),
       model_(formulation.model()),
       q_(q),
+      reactions_(reactions),
       t_(t),
       origin_(formulation.origin()) {}
 
-OutputView::OutputView(const AbsoluteFormulation& formulation, double t, const VecX& q) noexcept
+OutputView::OutputView(const AbsoluteFormulation& formulation, double t, const VecX& q,
+                       const Reactions* reactions) noexcept
     : absolute_(&formulation),
       model_(formulation.model()),
       q_(q),
+      reactions_(reactions),
       t_(t),
       origin_(formulation.origin()) {}
 
@@ -38,6 +42,30 @@ const Mat3& OutputView::body_rotation(int body) const noexcept {
 
 Vec3 OutputView::body_angular_velocity(int body) const noexcept {
   return from([&](const auto& f) -> Vec3 { return f.body_angular_velocity(body); });
+}
+
+Vec3 OutputView::body_angular_acceleration(int body) const noexcept {
+  return from([&](const auto& f) -> Vec3 { return f.body_acceleration(body).angular; });
+}
+
+double OutputView::amplitude_rate(int body, int mode) const noexcept {
+  return from([&](const auto& f) -> double { return f.amplitude_rate(body, mode); });
+}
+
+double OutputView::amplitude_acceleration(int body, int mode) const noexcept {
+  return from([&](const auto& f) -> double { return f.amplitude_acceleration(body, mode); });
+}
+
+double OutputView::kinetic_energy(int body) const noexcept {
+  return from([&](const auto& f) -> double { return f.body_kinetic_energy(body); });
+}
+
+double OutputView::gravity_energy(int body) const noexcept {
+  return from([&](const auto& f) -> double { return f.body_gravity_energy(body); });
+}
+
+double OutputView::elastic_energy(int body) const noexcept {
+  return from([&](const auto& f) -> double { return f.body_elastic_energy(body); });
 }
 
 double OutputView::amplitude(int body, int mode) const noexcept {

@@ -91,6 +91,7 @@ class RelativeFormulation {
 
   const MarkerState& marker(int index) const noexcept { return tree_.marker(index).s; }
   const Vec3& origin() const noexcept { return tree_.origin(); }
+  const LocalMarker& local_marker(int index) const noexcept { return tree_.marker(index); }
   const ForceState& force(int index) const noexcept { return force_set_.state(index); }
   /// The accelerations that `marker_acceleration` uses (`residual` and `constraint_accelerations`
   /// set them too).
@@ -102,12 +103,21 @@ class RelativeFormulation {
   const Mat3& body_rotation(int i) const noexcept { return tree_.body(i).R_WB; }
   Vec3 body_angular_velocity(int i) const noexcept { return tree_.body(i).w_WB; }
   Vec3 body_velocity(int i) const noexcept;
+  /// Of the body frame, world axes [m/s2, rad/s2].
+  PointMotion body_acceleration(int i) const noexcept;
   double amplitude(const VecX& q, int i, int mode) const noexcept {
     return q[tree_.body(i).iyq + mode];
   }
   double amplitude_rate(const VecX& v, int i, int mode) const noexcept {
     return v[tree_.body(i).iy + mode];
   }
+  /// At the present velocities, and of the accelerations that were set.
+  double amplitude_rate(int i, int mode) const noexcept { return tree_.body(i).yd[mode]; }
+  double amplitude_acceleration(int i, int mode) const noexcept { return tree_.body(i).ydd[mode]; }
+  /// Of one body, after `dynamics` [J].
+  double body_kinetic_energy(int i) const noexcept;
+  double body_gravity_energy(int i) const noexcept;
+  double body_elastic_energy(int i) const noexcept;
   /// Power that modal damping takes out at these velocities [W].
   double modal_damping_power(const VecX& v) const noexcept;
   /// Power of prescribed motions with these multipliers, after `velocities` [W].
@@ -117,8 +127,8 @@ class RelativeFormulation {
   double kinetic_energy(const VecX& v) noexcept;
   double gravity_energy(const VecX& q) const noexcept;
   double elastic_energy(const VecX& q) const noexcept;
-  /// Wrench that a tree joint's parent exerts on its child, about the joint point (after
-  /// `residual`).
+  /// Wrench that a tree joint's parent exerts on its child, about the joint's point on the child
+  /// (after `residual`). Without that of a prescribed motion, whose multiplier holds it.
   void tree_joint_wrench(int joint, Vec3& force, Vec3& torque) const noexcept;
   double total_mass() const noexcept;
   /// "mode 2 of body 'arm'" or "joint 'hinge'" that coordinate i belongs to.

@@ -9,6 +9,42 @@ Vec3 RelativeFormulation::body_velocity(int i) const noexcept {
   return b.Z.head<3>() + b.w_WB.cross(b.p_OB);
 }
 
+PointMotion RelativeFormulation::body_acceleration(int i) const noexcept {
+  const TreeBody& b = tree_.body(i);
+  const Vec6 z = b.Zdot + b.Zdot_0;
+  PointMotion x;
+  x.angular = z.tail<3>();
+  x.linear =
+      z.head<3>() + x.angular.cross(b.p_OB) + b.w_WB.cross(b.w_WB.cross(b.p_OB)) + model_.gravity;
+  return x;
+}
+
+double RelativeFormulation::body_kinetic_energy(int i) const noexcept {
+  const TreeBody& b = tree_.body(i);
+  const MatX& M = terms_[i].M;
+  const auto z = [&](Eigen::Index k) { return k < 6 ? b.Z[k] : b.yd[k - 6]; };
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < M.cols(); ++k)
+    for (Eigen::Index l = 0; l < M.rows(); ++l) sum += 0.5 * z(k) * M(l, k) * z(l);
+  return sum;
+}
+
+double RelativeFormulation::body_gravity_energy(int i) const noexcept {
+  const TreeBody& b = tree_.body(i);
+  const PreprocessingData& d = terms_[i].inertia.data();
+  Vec3 m_bar = d.m_u;  // (29)
+  for (int k = 0; k < b.nm; ++k) m_bar += d.S.col(k) * b.y[k];
+  return -model_.gravity.dot(d.m * (tree_.origin() + b.p_OB) + b.R_WB * m_bar);
+}
+
+double RelativeFormulation::body_elastic_energy(int i) const noexcept {
+  const TreeBody& b = tree_.body(i);
+  const MatX& K = model_.bodies[i].data->K;
+  double sum = 0.0;
+  for (int k = 0; k < b.nm; ++k) sum += 0.5 * b.y[k] * K.col(k).dot(b.y);
+  return sum;
+}
+
 double RelativeFormulation::kinetic_energy(const VecX& v) noexcept {
   double sum = 0.0;
   for (const int i : tree_.order()) {
@@ -65,7 +101,7 @@ void RelativeFormulation::tree_joint_wrench(int joint, Vec3& force, Vec3& torque
   const TreeBody& b = tree_.body(i);
   const Vec6 h = wrenches_[i].head<6>();
   const double sign = b.reversed ? -1.0 : 1.0;  // on the joint's own child
-  const Vec3& r = tree_.marker(b.frame_M).s.r;
+  const Vec3& r = tree_.marker(model_.joints[joint].frame_M).s.r;
   force = sign * h.head<3>();
   torque = sign * (h.tail<3>() - r.cross(h.head<3>()));
 }

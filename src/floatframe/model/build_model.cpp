@@ -24,6 +24,7 @@ void ModelBuilder::rods() {
         errors.add(r.origin.mark, "rods." + r.name + ": " + *complaint);
         continue;
       }
+    rod_names.add(rod.name);
     model.rods.push_back(rod);
   }
 }

@@ -49,11 +49,38 @@ void ModelBuilder::outputs() {
         out.force = force_names.index(o.entity);
         built = out.force >= 0;
         break;
+      case OutputOf::rod:
+        out.rod = rod_names.index(o.entity);
+        built = out.rod >= 0;
+        break;
+      case OutputOf::motion:
+        out.joint = joint_names.index(o.entity);
+        built = out.joint >= 0;
+        break;
+      case OutputOf::reaction:
+        built = reaction(o, out, who);
+        break;
     }
     if (!built) continue;
     out.unit = kind.unit_of ? kind.unit_of(model, out) : kind.unit;
     model.outputs.push_back(std::move(out));
   }
+}
+
+bool ModelBuilder::reaction(const OutputDescription& o, Output& out, const std::string& who) {
+  (o.rod ? out.rod : out.joint) = o.rod ? rod_names.index(o.entity) : joint_names.index(o.entity);
+  if (out.rod < 0 && out.joint < 0) return false;
+  if (o.about) {
+    out.marker = add_marker(o.at, Mat3::Identity(), false, o.origin.mark, who + ".about");
+    if (out.marker < 0) return false;
+  }
+  if (o.in == OutputAxes::parent) out.to = model.joints[out.joint].frame_F;
+  if (o.in == OutputAxes::child) out.to = model.joints[out.joint].frame_M;
+  if (o.in == OutputAxes::place) {
+    out.to = add_marker(o.to, Mat3::Identity(), true, o.origin.mark, who + ".in");
+    if (out.to < 0) return false;
+  }
+  return true;
 }
 
 }  // namespace floatframe

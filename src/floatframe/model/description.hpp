@@ -270,12 +270,20 @@ struct RoadDescription {
 // -------------------------------------------------------------------------------------------
 // outputs, simulation
 
+/// Axes in which a reaction is given: those of the world, of the joint's frame on its parent or on
+/// its child, or of a place, which are those of the world in the design configuration and turn with
+/// the body there.
+enum class OutputAxes { world, parent, child, place };
+
 struct OutputDescription {
   std::string name;  ///< column title without the unit
   OutputType type = OutputType::position;
   AttachmentDescription at;  ///< for point quantities (node/point given) or body quantities
   AttachmentDescription to;  ///< the second of two points
-  std::string entity;        ///< joint or force name
+  std::string entity;        ///< joint, force or rod name
+  bool rod = false;          ///< a reaction of a rod
+  bool about = false;        ///< a reaction about the point `at`, else about that of joint or rod
+  OutputAxes in = OutputAxes::world;  ///< of a reaction; of a place: `to`
   int component = 0;
   Origin origin;
 };

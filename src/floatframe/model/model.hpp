@@ -101,7 +101,7 @@ struct Output {
   std::string name, unit;
   OutputType type = OutputType::position;
   int marker = -1, to = -1;  ///< of points; `to`: the second of two
-  int body = -1, joint = -1, force = -1;
+  int body = -1, joint = -1, force = -1, rod = -1;
   int component = 0;
 };
 

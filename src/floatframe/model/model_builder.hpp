@@ -18,7 +18,7 @@ struct ModelBuilder {
 
   const ModelDescription& d;
   const NameIndex body_names, road_names, input_names;
-  NameIndex joint_names, force_names;  ///< of those that are built
+  NameIndex joint_names, force_names, rod_names;  ///< of those that are built
   /// Body, node, whether it turns with the node, place and orientation of each marker on a body.
   std::map<std::array<double, 15>, int> marker_places;
   Model model;
@@ -40,6 +40,8 @@ struct ModelBuilder {
   void rods();
   void forces();
   void outputs();
+  /// What a joint or rod transmits: false if something it refers to is missing.
+  bool reaction(const OutputDescription& o, Output& out, const std::string& who);
   /// Refuses bodies whose modes have no inertia of their own.
   void modal_masses();
   /// Lengths and masses that scale the equations; start values of the modes.

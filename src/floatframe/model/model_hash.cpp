@@ -88,8 +88,9 @@ class ModelHash {
     all(name, low, high, clamp);
   }
   void add(const Output& o) {
-    const auto& [name, unit, type, marker, to, body, joint, force, component] = o;
+    const auto& [name, unit, type, marker, to, body, joint, force, rod, component] = o;
     all(name, type, marker, to, body, joint, force, component);
+    if (rod >= 0) all(rod);
   }
   void add(const InertiaInvariants& v) {
     const auto& [m, m_u, P_u, S, Si, Sij] = v;

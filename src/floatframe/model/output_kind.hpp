@@ -22,7 +22,18 @@ enum class OutputOf {
   body,        ///< a body that moves: `body`
   joint,       ///< `joint`, with the number of a coordinate: `component`
   mode,        ///< a flexible body: `body`, with the number of a mode: `component`
-  force        ///< a force element: `force`
+  force,       ///< a force element: `force`
+  reaction,    ///< what a joint (`joint`) or a rod (`rod`) transmits, about the point of `marker`,
+               ///< in the axes of `to`; -1: about its own point, in world axes
+  rod,         ///< `rod`
+  motion       ///< a joint with a prescribed motion: `joint`
+};
+
+/// What must be computed for a sample beside the motion.
+enum class OutputTerms {
+  forces,    ///< of the force elements
+  inertia,   ///< mass matrices of the bodies, too
+  reactions  ///< accelerations and reactions that satisfy the equations of motion, too
 };
 
 /// Components with names, of which `Output::component` is one: a column each, or the one that `key`
@@ -44,6 +55,7 @@ struct OutputKind {
   const char* (*unit_of)(const Model& model, const Output& output) = nullptr;
   /// Of a force element: what it must have.
   ForceQuantity needs = ForceQuantity::force;
+  OutputTerms terms = OutputTerms::forces;
 };
 
 template <ForceQuantity quantity>
@@ -52,6 +64,9 @@ const char* unit_of_force(const Model& model, const Output& output) {
 }
 
 const OutputKind& output_kind(OutputType type) noexcept;
+
+/// The most that any output of the model asks for.
+OutputTerms output_terms(const Model& model) noexcept;
 
 double output_value(const OutputView& view, const Output& output, FollowedOutput& last) noexcept;
 

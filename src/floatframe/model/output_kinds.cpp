@@ -1,4 +1,5 @@
 // The list of outputs at work: facts for load time, direct calls for samples.
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -25,6 +26,12 @@ double value_of_type(std::index_sequence<I...>, const OutputView& view, const Ou
 }  // namespace
 
 const OutputKind& output_kind(OutputType type) noexcept { return *output_list[index_of(type)]; }
+
+OutputTerms output_terms(const Model& model) noexcept {
+  OutputTerms most = OutputTerms::forces;
+  for (const Output& o : model.outputs) most = std::max(most, output_kind(o.type).terms);
+  return most;
+}
 
 double output_value(const OutputView& view, const Output& output, FollowedOutput& last) noexcept {
   return value_of_type(std::make_index_sequence<std::size(output_types)>{}, view, output, last);

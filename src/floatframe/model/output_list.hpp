@@ -17,7 +17,19 @@
   entry(force)                    \
   entry(length)                   \
   entry(rate)                     \
-  entry(distance)
+  entry(distance)                 \
+  entry(joint_force)              \
+  entry(joint_torque)             \
+  entry(rod_force)                \
+  entry(motion_force)             \
+  entry(motion_power)             \
+  entry(power)                    \
+  entry(angular_acceleration)     \
+  entry(modal_rate)               \
+  entry(modal_acceleration)       \
+  entry(kinetic_energy)           \
+  entry(potential_energy)         \
+  entry(elastic_energy)
 // clang-format on
 
 namespace floatframe {

@@ -5,6 +5,7 @@
 #include "floatframe/model/force_evaluation.hpp"
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
+#include "floatframe/model/reactions.hpp"
 
 namespace floatframe {
 
@@ -13,9 +14,12 @@ class AbsoluteFormulation;
 
 class OutputView {
  public:
-  /// After `positions(t, q)`, `velocities`, `forces` and `set_accelerations` of the formulation.
-  OutputView(const RelativeFormulation& formulation, double t, const VecX& q) noexcept;
-  OutputView(const AbsoluteFormulation& formulation, double t, const VecX& q) noexcept;
+  /// After `positions(t, q)`, `velocities`, `forces` and `set_accelerations` of the formulation, and
+  /// `dynamics` where an output asks for inertia. `reactions` where one asks for them.
+  OutputView(const RelativeFormulation& formulation, double t, const VecX& q,
+             const Reactions* reactions = nullptr) noexcept;
+  OutputView(const AbsoluteFormulation& formulation, double t, const VecX& q,
+             const Reactions* reactions = nullptr) noexcept;
 
   const Model& model() const noexcept { return model_; }
   double time() const noexcept { return t_; }
@@ -29,8 +33,18 @@ class OutputView {
   const Mat3& body_rotation(int body) const noexcept;
   /// w_WB, world axes [rad/s].
   Vec3 body_angular_velocity(int body) const noexcept;
+  /// World axes [rad/s2].
+  Vec3 body_angular_acceleration(int body) const noexcept;
   double amplitude(int body, int mode) const noexcept;
+  double amplitude_rate(int body, int mode) const noexcept;
+  double amplitude_acceleration(int body, int mode) const noexcept;
+  /// [J]
+  double kinetic_energy(int body) const noexcept;
+  double gravity_energy(int body) const noexcept;
+  double elastic_energy(int body) const noexcept;
   const ForceState& force(int force) const noexcept;
+  /// Only for outputs that ask for them (`OutputTerms::reactions`).
+  const Reactions& reactions() const noexcept { return *reactions_; }
 
  private:
   template <class Get>
@@ -40,6 +54,7 @@ class OutputView {
   const AbsoluteFormulation* absolute_ = nullptr;
   const Model& model_;
   const VecX& q_;
+  const Reactions* reactions_;
   double t_;
   Vec3 origin_;
 };

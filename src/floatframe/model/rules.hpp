@@ -11,6 +11,7 @@ inline constexpr const char* mass_models[] = {"isoparametric", "six_dof", "hermi
 inline constexpr const char* coordinates[] = {"relative", "absolute"};
 inline constexpr const char* inertia_methods[] = {"preprocessing", "projection"};
 inline constexpr const char* axes[] = {"x", "y", "z"};
+inline constexpr const char* reaction_axes[] = {"world", "parent", "child", "place"};
 inline constexpr const char* angles[] = {"roll", "pitch", "yaw"};
 
 // Bodies.

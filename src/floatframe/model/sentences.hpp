@@ -72,6 +72,10 @@ Complaint input_initial(double initial, const std::optional<double>& low,
 /// A component, counted from 0, that is not one of the `n` that a model file counts from 1.
 std::string number_of(const char* what, int component, int n);
 std::string weld_does_not_move();
+/// Of what a motor exerts.
+std::string joint_without_motion();
+std::string rod_has_no_axes();
+std::string force_without_point();
 /// A force or torque that is given has no length and no rate.
 std::string load_without(const std::string& type, const std::string& quantity);
 Complaint column_name(const std::string& name);

@@ -30,7 +30,7 @@ namespace validation {
 
 /// Names that entities refer to.
 struct Names {
-  NameIndex bodies, joints, forces, roads, inputs;
+  NameIndex bodies, joints, forces, roads, inputs, rods;
 };
 
 /// One entity: adds "path.key: sentence" at the key's place, if one is known.

@@ -12,7 +12,7 @@ void validate(const ModelDescription& d, ErrorList& errors) {
     model.error("name", "found '" + d.name + "', " + *complaint);
   model.vector("gravity", d.gravity, "m/s2");
   const validation::Names names{NameIndex(d.bodies), NameIndex(d.joints), NameIndex(d.forces),
-                                NameIndex(d.roads), NameIndex(d.inputs)};
+                                NameIndex(d.roads),  NameIndex(d.inputs), NameIndex(d.rods)};
   validation::bodies(d, errors);
   validation::joints(d, names, errors);
   validation::rods(d, names, errors);

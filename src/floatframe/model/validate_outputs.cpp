@@ -4,6 +4,7 @@
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"
+#include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model/validate.hpp"
 
@@ -33,6 +34,28 @@ void force_output(const OutputDescription& o, const ModelDescription& d, const N
                  sentences::load_without(force_type_name(type), output_type_name(o.type)));
 }
 
+void reaction(const OutputDescription& o, const Names& names, const Entity& entity) {
+  entity.reference(output_type_name(o.type), o.rod ? "rod" : "joint", o.entity,
+                   o.rod ? names.rods : names.joints);
+  if (o.about && o.type == OutputType::joint_force)
+    entity.error("about", sentences::force_without_point());
+  else if (o.about)
+    entity.place("about", o.at, names);
+  if (!entity.word("in", o.in, rules::reaction_axes)) return;
+  if (o.in == OutputAxes::place)
+    entity.place("in", o.to, names);
+  else if (o.rod && o.in != OutputAxes::world)
+    entity.error("in", sentences::rod_has_no_axes());
+}
+
+void motion_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
+                   const Entity& entity) {
+  const char* const word = output_type_name(o.type);
+  if (!entity.reference(word, "joint", o.entity, names.joints)) return;
+  if (!d.joints[*names.joints.find(o.entity)].motion)
+    entity.error(word, sentences::joint_without_motion());
+}
+
 void output(const OutputDescription& o, const ModelDescription& d, const Names& names,
             const Entity& entity) {
   const std::string what = output_type_name(o.type);
@@ -60,6 +83,15 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
       break;
     case OutputOf::force:
       force_output(o, d, names, entity);
+      break;
+    case OutputOf::reaction:
+      reaction(o, names, entity);
+      break;
+    case OutputOf::rod:
+      entity.reference(what, "rod", o.entity, names.rods);
+      break;
+    case OutputOf::motion:
+      motion_output(o, d, names, entity);
       break;
   }
   if (kind.components.key)

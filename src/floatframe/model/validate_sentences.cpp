@@ -240,6 +240,18 @@ std::string number_of(const char* what, int component, int n) {
 
 std::string weld_does_not_move() { return "found a weld, expected a joint that moves"; }
 
+std::string joint_without_motion() {
+  return "found a joint that moves freely, expected one with a prescribed motion";
+}
+
+std::string rod_has_no_axes() {
+  return "a rod has no axes of its own, expected world or a place {body, at}";
+}
+
+std::string force_without_point() {
+  return "a force is the same about every point, expected it with joint_torque only";
+}
+
 std::string load_without(const std::string& type, const std::string& quantity) {
   return "a " + type + " has no " + quantity + ", expected another force element";
 }

@@ -31,7 +31,7 @@ class OutputReader {
     if (found != 1) {
       for (const OutputType type : output_types)
         if (const char* key = output_kind(type).components.key) s->get(key);
-      for (const char* key : {"mode", "coordinate"}) s->get(key);
+      for (const char* key : {"mode", "coordinate", "about", "in"}) s->get(key);
       s->finish();
       s->error("found " + std::to_string(found) + " quantities, expected one of " +
                alternatives(output_words));
@@ -74,6 +74,21 @@ class OutputReader {
             what.error(
                 sentences::load_without(force_type_name(type->second), output_type_name(o.type)));
           components(name, *s, o);
+        }
+        break;
+      case OutputOf::reaction:
+        reaction(name, *s, what, o);
+        break;
+      case OutputOf::rod:
+        if (const auto rod = self_.reference(EntityKind::rod, what)) {
+          o.entity = *rod;
+          add(name, o);
+        }
+        break;
+      case OutputOf::motion:
+        if (const auto joint = self_.reference(EntityKind::joint, what)) {
+          o.entity = *joint;
+          add(name, o);
         }
         break;
     }
@@ -176,6 +191,48 @@ class OutputReader {
       return;
     }
     add(name, o);
+  }
+
+  /// A joint by its name, a rod as {rod: name}; `about` a point, `in` some axes.
+  void reaction(const std::string& name, YamlSection& s, const YamlValue& what,
+                OutputDescription& o) {
+    std::optional<std::string> entity;
+    if (what.is_map()) {
+      o.rod = true;
+      if (auto rod = what.section("a joint, or {rod: name}")) {
+        if (const auto value = rod->require("rod"))
+          entity = self_.reference(EntityKind::rod, *value);
+        rod->finish();
+      }
+    } else {
+      entity = self_.reference(EntityKind::joint, what);
+    }
+    bool good = entity.has_value();
+    if (good) o.entity = *entity;
+    if (const auto about = s.get("about")) {
+      o.about = true;
+      const auto at = point(*about);
+      good = at && good;
+      if (at) o.at = *at;
+    }
+    if (const auto in = s.get("in")) good = axes(*in, o) && good;
+    if (good)
+      components(name, s, o);
+    else
+      s.get(output_kind(o.type).components.key);
+  }
+
+  bool axes(const YamlValue& in, OutputDescription& o) {
+    if (in.is_map()) {
+      const auto to = point(in);
+      if (!to) return false;
+      o.in = OutputAxes::place;
+      o.to = *to;
+      return true;
+    }
+    const auto word = in.word(std::span(rules::reaction_axes).first(index_of(OutputAxes::place)));
+    if (word) o.in = static_cast<OutputAxes>(*word);
+    return word.has_value();
   }
 
   void mode(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {

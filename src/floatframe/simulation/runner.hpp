@@ -12,6 +12,7 @@
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/overflow.hpp"
+#include "floatframe/simulation/reaction_solver.hpp"
 #include "floatframe/simulation/results.hpp"
 #include "floatframe/simulation/step_report.hpp"
 
@@ -31,7 +32,10 @@ class Runner {
   Runner(F& formulation, const StepOptions& options, double min_step)
       : f_(formulation), integrator_(formulation, options), min_step_(min_step) {
     memory_.outputs.resize(f_.model().outputs.size());
+    terms_ = output_terms(f_.model());
   }
+  /// What outputs of reactions are taken from; it must outlive this.
+  void set_reaction_solver(ReactionSolver<F>& solver) noexcept { reactions_ = &solver; }
 
   State& state() noexcept { return state_; }
   const State& state() const noexcept { return state_; }
@@ -93,10 +97,14 @@ class Runner {
     const Model& model = f_.model();
     f_.positions(state_.t, state_.q);
     f_.velocities(state_.v);
-    f_.forces();
-    f_.set_accelerations(state_.a);
+    if (terms_ == OutputTerms::forces)
+      f_.forces();
+    else
+      f_.dynamics();
+    if (reactions_) reactions_->solve(state_, f_.inputs(), f_.spring_angles());
+    f_.set_accelerations(reactions_ ? reactions_->accelerations() : state_.a);
     *row++ = state_.t;
-    const OutputView view(f_, state_.t, state_.q);
+    const OutputView view(f_, state_.t, state_.q, reactions_ ? &reactions_->reactions() : nullptr);
     for (std::size_t k = 0; k < model.outputs.size(); ++k)
       *row++ = output_value(view, model.outputs[k], memory_.outputs[k]);
   }
@@ -215,6 +223,8 @@ class Runner {
   double min_step_, asked_ = 0.0;
   StepAttempt last_;
   RunnerMemory memory_;
+  OutputTerms terms_ = OutputTerms::forces;
+  ReactionSolver<F>* reactions_ = nullptr;
 };
 
 // Compiled once, in runner.cpp: every run of a formulation does the same arithmetic.

@@ -3,6 +3,8 @@
 // ask for, a formulation, the state at the start with loops closed or in equilibrium, accelerations
 // and constraint forces, the options of the integrator.
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "floatframe/formulation/absolute.hpp"
@@ -28,6 +30,8 @@ class StartedModel {
   InertiaMethod inertia() const noexcept { return inertia_; }
   const State& state() const noexcept { return state_; }
   const StartReport& report() const noexcept { return report_; }
+  /// What else the user should know of the start.
+  void add_note(std::string note) { report_.notes.push_back(std::move(note)); }
   const StepOptions& step_options() const noexcept { return step_options_; }
   /// Smallest substep [s].
   double min_step() const noexcept { return min_step_; }

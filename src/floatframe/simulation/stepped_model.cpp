@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/light_motion.hpp"
 
 namespace floatframe {
@@ -11,6 +12,13 @@ StepOptions limited(StepOptions options, const StepLimits& limits) {
   options.fixed_iterations = limits.fixed_iterations;
   options.time_budget = limits.time_budget;
   return options;
+}
+
+std::string open_outputs_note(const std::vector<std::string>& names) {
+  return named_text("output", "outputs", names) + (names.size() == 1 ? " is" : " are") +
+         " not unique, since constraints are redundant: of the reactions that are possible those "
+         "of "
+         "least norm are given";
 }
 
 }  // namespace
@@ -25,6 +33,9 @@ SteppedModel<F>::SteppedModel(const Model& model, const SimulationDescription& o
       runner_(f_, step_options_, min_step_),
       grid_(start_.state().t, options.step, limits.duration) {
   begin_at_start();
+  prepare_reactions();
+  if (reactions_ && !reactions_->open_outputs().empty())
+    start_.add_note(open_outputs_note(reactions_->open_outputs()));
 }
 
 template <class F>
@@ -36,12 +47,22 @@ SteppedModel<F>::SteppedModel(const SteppedModel& found, double duration)
       runner_(f_, step_options_, min_step_),
       grid_(start_.state().t, found.grid_.step(), duration) {
   begin_at_start();
+  prepare_reactions();
 }
 
 template <class F>
 void SteppedModel<F>::begin_at_start() {
   runner_.state() = start_.state();
   first_ = memory();
+}
+
+template <class F>
+void SteppedModel<F>::prepare_reactions() {
+  if (output_terms(model()) != OutputTerms::reactions) return;
+  reactions_.emplace(model(), start_.inertia(), start_.state(),
+                     ReactionOptions{step_options_.penalty_mass, grid_.step(),
+                                     !start_.report().redundant.empty()});
+  runner_.set_reaction_solver(*reactions_);
 }
 
 template <class F>

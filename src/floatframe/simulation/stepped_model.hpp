@@ -90,12 +90,14 @@ class SteppedModel {
 
  private:
   void begin_at_start();
+  void prepare_reactions();
 
   StartedModel<F> start_;
   F& f_;
   StepOptions step_options_;
   double min_step_;  ///< [s]
   Runner<F> runner_;
+  std::optional<ReactionSolver<F>> reactions_;  ///< if an output asks for them
   TimeGrid grid_;
   SteppedMemory first_;
 };

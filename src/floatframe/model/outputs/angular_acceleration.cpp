@@ -1,0 +1,19 @@
+// Angular acceleration of a body [rad/s2], world axes.
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::angular_acceleration>(const OutputView& view,
+                                                         const Output& output,
+                                                         FollowedOutput&) noexcept {
+  return view.body_angular_acceleration(output.body)[output.component];
+}
+
+constinit const OutputKind angular_acceleration_output = {.about = "in world axes",
+                                                          .of = OutputOf::body,
+                                                          .components = world_axes,
+                                                          .unit = "rad/s2",
+                                                          .terms = OutputTerms::reactions};
+
+}  // namespace floatframe

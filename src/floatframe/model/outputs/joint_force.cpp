@@ -1,0 +1,22 @@
+// Force that a joint transmits to its child, its motion included, or a rod to the body at `to` [N].
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::joint_force>(const OutputView& view, const Output& output,
+                                                FollowedOutput&) noexcept {
+  const Reactions& all = view.reactions();
+  const Reactions::Wrench& w = output.rod >= 0 ? all.rods[output.rod] : all.joints[output.joint];
+  if (output.to < 0) return w.force[output.component];
+  return view.marker(output.to).R.col(output.component).dot(w.force);
+}
+
+constinit const OutputKind joint_force_output = {
+    .about = "force on the child, on the body at `to` of a rod",
+    .of = OutputOf::reaction,
+    .components = world_axes,
+    .unit = "N",
+    .terms = OutputTerms::reactions};
+
+}  // namespace floatframe

@@ -1,0 +1,32 @@
+// Torque that a joint transmits to its child, its motion included, or a rod to the body at `to`
+// [N m]. With the force F and the torque T_M about the point M of the joint on the child (of a rod
+// its end at `to`), the torque about a point P is
+//   T_P = T_M + (p_WM - p_WP) x F
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::joint_torque>(const OutputView& view, const Output& output,
+                                                 FollowedOutput&) noexcept {
+  const Model& model = view.model();
+  const bool rod = output.rod >= 0;
+  const Reactions& all = view.reactions();
+  const Reactions::Wrench& w = rod ? all.rods[output.rod] : all.joints[output.joint];
+  Vec3 torque = w.torque;
+  if (output.marker >= 0) {
+    const int own = rod ? model.rods[output.rod].b : model.joints[output.joint].frame_M;
+    torque += (view.marker(own).r - view.marker(output.marker).r).cross(w.force);
+  }
+  if (output.to < 0) return torque[output.component];
+  return view.marker(output.to).R.col(output.component).dot(torque);
+}
+
+constinit const OutputKind joint_torque_output = {
+    .about = "torque on the child, on the body at `to` of a rod",
+    .of = OutputOf::reaction,
+    .components = world_axes,
+    .unit = "N m",
+    .terms = OutputTerms::reactions};
+
+}  // namespace floatframe

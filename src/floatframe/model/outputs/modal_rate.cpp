@@ -1,0 +1,15 @@
+// Rate of the amplitude of a mode of a flexible body.
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::modal_rate>(const OutputView& view, const Output& output,
+                                               FollowedOutput&) noexcept {
+  return view.amplitude_rate(output.body, output.component);
+}
+
+constinit const OutputKind modal_rate_output = {
+    .about = "rate of the amplitude of the mode", .of = OutputOf::mode, .unit = "1/s"};
+
+}  // namespace floatframe

@@ -1,0 +1,29 @@
+// Force [N] or torque [N m] of a prescribed motion along the coordinate it prescribes, on the
+// child: what a motor must supply.
+#include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+namespace {
+
+const char* motion_force_unit(const Model& model, const Output& output) {
+  return joint_unit(model.joints[output.joint].type, 0) == JointUnit::rad ? "N m" : "N";
+}
+
+}  // namespace
+
+template <>
+double output_value_of<OutputType::motion_force>(const OutputView& view, const Output& output,
+                                                 FollowedOutput&) noexcept {
+  return view.reactions().motions[output.joint];
+}
+
+constinit const OutputKind motion_force_output = {
+    .about = "force or torque along the coordinate that drives it, on the child",
+    .of = OutputOf::motion,
+    .unit = "N or N m",
+    .unit_of = motion_force_unit,
+    .terms = OutputTerms::reactions};
+
+}  // namespace floatframe

@@ -1,0 +1,23 @@
+#pragma once
+// What joints, rods and motors transmit at a sample (simulation/reaction_solver.hpp solves for it).
+#include <vector>
+
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+struct Reactions {
+  /// World axes; the torque about the place that the vector says.
+  struct Wrench {
+    Vec3 force = Vec3::Zero();   ///< [N]
+    Vec3 torque = Vec3::Zero();  ///< [N m]
+  };
+  std::vector<Wrench> joints;    ///< of each joint, its motion included: on the child, about M
+  std::vector<Wrench> rods;      ///< of each rod: on the body at `to`, about its end there
+  std::vector<double> tensions;  ///< of each rod [N]
+  /// Of each joint: the force or torque of its prescribed motion along the coordinate, on the child
+  /// [N, N m]; zero without one.
+  std::vector<double> motions;
+};
+
+}  // namespace floatframe

@@ -1,0 +1,155 @@
+#include "floatframe/simulation/reaction_solver.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "floatframe/model/output_kind.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+
+namespace floatframe {
+
+namespace {
+
+constexpr int reaction_slot = 0;
+/// Passes of (2): it ends before when the last ones have not come nearer.
+constexpr int most_passes = 60, idle_passes = 3;
+/// A part of what redundant constraints leave open that counts, of the whole.
+constexpr double left_open = 1e-6;
+
+double largest_entry(const VecX& x) noexcept {
+  double m = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) m = std::max(m, std::abs(x[i]));
+  return m;
+}
+
+}  // namespace
+
+template <class F>
+ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, const State& start,
+                                  const ReactionOptions& options)
+    : f_(model, method), options_(options) {
+  const int nv = f_.velocities(), nc = f_.constraints();
+  a_ = residual_ = delta_ = best_a_ = VecX::Zero(nv);
+  lambda_ = gamma_ = work_ = increments_ = best_lambda_ = VecX::Zero(nc);
+  reactions_.joints.resize(model.joints.size());
+  reactions_.motions.assign(model.joints.size(), 0.0);
+  reactions_.rods.resize(model.rods.size());
+  reactions_.tensions.assign(model.rods.size(), 0.0);
+  if (options.redundant) {
+    least_.emplace(model);
+    least_lambda_ = VecX::Zero(least_->rows());
+  }
+  constexpr int most = 1000;  // as `start_accelerations`
+  if (nv <= most) {
+    const VecX possible = possible_masses(f_, start);
+    f_.positions(start.t, start.q);
+    f_.velocities(start.v);
+    f_.dynamics();
+    lacks_mass_ =
+        may_lack_mass(f_, mass_diagonal(f_, start, possible), possible, options.penalty_mass);
+  }
+  if (least_) find_open_outputs(start);
+}
+
+template <class F>
+int ReactionSolver<F>::factorize() noexcept {
+  constexpr double s = 1e-30;  // no stiffness
+  if (!lacks_mass_ && f_.factorize(1.0, 0.0, s, options_.penalty_mass / s, reaction_slot) < 0)
+    return -1;
+  return f_.factorize_metric(options_.step * options_.step, options_.penalty_mass, reaction_slot);
+}
+
+template <class F>
+void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs,
+                              std::span<const double> spring_angles) noexcept {
+  f_.set_inputs(inputs);
+  f_.set_spring_angles(spring_angles);
+  f_.positions(state.t, state.q);
+  f_.velocities(state.v);
+  f_.dynamics();
+  a_ = state.a;
+  lambda_.setZero();
+  f_.residual(a_, lambda_, 0.0, residual_);  // multipliers of the tangent
+  if (factorize() < 0) iterate();
+  f_.constraint_accelerations(a_, gamma_);
+  f_.residual(a_, lambda_, 0.0, residual_);
+  force_error_ = largest_entry(residual_);
+  acceleration_error_ = largest_entry(gamma_);
+  collect_wrenches();
+  if (!least_) return;
+  least_->place(f_, state.t);
+  least_->multipliers(reactions_, least_lambda_);
+  least_->shorten(least_lambda_);
+  least_->wrenches(least_lambda_, reactions_);
+}
+
+/// (2). The best of the passes is kept: round-off may make the last ones worse.
+template <class F>
+void ReactionSolver<F>::iterate() noexcept {
+  const double p = options_.penalty_mass;
+  double best = std::numeric_limits<double>::infinity();
+  for (int pass = 0, idle = 0; pass < most_passes && idle < idle_passes; ++pass) {
+    f_.residual(a_, lambda_, 0.0, residual_);
+    f_.constraint_accelerations(a_, gamma_);
+    delta_ = -residual_;
+    work_ = -p * gamma_;
+    f_.solve(delta_, work_, increments_, reaction_slot);
+    a_ += delta_;
+    lambda_ += p * gamma_;
+    lambda_ += p * increments_;
+    const double size = largest_entry(delta_);
+    if (!std::isfinite(size)) break;
+    ++idle;
+    if (size < 0.9 * best) {
+      idle = 0;
+      best = size;
+      best_a_ = a_;
+      best_lambda_ = lambda_;
+    }
+    if (size == 0.0) break;
+  }
+  if (std::isfinite(best)) {
+    a_ = best_a_;
+    lambda_ = best_lambda_;
+  }
+}
+
+template <class F>
+void ReactionSolver<F>::collect_wrenches() noexcept {
+  for (std::size_t j = 0; j < reactions_.joints.size(); ++j) {
+    Reactions::Wrench& w = reactions_.joints[j];
+    w = {};
+    if constexpr (requires { f_.tree_joint_wrench(0, w.force, w.torque); })
+      f_.tree_joint_wrench(static_cast<int>(j), w.force, w.torque);
+  }
+  add_part_wrenches(f_.constraint_set(), lambda_, reactions_);
+}
+
+template <class F>
+void ReactionSolver<F>::find_open_outputs(const State& start) {
+  f_.positions(start.t, start.q);
+  f_.velocities(start.v);
+  least_->place(f_, start.t);
+  const Model& model = f_.model();
+  const OutputView view(f_, start.t, start.q, &reactions_);
+  const Eigen::Index n = least_->rows();
+  for (const Output& o : model.outputs) {
+    if (output_kind(o.type).of != OutputOf::reaction && output_kind(o.type).of != OutputOf::rod &&
+        output_kind(o.type).of != OutputOf::motion)
+      continue;
+    VecX part(n);  // of each multiplier in the output
+    for (Eigen::Index i = 0; i < n; ++i) {
+      FollowedOutput nothing;
+      least_->wrenches(VecX::Unit(n, i), reactions_);
+      part[i] = output_value(view, o, nothing);
+    }
+    VecX held = part;
+    least_->shorten(held);
+    if ((part - held).norm() > left_open * part.norm()) open_.push_back(o.name);
+  }
+}
+
+template class ReactionSolver<RelativeFormulation>;
+template class ReactionSolver<AbsoluteFormulation>;
+
+}  // namespace floatframe

@@ -1,0 +1,102 @@
+#pragma once
+// The balance of every body by itself: inertia about its frame, gravity, modal stiffness and damping,
+// force elements, and what joints, rods and motions transmit, all of it from the motion of the
+// body and of its markers. Nothing of the formulation's residual is used.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/formulation/relative.hpp"
+#include "floatframe/model/reactions.hpp"
+
+namespace floatframe::test {
+
+struct BodyBalance {
+  double error = 0.0;  ///< largest, relative to the largest force (times the length of the body,
+                       ///< of modes times their largest displacement)
+  double largest_force = 0.0;  ///< [N]
+  std::string body;            ///< with that error
+};
+
+/// `f` is at (q, v) with the accelerations that go with the reactions, after `dynamics`.
+template <class F>
+BodyBalance body_balance(const F& f, const VecX& q, const Reactions& reactions,
+                         InertiaMethod method) {
+  const Model& model = f.model();
+  const std::size_t n = model.bodies.size();
+  std::vector<VecX> sum(n);
+  double largest = 1e-12;  // [N], of a mechanism that nothing moves
+  const auto add = [&](int marker, const Vec3& force, const Vec3& torque) {
+    const LocalMarker& m = f.local_marker(marker);
+    if (m.body < 0) return;
+    const Vec3 arm = f.body_rotation(m.body) * m.p_B;
+    VecX& h = sum[m.body];
+    h.head<3>() -= force;
+    h.segment<3>(3) -= arm.cross(force) + torque;
+    largest = std::max({largest, force.norm(), torque.norm() / model.bodies[m.body].length});
+    if (!m.local) return;
+    VecX own = m.Jr.transpose() * force;
+    if (m.rotates) own += m.Jw.transpose() * torque;
+    h.tail(own.size()) -= own;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const int k = static_cast<int>(i), nm = model.bodies[i].modes();
+    BodyInertia inertia(*model.bodies[i].data, model.bodies[i].name, method);
+    MatX M = MatX::Zero(6 + nm, 6 + nm);
+    VecX Qv = VecX::Zero(6 + nm), y(nm), yd(nm), z(6 + nm);
+    for (int m = 0; m < nm; ++m) {
+      y[m] = f.amplitude(q, k, m);
+      yd[m] = f.amplitude_rate(k, m);
+      z[6 + m] = f.amplitude_acceleration(k, m);
+    }
+    inertia.relative(Vec3::Zero(), f.body_rotation(k), f.body_angular_velocity(k), y.data(),
+                     yd.data(), M, Qv);
+    const PointMotion a = f.body_acceleration(k);
+    z.head<3>() = a.linear - model.gravity;
+    z.segment<3>(3) = a.angular;
+    sum[i] = M * z - Qv;
+    if (nm == 0) continue;
+    sum[i].tail(nm) += model.bodies[i].data->K * y + model.bodies[i].data->D * yd;
+  }
+  for (const VecX& h : sum) largest = std::max(largest, h.head<3>().norm());
+  for (std::size_t k = 0; k < model.forces.size(); ++k) {
+    const Force& force = model.forces[k];
+    const WrenchRow& w = f.force(static_cast<int>(k)).wrench;
+    if (force.a >= 0) add(force.a, w.Fa, w.Ta);
+    add(force.b, w.Fb, w.Tb);
+  }
+  const auto between = [&](int a, int b, const Reactions::Wrench& w) {
+    const Vec3 d = f.marker(b).r - f.marker(a).r;
+    add(b, w.force, w.torque);
+    add(a, -w.force, -(w.torque + d.cross(w.force)));
+  };
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    between(model.joints[j].frame_F, model.joints[j].frame_M, reactions.joints[j]);
+  for (std::size_t r = 0; r < model.rods.size(); ++r)
+    between(model.rods[r].a, model.rods[r].b, reactions.rods[r]);
+  // The largest displacement of a mode is what a force does to it at most.
+  const auto shape_size = [&](std::size_t body, Eigen::Index mode) {
+    double most = 0.0;
+    for (const ModalNode& node : model.bodies[body].data->nodes)
+      most = std::max({most, node.X.col(mode).norm(),
+                       node.X_theta.col(mode).norm() * model.bodies[body].length});
+    return most > 0.0 ? most : 1.0;
+  };
+  BodyBalance balance;
+  balance.largest_force = largest;
+  for (std::size_t i = 0; i < n; ++i) {
+    double error = std::max(sum[i].head<3>().norm() / largest,
+                            sum[i].segment<3>(3).norm() / (largest * model.bodies[i].length));
+    for (Eigen::Index m = 0; m < sum[i].size() - 6; ++m)
+      error = std::max(error, std::abs(sum[i][6 + m]) / (largest * shape_size(i, m)));
+    if (!(error <= balance.error)) {
+      balance.error = error;
+      balance.body = model.bodies[i].name;
+    }
+  }
+  return balance;
+}
+
+}  // namespace floatframe::test
