@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Checks that functions and files stay small enough to be read in one go.
+"""Checks that functions, files and lines stay small enough to be read in one go.
 
 Usage: check_sizes.py [root of the project]
-Exit code 1 and one line for each function or file that is too long (file:line: sentence). Sources are formatted, so a
+Exit code 1 and one line for each function, file or line that is too long (file:line: sentence). Sources are formatted, so a
 function ends at the closing brace in the column where its first line begins.
 """
 import pathlib
@@ -10,6 +10,7 @@ import re
 import sys
 
 LONGEST_FUNCTION = 80
+LONGEST_LINE = 100  # of C++, columns
 # folder -> lines of a file
 LONGEST_FILE = {"src": 400, "tests": 450}
 # What opens a block and is no function.
@@ -41,6 +42,11 @@ def functions(lines):
 
 
 def errors(root):
+    for folder in ("src", "tests", "examples", "fuzz"):
+        for path in sorted((root / folder).rglob("*.[ch]pp")):
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+                if len(line) > LONGEST_LINE:
+                    yield f"{path.relative_to(root)}:{number}: {len(line)} columns; expected at most {LONGEST_LINE}"
     for folder, longest in LONGEST_FILE.items():
         for path in sorted((root / folder).rglob("*")):
             if path.suffix not in (".hpp", ".cpp", ".py") or "data" in path.parts:

@@ -1,6 +1,6 @@
-// A parameter study in threads: one Model, which never changes and is shared, one Simulation in each
-// thread. Which gain of the controller of control.cpp gives the smallest acceleration? The answers
-// do not depend on the number of threads.
+// A parameter study in threads: one Model, which never changes and is shared, one Simulation in
+// each thread. Which gain of the controller of control.cpp gives the smallest acceleration? The
+// answers do not depend on the number of threads.
 //
 //   sweep_threads examples/active_damper/active_damper.yaml
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // One call, one result: a run, the static equilibrium, counts of coordinates and constraints, a
-// linear system near a state, advice on modes. Each takes a model, most of them options, and returns
-// a plain struct.
+// linear system near a state, advice on modes. Each takes a model, most of them options, and
+// returns a plain struct.
 #include "floatframe/analyses/analysis_list.hpp"
 #include "floatframe/simulation/linearize.hpp"
 #include "floatframe/simulation/results.hpp"

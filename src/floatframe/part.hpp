@@ -1,6 +1,6 @@
 #pragma once
-// Parts from finite-element files: read, convert to SI units, reduce to a flexible body with a health
-// report, keep as a body file.
+// Parts from finite-element files: read, convert to SI units, reduce to a flexible body with a
+// health report, keep as a body file.
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/formats/body_file/body_file.hpp"

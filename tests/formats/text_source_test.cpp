@@ -29,7 +29,7 @@ std::string gzip(const std::string& text) {
   return out;
 }
 
-std::string error_of(const std::string& bytes) {
+std::string error_of_gzip(const std::string& bytes) {
   try {
     decompressed(bytes, "a.inp.gz");
   } catch (const InputError& error) {
@@ -145,18 +145,18 @@ TEST(Gzip, DamagedAndTruncated) {
   const std::string bytes = gzip(text);
   for (const std::size_t size :
        {std::size_t{2}, std::size_t{12}, bytes.size() / 2, bytes.size() - 5}) {
-    EXPECT_EQ(error_of(bytes.substr(0, size)),
+    EXPECT_EQ(error_of_gzip(bytes.substr(0, size)),
               "a.inp.gz: the gzip data end too early: the file is truncated")
         << size;
   }
   std::string damaged = bytes;
   damaged[damaged.size() - 6] = static_cast<char>(damaged[damaged.size() - 6] ^ 0x55);
-  EXPECT_EQ(error_of(damaged), "a.inp.gz: the gzip data are damaged (incorrect data check)");
+  EXPECT_EQ(error_of_gzip(damaged), "a.inp.gz: the gzip data are damaged (incorrect data check)");
 }
 
 TEST(Gzip, BombsAreNotRead) {
   // 70 MiB of zeros in 70 kB.
-  EXPECT_NE(error_of(gzip(std::string(std::size_t{70} << 20, '0')))
+  EXPECT_NE(error_of_gzip(gzip(std::string(std::size_t{70} << 20, '0')))
                 .find("is compressed more than 200 times, which no deck is: it is not read"),
             std::string::npos);
 }

@@ -7,6 +7,7 @@
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/force_kind.hpp"
+#include "support/exact_tangents.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {
@@ -58,7 +59,7 @@ Model everything(unsigned seed) {
             f.b = j.frame_M;
           }
       } else {
-        if (kind.between_markers()) f.a = marker((body + 2) % names.size());
+        if (kind.markers != ForceMarkers::one) f.a = marker((body + 2) % names.size());
         f.b = marker(body);
       }
       if (f.type == ForceType::tyre) {
@@ -84,9 +85,8 @@ Model with_exact_dampers(const Model& model, const VecX& q) {
     const Force& force = model.forces[k];
     const MarkerState& b = f.marker(force.b);
     const ForceState& state = f.force(static_cast<int>(k));
-    ForceTangent t;
-    evaluate_force_tangent(model, force, force.a >= 0 ? f.marker(force.a) : b, b, f.origin(), 0.3,
-                           0.0, t);
+    const ForceTangent t = exact_tangent(
+        {model, force, force.a >= 0 ? f.marker(force.a) : b, b, f.origin(), 0.3, 0.0, {}});
     Mat12 C = 0.5 * (t.C + t.C.transpose());
     for (int r = 0; r < state.row_count; ++r) {
       const Vec12 g = stacked(state.rows[r].g);

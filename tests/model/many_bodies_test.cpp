@@ -10,7 +10,7 @@ namespace {
 
 constexpr int n = 20000;
 
-AttachmentDescription at(const std::string& body, const Vec3& point) {
+AttachmentDescription place_on(const std::string& body, const Vec3& point) {
   AttachmentDescription a;
   a.body = body;
   a.point = point;
@@ -36,21 +36,21 @@ ModelDescription many_bodies() {
     JointDescription j;
     j.name = numbered("j", k);
     j.type = JointType::revolute;
-    j.parent = at(k % 20 == 0 ? ground_name : numbered("b", k - 1), p);
-    j.child = at(b.name, p);
+    j.parent = place_on(k % 20 == 0 ? ground_name : numbered("b", k - 1), p);
+    j.child = place_on(b.name, p);
     if (k % 500 != 0) d.joints.push_back(j);  // chains that hang from free joints are left
     JointSpringDescription motor;
     motor.joint = k % 500 == 0 ? numbered("j", k + 1) : j.name;
     motor.spring = PiecewisePolynomial::linear(5.0, 0.0);
     d.forces.push_back({numbered("motor", k), motor, {}});
     SpringDamperDescription spring;
-    spring.a = at(ground_name, p + Vec3::UnitZ());
-    spring.b = at(b.name, p);
+    spring.a = place_on(ground_name, p + Vec3::UnitZ());
+    spring.b = place_on(b.name, p);
     spring.spring = PiecewisePolynomial::linear(5.0, 1.0);
     d.forces.push_back({numbered("spring", k), spring, {}});
     OutputDescription o;
     o.name = numbered("z", k);
-    o.at = at(b.name, p);
+    o.at = place_on(b.name, p);
     o.component = 2;
     d.outputs.push_back(o);
     o.name = motor.joint;

@@ -1,5 +1,5 @@
-// Every invalid model file of tests/data/bad_models gives the sentences that stand beside it, places
-// included.
+// Every invalid model file of tests/data/bad_models gives the sentences that stand beside it,
+// places included.
 #include <gtest/gtest.h>
 
 #include <filesystem>

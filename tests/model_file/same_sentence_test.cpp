@@ -44,7 +44,7 @@ struct Mistake {
   std::function<void(ModelDescription&)> made;  ///< in the description of the right file
 };
 
-FlexibleDescription& bar(ModelDescription& d) {
+FlexibleDescription& bar_of(ModelDescription& d) {
   return std::get<FlexibleDescription>(d.bodies[1].kind);
 }
 
@@ -55,14 +55,14 @@ TEST(SameSentence, InAFileAndInADescription) {
        [](D& d) { std::get<RigidDescription>(d.bodies[0].kind).mass = -1.0; }},
       {"[1, 1, 1]", "[1, 1, 5]",
        [](D& d) { std::get<RigidDescription>(d.bodies[0].kind).J_C(2, 2) = 5.0; }},
-      {"young: 2e11", "young: 0", [](D& d) { bar(d).young = 0.0; }},
-      {"poisson: 0.3", "poisson: 0.5", [](D& d) { bar(d).poisson = 0.5; }},
-      {"damping: 0.01", "damping: 2", [](D& d) { bar(d).damping_ratio = 2.0; }},
-      {"density: 7800", "density: 0", [](D& d) { bar(d).density = 0.0; }},
-      {"normal_modes: 2", "normal_modes: 100", [](D& d) { bar(d).normal_modes = 100; }},
+      {"young: 2e11", "young: 0", [](D& d) { bar_of(d).young = 0.0; }},
+      {"poisson: 0.3", "poisson: 0.5", [](D& d) { bar_of(d).poisson = 0.5; }},
+      {"damping: 0.01", "damping: 2", [](D& d) { bar_of(d).damping_ratio = 2.0; }},
+      {"density: 7800", "density: 0", [](D& d) { bar_of(d).density = 0.0; }},
+      {"normal_modes: 2", "normal_modes: 100", [](D& d) { bar_of(d).normal_modes = 100; }},
       {"section_inertia: false", "section_inertia: true",
-       [](D& d) { bar(d).section_inertia = true; }},
-      {"elements: 4", "elements: 0", [](D& d) { bar(d).bars[0].elements = 0; }},
+       [](D& d) { bar_of(d).section_inertia = true; }},
+      {"elements: 4", "elements: 0", [](D& d) { bar_of(d).bars[0].elements = 0; }},
       {"axis_2: y", "axis_2: x", [](D& d) { d.joints[0].axis_2 = Vec3::UnitX(); }},
       {"keep: false", "keep: true", [](D& d) { d.joints[0].keep = true; }},
       {"unit: N", "unit: 'N,m'", [](D& d) { d.inputs[0].unit = "N,m"; }},

@@ -64,8 +64,8 @@ TEST_F(Forcings, PulseBetweenTwoSteps) {
   EXPECT_TRUE(says(w, "take a step of at most 0.0001 s"));
 }
 
-// What is seen: jumps, pulses that last for steps, smooth tables with many entries per step, entries
-// after the end.
+// What is seen: jumps, pulses that last for steps, smooth tables with many entries per step,
+// entries after the end.
 TEST_F(Forcings, TablesThatStepsFollow) {
   EXPECT_FALSE(says(warnings("", "table: [[0, 0], [0.0502, 0], [0.05021, 10], [1, 10]]"),
                     "passes over values"));

@@ -27,7 +27,7 @@ VecX squares(const Linearization& l) {
   return e.values;
 }
 
-constexpr Coordinates both[] = {Coordinates::relative, Coordinates::absolute};
+constexpr Coordinates either_coordinates[] = {Coordinates::relative, Coordinates::absolute};
 
 TEST(Linearize, MassOnASpring) {
   const Model model = model_of(R"(
@@ -44,7 +44,7 @@ simulation: {step: 0.001, duration: 1}
   EXPECT_EQ(l.J.rows(), 0);
   EXPECT_EQ(l.coordinates, std::vector<std::string>{"joint 'slide'"});
   EXPECT_TRUE(l.constraints.empty());
-  for (const Coordinates coordinates : both) {
+  for (const Coordinates coordinates : either_coordinates) {
     const VecX w2 = squares(linearize(model, {.coordinates = coordinates}));
     ASSERT_EQ(w2.size(), 1);
     EXPECT_NEAR(std::sqrt(w2[0]), std::sqrt(40.0 / 3.0), 1e-8);
@@ -61,7 +61,7 @@ constexpr double inertia = 2 * 1.5 * 1.5 + 0.3, moment = 2 * 1.5 * 9.81;
 TEST(Linearize, PendulumInBothCoordinates) {
   const Model model = model_of(pendulum);
   ASSERT_NEAR(model.gravity.norm(), 9.81, 1e-12);
-  for (const Coordinates coordinates : both) {
+  for (const Coordinates coordinates : either_coordinates) {
     const Linearization l = linearize(model, {.coordinates = coordinates});
     const VecX w2 = squares(l);
     ASSERT_EQ(w2.size(), 1);
@@ -109,7 +109,7 @@ joints:
   second: {type: revolute, parent: one, child: two, at: [0, 0, -1], axis: y}
 simulation: {step: 0.001, duration: 1}
 )");
-  for (const Coordinates coordinates : both) {
+  for (const Coordinates coordinates : either_coordinates) {
     const VecX w2 = squares(linearize(model, {.coordinates = coordinates}));
     ASSERT_EQ(w2.size(), 2);
     EXPECT_NEAR(w2[0], 9.81 * (2.0 - std::sqrt(2.0)), 1e-6);

@@ -31,7 +31,8 @@ bodies:
 joints:
   root: {type: weld, child: beam, at: root}
 forces:
-  push: {type: force, body: beam, at: tip, direction: [0, 0, 1], magnitude: {sine: {amplitude: 5, frequency: "${frequency}"}}}
+  push: {type: force, body: beam, at: tip, direction: [0, 0, 1], magnitude: {sine: {amplitude: 5,
+      frequency: "${frequency}"}}}
 outputs:
   tip.z: {position: {body: beam, at: tip}, axis: z}
   tip.rate: {velocity: {body: beam, at: tip}, axis: z}

@@ -11,7 +11,8 @@ namespace {
 
 TEST(Overflow, IsNotCalledASingularMatrix) {
   const char* const text = R"(
-bodies: {b: {position: [0, 0, 0], rigid: {mass: MASS, centre_of_mass: [0.5, 0.1, 0.2], inertia: [MASS, MASS, MASS]}}}
+bodies: {b: {position: [0, 0, 0], rigid: {mass: MASS, centre_of_mass: [0.5, 0.1, 0.2],
+    inertia: [MASS, MASS, MASS]}}}
 joints: {h: {type: revolute, child: b, at: [0, 0, 0], axis: y}}
 )";
   const auto with_mass = [&](const std::string& mass) {
@@ -102,7 +103,8 @@ TEST(Overflow, LongAxesAreAxes) {
 
 TEST(Tolerances, BelowRoundingAreBlamedThemselves) {
   const Model model = model_of(R"(
-bodies: {b: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0.5, 0.1, 0.2], inertia: [1, 1, 1]}}}
+bodies: {b: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0.5, 0.1, 0.2],
+    inertia: [1, 1, 1]}}}
 joints: {h: {type: revolute, child: b, at: [0, 0, 0], axis: y}}
 )");
   RelativeFormulation f(model, model.simulation.inertia);

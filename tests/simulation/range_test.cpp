@@ -19,7 +19,7 @@ namespace {
 #define RANGE(name) FLOATFRAME_TEST_DATA "/range/" name ".yaml"
 #define EXAMPLE(name) FLOATFRAME_EXAMPLES "/" name "/" name ".yaml"
 
-constexpr Coordinates both[] = {Coordinates::relative, Coordinates::absolute};
+constexpr Coordinates both_coordinates[] = {Coordinates::relative, Coordinates::absolute};
 
 RunSummary summary_of(const ModelDescription& d, Coordinates coordinates) {
   SimulationDescription s = d.simulation;
@@ -44,7 +44,7 @@ bool says(const std::string& sentence, const std::string& part) {
 }
 
 TEST(Range, BeamBentBeyondItsLength) {
-  for (const Coordinates c : both) {
+  for (const Coordinates c : both_coordinates) {
     const RunSummary s = summary_of(RANGE("cantilever"), {}, c);
     EXPECT_EQ(s.status, "completed");
     const std::string far = warning(s, "deforms too far");
@@ -58,14 +58,14 @@ TEST(Range, BeamBentBeyondItsLength) {
 
 // Up to a tenth of its length nothing is said: linear and exact deflection differ by 1 %.
 TEST(Range, BeamBentALittle) {
-  for (const Coordinates c : both)
+  for (const Coordinates c : both_coordinates)
     EXPECT_TRUE(summary_of(RANGE("cantilever"), {{"load", "3.5"}}, c).warnings.empty());
   EXPECT_FALSE(
       summary_of(RANGE("cantilever"), {{"load", "6"}}, Coordinates::relative).warnings.empty());
 }
 
 TEST(Range, PendulumWithAStepOfHalfASecond) {
-  for (const Coordinates c : both) {
+  for (const Coordinates c : both_coordinates) {
     const RunSummary s = summary_of(RANGE("pendulum"), {}, c);
     EXPECT_TRUE(says(warning(s, "turns too far in one step of 0.5 s"), "body 'bob'"));
     EXPECT_TRUE(says(warning(s, "is too long for"), "steps per period"));
@@ -97,12 +97,12 @@ TEST(Range, WarningsAreOfKinds) {
 }
 
 TEST(Range, PendulumWithAStepThatResolvesIt) {
-  for (const Coordinates c : both)
+  for (const Coordinates c : both_coordinates)
     EXPECT_TRUE(summary_of(RANGE("pendulum"), {{"step", "0.02"}}, c).warnings.empty());
 }
 
 TEST(Range, BeamThatSpinsNearItsLowestFrequency) {
-  for (const Coordinates c : both) {
+  for (const Coordinates c : both_coordinates) {
     const RunSummary s = summary_of(RANGE("spinning_beam"), {}, c);
     const std::string w = warning(s, "spins too fast");
     EXPECT_TRUE(says(w, "lowest frequency of 31")) << w;
@@ -121,7 +121,7 @@ TEST(Range, ShaftThatTurnsAboutItsOwnAxis) {
   ModelDescription d = read_model(RANGE("spinning_beam"));
   d.joints[0].axis = Vec3::UnitX();
   d.amplitudes.clear();
-  for (const Coordinates c : both) {
+  for (const Coordinates c : both_coordinates) {
     const RunSummary s = summary_of(d, c);
     EXPECT_TRUE(s.warnings.empty()) << s.warnings.front().sentence;
   }
@@ -137,7 +137,7 @@ TEST(Range, OscillationThatTheStepDoesNotResolve) {
   strut.damper = {};
   strut.actuator.reset();
   d.joints[1].velocity = {0.0};
-  for (const Coordinates c : both) {
+  for (const Coordinates c : both_coordinates) {
     const RunSummary s = summary_of(d, c);
     const std::string w = warning(s, "is too long for the motion of body 'mass'");
     EXPECT_TRUE(says(w, "steps per period")) << w;
@@ -152,14 +152,14 @@ TEST(Range, NumericalDampingThatTakesTheVibrationAway) {
   d.gravity.setZero();
   d.simulation.step = 0.02;
   d.simulation.spectral_radius = 0.2;
-  for (const Coordinates c : both)
+  for (const Coordinates c : both_coordinates)
     EXPECT_TRUE(says(warning(summary_of(d, c), "numerical damping"), "spectral radius 0.2"));
 }
 
 TEST(Range, ExamplesPrintNothing) {
   for (const char* file : {EXAMPLE("flexible_pendulum"), EXAMPLE("slider_crank"),
                            EXAMPLE("active_damper"), EXAMPLE("iltis")})
-    for (const Coordinates c : both) {
+    for (const Coordinates c : both_coordinates) {
       const RunSummary s = summary_of(file, {}, c);
       EXPECT_EQ(s.status, "completed");
       EXPECT_TRUE(s.energy.balanced);
@@ -171,7 +171,7 @@ TEST(Range, ExamplesPrintNothing) {
 // the solver, and nothing is said of these.
 TEST(Range, NoiseIsNoMotion) {
   for (const char* speed : {"0", "5"})
-    for (const Coordinates c : both) {
+    for (const Coordinates c : both_coordinates) {
       const RunSummary s = summary_of(EXAMPLE("iltis"),
                                       {{"road", "flat"},
                                        {"speed", speed},
@@ -184,7 +184,7 @@ TEST(Range, NoiseIsNoMotion) {
 }
 
 TEST(Range, NothingHasMass) {
-  for (const Coordinates c : both) {
+  for (const Coordinates c : both_coordinates) {
     const RunSummary s = summary_of(RANGE("massless"), {}, c);
     EXPECT_EQ(s.status, "completed");
     EXPECT_TRUE(s.warnings.empty()) << s.warnings.front().sentence;
@@ -209,7 +209,7 @@ TEST(Range, StepLongerThanTheDuration) {
 
 TEST(Range, TheWatchLeavesRunsAsTheyAre) {
   for (const char* file : {RANGE("driven_arm"), RANGE("springs"), EXAMPLE("iltis")})
-    for (const Coordinates c : both) {
+    for (const Coordinates c : both_coordinates) {
       ModelDescription d = read_model(file);
       d.simulation.coordinates = c;
       d.simulation.duration = 0.5;

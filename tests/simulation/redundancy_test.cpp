@@ -66,7 +66,8 @@ TEST(Redundancy, IsNamedByCheckAndRun) {
 // and so is nothing that the other hinge might carry too.
 TEST(Redundancy, UniqueComponentsAreKnown) {
   const Model model = model_of(R"(
-bodies: {door: {position: [0, 0, 0], rigid: {mass: 20, centre_of_mass: [0.5, 0, 1], inertia: [1, 1, 1]}}}
+bodies: {door: {position: [0, 0, 0], rigid: {mass: 20, centre_of_mass: [0.5, 0, 1],
+    inertia: [1, 1, 1]}}}
 joints:
   low: {type: revolute, child: door, at: [0, 0, 0], axis: z}
   high: {type: revolute, child: door, at: [0, 0, 2], axis: z}
@@ -96,9 +97,12 @@ joints:
 TEST(Redundancy, PlanarForcesOfAFourBarAreUnique) {
   const Model model = model_of(R"(
 bodies:
-  crank: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0.1], inertia: [.001, .001, .001]}}
-  coupler: {position: [0, 0, 0.2], rigid: {mass: 2, centre_of_mass: [0.25, 0, 0.3], inertia: [.001, .001, .001]}}
-  rocker: {position: [0.5, 0, 0], rigid: {mass: 3, centre_of_mass: [0.5, 0, 0.2], inertia: [.001, .001, .001]}}
+  crank: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0.1],
+      inertia: [.001, .001, .001]}}
+  coupler: {position: [0, 0, 0.2], rigid: {mass: 2, centre_of_mass: [0.25, 0, 0.3],
+      inertia: [.001, .001, .001]}}
+  rocker: {position: [0.5, 0, 0], rigid: {mass: 3, centre_of_mass: [0.5, 0, 0.2],
+      inertia: [.001, .001, .001]}}
 joints:
   a: {type: revolute, child: crank, at: [0, 0, 0], axis: y}
   b: {type: revolute, parent: crank, child: coupler, at: [0, 0, 0.2], axis: y}

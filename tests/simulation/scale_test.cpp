@@ -31,10 +31,12 @@ simulation: {duration: 0}
 )";
 
 /// A four-bar whose coupler is the flexible bar.
-const char* const mechanism = R"(
-points: {a: [0, 0, 0], b: ["${0.3*s}", 0, "${0.4*s}"], c: ["${1.1*s}", 0, "${0.5*s}"], d: ["${0.9*s}", 0, 0]}
+const char* const four_bars = R"(
+points: {a: [0, 0, 0], b: ["${0.3*s}", 0, "${0.4*s}"], c: ["${1.1*s}", 0, "${0.5*s}"],
+    d: ["${0.9*s}", 0, 0]}
 bodies:
-  crank: {position: a, rigid: {mass: "${300*s*s*s}", centre_of_mass: ["${0.15*s}", 0, "${0.2*s}"], inertia: ["${6*s*s*s*s*s}", "${6*s*s*s*s*s}", "${6*s*s*s*s*s}"]}}
+  crank: {position: a, rigid: {mass: "${300*s*s*s}", centre_of_mass: ["${0.15*s}", 0, "${0.2*s}"],
+      inertia: ["${6*s*s*s*s*s}", "${6*s*s*s*s*s}", "${6*s*s*s*s*s}"]}}
   coupler:
     position: b
     flexible:
@@ -45,7 +47,8 @@ bodies:
       clamped: [b]
       static_modes: [{point: c, dofs: [x, y, z]}]
       normal_modes: 3
-  rocker: {position: d, rigid: {mass: "${300*s*s*s}", centre_of_mass: ["${s}", 0, "${0.25*s}"], inertia: ["${6*s*s*s*s*s}", "${6*s*s*s*s*s}", "${6*s*s*s*s*s}"]}}
+  rocker: {position: d, rigid: {mass: "${300*s*s*s}", centre_of_mass: ["${s}", 0, "${0.25*s}"],
+      inertia: ["${6*s*s*s*s*s}", "${6*s*s*s*s*s}", "${6*s*s*s*s*s}"]}}
 joints:
   A: {type: revolute, child: crank, at: a, axis: y}
   B: {type: revolute, parent: crank, child: coupler, at: b, axis: y}
@@ -58,7 +61,7 @@ simulation: {duration: 0}
 )";
 
 /// Accelerations at the start.
-std::vector<double> start_of(const char* text, const std::string& scale, const Combination& c) {
+std::vector<double> scaled_start(const char* text, const std::string& scale, const Combination& c) {
   const Model model = model_of("parameters: {s: " + scale + "}" + text);
   const RunResult r = run_of(model, c);
   EXPECT_EQ(r.summary.status, "completed") << scale << ' ' << c.name() << ": " << r.summary.message;
@@ -70,10 +73,10 @@ std::vector<double> start_of(const char* text, const std::string& scale, const C
 class Scales : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Scales, StartAlike) {
-  const std::vector<double> expected = start_of(GetParam(), "1", combinations[0]);
+  const std::vector<double> expected = scaled_start(GetParam(), "1", combinations[0]);
   for (const char* scale : {"1e-4", "1e-3", "1e-2", "1", "1e2", "1e3", "1e4"})
     for (const Combination& c : {combinations[0], combinations[2]}) {
-      const std::vector<double> found = start_of(GetParam(), scale, c);
+      const std::vector<double> found = scaled_start(GetParam(), scale, c);
       ASSERT_EQ(found.size(), expected.size());
       double worst = 0.0;
       for (std::size_t k = 0; k < found.size(); ++k)
@@ -83,7 +86,7 @@ TEST_P(Scales, StartAlike) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lengths, Scales, ::testing::Values(flexible_bar, mechanism),
+INSTANTIATE_TEST_SUITE_P(Lengths, Scales, ::testing::Values(flexible_bar, four_bars),
                          [](const auto& which) {
                            return std::string(which.index == 0 ? "bar" : "mechanism");
                          });

@@ -42,7 +42,8 @@ bodies:
     rigid:
       mass: ${m}
       centre_of_mass: [-0.7145, -0.1655, 0.042]
-      inertia: ["${m/12*(y*y+z*z)}", "${m/12*(x*x+z*z)}", "${m/12*(x*x+y*y)}", "${-m/12*x*y}", "${-m/12*x*z}", "${-m/12*y*z}"]
+      inertia: ["${m/12*(y*y+z*z)}", "${m/12*(x*x+z*z)}", "${m/12*(x*x+y*y)}", "${-m/12*x*y}",
+          "${-m/12*x*z}", "${-m/12*y*z}"]
   weight: {position: w, rigid: {mass: 5.4, inertia: [1, 1, 1]}}
 joints:
   top: {type: spherical, child: bar, at: g}
@@ -133,7 +134,8 @@ simulation: {step: 1e-3, duration: 0.01}
 TEST(LightMotions, AreTheSameInBothFormulations) {
   const auto notes = [](const char* tilt) {
     const Model model = model_of(std::string(R"(
-bodies: {bar: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [0, 0.1, 0.1]}}}
+bodies: {bar: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0],
+    inertia: [0, 0.1, 0.1]}}}
 joints: {a: {type: universal, child: bar, at: [0, 0, 0], axis: [1, 0, )") +
                                  tilt + "], axis_2: [0, 1, 0]}}\n");
     RelativeFormulation relative(model, InertiaMethod::preprocessing);
@@ -157,7 +159,8 @@ TEST(SpinningBars, ABitOfInertiaIsEnough) {
   // 1 mm thick and 1 m long: 1e-6 of the inertia across.
   const Model model = model_of(R"(
 bodies:
-  bar: {position: [0, 0, 0], orientation: [0.3, 0.2, 0.5], rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [1e-7, 0.1, 0.1]}}
+  bar: {position: [0, 0, 0], orientation: [0.3, 0.2, 0.5], rigid: {mass: 1,
+      centre_of_mass: [0, 0, 0], inertia: [1e-7, 0.1, 0.1]}}
 joints: {a: {type: spherical, child: bar, at: [0, 0, 0]}}
 simulation: {step: 0.001, duration: 0.02}
 )");

@@ -76,9 +76,12 @@ simulation: {step: 0.001, duration: 0.2}
 TEST(NothingFree, DrivenParallelCranksWithoutSpinInertia) {
   const Model model = model_of(R"(
 bodies:
-  crank: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0.1], inertia: [0, .001, .001]}}
-  coupler: {position: [0, 0, 0.2], rigid: {mass: 1, centre_of_mass: [0.25, 0, 0.2], inertia: [0, .001, .001]}}
-  rocker: {position: [0.5, 0, 0], rigid: {mass: 1, centre_of_mass: [0.5, 0, 0.1], inertia: [0, .001, .001]}}
+  crank: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0.1],
+      inertia: [0, .001, .001]}}
+  coupler: {position: [0, 0, 0.2], rigid: {mass: 1, centre_of_mass: [0.25, 0, 0.2],
+      inertia: [0, .001, .001]}}
+  rocker: {position: [0.5, 0, 0], rigid: {mass: 1, centre_of_mass: [0.5, 0, 0.1],
+      inertia: [0, .001, .001]}}
 joints:
   a: {type: revolute, child: crank, at: [0, 0, 0], axis: y, motion: {polynomial: [0, 2, 1]}}
   b: {type: revolute, parent: crank, child: coupler, at: [0, 0, 0.2], axis: y}

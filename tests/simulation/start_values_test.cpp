@@ -13,9 +13,12 @@ std::string four_bar(const std::string& crank, const std::string& rocker,
   const auto mark = [&](const char* joint) { return cut == joint ? ", cut: true" : ""; };
   return std::string(R"(
 bodies:
-  crank: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0.1], inertia: [.001, .001, .001]}}
-  coupler: {position: [0, 0, 0.2], rigid: {mass: 1, centre_of_mass: [0.25, 0, 0.3], inertia: [.001, .001, .001]}}
-  rocker: {position: [0.5, 0, 0], rigid: {mass: 1, centre_of_mass: [0.5, 0, 0.2], inertia: [.001, .001, .001]}}
+  crank: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0.1],
+      inertia: [.001, .001, .001]}}
+  coupler: {position: [0, 0, 0.2], rigid: {mass: 1, centre_of_mass: [0.25, 0, 0.3],
+      inertia: [.001, .001, .001]}}
+  rocker: {position: [0.5, 0, 0], rigid: {mass: 1, centre_of_mass: [0.5, 0, 0.2],
+      inertia: [.001, .001, .001]}}
 joints:
   a: {type: revolute, child: crank, at: [0, 0, 0], axis: y)") +
          crank + mark("a") + R"(}

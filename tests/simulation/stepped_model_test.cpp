@@ -73,7 +73,7 @@ TEST(TimeGrid, AStepOfAnotherSizeBeginsItAnew) {
 
 constexpr int last = 25;
 
-SimulationDescription options_of(const Model& m, Coordinates coordinates) {
+SimulationDescription description_of(const Model& m, Coordinates coordinates) {
   SimulationDescription d = m.simulation;
   d.coordinates = coordinates;
   d.duration = last * d.step;
@@ -99,7 +99,7 @@ std::vector<double> rows_of(SteppedModel<F>& steps) {
 
 template <class F>
 void check_starts(Coordinates coordinates) {
-  const SimulationDescription d = options_of(machine(), coordinates);
+  const SimulationDescription d = description_of(machine(), coordinates);
   SteppedModel<F> first(machine(), d, {.duration = d.duration});
   const std::vector<double> rows = rows_of(first);
   EXPECT_EQ(first.counters().steps, last);
@@ -142,7 +142,7 @@ class Rows final : public SignalPort {
 
 TEST(SteppedModel, AllLoopsMakeTheSameSteps) {
   for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
-    SimulationDescription d = options_of(machine(), coordinates);
+    SimulationDescription d = description_of(machine(), coordinates);
     d.duration = (last - 0.4) * d.step;  // the last step is a part of one
     d.min_step = d.step / 8;             // as in real time
     const RunResult r = run(machine(), d);
@@ -181,7 +181,7 @@ TEST(SteppedModel, AllLoopsMakeTheSameSteps) {
 
 template <class F>
 void check_allocations(Coordinates coordinates) {
-  const SimulationDescription d = options_of(machine(), coordinates);
+  const SimulationDescription d = description_of(machine(), coordinates);
   SteppedModel<F> steps(machine(), d);
   std::vector<double> row(machine().outputs.size() + 1);
   ASSERT_TRUE(steps.advance());

@@ -45,10 +45,13 @@ joints:
   hinge: {type: revolute, child: beam, at: p, axis: y, position: 0.4}
   cross: {type: universal, child: top, at: [0, 2, 0], axis: x, axis_2: y, velocity: [1, 2]}
   ball: {type: spherical, child: bob, at: [0, 3, 0], position: [0.2, 0.1, 0], velocity: [0.5, 1, 3]}
-  loose: {type: free, child: stone, at: [0, 4, 0], position: [0, 0, 0.1, 0.3, 0.2, 0.1], velocity: [1, 0, 2, 1, 9, 2]}
+  loose: {type: free, child: stone, at: [0, 4, 0], position: [0, 0, 0.1, 0.3, 0.2, 0.1],
+      velocity: [1, 0, 2, 1, 9, 2]}
 forces:
-  spring: {type: spring_damper, from: {body: ground, at: [0, 4, 3]}, to: {body: stone, at: [0, 4, 0.1]}, spring: 20}
-  wave: {type: force, body: stone, at: [0, 4, 0], direction: x, magnitude: {sine: {amplitude: 3, frequency: 2}}}
+  spring: {type: spring_damper, from: {body: ground, at: [0, 4, 3]}, to: {body: stone,
+      at: [0, 4, 0.1]}, spring: 20}
+  wave: {type: force, body: stone, at: [0, 4, 0], direction: x, magnitude: {sine: {amplitude: 3,
+      frequency: 2}}}
 outputs:
   drive: {joint_position: drive}
   eye: {joint_position: eye}
@@ -177,9 +180,12 @@ joints:
   free: {type: free, child: chassis, at: [0, 0, 1]}
   arm: {type: revolute, parent: chassis, child: wheel, at: [0.3, 0, 1], axis: y}
 forces:
-  front: {type: spring_damper, from: {body: ground, at: [0.5, 0.3, 3]}, to: {body: chassis, at: [0.5, 0.3, 1]}, spring: 1000}
-  rear: {type: spring_damper, from: {body: ground, at: [-0.5, 0, 3]}, to: {body: chassis, at: [-0.5, 0, 1]}, spring: 1000}
-  left: {type: spring_damper, from: {body: ground, at: [0.5, -0.3, 3]}, to: {body: chassis, at: [0.5, -0.3, 1]}, spring: 1000}
+  front: {type: spring_damper, from: {body: ground, at: [0.5, 0.3, 3]}, to: {body: chassis,
+      at: [0.5, 0.3, 1]}, spring: 1000}
+  rear: {type: spring_damper, from: {body: ground, at: [-0.5, 0, 3]}, to: {body: chassis,
+      at: [-0.5, 0, 1]}, spring: 1000}
+  left: {type: spring_damper, from: {body: ground, at: [0.5, -0.3, 3]}, to: {body: chassis,
+      at: [0.5, -0.3, 1]}, spring: 1000}
   spring: {type: joint_spring, joint: arm, spring: 500}
 outputs:
   c: {position: chassis}

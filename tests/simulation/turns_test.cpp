@@ -14,8 +14,8 @@
 namespace floatframe::test {
 namespace {
 
-constexpr double inertia = 0.02, stiffness = 3.0, start_angle = 4.0 * std::numbers::pi + 1.0;
-const double omega = std::sqrt(stiffness / inertia);
+constexpr double disc_inertia = 0.02, stiffness = 3.0, start_angle = 4.0 * std::numbers::pi + 1.0;
+const double disc_omega = std::sqrt(stiffness / disc_inertia);
 
 /// A disc on a hinge with a torsion spring and no gravity: theta = theta_0 cos(omega t).
 ModelDescription disc(bool cut, bool reversed) {
@@ -25,7 +25,7 @@ ModelDescription disc(bool cut, bool reversed) {
   b.name = "disc";
   RigidDescription r;
   r.mass = 1.0;
-  r.J_C = Vec3(inertia, inertia, inertia).asDiagonal();
+  r.J_C = Vec3(disc_inertia, disc_inertia, disc_inertia).asDiagonal();
   b.kind = r;
   d.bodies.push_back(b);
   if (reversed) {  // the tree reaches the hinge from its child
@@ -81,7 +81,7 @@ class Turns : public ::testing::TestWithParam<std::tuple<Coordinates, bool, bool
 
 void expect_swing(const ResultTable& table, double from) {
   for (std::size_t k = 0; k < table.rows(); ++k) {
-    const double exact = start_angle * std::cos(omega * table.at(k, 0));
+    const double exact = start_angle * std::cos(disc_omega * table.at(k, 0));
     EXPECT_NEAR(table.at(k, 1), exact, 2e-3) << table.at(k, 0);
     EXPECT_NEAR(table.at(k, 2), stiffness * exact, 6e-3) << table.at(k, 0);
     EXPECT_NEAR(table.at(k, 3), exact, 2e-3) << table.at(k, 0);

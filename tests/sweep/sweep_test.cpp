@@ -147,12 +147,15 @@ floatframe: 1
 parameters: {length: 2, far: 0}
 bodies:
   slider: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [0.1, 0.1, 0.1]}}
-  crank: {position: [1, 0, 0], rigid: {mass: 1, centre_of_mass: [1.25, 0, 0], inertia: [0.1, 0.1, 0.1]}}
+  crank: {position: [1, 0, 0], rigid: {mass: 1, centre_of_mass: [1.25, 0, 0],
+      inertia: [0.1, 0.1, 0.1]}}
 joints:
-  drive: {type: prismatic, child: slider, at: [0, 0, 0], axis: x, motion: {polynomial: [0, "${far}"]}}
+  drive: {type: prismatic, child: slider, at: [0, 0, 0], axis: x,
+      motion: {polynomial: [0, "${far}"]}}
   hinge: {type: revolute, child: crank, at: [1, 0, 0], axis: y}
 rods:
-  tie: {from: {body: slider, at: [0, 0, 0]}, to: {body: crank, at: [1, 0, 0.75]}, length: "${length}"}
+  tie: {from: {body: slider, at: [0, 0, 0]}, to: {body: crank, at: [1, 0, 0.75]},
+      length: "${length}"}
 outputs:
   slider.x: {position: slider, axis: x}
 simulation: {step: 0.01, duration: 1}

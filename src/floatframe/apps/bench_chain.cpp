@@ -104,8 +104,8 @@ std::optional<Vec3> reference_tip(const Model& model, const SimulationDescriptio
   return tip_of(*stepper);
 }
 
-ChainRow measure(const Model& model, const SimulationDescription& simulation,
-                 const ChainOptions& options, const std::optional<Vec3>& reference) {
+ChainRow measure_chain(const Model& model, const SimulationDescription& simulation,
+                       const ChainOptions& options, const std::optional<Vec3>& reference) {
   ChainRow row;
   row.combination = {simulation.coordinates, simulation.inertia};
   const auto stepper = make_bench_stepper(model, simulation);
@@ -192,7 +192,7 @@ ChainResult bench_chain(const ChainOptions& options) {
         for (const InertiaMethod inertia : options.inertia) {
           simulation.coordinates = coordinates;
           simulation.inertia = inertia;
-          ChainRow row = measure(model, simulation, options, reference);
+          ChainRow row = measure_chain(model, simulation, options, reference);
           row.links = links;
           row.modes = modes;
           result.rows.push_back(row);

@@ -20,7 +20,7 @@ std::string short_name(const Combination& c) {
 
 namespace {
 
-double a_step(long count, const ChainRow& row) {
+double per_chain_step(long count, const ChainRow& row) {
   return static_cast<double>(count) / static_cast<double>(std::max(row.time.steps, 1L));
 }
 
@@ -39,13 +39,13 @@ std::string chain_text(const ChainResult& result) {
   const long wanted = std::max(1L, std::lround(o.duration / o.step));
   for (const ChainRow& row : result.rows) {
     const double us = 1e6 * row.time.least;
-    const double iterations = a_step(row.time.counts.iterations, row);
+    const double iterations = per_chain_step(row.time.counts.iterations, row);
     table.add({std::to_string(row.links), std::to_string(row.modes), short_name(row.combination),
                fmt::format("{:.2f}", us), fmt::format("{:.2f}", 1e6 * row.time.median),
                fmt::format("{:.3f}", row.time.least / result.dense_llt),
                fmt::format("{:.2f}", us / row.links), fmt::format("{:.2f}", iterations),
                fmt::format("{:.2f}", us / std::max(iterations, 1e-9)),
-               fmt::format("{:.2f}", a_step(row.time.counts.factorizations, row)),
+               fmt::format("{:.2f}", per_chain_step(row.time.counts.factorizations, row)),
                small(row.tip_error), small(row.tip_published),
                fmt::format("{:.1e}", row.energy_drift), std::to_string(row.time.steps)});
     shortened = shortened || (row.time.steps < wanted && row.failure.empty());
@@ -84,25 +84,26 @@ std::string chain_json(const ChainResult& result) {
   const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(); };
   Json rows = Json::array();
   for (const ChainRow& row : result.rows) {
-    const double iterations = a_step(row.time.counts.iterations, row);
-    rows.push_back({{"links", row.links},
-                    {"modes", row.modes},
-                    {"coordinates", word(row.combination.coordinates)},
-                    {"inertia", word(row.combination.inertia)},
-                    {"us_per_step_min", 1e6 * row.time.least},
-                    {"us_per_step_median", 1e6 * row.time.median},
-                    {"iterations_per_step", iterations},
-                    {"tip_error_m", number(row.tip_error)},
-                    {"factorizations_per_step", a_step(row.time.counts.factorizations, row)},
-                    {"us_per_iteration_min", 1e6 * row.time.least / std::max(iterations, 1e-9)},
-                    {"llt_per_step_min", row.time.least / result.dense_llt},
-                    {"tip_to_published_m", number(row.tip_published)},
-                    {"energy_drift", row.energy_drift},
-                    {"freedoms", row.freedoms},
-                    {"steps", row.time.steps},
-                    {"substeps", row.time.counts.substeps},
-                    {"runs", row.time.runs},
-                    {"failure", row.failure.empty() ? Json() : Json(row.failure)}});
+    const double iterations = per_chain_step(row.time.counts.iterations, row);
+    rows.push_back(
+        {{"links", row.links},
+         {"modes", row.modes},
+         {"coordinates", word(row.combination.coordinates)},
+         {"inertia", word(row.combination.inertia)},
+         {"us_per_step_min", 1e6 * row.time.least},
+         {"us_per_step_median", 1e6 * row.time.median},
+         {"iterations_per_step", iterations},
+         {"tip_error_m", number(row.tip_error)},
+         {"factorizations_per_step", per_chain_step(row.time.counts.factorizations, row)},
+         {"us_per_iteration_min", 1e6 * row.time.least / std::max(iterations, 1e-9)},
+         {"llt_per_step_min", row.time.least / result.dense_llt},
+         {"tip_to_published_m", number(row.tip_published)},
+         {"energy_drift", row.energy_drift},
+         {"freedoms", row.freedoms},
+         {"steps", row.time.steps},
+         {"substeps", row.time.counts.substeps},
+         {"runs", row.time.runs},
+         {"failure", row.failure.empty() ? Json() : Json(row.failure)}});
   }
   const Json json = {{"rows", rows},
                      {"dense_llt_98_us", 1e6 * result.dense_llt},

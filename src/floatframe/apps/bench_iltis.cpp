@@ -20,9 +20,9 @@ constexpr Combination combinations[] = {{Coordinates::absolute, InertiaMethod::p
                                         {Coordinates::relative, InertiaMethod::projection},
                                         {Coordinates::relative, InertiaMethod::preprocessing}};
 
-BenchRow measure(const Model& model, SimulationDescription simulation,
-                 const Combination& combination, const BenchOptions& options, int elements,
-                 const std::function<void()>& one_done) {
+BenchRow measure_vehicle(const Model& model, SimulationDescription simulation,
+                         const Combination& combination, const BenchOptions& options, int elements,
+                         const std::function<void()>& one_done) {
   simulation.coordinates = combination.coordinates;
   simulation.inertia = combination.inertia;
   BenchRow row;
@@ -94,7 +94,7 @@ BenchResult bench_iltis(const BenchOptions& options) {
     }
     for (const Combination& combination : combinations) {
       result.rows.push_back(
-          measure(model, description.simulation, combination, options, elements, one_done));
+          measure_vehicle(model, description.simulation, combination, options, elements, one_done));
     }
   }
   std::stable_sort(result.rows.begin(), result.rows.end(),

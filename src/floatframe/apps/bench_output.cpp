@@ -40,7 +40,7 @@ std::optional<double> paper_seconds(const BenchRow& row) {
   }
 }
 
-double a_step(const BenchRow& row) { return static_cast<double>(std::max(row.steps, 1L)); }
+double steps_of(const BenchRow& row) { return static_cast<double>(std::max(row.steps, 1L)); }
 
 std::string combination_name(const BenchRow& row) {
   return fmt::format("{} + {}", row.coordinates == Coordinates::absolute ? "Abs." : "Rel.",
@@ -132,8 +132,8 @@ std::string bench_json(const BenchResult& result) {
                     {"substeps", row.substeps},
                     {"iterations", row.iterations},
                     {"factorizations", row.factorizations},
-                    {"us_per_step_min", 1e6 * row.cpu_min / a_step(row)},
-                    {"llt_per_step_min", row.cpu_min / a_step(row) / result.dense_llt},
+                    {"us_per_step_min", 1e6 * row.cpu_min / steps_of(row)},
+                    {"llt_per_step_min", row.cpu_min / steps_of(row) / result.dense_llt},
                     {"real_time_factor", row.real_time_factor},
                     {"max_position_violation_m", row.max_position_violation},
                     {"max_velocity_violation_m_s", row.max_velocity_violation}});

@@ -71,8 +71,8 @@ std::vector<std::function<Point()>> points(Sweep sweep) {
   return list;
 }
 
-void measure(const Model& model, const SimulationDescription& simulation,
-             const ScalingOptions& options, ScalingRow& row) {
+void measure_part(const Model& model, const SimulationDescription& simulation,
+                  const ScalingOptions& options, ScalingRow& row) {
   const auto stepper = make_bench_stepper(model, simulation);
   row.freedoms = stepper->freedoms();
   row.iteration = time_iteration(*stepper, 0.5 * options.seconds);
@@ -138,7 +138,7 @@ ScalingResult bench_scaling(const ScalingOptions& options) {
         simulation.inertia = inertia;
         ScalingRow row = point.row;
         row.combination = {coordinates, inertia};
-        measure(model, simulation, options, row);
+        measure_part(model, simulation, options, row);
         result.rows.push_back(row);
       }
     }

@@ -1,10 +1,10 @@
 #pragma once
 // A finite-element model of one flexible body: nodes, materials, sections, elements, point masses,
 // sets, spiders; or nodes and matrices from another program. Plain data in the body frame. SI
-// units, except in what a reader of a file returns: that is in the units of the file until `to_si`
-// (unit_system.hpp). In models made of bars every node has six degrees of freedom (ux uy uz rx ry
-// rz) if there is any beam or shell, else three; `FeSystem` (fe_system.hpp) gives each node what it
-// needs. `validate` names every error.
+// units, except in what a reader of a file returns: that is in the units of the file until `to_si`.
+// In models made of bars every node has six degrees of freedom (ux uy uz rx ry rz) if there is any
+// beam or shell, else three; reductions of parts give each node what it needs. `validate` names
+// every error.
 #include <Eigen/SparseCore>
 #include <array>
 #include <map>
@@ -165,7 +165,7 @@ struct FeModel {
 
 /// Throws InputError with the errors, at most 20 of a kind: indices out of range, non-physical
 /// materials, sections and masses, degenerate or inverted elements, spiders, equations and matrices
-/// that do not make sense. What is only suspicious: model_checks.hpp.
+/// that do not make sense.
 void validate(const FeModel& model);
 
 /// Stiffness, (dofs_per_node n)^2.

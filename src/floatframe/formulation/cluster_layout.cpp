@@ -92,11 +92,4 @@ MatX ClusterTangent::constraint_jacobian() {
   return J;
 }
 
-double ClusterTangent::elimination_work() const noexcept {
-  double sum = 0.0;
-  for (const Cluster& c : clusters_)
-    for (int j = 0; j < c.size; ++j) sum += 0.5 * (c.n - j) * (c.n - j + 1);
-  return sum;
-}
-
 }  // namespace floatframe

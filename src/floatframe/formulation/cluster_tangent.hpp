@@ -62,8 +62,6 @@ class ClusterTangent {
 
   /// Dense Phi_q at the present positions; load time.
   MatX constraint_jacobian();
-  /// Multiplications of the elimination in one factorisation, without the assembly of the fronts.
-  double elimination_work() const noexcept;
 
  private:
   /// The matrices of a body while the fronts are assembled. World axes, about O.

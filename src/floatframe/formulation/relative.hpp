@@ -33,7 +33,6 @@ class RelativeFormulation {
 
   const Model& model() const noexcept { return model_; }
   const TreeKinematics& tree() const noexcept { return tree_; }
-  const ClusterTangent& tangent() const noexcept { return tangent_; }
   const ConstraintSet& constraint_set() const noexcept { return constraint_set_; }
 
   /// Values of `model().inputs`, held until they are set again; at first their initial values.

@@ -4,8 +4,8 @@
 //
 //   relative   qdot = (sdot, omega, ydot):  M is (6+nm)^2,  Qv = 6+nm
 //   absolute   qdot = (r0dot, udot, vdot, wdot, ydot), A = [u v w]:  M is (12+nm)^2,  Qv = 12+nm
-// Conventions: projection.hpp and preprocessing.hpp, docs/theory.md. Both methods give the same for
-// a body with the mass model isoparametric.
+// Conventions: docs/theory.md. Both methods give the same for a body with the mass model
+// isoparametric.
 #include "floatframe/body/flexible_body.hpp"
 
 namespace floatframe {

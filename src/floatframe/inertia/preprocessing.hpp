@@ -35,8 +35,8 @@ struct PreprocessingData {
   /// 6 x nm^2: S^11, S^22, S^33, S^12+S^21, S^13+S^31, S^23+S^32, entry (a, b) in column a+nm b.
   MatX Sij_sum;
   MatX M_ff;  ///< nm x nm: S^11 + S^22 + S^33, (40), (54)
-  /// The same with the modes side by side, `stride` numbers per row, zero beyond the last mode: what
-  /// the relative terms walk through in whole lanes.
+  /// The same with the modes side by side, `stride` numbers per row, zero beyond the last mode:
+  /// what the relative terms walk through in whole lanes.
   struct ByModes {
     int stride = 0;
     VecX S;         ///< 3 rows

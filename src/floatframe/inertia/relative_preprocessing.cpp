@@ -38,7 +38,7 @@ double dot(const double* a, const double* x, int stride) noexcept {
 }
 
 /// Rows 3i+j as the 3 x 3 matrix whose column i is S^i x.
-Mat3 times9(const double* rows, const double* x, int stride) noexcept {
+Mat3 lane_times9(const double* rows, const double* x, int stride) noexcept {
   Mat3 s;
   for (int c = 0; c < 9; ++c) s.data()[c] = dot(rows + c * stride, x, stride);
   return s;
@@ -66,13 +66,13 @@ inline DeformedIntegrals deformed_integrals(const PreprocessingData& data, const
   const double* Si = data.by_modes.Si.data();
   for (int r = 0; r < 9 * nl; r += 4) lanes(S_d + r) = lanes(Si + r);
   add_columns(data.by_modes.Sij.data(), 9 * nl, nm, y, S_d);  // (38)
-  const Mat3 first = times9(Si, y_row, nl);                   // column i: S^i y
-  const Mat3 second = times9(S_d, y_row, nl);                 // column i: S_d^i y
+  const Mat3 first = lane_times9(Si, y_row, nl);              // column i: S^i y
+  const Mat3 second = lane_times9(S_d, y_row, nl);            // column i: S_d^i y
   for (int j = 0; j < 3; ++j) {
     out.m_u[j] += dot(S + j * nl, y_row, nl);  // (29)
     out.S_rate[j] = dot(S + j * nl, ydot_row, nl);
   }
-  out.S_d_rate = times9(S_d, ydot_row, nl);
+  out.S_d_rate = lane_times9(S_d, ydot_row, nl);
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j)
       out.P_u(j, i) = out.P_u(i, j) += first(i, j) + second(j, i);  // (33)

@@ -154,10 +154,4 @@ void BlockLdlt::solve(VecX& x) noexcept {
   }
 }
 
-long BlockLdlt::factor_entries() const noexcept {
-  long sum = 0;
-  for (const Node& n : nodes_) sum += static_cast<long>(n.total) * n.size;
-  return sum;
-}
-
 }  // namespace floatframe

@@ -28,9 +28,6 @@ class BlockLdlt {
   int factorize() noexcept;
   void solve(VecX& x) noexcept;
 
-  /// Entries of all factors, for reports.
-  long factor_entries() const noexcept;
-
  private:
   struct Node {
     int size = 0, total = 0, offset = 0, rank = 0, parent = -1;

@@ -17,8 +17,8 @@ struct TablePoint {
 enum class Interpolation { linear, cubic };
 enum class Beyond { tangent, hold };
 
-/// At least two points, x strictly ascending, else InputError. With `hold` the cubic has zero slope at both ends, so
-/// it stays C1.
+/// At least two points, x strictly ascending, else InputError. With `hold` the cubic has zero slope
+/// at both ends, so it stays C1.
 PiecewisePolynomial table_function(const std::vector<TablePoint>& points,
                                    Interpolation interpolation, Beyond beyond);
 

@@ -1,8 +1,7 @@
 #pragma once
-// All kinds of constraint parts. One entry is the enumerator of ConstraintType, the word of messages
-// and the name of the file model/constraints/<name>.cpp, which ends in the ConstraintKind
-// `<name>_constraint` (constraint_part.hpp). Everything else runs over this list.
-#include "floatframe/core/enum_index.hpp"
+// All kinds of constraint parts. One entry is the enumerator of ConstraintType and the name of the
+// file model/constraints/<name>.cpp, which ends in the ConstraintKind `<name>_constraint`
+// (constraint_part.hpp). Everything else runs over this list.
 
 // clang-format off
 #define FLOATFRAME_CONSTRAINTS(entry) \
@@ -25,13 +24,5 @@ enum class ConstraintType { FLOATFRAME_CONSTRAINTS(FLOATFRAME_ENUMERATOR) };
 inline constexpr ConstraintType constraint_types[] = {
     FLOATFRAME_CONSTRAINTS(FLOATFRAME_ENUMERATOR)};
 #undef FLOATFRAME_ENUMERATOR
-
-#define FLOATFRAME_WORD(name) #name,
-inline constexpr const char* constraint_words[] = {FLOATFRAME_CONSTRAINTS(FLOATFRAME_WORD)};
-#undef FLOATFRAME_WORD
-
-constexpr const char* constraint_type_name(ConstraintType type) noexcept {
-  return constraint_words[index_of(type)];
-}
 
 }  // namespace floatframe

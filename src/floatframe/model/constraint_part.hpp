@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/constraint_list.hpp"
 #include "floatframe/model/marker_state.hpp"
 #include "floatframe/model/model.hpp"
@@ -37,15 +38,18 @@ struct ConstraintRow {
 // ----------------------------------------------------------------------------------------------
 // what a kind of part supplies
 //
-// Two functions of step time, noexcept and free of allocation, that are called by name, and the
-// facts of its ConstraintKind.
+// A function of step time, noexcept and free of allocation, that is called by name, its derivative,
+// and the facts of its ConstraintKind.
 
 /// Fills the rows of the part.
 template <ConstraintType type>
 void constraint_rows_of(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                         double t, ConstraintRow* rows) noexcept;
 
-/// K += d(sum lambda_r gradient_r)/d(motion)
+/// K += d(sum lambda_r gradient_r)/d(motion): the exact geometric stiffness of multipliers on the
+/// rows. Not symmetric where rotations meet, because increments of a rotation multiply from the
+/// left. It stands beside the rows that it is derived from; what formulations take of it has a
+/// shorter way (PartGradients), and the tests hold that to this.
 template <ConstraintType type>
 void constraint_curvature_of(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                              const double* lambda, Mat12& K) noexcept;
@@ -94,12 +98,6 @@ PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept;
 /// Fills `rows[0 .. part.rows())`.
 void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                          double t, ConstraintRow* rows) noexcept;
-
-/// K += d(sum lambda_r gradient_r)/d(motion): the exact geometric stiffness of multipliers (or
-/// penalty forces) on the rows. Not symmetric where rotations meet, because increments of a
-/// rotation multiply from the left.
-void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
-                              const MarkerState& b, const double* lambda, Mat12& K) noexcept;
 
 /// Parts that hold joint `index` of the model closed (without its motion).
 void append_joint_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);

@@ -96,7 +96,7 @@ struct BodyDescription {
   Origin origin;
 };
 
-// -------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------
 // joints
 
 /// A function of time: offset polynomial pieces plus a sine: f = pieces(t) + amplitude sin(2 pi
@@ -138,8 +138,8 @@ struct JointDescription {
   /// Model files give one design point for both, or a node for either. Two that are apart in the
   /// design configuration, points or nodes, are brought together at the start.
   AttachmentDescription parent, child;
-  /// Of joints that have one or two (JointKind::axes): what they mean is in
-  /// model/joints/<type>.cpp.
+  /// Of joints that have one or two: what they mean is in the table of joints in
+  /// docs/model-file.md.
   Vec3 axis = Vec3::UnitZ();
   Vec3 axis_2 = Vec3::UnitX();  ///< not parallel to axis
   /// Initial coordinates (start values where loops must close): JointKind::coordinates, in this
@@ -161,7 +161,7 @@ struct RodDescription {
   Origin origin;
 };
 
-// -------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------
 // forces
 
 /// Along the line between two points. Tension positive: F = spring(length) + damper(rate).
@@ -300,7 +300,7 @@ struct StartOffset {
   std::optional<Vec3> rotation;
 };
 
-struct SystemState;  // model/system_state.hpp
+struct SystemState;
 
 struct SimulationDescription {
   Coordinates coordinates = Coordinates::relative;

@@ -49,10 +49,4 @@ void evaluate_force(const Model& model, const Force& force, const MarkerState& a
                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,
                     ForceState& out, std::span<const double> inputs = {}) noexcept;
 
-/// The exact tangent of the same element at the same place.
-void evaluate_force_tangent(const Model& model, const Force& force, const MarkerState& a,
-                            const MarkerState& b, const Vec3& origin, double t,
-                            double reference_angle, ForceTangent& out,
-                            std::span<const double> inputs = {}) noexcept;
-
 }  // namespace floatframe

@@ -1,6 +1,7 @@
 #pragma once
-// The keys of a force element: what stands in model files, and where a description keeps it. Reader,
-// validation, mirror and the table of the documentation run over these tables. Load time only.
+// The keys of a force element: what stands in model files, and where a description keeps it.
+// Reader, validation, mirror and the table of the documentation run over these tables. Load time
+// only.
 #include <array>
 #include <functional>
 #include <optional>

@@ -4,8 +4,8 @@
 // table of the documentation and the generic tests run over the list.
 //
 // An element acts on markers a and b (or on b alone) and never sees a coordinate. Step time calls
-// force_of and force_tangent_of by name, without a pointer: noexcept, no allocation. The pointers
-// of a ForceKind serve load time only.
+// force_of by name, without a pointer: noexcept, no allocation. The pointers of a ForceKind serve
+// load time only.
 #include <array>
 #include <span>
 
@@ -62,9 +62,12 @@ struct ForceExample {
   std::vector<double> inputs;
 };
 
-/// Fills `out`, which comes with zeros. The step calls these by name, without a pointer.
+/// Fills `out`, which comes with zeros. The step calls it by name, without a pointer.
 template <ForceType type>
 void force_of(const ForceInput& in, ForceState& out) noexcept;
+/// The exact derivative of the same element at the same place; `out` comes with zeros. It stands
+/// beside the law that it is derived from. Steps take the rows of ForceState instead: the tests
+/// hold those to this, and this to differences.
 template <ForceType type>
 void force_tangent_of(const ForceInput& in, ForceTangent& out) noexcept;
 
@@ -97,8 +100,6 @@ struct ForceKind {
   std::span<const ForceRegime> regimes;
   /// A random element and motion in one of the regimes, away from the breaks of its laws.
   ForceExample (*example)(std::size_t regime, ExampleNumbers&);
-
-  bool between_markers() const noexcept { return markers != ForceMarkers::one; }
 };
 
 const ForceKind& force_kind(ForceType type) noexcept;

@@ -19,14 +19,6 @@ void evaluate_of(std::index_sequence<I...>, const ForceInput& in, ForceState& ou
    ...);
 }
 
-template <std::size_t... I>
-void tangent_of(std::index_sequence<I...>, const ForceInput& in, ForceTangent& out) noexcept {
-  ((in.force.type == static_cast<ForceType>(I)
-        ? force_tangent_of<static_cast<ForceType>(I)>(in, out)
-        : void()),
-   ...);
-}
-
 using Types = std::make_index_sequence<std::size(force_types)>;
 
 }  // namespace
@@ -57,15 +49,6 @@ void evaluate_force(const Model& model, const Force& force, const MarkerState& a
   out.force = out.length = out.rate = 0.0;
   out.energy = out.energy_rate = out.damping = 0.0;
   evaluate_of(Types{}, {model, force, a, b, origin, t, reference_angle, inputs}, out);
-}
-
-void evaluate_force_tangent(const Model& model, const Force& force, const MarkerState& a,
-                            const MarkerState& b, const Vec3& origin, double t,
-                            double reference_angle, ForceTangent& out,
-                            std::span<const double> inputs) noexcept {
-  out.K.setZero();
-  out.C.setZero();
-  tangent_of(Types{}, {model, force, a, b, origin, t, reference_angle, inputs}, out);
 }
 
 void add_example_drive(ForceExample& example, ExampleNumbers& numbers) {

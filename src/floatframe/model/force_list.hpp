@@ -1,7 +1,7 @@
 #pragma once
 // All kinds of force elements. One entry is the enumerator of ForceType, the word of model files
-// and the name of the file model/forces/<name>.cpp, which ends in the ForceKind `<name>_element`
-// (force_kind.hpp). Everything else runs over this list. Numbers and messages follow its order.
+// and the name of the source file model/forces/<name>.cpp, which ends in the ForceKind
+// `<name>_element`. Everything else runs over this list. Numbers and messages follow its order.
 #include "floatframe/core/enum_index.hpp"
 
 // clang-format off

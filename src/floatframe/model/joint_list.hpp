@@ -1,7 +1,7 @@
 #pragma once
 // All joints. One entry is the enumerator of JointType, the word of model files and the name of the
-// file model/joints/<name>.cpp, which ends in the joint's JointKind `<name>_joint`
-// (joint_kind.hpp). Everything else runs over this list. Numbers and messages follow its order.
+// source file model/joints/<name>.cpp, which ends in the joint's JointKind `<name>_joint`.
+// Everything else runs over this list. Numbers and messages follow its order.
 #include "floatframe/core/enum_index.hpp"
 
 // clang-format off

@@ -77,10 +77,4 @@ void joint_configuration(JointType type, const double* user, double* q) noexcept
                      q + rotation);
 }
 
-double joint_coordinate(JointType type, const double* q, int component) noexcept {
-  const int rotation = quaternion_offset(type);
-  if (rotation < 0 || component < rotation) return q[component];
-  return quaternion_log(read_quaternion(q + rotation))[component - rotation];
-}
-
 }  // namespace floatframe

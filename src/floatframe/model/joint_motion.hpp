@@ -69,7 +69,4 @@ void joint_advance(JointType type, double* x, const double* delta) noexcept;
 /// Start values in the form the user gives them (rotation vectors) to a configuration.
 void joint_configuration(JointType type, const double* user, double* q) noexcept;
 
-/// Coordinate numbers for output: rotation vectors instead of quaternions.
-double joint_coordinate(JointType type, const double* q, int component) noexcept;
-
 }  // namespace floatframe

@@ -82,7 +82,7 @@ struct Force {
   bool targeted = false;       ///< it has one of them
   bool derived_rate = false;   ///< the rate of the target is the derivative of its function
   bool follows = false;
-  /// What further laws and numbers a type has, in an order of its own (model/forces/<type>.cpp).
+  /// What further laws and numbers a type has, in an order of its own.
   std::vector<PiecewisePolynomial> laws;
   std::vector<double> numbers;
 };

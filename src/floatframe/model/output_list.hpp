@@ -1,7 +1,7 @@
 #pragma once
 // All outputs. One entry is the enumerator of OutputType, the word of model files and the name of
-// the file model/outputs/<name>.cpp, which ends in the output's OutputKind `<name>_output`
-// (output_kind.hpp). Everything else runs over this list. Messages follow its order.
+// the source file model/outputs/<name>.cpp, which ends in the output's OutputKind `<name>_output`.
+// Everything else runs over this list. Messages follow its order.
 #include "floatframe/core/enum_index.hpp"
 
 // clang-format off

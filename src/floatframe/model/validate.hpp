@@ -77,7 +77,8 @@ void name(const char* kind, const std::string& name, std::set<std::string>& take
 void input(const InputDescription& input, const Entity& entity);
 /// Mass properties of a rigid body, keys of the group `rigid`.
 void rigid(const RigidDescription& rigid, const Entity& body);
-/// Axes and start values of a joint, whose type is one of the list, and whether they go with its motion.
+/// Axes and start values of a joint, whose type is one of the list, and whether they go with its
+/// motion.
 void joint_values(const JointDescription& joint, const Entity& entity);
 
 void bodies(const ModelDescription& d, ErrorList& errors);

@@ -1,7 +1,7 @@
 #pragma once
 // Reduced parts of model files, kept as body files: a part is reduced again only if its files, its
-// options or the program changed. Files of the cache are written atomically; what cannot be read (with a
-// line that says so) or belongs to something else is replaced.
+// options or the program changed. Files of the cache are written atomically; what cannot be read
+// (with a line that says so) or belongs to something else is replaced.
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -16,8 +16,8 @@ namespace floatframe {
 /// $XDG_CACHE_HOME/floatframe or ~/.cache/floatframe. Empty: nothing is kept.
 std::filesystem::path part_cache_folder(const std::filesystem::path& folder);
 
-/// Where the body of a job is kept: a name made of the contents of its files, of all its options and
-/// of the program.
+/// Where the body of a job is kept: a name made of the contents of its files, of all its options
+/// and of the program.
 std::filesystem::path part_cache_file(const PartJob& job, const std::filesystem::path& cache);
 
 /// The part from the cache, or reduced now and put there. `say` receives which. Throws InputError.

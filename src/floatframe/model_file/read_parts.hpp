@@ -81,9 +81,9 @@ std::string beside(const ModelInstance& self, const std::string& file);
 std::vector<std::pair<std::string, YamlSection>> active_entities(const ModelInstance& self,
                                                                  EntityKind kind);
 
-/// What `check` (of model/validate.hpp) finds wrong with an entity that has been read, at the places
-/// of its keys. Values that could not be read are to stand in the entity as valid ones by then, so
-/// that nothing is said twice.
+/// What `check` (of model/validate.hpp) finds wrong with an entity that has been read, at the
+/// places of its keys. Values that could not be read are to stand in the entity as valid ones by
+/// then, so that nothing is said twice.
 void judge(const YamlSection& section, const Origin& origin,
            const std::function<void(const validation::Entity&)>& check);
 

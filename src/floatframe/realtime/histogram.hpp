@@ -64,7 +64,7 @@ class Histogram {
 
   static std::size_t bin_of(std::uint64_t x) noexcept {
     if (x < parts) return x;
-    const int shift = std::bit_width(x) - 1 - part_bits;
+    const int shift = static_cast<int>(std::bit_width(x)) - 1 - part_bits;
     const std::size_t part = static_cast<std::size_t>(x >> shift) - parts;
     const std::size_t bin = static_cast<std::size_t>(shift + 1) * parts + part;
     return bin < bins ? bin : bins - 1;

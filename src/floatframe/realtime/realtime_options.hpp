@@ -18,8 +18,8 @@ enum class SilenceFallback {
 struct RealTimeOptions {
   bool paced = true;     ///< false: as fast as possible
   bool endless = false;  ///< until `stop`; else for the duration of the simulation description
-  /// > 0: so many Newton iterations per step, accepted whatever their error. 0: to convergence, with
-  /// the step divided if need be, down to an eighth.
+  /// > 0: so many Newton iterations per step, accepted whatever their error. 0: to convergence,
+  /// with the step divided if need be, down to an eighth.
   int fixed_iterations = 0;
   double time_budget = 0.0;  ///< > 0: no Newton iteration begins later in a step [s of wall clock]
   double max_lag = 0.1;      ///< [s]; 0: never catch up

@@ -125,7 +125,8 @@ class RealTimeRunner {
     return end;
   }
 
-  /// Sleeps until step k is due or, if the model is too far behind, moves the clock. False: stopped.
+  /// Sleeps until step k is due or, if the model is too far behind, moves the clock. False:
+  /// stopped.
   bool reach(long k, double h, Nanoseconds& due) noexcept {
     due = base_ + std::llround(static_cast<double>(k) * h);
     const Nanoseconds lag = wall_clock() - due;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the inputs of a paced model come from and its outputs go to: UDP (udp_port.hpp), or a
+// Where the inputs of a paced model come from and its outputs go to: UDP packets, or a
 // controller in the same program. The runner calls a port once or twice per step, from the stepping
 // thread: no allocation, no lock, no exception, no printing.
 #include <cstdint>

@@ -1,6 +1,5 @@
 #pragma once
-// What an engineer wants to know before trusting a reduced body. Plain data, SI units; written as
-// text and JSON by formats/body_file/health_text.hpp.
+// What an engineer wants to know before trusting a reduced body. Plain data, SI units.
 #include <optional>
 #include <string>
 #include <vector>

@@ -62,7 +62,8 @@ MatX independent(const MatX& X, const MatX& energy, const VecX& full,
          eigen.values.tail(n - first).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-void append(ModeBasis& basis, const MatX& X, const MatX& K, const std::vector<std::string>& names) {
+void append_modes(ModeBasis& basis, const MatX& X, const MatX& K,
+                  const std::vector<std::string>& names) {
   const Eigen::Index old = basis.X.cols(), added = X.cols();
   basis.X.conservativeResize(X.rows(), old + added);
   basis.X.rightCols(added) = X;
@@ -142,7 +143,7 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
     Y -= normal.shapes * weight.asDiagonal() * (normal.shapes.transpose() * F);
     // (F - M x x^T F)^T Y = F^T Y: what is left is orthogonal to the normal modes.
     const MatX added = independent(Y, F.transpose() * Y, full, names);
-    append(basis, added, MatX::Identity(added.cols(), added.cols()), names);
+    append_modes(basis, added, MatX::Identity(added.cols(), added.cols()), names);
   }
   basis.rigid = MatX::Zero(basis.X.cols(), 6);
   for (Eigen::Index b = 0; b < nb; ++b) basis.rigid.row(b) = R.row(boundary[b]);
@@ -194,7 +195,7 @@ ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R
     Y -= elastic.shapes * elastic.lambda.cwiseInverse().asDiagonal() *
          (elastic.shapes.transpose() * F);
     const MatX added = independent(Y, F.transpose() * Y, full, names);
-    append(basis, added, MatX::Identity(added.cols(), added.cols()), names);
+    append_modes(basis, added, MatX::Identity(added.cols(), added.cols()), names);
   }
   basis.rigid = MatX::Zero(basis.X.cols(), 6);
   basis.rigid.topRows<6>().setIdentity();

@@ -47,7 +47,7 @@ std::string number_label(const FeModel& model, int node) {
   return "node " + std::to_string(k < model.node_ids.size() ? model.node_ids[k] : node);
 }
 
-void append(ErrorList& errors, const InputError& error) {
+void append_errors(ErrorList& errors, const InputError& error) {
   for (const ErrorEntry& entry : error.errors()) errors.add(entry.mark, entry.message, entry.count);
 }
 
@@ -85,7 +85,7 @@ std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& 
       }
       places.push_back(std::move(place));
     } catch (const InputError& error) {
-      append(errors, error);
+      append_errors(errors, error);
     }
   }
   errors.throw_if_any();

@@ -14,11 +14,10 @@ namespace floatframe {
 struct NodeDofs {
   std::string node;    ///< its name; empty: by its index
   unsigned mask = 0;   ///< bit 0..5 = ux uy uz rx ry rz
-  int index = -1;      ///< of a node without a name
+  int index = -1;      ///< of a node without a name, in `reduce` of an FeModel only
   Origin origin = {};  ///< where it is written
 };
 
-inline constexpr unsigned all_translations = 7u;
 inline constexpr unsigned all_dofs = 63u;
 
 /// Analytic shapes of one straight bar clamped at its first point, sampled at the nodes, instead of

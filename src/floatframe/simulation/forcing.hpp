@@ -1,6 +1,7 @@
 #pragma once
 // Whether a step resolves what a model prescribes over time: motions, loads, actuators and targets.
-// Only values at the ends of steps reach a run: a sine of a whole number of cycles per step is none.
+// Only values at the ends of steps reach a run: a sine of a whole number of cycles per step is
+// none.
 #include <vector>
 
 #include "floatframe/model/model.hpp"

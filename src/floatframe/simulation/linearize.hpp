@@ -39,9 +39,9 @@ struct Linearization {
 /// At the start that the options ask for: given values with loops closed, the equilibrium, or a
 /// state (`.state = std::make_shared<SystemState>(simulation.state())`). Relative coordinates are
 /// those of joints and modes; absolute ones 12 for each body frame (position, then the three axes),
-/// modes and outer points, with J that keeps the axes orthonormal. Dense, 4 evaluations of the system for each
-/// coordinate. Throws InputError for options that are not valid and for a state of another model,
-/// RunError if the start cannot be.
+/// modes and outer points, with J that keeps the axes orthonormal. Dense, 4 evaluations of the
+/// system for each coordinate. Throws InputError for options that are not valid and for a state of
+/// another model, RunError if the start cannot be.
 Linearization linearize(const Model& model, const SimulationOptions& options = {});
 
 }  // namespace floatframe

@@ -89,7 +89,8 @@ struct ModeAdviceReport {
   double flops_full = 0, flops_reduced = 0;
 };
 
-/// Runs the model (several times) with `simulation`. Throws InputError for options that are not valid, RunError if the full model cannot run.
+/// Runs the model (several times) with `simulation`. Throws InputError for options that are not
+/// valid, RunError if the full model cannot run.
 ModeAdviceReport advise(const Model& model, const SimulationDescription& simulation,
                         const AdviceOptions& options);
 

@@ -119,8 +119,8 @@ class RangeWatch {
   std::vector<std::vector<PhaseMeter>> meters_;
 };
 
-/// Where an equilibrium leaves the range: bodies that deform too far, one sentence per kind. `bodies`
-/// are those of the model, in its order.
+/// Where an equilibrium leaves the range: bodies that deform too far, one sentence per kind.
+/// `bodies` are those of the model, in its order.
 std::vector<RangeWarning> equilibrium_warnings(const Model& model,
                                                const std::vector<StaticsBody>& bodies,
                                                const RangeLimits& limits = {});

@@ -12,6 +12,8 @@
 //
 // `run` makes the same steps, bit for bit. A simulation belongs to one thread at a time; several of
 // one model may run in several threads.
+#include <concepts>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -78,6 +80,8 @@ class Simulation {
   /// finite or outside of its limits (with `clamp`, the nearer limit is taken).
   void set_input(std::string_view name, double value);
   void set_input(std::ptrdiff_t index, double value);
+  template <std::same_as<std::nullptr_t> T>
+  void set_input(T, double value) = delete;
 
   /// In the order of `model().outputs`, at the end of the last step.
   std::vector<std::string> output_names() const;
@@ -85,6 +89,8 @@ class Simulation {
   /// Throw InputError for an unknown output.
   double output(std::string_view name) const;
   double output(std::ptrdiff_t index) const;
+  template <std::same_as<std::nullptr_t> T>
+  double output(T) const = delete;
 
   /// Called at the beginning of every step with the time, the outputs and the inputs, which it may
   /// change: a force of the user's own is a load, an actuator or a target with an input. They are
@@ -94,7 +100,7 @@ class Simulation {
       std::function<void(double time, std::span<const double> outputs, std::span<double> inputs)>;
   void on_force(ForceCallback callback);
 
-  /// All that decides the next steps; see simulation_state.hpp. Throws InputError after a step that
+  /// All that decides the next steps; see SimulationState. Throws InputError after a step that
   /// failed.
   SimulationState save() const;
   /// Back, or on, to a saved state, of this simulation or of another one of the same model with the

@@ -62,11 +62,11 @@ struct SweepReport {
   std::string journal;  ///< its path
 };
 
-/// Runs the study or what is left of it. `stop`, looked at all the time, ends it early: runs in work
-/// are cancelled. Its workers are forks of the calling program: it should have no other threads at
-/// this moment, or none that hold a lock that a run needs (memory and files of the C library are
-/// safe). They do not run its exit handlers and touch none of its open files. Throws InputError
-/// (nothing was started), OutputError, RunError.
+/// Runs the study or what is left of it. `stop`, looked at all the time, ends it early: runs in
+/// work are cancelled. Its workers are forks of the calling program: it should have no other
+/// threads at this moment, or none that hold a lock that a run needs (memory and files of the C
+/// library are safe). They do not run its exit handlers and touch none of its open files. Throws
+/// InputError (nothing was started), OutputError, RunError.
 SweepReport run_sweep(const SweepOptions& options, const std::atomic<bool>& stop,
                       const std::function<void(const SweepProgress&)>& progress);
 

@@ -13,7 +13,7 @@
 namespace floatframe {
 namespace {
 
-std::string number(double x) { return fmt::format("{:.17g}", x); }
+std::string all_digits(double x) { return fmt::format("{:.17g}", x); }
 
 struct Figures {
   double last = 0, min = 0, time_of_min = 0, max = 0, time_of_max = 0, rms = 0;
@@ -69,22 +69,22 @@ SweepRow sweep_row(const RunResult& result, const std::vector<SweepMeasure>& mea
   const auto add = [&](std::string title, std::string value) {
     row.fields.emplace_back(std::move(title), std::move(value));
   };
-  add("time reached [s]", number(s.duration));
+  add("time reached [s]", all_digits(s.duration));
   add("steps", std::to_string(s.steps));
   add("substeps", std::to_string(s.substeps));
   add("iterations", std::to_string(s.iterations));
   add("factorizations", std::to_string(s.factorizations));
-  add("max position violation [m]", number(s.max_position_violation));
-  add("max velocity violation [m/s]", number(s.max_velocity_violation));
+  add("max position violation [m]", all_digits(s.max_position_violation));
+  add("max velocity violation [m/s]", all_digits(s.max_velocity_violation));
   const EnergySummary& e = s.energy;
-  add("kinetic start [J]", number(e.kinetic_start));
-  add("potential start [J]", number(e.potential_start));
-  add("elastic start [J]", number(e.elastic_start));
-  add("total start [J]", number(e.total_start));
-  add("kinetic end [J]", number(e.kinetic_end));
-  add("potential end [J]", number(e.potential_end));
-  add("elastic end [J]", number(e.elastic_end));
-  add("total end [J]", number(e.total_end));
+  add("kinetic start [J]", all_digits(e.kinetic_start));
+  add("potential start [J]", all_digits(e.potential_start));
+  add("elastic start [J]", all_digits(e.elastic_start));
+  add("total start [J]", all_digits(e.total_start));
+  add("kinetic end [J]", all_digits(e.kinetic_end));
+  add("potential end [J]", all_digits(e.potential_end));
+  add("elastic end [J]", all_digits(e.elastic_end));
+  add("total end [J]", all_digits(e.total_end));
   for (std::size_t c = 1; c < result.table.columns.size(); ++c) {
     const Column& column = result.table.columns[c];
     if (result.table.rows() == 0) continue;
@@ -93,7 +93,7 @@ SweepRow sweep_row(const RunResult& result, const std::vector<SweepMeasure>& mea
     const auto add_figure = [&](const char* statistic, const char* words, double value,
                                 const std::string& its_unit) {
       if (wanted(measures, column.name, statistic))
-        add(column.name + " " + words + its_unit, number(value));
+        add(column.name + " " + words + its_unit, all_digits(value));
     };
     add_figure("final", "final", f.last, unit);
     add_figure("min", "min", f.min, unit);

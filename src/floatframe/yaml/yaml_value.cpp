@@ -19,7 +19,7 @@ std::string shortened(const std::string& s) {
   return s.size() > 40 ? t + "..." : t;
 }
 
-std::string in_quotes(const std::string& s) {
+std::string short_in_quotes(const std::string& s) {
   std::string t(1, '\'');
   t += shortened(s);
   t += '\'';
@@ -119,15 +119,15 @@ std::string YamlValue::found() const {
       case Scalar::Kind::number:
         return shortened(node_->text) + " = " + number_text(s.number);
       case Scalar::Kind::text:
-        return shortened(node_->text) + " = " + in_quotes(s.text);
+        return shortened(node_->text) + " = " + short_in_quotes(s.text);
       default:
         return shortened(node_->text);
     }
   }
-  if (node_->quoted) return in_quotes(node_->text);
+  if (node_->quoted) return short_in_quotes(node_->text);
   const PlainScalar p = classify_plain_scalar(node_->text);
   if (p.kind == PlainScalar::Kind::null) return "nothing";
-  if (p.kind == PlainScalar::Kind::text) return in_quotes(node_->text);
+  if (p.kind == PlainScalar::Kind::text) return short_in_quotes(node_->text);
   return shortened(node_->text);
 }
 
@@ -264,7 +264,7 @@ std::vector<std::pair<std::string, YamlValue>> YamlValue::named(const char* what
     }
     if (free_names && e.key.find("${") != std::string::npos) {
       context_->errors->add({*context_->file, e.line, e.column},
-                            path_ + ": found the name " + in_quotes(e.key) +
+                            path_ + ": found the name " + short_in_quotes(e.key) +
                                 ", but expressions stand for values, not in names");
       continue;
     }
@@ -283,7 +283,7 @@ bool YamlValue::looks_like_number() const {
   return node_->kind == YamlNode::Kind::scalar && scalar("", true).kind == Scalar::Kind::number;
 }
 
-// ------------------------------------------------------------------------------------------------------
+// -----------------------------------------------------------------------------------------------
 // sections
 
 const YamlEntry* YamlSection::find(const char* key) const {

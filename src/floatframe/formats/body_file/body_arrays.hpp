@@ -25,9 +25,9 @@ NpyArray array_of(const std::vector<std::array<int, N>>& rows) {
   return {{rows.size(), N}, std::move(values)};
 }
 
-/// Arrays of an archive by name. Every accessor adds an error that names the member if it is missing
-/// or has another type or shape, or values that are not finite, and returns zeros of the right
-/// shape (or nothing), so that all errors of a file are found at once.
+/// Arrays of an archive by name. Every accessor adds an error that names the member if it is
+/// missing or has another type or shape, or values that are not finite, and returns zeros of the
+/// right shape (or nothing), so that all errors of a file are found at once.
 class ArrayReader {
  public:
   ArrayReader(const std::vector<ZipMember>& members, std::string file, ErrorList& errors)

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t indent = 2;
 
-std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : "-"; }
+std::string finite_number(double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : "-"; }
 std::string percent(double x) { return fmt::format("{:.1f}", 100.0 * x); }
 std::string small(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : "-"; }
 
@@ -22,7 +22,8 @@ std::string mass_text(const HealthReport& r) {
   TextTable table({"", "elements", "invariants", "difference"});
   const MassProperties &a = r.from_elements, &b = r.from_invariants;
   const auto add = [&](const std::string& name, double x, double y, double scale) {
-    table.add({name, number(x), number(y), small(scale > 0.0 ? std::abs(x - y) / scale : 0.0)});
+    table.add({name, finite_number(x), finite_number(y),
+               small(scale > 0.0 ? std::abs(x - y) / scale : 0.0)});
   };
   add("mass [kg]", a.mass, b.mass, a.mass);
   const double length = a.mass > 0.0 ? std::sqrt(std::max(0.0, a.J_origin.trace()) / a.mass) : 0.0;
@@ -59,8 +60,9 @@ std::string interfaces_text(const HealthReport& r) {
   TextTable table(
       {"interface", "kind", "nodes", "x [m]", "y [m]", "z [m]", "condition", "static error"}, {1});
   for (const InterfaceHealth& h : r.interfaces)
-    table.add({h.name, h.kind, std::to_string(h.nodes), number(h.p.x()), number(h.p.y()),
-               number(h.p.z()), h.condition > 0.0 ? fmt::format("{:.1f}", h.condition) : "-",
+    table.add({h.name, h.kind, std::to_string(h.nodes), finite_number(h.p.x()),
+               finite_number(h.p.y()), finite_number(h.p.z()),
+               h.condition > 0.0 ? fmt::format("{:.1f}", h.condition) : "-",
                small(h.static_error)});
   std::string text = title("Interfaces") + table.text(indent);
   text +=

@@ -10,7 +10,7 @@ using E = ElementType;
 constexpr std::array<int, 20> same_order = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
                                             10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
 
-const GmshType types[] = {
+const GmshType gmsh_types[] = {
     {1, "2-node line", 1, 2, {}, {}},
     {2, "3-node triangle", 2, 3, {}, {}},
     {3, "4-node quadrilateral", 2, 4, {}, {}},
@@ -44,9 +44,9 @@ const GmshType types[] = {
 }  // namespace
 
 const GmshType* gmsh_type(int number) noexcept {
-  const auto* it = std::find_if(std::begin(types), std::end(types),
+  const auto* it = std::find_if(std::begin(gmsh_types), std::end(gmsh_types),
                                 [number](const GmshType& t) { return t.number == number; });
-  return it == std::end(types) ? nullptr : it;
+  return it == std::end(gmsh_types) ? nullptr : it;
 }
 
 }  // namespace floatframe

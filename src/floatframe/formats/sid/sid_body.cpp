@@ -17,9 +17,9 @@
 namespace floatframe {
 namespace {
 
-constexpr double same = 1e-6;        // numbers of a file have 12 digits
-constexpr double own_digits = 1e-5;  // of a moment of inertia about the centre of mass
-constexpr double close = 0.05;       // lumped masses of some writers against consistent ones
+constexpr double same_in_sid = 1e-6;  // numbers of a file have 12 digits
+constexpr double own_digits = 1e-5;   // of a moment of inertia about the centre of mass
+constexpr double close = 0.05;        // lumped masses of some writers against consistent ones
 constexpr int axes_of_Oe[3][2] = {{0, 1}, {1, 2}, {0, 2}};
 constexpr int axes_of_J[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 /// Component c of a cross product: first(c) x second(c).
@@ -73,7 +73,7 @@ class BodyOfSid {
   MatX symmetric(const SidTaylor& block, const char* name) {
     const double scale = block.m0.size() > 0 ? block.m0.cwiseAbs().maxCoeff() : 0.0;
     const double skew = scale > 0.0 ? (block.m0 - block.m0.transpose()).cwiseAbs().maxCoeff() : 0.0;
-    if (skew > same * scale) {
+    if (skew > same_in_sid * scale) {
       errors_.add(mark(block.line),
                   fmt::format("block {} is not symmetric: entries differ by {:.3g} of the largest",
                               name, skew / scale));
@@ -87,7 +87,7 @@ class BodyOfSid {
     for (int k = 0; k < nq_; ++k) {
       const Vec3 m1 = c_.mdCM.m1[k];
       const double scale = std::max(m1.norm(), v.S.norm());
-      if ((m1 - v.S.col(k)).norm() > same * scale) {
+      if ((m1 - v.S.col(k)).norm() > same_in_sid * scale) {
         errors_.add(
             mark(c_.Ct.line),
             fmt::format("row {} of block Ct is ({:.6g} {:.6g} {:.6g}), but m1 of mdCM in "
@@ -141,13 +141,13 @@ class BodyOfSid {
       }
       scale_Oe = std::max(scale_Oe, Oe.cwiseAbs().maxCoeff());
     }
-    if (c_.Gr.line > 0 && of_Gr > same * scale_Gr) {
+    if (c_.Gr.line > 0 && of_Gr > same_in_sid * scale_Gr) {
       note(c_.Gr.line,
            fmt::format("block Gr differs from what J and Cr imply by {:.2g} of its largest entry; "
                        "J and Cr are used",
                        of_Gr / scale_Gr));
     }
-    if (c_.Oe.line > 0 && !from_Oe && of_Oe > same * scale_Oe) {
+    if (c_.Oe.line > 0 && !from_Oe && of_Oe > same_in_sid * scale_Oe) {
       note(c_.Oe.line,
            fmt::format("block Oe differs from what J implies by {:.2g} of its largest entry; J is "
                        "used",
@@ -175,7 +175,7 @@ class BodyOfSid {
       odd = std::max(odd, d.cwiseAbs().maxCoeff());
     }
     const double scale = std::max(odd, c_.Me.m0.cwiseAbs().maxCoeff());
-    if (even > same * scale) {
+    if (even > same_in_sid * scale) {
       note(
           from_Ge ? c_.Ge.line : c_.Cr.line,
           fmt::format("the terms of {} of two modes must change sign when the modes are exchanged; "
@@ -214,7 +214,7 @@ class BodyOfSid {
       v.Sij[i][j] = 0.5 * (sum + D[a]);
       v.Sij[j][i] = v.Sij[i][j].transpose();
     }
-    if (known && off > same) {
+    if (known && off > same_in_sid) {
       note(c_.Oe.line,
            fmt::format("second-order inertia terms are taken from m1 of Oe, which gives the modal "
                        "masses with a deviation of {:.2g} from Me; Me is kept",
@@ -239,7 +239,7 @@ class BodyOfSid {
     node.p = f.origin.m0;
     node.X = f.phi.m0;
     node.X_theta = f.psi.m0;
-    if (f.AP.line > 0 && !f.AP.m0.isIdentity(same) && !f.AP.m0.isZero(0.0)) {
+    if (f.AP.line > 0 && !f.AP.m0.isIdentity(same_in_sid) && !f.AP.m0.isZero(0.0)) {
       note(f.AP.line, fmt::format("node {} has axes that are turned against the body's (AP); its "
                                   "own orientation is left out",
                                   f.node));
@@ -247,7 +247,7 @@ class BodyOfSid {
     for (std::size_t k = 0; k < f.origin.m1.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const double scale = std::max(f.origin.m1[k].norm(), f.phi.m0.norm());
-      if ((f.origin.m1[k] - f.phi.m0.col(column)).norm() > same * scale) {
+      if ((f.origin.m1[k] - f.phi.m0.col(column)).norm() > same_in_sid * scale) {
         errors_.add(mark(f.phi.line),
                     fmt::format("column {} of phi of node {} differs from m1 of origin in line {}: "
                                 "they must be equal",
@@ -320,7 +320,7 @@ class BodyOfSid {
           matrix->diagonal().minCoeff(&k) < 0.0
               ? (*matrix)(k, k)
               : symmetric_eigenvalues(unit.asDiagonal() * *matrix * unit.asDiagonal())(0);
-      if (least < -same)
+      if (least < -same_in_sid)
         errors_.add(mark(block->line),
                     fmt::format("block {} holds a negative {} ({:.3g}), expected none below zero",
                                 block == &c_.Ke ? "Ke" : "De", what, least));
@@ -354,7 +354,7 @@ class BodyOfSid {
         [](double x) { return std::isfinite(x) ? x : 0.0; });
     const MatX scaled = d.asDiagonal() * M * d.asDiagonal();
     const double least = symmetric_eigenvalues(scaled)(0);
-    if (!(least >= -same)) {
+    if (!(least >= -same_in_sid)) {
       errors_.add(
           mark(c_.Me.line),
           fmt::format("the mass matrix at zero deformation is not positive: scaled to a unit "

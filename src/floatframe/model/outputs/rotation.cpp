@@ -1,4 +1,5 @@
-// Rotation of a body from its design orientation [rad]: R_WB R_WB,design^T = Rz(yaw) Ry(pitch) Rx(roll).
+// Rotation of a body from its design orientation [rad]:
+//   R_WB R_WB,design^T = Rz(yaw) Ry(pitch) Rx(roll).
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/model/output_kind.hpp"
 
