@@ -11,6 +11,7 @@
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -116,20 +117,17 @@ double distance(const NodeChoice& c, const Vec3& axis, const Vec3& p) {
   return r.norm();
 }
 
-std::string text(const Vec3& v) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v(0), v(1), v(2));
-}
-
 std::string describe(const NodeChoice& c) {
   switch (c.by) {
     case NodeChoice::By::plane:
-      return fmt::format("the plane through {} with the normal {}", text(c.point), text(c.axis));
+      return fmt::format("the plane through {} with the normal {}", vector_text(c.point),
+                         vector_text(c.axis));
     case NodeChoice::By::cylinder:
       return fmt::format("the cylinder of radius {:.6g} m about the axis {} through {}{}", c.radius,
-                         text(c.axis), text(c.point),
+                         vector_text(c.axis), vector_text(c.point),
                          c.length > 0.0 ? fmt::format(", {:.6g} m long", c.length) : "");
     default:
-      return fmt::format("the sphere of radius {:.6g} m about {}", c.radius, text(c.point));
+      return fmt::format("the sphere of radius {:.6g} m about {}", c.radius, vector_text(c.point));
   }
 }
 
@@ -228,7 +226,7 @@ std::optional<int> existing_reference(const FeModel& model, const InterfaceDescr
       throw InputError(
           fmt::format("{} ties these nodes to a reference at {} already; the reference "
                       "point {} is another one",
-                      the_spider(model, s), text(there), text(*d.at)));
+                      the_spider(model, s), vector_text(there), vector_text(*d.at)));
     }
     return s.reference;
   }

@@ -3,15 +3,16 @@
 
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
+
+#include "floatframe/math/frequency.hpp"
 
 namespace floatframe {
 
 PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept {
   PiecewisePolynomial::Value v = f.pieces(t);
   if (f.amplitude != 0.0) {
-    const double w = 2.0 * std::numbers::pi * f.frequency;
+    const double w = omega_of(f.frequency);
     const double s = std::sin(w * t + f.phase), c = std::cos(w * t + f.phase);
     v.f += f.amplitude * s;
     v.df += f.amplitude * w * c;

@@ -11,6 +11,7 @@
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/unit_system.hpp"
+#include "floatframe/math/vector_text.hpp"
 #include "floatframe/parts/json_vector.hpp"
 
 namespace floatframe {
@@ -73,10 +74,6 @@ void sets(const FeModel& model, FeFacts& out) {
     }
     add(name, "surface", faces.size(), nodes);
   }
-}
-
-std::string vector_text(const Vec3& v) {
-  return fmt::format("{:.6g} {:.6g} {:.6g}", v.x(), v.y(), v.z());
 }
 
 std::string material_name(const FeModel& model, std::size_t k) {

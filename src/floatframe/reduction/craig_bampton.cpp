@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/rigid_motion.hpp"
+#include "floatframe/math/vector_text.hpp"
 #include "floatframe/reduction/bar_chains.hpp"
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/reduction.hpp"
@@ -18,12 +18,9 @@ namespace {
 
 enum class Role : char { inner, clamped, interface, inactive };
 
-std::string vector_text(const Vec3& v) {
-  std::ostringstream s;
-  s.precision(3);
-  const auto clean = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };
-  s << "(" << clean(v.x()) << ", " << clean(v.y()) << ", " << clean(v.z()) << ")";
-  return s.str();
+/// A direction without what is round-off.
+std::string direction_text(const Vec3& v) {
+  return vector_text(v.unaryExpr([](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; }), 3);
 }
 
 int node_of(const FeModel& model, const NodeDofs& selection, const char* what, ErrorList& errors) {
@@ -72,10 +69,10 @@ void check_reference(const FeModel& model, const std::vector<Role>& roles, int d
   const Vec3 turn = motion.tail<3>();
   if (turn.norm() < 1e-6) {
     throw InputError("the body reference does not remove the translation along " +
-                     vector_text(motion.head<3>().normalized()));
+                     direction_text(motion.head<3>().normalized()));
   }
   throw InputError("the body reference does not remove the rotation about the direction " +
-                   vector_text(turn.normalized()) + " (clamped: " + model.node_label(node) +
+                   direction_text(turn.normalized()) + " (clamped: " + model.node_label(node) +
                    (count > 1 ? " and others)" : ")"));
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/model/force_outputs.hpp"
 
 namespace floatframe {
@@ -90,7 +91,7 @@ std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, do
   double phase = limits.phase;
   int count = 0;
   for (const Forcing& f : all) {
-    const double x = 2.0 * std::numbers::pi * std::abs(f.function->frequency) * step;
+    const double x = omega_of(std::abs(f.function->frequency)) * step;
     if (f.function->amplitude == 0.0 || !(x > limits.phase)) continue;
     ++count;
     if (x > phase) {
@@ -102,9 +103,8 @@ std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, do
     out.push_back(
         {RangeLimit::sine,
          fmt::format(
-             "the step of {:g} s is too long for {}: its sine of {:g} Hz goes through "
-             "{:.3g} rad of "
-             "phase in each step (limit {:g} rad), {:.2g} steps per period; take a step of at "
+             "the step of {:g} s is too long for {}: its sine of {:g} Hz goes through {:.3g} rad "
+             "of phase in each step (limit {:g} rad), {:.2g} steps per period; take a step of at "
              "most {:.2g} s",
              step, subject(*worst, count - 1), std::abs(worst->function->frequency), phase,
              limits.phase, 2.0 * std::numbers::pi / phase, step * limits.phase / phase)});
@@ -123,10 +123,9 @@ std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, do
   if (worst)
     out.push_back({RangeLimit::table,
                    fmt::format("the step of {:g} s passes over values in the table of {}: it has "
-                               "{:.4g} at t = {:.6g} s "
-                               "but {:.4g} and {:.4g} at the ends of the step there (limit {:g} % "
-                               "of its range); take a "
-                               "step of at most {:.2g} s, the distance of its entries there",
+                               "{:.4g} at t = {:.6g} s but {:.4g} and {:.4g} at the ends of the "
+                               "step there (limit {:g} % of its range); take a step of at most "
+                               "{:.2g} s, the distance of its entries there",
                                step, subject(*worst, count - 1), most.value, most.at, most.before,
                                most.after, 100.0 * limits.passed, most.gap)});
   return out;

@@ -1,5 +1,6 @@
 #include "floatframe/simulation/linearize.hpp"
 
+#include "floatframe/formulation/owners.hpp"
 #include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/simulation_options.hpp"
 #include "floatframe/simulation/start_up.hpp"
@@ -19,9 +20,8 @@ Linearization linearized(const Model& model, const SimulationDescription& option
   l.K = std::move(terms.K);
   l.J = std::move(terms.J);
   l.r = std::move(terms.r);
-  for (int k = 0; k < f.velocities(); ++k) l.coordinates.push_back(f.coordinate_owner(k));
-  for (int k = 0; k < f.constraints(); ++k)
-    l.constraints.push_back(f.constraint_set().owner_of_row(k));
+  l.coordinates = coordinate_owners(f);
+  l.constraints = constraint_owners(f);
   JointFollower joints(started.model());
   l.state = system_state(f, started.state(), joints);
   place_bodies(started.model(), options.inertia, l.state);

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <set>
 
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
 namespace {
-
-constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// M_ff - M_fr M_rr^-1 M_rf: the modal mass of a body that is free to recoil.
 MatX recoil_mass(const InertiaInvariants& v) {
@@ -27,7 +25,7 @@ MatX recoil_mass(const InertiaInvariants& v) {
 double frequency_of(double stiffness, double mass) {
   if (!(stiffness > 0.0)) return 0.0;
   if (!(mass > 0.0)) return std::numeric_limits<double>::infinity();
-  return std::sqrt(stiffness / mass) / two_pi;
+  return hertz(std::sqrt(stiffness / mass));
 }
 
 /// K x = omega^2 M x with a mass matrix that need not be definite: M x = (1 / omega^2) K x.
@@ -37,7 +35,7 @@ VecX frequencies(const MatX& K, const MatX& M) {
   if (!inverse.found) return f;
   const double least = 1e-14 * inverse.values.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < f.size(); ++k)
-    if (inverse.values[k] > least) f[k] = 1.0 / (two_pi * std::sqrt(inverse.values[k]));
+    if (inverse.values[k] > least) f[k] = hertz(1.0 / std::sqrt(inverse.values[k]));
   std::sort(f.begin(), f.end());
   return f;
 }
@@ -103,7 +101,7 @@ BodyAdvice body_advice(const Model& model, int index, const MatX& y, const VecX&
     m.name = n < data.mode_names.size() ? data.mode_names[n] : "mode " + std::to_string(k + 1);
     m.frequency = frequency_of(data.K(k, k), M(k, k));
     m.free_frequency = frequency_of(data.K(k, k), std::max(M_free(k, k), 1e-12 * M(k, k)));
-    m.step_phase = two_pi * m.free_frequency * h;
+    m.step_phase = omega_of(m.free_frequency) * h;
     m.static_share = static_shares[k];
     m.dynamic_share = dynamic_shares[k];
     const auto series = y.row(k);

@@ -11,6 +11,7 @@
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -88,9 +89,7 @@ void BodyRange::choose_nodes(const Model& model, int index) {
 std::string BodyRange::node_name(int node) const {
   if (node < 0) return "";
   const ModalNode& n = data_.nodes[node];
-  if (is_surface_point(n))
-    return fmt::format("the surface point at ({:.4g}, {:.4g}, {:.4g}) m", n.p.x(), n.p.y(),
-                       n.p.z());
+  if (is_surface_point(n)) return "the surface point at " + vector_text(n.p, 4) + " m";
   return "node " + (n.name.empty() ? std::to_string(node + 1) : "'" + n.name + "'");
 }
 

@@ -4,6 +4,7 @@
 
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/formulation/owners.hpp"
 #include "floatframe/simulation/simulation_options.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
 #include "floatframe/simulation/stepping_engine.hpp"
@@ -15,9 +16,9 @@ class Simulation::EngineOf final : public Simulation::Engine {
  public:
   EngineOf(const Model& given, const SimulationDescription& o)
       : Engine(given, o), steps_(model(), options()), joints_(steps_.model()) {
-    const F& f = steps_.formulation();
-    for (int k = 0; k < f.velocities(); ++k) owners_.push_back(f.coordinate_owner(k));
-    for (int k = 0; k < f.constraints(); ++k) owners_.push_back(f.constraint_set().owner_of_row(k));
+    owners_ = coordinate_owners(steps_.formulation());
+    for (std::string& owner : constraint_owners(steps_.formulation()))
+      owners_.push_back(std::move(owner));
     for (const Force& force : model().forces) owners_.push_back("force '" + force.name + "'");
     sample();
   }

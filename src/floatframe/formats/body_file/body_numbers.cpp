@@ -7,11 +7,12 @@
 
 #include "floatframe/body/check_invariants.hpp"
 #include "floatframe/core/json_text.hpp"
+#include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {
 namespace {
 
-constexpr double same = 1e-6;  // numbers that were printed and read again
+constexpr double same_number = 1e-6;  // numbers that were printed and read again
 
 class Check {
  public:
@@ -37,7 +38,7 @@ class Check {
       } else {
         m = p->M_s.sum();
       }
-      if (!(std::abs(m - v.m) <= same * v.m))
+      if (!(std::abs(m - v.m) <= same_number * v.m))
         arrays_.error(p->six_dof() ? "projection_M_6_data" : "projection_M_s_data",
                       fmt::format("found {:g} kg in all, expected the mass of member 'm.npy', {:g} "
                                   "kg",
@@ -47,7 +48,7 @@ class Check {
     for (std::size_t k = 0; k < header_.frequencies.size(); ++k) {
       const double f = own(static_cast<Eigen::Index>(k));
       if (header_.frequencies[k] < 0.0 || !std::isfinite(f)) continue;
-      if (std::abs(f - header_.frequencies[k]) <= same * std::max(f, header_.frequencies[k]))
+      if (std::abs(f - header_.frequencies[k]) <= same_number * std::max(f, header_.frequencies[k]))
         continue;
       error(
           fmt::format("found {:.6g} Hz for mode {}, but K and the modal mass S11 + S22 + S33 give "
@@ -76,7 +77,7 @@ class Check {
           return;
         }
         const double off = distance_from_rigid(part, node, static_cast<int>(point));
-        if (off <= same * scale) continue;
+        if (off <= same_number * scale) continue;
         arrays_.error("marker_X",
                       fmt::format("marker '{}' moves {:.3g} m per modal amplitude away from point "
                                   "{} of the surface, which moves with it (largest mode of the "
@@ -94,7 +95,7 @@ class Check {
     if (h.modes != v.modes())
       error(
           fmt::format("health: found {} modes, expected the {} of this file", h.modes, v.modes()));
-    if (!(std::abs(v.m - said.mass) <= same * said.mass)) {
+    if (!(std::abs(v.m - said.mass) <= same_number * said.mass)) {
       arrays_.error("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg", v.m,
                                      said.mass));
       return;
@@ -103,31 +104,28 @@ class Check {
     const Mat3 J = v.inertia_about_origin();
     const double length = std::sqrt(J.trace() / v.m);
     const Vec3 c = v.centre_of_mass();
-    if (!((c - said.centre).norm() <= same * length))
-      arrays_.error("m_u", fmt::format("found the centre of mass ({:.6g}, {:.6g}, {:.6g}) m, but "
-                                       "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
-                                       c.x(), c.y(), c.z(), said.centre.x(), said.centre.y(),
-                                       said.centre.z()));
-    if (!((J - said.J_origin).norm() <= same * J.norm()))
-      arrays_.error("P_u", fmt::format("found moments of inertia ({:.6g}, {:.6g}, {:.6g}) kg m2 "
-                                       "about the origin, but the health report says ({:.6g}, "
-                                       "{:.6g}, {:.6g}) kg m2",
-                                       J(0, 0), J(1, 1), J(2, 2), said.J_origin(0, 0),
-                                       said.J_origin(1, 1), said.J_origin(2, 2)));
+    if (!((c - said.centre).norm() <= same_number * length))
+      arrays_.error("m_u",
+                    fmt::format("found the centre of mass {} m, but the health report says {} m",
+                                vector_text(c), vector_text(said.centre)));
+    if (!((J - said.J_origin).norm() <= same_number * J.norm()))
+      arrays_.error("P_u",
+                    fmt::format("found moments of inertia {} kg m2 about the origin, but "
+                                "the health report says {} kg m2",
+                                vector_text(J.diagonal()), vector_text(said.J_origin.diagonal())));
     for (const InterfaceHealth& interface : h.interfaces)
       for (const ModalNode& node : file_.part.body.nodes)
         if (node.name == interface.name &&
-            !((node.p - interface.p).norm() <= same * (length + node.p.norm())))
-          arrays_.error("marker_p", fmt::format("found ({:.6g}, {:.6g}, {:.6g}) m for '{}', but "
-                                                "the health report says ({:.6g}, {:.6g}, {:.6g}) m",
-                                                node.p.x(), node.p.y(), node.p.z(), node.name,
-                                                interface.p.x(), interface.p.y(), interface.p.z()));
+            !((node.p - interface.p).norm() <= same_number * (length + node.p.norm())))
+          arrays_.error("marker_p",
+                        fmt::format("found {} m for '{}', but the health report says {} m",
+                                    vector_text(node.p), node.name, vector_text(interface.p)));
   }
 
   /// What earlier programs wrote was not checked.
   void of_the_part(const InertiaInvariants& v, const HealthReport& h) {
     const double m = h.from_elements.mass;
-    if (m > 0.0 && !(std::abs(v.m - m) <= same * m))
+    if (m > 0.0 && !(std::abs(v.m - m) <= same_number * m))
       arrays_.error("m", fmt::format("found {:.6g} kg, but the health report says {:.6g} kg of the "
                                      "elements",
                                      v.m, m));
@@ -143,7 +141,8 @@ class Check {
     if (static_cast<Eigen::Index>(kept.size()) != f.size()) return;
     for (std::size_t k = 0; k < kept.size(); ++k) {
       const double own = f(static_cast<Eigen::Index>(k));
-      if (!std::isfinite(kept[k]) || std::abs(own - kept[k]) <= same * std::max(own, kept[k]))
+      if (!std::isfinite(kept[k]) ||
+          std::abs(own - kept[k]) <= same_number * std::max(own, kept[k]))
         continue;
       arrays_.error("frequencies", fmt::format("found {:.6g} Hz for normal mode {}, but the health "
                                                "report says {:.6g} Hz",
