@@ -122,6 +122,7 @@ class RealTime(unittest.TestCase):
             (["falling.yaml", "--input", "udp"], "found no inputs in the model 'falling'"),
             (["nobody.yaml"], "nobody.yaml"),
             (["cart.yaml", "--set", "weight=3"], "unknown parameter 'weight'"),
+            (["cart.yaml", "--endless", "--duration", "1"], "--duration: found with --endless, expected one of the two"),
         ]
         for arguments, expected in cases:
             with self.subTest(arguments=arguments):

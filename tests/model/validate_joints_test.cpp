@@ -151,13 +151,14 @@ TEST(Validate, Outputs) {
       {[](D& d) { d.outputs[1].component = 3; },
        "outputs.yaw.angle: found 3, expected roll, pitch or yaw"},
       {[](D& d) { d.outputs[2].component = 2; },
-       "outputs.q.coordinate: found 3, expected the number of a coordinate (a whole number from 1 "
-       "to 2)"},
+       "outputs.q.component: found 2, expected the number of a coordinate (a whole number from 0 "
+       "to 1)"},
       {[](D& d) { d.outputs[2].component = std::numeric_limits<int>::max(); },
-       "outputs.q.coordinate: found 2147483648, expected the number of a coordinate (a whole "
-       "number from 1 to 2)"},
+       "outputs.q.component: found 2147483647, expected the number of a coordinate (a whole "
+       "number from 0 to 1)"},
       {[](D& d) { d.outputs[3].component = 7; },
-       "outputs.y1.mode: found 8, expected the number of a mode (a whole number from 1 to 1)"},
+       "outputs.y1.component: found 7, expected the number of a mode (a whole number from 0 to "
+       "0)"},
       {[](D& d) { d.outputs[0].at.body = "x"; }, "outputs.z.position.body: unknown body 'x'"},
       {[](D& d) { d.outputs[0].at.point.x() = nan; },
        "outputs.z.position.at[1]: found nan, expected a number [m] (numbers must be finite)"},

@@ -11,6 +11,7 @@
 
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/number_rule.hpp"
+#include "floatframe/core/suggest.hpp"
 
 namespace floatframe {
 namespace {
@@ -117,7 +118,28 @@ std::string command_complaint(const std::vector<Command>& commands, const CLI::A
       return command_complaint(command.commands, *app.get_subcommand(command.name),
                                words.subspan(1));
   if (words[0][0] == '-') return "";
-  return fmt::format("found the command '{}', expected {}", words[0], names_of(commands));
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.name);
+  return fmt::format("found the command '{}', expected {}{}", words[0], names_of(commands),
+                     did_you_mean(words[0], names));
+}
+
+/// The sentence about the first word that no option and no position took; empty if there is none.
+std::string extra_complaint(const CLI::App& app) {
+  const CLI::App* last = &app;
+  while (!last->get_subcommands().empty()) last = last->get_subcommands().back();
+  const std::vector<std::string> extra = app.remaining(true);
+  for (const std::string& word : extra) {
+    if (word.size() < 2 || word[0] != '-') continue;
+    const std::string name = word.substr(0, word.find('='));
+    std::vector<std::string> known;
+    for (const CLI::Option* option : last->get_options())
+      for (const std::string& option_name : option->get_lnames())
+        known.push_back("--" + option_name);
+    return fmt::format("unknown option '{}'{}", name, did_you_mean(name, known));
+  }
+  if (extra.empty()) return "";
+  return fmt::format("found '{}', expected nothing more", extra.front());
 }
 
 }  // namespace
@@ -140,6 +162,7 @@ ParsedCommand parse_command_line(const std::vector<Command>& commands, int argc,
     if (error.get_exit_code() == 0) return {{}, app.exit(error)};  // --help, --version
     const std::span<char*> words(argv + std::min(argc, 1), argv + argc);
     std::string message = command_complaint(commands, app, words);
+    if (message.empty()) message = extra_complaint(app);
     if (message.empty()) message = error.what();
     say(fmt::format("{} (see {} --help)", message, path_of(app)));
     return {{}, exit_code::bad_input};

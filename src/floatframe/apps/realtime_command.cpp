@@ -60,14 +60,14 @@ class StopOnSignal {
   struct sigaction terminate_before_ {};
 };
 
-void apply(const RealTimeArguments& arguments, SimulationDescription& simulation) {
+void apply_arguments(const RealTimeArguments& arguments, SimulationDescription& simulation) {
   if (!arguments.coordinates.empty())
     simulation.coordinates = coordinates_from(arguments.coordinates);
   if (!arguments.inertia.empty()) simulation.inertia = inertia_from(arguments.inertia);
   set_clock(simulation, arguments.step, arguments.duration);
 }
 
-RealTimeOptions options_from(const RealTimeArguments& arguments) {
+RealTimeOptions realtime_options(const RealTimeArguments& arguments) {
   RealTimeOptions options;
   options.paced = !arguments.no_pace;
   options.endless = arguments.endless;
@@ -163,18 +163,20 @@ std::string port_line(const RealTimeArguments& arguments, const UdpPort& port) {
 }
 
 int run_paced(const RealTimeArguments& arguments) {
+  if (arguments.endless && !arguments.duration.empty())
+    throw InputError("--duration: found with --endless, expected one of the two");
   if (arguments.json && !arguments.layout)
     throw InputError("--json: found without --layout; a run writes JSON with --report FILE");
   ModelFingerprint used;
   ModelDescription description = read_model(arguments.model, false, &used);
-  apply(arguments, description.simulation);
+  apply_arguments(arguments, description.simulation);
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
   if (arguments.layout) {
     print(arguments.json ? layout_json(model) : layout_text(model));
     return 0;
   }
-  RealTimeOptions options = options_from(arguments);
+  RealTimeOptions options = realtime_options(arguments);
   require_valid(options, description.simulation);
   // The log is opened at the start and may be a pipe that somebody reads.
   require_distinct({{"--log", arguments.log}, {"--report", arguments.report}}, files_of(used));

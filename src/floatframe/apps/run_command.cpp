@@ -125,7 +125,7 @@ std::string summary_text(const RunSummary& s) {
       s.model, s.duration, s.cpu, s.real_time_factor,
       s.status == "completed" || s.strict ? "" : ", then it failed", s.coordinates, s.inertia,
       s.step, plural(s.steps, "step"), s.substeps, plural(s.iterations, "Newton iteration"),
-      plural(s.factorizations, "factorization"), s.max_position_violation, s.max_velocity_violation,
+      plural(s.factorizations, "factorisation"), s.max_position_violation, s.max_velocity_violation,
       notes_text(s.start.notes));
 }
 

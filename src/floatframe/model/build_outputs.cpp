@@ -35,10 +35,12 @@ void ModelBuilder::outputs() {
         out.body = body_index(o.at.body);
         const int nm = model.bodies[out.body].modes();
         built = o.component >= 0 && o.component < nm;
-        if (!built)
-          errors.add(
-              o.origin.mark,
-              who + ".mode: " + sentences::number_of("the number of a mode", o.component, nm));
+        if (!built) {
+          const bool from_file = !o.origin.mark.file.empty();
+          errors.add(o.origin.mark,
+                     who + (from_file ? ".mode: " : ".component: ") +
+                         sentences::number_of("the number of a mode", o.component, nm, from_file));
+        }
         break;
       }
       case OutputOf::joint:

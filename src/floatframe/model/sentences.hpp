@@ -69,8 +69,8 @@ Complaint clamp_without_limits(bool clamp, const std::optional<double>& low,
 Complaint input_limits(const std::optional<double>& low, const std::optional<double>& high);
 Complaint input_initial(double initial, const std::optional<double>& low,
                         const std::optional<double>& high);
-/// A component, counted from 0, that is not one of the `n` that a model file counts from 1.
-std::string number_of(const char* what, int component, int n);
+/// A component, counted from 0, that is not one of the `n`; a model file counts them from 1.
+std::string number_of(const char* what, int component, int n, bool from_file);
 std::string weld_does_not_move();
 /// Of what a motor exerts.
 std::string joint_without_motion();

@@ -20,8 +20,11 @@ void joint_output(const OutputDescription& o, const ModelDescription& d, const N
   const int n = joint_velocities(type);
   if (n == 0)
     entity.error(output_type_name(o.type), sentences::weld_does_not_move());
-  else if (o.component < 0 || o.component >= n)  // counted from 0 here and from 1 in model files
-    entity.error("coordinate", sentences::number_of("the number of a coordinate", o.component, n));
+  else if (o.component < 0 || o.component >= n) {
+    const bool from_file = !o.origin.mark.file.empty();
+    entity.error(from_file ? "coordinate" : "component",
+                 sentences::number_of("the number of a coordinate", o.component, n, from_file));
+  }
 }
 
 void force_output(const OutputDescription& o, const ModelDescription& d, const Names& names,

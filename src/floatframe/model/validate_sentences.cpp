@@ -233,9 +233,10 @@ Complaint input_initial(double initial, const std::optional<double>& low,
                                 : "not above max, " + number_text(*high));
 }
 
-std::string number_of(const char* what, int component, int n) {
-  return "found " + std::to_string(static_cast<long>(component) + 1) + ", expected " +
-         WholeNumberRule{what, 1, n}.expectation();
+std::string number_of(const char* what, int component, int n, bool from_file) {
+  const int first = from_file ? 1 : 0;
+  return "found " + std::to_string(static_cast<long>(component) + first) + ", expected " +
+         WholeNumberRule{what, first, n - 1 + first}.expectation();
 }
 
 std::string weld_does_not_move() { return "found a weld, expected a joint that moves"; }

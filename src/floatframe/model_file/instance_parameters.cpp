@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/printable.hpp"
 
 namespace floatframe {
@@ -22,6 +23,17 @@ bool mentions(std::string_view text, std::string_view name) {
     open = close;
   }
   return false;
+}
+
+/// "speed, mass or length", the first of them, or that there are none.
+std::string parameters_there_are(const std::vector<std::string>& known) {
+  constexpr std::size_t most = 20;
+  if (known.empty()) return "none: the file declares no parameters";
+  std::vector<const char*> words;
+  for (std::size_t i = 0; i < std::min(known.size(), most); ++i) words.push_back(known[i].c_str());
+  const std::string more = std::to_string(known.size() - words.size()) + " more";
+  if (known.size() > most) words.push_back(more.c_str());
+  return alternatives(words);
 }
 
 std::string shown(const ParameterValue& v) {
@@ -126,9 +138,12 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
     }
   }
   for (std::size_t i = 0; i < given.size(); ++i)
-    if (!used[i])
-      errors.add(given[i].mark, given[i].subject + ": unknown parameter '" + given[i].name + "'" +
-                                    errors.suggestion(given[i].name, [&] { return known; }));
+    if (!used[i]) {
+      std::string hint = errors.suggestion(given[i].name, [&] { return known; });
+      if (hint.empty()) hint = ", expected " + parameters_there_are(known);
+      errors.add(given[i].mark,
+                 given[i].subject + ": unknown parameter '" + given[i].name + "'" + hint);
+    }
 }
 
 }  // namespace floatframe

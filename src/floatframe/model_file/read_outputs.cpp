@@ -1,8 +1,10 @@
 // Result columns and initial modal amplitudes.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -33,6 +35,7 @@ class OutputReader {
         if (const char* key = output_kind(type).components.key) s->get(key);
       for (const char* key : {"mode", "coordinate", "about", "in"}) s->get(key);
       s->finish();
+      if (found == 0 && misspelt_quantity(*s)) return;  // that has been said
       s->error("found " + std::to_string(found) + " quantities, expected one of " +
                alternatives(output_words));
       return;
@@ -107,6 +110,14 @@ class OutputReader {
     }
     if (!errors.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
     model_.description.outputs.push_back(std::move(o));
+  }
+
+  /// A key of an output is near to a quantity, and so its "unknown key" says what is wrong.
+  static bool misspelt_quantity(const YamlSection& s) {
+    const std::vector<std::string> quantities(std::begin(output_words), std::end(output_words));
+    for (const YamlEntry& e : s.value().node().entries)
+      if (!s.was_asked(e.key) && nearest(e.key, quantities)) return true;
+    return false;
   }
 
   /// One component, all of them, or one number that has no components.

@@ -84,7 +84,7 @@ void run_table(fmt::memory_buffer& page, const RunSummary& s) {
   row("steps", fmt::format("{}", s.steps));
   row("extra steps by halving", fmt::format("{}", s.substeps));
   row("Newton iterations", fmt::format("{}", s.iterations));
-  row("factorizations", fmt::format("{}", s.factorizations));
+  row("factorisations", fmt::format("{}", s.factorizations));
   row("largest position violation", quantity(s.max_position_violation, "m"));
   row("largest velocity violation", quantity(s.max_velocity_violation, "m/s"));
   fmt::format_to(out, "</table></section>\n");

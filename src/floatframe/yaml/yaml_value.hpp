@@ -4,6 +4,7 @@
 // nobody asked for are errors. Every accessor reports what it found and what was expected and lets
 // the reading go on, so that all errors of a file are found at once. Scalars may hold `${...}`
 // expressions.
+#include <algorithm>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -142,6 +143,11 @@ class YamlSection {
   /// Errors for all keys nobody asked for. `elsewhere`: keys that belong into other groups, as
   /// "group.key", to suggest where nothing here is near.
   void finish(const std::vector<std::string>& elsewhere = {});
+
+  /// The key is one that belongs here.
+  bool was_asked(const std::string& key) const {
+    return std::find(asked_.begin(), asked_.end(), key) != asked_.end();
+  }
 
   /// Marks of the entity and of all its keys.
   Origin origin() const;
