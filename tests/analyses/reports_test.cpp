@@ -14,16 +14,19 @@ using Json = nlohmann::json;
 // Four bars in a plane and a spring: the loop is cut once, three of its constraints are redundant.
 const char* const four_bar = R"(
 bodies:
-  left: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0.5], inertia: [0.1, 0.1, 0.1]}}
+  left: {position: [0, 0, 0], rigid: {mass: 1, centre_of_mass: [0, 0, 0.5],
+      inertia: [0.1, 0.1, 0.1]}}
   top: {position: [0, 0, 1], rigid: {mass: 1, centre_of_mass: [1, 0, 1], inertia: [0.1, 0.1, 0.1]}}
-  right: {position: [2, 0, 0], rigid: {mass: 1, centre_of_mass: [2, 0, 0.5], inertia: [0.1, 0.1, 0.1]}}
+  right: {position: [2, 0, 0], rigid: {mass: 1, centre_of_mass: [2, 0, 0.5],
+      inertia: [0.1, 0.1, 0.1]}}
 joints:
   foot_left: {type: revolute, child: left, at: [0, 0, 0], axis: y}
   knee_left: {type: revolute, parent: left, child: top, at: [0, 0, 1], axis: y}
   foot_right: {type: revolute, child: right, at: [2, 0, 0], axis: y}
   knee_right: {type: revolute, parent: right, child: top, at: [2, 0, 1], axis: y}
 forces:
-  strut: {type: spring_damper, from: {body: ground, at: [0, 0, 0]}, to: {body: top, at: [2, 0, 1]}, spring: 1e5}
+  strut: {type: spring_damper, from: {body: ground, at: [0, 0, 0]}, to: {body: top,
+      at: [2, 0, 1]}, spring: 1e5}
 simulation: {step: 0.01, duration: 0.05}
 )";
 

@@ -45,8 +45,8 @@ struct Analysis {
 FLOATFRAME_ANALYSES(FLOATFRAME_DECLARATION)
 #undef FLOATFRAME_DECLARATION
 
-/// One of each in the order of the list. Options have the places of one command line: whoever parses
-/// another one asks again.
+/// One of each in the order of the list. Options have the places of one command line: whoever
+/// parses another one asks again.
 inline std::vector<Analysis> all_analyses() {
 #define FLOATFRAME_CALL(name) name##_analysis(),
   return {FLOATFRAME_ANALYSES(FLOATFRAME_CALL)};

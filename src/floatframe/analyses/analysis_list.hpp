@@ -1,7 +1,7 @@
 #pragma once
 // All analyses: one call with a model, one plain struct. An analysis is the header with its result
-// and its function, included here, and one entry: the name of the file analyses/<name>.cpp, which
-// ends in what makes a command of it, `Analysis <name>_analysis()` (analysis.hpp). The public header
+// and its function, included here, and one entry: the name of the source file analyses/<name>.cpp,
+// which ends in what makes a command of it, `Analysis <name>_analysis()`. The public header
 // floatframe/analysis.hpp and the program run over this list, in its order.
 #include "floatframe/analyses/mass_properties.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
