@@ -30,7 +30,7 @@ constexpr AbaqusType beam(const char* name, int nodes, ElementType type,
   return {name, Family::beam, nodes, type, remark};
 }
 
-constexpr std::array element_types{
+constexpr std::array types_of_abaqus{
     solid("C3D4", 4, ElementType::tet4),
     solid("C3D4H", 4, ElementType::tet4, hybrid),
     solid("C3D10", 10, ElementType::tet10),
@@ -106,14 +106,14 @@ constexpr std::array element_types{
 }  // namespace
 
 const AbaqusType* find_abaqus_type(std::string_view name) noexcept {
-  const auto it = std::find_if(element_types.begin(), element_types.end(),
+  const auto it = std::find_if(types_of_abaqus.begin(), types_of_abaqus.end(),
                                [&](const AbaqusType& t) { return same_word(t.name, name); });
-  return it == element_types.end() ? nullptr : &*it;
+  return it == types_of_abaqus.end() ? nullptr : &*it;
 }
 
 std::vector<std::string> abaqus_type_names() {
   std::vector<std::string> names;
-  for (const AbaqusType& t : element_types) names.emplace_back(t.name);
+  for (const AbaqusType& t : types_of_abaqus) names.emplace_back(t.name);
   return names;
 }
 
