@@ -1,5 +1,5 @@
-// Mass, centre and inertia tensor of whole models against closed forms, and against the mass matrix:
-// the kinetic energy of the motions of the whole as one rigid body.
+// Mass, centre and inertia tensor of whole models against closed forms, and against the mass
+// matrix: the kinetic energy of the motions of the whole as one rigid body.
 #include "floatframe/analyses/mass_properties.hpp"
 
 #include <gtest/gtest.h>
@@ -32,8 +32,10 @@ Mat3 parallel_axes(double m, const Vec3& d) {
 // A block, and a rod on a hinge that is turned by 0.7 about y at the start.
 const char* const block_and_rod = R"(
 bodies:
-  block: {position: [1, 2, 3], rigid: {mass: 3, centre_of_mass: [1.1, 2, 2.8], inertia: [0.1, 0.2, 0.25]}}
-  rod: {position: [4, 0, 0], rigid: {mass: 2, centre_of_mass: [4.5, 0, 0], inertia: [0.05, 0.3, 0.32]}}
+  block: {position: [1, 2, 3], rigid: {mass: 3, centre_of_mass: [1.1, 2, 2.8],
+      inertia: [0.1, 0.2, 0.25]}}
+  rod: {position: [4, 0, 0], rigid: {mass: 2, centre_of_mass: [4.5, 0, 0],
+      inertia: [0.05, 0.3, 0.32]}}
 joints:
   slide: {type: prismatic, child: block, at: [1, 2, 3], axis: x, position: 0.5}
   hinge: {type: revolute, child: rod, at: [4, 0, 0], axis: y, position: 0.7}
@@ -131,8 +133,8 @@ TEST(MassProperties, IsThatOfTheStartThatIsAskedFor) {
   EXPECT_EQ(sagged.mass, given.mass);
 }
 
-/// V^T M V: twice the kinetic energy of the bodies `first` to `last` in the six motions V of a rigid
-/// body, translations along the world's axes and rotations about them.
+/// V^T M V: twice the kinetic energy of the bodies `first` to `last` in the six motions V of a
+/// rigid body, translations along the world's axes and rotations about them.
 MatX rigid_motion_energy(const AbsoluteFormulation& f, const VecX& q, const MatX& M, int first,
                          int last) {
   MatX V = MatX::Zero(q.size(), 6);
@@ -155,8 +157,8 @@ MatX rigid_body_energy(double m, const Vec3& c, const Mat3& J) {
   return G;
 }
 
-/// The largest difference between the mass properties of a model, and of each of its bodies, and its
-/// mass matrix in absolute coordinates, as a part of the largest term.
+/// The largest difference between the mass properties of a model, and of each of its bodies, and
+/// its mass matrix in absolute coordinates, as a part of the largest term.
 double error_of_mass(const Model& model, InertiaMethod method) {
   const SimulationOptions options{.inertia = method};
   const ModelMass p = mass_properties(model, options);

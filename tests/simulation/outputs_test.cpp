@@ -27,7 +27,8 @@ bodies:
   bob: {position: [3, 0.3, 1], rigid: {mass: 1, inertia: [0.1, 0.2, 0.3]}}
 joints:
   hinge: {type: revolute, child: arm, at: hinge, axis: y, position: 0.4, velocity: 1.5}
-  drive: {type: revolute, child: bob, at: [3, 0, 1.2], axis: [0, 1, 1], motion: {piecewise: [{polynomial: [0.1, 2, 3]}]}}
+  drive: {type: revolute, child: bob, at: [3, 0, 1.2], axis: [0, 1, 1],
+      motion: {piecewise: [{polynomial: [0.1, 2, 3]}]}}
   loose: {type: free, child: puck, at: [2, 1, 0.5], velocity: [3, -0.4, 0.5, 1, 2, -3]}
 rods: {tie: {from: {body: ground, at: [1, 2, 1.5]}, to: {body: puck}}}
 forces:

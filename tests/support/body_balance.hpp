@@ -1,7 +1,7 @@
 #pragma once
-// The balance of every body by itself: inertia about its frame, gravity, modal stiffness and damping,
-// force elements, and what joints, rods and motions transmit, all of it from the motion of the
-// body and of its markers. Nothing of the formulation's residual is used.
+// The balance of every body by itself: inertia about its frame, gravity, modal stiffness and
+// damping, force elements, and what joints, rods and motions transmit, all of it from the motion of
+// the body and of its markers. Nothing of the formulation's residual is used.
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -41,8 +41,9 @@ struct ModelMass {
   StartReport start;             ///< what became of the start values
 };
 
-/// At the start that the options ask for, as `linearize`. Throws InputError for options that are not
-/// valid, for a state of another model and for a model without mass, RunError if the start cannot be.
+/// At the start that the options ask for, as `linearize`. Throws InputError for options that are
+/// not valid, for a state of another model and for a model without mass, RunError if the start
+/// cannot be.
 ModelMass mass_properties(const Model& model, const SimulationOptions& options = {});
 
 }  // namespace floatframe

@@ -14,8 +14,8 @@ class AbsoluteFormulation;
 
 class OutputView {
  public:
-  /// After `positions(t, q)`, `velocities`, `forces` and `set_accelerations` of the formulation, and
-  /// `dynamics` where an output asks for inertia. `reactions` where one asks for them.
+  /// After `positions(t, q)`, `velocities`, `forces` and `set_accelerations` of the formulation,
+  /// and `dynamics` where an output asks for inertia. `reactions` where one asks for them.
   OutputView(const RelativeFormulation& formulation, double t, const VecX& q,
              const Reactions* reactions = nullptr) noexcept;
   OutputView(const AbsoluteFormulation& formulation, double t, const VecX& q,

@@ -26,7 +26,7 @@ struct PartJob {
 BodyFile reduce_part_file(const PartJob& job);
 
 /// Everything that decides the result except the contents of files, as (option, value) in the words
-/// of the command line (part_options.hpp): equal lists and equal files give equal bodies.
+/// of the command line: equal lists and equal files give equal bodies.
 std::vector<std::pair<std::string, std::string>> option_list(const PartJob& job);
 
 /// The unit system; InputError (without a place) that names those known, with did-you-mean.

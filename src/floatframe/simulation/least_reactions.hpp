@@ -4,9 +4,9 @@
 // moves and turns, its amplitudes change - the wrenches J^T lambda do not change if a lambda with
 // J^T lambda = 0 is added. With an orthonormal basis U of the columns of J,
 //   lambda_least = U U^T lambda,                                                             (1)
-// and a quantity c . lambda is unique if (I - U U^T) c = 0. Tree joints of relative coordinates have
-// no multipliers; their lambda is what their wrench needs: J_k^T lambda_k = wrench. So the numbers
-// are the same in both formulations, and those of `ConstraintAnalysis` at rest.
+// and a quantity c . lambda is unique if (I - U U^T) c = 0. Tree joints of relative coordinates
+// have no multipliers; their lambda is what their wrench needs: J_k^T lambda_k = wrench. So the
+// numbers are the same in both formulations, and those of `ConstraintAnalysis` at rest.
 //
 // U by Gram-Schmidt with pivoting, each column twice; columns that are shorter than 1e-7 of the
 // longest are what closed loops are off by. Step time: no heap, noexcept.
@@ -17,7 +17,8 @@
 
 namespace floatframe {
 
-/// Adds the wrenches of these multipliers to those of the joints, and sets those of rods and motions.
+/// Adds the wrenches of these multipliers to those of the joints, and sets those of rods and
+/// motions.
 void add_part_wrenches(const ConstraintSet& set, const VecX& lambda, Reactions& reactions) noexcept;
 
 template <class F>

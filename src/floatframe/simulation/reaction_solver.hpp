@@ -1,9 +1,9 @@
 #pragma once
 // Accelerations a and multipliers lambda that satisfy the equations of motion at a state (q, v):
 //   M a + Phi_q^T lambda = Q,   Phi_q a = gamma                                              (1)
-// with gamma = -((Phi_q)dot v + Phi_tt), and the wrenches that joints, rods and motors transmit with
-// them. A step knows neither: its accelerations are those of the integrator before and after their
-// projection, and the projections exchange impulses.
+// with gamma = -((Phi_q)dot v + Phi_tt), and the wrenches that joints, rods and motors transmit
+// with them. A step knows neither: its accelerations are those of the integrator before and after
+// their projection, and the projections exchange impulses.
 //
 // With the penalty p and W = M + p Phi_q^T Phi_q, from lambda = 0 on, until round-off is left:
 //   W da = -(M a + Phi_q^T lambda - Q) - p Phi_q^T (Phi_q a - gamma)
