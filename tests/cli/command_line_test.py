@@ -149,7 +149,7 @@ class Misuse(CommandLine):
                 (("run", ""), "MODEL: found an empty name, expected a file"),
                 (("sweep", "", "--vary", "a=1,2"), "MODEL: found an empty name, expected a file"),
                 (("runn", "pendulum.yaml"), "or info, did you mean 'run'? (see floatframe --help)"),
-                (("bench", "scale"), "expected iltis, chain, scaling or step, did you mean 'scaling'? (see floatframe bench --help)"),
+                (("bench", "chian"), "expected iltis, chain, scaling or step, did you mean 'chain'? (see floatframe bench --help)"),
                 (("run", "pendulum.yaml", "--frobnicate"), "floatframe: unknown option '--frobnicate' (see floatframe run --help)"),
                 (("run", "pendulum.yaml", "--stepp", "1"), "unknown option '--stepp', did you mean '--step'? (see floatframe run --help)"),
                 (("run", "pendulum.yaml", "--durations=1"), "unknown option '--durations', did you mean '--duration'?"),
