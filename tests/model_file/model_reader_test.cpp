@@ -235,10 +235,7 @@ TEST(Overrides, OfTextsAreTakenAsTheyAreWritten) {
   EXPECT_EQ(error({"name", ""}), "--set name=: found nothing, expected a value");
   EXPECT_EQ(error({"n", "null"}), "--set n=null: found null (this is no value)");
   EXPECT_EQ(error({"nam", "x"}), "--set: unknown parameter 'nam', did you mean 'name'?");
-  const std::string none_near = error({"speed", "1"});
-  EXPECT_TRUE(none_near.starts_with("--set: unknown parameter 'speed', expected "));
-  for (const char* there_is : {"n", "on", "name"})
-    EXPECT_NE(none_near.find(there_is, 44), std::string::npos) << none_near;
+  EXPECT_EQ(error({"speed", "1"}), "--set: unknown parameter 'speed', expected name, n or on");
 }
 
 TEST(Parameters, MayTakeThePlaceOfAConstant) {
