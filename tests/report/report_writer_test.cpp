@@ -96,12 +96,21 @@ ResultTable long_table(std::size_t rows) {
   return table;
 }
 
+/// Of column 1.
+std::vector<std::size_t> drawn_rows(const ResultTable& table) {
+  const ReportCurves curves = report_curves(table);
+  std::vector<std::size_t> rows;
+  for (const CurvePoint& p : curves.points[1])
+    rows.push_back(static_cast<std::size_t>(std::lround(1e3 * p.time)));
+  return rows;
+}
+
 TEST(Thinning, KeepsPeaksEndsAndOrder) {
   ResultTable table = long_table(100000);
   table.data[2 * 43211 + 1] = 99.0;
   table.data[2 * 77777 + 1] = -99.0;
   table.data[2 * 500 + 1] = std::numeric_limits<double>::quiet_NaN();
-  const auto rows = thinned_rows(table, 1);
+  const std::vector<std::size_t> rows = drawn_rows(table);
   EXPECT_LE(rows.size(), max_points_per_curve);
   EXPECT_GE(rows.size(), max_points_per_curve / 2);
   EXPECT_EQ(rows.front(), 0u);
@@ -109,13 +118,13 @@ TEST(Thinning, KeepsPeaksEndsAndOrder) {
   EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
   EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 43211u));
   EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 77777u));
-  EXPECT_EQ(thinned_rows(long_table(2000), 1).size(), 2000u);
+  EXPECT_EQ(drawn_rows(long_table(2000)).size(), 2000u);
 }
 
 TEST(SvgPlot, DrawsOneCurveAColumnAndBreaksAtNotFinite) {
   ResultTable table = long_table(10);
   table.data[2 * 4 + 1] = std::numeric_limits<double>::infinity();
-  const std::string svg = svg_plot(table, group_columns(table.columns)[0]);
+  const std::string svg = svg_plot(report_curves(table), group_columns(table.columns)[0]);
   EXPECT_EQ(count_of(svg, "<path class=\"curve"), 1);
   const std::size_t curve = svg.find("class=\"curve");
   EXPECT_EQ(count_of(svg.substr(curve), "M"), 2);
@@ -126,14 +135,14 @@ TEST(SvgPlot, DrawsOneCurveAColumnAndBreaksAtNotFinite) {
 
 TEST(SvgPlot, RoundingNoiseIsNotBlownUp) {
   ResultTable table{{{"time", "s"}, {"v", "m/s"}}, {0, 5.0, 1, 5.0 + 1e-12, 2, 5.0 - 1e-12}};
-  const std::string svg = svg_plot(table, group_columns(table.columns)[0]);
+  const std::string svg = svg_plot(report_curves(table), group_columns(table.columns)[0]);
   EXPECT_NE(svg.find(">5.0<"), std::string::npos) << svg;
   EXPECT_EQ(svg.find(">5.000000"), std::string::npos) << svg;
 }
 
 TEST(SvgPlot, SmallAndLargeValuesTakeThePowerIntoTheAxisTitle) {
   ResultTable table{{{"time", "s"}, {"f", "N"}}, {0, -3e6, 1, 5e6}};
-  const std::string svg = svg_plot(table, group_columns(table.columns)[0]);
+  const std::string svg = svg_plot(report_curves(table), group_columns(table.columns)[0]);
   EXPECT_NE(svg.find("font-size=\"10\">6</tspan>"), std::string::npos) << svg;
   EXPECT_NE(svg.find(">4<"), std::string::npos) << svg;
 }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <new>
 #include <set>
 
@@ -54,6 +55,8 @@ void occupy_standard_files() {
 
 int command_line_main(int argc, char** argv) {
   occupy_standard_files();
+  // A limit of the size of files is an error of the file that reaches it.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return parse_and_act(argc, argv);
   } catch (const InputError& error) {

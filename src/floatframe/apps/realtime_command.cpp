@@ -1,14 +1,13 @@
 // floatframe realtime: steps a model with the wall clock and exchanges inputs and outputs by UDP.
 #include <fmt/format.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstring>
 #include <memory>
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/realtime_output.hpp"
 #include "floatframe/apps/realtime_progress.hpp"
+#include "floatframe/apps/stop_signal.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model/inertia_choice.hpp"
@@ -32,33 +31,6 @@ struct RealTimeArguments {
 
 constexpr const char* default_send = "127.0.0.1:47101";
 constexpr std::uint16_t default_input_port = 47100;
-
-std::atomic<bool> stop_wanted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-/// The first Ctrl-C ends the run with its report, a second one ends the program.
-class StopOnSignal {
- public:
-  StopOnSignal() {
-    stop_wanted = false;
-    struct sigaction action {};
-    action.sa_handler = [](int) { stop_wanted.store(true, std::memory_order_relaxed); };
-    action.sa_flags = SA_RESETHAND;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, &interrupt_before_);
-    sigaction(SIGTERM, &action, &terminate_before_);
-  }
-  ~StopOnSignal() {
-    sigaction(SIGINT, &interrupt_before_, nullptr);
-    sigaction(SIGTERM, &terminate_before_, nullptr);
-  }
-  StopOnSignal(const StopOnSignal&) = delete;
-  StopOnSignal& operator=(const StopOnSignal&) = delete;
-
- private:
-  struct sigaction interrupt_before_ {};
-  struct sigaction terminate_before_ {};
-};
 
 void apply_arguments(const RealTimeArguments& arguments, SimulationDescription& simulation) {
   if (!arguments.coordinates.empty())
@@ -85,7 +57,7 @@ RealTimeOptions realtime_options(const RealTimeArguments& arguments) {
   options.priority = arguments.priority;
   options.lock_memory = arguments.lock_memory;
   options.strict = arguments.strict;
-  options.stop = &stop_wanted;
+  options.stop = &StopSignal::asked();
   return options;
 }
 
@@ -110,7 +82,7 @@ std::unique_ptr<UdpPort> open_port(const RealTimeArguments& arguments, const Mod
   options.inputs = arguments.input == "udp";
   options.outputs = arguments.output == "udp";
   options.lock_step = arguments.lock_step;
-  options.stop = &stop_wanted;
+  options.stop = &StopSignal::asked();
   if (!arguments.timeout.empty())
     options.timeout = option_number("--timeout", arguments.timeout, realtime_rules::timeout);
   if (options.lock_step && !(options.inputs && options.outputs))
@@ -181,7 +153,7 @@ int run_paced(const RealTimeArguments& arguments) {
   // The log is opened at the start and may be a pipe that somebody reads.
   require_distinct({{"--log", arguments.log}, {"--report", arguments.report}}, files_of(used));
   require_writable({{"--report", arguments.report}});
-  const StopOnSignal stop_on_signal;
+  const StopSignal stop_signal;
   const std::unique_ptr<UdpPort> port = open_port(arguments, model);
   if (port && !arguments.quiet) print(port_line(arguments, *port));
 

@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/progress_bar.hpp"
+#include "floatframe/apps/run_files.hpp"
+#include "floatframe/apps/stop_signal.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -14,10 +17,9 @@
 #include "floatframe/model_file/state_json.hpp"
 #include "floatframe/report/notes_text.hpp"
 #include "floatframe/report/report_html.hpp"
-#include "floatframe/report/results_csv.hpp"
-#include "floatframe/report/summary_json.hpp"
 #include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/sweep/program_identity.hpp"
 
 namespace floatframe {
 namespace {
@@ -25,7 +27,8 @@ namespace {
 struct RunArguments {
   ModelArguments model;
   std::string coordinates, inertia, step, duration, out, write_state;
-  bool no_report = false, quiet = false, strict = false;
+  std::string checkpoint_every;
+  bool resume = false, no_report = false, quiet = false, strict = false;
 };
 
 void apply(const RunArguments& arguments, SimulationDescription& simulation) {
@@ -38,11 +41,7 @@ void apply(const RunArguments& arguments, SimulationDescription& simulation) {
   check_step(simulation);
 }
 
-struct OutputPaths {
-  std::string folder, results, report, summary;
-};
-
-OutputPaths make_output_paths(const RunArguments& arguments, const std::string& model_name) {
+RunPaths make_paths(const RunArguments& arguments, const std::string& model_name) {
   const std::filesystem::path folder =
       arguments.out.empty() ? std::filesystem::path("out") / file_name_from(model_name)
                             : std::filesystem::path(arguments.out);
@@ -51,8 +50,7 @@ OutputPaths make_output_paths(const RunArguments& arguments, const std::string& 
   } catch (const OutputError& error) {
     throw InputError(error.what());
   }
-  return {folder.string(), (folder / "results.csv").string(), (folder / "report.html").string(),
-          (folder / "summary.json").string()};
+  return RunPaths(folder.string());
 }
 
 FactTable model_facts(const Model& model) {
@@ -100,22 +98,6 @@ FactTable setting_facts(const RunArguments& arguments, const SimulationDescripti
   return facts;
 }
 
-void write_outputs(const OutputPaths& paths, const RunArguments& arguments, Report&& report) {
-  // The files of one run belong together: what this run does not write must not stay from an
-  // earlier one.
-  if (report.result.table.columns.empty()) {
-    remove_file(paths.results);
-  } else {
-    write_file(paths.results, results_csv(report.result.table));
-  }
-  if (arguments.no_report) {
-    remove_file(paths.report);
-  } else {
-    write_file(paths.report, report_html(report));
-  }
-  write_file(paths.summary, summary_json(report.result.summary));
-}
-
 std::string summary_text(const RunSummary& s) {
   return fmt::format(
       "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time){}\n"
@@ -123,17 +105,74 @@ std::string summary_text(const RunSummary& s) {
       "  {}, {} by halving, {}, {}\n"
       "  largest constraint violation {:.2g} m, {:.2g} m/s\n{}",
       s.model, s.duration, s.cpu, s.real_time_factor,
-      s.status == "completed" || s.strict ? "" : ", then it failed", s.coordinates, s.inertia,
-      s.step, plural(s.steps, "step"), s.substeps, plural(s.iterations, "Newton iteration"),
-      plural(s.factorizations, "factorisation"), s.max_position_violation, s.max_velocity_violation,
-      notes_text(s.start.notes));
+      s.status == "completed" || s.strict ? ""
+      : s.status == "interrupted"         ? ", then it was interrupted"
+                                          : ", then it failed",
+      s.coordinates, s.inertia, s.step, plural(s.steps, "step"), s.substeps,
+      plural(s.iterations, "Newton iteration"), plural(s.factorizations, "factorisation"),
+      s.max_position_violation, s.max_velocity_violation, notes_text(s.start.notes));
 }
 
-std::string files_text(const OutputPaths& paths, const RunArguments& arguments, bool has_table) {
+std::string files_text(const RunPaths& paths, bool has_table) {
   std::string text;
   if (has_table) text += fmt::format("  results  {}\n", paths.results);
-  if (!arguments.no_report) text += fmt::format("  report   {}\n", paths.report);
+  if (std::filesystem::exists(paths.report)) text += fmt::format("  report   {}\n", paths.report);
   return text + fmt::format("  summary  {}\n", paths.summary);
+}
+
+RunFiles::Options run_file_options(const RunArguments& arguments, const ModelFingerprint& used,
+                                   const ModelDescription& description) {
+  RunFiles::Options o;
+  o.report = !arguments.no_report;
+  o.resume = arguments.resume;
+  if (!arguments.checkpoint_every.empty())
+    o.checkpoint_every = positive_number("--checkpoint-every", arguments.checkpoint_every);
+  o.summary = asked_summary(description.name, description.simulation);
+  o.summary.settings = arguments.model.settings;
+  o.summary.files = used.files;
+  if (o.resume || o.checkpoint_every > 0.0)
+    o.origin = {program_identity(), relative_to_model(arguments.model.path, used.files),
+                arguments.model.settings};
+  return o;
+}
+
+/// The run with what leaves it on its way.
+RunResult run_with(RunFiles& files, const Model& model, const SimulationDescription& simulation,
+                   const RunArguments& arguments) {
+  RunOptions options;
+  options.keep_state = !arguments.write_state.empty();
+  options.stop = &StopSignal::asked();
+  options.resume = files.resumed();
+  options.checkpoint_every = files.checkpoint_every();
+  if (files.streams()) {
+    options.rows = [&](const std::vector<Column>& columns, std::span<const double> numbers) {
+      files.take(columns, numbers);
+    };
+    options.checkpoint = [&](const RunCheckpoint& checkpoint) { files.keep(checkpoint); };
+  }
+  ProgressBar bar(!arguments.quiet, simulation.duration, "s");
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  return run(model, simulation, options);
+}
+
+/// The last sentences, and the exit code.
+int end_of(const RunPaths& paths, const RunSummary& summary, bool has_table,
+           const std::vector<std::string>& unwritten, std::optional<double> cut_at) {
+  for (const RangeWarning& warning : summary.warnings) say("warning: " + warning.sentence);
+  const bool interrupted = summary.status == "interrupted";
+  if (interrupted)
+    say(summary.message);
+  else if (summary.status != "completed")
+    say("the run failed: " + summary.message);
+  if (summary.status != "completed" && has_table && !summary.strict)
+    say(fmt::format("the results up to {:.9g} s are kept in {} and marked as partial",
+                    cut_at.value_or(summary.duration), paths.folder));
+  // A step that fails would fail again.
+  if ((interrupted || cut_at) && std::filesystem::exists(paths.checkpoint))
+    say("the same command with --resume continues the run");
+  for (const std::string& sentence : unwritten) say(sentence);
+  if (interrupted && unwritten.empty()) return 128 + StopSignal::number();
+  return summary.status == "completed" && unwritten.empty() ? exit_code::done : exit_code::failed;
 }
 
 int run_model(const RunArguments& arguments) {
@@ -143,21 +182,20 @@ int run_model(const RunArguments& arguments) {
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
   require_writable({{"--write-state", arguments.write_state}}, files_of(used));
-  const OutputPaths paths = make_output_paths(arguments, description.name);
+  const RunPaths paths = make_paths(arguments, description.name);
   require_writable({{"--write-state", arguments.write_state},
                     {"--out", paths.results},
                     {"--out", paths.report},
-                    {"--out", paths.summary}},
+                    {"--out", paths.summary},
+                    {"--out", paths.checkpoint}},
                    files_of(used));
+  RunFiles files(paths, run_file_options(arguments, used, description));
+  const StopSignal stop_signal;
 
   Report report;
   if (!arguments.no_report) report.facts.push_back(model_facts(model));
-  RunOptions options;
-  options.keep_state = !arguments.write_state.empty();
   try {
-    ProgressBar bar(!arguments.quiet, description.simulation.duration, "s");
-    options.progress = [&bar](double fraction) { bar.show(fraction); };
-    report.result = run(model, description.simulation, options);
+    report.result = run_with(files, model, description.simulation, arguments);
   } catch (const RunError& error) {
     // A summary and a report that say so, in place of older results.
     report.result.summary = failed_summary(description.name, description.simulation, error.what());
@@ -172,20 +210,20 @@ int run_model(const RunArguments& arguments) {
 
   const RunSummary summary = report.result.summary;
   const bool state = report.result.state && (summary.status == "completed" || summary.strict);
-  if (state) write_file(arguments.write_state, state_json(*report.result.state));
+  const std::shared_ptr<const SystemState> end_state = report.result.state;
   const bool has_table = !report.result.table.columns.empty();
-  write_outputs(paths, arguments, std::move(report));
-  if (!arguments.quiet) {
-    print((has_table ? summary_text(summary) : "") + files_text(paths, arguments, has_table) +
-          (state ? fmt::format("  state    {}\n", arguments.write_state) : ""));
+  std::vector<std::string> unwritten = files.finish(std::move(report));
+  if (state) {
+    try {
+      write_file(arguments.write_state, state_json(*end_state));
+    } catch (const OutputError& error) {
+      unwritten.emplace_back(error.what());
+    }
   }
-  for (const RangeWarning& warning : summary.warnings) say("warning: " + warning.sentence);
-  if (summary.status == "completed") return 0;
-  say("the run failed: " + summary.message);
-  if (has_table && !summary.strict)
-    say(fmt::format("the results up to {:.9g} s are kept in {} and marked as partial",
-                    summary.duration, paths.folder));
-  return 1;
+  if (!arguments.quiet)
+    print((has_table ? summary_text(summary) : "") + files_text(paths, has_table) +
+          (state ? fmt::format("  state    {}\n", arguments.write_state) : ""));
+  return end_of(paths, summary, has_table, unwritten, files.cut_at());
 }
 
 }  // namespace
@@ -210,15 +248,23 @@ Command run_command() {
            text_option("--out", a->out, "DIR", "Folder for the files; default: out/<model name>"),
            text_option("--write-state", a->write_state, "FILE",
                        "Write the state at the end, for start: {state: FILE}"),
+           text_option(
+               "--checkpoint-every", a->checkpoint_every, "SECONDS",
+               "Write a checkpoint to DIR/run.checkpoint every so many seconds of simulated "
+               "time [s]"),
+           flag("--resume", a->resume,
+                "Continue from the checkpoint in DIR: same model, options and copy of the program"),
            flag("--no-report", a->no_report, "Do not write report.html"),
            flag("--strict", a->strict, "Warnings count as errors: exit code 1, results are kept"),
            flag("--quiet", a->quiet,
                 "No progress bar, no summary; errors and warnings are still shown")}),
       .footer =
-          "Files: results.csv (SI units, radians), report.html, summary.json.\n"
+          "Files: results.csv (SI units, radians), which grows while the run goes on, "
+          "report.html,\n"
+          "summary.json. Ctrl-C ends the run with its files.\n"
           "Exit codes: 0 completed, 1 failed (results up to there are kept) or, with --strict, "
           "with\n"
-          "warnings, 2 bad input.",
+          "warnings, 2 bad input, 130 or 143 interrupted.",
       .run = [a] { return run_model(*a); }};
 }
 

@@ -17,7 +17,10 @@ ContentHash& ContentHash::add(std::uint64_t number) noexcept {
 }
 
 ContentHash& ContentHash::add(std::string_view bytes) noexcept {
-  add(static_cast<std::uint64_t>(bytes.size()));
+  return add(static_cast<std::uint64_t>(bytes.size())).append(bytes);
+}
+
+ContentHash& ContentHash::append(std::string_view bytes) noexcept {
   for (const char c : bytes) mix(static_cast<unsigned char>(c));
   return *this;
 }

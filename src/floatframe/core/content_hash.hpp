@@ -12,6 +12,8 @@ class ContentHash {
   /// Length and bytes, so that "ab", "c" and "a", "bc" differ.
   ContentHash& add(std::string_view bytes) noexcept;
   ContentHash& add(std::uint64_t number) noexcept;
+  /// Bytes alone: of a text that comes in pieces, wherever it is cut.
+  ContentHash& append(std::string_view bytes) noexcept;
   /// 32 hexadecimal digits.
   std::string text() const;
 

@@ -1,5 +1,7 @@
 #include "floatframe/model_file/model_fingerprint.hpp"
 
+#include <filesystem>
+
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/model_file/model_instance.hpp"
 
@@ -50,6 +52,18 @@ void add(ContentHash& model, ContentHash& simulation, const ModelInstance& self)
 }
 
 }  // namespace
+
+std::map<std::string, std::string> relative_to_model(
+    const std::string& model, const std::map<std::string, std::string>& files) {
+  std::map<std::string, std::string> out;
+  const auto folder = std::filesystem::path(model).parent_path();
+  for (const auto& [file, hash] : files) {
+    const std::string relative =
+        folder.empty() ? "" : std::filesystem::path(file).lexically_relative(folder).string();
+    out.emplace(relative.empty() ? file : relative, hash);
+  }
+  return out;
+}
 
 void fingerprint(const ModelInstance& root, ModelFingerprint& out) {
   ContentHash model, simulation;

@@ -21,6 +21,10 @@ struct ModelFingerprint {
   std::string simulation;
 };
 
+/// Names of files relative to the model file: a folder may be moved or reached by another path.
+std::map<std::string, std::string> relative_to_model(
+    const std::string& model, const std::map<std::string, std::string>& files);
+
 /// `model` and `simulation` of a loaded model file with its subsystems.
 void fingerprint(const ModelInstance& root, ModelFingerprint& out);
 

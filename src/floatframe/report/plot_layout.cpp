@@ -1,4 +1,4 @@
-// What goes into a plot: groups of columns, tick positions, rows to draw.
+// What goes into a plot: groups of columns, tick positions.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -84,33 +84,6 @@ Ticks nice_ticks(double low, double high, int about, bool cover) {
   const double from = cover ? std::floor(low / step + slack) : std::ceil(low / step - slack);
   const double to = cover ? std::ceil(high / step - slack) : std::floor(high / step + slack);
   return {from * step, step, static_cast<int>(to - from) + 1};
-}
-
-std::vector<std::size_t> thinned_rows(const ResultTable& table, std::size_t column,
-                                      std::size_t limit) {
-  const std::size_t rows = table.rows();
-  std::vector<std::size_t> kept;
-  if (rows <= limit || limit < 4) {
-    for (std::size_t row = 0; row < rows; ++row) kept.push_back(row);
-    return kept;
-  }
-  const std::size_t stretches = (limit - 2) / 2;
-  const std::size_t inner = rows - 2;
-  kept.push_back(0);
-  for (std::size_t s = 0; s < stretches; ++s) {
-    const std::size_t from = 1 + s * inner / stretches, to = 1 + (s + 1) * inner / stretches;
-    std::size_t smallest = from, largest = from;
-    for (std::size_t row = from; row < to; ++row) {
-      const double value = table.at(row, column);
-      if (!std::isfinite(value)) continue;
-      if (!(table.at(smallest, column) <= value)) smallest = row;
-      if (!(table.at(largest, column) >= value)) largest = row;
-    }
-    kept.push_back(std::min(smallest, largest));
-    if (smallest != largest) kept.push_back(std::max(smallest, largest));
-  }
-  kept.push_back(rows - 1);
-  return kept;
 }
 
 }  // namespace floatframe

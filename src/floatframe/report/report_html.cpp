@@ -33,19 +33,19 @@ std::string quantity(double value, const std::string& unit) {
   return number(value) + (unit.empty() ? "" : "&nbsp;" + html_escape(unit));
 }
 
-void figure(fmt::memory_buffer& page, const ResultTable& table, const PlotGroup& group) {
+void figure(fmt::memory_buffer& page, const ReportCurves& curves, const PlotGroup& group) {
   auto out = std::back_inserter(page);
   fmt::format_to(out, "<figure>\n<figcaption><h3>{}</h3>", html_escape(group.title));
   if (group.columns.size() > 1) {
     fmt::format_to(out, "<ul class=\"legend\">");
     for (std::size_t i = 0; i < group.columns.size(); ++i) {
       fmt::format_to(out, "<li>{}{}</li>", svg_legend_key(i),
-                     html_escape(table.columns[group.columns[i]].name));
+                     html_escape(curves.columns[group.columns[i]].name));
     }
     fmt::format_to(out, "</ul>");
   }
   fmt::format_to(out, "</figcaption>\n<div class=\"plot\">{}</div>\n</figure>\n",
-                 svg_plot(table, group));
+                 svg_plot(curves, group));
 }
 
 void headline(fmt::memory_buffer& page, const RunSummary& s) {
@@ -140,7 +140,7 @@ void energy_table(fmt::memory_buffer& page, const EnergySummary& e, bool damped)
                  "remainder.</p></section>\n");
 }
 
-void extremes_table(fmt::memory_buffer& page, const ResultTable& table) {
+void extremes_table(fmt::memory_buffer& page, const ReportCurves& curves) {
   auto out = std::back_inserter(page);
   fmt::format_to(out,
                  "<section><h2>Extreme values</h2>\n<div class=\"wide\"><table>\n<tr><th "
@@ -148,24 +148,37 @@ void extremes_table(fmt::memory_buffer& page, const ResultTable& table) {
                  "<th scope=\"col\">smallest</th><th scope=\"col\">at time [s]</th><th "
                  "scope=\"col\">largest</th>"
                  "<th scope=\"col\">at time [s]</th><th scope=\"col\">at the end</th></tr>\n");
-  for (std::size_t c = 1; c < table.columns.size(); ++c) {
-    std::size_t smallest = 0, largest = 0;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      const double value = table.at(row, c);
-      if (!std::isfinite(value)) continue;
-      if (!(table.at(smallest, c) <= value)) smallest = row;
-      if (!(table.at(largest, c) >= value)) largest = row;
-    }
-    const Column& column = table.columns[c];
+  for (std::size_t c = 1; c < curves.columns.size(); ++c) {
+    const Column& column = curves.columns[c];
+    const ColumnExtremes& e = curves.extremes[c];
     fmt::format_to(
         out,
         "<tr><th "
         "scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         html_escape(column.name), column.unit.empty() ? "" : " [" + html_escape(column.unit) + "]",
-        number(table.at(smallest, c)), number(table.at(smallest, 0)), number(table.at(largest, c)),
-        number(table.at(largest, 0)), number(table.at(table.rows() - 1, c)));
+        number(e.smallest.value), number(e.smallest.time), number(e.largest.value),
+        number(e.largest.time), number(e.last.value));
   }
   fmt::format_to(out, "</table></div></section>\n");
+}
+
+/// That the results are not those of a whole run that went well.
+void banner(fmt::memory_buffer& page, const Report& report) {
+  const RunSummary& s = report.result.summary;
+  if (s.status == "completed") return;
+  auto out = std::back_inserter(page);
+  if (s.strict) {
+    fmt::format_to(
+        out, "<div class=\"failed\" role=\"alert\"><b>This run counts as failed.</b> {}</div>\n",
+        html_escape(s.message));
+  } else {
+    fmt::format_to(
+        out,
+        "<div class=\"failed\" role=\"alert\"><b>This run {}: the results are partial.</b> "
+        "They end at {}.<br>{}</div>\n",
+        s.status == "interrupted" ? "was interrupted" : "failed",
+        quantity(report.rows_end.value_or(s.duration), "s"), html_escape(s.message));
+  }
 }
 
 /// What the start of the run has to say, at the top.
@@ -182,9 +195,8 @@ void notes(fmt::memory_buffer& page, const std::vector<std::string>& sentences) 
 
 std::string report_html(const Report& report) {
   const RunSummary& s = report.result.summary;
-  const ResultTable& table = report.result.table;
-  const bool failed = s.status != "completed";
-  const bool has_curves = table.rows() > 0 && table.columns.size() > 1;
+  const ReportCurves curves = report.curves ? *report.curves : report_curves(report.result.table);
+  const bool has_curves = curves.rows > 0 && curves.columns.size() > 1;
   fmt::memory_buffer page;
   auto out = std::back_inserter(page);
   fmt::format_to(out,
@@ -198,24 +210,14 @@ std::string report_html(const Report& report) {
                  "{4}</p>\n</header>\n",
                  html_escape(s.model), report_style, html_escape(s.coordinates),
                  html_escape(s.inertia), quantity(s.step, "s"));
-  if (failed && s.strict) {
-    fmt::format_to(
-        out, "<div class=\"failed\" role=\"alert\"><b>This run counts as failed.</b> {}</div>\n",
-        html_escape(s.message));
-  } else if (failed) {
-    fmt::format_to(
-        out,
-        "<div class=\"failed\" role=\"alert\"><b>This run failed: the results are partial.</b> "
-        "They end at {}.<br>{}</div>\n",
-        quantity(s.duration, "s"), html_escape(s.message));
-  }
+  banner(page, report);
   warning_list(page, s.warnings);
   headline(page, s);
   notes(page, s.start.notes);
   if (has_curves) {
     fmt::format_to(out, "<h2>Curves</h2>\n");
-    for (const PlotGroup& group : group_columns(table.columns)) figure(page, table, group);
-    extremes_table(page, table);
+    for (const PlotGroup& group : group_columns(curves.columns)) figure(page, curves, group);
+    extremes_table(page, curves);
   }
   fmt::format_to(out, "<div class=\"pair\">\n");
   run_table(page, s);

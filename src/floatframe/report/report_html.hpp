@@ -3,9 +3,11 @@
 // curves of all outputs as static SVG, extreme values, energies and the facts of model and
 // settings. Light and dark, screen and paper.
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "floatframe/report/report_curves.hpp"
 #include "floatframe/simulation/results.hpp"
 
 namespace floatframe {
@@ -19,13 +21,17 @@ struct FactTable {
 
 struct Report {
   RunResult result;
-  std::vector<FactTable> facts;  ///< model, settings
-  std::string software;          ///< version and build
+  /// Of results that are in a file; else they are made of the table.
+  std::optional<ReportCurves> curves;
+  std::optional<double> rows_end;  ///< where rows that could not be written are missing [s]
+  std::vector<FactTable> facts;    ///< model, settings
+  std::string software;            ///< version and build
   std::string processor;
   double spectral_radius = 1.0;  ///< of the integrator: below 1 it dissipates
 };
 
-/// A failed run gets a banner that names the reason and says that the results are partial.
+/// A run that failed or was interrupted gets a banner that names the reason and says that the
+/// results are partial.
 std::string report_html(const Report& report);
 
 }  // namespace floatframe

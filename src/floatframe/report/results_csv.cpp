@@ -8,23 +8,32 @@
 
 namespace floatframe {
 
-std::string results_csv(const ResultTable& table) {
-  fmt::memory_buffer text;
-  auto out = std::back_inserter(text);
-  const std::size_t columns = table.columns.size();
-  for (std::size_t c = 0; c < columns; ++c) {
-    const Column& column = table.columns[c];
-    fmt::format_to(out, "{}{}", c == 0 ? "" : ",", csv_title(column.name, column.unit));
+void append_csv_header(std::string& text, const std::vector<Column>& columns) {
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (c > 0) text += ',';
+    text += csv_title(columns[c].name, columns[c].unit);
   }
-  if (columns > 0) text.push_back('\n');
-  for (std::size_t row = 0; row < table.rows(); ++row) {
+  if (!columns.empty()) text += '\n';
+}
+
+void append_csv_rows(std::string& text, std::size_t columns, std::span<const double> numbers) {
+  fmt::basic_memory_buffer<char, 4096> row;
+  for (std::size_t k = 0; k + columns <= numbers.size() && columns > 0; k += columns) {
+    row.clear();
     for (std::size_t c = 0; c < columns; ++c) {
-      if (c > 0) text.push_back(',');
-      fmt::format_to(out, "{:.17g}", table.at(row, c));
+      if (c > 0) row.push_back(',');
+      fmt::format_to(std::back_inserter(row), "{:.17g}", numbers[k + c]);
     }
-    text.push_back('\n');
+    row.push_back('\n');
+    text.append(row.data(), row.size());
   }
-  return fmt::to_string(text);
+}
+
+std::string results_csv(const ResultTable& table) {
+  std::string text;
+  append_csv_header(text, table.columns);
+  append_csv_rows(text, table.columns.size(), table.data);
+  return text;
 }
 
 }  // namespace floatframe

@@ -63,9 +63,10 @@ Json measured(const RunSummary& s) {
 
 std::string summary_json(const RunSummary& s) {
   Json json = Json::object();
-  // What nobody measured is left out: a model that could not be read, a run that never began, or
-  // one of a study that was stopped or died.
-  const bool began = s.status != "failed" || s.steps > 0 || s.cpu > 0.0;
+  // What nobody measured is left out: a model that could not be read, a run that never began, one
+  // that has not ended yet, or one of a study that was stopped or died.
+  const bool ended = s.status != "running";
+  const bool began = ended && (s.status != "failed" || s.steps > 0 || s.cpu > 0.0);
   if (began || !s.model.empty())
     json.update({{"model", s.model},
                  {"coordinates", s.coordinates},

@@ -26,16 +26,12 @@ struct Axis {
 };
 
 /// Smallest and largest finite value of the columns; {0, 1} if there is none.
-std::pair<double, double> range_of(const ResultTable& table,
+std::pair<double, double> range_of(const ReportCurves& curves,
                                    const std::vector<std::size_t>& columns) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (const std::size_t c : columns) {
-      const double value = table.at(row, c);
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
+  for (const std::size_t c : columns) {
+    low = std::min(low, curves.extremes[c].low);
+    high = std::max(high, curves.extremes[c].high);
   }
   if (low > high) return {0.0, 1.0};
   return {low, high};
@@ -83,17 +79,16 @@ std::string axis_title(const std::string& quantity, const std::string& unit, int
   return html_escape(quantity) + (scaled.empty() ? "" : " [" + scaled + "]");
 }
 
-std::string curve_path(const ResultTable& table, std::size_t column, const Axis& x, const Axis& y) {
+std::string curve_path(const std::vector<CurvePoint>& points, const Axis& x, const Axis& y) {
   fmt::memory_buffer path;
   bool pen_down = false;
-  for (const std::size_t row : thinned_rows(table, column)) {
-    const double time = table.at(row, 0), value = table.at(row, column);
-    if (!std::isfinite(time) || !std::isfinite(value)) {
+  for (const CurvePoint& p : points) {
+    if (!std::isfinite(p.time) || !std::isfinite(p.value)) {
       pen_down = false;
       continue;
     }
-    fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", pen_down ? "L" : "M", x(time),
-                   y(value));
+    fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", pen_down ? "L" : "M", x(p.time),
+                   y(p.value));
     pen_down = true;
   }
   return fmt::to_string(path);
@@ -101,9 +96,9 @@ std::string curve_path(const ResultTable& table, std::size_t column, const Axis&
 
 }  // namespace
 
-std::string svg_plot(const ResultTable& table, const PlotGroup& group) {
-  const auto [time_low, time_high] = range_of(table, {0});
-  const auto values = range_of(table, group.columns);
+std::string svg_plot(const ReportCurves& curves, const PlotGroup& group) {
+  const auto [time_low, time_high] = range_of(curves, {0});
+  const auto values = range_of(curves, group.columns);
   const auto [low, high] = vertical_range(values.first, values.second);
   const Ticks y_ticks = nice_ticks(low, high, 5, true);
   const double time_end = time_high > time_low ? time_high : time_low + 1.0;
@@ -134,7 +129,7 @@ std::string svg_plot(const ResultTable& table, const PlotGroup& group) {
   }
   fmt::format_to(out, "<path class=\"axis\" d=\"M{0} {1}V{2}H{3}\"/>\n", left, top, height - bottom,
                  width - right);
-  const Column& time = table.columns.front();
+  const Column& time = curves.columns.front();
   fmt::format_to(out, "<text class=\"title\" text-anchor=\"middle\" x=\"{}\" y=\"{}\">{}</text>\n",
                  0.5 * (left + width - right), height - 8,
                  axis_title(time.name, time.unit, x_exponent));
@@ -146,7 +141,7 @@ std::string svg_plot(const ResultTable& table, const PlotGroup& group) {
       middle, axis_title(group.quantity, group.unit, y_exponent));
   for (std::size_t i = 0; i < group.columns.size(); ++i) {
     fmt::format_to(out, "<path class=\"curve c{}\" d=\"{}\"/>\n", i % max_curves_per_plot,
-                   curve_path(table, group.columns[i], x, y));
+                   curve_path(curves.points[group.columns[i]], x, y));
   }
   fmt::format_to(out, "</svg>\n");
   return fmt::to_string(svg);

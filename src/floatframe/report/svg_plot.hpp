@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "floatframe/simulation/results.hpp"
+#include "floatframe/report/report_curves.hpp"
 
 namespace floatframe {
 
@@ -19,7 +19,6 @@ struct PlotGroup {
 };
 
 inline constexpr std::size_t max_curves_per_plot = 4;
-inline constexpr std::size_t max_points_per_curve = 2000;
 
 /// Groups columns 1.. of a table. Columns share a plot when their units and the ends of their names
 /// agree: the last two words of `front_left.wheel.z`, the last one of `chassis.z`; names of one
@@ -37,14 +36,8 @@ struct Ticks {
 /// `cover`: the ticks enclose the interval, otherwise they lie inside it.
 Ticks nice_ticks(double low, double high, int about, bool cover);
 
-/// Rows to draw of a column, at most `limit`: first, last, and of equal stretches of rows the
-/// smallest and the largest value, so that peaks survive. Values that are not finite count as
-/// neither; they interrupt the curve when drawn.
-std::vector<std::size_t> thinned_rows(const ResultTable& table, std::size_t column,
-                                      std::size_t limit = max_points_per_curve);
-
 /// One `<svg>` element: axes with units, grid, curves with classes c0..c3.
-std::string svg_plot(const ResultTable& table, const PlotGroup& group);
+std::string svg_plot(const ReportCurves& curves, const PlotGroup& group);
 
 /// A short piece of line in the style of curve `index`, for a legend.
 std::string svg_legend_key(std::size_t index);

@@ -126,6 +126,17 @@ class EnergyBalance {
     out.exchanged = exchanged();
   }
 
+  /// For a run that goes on elsewhere (state_bytes.hpp).
+  template <class Stream>
+  void walk(Stream& s) {
+    for (double* x : {&time_, &start_, &remainder_, &largest_, &largest_at_, &noise_, &last_.tyres})
+      s(*x);
+    for (EnergyFlows* flows : {&last_.power, &work_, &moved_})
+      for (double& x : flows->value) s(x);
+    for (Energies* e : {&low_, &high_})
+      for (double* x : {&e->kinetic, &e->potential, &e->elastic, &e->motion}) s(*x);
+  }
+
  private:
   double time_ = 0.0, start_ = 0.0, remainder_ = 0.0, largest_ = 0.0, largest_at_ = 0.0;
   double noise_ = 0.0;

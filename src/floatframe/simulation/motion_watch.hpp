@@ -19,6 +19,10 @@ class MotionWatch {
   }
 
   const RangeWatch& range() const noexcept { return range_; }
+  template <class Stream>
+  void walk(Stream& s) {
+    range_.walk(s);
+  }
 
   /// Deformation, spin and turn of all bodies.
   void look(const State& s) noexcept {

@@ -87,7 +87,7 @@ void BodyRange::choose_nodes(const Model& model, int index) {
 }
 
 std::string BodyRange::node_name(int node) const {
-  if (node < 0) return "";
+  if (node < 0 || static_cast<std::size_t>(node) >= data_.nodes.size()) return "";
   const ModalNode& n = data_.nodes[node];
   if (is_surface_point(n)) return "the surface point at " + vector_text(n.p, 4) + " m";
   return "node " + (n.name.empty() ? std::to_string(node + 1) : "'" + n.name + "'");

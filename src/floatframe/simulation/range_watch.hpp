@@ -2,6 +2,7 @@
 // Watches whether a run stays in the range of the method (docs/range.md): small elastic
 // deformations, slow spin, a step that resolves the motion. `observe` functions belong to a run:
 // noexcept, no allocation; what is measured becomes sentences at the end.
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,13 @@ struct Largest {
       at = t;
     }
   }
+  template <class Stream>
+  void walk(Stream& s) {
+    std::int64_t n = node;
+    for (double* x : {&value, &at, &first}) s(*x);
+    s(n);
+    node = static_cast<int>(n);
+  }
 };
 
 /// Deformation, spin and turn of one body.
@@ -55,6 +63,11 @@ class BodyRange {
   const Largest& turn() const { return turn_; }                  ///< [rad]
   /// "node 'tip'", "node 7", "the surface point at (0.5, 0, 0.02) m" (of the undeformed body).
   std::string node_name(int node) const;
+  /// What was met so far, for a run that goes on elsewhere (state_bytes.hpp).
+  template <class Stream>
+  void walk(Stream& s) {
+    for (Largest* l : {&displacement_, &rotation_, &spin_, &turn_}) l->walk(s);
+  }
 
  private:
   void choose_nodes(const Model& model, int index);
@@ -89,6 +102,12 @@ class PhaseMeter {
   double phase() const noexcept;  ///< [rad]
   double speed() const noexcept;  ///< root mean square of what is not uniform [m/s, rad/s]
   long count() const noexcept { return count_; }
+  template <class Stream>
+  void walk(Stream& s) {
+    for (double* x : {&spread_, &changes_}) s(*x);
+    s(count_);
+    for (Vec3* v : {&previous_, &mean_}) s(*v);
+  }
 
  private:
   double mass_, spread_ = 0.0, changes_ = 0.0;
@@ -110,6 +129,12 @@ class RangeWatch {
 
   /// One sentence for each kind of limit that was passed; the balance is that of the same run.
   std::vector<RangeWarning> warnings(const EnergySummary& energy, double spectral_radius) const;
+  template <class Stream>
+  void walk(Stream& s) {
+    for (BodyRange& body : bodies_) body.walk(s);
+    for (std::vector<PhaseMeter>& of_body : meters_)
+      for (PhaseMeter& meter : of_body) meter.walk(s);
+  }
 
  private:
   const Model& model_;

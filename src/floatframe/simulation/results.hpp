@@ -64,8 +64,9 @@ struct RunSummary {
   double max_position_violation = 0;  ///< [m] after steps
   double max_velocity_violation = 0;  ///< [m/s] after the projections
   EnergySummary energy;
-  std::string status = "completed";  ///< "completed" or "failed"
-  std::string message;               ///< why it failed: when, and what to look at
+  /// "completed", "failed" or "interrupted"; "running" in a summary that is written at the start.
+  std::string status = "completed";
+  std::string message;  ///< why it failed: when, and what to look at
   StartReport start;
   /// Where the run left the range of the method: one sentence each (docs/range.md).
   std::vector<RangeWarning> warnings;

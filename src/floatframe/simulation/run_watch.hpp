@@ -48,6 +48,14 @@ class RunWatch {
     if (++records_ % every_ == 0) balance_.check(s.t, energies(s));
   }
 
+  /// What was watched so far, for a run that goes on elsewhere (state_bytes.hpp).
+  template <class Stream>
+  void walk(Stream& s) {
+    balance_.walk(s);
+    motion_.walk(s);
+    s(records_);
+  }
+
   /// Fills the balance and the warnings of the summary, with the state at the end.
   void finish(const State& s, double spectral_radius, RunSummary& out) {
     evaluate(s);

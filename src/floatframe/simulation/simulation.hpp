@@ -1,7 +1,11 @@
 #pragma once
 // The entry points above the formulations: count, find the equilibrium of, and run a model.
+#include <atomic>
+#include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "floatframe/model/description.hpp"
 #include "floatframe/model/model.hpp"
@@ -20,6 +24,14 @@ StaticsResult statics(const Model& model);
 /// is zero.
 void check_step(const SimulationDescription& options);
 
+/// All that decides how a run goes on from a step, and what its summary says of the steps before:
+/// the rest of the run and its summary are those of a run that was not interrupted, to the bit. It
+/// belongs to one model and one set of options, and to the copy of the library it was made with.
+struct RunCheckpoint {
+  double time = 0.0;  ///< [s]
+  std::vector<std::byte> bytes;
+};
+
 struct RunOptions {
   /// Called about every 1 % of the run with the fraction done (0..1); outside the timed part.
   std::function<void(double)> progress;
@@ -28,8 +40,23 @@ struct RunOptions {
   bool keep_state = false;
   /// Keep the energy balance and say where the run leaves the range of the method (with `record`).
   bool watch = true;
+  /// Takes the rows as they are recorded, in blocks: after the step that ends half a second after
+  /// the last block, when a block is full, and at the end. The table of the result has no rows
+  /// then, and the memory of a run does not depend on its length. At the start of a run that is
+  /// resumed it is called without numbers. An OutputError that it throws ends the run, which fails.
+  std::function<void(const std::vector<Column>&, std::span<const double>)> rows;
+  /// Looked at between steps: true ends the run, whose status is "interrupted".
+  const std::atomic<bool>* stop = nullptr;
+  /// Called every so many seconds of simulated time [s], and when the run is interrupted, after all
+  /// rows up to there were handed over. What it throws is taken as from `rows`.
+  double checkpoint_every = 0.0;
+  std::function<void(const RunCheckpoint&)> checkpoint;
+  /// Goes on from there. The run throws InputError if it is of another model or other options.
+  const RunCheckpoint* resume = nullptr;
 };
 
+/// What a summary says of a run before its first step.
+RunSummary asked_summary(const std::string& model, const SimulationDescription& options);
 /// The summary of a run that could not start.
 RunSummary failed_summary(const std::string& model, const SimulationDescription& options,
                           const std::string& message);

@@ -7,7 +7,9 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/folder_lock.hpp"
 #include "floatframe/core/output_files.hpp"
+#include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/run_queue.hpp"
 #include "floatframe/sweep/sweep_check.hpp"
@@ -25,7 +27,6 @@ using Clock = std::chrono::steady_clock;
 
 /// What earlier calls left in the folder, except the journal.
 void remove_results(const std::string& folder) {
-  remove_file((std::filesystem::path(folder) / "sweep.csv").string());
   std::error_code ignored;
   std::vector<std::filesystem::path> runs;
   for (std::filesystem::directory_iterator it(std::filesystem::path(folder) / "runs", ignored), end;
@@ -33,9 +34,13 @@ void remove_results(const std::string& folder) {
     if (it->path().filename().string().find_first_not_of("0123456789") == std::string::npos)
       runs.push_back(it->path());
   for (const auto& run : runs) {
-    for (const char* name : {"results.csv", "summary.json"}) remove_file((run / name).string());
+    {
+      const FolderLock held(run.string());  // a single run may be at work there
+      for (const char* name : {"results.csv", "summary.json"}) remove_file((run / name).string());
+    }
     std::filesystem::remove(run, ignored);  // only if nothing else is in it
   }
+  remove_file((std::filesystem::path(folder) / "sweep.csv").string());
 }
 
 /// Process 0: hands out runs, takes their lines.
@@ -200,7 +205,7 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
     throw InputError(error.what());
   }
   SweepJournal journal(journal_path, identity_of(o), o.plan.runs.size(), o.fresh,
-                       relative_to_model(o, workers.files()));
+                       relative_to_model(o.model, workers.files()));
   if (o.retry_failed) journal.forget_failed();
   const std::size_t before = journal.finished().size();
   if (before == 0) remove_results(o.folder);

@@ -1,7 +1,5 @@
 #include "floatframe/sweep/sweep_identity.hpp"
 
-#include <filesystem>
-
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/sweep/program_identity.hpp"
 
@@ -42,18 +40,6 @@ SweepIdentity identity_of(const SweepOptions& o) {
   identity.emplace_back("warnings count as errors in one, in the other not",
                         o.strict ? "yes" : "no");
   return identity;
-}
-
-std::map<std::string, std::string> relative_to_model(
-    const SweepOptions& options, const std::map<std::string, std::string>& files) {
-  std::map<std::string, std::string> out;
-  const auto folder = std::filesystem::path(options.model).parent_path();
-  for (const auto& [file, hash] : files) {
-    const std::string relative =
-        folder.empty() ? "" : std::filesystem::path(file).lexically_relative(folder).string();
-    out.emplace(relative.empty() ? file : relative, hash);
-  }
-  return out;
 }
 
 }  // namespace floatframe

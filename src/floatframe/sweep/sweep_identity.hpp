@@ -1,6 +1,5 @@
 #pragma once
 // What a study is: what must agree before it is continued, and between the processes of mpirun.
-#include <map>
 #include <string>
 
 #include "floatframe/sweep/sweep.hpp"
@@ -13,9 +12,5 @@ namespace floatframe {
 std::string study_hash(const SweepOptions& options, const std::string& first_run);
 
 SweepIdentity identity_of(const SweepOptions& options);
-
-/// Names relative to the model file: a folder may be moved or reached by another path.
-std::map<std::string, std::string> relative_to_model(
-    const SweepOptions& options, const std::map<std::string, std::string>& files);
 
 }  // namespace floatframe

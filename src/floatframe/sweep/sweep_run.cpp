@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/folder_lock.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/report/results_csv.hpp"
 #include "floatframe/report/summary_json.hpp"
@@ -41,8 +43,24 @@ void remove_torn_files(const std::filesystem::path& folder) {
   for (const auto& file : torn) remove_file(file.string());
 }
 
+/// For the time of writing: a single run may be at work there.
+class RunFolder {
+ public:
+  explicit RunFolder(const std::string& folder) {
+    make_output_folder(folder);
+    try {
+      lock_.emplace(folder);
+    } catch (const InputError& error) {
+      throw OutputError(error.what());
+    }
+  }
+
+ private:
+  std::optional<FolderLock> lock_;
+};
+
 void keep_files(const std::filesystem::path& folder, const RunResult& result) {
-  make_output_folder(folder.string());
+  const RunFolder held(folder.string());
   remove_torn_files(folder);
   const std::string table = (folder / "results.csv").string();
   if (result.table.columns.empty())

@@ -1,0 +1,132 @@
+#include "floatframe/apps/run_files.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <functional>
+
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/report/results_csv.hpp"
+#include "floatframe/report/summary_json.hpp"
+
+namespace floatframe {
+namespace {
+
+bool is_regular_or_new(const std::string& path) {
+  std::error_code ignored;
+  return !std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored);
+}
+
+}  // namespace
+
+RunPaths::RunPaths(const std::string& where)
+    : folder(where),
+      results((std::filesystem::path(where) / "results.csv").string()),
+      report((std::filesystem::path(where) / "report.html").string()),
+      summary((std::filesystem::path(where) / "summary.json").string()),
+      checkpoint((std::filesystem::path(where) / "run.checkpoint").string()) {}
+
+RunFiles::RunFiles(const RunPaths& paths, Options options)
+    : paths_(paths),
+      options_(std::move(options)),
+      lock_(paths.folder),
+      streams_(is_regular_or_new(paths.results)) {
+  remove_remains();
+  if (!streams_ && (options_.resume || options_.checkpoint_every > 0.0))
+    throw InputError(fmt::format(
+        "'{}' is not a regular file, expected one that a run with checkpoints can continue",
+        paths_.results));
+  if (!options_.resume) return;
+  from_ = read_checkpoint(paths_.checkpoint);
+  if (const std::string text = origin_difference(from_->origin, options_.origin); !text.empty())
+    throw InputError(fmt::format("the checkpoint '{}' {}", paths_.checkpoint, text));
+  if (!(options_.checkpoint_every > 0.0)) options_.checkpoint_every = from_->every;
+}
+
+/// What a process that was killed while it wrote a file left of it.
+void RunFiles::remove_remains() const {
+  std::vector<std::filesystem::path> torn;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator it(paths_.folder, ignored), end; !ignored && it != end;
+       it.increment(ignored))
+    for (const std::string& path :
+         {paths_.results, paths_.report, paths_.summary, paths_.checkpoint})
+      if (it->path().filename().string().starts_with(
+              std::filesystem::path(path).filename().string() + ".part-"))
+        torn.push_back(it->path());
+  for (const auto& file : torn) remove_file(file.string());
+}
+
+void RunFiles::begin(const std::vector<Column>& columns) {
+  // A continued file is looked at before anything is changed.
+  if (from_) results_.emplace(paths_.results, columns, from_->results);
+  options_.summary.status = "running";
+  options_.summary.message = "not complete: the run has not ended, or was killed";
+  write_file(paths_.summary, summary_json(options_.summary));
+  remove_file(paths_.report);
+  if (from_) return;
+  remove_file(paths_.checkpoint);
+  results_.emplace(paths_.results, columns, options_.checkpoint_every > 0.0);
+}
+
+template <class Write>
+void RunFiles::watched(const Write& write) {
+  try {
+    write();
+  } catch (const OutputError&) {
+    cut_at_ = results_ ? results_->last_time() : 0.0;
+    throw;
+  }
+}
+
+void RunFiles::take(const std::vector<Column>& columns, std::span<const double> numbers) {
+  watched([&] {
+    if (!results_) begin(columns);
+    if (!numbers.empty()) results_->append(numbers);
+  });
+}
+
+void RunFiles::keep(const RunCheckpoint& checkpoint) {
+  watched([&] {
+    results_->to_disk();  // a checkpoint is never ahead of its rows
+    write_file(paths_.checkpoint, checkpoint_bytes({options_.origin, options_.checkpoint_every,
+                                                    results_->position(), checkpoint}));
+  });
+}
+
+std::vector<std::string> RunFiles::finish(Report&& report) {
+  if (from_ && !results_) return {};  // not even begun: all is as it was
+  const RunResult& result = report.result;
+  report.rows_end = cut_at_;
+  std::vector<std::string> failed;
+  const auto attempt = [&](const std::function<void()>& write) {
+    try {
+      write();
+    } catch (const OutputError& error) {
+      failed.emplace_back(error.what());
+    }
+  };
+  // The files of one run belong together: what this run does not write must not stay from an
+  // earlier one.
+  if (results_)
+    attempt([&] { results_->to_disk(); });
+  else if (result.table.rows() > 0)
+    attempt([&] { write_file(paths_.results, results_csv(result.table)); });
+  else
+    remove_file(paths_.results);
+  remove_file(paths_.report);
+  if (options_.report)
+    attempt([&] {
+      if (results_)
+        report.curves = report_curves(paths_.results, result.table.columns, results_->rows());
+      write_file(paths_.report, report_html(report));
+    });
+  if (result.summary.status == "completed" || !results_) remove_file(paths_.checkpoint);
+  lock_.release_space();
+  attempt([&] { write_file(paths_.summary, summary_json(result.summary)); });
+  return failed;
+}
+
+}  // namespace floatframe

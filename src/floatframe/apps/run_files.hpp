@@ -1,0 +1,65 @@
+#pragma once
+// The files of one run as they come into being: results that grow, checkpoints, and at its end the
+// report and the summary. Until then the summary has the status "running", so that a reader knows
+// at any time what he has before him.
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "floatframe/apps/run_checkpoint.hpp"
+#include "floatframe/core/folder_lock.hpp"
+#include "floatframe/report/report_html.hpp"
+
+namespace floatframe {
+
+struct RunPaths {
+  explicit RunPaths(const std::string& folder);
+  std::string folder, results, report, summary, checkpoint;
+};
+
+class RunFiles {
+ public:
+  struct Options {
+    bool report = true;
+    double checkpoint_every = 0.0;  ///< [s]; 0: none
+    bool resume = false;
+    RunOrigin origin;    ///< for checkpoints
+    RunSummary summary;  ///< of what was asked for
+  };
+
+  /// Takes the folder for itself. Throws InputError if another run has it, if there is nothing to
+  /// go on from, or not with this run.
+  RunFiles(const RunPaths& paths, Options options);
+
+  /// False: results go to a device, at the end.
+  bool streams() const noexcept { return streams_; }
+  const RunCheckpoint* resumed() const noexcept { return from_ ? &from_->run : nullptr; }
+  double checkpoint_every() const noexcept { return options_.checkpoint_every; }
+
+  /// As RunOptions::rows and RunOptions::checkpoint.
+  void take(const std::vector<Column>& columns, std::span<const double> numbers);
+  void keep(const RunCheckpoint& checkpoint);
+
+  /// Writes what is left to be written. What cannot be is said in a sentence each, in the result.
+  std::vector<std::string> finish(Report&& report);
+
+  /// Time of the last row [s], if something could not be written on the way.
+  std::optional<double> cut_at() const noexcept { return cut_at_; }
+
+ private:
+  void begin(const std::vector<Column>& columns);
+  template <class Write>
+  void watched(const Write& write);
+  void remove_remains() const;
+
+  RunPaths paths_;
+  Options options_;
+  FolderLock lock_;
+  bool streams_;
+  std::optional<CheckpointFile> from_;
+  std::optional<ResultsFile> results_;
+  std::optional<double> cut_at_;
+};
+
+}  // namespace floatframe

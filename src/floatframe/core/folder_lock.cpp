@@ -1,0 +1,73 @@
+#include "floatframe/core/folder_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <tuple>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/output_error.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr off_t kept_space = 256 * 1024;
+
+bool is_file_at(int file, const std::string& path) {
+  struct stat open {};
+  struct stat named {};
+  return ::fstat(file, &open) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+/// "process 1234", as whoever holds the lock has written it.
+std::string holder(int file) {
+  char text[32] = {};
+  const ssize_t n = ::pread(file, text, sizeof text - 1, 0);
+  const std::string number(text, n > 0 ? static_cast<std::size_t>(n) : 0);
+  const std::size_t end = number.find_first_not_of("0123456789");
+  return end == 0 || end == std::string::npos ? "another process"
+                                              : "process " + number.substr(0, end);
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const std::string& folder)
+    : path_((std::filesystem::path(folder) / file_name).string()) {
+  for (int attempt = 0; file_ < 0 && attempt < 1000; ++attempt) {
+    const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
+    if (file < 0)
+      throw OutputError("the file '" + path_ + "' cannot be written: " + std::strerror(errno));
+    if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      const std::string who = holder(file);
+      ::close(file);
+      throw InputError("the folder '" + folder + "' is in use: a run of " + who +
+                       " writes there; give another --out, or wait for its end");
+    }
+    // Between the two calls whoever had the lock may have removed the file.
+    if (is_file_at(file, path_))
+      file_ = file;
+    else
+      ::close(file);
+  }
+  if (file_ < 0)
+    throw OutputError("the file '" + path_ + "' cannot be kept: it is removed again and again");
+  const std::string number = std::to_string(::getpid()) + '\n';
+  std::ignore = ::ftruncate(file_, 0);
+  std::ignore = ::posix_fallocate(file_, 0, kept_space);  // without it nothing is kept
+  std::ignore = ::pwrite(file_, number.data(), number.size(), 0);
+}
+
+void FolderLock::release_space() noexcept { std::ignore = ::ftruncate(file_, 0); }
+
+FolderLock::~FolderLock() {
+  ::unlink(path_.c_str());  // still locked: nobody else has made it his own
+  ::close(file_);
+}
+
+}  // namespace floatframe

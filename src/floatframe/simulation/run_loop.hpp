@@ -1,0 +1,204 @@
+#pragma once
+// One run: its steps, what is recorded and watched of them, its summary, and between steps what
+// leaves it: rows, checkpoints.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "floatframe/core/output_error.hpp"
+#include "floatframe/core/thread_clock.hpp"
+#include "floatframe/simulation/forcing.hpp"
+#include "floatframe/simulation/row_block.hpp"
+#include "floatframe/simulation/run_memory.hpp"
+#include "floatframe/simulation/run_watch.hpp"
+#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/stepped_model.hpp"
+
+namespace floatframe {
+
+template <class F>
+class Run {
+ public:
+  Run(const Model& given, const SimulationDescription& o, const RunOptions& options)
+      : o_(o),
+        options_(options),
+        steps_(given, o, {.duration = o.duration}),
+        planned_(steps_.grid().steps()),
+        every_(o.output_interval > 0.0 ? std::max(1L, std::lround(o.output_interval / o.step)) : 1),
+        checkpoint_every_(options.checkpoint && options.checkpoint_every > 0.0
+                              ? std::max(1L, std::lround(options.checkpoint_every / o.step))
+                              : 0) {
+    RunSummary& s = result_.summary;
+    s = asked_summary(steps_.model().name, o);
+    s.start = steps_.start_report();
+    const Energies e = steps_.energies();
+    s.energy.kinetic_start = e.kinetic;
+    s.energy.potential_start = e.potential;
+    s.energy.elastic_start = e.elastic;
+    s.energy.total_start = e.total();
+    prepare_table();
+    if (options.keep_state) joints_.emplace(steps_.model());
+    if (options.record && options.watch)
+      watch_.emplace(steps_.formulation(), o.step, planned_ / every_);
+  }
+
+  RunResult result() {
+    const long report_every = std::max(1L, planned_ / 100);
+    bool good = options_.resume ? resume(*options_.resume) : begin();
+    while (good && made_ < planned_) {
+      good = go_on() && step() && let_out();
+      if (good && options_.progress && made_ % report_every == 0)
+        options_.progress(static_cast<double>(made_) / static_cast<double>(planned_));
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  void prepare_table() {
+    ResultTable& table = result_.table;
+    table.columns.push_back({"time", "s"});
+    for (const Output& out : steps_.model().outputs) table.columns.push_back({out.name, out.unit});
+    if (!options_.record) return;
+    if (options_.rows)
+      block_.emplace(table.columns, options_.rows);
+    else
+      table.data.assign((static_cast<std::size_t>(planned_ / every_) + 3) * table.columns.size(),
+                        0.0);
+  }
+
+  bool begin() {
+    if (options_.record) sample();
+    if (joints_) joints_->follow(steps_.formulation(), steps_.state());
+    if (watch_) watch_->start(steps_.state());
+    return !block_ || handed_over();
+  }
+
+  void sample() noexcept {
+    ResultTable& table = result_.table;
+    steps_.sample(block_ ? block_->next() : table.data.data() + table.columns.size() * rows_++);
+  }
+
+  /// False: the run is to end here.
+  bool go_on() {
+    if (!options_.stop || !options_.stop->load(std::memory_order_relaxed)) return true;
+    RunSummary& s = result_.summary;
+    s.status = "interrupted";
+    s.message = fmt::format("interrupted at t = {:.9g} s of {:.9g} s", steps_.state().t,
+                            steps_.begin() + o_.duration);
+    if (checkpoint_every_ > 0) check_point();
+    return false;
+  }
+
+  /// False: it failed.
+  bool step() {
+    RunSummary& s = result_.summary;
+    const long k = made_ + 1;
+    const Nanoseconds before = thread_cpu_clock();
+    const PlannedStep planned = steps_.grid().next();
+    const bool good = steps_.advance(planned);
+    const bool sampled = good && options_.record && (k % every_ == 0 || k == planned_);
+    if (sampled) sample();
+    s.cpu += 1e-9 * static_cast<double>(thread_cpu_clock() - before);
+    if (good && joints_) joints_->follow(steps_.formulation(), steps_.state());
+    if (good && watch_) watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole);
+    if (good) {
+      made_ = k;
+      return true;
+    }
+    s.status = "failed";
+    s.message = steps_.failure();
+    return false;
+  }
+
+  /// Between steps. False: it cannot be written.
+  bool let_out() {
+    if (checkpoint_every_ > 0 && made_ % checkpoint_every_ == 0 && made_ < planned_)
+      return check_point();
+    return !block_ || !block_->due() || handed_over();
+  }
+
+  bool check_point() {
+    if (block_ && !handed_over()) return false;
+    RunMemory m;
+    m.made = made_;
+    m.steps = steps_.memory();
+    m.cpu = result_.summary.cpu;
+    if (joints_) m.joints = joints_->numbers();
+    return written([&] { options_.checkpoint(to_checkpoint(identity(), m, watch_)); });
+  }
+
+  bool handed_over() {
+    return written([&] { block_->hand_over(); });
+  }
+
+  template <class Write>
+  bool written(const Write& write) {
+    try {
+      write();
+      return true;
+    } catch (const OutputError& error) {
+      block_.reset();  // what is on its way is lost
+      result_.summary.status = "failed";
+      result_.summary.message = fmt::format("at t = {:.9g} s {}", steps_.state().t, error.what());
+      return false;
+    }
+  }
+
+  RunIdentity identity() {
+    return run_identity(steps_.model(), o_,
+                        {options_.record, watch_.has_value(), joints_.has_value()});
+  }
+
+  bool resume(const RunCheckpoint& checkpoint) {
+    const RunMemory m = from_checkpoint(checkpoint, identity(), steps_.memory(), o_.step,
+                                        joints_ ? joints_->size() : 0, planned_, watch_);
+    made_ = m.made;
+    steps_.set_memory(m.steps);
+    result_.summary.cpu = m.cpu;
+    if (joints_) joints_->restore(m.joints, m.steps.state.t);
+    return !block_ || handed_over();
+  }
+
+  void finish() {
+    if (block_) handed_over();
+    RunSummary& s = result_.summary;
+    result_.table.data.resize(rows_ * result_.table.columns.size());
+    const StepCounters& c = steps_.counters();
+    s.duration = steps_.state().t - steps_.begin();
+    s.steps = c.steps;
+    s.substeps = c.substeps;
+    s.iterations = c.iterations;
+    s.factorizations = c.factorizations;
+    s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
+    s.max_position_violation = c.max_position_violation;
+    s.max_velocity_violation = c.max_velocity_violation;
+    const Energies e = steps_.energies();
+    s.energy.kinetic_end = e.kinetic;
+    s.energy.potential_end = e.potential;
+    s.energy.elastic_end = e.elastic;
+    s.energy.total_end = e.total();
+    if (joints_) result_.state = std::make_shared<SystemState>(steps_.system_state(*joints_));
+    if (!watch_) return;
+    watch_->finish(steps_.state(), o_.spectral_radius, s);
+    const auto unresolved =
+        unresolved_forcing(steps_.model(), o_.step, steps_.begin(), o_.duration);
+    s.warnings.insert(s.warnings.begin(), unresolved.begin(), unresolved.end());
+  }
+
+  const SimulationDescription& o_;
+  const RunOptions& options_;
+  SteppedModel<F> steps_;
+  const long planned_, every_;   ///< every so many of the planned steps are sampled
+  const long checkpoint_every_;  ///< steps; 0: no checkpoints
+  long made_ = 0;                ///< steps
+  RunResult result_;
+  std::size_t rows_ = 0;           ///< in the table
+  std::optional<RowBlock> block_;  ///< of rows that leave
+  std::optional<JointFollower> joints_;
+  std::optional<RunWatch<F>> watch_;
+};
+
+}  // namespace floatframe

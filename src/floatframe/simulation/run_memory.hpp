@@ -1,0 +1,63 @@
+#pragma once
+// The content of a RunCheckpoint.
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/state_bytes.hpp"
+
+namespace floatframe {
+
+/// What must agree: what it is, and its value in words.
+using RunIdentity = std::vector<std::pair<std::string, std::string>>;
+
+/// What a run keeps beside its rows.
+struct RunKeeps {
+  bool rows = true, watch = true, state = false;
+};
+
+RunIdentity run_identity(const Model& model, const SimulationDescription& options,
+                         const RunKeeps& keeps);
+
+/// Of a run, beside what it watches.
+struct RunMemory {
+  std::int64_t made = 0;  ///< steps
+  double cpu = 0.0;       ///< [s]
+  SteppedMemory steps;
+  std::vector<double> joints;  ///< followed for the state at the end
+};
+
+void walk_memory(StateWriter& s, const RunIdentity& identity, const RunMemory& memory);
+/// Throws InputError if the identity is another one or the memory is not one of a run of `planned`
+/// steps of that size, with this memory and number of joint coordinates.
+RunMemory walk_memory(StateReader& s, const RunIdentity& identity, const SteppedMemory& own,
+                      double step, std::size_t joints, std::int64_t planned);
+
+inline constexpr const char* checkpoint_name = "the checkpoint";
+
+/// `watch` is a RunWatch, if there is one.
+template <class Watch>
+RunCheckpoint to_checkpoint(const RunIdentity& identity, const RunMemory& memory,
+                            std::optional<Watch>& watch) {
+  StateWriter out;
+  walk_memory(out, identity, memory);
+  if (watch) watch->walk(out);
+  return {memory.steps.state.t, std::move(out.bytes)};
+}
+
+/// Fills `watch`. See `walk_memory` for what it throws.
+template <class Watch>
+RunMemory from_checkpoint(const RunCheckpoint& checkpoint, const RunIdentity& identity,
+                          const SteppedMemory& own, double step, std::size_t joints,
+                          std::int64_t planned, std::optional<Watch>& watch) {
+  StateReader in(checkpoint.bytes, checkpoint_name);
+  RunMemory memory = walk_memory(in, identity, own, step, joints, planned);
+  if (watch) watch->walk(in);
+  if (!in.at_end())
+    throw InputError(std::string(checkpoint_name) + " is damaged: it goes on after its end");
+  return memory;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,111 @@
+// A file that grows by whole lines, and the lock of a folder.
+#include "floatframe/core/growing_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "floatframe/core/folder_lock.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace floatframe::test {
+namespace {
+
+TEST(GrowingFile, ReplacesAndGrows) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("x.csv", "earlier\n");
+  std::filesystem::create_hard_link(path, folder / "kept.csv");
+  GrowingFile file(path);
+  EXPECT_EQ(folder.read("x.csv"), "");
+  file.append("a\n");
+  EXPECT_EQ(folder.read("x.csv"), "a\n");
+  file.append("b\nc\n");
+  file.to_disk();
+  EXPECT_EQ(folder.read("x.csv"), "a\nb\nc\n");
+  EXPECT_EQ(file.bytes(), 6u);
+  EXPECT_EQ(folder.read("kept.csv"), "earlier\n") << "whoever has the earlier file keeps it";
+}
+
+TEST(GrowingFile, IsContinuedFromAPosition) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("x.csv");
+  GrowingFile::Position position;
+  {
+    GrowingFile file(path, true);
+    file.append("first\n");
+    file.append("second\n");
+    position = file.position();
+    file.append("third\n");
+  }
+  {
+    GrowingFile file(path, position);
+    EXPECT_EQ(folder.read("x.csv"), "first\nsecond\n");
+    file.append("other\n");
+    position = file.position();
+  }
+  EXPECT_EQ(folder.read("x.csv"), "first\nsecond\nother\n");
+  const auto refused = [&] {
+    return folder.without(error_of([&] { GrowingFile(path, position); }));
+  };
+  EXPECT_EQ(refused(), "no error");
+  folder.write("x.csv", "first\nsecond\n");
+  EXPECT_EQ(refused(), "the file 'x.csv' cannot be continued: found 13 bytes, expected 19 or more");
+  folder.write("x.csv", "first\nSecond\nother\n");
+  EXPECT_EQ(refused(), "the file 'x.csv' cannot be continued: its content is not what was written");
+  EXPECT_EQ(folder.read("x.csv"), "first\nSecond\nother\n") << "nothing is cut off";
+  std::filesystem::remove(path);
+  EXPECT_EQ(refused(), "the file 'x.csv' cannot be continued: No such file or directory");
+}
+
+TEST(GrowingFile, AtALimitWholeLinesAreKept) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("x.csv");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = 10;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  {
+    GrowingFile file(path);
+    file.append("abc\n");
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    std::string error;
+    try {
+      file.append("de\nfghi\nj\n");
+    } catch (const OutputError& e) {
+      error = e.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(folder.without(error), "the file 'x.csv' cannot be written: File too large");
+    EXPECT_EQ(file.bytes(), 7u);
+  }
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(folder.read("x.csv"), "abc\nde\n");
+}
+
+TEST(FolderLock, IsHeldByOneAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const auto refused = [&] {
+    return folder.without(error_of([&] { FolderLock(folder.path().string()); }));
+  };
+  {
+    const FolderLock lock(folder.path().string());
+    EXPECT_NE(refused().find("is in use: a run of process " + std::to_string(::getpid()) +
+                             " writes there; give another --out, or wait for its end"),
+              std::string::npos)
+        << refused();
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  EXPECT_EQ(refused(), "no error");
+  // What a process that was killed has left means nothing.
+  folder.write(FolderLock::file_name, "1\n");
+  EXPECT_EQ(refused(), "no error");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace floatframe::test
