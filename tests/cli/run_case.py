@@ -46,6 +46,9 @@ outputs:
   spin: {joint_position: spin}
   slider: {acceleration: slider, axis: x}
   tip: {position: {body: beam, node: tip}}
+  guide: {joint_force: guide}
+  root: {joint_torque: hinge, axis: y}
+  motor: {motion_force: drive}
 simulation: {step: 1.0e-3, duration: "${duration}", spectral_radius: 0.9}
 """
 
