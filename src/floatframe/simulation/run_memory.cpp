@@ -76,8 +76,8 @@ RunMemory walk_memory(StateReader& s, const RunIdentity& identity, const Stepped
   walk_run(s, memory);
   if (const std::string text = memory_complaint(memory.steps, own, step); !text.empty())
     refuse(text);
-  if (memory.made < 0 || memory.made >= planned || memory.joints.size() != joints ||
-      !all_finite(memory.joints) || !(memory.cpu >= 0.0))
+  if (memory.made != memory.steps.since_base || memory.made >= planned ||
+      memory.joints.size() != joints || !all_finite(memory.joints) || !(memory.cpu >= 0.0))
     refuse("is damaged: times or counters that do not fit together");
   return memory;
 }
