@@ -225,6 +225,10 @@ class OutputReader {
       const auto at = point(*about);
       good = at && good;
       if (at) o.at = *at;
+      if (o.type == OutputType::joint_force) {
+        about->error(sentences::force_without_point());
+        good = false;
+      }
     }
     if (const auto in = s.get("in")) good = axes(*in, o) && good;
     if (good)
@@ -242,8 +246,11 @@ class OutputReader {
       return true;
     }
     const auto word = in.word(std::span(rules::reaction_axes).first(index_of(OutputAxes::place)));
-    if (word) o.in = static_cast<OutputAxes>(*word);
-    return word.has_value();
+    if (!word) return false;
+    o.in = static_cast<OutputAxes>(*word);
+    if (!o.rod || o.in == OutputAxes::world) return true;
+    in.error(sentences::rod_has_no_axes());
+    return false;
   }
 
   void mode(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
