@@ -22,22 +22,25 @@ std::string of(OutputOf what) {
   return words[index_of(what)];
 }
 
-std::string component(const OutputKind& kind) {
+std::string component(OutputType type, const OutputKind& kind) {
   if (kind.of == OutputOf::joint) return "`coordinate`: 1, 2, ... (needed if there are several)";
   if (kind.of == OutputOf::mode) return "`mode`: 1, 2, ... (required)";
   if (!kind.components.key) return "";
   std::string words;
   for (const char* word : kind.components.words)
     words += std::string(words.empty() ? "" : ", ") + word;
-  const char* const more = kind.of == OutputOf::reaction ? "; `about`, `in` (below)" : "";
+  const char* const more = kind.of != OutputOf::reaction      ? ""
+                           : type == OutputType::joint_torque ? "; `about`, `in` (below)"
+                                                              : "; `in` (below)";
   return "`" + std::string(kind.components.key) + "`: " + words + more;
 }
 
 std::string output_row(OutputType type) {
   const OutputKind& kind = output_kind(type);
   std::string row = "|";
-  for (const std::string& cell : {"`" + std::string(output_type_name(type)) + "`", of(kind.of),
-                                  std::string(kind.about), component(kind), std::string(kind.unit)})
+  for (const std::string& cell :
+       {"`" + std::string(output_type_name(type)) + "`", of(kind.of), std::string(kind.about),
+        component(type, kind), std::string(kind.unit)})
     row += (cell.empty() ? "" : " " + cell) + " |";
   return row + "\n";
 }

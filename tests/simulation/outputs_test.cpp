@@ -55,7 +55,7 @@ std::string columns_of_type(OutputType type) {
       case OutputOf::force:
         return "coil";
       case OutputOf::reaction:
-        return "hinge, in: child, about: {body: arm, at: tip}";
+        return "hinge, in: child";
       case OutputOf::rod:
         return "tie";
       case OutputOf::motion:
@@ -65,6 +65,7 @@ std::string columns_of_type(OutputType type) {
   };
   const std::string word = output_type_name(type);
   std::string what = reference();
+  if (type == OutputType::joint_torque) what += ", about: {body: arm, at: tip}";
   if (type == OutputType::joint_force) what = "{rod: tie}, in: {body: arm}";
   if (type == OutputType::elastic_energy) what = "arm";
   return "  " + word + ": {" + word + ": " + what + "}\n";
@@ -95,7 +96,8 @@ TEST(Outputs, OfTheListAreThoseOfEitherFormulation) {
     EXPECT_NEAR(x, y, 1e-8 * (1.0 + std::abs(x))) << a.columns[k].name;
     // Rotations begin at the design orientation.
     const bool begins_at_zero = a.columns[k].name.starts_with("rotation") ||
-                                a.columns[k].name.starts_with("joint_position");
+                                a.columns[k].name.starts_with("joint_position") ||
+                                a.columns[k].name.starts_with("projection_impulse");
     EXPECT_EQ(x == 0.0, begins_at_zero) << a.columns[k].name;
   }
 }

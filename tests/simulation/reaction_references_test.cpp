@@ -1,6 +1,6 @@
-// Reactions, motor torque, accelerations of bodies and modes against references: pendulums on single
-// joints by MSC Adams (tests/data/adams_joints), and the slider-crank with a flexible rod of the
-// Test Set for IVP Solvers (B. Simeon; crank.f, later revision).
+// Reactions, motor torque, accelerations of bodies and modes against references: pendulums on
+// single joints by MSC Adams (tests/data/adams_joints), and the slider-crank with a flexible rod of
+// the Test Set for IVP Solvers (B. Simeon; crank.f, later revision).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -182,9 +182,9 @@ constexpr CrankState crank_end = {15.00000000000104,
 /// there, since its loop is closed by accelerations [m].
 constexpr double crank_gap = 2.031e-10;
 
-/// The rod, its frame at the crank's pin: bending q1 sin(pi x) + q2 sin(2 pi x), axial q3 4 x (1 - x) +
-/// q4 (2 x^2 - x), x = s / L2. The axial block of the mass matrix is that of crank.f, without the
-/// factor 1/15 of a line element.
+/// The rod, its frame at the crank's pin: bending q1 sin(pi x) + q2 sin(2 pi x), axial
+/// q3 4 x (1 - x) + q4 (2 x^2 - x), x = s / L2. The axial block of the mass matrix is that of crank.f,
+/// without the factor 1/15 of a line element.
 FlexibleBody crank_rod() {
   constexpr double L = 0.3, m = 0.151104, h = 0.008, E = 2e11, pi = 3.1415927;
   const double k = E * h * h / L;
@@ -232,7 +232,8 @@ bodies:
   rod: {position: [0.15, 0, 0], rigid: {mass: 1, inertia: [1, 1, 1]}}
   slider: {position: [0.45, 0, 0], rigid: {mass: 0.075552, inertia: [1e-3, 1e-3, 1e-3]}}
 joints:
-  drive: {type: revolute, child: crank, at: [0, 0, 0], axis: z, motion: {piecewise: [{polynomial: [)"
+  drive: {type: revolute, child: crank, at: [0, 0, 0], axis: z,
+          motion: {piecewise: [{polynomial: [)"
        << x[0] << R"(, 150]}]}}
   pin: {type: revolute, parent: crank, child: rod, at: [0.15, 0, 0], axis: z, position: )"
        << x[1] - x[0] << ", velocity: " << x[8] - x[7] << R"(}
@@ -267,9 +268,9 @@ simulation: {step: 1.0e-5, duration: 0, tolerance: 1.0e-12}
   return d;
 }
 
-/// lambda1: the rod's tip is at y = 0; lambda2: it is where the slider is; lambda3: the angle of the
-/// crank. M a = f - G^T lambda: the guide pushes the slider by -lambda1 in y, the rod by -lambda2 in
-/// x, the motor turns the crank by -lambda3.
+/// lambda1: the rod's tip is at y = 0; lambda2: it is where the slider is; lambda3: the angle of
+/// the crank. M a = f - G^T lambda: the guide pushes the slider by -lambda1 in y, the rod by
+/// -lambda2 in x, the motor turns the crank by -lambda3.
 void expect_multipliers(const ResultTable& t, std::size_t row, const CrankState& x,
                         const std::string& who) {
   const auto of = [&](const std::string& name) { return t.at(row, column(t, name)); };
@@ -312,8 +313,8 @@ ResultTable crank_run(Coordinates coordinates, double step) {
   return std::move(r.table);
 }
 
-// The whole run, extrapolated from two steps of a method of second order. The axial modes (2e4 rad/s)
-// keep what the rounded start excites, and their phase decides the multipliers.
+// The whole run, extrapolated from two steps of a method of second order. The axial modes (2e4
+// rad/s) keep what the rounded start excites, and their phase decides the multipliers.
 TEST(SliderCrankBenchmark, MultipliersAtTheEndOfARun) {
   const ResultTable coarse = crank_run(Coordinates::relative, 1.25e-6);
   ResultTable t = crank_run(Coordinates::relative, 0.625e-6);

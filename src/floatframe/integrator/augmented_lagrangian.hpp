@@ -69,6 +69,13 @@ class AugmentedLagrangian {
   /// Multipliers that go with the projected accelerations of the last accepted step. Those of the
   /// state belong to the accelerations before their projection, which are off by O(h).
   const VecX& reactions() const noexcept { return reactions_; }
+  /// If they are kept: impulses i of the constraints in the projection of velocities of the last
+  /// accepted step, W dv = -Phi_q^T i [N s].
+  const VecX& impulses() const noexcept { return impulses_; }
+  void keep_impulses() {
+    keeps_impulses_ = true;
+    impulses_ = VecX::Zero(f_.constraints());
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -292,11 +299,13 @@ class AugmentedLagrangian {
       report.coordinate = pivot;
       return false;
     }
+    if (keeps_impulses_) impulses_.setZero();
     f_.constraint_rates(rate_);
     report.velocity_violation = largest(rate_);
     const double enough = 0.1 * options_.velocity_tolerance;
     for (int pass = 0; pass < options_.max_projections && report.velocity_violation >= enough;
          ++pass) {
+      if (keeps_impulses_) impulses_ += penalty * rate_;
       correct(v_, penalty);
       report.velocity_violation = largest(rate_);
     }
@@ -348,6 +357,8 @@ class AugmentedLagrangian {
   IntegratorExperience experience_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, reactions_, rate_, work_, increments_;
+  VecX impulses_;
+  bool keeps_impulses_ = false;
 };
 
 }  // namespace floatframe

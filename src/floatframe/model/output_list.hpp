@@ -20,6 +20,7 @@
   entry(distance)                 \
   entry(joint_force)              \
   entry(joint_torque)             \
+  entry(projection_impulse)       \
   entry(rod_force)                \
   entry(motion_force)             \
   entry(motion_power)             \

@@ -18,6 +18,9 @@ struct Reactions {
   /// Of each joint: the force or torque of its prescribed motion along the coordinate, on the child
   /// [N, N m]; zero without one.
   std::vector<double> motions;
+  /// Of each joint and rod, in the projection of the velocities of the last step: on the child, on
+  /// the body at `to` [N s].
+  std::vector<Vec3> joint_impulses, rod_impulses;
 };
 
 }  // namespace floatframe

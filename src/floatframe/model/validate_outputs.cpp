@@ -40,7 +40,7 @@ void force_output(const OutputDescription& o, const ModelDescription& d, const N
 void reaction(const OutputDescription& o, const Names& names, const Entity& entity) {
   entity.reference(output_type_name(o.type), o.rod ? "rod" : "joint", o.entity,
                    o.rod ? names.rods : names.joints);
-  if (o.about && o.type == OutputType::joint_force)
+  if (o.about && o.type != OutputType::joint_torque)
     entity.error("about", sentences::force_without_point());
   else if (o.about)
     entity.place("about", o.at, names);

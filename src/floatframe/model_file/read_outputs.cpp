@@ -225,7 +225,7 @@ class OutputReader {
       const auto at = point(*about);
       good = at && good;
       if (at) o.at = *at;
-      if (o.type == OutputType::joint_force) {
+      if (o.type != OutputType::joint_torque) {
         about->error(sentences::force_without_point());
         good = false;
       }

@@ -35,6 +35,8 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
   reactions_.motions.assign(model.joints.size(), 0.0);
   reactions_.rods.resize(model.rods.size());
   reactions_.tensions.assign(model.rods.size(), 0.0);
+  reactions_.joint_impulses.assign(model.joints.size(), Vec3::Zero());
+  reactions_.rod_impulses.assign(model.rods.size(), Vec3::Zero());
   if (options.redundant) {
     least_.emplace(model);
     least_lambda_ = VecX::Zero(least_->rows());
@@ -126,6 +128,19 @@ void ReactionSolver<F>::collect_wrenches() noexcept {
 }
 
 template <class F>
+void ReactionSolver<F>::set_impulses(const ConstraintSet& set, const VecX& impulses) noexcept {
+  for (Vec3& x : reactions_.joint_impulses) x.setZero();
+  for (std::size_t k = 0; k < set.parts().size(); ++k) {
+    const ConstraintOwner& owner = set.parts()[k].owner;
+    const Vec3 on_b = -set.wrench(k, impulses).Fb;
+    if (owner.kind == ConstraintOwner::Kind::rod)
+      reactions_.rod_impulses[owner.index] = on_b;
+    else
+      reactions_.joint_impulses[owner.index] += on_b;
+  }
+}
+
+template <class F>
 void ReactionSolver<F>::find_open_outputs(const State& start) {
   f_.positions(start.t, start.q);
   f_.velocities(start.v);
@@ -134,9 +149,8 @@ void ReactionSolver<F>::find_open_outputs(const State& start) {
   const OutputView view(f_, start.t, start.q, &reactions_);
   const Eigen::Index n = least_->rows();
   for (const Output& o : model.outputs) {
-    if (output_kind(o.type).of != OutputOf::reaction && output_kind(o.type).of != OutputOf::rod &&
-        output_kind(o.type).of != OutputOf::motion)
-      continue;
+    const OutputOf of = output_kind(o.type).of;
+    if (of != OutputOf::reaction && of != OutputOf::rod && of != OutputOf::motion) continue;
     VecX part(n);  // of each multiplier in the output
     for (Eigen::Index i = 0; i < n; ++i) {
       FollowedOutput nothing;

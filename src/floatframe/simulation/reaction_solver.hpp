@@ -54,6 +54,9 @@ class ReactionSolver {
   void solve(const State& state, std::span<const double> inputs,
              std::span<const double> spring_angles) noexcept;
 
+  /// Impulses of the constraints of `set`, which is at the state of the last `solve`.
+  void set_impulses(const ConstraintSet& set, const VecX& impulses) noexcept;
+
   const VecX& accelerations() const noexcept { return a_; }
   const VecX& multipliers() const noexcept { return lambda_; }
   const Reactions& reactions() const noexcept { return reactions_; }

@@ -35,7 +35,10 @@ class Runner {
     terms_ = output_terms(f_.model());
   }
   /// What outputs of reactions are taken from; it must outlive this.
-  void set_reaction_solver(ReactionSolver<F>& solver) noexcept { reactions_ = &solver; }
+  void set_reaction_solver(ReactionSolver<F>& solver) {
+    reactions_ = &solver;
+    integrator_.keep_impulses();
+  }
 
   State& state() noexcept { return state_; }
   const State& state() const noexcept { return state_; }
@@ -101,7 +104,10 @@ class Runner {
       f_.forces();
     else
       f_.dynamics();
-    if (reactions_) reactions_->solve(state_, f_.inputs(), f_.spring_angles());
+    if (reactions_) {
+      reactions_->solve(state_, f_.inputs(), f_.spring_angles());
+      reactions_->set_impulses(f_.constraint_set(), integrator_.impulses());
+    }
     f_.set_accelerations(reactions_ ? reactions_->accelerations() : state_.a);
     *row++ = state_.t;
     const OutputView view(f_, state_.t, state_.q, reactions_ ? &reactions_->reactions() : nullptr);

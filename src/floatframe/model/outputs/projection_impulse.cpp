@@ -1,0 +1,26 @@
+// Impulse that the projection of the velocities onto the constraints gave the child of a joint, or
+// the body at `to` of a rod, in the last step [N s]: what the reactions leave out.
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::projection_impulse>(const OutputView& view, const Output& output,
+                                                       FollowedOutput&) noexcept {
+  const Reactions& all = view.reactions();
+  const Vec3& impulse =
+      output.rod >= 0 ? all.rod_impulses[output.rod] : all.joint_impulses[output.joint];
+  if (output.to < 0) return impulse[output.component];
+  return view.marker(output.to).R.col(output.component).dot(impulse);
+}
+
+constinit const OutputKind projection_impulse_output = {
+    .about =
+        "impulse on the child in the projection of the velocities of the last step; of tree "
+        "joints in relative coordinates zero",
+    .of = OutputOf::reaction,
+    .components = world_axes,
+    .unit = "N s",
+    .terms = OutputTerms::reactions};
+
+}  // namespace floatframe
