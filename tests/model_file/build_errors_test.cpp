@@ -88,5 +88,15 @@ TEST(BuildErrors, AsManyModesAsTheMeshHasWaysToMove) {
             ":6:7: bodies.bar: found 2 modes of which a combination moves no mass ");
 }
 
+TEST(BuildErrors, ForceOfAMotorWithoutAMotion) {
+  const std::string modes =
+      "joints: {h: {type: revolute, child: bar, at: a, axis: y}}\n"
+      "outputs:\n"
+      "  f: {motion_force: h}\n";
+  EXPECT_EQ(error_of("      static_modes: [{point: b, dofs: [y, z]}]\n", modes, build),
+            ":12:21: outputs.f.motion_force: found a joint that moves freely, expected one with a "
+            "prescribed motion");
+}
+
 }  // namespace
 }  // namespace floatframe

@@ -183,7 +183,8 @@ constexpr CrankState crank_end = {15.00000000000104,
 constexpr double crank_gap = 2.031e-10;
 
 /// The rod, its frame at the crank's pin: bending q1 sin(pi x) + q2 sin(2 pi x), axial
-/// q3 4 x (1 - x) + q4 (2 x^2 - x), x = s / L2. The axial block of the mass matrix is that of crank.f,
+/// q3 4 x (1 - x) + q4 (2 x^2 - x), x = s / L2. The axial block of the mass matrix is that of
+/// crank.f,
 /// without the factor 1/15 of a line element.
 FlexibleBody crank_rod() {
   constexpr double L = 0.3, m = 0.151104, h = 0.008, E = 2e11, pi = 3.1415927;

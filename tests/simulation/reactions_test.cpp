@@ -254,7 +254,7 @@ simulation: {step: 0.01, duration: 0}
 }
 
 /// A four-bar linkage drawn in space: its hinges are redundant.
-const char* const four_bars = R"(
+const char* const spatial_linkage = R"(
 bodies:
   left: {position: [0, 0, 0.5], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
   top: {position: [1, 0, 1], rigid: {mass: 2, inertia: [0.1, 0.2, 0.2]}}
@@ -272,7 +272,7 @@ simulation: {step: 0.002, duration: 1}
 
 template <class F>
 void expect_samples_without_allocation() {
-  const Model model = model_of(four_bars);
+  const Model model = model_of(spatial_linkage);
   SteppedModel<F> steps(model, model.simulation);
   std::vector<double> row(1 + model.outputs.size()), again(row.size());
   steps.sample(row.data());
@@ -291,11 +291,12 @@ TEST(Reactions, AreSampledWithoutAllocation) {
   expect_samples_without_allocation<AbsoluteFormulation>();
 }
 
-// W dv = -Phi_q^T i with the change dv of the velocities that a step with projections makes after one
+// W dv = -Phi_q^T i with the change dv of the velocities that a step with projections makes after
+// one
 // without them; W = M, since nothing is elastic.
 template <class F>
 void expect_impulses_to_be_the_change_of_momentum() {
-  const Model model = model_of(four_bars);
+  const Model model = model_of(spatial_linkage);
   StartedModel<F> started(model, model.simulation);
   F& f = started.formulation();
   StepOptions options = started.step_options();
@@ -329,7 +330,7 @@ TEST(Reactions, ImpulsesOfTheProjectionsAreTheChangeOfMomentum) {
 
 // As outputs: none before the first step, then those of the cut joints or of all.
 TEST(Reactions, OfTheProjectionsAreAnOutputOfTheirOwn) {
-  ModelDescription d = description_of(four_bars);
+  ModelDescription d = description_of(spatial_linkage);
   d.outputs.clear();
   for (const JointDescription& j : d.joints) {
     OutputDescription o;
@@ -356,7 +357,7 @@ TEST(Reactions, OfTheProjectionsAreAnOutputOfTheirOwn) {
 
 // Whether reactions are looked at or not, the steps are the same.
 TEST(Reactions, LeaveTheStepsAlone) {
-  ModelDescription d = description_of(four_bars);
+  ModelDescription d = description_of(spatial_linkage);
   for (const Coordinates c : each_of_both) {
     d.simulation.coordinates = c;
     d.simulation.duration = 0.1;

@@ -305,8 +305,8 @@ class AugmentedLagrangian {
     const double enough = 0.1 * options_.velocity_tolerance;
     for (int pass = 0; pass < options_.max_projections && report.velocity_violation >= enough;
          ++pass) {
-      if (keeps_impulses_) impulses_ += penalty * rate_;
       correct(v_, penalty);
+      if (keeps_impulses_) impulses_ += penalty * rate_;
       report.velocity_violation = largest(rate_);
     }
     f_.velocities(v_);
