@@ -140,8 +140,11 @@ double difference(F& f, const VecX& q, const VecX& v, const MatX& directions, do
     f.solve(x);
     inverse.col(j) = x;
   }
-  const MatX J = f.constraint_jacobian();
-  const MatX T = lu_solve(inverse, MatX::Identity(n, n)) - J.transpose() * J;
+  const MatX J = f.constraint_jacobian(), Z = free_directions(f);
+  const MatX T =
+      Z * lu_solve(MatX(Z.transpose() * inverse * Z), MatX::Identity(Z.cols(), Z.cols())) *
+          Z.transpose() -
+      J.transpose() * J;
   const MatX exact = directions.transpose() * (M + 0.5 * h * C + 0.25 * h * h * K);
   const double mass = largest(directions.transpose() * M);
   return largest(directions.transpose() * T * directions - 0.5 * (exact + exact.transpose())) /

@@ -19,7 +19,9 @@ struct System {
       : tree(model, InertiaMethod::preprocessing),
         f(model, InertiaMethod::preprocessing),
         options(o) {
-    options.penalty_mass = default_penalty_mass(model);
+    options.penalty_mass =
+        default_penalty_mass(model, std::is_same_v<F, AbsoluteFormulation> ? Coordinates::absolute
+                                                                           : Coordinates::relative);
     const State start = relative_start(tree, Start::given);
     if constexpr (std::is_same_v<F, RelativeFormulation>) {
       state = start;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 #include "floatframe/math/block_ldlt.hpp"
 #include "floatframe/math/partial_ldlt.hpp"
@@ -162,6 +163,110 @@ TEST(BlockLdlt, RandomPatternsAgainstDense) {
       sparse.solve(x);
       EXPECT_LT((x - expected).norm(), 1e-12 * expected.norm());
     }
+  }
+}
+
+/// A symmetric indefinite matrix with zeros in some places of its diagonal, not singular.
+MatX random_indefinite(Random& random, int n, int zeros) {
+  MatX a = random.matrix(n, n);
+  a = (a + a.transpose()).eval();
+  for (int k = 0; k < zeros; ++k) a(k, k) = 0.0;
+  return a;
+}
+
+TEST(PivotedLdlt, AgreesWithBlockElimination) {
+  Random random(31);
+  for (int n = 1; n <= 14; ++n)
+    for (int ne = 1; ne <= n; ++ne) {
+      const MatX a = random_indefinite(random, n, ne);
+      MatX f = front_of(a, front_stride(n));
+      PivotOrder pivots(ne);
+      const MatX A11 = a.topLeftCorner(ne, ne);
+      if (ne == 1) {  // its only pivot vanishes
+        EXPECT_EQ(pivoted_ldlt(f.data(), n, ne, pivots, 1e-13), 0);
+        continue;
+      }
+      ASSERT_EQ(pivoted_ldlt(f.data(), n, ne, pivots, 1e-13), -1) << n << ' ' << ne;
+      const double worse = 1e-12 * A11.norm() * A11.inverse().norm();
+      VecX b = VecX::Zero(front_stride(n));
+      b.head(n) = random.vector(n);
+      const VecX given = b.head(n);
+      pivoted_forward(f.data(), n, ne, pivots, b.data());
+      const int m = n - ne;
+      const MatX A21 = a.bottomLeftCorner(m, ne);
+      const VecX rest = given.tail(m) - A21 * A11.fullPivLu().solve(given.head(ne));
+      EXPECT_LT((b.segment(ne, m) - rest).norm(), worse * (1.0 + rest.norm()));
+      const MatX schur = a.bottomRightCorner(m, m) - A21 * A11.fullPivLu().solve(A21.transpose());
+      const MatX lower = f.block(ne, ne, m, m).triangularView<Eigen::Lower>();
+      const MatX expected = schur.triangularView<Eigen::Lower>();
+      EXPECT_LT((lower - expected).norm(), worse * (1.0 + schur.norm()));
+      if (m > 0) b.segment(ne, m) = schur.fullPivLu().solve(rest);
+      pivoted_backward(f.data(), n, ne, pivots, b.data());
+      EXPECT_LT((a * b.head(n) - given).norm(), worse * (1.0 + b.norm()) * a.norm()) << n << ne;
+    }
+}
+
+TEST(PivotedLdlt, NamesAColumnWithoutPivot) {
+  Random random(32);
+  for (int empty = 0; empty < 5; ++empty) {
+    MatX a = random_indefinite(random, 5, 0);
+    a.row(empty).setZero();
+    a.col(empty).setZero();
+    MatX f = front_of(a, front_stride(5));
+    PivotOrder pivots(5);
+    EXPECT_EQ(pivoted_ldlt(f.data(), 5, 5, pivots, 1e-13), empty);
+  }
+}
+
+// Saddle points: every edge has multipliers in the block that is eliminated first. Blocks have full
+// mass, or none at all: then their pivots are chosen.
+TEST(BlockLdlt, SaddlePointsAgainstDense) {
+  Random random(33);
+  for (int trial = 0; trial < 40; ++trial) {
+    Graph g = random_graph(random, 2 + trial / 4, 0.3);
+    for (int& size : g.sizes) size += 3;
+    const int count = static_cast<int>(g.sizes.size());
+    std::vector<BlockLdlt::Block> blocks;
+    // What has no mass of its own is held by springs to the ground, as good as nothing.
+    for (const int size : g.sizes)
+      blocks.push_back({.size = size, .chooses = trial % 2 == 1 && random() > 0.0});
+    const std::vector<int> order = BlockLdlt::elimination_order(blocks, g.edges);
+    const auto rank = [&](int block) {
+      return std::find(order.begin(), order.end(), block) - order.begin();
+    };
+    for (const auto& [a, b] : g.edges) blocks[rank(a) < rank(b) ? a : b].inner += 2;
+    BlockLdlt sparse(blocks, g.edges);
+    const int n = sparse.unknowns();
+    sparse.set_zero();
+    MatX dense = MatX::Zero(n, n);
+    const auto add = [&](int a, int i, int b, int j, double x) {
+      const int r = sparse.offset(a) + i, c = sparse.offset(b) + j;
+      dense(r, c) += x;
+      if (r != c) dense(c, r) += x;
+      sparse.add(a, i, b, j, x);
+    };
+    for (int k = 0; k < count; ++k) {
+      const MatX mass = random_spd(random, g.sizes[k]);
+      for (int i = 0; i < g.sizes[k]; ++i)
+        for (int j = 0; j <= i; ++j)
+          add(k, i, k, j, blocks[k].chooses ? (i == j ? 1e-6 : 0.0) : mass(i, j));
+    }
+    std::vector<int> at = g.sizes;
+    for (const auto& [a, b] : g.edges) {
+      const int home = rank(a) < rank(b) ? a : b, other = home == a ? b : a;
+      for (int r = 0; r < 2; ++r, ++at[home]) {
+        add(home, at[home], home, at[home], -1e-5);
+        for (int j = 0; j < g.sizes[home]; ++j) add(home, at[home], home, j, random());
+        for (int j = 0; j < g.sizes[other]; ++j) add(home, at[home], other, j, random());
+      }
+    }
+    VecX x = random.vector(n);
+    const VecX b = x;
+    ASSERT_EQ(sparse.factorize(), -1) << trial;
+    sparse.solve(x);
+    EXPECT_LT((dense * x - b).norm(), 1e-9 * dense.norm() * x.norm()) << trial;
+    const VecX expected = dense.fullPivLu().solve(b);
+    EXPECT_LT((x - expected).norm(), 1e-6 * expected.norm()) << trial;
   }
 }
 

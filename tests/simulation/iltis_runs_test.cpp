@@ -127,7 +127,7 @@ TEST(IltisRuns, GrowthOfAPerturbation) {
       StepOptions options;
       options.spectral_radius = d.simulation.spectral_radius;
       options.tolerance = d.simulation.tolerance;
-      options.penalty_mass = default_penalty_mass(model);
+      options.penalty_mass = default_penalty_mass(model, Coordinates::relative);
       Runner<RelativeFormulation> runner(f, options, h / 1024.0);
       runner.state() = relative_start(f, Start::equilibrium);
       runner.state().q[2] += shift;

@@ -166,7 +166,7 @@ Tumble tumble(BodyReference::Kind kind, double amplitude, double step, double du
   RelativeFormulation f(model, InertiaMethod::preprocessing);
   StepOptions options;
   options.tolerance = 1e-14;
-  options.penalty_mass = default_penalty_mass(model);
+  options.penalty_mass = default_penalty_mass(model, Coordinates::relative);
   State s = relative_start(f, Start::given);
   start_accelerations(f, s, options.penalty_mass);
   evaluate_at(f, 0.0, s.q, s.v);

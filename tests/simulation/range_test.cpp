@@ -254,7 +254,7 @@ TEST(Range, TheWatchDoesNotAllocateWhileItGoes) {
   const Model model = build_model(d);
   RelativeFormulation f(model, d.simulation.inertia);
   const State start = relative_start(f, Start::equilibrium);
-  const double penalty = default_penalty_mass(model);
+  const double penalty = default_penalty_mass(model, Coordinates::relative);
   AbsoluteFormulation g(model, d.simulation.inertia);
   State absolute;
   g.start_from(f, start.q, start.v, absolute.q, absolute.v);

@@ -22,7 +22,7 @@ StepOptions options_of(const Model& model) {
   StepOptions o;
   o.spectral_radius = model.simulation.spectral_radius;
   o.tolerance = model.simulation.tolerance;
-  o.penalty_mass = default_penalty_mass(model);
+  o.penalty_mass = default_penalty_mass(model, Coordinates::relative);
   return o;
 }
 

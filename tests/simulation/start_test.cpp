@@ -20,7 +20,7 @@ struct AbsoluteStart {
     RelativeFormulation tree(model, model.simulation.inertia);
     const State start = relative_start(tree, Start::given);
     f.start_from(tree, start.q, start.v, state.q, state.v);
-    start_accelerations(f, state, default_penalty_mass(model));
+    start_accelerations(f, state, default_penalty_mass(model, Coordinates::absolute));
   }
   /// Force and torque of the joint's constraints on its child, about the child's marker.
   Vec6 reaction(int joint) const {
@@ -161,7 +161,8 @@ TEST(DenseStart, IsForDirectionsWithoutMassOnly) {
   start.f.dynamics();
   const VecX diagonal = mass_diagonal(start.f, start.state, possible);
   EXPECT_LT(diagonal.minCoeff(), 1e-9 * diagonal.maxCoeff());
-  EXPECT_FALSE(may_lack_mass(start.f, diagonal, possible, default_penalty_mass(model)));
+  EXPECT_FALSE(may_lack_mass(start.f, diagonal, possible,
+                             default_penalty_mass(model, Coordinates::absolute)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "floatframe/formulation/absolute.hpp"
@@ -147,6 +148,21 @@ inline VecX absolute_accelerations(RelativeFormulation& tree, AbsoluteFormulatio
   tree.retract(q, -dt * v + 0.5 * dt * dt * a, q1);
   absolute.start_from(tree, q1, v - dt * a, qa, minus);
   return (plus - minus) / (2.0 * dt);
+}
+
+/// Orthonormal columns: the increments that keep the constraints which the formulation holds
+/// exactly, a body's own in absolute coordinates; their rows stand first. After `evaluate_at`.
+template <class F>
+MatX free_directions(F& f) {
+  const int n = f.velocities();
+  if constexpr (std::is_same_v<F, AbsoluteFormulation>) {
+    int own = 0;
+    for (std::size_t i = 0; i < f.model().bodies.size(); ++i)
+      own += f.body_rows(static_cast<int>(i));
+    const MatX kernel = f.constraint_jacobian().topRows(own).fullPivLu().kernel();
+    return kernel.householderQr().householderQ() * MatX::Identity(n, kernel.cols());
+  }
+  return MatX::Identity(n, n);
 }
 
 /// Positions and velocities in one call.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "floatframe/formulation/equations_of_motion.hpp"
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 
@@ -85,39 +86,68 @@ void AbsoluteFormulation::number_coordinates(InertiaMethod method) {
         bodies_[i].inertia.own_frequencies_squared(model_.bodies[i].data->K);
 }
 
+/// True if some motion z of the undeformed body has hardly any mass: of turning next to the largest
+/// inertia, since world axes stand at any angle to those about which there is little; of a mode next
+/// to the body moving as far as its markers do.
+bool AbsoluteFormulation::lacks_mass(int i) {
+  BodyData& b = bodies_[i];
+  b.A.setIdentity();
+  b.Adot.setZero();
+  b.inertia.absolute(b.A, b.Adot, b.y.data(), b.yd.data(), b.M, b.Qv);
+  MatX M = MatX::Zero(6 + b.nm, 6 + b.nm);
+  add_mass(b, 1.0, Mat3::Zero(), M);
+  VecX scale = M.diagonal();
+  scale.segment<3>(3).setConstant(scale.segment<3>(3).maxCoeff());
+  constexpr double enough = 1e-8;
+  for (int k = 0; k < b.nm; ++k) {
+    double reach = 0.0;
+    for (const MarkerData& m : markers_)
+      if (m.body == i)
+        reach = std::max({reach, m.X.col(k).squaredNorm(),
+                          b.length * b.length * m.X_theta.col(k).squaredNorm()});
+    if (!(scale[6 + k] > enough * b.M(0, 0) * reach)) return true;
+  }
+  if (!(scale.minCoeff() > 0.0)) return true;
+  scale = scale.cwiseSqrt().cwiseInverse().eval();
+  M = (scale.asDiagonal() * M * scale.asDiagonal()).eval();
+  return !(symmetric_eigenvalues(M).minCoeff() > enough);
+}
+
 /// Memory of the factorised tangents: a block per body, coupled where parts or forces tie two.
 void AbsoluteFormulation::make_factors() {
-  std::vector<int> sizes;
-  int widest = 12;
-  std::size_t most = 0;
-  for (const BodyData& b : bodies_) {
-    sizes.push_back(b.size());
-    widest = std::max(widest, b.size());
-    most += static_cast<std::size_t>(6 * 6 + 3 * b.points * (13 + b.nm));
+  std::vector<BlockLdlt::Block> blocks;
+  std::vector<int> rank(bodies_.size(), 0);
+  int widest = 6;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const int size = 6 + bodies_[i].nm;
+    blocks.push_back({.size = size, .chooses = lacks_mass(static_cast<int>(i))});
+    widest = std::max(widest, size);
   }
   std::vector<std::pair<int, int>> edges;
+  const auto body_of = [&](int marker) { return marker < 0 ? -1 : markers_[marker].body; };
   const auto couple = [&](int a, int b) {
-    if (a < 0 || b < 0) return;
-    const int ba = markers_[a].body, bb = markers_[b].body;
-    if (ba >= 0 && bb >= 0) edges.emplace_back(ba, bb);
+    if (body_of(a) >= 0 && body_of(b) >= 0) edges.emplace_back(body_of(a), body_of(b));
   };
-  for (const ConstraintPart& p : constraint_set_.parts()) {
-    couple(p.a, p.b);
-    for (const int marker : {p.a, p.b})
-      if (const int i = markers_[marker].body; i >= 0)
-        most += static_cast<std::size_t>(p.rows() * bodies_[i].size());
-  }
+  for (const ConstraintPart& p : constraint_set_.parts()) couple(p.a, p.b);
   for (const Force& f : model_.forces) couple(f.a, f.b);
-  for (Factors& f : factors_) {
-    f.matrix = BlockLdlt(sizes, edges);
-    f.row_start.assign(constraint_set_.count() + 1, 0);
-    f.column.assign(most, 0);
-    f.value.assign(most, 0.0);
+  const std::vector<int> order = BlockLdlt::elimination_order(blocks, edges);
+  for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<int>(k);
+  for (const ConstraintPart& p : constraint_set_.parts()) {
+    PartPlace place;
+    const int a = body_of(p.a), b = body_of(p.b);
+    place.home = a < 0 || (b >= 0 && rank[b] < rank[a]) ? b : a;
+    if (place.home >= 0) {
+      BlockLdlt::Block& home = blocks[place.home];
+      place.at = home.size + home.inner;
+      home.inner += p.rows();
+    }
+    places_.push_back(place);
   }
-  for (Gradient* g : {&ga_, &gb_}) {
-    g->index.resize(widest);
-    g->value.resize(widest);
-  }
+  for (Factors& f : factors_) f.matrix = BlockLdlt(blocks, edges);
+  ga_.z = gb_.z = VecX::Zero(widest);
+  unknowns_ = VecX::Zero(factors_[0].matrix.unknowns());
+  correction_ = VecX::Zero(nq_);
+  across_ = VecX::Zero(constraints());
 }
 
 void AbsoluteFormulation::start_from(RelativeFormulation& tree, const VecX& tree_q,

@@ -17,8 +17,20 @@
 //
 // The residual is, body by body with M and Qv of (25)-(45) and gravity g taken off the acceleration
 // of r0, M (a - g) - Qv + (0; K y + D ydot), less applied forces, plus Phi_q^T (lambda + alpha
-// Phi). The tangent is factorised by bodies (BlockLdlt): never one dense matrix. Its geometric
-// stiffness is that of the multipliers of (1), (2), which is bilinear in A and y, and of rods.
+// Phi).
+//
+// Linear systems. (1) and (2) are a body's own: what they leave free is z = (delta r0, theta,
+// delta y), world axes, with
+//   delta u = theta x u, ..., delta r_P = delta r0 + theta x (r_P - r0) + J_P delta y: x = B z,   (5)
+// so a tangent T acts as B^T T B, (6 + nm)^2 a body, without any penalty on (1) and (2): increments
+// meet them exactly (`advance` turns A by exp(theta)), and their multipliers are what balances the
+// residual across B (`balance`). The rows (3) stay with multipliers mu of their own, a saddle point,
+//   [B^T T B  G^T; G  -1/penalty] [z; mu] = [B^T b; -Phi],  G = Phi_q B,                        (6)
+// for the normal equations B^T T B + penalty G^T G square the condition of G: a chain of 256 links
+// would not be left a digit. (6) is factorised by bodies (BlockLdlt), mu of a joint with the body
+// that is eliminated first; pivots are chosen only in bodies without mass of their own in some
+// direction. The geometric stiffness in T is that of the multipliers of (1), (2), which is bilinear
+// in A and y, and of rods.
 #include <span>
 #include <string>
 #include <vector>
@@ -74,8 +86,9 @@ class AbsoluteFormulation {
   int factorize_metric(double s, double penalty, int slot) noexcept {
     return eliminate({1.0, 0.0, s, penalty, false}, factors_[slot]);
   }
-  void solve(VecX& b, int slot = 0) noexcept { factors_[slot].matrix.solve(b); }
-  void solve(VecX& b, const VecX& w, VecX& increments, int slot) noexcept;
+  void solve(VecX& b, int slot = 0) noexcept;
+  void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept;
+  void balance(VecX& lambda, VecX& r) noexcept;
   const VecX& constraint_values() const noexcept { return constraint_set_.values(); }
   const VecX& own_frequencies_squared() const noexcept { return omega2_; }
   void constraint_rates(VecX& out) noexcept;
@@ -83,7 +96,9 @@ class AbsoluteFormulation {
   void constraint_increments(const VecX& delta, VecX& out) noexcept;
   void constraint_forces(const VecX& w, VecX& out) noexcept;
   void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept { q = q0 + x; }
-  void advance(VecX& x, const VecX& delta) const noexcept { x += delta; }
+  void settle(const VecX& q0, VecX& x) const noexcept;
+  /// From the present positions, with increments (5).
+  void advance(VecX& x, const VecX& delta) const noexcept;
 
   // -- what outputs, energies and reports look at, as in relative.hpp
 
@@ -159,32 +174,31 @@ class AbsoluteFormulation {
     int point = -1;  ///< first coordinate of its outer point, -1 if it has none
     Vec3 r_P, v_P;   ///< position and velocity of the outer point, world axes
   };
-  /// Entries of a constraint row, other than zero, over one body's coordinates.
+  /// A generalised force on z of (5): what a wrench at a marker is for the body.
   struct Gradient {
-    int body = -1, count = 0;
-    std::vector<int> index;
-    std::vector<double> value;
-    void clear(int of_body) noexcept { body = of_body, count = 0; }
-    void put(int i, double x) noexcept {
-      index[count] = i;
-      value[count++] = x;
-    }
+    int body = -1;
+    VecX z;
   };
-  /// T = mass M + damping C + s K + penalty Phi_q^T Phi_q, K with geometric stiffness or without.
+  /// Where the multipliers of a part stand in (6).
+  struct PartPlace {
+    int home = -1;  ///< body that is eliminated first, -1: no body moves
+    int at = 0;     ///< its first multiplier among the unknowns of that body
+  };
+  /// T = mass M + damping C + s K, K with geometric stiffness or without, and the penalty of (6).
   struct TangentWeights {
     double mass, damping, s, penalty;
     bool geometric;
   };
-  /// A factorised tangent and the rows of Phi_q it was made with.
+  /// (6), factorised.
   struct Factors {
     BlockLdlt matrix;
-    std::vector<int> row_start, column;
-    std::vector<double> value;
+    double penalty = 0.0;
   };
 
   // Load time.
   void place_outer_points();
   void number_coordinates(InertiaMethod method);
+  bool lacks_mass(int i);
   void make_factors();
   // Step time.
   const MarkerData& point(const BodyData& b, int p) const noexcept {
@@ -198,24 +212,31 @@ class AbsoluteFormulation {
   void add_wrench(int marker, bool through_point, const Vec3& force, const Vec3& torque,
                   VecX& out) const noexcept;
   void add_all_constraint_forces(const VecX& w, VecX& out) const noexcept;
-  void gradient(int marker, bool through_point, const Vec3& force, const Vec3& torque,
-                Gradient& g) const noexcept;
-  void add_rank_one(BlockLdlt& matrix, const Gradient& a, const Gradient& b,
-                    double weight) const noexcept;
-  void keep_row(Factors& factors, int row, const Gradient& a, const Gradient& b) const noexcept;
-  void assemble_axes(const TangentWeights& t, int i, Factors& factors) noexcept;
-  void assemble_points(const TangentWeights& t, int i, Factors& factors) noexcept;
-  void assemble_forces(const TangentWeights& t, Factors& factors) noexcept;
-  void assemble_parts(const TangentWeights& t, Factors& factors) noexcept;
+  void gradient(int marker, const Vec3& force, const Vec3& torque, Gradient& g) const noexcept;
+  /// The gradients of a wrench on two markers into ga_ and gb_; one body is one gradient.
+  void gradients(int a, int b, const WrenchRow& w) noexcept;
+  void add_rank_one(BlockLdlt& matrix, double weight) noexcept;
+  static void add_mass(const BodyData& b, double mass, const Mat3& stretch, MatX& f) noexcept;
+  void assemble_body(const TangentWeights& t, int i, BlockLdlt& matrix) noexcept;
+  void assemble_forces(const TangentWeights& t, BlockLdlt& matrix) noexcept;
+  void assemble_parts(const TangentWeights& t, BlockLdlt& matrix) noexcept;
+  void assemble_row(const PartPlace& place, int r, BlockLdlt& matrix) noexcept;
   int eliminate(const TangentWeights& t, Factors& factors) noexcept;
+  bool own_constraints_hold(const VecX& phi) const noexcept;
+  void own_correction(const VecX& phi, VecX& p) const noexcept;
+  void gather(const BodyData& b, const VecX& x, double* z) const noexcept;
+  void spread(const BodyData& b, const double* z, VecX& x) const noexcept;
 
   const Model& model_;
   ConstraintSet constraint_set_;
   ForceSet force_set_;
   std::vector<BodyData> bodies_;
   std::vector<MarkerData> markers_;
+  std::vector<PartPlace> places_;  ///< of the constraint parts
   Factors factors_[2];
   Gradient ga_, gb_;
+  VecX unknowns_;             ///< of (6)
+  VecX correction_, across_;  ///< an increment that meets (1) and (2), and what it asks of (3)
   int nq_ = 0;
   double time_ = 0.0;
   VecX omega2_, a_;

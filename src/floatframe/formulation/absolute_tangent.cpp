@@ -1,130 +1,124 @@
-// Tangent of the absolute formulation, assembled into the fronts of the bodies.
+// Tangent of the absolute formulation over what the bodies' own constraints leave free, and the
+// multipliers of the parts: (5), (6) of absolute.hpp, assembled into the fronts of the bodies.
 #include "floatframe/formulation/absolute.hpp"
 
 namespace floatframe {
 
-void AbsoluteFormulation::gradient(int marker, bool through_point, const Vec3& force,
-                                   const Vec3& torque, Gradient& g) const noexcept {
-  g.clear(-1);
-  if (marker < 0) return;
+/// B^T of the wrench at a marker: (F, r x F + T, Jr^T F + Jw^T T), r from the body's origin.
+void AbsoluteFormulation::gradient(int marker, const Vec3& force, const Vec3& torque,
+                                   Gradient& g) const noexcept {
+  g.body = marker < 0 ? -1 : markers_[marker].body;
+  if (g.body < 0) return;
   const MarkerData& m = markers_[marker];
-  if (m.body < 0) return;
-  g.body = m.body;
-  const BodyData& b = bodies_[m.body];
-  const auto put = [&](int index, double value) {
-    if (value != 0.0) g.put(index, value);
-  };
-  const bool on_body = !(through_point && m.point >= 0);
-  if (on_body)
-    for (int i = 0; i < 3; ++i) put(i, force[i]);
-  for (int c = 0; c < 3; ++c) {
-    Vec3 x = 0.5 * torque.cross(b.A.col(c));
-    if (on_body) x += m.p_B[c] * force;
-    for (int i = 0; i < 3; ++i) put(3 + 3 * c + i, x[i]);
-  }
-  if (m.local)
-    for (int k = 0; k < b.nm; ++k) {
-      double x = on_body ? m.Jr.col(k).dot(force) : 0.0;
-      if (m.rotates) x += m.Jw.col(k).dot(torque);
-      put(12 + k, x);
-    }
-  if (!on_body)
-    for (int i = 0; i < 3; ++i) put(m.point - b.offset + i, force[i]);
-}
-
-void AbsoluteFormulation::add_rank_one(BlockLdlt& matrix, const Gradient& a, const Gradient& b,
-                                       double weight) const noexcept {
-  const auto own = [&](const Gradient& g) {
-    if (g.body < 0) return;
-    MatX& f = matrix.front(g.body);
-    for (int j = 0; j < g.count; ++j) {
-      const double w = weight * g.value[j];
-      double* column = f.data() + static_cast<Eigen::Index>(g.index[j]) * f.rows();
-      for (int i = j; i < g.count; ++i) column[g.index[i]] += w * g.value[i];
-    }
-  };
-  own(a);
-  own(b);
-  if (a.body < 0 || b.body < 0) return;
-  int oa = 0, ob = 0;
-  MatX& f = matrix.front(a.body, b.body, oa, ob);
-  const bool a_first = oa < ob;
-  const Gradient& first = a_first ? a : b;
-  const Gradient& second = a_first ? b : a;
-  const int of = std::min(oa, ob), os = std::max(oa, ob);
-  for (int j = 0; j < first.count; ++j) {
-    const double w = weight * first.value[j];
-    double* column = f.data() + static_cast<Eigen::Index>(of + first.index[j]) * f.rows() + os;
-    for (int i = 0; i < second.count; ++i) column[second.index[i]] += w * second.value[i];
+  const BodyData& b = bodies_[g.body];
+  g.z.head<3>() = force;
+  g.z.segment<3>(3) = torque + (m.s.r - b.p_WB).cross(force);
+  for (int k = 0; k < b.nm; ++k) {
+    double x = 0.0;
+    if (m.local) x = m.Jr.col(k).dot(force);
+    if (m.rotates) x += m.Jw.col(k).dot(torque);
+    g.z[6 + k] = x;
   }
 }
 
-void AbsoluteFormulation::keep_row(Factors& l, int row, const Gradient& a,
-                                   const Gradient& b) const noexcept {
-  auto at = static_cast<std::size_t>(l.row_start[row]);
-  for (const Gradient* g : {&a, &b}) {
+void AbsoluteFormulation::gradients(int a, int b, const WrenchRow& w) noexcept {
+  gradient(a, w.Fa, w.Ta, ga_);
+  gradient(b, w.Fb, w.Tb, gb_);
+  if (ga_.body < 0 || ga_.body != gb_.body) return;
+  const int n = 6 + bodies_[ga_.body].nm;
+  ga_.z.head(n) += gb_.z.head(n);
+  gb_.body = -1;
+}
+
+/// weight (g_a + g_b) (g_a + g_b)^T
+void AbsoluteFormulation::add_rank_one(BlockLdlt& matrix, double weight) noexcept {
+  for (const Gradient* g : {&ga_, &gb_}) {
     if (g->body < 0) continue;
-    const int offset = bodies_[g->body].offset;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(g->count); ++k, ++at) {
-      l.column[at] = offset + g->index[k];
-      l.value[at] = g->value[k];
+    MatX& f = matrix.front(g->body);
+    const int n = 6 + bodies_[g->body].nm;
+    for (int j = 0; j < n; ++j) {
+      const double w = weight * g->z[j];
+      double* column = f.data() + static_cast<Eigen::Index>(j) * f.rows();
+      for (int i = j; i < n; ++i) column[i] += w * g->z[i];
     }
   }
-  l.row_start[row + 1] = static_cast<int>(at);
+  if (ga_.body < 0 || gb_.body < 0) return;
+  int oa = 0, ob = 0;
+  MatX& f = matrix.front(ga_.body, gb_.body, oa, ob);
+  const bool a_first = oa < ob;
+  const Gradient& first = a_first ? ga_ : gb_;
+  const Gradient& second = a_first ? gb_ : ga_;
+  const int below = a_first ? ob : oa;
+  const int nf = 6 + bodies_[first.body].nm, ns = 6 + bodies_[second.body].nm;
+  for (int j = 0; j < nf; ++j) {
+    const double w = weight * first.z[j];
+    double* column = f.data() + static_cast<Eigen::Index>(j) * f.rows() + below;
+    for (int i = 0; i < ns; ++i) column[i] += w * second.z[i];
+  }
 }
 
-/// Rows (1) of body i: penalty, and the geometric stiffness of their multipliers.
-void AbsoluteFormulation::assemble_axes(const TangentWeights& t, int i, Factors& factors) noexcept {
-  const BodyData& b = bodies_[i];
-  MatX& f = factors.matrix.front(i);
-  const VecX& lambda = constraint_set_.multipliers();
-  const double l2 = t.penalty * b.length * b.length;
-  for (int k = 0; k < 6; ++k) {
-    const int ia = 3 + 3 * pair_a[k], ib = 3 + 3 * pair_b[k];
-    const Vec3 u = b.A.col(pair_a[k]), v = b.A.col(pair_b[k]);
-    const double g = t.geometric ? t.s * b.length * lambda[b.row + k] : 0.0;
-    if (k < 3) {
-      f.block<3, 3>(ia, ia) += l2 * u * u.transpose();
-      for (int c = 0; c < 3; ++c) f(ia + c, ia + c) += g;
-    } else {
-      f.block<3, 3>(ia, ia) += l2 * v * v.transpose();
-      f.block<3, 3>(ib, ib) += l2 * u * u.transpose();
-      f.block<3, 3>(ib, ia) += l2 * u * v.transpose();
-      for (int c = 0; c < 3; ++c) f(ib + c, ia + c) += g;
-    }
-    ga_.clear(i);
-    gb_.clear(-1);
+/// B^T (mass M + stretch (x) I) B onto the lower triangle of f, `stretch` between the axes.
+void AbsoluteFormulation::add_mass(const BodyData& b, double mass, const Mat3& stretch,
+                                   MatX& f) noexcept {
+  // What a column of M is for a rotation: sum of A_c x its part at the axis c.
+  const auto turn = [&](Eigen::Index k) {
+    const double* column = b.M.data() + k * b.M.rows();
+    Vec3 t = Vec3::Zero();
+    for (int c = 0; c < 3; ++c)
+      t += b.A.col(c).cross(Vec3(column[3 + 3 * c], column[4 + 3 * c], column[5 + 3 * c]));
+    return t;
+  };
+  for (int j = 0; j < 3; ++j) {
+    for (int i = j; i < 3; ++i) f(i, j) += mass * b.M(i, j);
+    f.block<3, 1>(3, j) += mass * turn(j);
+  }
+  for (int d = 0; d < 3; ++d) {
+    Mat3 turned;  // of the columns of the axis d
+    for (int k = 0; k < 3; ++k) turned.col(k) = mass * turn(3 + 3 * d + k);
+    for (int c = 0; c < 3; ++c) turned += stretch(c, d) * skew(Vec3(b.A.col(c)));
+    f.block<3, 3>(3, 3) -= turned * skew(Vec3(b.A.col(d)));
+  }
+  for (int k = 0; k < b.nm; ++k) {
+    const double* column = b.M.data() + static_cast<Eigen::Index>(12 + k) * b.M.rows();
+    const Vec3 t = turn(12 + k);
     for (int c = 0; c < 3; ++c) {
-      ga_.put(ia + c, b.length * v[c]);
-      if (k >= 3) ga_.put(ib + c, b.length * u[c]);
+      f(6 + k, c) += mass * column[c];
+      f(6 + k, 3 + c) += mass * t[c];
     }
-    keep_row(factors, b.row + k, ga_, gb_);
+    for (int j = k; j < b.nm; ++j) f(6 + j, 6 + k) += mass * column[12 + j];
   }
 }
 
-/// Rows (2) of body i. They are bilinear in A and y: geometric stiffness of their multipliers.
-void AbsoluteFormulation::assemble_points(const TangentWeights& t, int i,
-                                          Factors& factors) noexcept {
+/// Inertia and stiffness of body i, and the geometric stiffness of the multipliers of (1), which is
+/// one between the axes, and of (2).
+void AbsoluteFormulation::assemble_body(const TangentWeights& t, int i,
+                                        BlockLdlt& matrix) noexcept {
   const BodyData& b = bodies_[i];
-  MatX& f = factors.matrix.front(i);
+  MatX& f = matrix.front(i);
   const VecX& lambda = constraint_set_.multipliers();
+  Mat3 stretch = Mat3::Zero();
+  if (t.geometric)
+    for (int k = 0; k < 6; ++k)
+      stretch(pair_a[k], pair_b[k]) = stretch(pair_b[k], pair_a[k]) =
+          t.s * b.length * lambda[b.row + k];
+  add_mass(b, t.mass, stretch, f);
+  if (b.nm == 0) return;
+  const FlexibleBody& data = *model_.bodies[i].data;
+  f.block(6, 6, b.nm, b.nm) += t.s * data.K + t.damping * data.D;
+  if (!t.geometric) return;
   for (int p = 0; p < b.points; ++p) {
     const MarkerData& m = point(b, p);
-    const int at = 12 + b.nm + 3 * p, row = b.row + 6 + 3 * p;
-    for (int c = 0; c < 3 && t.geometric; ++c)
-      for (int k = 0; k < b.nm; ++k)
-        for (int j = 0; j < 3; ++j) f(12 + k, 3 + 3 * c + j) -= t.s * lambda[row + j] * m.X(c, k);
-    for (int c = 0; c < 3; ++c) {
-      gradient(b.point_marker[p], false, -Vec3::Unit(c), Vec3::Zero(), ga_);
-      ga_.put(at + c, 1.0);
-      gb_.clear(-1);
-      add_rank_one(factors.matrix, ga_, gb_, t.penalty);
-      keep_row(factors, row + c, ga_, gb_);
+    const Vec3 w = t.s * lambda.segment<3>(b.row + 6 + 3 * p);
+    for (int k = 0; k < b.nm; ++k) {
+      Vec3 moved = Vec3::Zero();
+      for (int c = 0; c < 3; ++c) moved += m.X(c, k) * b.A.col(c);
+      const Vec3 turn = moved.cross(w);
+      for (int c = 0; c < 3; ++c) f(6 + k, 3 + c) -= turn[c];
     }
   }
 }
 
-void AbsoluteFormulation::assemble_forces(const TangentWeights& t, Factors& factors) noexcept {
+void AbsoluteFormulation::assemble_forces(const TangentWeights& t, BlockLdlt& matrix) noexcept {
   for (std::size_t k = 0; k < model_.forces.size(); ++k) {
     const Force& force = model_.forces[k];
     const ForceState& state = force_set_.state(k);
@@ -132,32 +126,54 @@ void AbsoluteFormulation::assemble_forces(const TangentWeights& t, Factors& fact
       const TangentRow& row = state.rows[r];
       const double weight = t.s * row.k + t.damping * row.c;
       if (weight == 0.0) continue;
-      gradient(force.a, false, row.g.Fa, row.g.Ta, ga_);
-      gradient(force.b, false, row.g.Fb, row.g.Tb, gb_);
-      if (ga_.body >= 0 && ga_.body == gb_.body)
-        continue;  // within one body only its modes feel it: left to Newton
-      add_rank_one(factors.matrix, ga_, gb_, weight);
+      gradients(force.a, force.b, row.g);
+      add_rank_one(matrix, weight);
     }
   }
 }
 
-void AbsoluteFormulation::assemble_parts(const TangentWeights& t, Factors& factors) noexcept {
+/// Row r of a part with its gradients in ga_ and gb_: G of (6).
+void AbsoluteFormulation::assemble_row(const PartPlace& place, int r, BlockLdlt& matrix) noexcept {
+  MatX& f = matrix.front(place.home);
+  const int at = place.at + r;
+  for (const Gradient* g : {&ga_, &gb_}) {
+    if (g->body < 0) continue;
+    const int n = 6 + bodies_[g->body].nm;
+    if (g->body == place.home) {
+      for (int j = 0; j < n; ++j) f(at, j) = g->z[j];
+      continue;
+    }
+    int home = 0, other = 0;
+    matrix.front(place.home, g->body, home, other);
+    for (int j = 0; j < n; ++j) f(other + j, at) = g->z[j];
+  }
+}
+
+void AbsoluteFormulation::assemble_parts(const TangentWeights& t, BlockLdlt& matrix) noexcept {
   for (std::size_t k = 0; k < constraint_set_.parts().size(); ++k) {
     const ConstraintPart& p = constraint_set_.parts()[k];
+    const PartPlace& place = places_[k];
+    if (place.home < 0) continue;
     const int row = constraint_set_.offset(k);
     for (int r = 0; r < p.rows(); ++r) {
-      const WrenchRow& g = constraint_set_.row(row + r).gradient;
-      gradient(p.a, true, g.Fa, g.Ta, ga_);
-      gradient(p.b, true, g.Fb, g.Tb, gb_);
-      add_rank_one(factors.matrix, ga_, gb_, t.penalty);
-      keep_row(factors, row + r, ga_, gb_);
+      const int at = place.at + r;
+      if (!(t.penalty > 0.0)) {  // without penalty the rows are not there
+        matrix.front(place.home)(at, at) = -1.0;
+        continue;
+      }
+      matrix.front(place.home)(at, at) = -1.0 / t.penalty;
+      gradients(p.a, p.b, constraint_set_.row(row + r).gradient);
+      assemble_row(place, r, matrix);
     }
     if (t.geometric && constraint_kind(p.type).gradients == PartGradients::line) {
       const double w = t.s * constraint_set_.multipliers()[row] / p.scale;
       for (int c = 0; c < 3; ++c) {
-        gradient(p.a, true, -Vec3::Unit(c), Vec3::Zero(), ga_);
-        gradient(p.b, true, Vec3::Unit(c), Vec3::Zero(), gb_);
-        add_rank_one(factors.matrix, ga_, gb_, w);
+        WrenchRow unit;
+        unit.Fa = -Vec3::Unit(c);
+        unit.Fb = Vec3::Unit(c);
+        unit.Ta = unit.Tb = Vec3::Zero();
+        gradients(p.a, p.b, unit);
+        add_rank_one(matrix, w);
       }
     }
   }
@@ -165,33 +181,22 @@ void AbsoluteFormulation::assemble_parts(const TangentWeights& t, Factors& facto
 
 int AbsoluteFormulation::eliminate(const TangentWeights& t, Factors& factors) noexcept {
   factors.matrix.set_zero();
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    const int i = static_cast<int>(k);
-    const BodyData& b = bodies_[k];
-    MatX& f = factors.matrix.front(i);
-    f.topLeftCorner(12 + b.nm, 12 + b.nm) += t.mass * b.M;
-    if (b.nm > 0) {
-      const FlexibleBody& data = *model_.bodies[k].data;
-      f.block(12, 12, b.nm, b.nm) += t.s * data.K + t.damping * data.D;
-    }
-    assemble_axes(t, i, factors);
-    assemble_points(t, i, factors);
+  factors.penalty = t.penalty;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    assemble_body(t, static_cast<int>(i), factors.matrix);
+  assemble_forces(t, factors.matrix);
+  assemble_parts(t, factors.matrix);
+  const int failed = factors.matrix.factorize();
+  if (failed < 0) return -1;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyData& b = bodies_[i];
+    const int j = failed - factors.matrix.offset(static_cast<int>(i));
+    if (j < 0 ||
+        (i + 1 < bodies_.size() && failed >= factors.matrix.offset(static_cast<int>(i) + 1)))
+      continue;
+    return b.offset + (j < 6 ? j : j < 6 + b.nm ? j + 6 : 0);
   }
-  assemble_forces(t, factors);
-  assemble_parts(t, factors);
-  return factors.matrix.factorize();
-}
-
-void AbsoluteFormulation::solve(VecX& b, const VecX& w, VecX& increments, int slot) noexcept {
-  Factors& l = factors_[slot];
-  for (int i = 0; i < constraints(); ++i)
-    for (int k = l.row_start[i]; k < l.row_start[i + 1]; ++k) b[l.column[k]] += w[i] * l.value[k];
-  l.matrix.solve(b);
-  for (int i = 0; i < constraints(); ++i) {
-    double sum = 0.0;
-    for (int k = l.row_start[i]; k < l.row_start[i + 1]; ++k) sum += l.value[k] * b[l.column[k]];
-    increments[i] = sum;
-  }
+  return 0;
 }
 
 }  // namespace floatframe

@@ -28,8 +28,12 @@
 //   constraint_increments       velocities      out = Phi_q delta
 //           (delta, out)
 //   constraint_forces(w, out)   velocities      out = Phi_q^T w
+//   balance(lambda, r)          residual        multipliers that only the formulation knows
 //   retract(q0, x, q)                           q = q0 (+) x
-//   advance(x, delta)                           x such that q0 (+) x = (q0 (+) x_old) (+) delta
+//   settle(q0, x)                               x such that q0 (+) x meets what the formulation
+//                                               holds exactly
+//   advance(x, delta)           positions       x such that q0 (+) x = (q0 (+) x_old) (+) delta,
+//                               at q0 (+) x
 //   stepping(false, accepted)                   the end of the step
 //
 // positions, velocities, dynamics, residual and the constraint_* functions may be repeated in any
@@ -75,9 +79,15 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   { f.factorize_metric(x, x, slot) } noexcept -> std::same_as<int>;
   /// b := T^-1 b
   { f.solve(out, slot) } noexcept -> std::same_as<void>;
-  /// b := T^-1 (b + Phi_q^T w) and increments := Phi_q b, for (b, w, increments, slot), with the
-  /// Phi_q of the factorisation. A slot keeps one factorisation with its directions of motion.
-  { f.solve(out, in, out, slot) } noexcept -> std::same_as<void>;
+  /// b := T^-1 (b - penalty Phi_q^T phi) and mu := phi + Phi_q b, for (b, phi, penalty, mu, slot),
+  /// with the Phi_q and the penalty of the factorisation: penalty mu are the multipliers of
+  ///   T0 x + Phi_q^T (penalty mu) = b,  Phi_q x - mu = -phi,  T0 = T without its penalty.    (2)
+  /// Constraints that a formulation meets exactly have mu = 0. A slot keeps one factorisation with
+  /// its directions of motion.
+  { f.solve(out, in, x, out, slot) } noexcept -> std::same_as<void>;
+  /// Adds to lambda, and to the residual r, what multipliers of constraints that the formulation
+  /// meets exactly must be, for (lambda, r), after `residual`.
+  { f.balance(out, out) } noexcept -> std::same_as<void>;
 
   // Constraints at the present positions and velocities.
   { c.constraint_values() } noexcept -> std::same_as<const VecX&>;
@@ -89,8 +99,9 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates [1/s2]: the first guess of a step.
   { c.own_frequencies_squared() } noexcept -> std::same_as<const VecX&>;
 
-  // Configurations: (q0, x, q) and (x, delta).
+  // Configurations: (q0, x, q), (q0, x) and (x, delta).
   { c.retract(in, in, out) } noexcept -> std::same_as<void>;
+  { c.settle(in, out) } noexcept -> std::same_as<void>;
   { c.advance(out, in) } noexcept -> std::same_as<void>;
 };
 // clang-format on

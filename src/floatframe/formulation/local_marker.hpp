@@ -66,6 +66,15 @@ struct LocalMarker {
       p_B += X_NM.p;
     }
   }
+  /// p_B for other amplitudes, y + dy.
+  Vec3 position(const double* y, const double* dy) const noexcept {
+    Vec3 p = node_p, turn = Vec3::Zero();
+    for (Eigen::Index k = 0; k < X.cols(); ++k) {
+      p += (y[k] + dy[k]) * X.col(k);
+      if (rotates) turn += (y[k] + dy[k]) * X_theta.col(k);
+    }
+    return p + (rotates ? Vec3(rotation_exp(turn) * X_NM.p) : X_NM.p);
+  }
   void deform_rate(const VecX& yd) noexcept {
     pdot_B.noalias() = X * yd;
     if (!rotates) return;

@@ -45,6 +45,7 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
       increments_(wrenches_) {
   tree_.need_markers(needed_markers(model, constraint_set_));
   omega2_ = VecX::Zero(velocities());
+  weights_ = VecX::Zero(constraints());
   terms_.resize(model.bodies.size());
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Body& body = model.bodies[i];

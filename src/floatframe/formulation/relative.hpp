@@ -74,9 +74,12 @@ class RelativeFormulation {
     return tangent_.factorize(terms_, {1.0, 0.0, s, penalty, false}, slot);
   }
   void solve(VecX& b, int slot = 0) noexcept { tangent_.solve(b, slot); }
-  void solve(VecX& b, const VecX& w, VecX& increments, int slot) noexcept {
-    tangent_.solve(b, w, increments, slot);
+  void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept {
+    weights_ = -penalty * phi;
+    tangent_.solve(b, weights_, mu, slot);
+    mu += phi;
   }
+  void balance(VecX&, VecX&) const noexcept {}
   const VecX& constraint_values() const noexcept { return constraint_set_.values(); }
   const VecX& own_frequencies_squared() const noexcept { return omega2_; }
   void constraint_rates(VecX& out) noexcept;
@@ -84,6 +87,7 @@ class RelativeFormulation {
   void constraint_increments(const VecX& delta, VecX& out) noexcept;
   void constraint_forces(const VecX& w, VecX& out) noexcept;
   void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept { tree_.retract(q0, x, q); }
+  void settle(const VecX&, VecX&) const noexcept {}
   void advance(VecX& x, const VecX& delta) const noexcept { tree_.advance(x, delta); }
 
   // -- what outputs, energies and reports look at; positions of markers are from `origin`
@@ -148,6 +152,7 @@ class RelativeFormulation {
   BodyVectors increments_;        ///< motions of the bodies under an increment
   double time_ = 0.0;
   VecX omega2_;
+  VecX weights_;  ///< of `solve`
 };
 
 }  // namespace floatframe

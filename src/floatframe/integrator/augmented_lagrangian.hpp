@@ -149,6 +149,7 @@ class AugmentedLagrangian {
       // omega h >> 1 far away.
       x_[i] = (state.a[i] - a_hat_[i]) / (k.c2 + omega2[i]);
     }
+    f_.settle(state.q, x_);
     lambda_ = state.lambda;
   }
 
@@ -182,6 +183,7 @@ class AugmentedLagrangian {
       }
       f_.dynamics();
       f_.residual(a_, lambda_, 0.0, rhs_);
+      f_.balance(lambda_, rhs_);
       if (it.renew && !renew_tangent(k, it, report)) return;
       solve_increment(k, it);
       f_.advance(x_, delta_);
@@ -256,11 +258,10 @@ class AugmentedLagrangian {
       return;
     }
     const VecX& phi = f_.constraint_values();
-    work_ = -it.penalty * phi;
-    f_.solve(delta_, work_, increments_, newton_slot);
+    f_.solve(delta_, phi, it.penalty, work_, newton_slot);
     // (h), the multiplier that belongs to this solution. Taking Phi(q) after the update instead
     // would feed the curvature of the constraints, alpha O(dx^2), into the multipliers.
-    lambda_ += it.alpha * (phi + increments_);
+    lambda_ += it.alpha * work_;
   }
 
   /// Geometric convergence: the error left is increment * rate / (1 - rate). Only a rate measured
@@ -320,17 +321,16 @@ class AugmentedLagrangian {
       if (violation < 1e-6 + 1e-9 * first || (pass > 3 && violation > 0.5 * first)) break;
       correct(a_, penalty);
       violation = largest(rate_);
-      // W times the change of a is -Phi_q^T penalty rate, with the rate that is left.
-      reactions_ += penalty * rate_;
+      // W times the change of a is -Phi_q^T penalty mu.
+      reactions_ += penalty * work_;
     }
     return true;
   }
 
   /// One pass: z -= W^-1 Phi_q^T penalty rate, and the rate that is left.
   void correct(VecX& z, double penalty) noexcept {
-    work_ = -penalty * rate_;
     delta_.setZero();
-    f_.solve(delta_, work_, increments_, projection_slot);
+    f_.solve(delta_, rate_, penalty, work_, projection_slot);
     z += delta_;
     f_.constraint_increments(delta_, increments_);
     rate_ += increments_;

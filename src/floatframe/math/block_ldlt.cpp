@@ -16,56 +16,92 @@ namespace {
 /// velocities by 0.2 instead of 2e-5.)
 constexpr double vanishing = 1e-13;
 
-}  // namespace
-
-BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<int, int>>& edges) {
-  const std::size_t n = sizes.size();
+std::vector<std::set<int>> neighbours_of(std::size_t n,
+                                         const std::vector<std::pair<int, int>>& edges) {
   std::vector<std::set<int>> neighbours(n);
   for (const auto& [a, b] : edges) {
     if (a == b) continue;
     neighbours[a].insert(b);
     neighbours[b].insert(a);
   }
-  nodes_.resize(n);
-  int offset = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    nodes_[k].size = sizes[k];
-    nodes_[k].offset = offset;
-    offset += sizes[k];
-  }
-  // Minimum degree, counted in unknowns, then the order given; eliminating a block couples its
-  // neighbours.
+  return neighbours;
+}
+
+std::vector<BlockLdlt::Block> blocks_of(const std::vector<int>& sizes) {
+  std::vector<BlockLdlt::Block> blocks;
+  for (const int size : sizes) blocks.push_back({.size = size});
+  return blocks;
+}
+
+/// Calls eliminate(block, its neighbours that are left) in the order of elimination; eliminating a
+/// block couples its neighbours.
+template <class Eliminate>
+void by_minimum_degree(const std::vector<BlockLdlt::Block>& blocks,
+                       const std::vector<std::pair<int, int>>& edges, const Eliminate& eliminate) {
+  const std::size_t n = blocks.size();
+  std::vector<std::set<int>> neighbours = neighbours_of(n, edges);
   std::vector<long> degree(n, 0);
   std::set<std::pair<long, int>> left;
   for (std::size_t k = 0; k < n; ++k) {
-    for (int j : neighbours[k]) degree[k] += sizes[j];
+    constexpr long first = -1'000'000'000;  // below any degree
+    degree[k] = blocks[k].chooses ? first : 0;
+    for (int j : neighbours[k]) degree[k] += blocks[j].size;
     left.emplace(degree[k], static_cast<int>(k));
   }
   while (!left.empty()) {
     const int best = left.begin()->second;
     left.erase(left.begin());
     const std::size_t b = best;
-    nodes_[b].rank = static_cast<int>(order_.size());
-    order_.push_back(best);
-    nodes_[b].blocks.assign(neighbours[b].begin(), neighbours[b].end());
+    eliminate(best, neighbours[b]);
     for (int i : neighbours[b]) {
       const std::size_t k = i;
       left.erase({degree[k], i});
       for (int j : neighbours[b])
-        if (i != j && neighbours[k].insert(j).second) degree[k] += sizes[j];
+        if (i != j && neighbours[k].insert(j).second) degree[k] += blocks[j].size;
       neighbours[k].erase(best);
-      degree[k] -= sizes[b];
+      degree[k] -= blocks[b].size;
       left.emplace(degree[k], i);
     }
   }
+}
+
+}  // namespace
+
+std::vector<int> BlockLdlt::elimination_order(const std::vector<Block>& blocks,
+                                              const std::vector<std::pair<int, int>>& edges) {
+  std::vector<int> order;
+  by_minimum_degree(blocks, edges,
+                    [&](int block, const std::set<int>&) { order.push_back(block); });
+  return order;
+}
+
+BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<int, int>>& edges)
+    : BlockLdlt(blocks_of(sizes), edges) {}
+
+BlockLdlt::BlockLdlt(const std::vector<Block>& blocks,
+                     const std::vector<std::pair<int, int>>& edges) {
+  nodes_.resize(blocks.size());
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    Node& node = nodes_[k];
+    node.size = blocks[k].size + blocks[k].inner;
+    node.offset = unknowns_;
+    node.chooses = blocks[k].chooses;
+    if (node.chooses) node.pivots = PivotOrder(node.size);
+    unknowns_ += node.size;
+  }
+  by_minimum_degree(blocks, edges, [&](int block, const std::set<int>& neighbours) {
+    nodes_[block].rank = static_cast<int>(order_.size());
+    order_.push_back(block);
+    nodes_[block].blocks.assign(neighbours.begin(), neighbours.end());
+  });
   for (Node& node : nodes_) {
     std::sort(node.blocks.begin(), node.blocks.end(),
               [&](int a, int b) { return nodes_[a].rank < nodes_[b].rank; });
     int start = node.size;
     for (int b : node.blocks) {
       node.start.push_back(start);
-      for (int i = 0; i < sizes[b]; ++i) node.rows.push_back(nodes_[b].offset + i);
-      start += sizes[b];
+      for (int i = 0; i < blocks[b].size; ++i) node.rows.push_back(nodes_[b].offset + i);
+      start += blocks[b].size;
     }
     node.total = start;
     node.matrix = MatX::Zero(front_stride(start), start);
@@ -78,7 +114,7 @@ BlockLdlt::BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<
     const Node& p = nodes_[node.parent];
     for (int b : node.blocks) {
       const int at = start_of(p, b);
-      for (int i = 0; i < sizes[b]; ++i) node.parent_rows.push_back(at + i);
+      for (int i = 0; i < blocks[b].size; ++i) node.parent_rows.push_back(at + i);
     }
   }
 }
@@ -118,7 +154,9 @@ int BlockLdlt::factorize() noexcept {
   for (const int k : order_) {
     Node& n = nodes_[k];
     const int total = n.total, ld = static_cast<int>(n.matrix.rows());
-    const int failed = partial_ldlt(n.matrix.data(), total, n.size, n.original.data(), vanishing);
+    const int failed =
+        n.chooses ? pivoted_ldlt(n.matrix.data(), total, n.size, n.pivots, vanishing)
+                  : partial_ldlt(n.matrix.data(), total, n.size, n.original.data(), vanishing);
     if (failed >= 0) return n.offset + failed;
     if (n.parent < 0) continue;
     MatX& p = nodes_[n.parent].matrix;
@@ -138,7 +176,10 @@ void BlockLdlt::solve(VecX& x) noexcept {
     const int total = n.total;
     n.work.head(n.size) = x.segment(n.offset, n.size);
     n.work.tail(n.work.size() - n.size).setZero();
-    partial_forward(n.matrix.data(), total, n.size, n.work.data());
+    if (n.chooses)
+      pivoted_forward(n.matrix.data(), total, n.size, n.pivots, n.work.data());
+    else
+      partial_forward(n.matrix.data(), total, n.size, n.work.data());
     x.segment(n.offset, n.size) = n.work.head(n.size);
     for (std::size_t i = 0; i < n.rows.size(); ++i)
       x[n.rows[i]] += n.work[n.size + static_cast<int>(i)];
@@ -149,7 +190,10 @@ void BlockLdlt::solve(VecX& x) noexcept {
     n.work.head(n.size) = x.segment(n.offset, n.size);
     for (std::size_t i = 0; i < n.rows.size(); ++i)
       n.work[n.size + static_cast<int>(i)] = x[n.rows[i]];
-    partial_backward(n.matrix.data(), total, n.size, n.work.data());
+    if (n.chooses)
+      pivoted_backward(n.matrix.data(), total, n.size, n.pivots, n.work.data());
+    else
+      partial_backward(n.matrix.data(), total, n.size, n.work.data());
     x.segment(n.offset, n.size) = n.work.head(n.size);
   }
 }

@@ -3,18 +3,37 @@
 // The pattern, the elimination order and all sizes are fixed at construction; assembling,
 // factorising and solving never allocate. Contributions of a pair of blocks go into the front of
 // the one eliminated first.
+//
+// A block may end with inner unknowns, which are coupled with this block and with neighbours that
+// are eliminated later, but are eliminated with it: the multipliers of a saddle point. Pivots are
+// taken in the order given (z of a body with mass, then multipliers: quasi-definite, so every order
+// has a factorisation); in blocks that ask for it they are chosen within the block, 1x1 or 2x2. Such
+// blocks come first: what others hand on to them would bury what is small in them.
 #include <utility>
 #include <vector>
 
+#include "floatframe/math/pivoted_ldlt.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
 
 class BlockLdlt {
  public:
+  struct Block {
+    int size = 0;          ///< unknowns that other blocks see
+    int inner = 0;         ///< more unknowns at its end
+    bool chooses = false;  ///< its pivots are chosen
+  };
+
   BlockLdlt() = default;
-  /// sizes[k]: unknowns of block k; edges: pairs of blocks that are coupled.
+  /// edges: pairs of blocks that are coupled.
+  BlockLdlt(const std::vector<Block>& blocks, const std::vector<std::pair<int, int>>& edges);
   BlockLdlt(const std::vector<int>& sizes, const std::vector<std::pair<int, int>>& edges);
+
+  /// The blocks in the order of their elimination: first those whose pivots are chosen, then by
+  /// minimum degree, counted in unknowns that others see, then the order given.
+  static std::vector<int> elimination_order(const std::vector<Block>& blocks,
+                                            const std::vector<std::pair<int, int>>& edges);
 
   void set_zero() noexcept;
   /// Adds x to entry (row i of block a, column j of block b) and its mirror image. The blocks must
@@ -23,6 +42,10 @@ class BlockLdlt {
   /// The front that holds the pair (a, b), and where each block starts in it.
   MatX& front(int a, int b, int& offset_a, int& offset_b) noexcept;
   MatX& front(int a) noexcept { return nodes_[a].matrix; }
+
+  /// First unknown of a block, blocks in their given order.
+  int offset(int block) const noexcept { return nodes_[block].offset; }
+  int unknowns() const noexcept { return unknowns_; }
 
   /// Returns -1 or the unknown (global index, blocks in their given order) whose pivot vanished.
   int factorize() noexcept;
@@ -37,10 +60,13 @@ class BlockLdlt {
     std::vector<int> parent_rows;  // its place in the parent's front
     MatX matrix;
     VecX original, work;
+    PivotOrder pivots;
+    bool chooses = false;
   };
   int start_of(const Node& n, int block) const noexcept;
   std::vector<Node> nodes_;
   std::vector<int> order_;
+  int unknowns_ = 0;
 };
 
 }  // namespace floatframe

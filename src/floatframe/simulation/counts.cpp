@@ -23,8 +23,8 @@ ModelCounts check(const Model& model) {
   c.absolute = absolute.counts();
   // Rank at the assembled start, with position constraints only.
   State start = relative_start(relative, Start::given, &c.start);
-  start_accelerations(relative, start,
-                      default_penalty_mass(model));  // a singular mass matrix shows here
+  // A singular mass matrix shows here.
+  start_accelerations(relative, start, default_penalty_mass(model, Coordinates::relative));
   relative.positions(0.0, start.q);
   relative.velocities(start.v);
   const int rank = rank_of(relative.constraint_jacobian());

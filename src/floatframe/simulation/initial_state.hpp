@@ -57,8 +57,11 @@ std::vector<double> joint_coordinates_in_range(const Joint& joint,
 void report_changes(const RelativeFormulation& f, const State& state, Start start,
                     StartReport& report);
 
-/// s alpha of the integrator when the user gives no penalty: 1e5 mean body masses.
-double default_penalty_mass(const Model& model);
+/// s alpha of the integrator when the user gives no penalty: 1e5 mean body masses, in absolute
+/// coordinates 1e8. There multipliers are unknowns, so that a stiff penalty costs no digits, and
+/// near singular positions, where a constraint hardly moves what it holds, none but a stiff one
+/// converges.
+double default_penalty_mass(const Model& model, Coordinates coordinates);
 
 /// The integrator's options that a simulation description asks for.
 StepOptions step_options(const Model& model, const SimulationDescription& o);
@@ -216,7 +219,7 @@ void start_accelerations(F& f, State& state, double penalty_mass) {
   f.velocities(state.v);
   f.dynamics();
   double s = 1e-30;  // no stiffness in the tangent: M + penalty Phi_q^T Phi_q
-  VecX r(nv), gamma(nc), push(nv);
+  VecX r(nv), gamma(nc), mu(nc);
   // A freedom whose mass is round-off passes the pivot test by luck: look for it first.
   bool good =
       nv > most || !may_lack_mass(f, mass_diagonal(f, state, possible), possible, penalty_mass);
@@ -238,13 +241,13 @@ void start_accelerations(F& f, State& state, double penalty_mass) {
     for (int pass = 0; pass < 60; ++pass) {
       f.residual(state.a, state.lambda, 0.0, r);
       f.constraint_accelerations(state.a, gamma);
-      VecX w = penalty_mass * gamma;
-      f.constraint_forces(w, push);
-      VecX delta = -(r + push);
-      f.solve(delta);
+      VecX delta = -r;
+      f.solve(delta, gamma, penalty_mass, mu, 0);
       state.a += delta;
       f.constraint_accelerations(state.a, gamma);
-      state.lambda += penalty_mass * gamma;
+      state.lambda += penalty_mass * mu;
+      f.residual(state.a, state.lambda, 0.0, r);
+      f.balance(state.lambda, r);
       worst = nc > 0 ? gamma.lpNorm<Eigen::Infinity>() : 0.0;
       if (!delta.allFinite()) break;
       const double size = 1.0 + state.a.lpNorm<Eigen::Infinity>();

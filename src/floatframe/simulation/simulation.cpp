@@ -20,7 +20,9 @@ void check_step(const SimulationDescription& o) {
             o.step, o.duration));
 }
 
-double default_penalty_mass(const Model& model) { return 1e5 * model.mean_mass; }
+double default_penalty_mass(const Model& model, Coordinates coordinates) {
+  return (coordinates == Coordinates::absolute ? 1e8 : 1e5) * model.mean_mass;
+}
 
 StepOptions step_options(const Model& model, const SimulationDescription& o) {
   StepOptions s;
@@ -29,8 +31,8 @@ StepOptions step_options(const Model& model, const SimulationDescription& o) {
   s.max_iterations = o.max_iterations;
   s.position_tolerance = o.position_tolerance;
   s.velocity_tolerance = o.velocity_tolerance;
-  s.penalty_mass =
-      o.penalty > 0.0 ? o.penalty * o.step * o.step / 4.0 : default_penalty_mass(model);
+  s.penalty_mass = o.penalty > 0.0 ? o.penalty * o.step * o.step / 4.0
+                                   : default_penalty_mass(model, o.coordinates);
   return s;
 }
 
