@@ -87,6 +87,7 @@ class AugmentedLagrangian {
   /// penalty, so often; the iterations that correct for a penalty that is finite see to the rest.
   static constexpr double softer = 1e-2;
   static constexpr int most_softer = 3;
+  static constexpr double stiffer = 100.0;
 
   StepAttempt advance(State& state, double h) noexcept {
     const Scheme k(options_, h);
@@ -96,7 +97,10 @@ class AugmentedLagrangian {
       experience_.reuse_rate = 0.1;
     }
     predict(state, k);
-    if (newton(state, k, report); !report.accepted()) {
+    newton(state, k, report);
+    if (report.status == AttemptStatus::not_converged && f_.constraints() > 0)
+      try_stiffer(state, k, report);
+    if (!report.accepted()) {
       experience_.continues_at = std::numeric_limits<double>::quiet_NaN();
       return report;
     }
@@ -151,6 +155,20 @@ class AugmentedLagrangian {
     }
     f_.settle(state.q, x_);
     lambda_ = state.lambda;
+  }
+
+  /// Near a singular position the penalty may be too soft for what a constraint still moves, and a
+  /// shorter step is no cure: the same step once more with a stiffer one. The projections keep
+  /// theirs.
+  void try_stiffer(const State& state, Scheme k, StepAttempt& report) noexcept {
+    k.penalty *= stiffer;
+    k.alpha *= stiffer;
+    StepAttempt again;
+    predict(state, k);
+    newton(state, k, again);
+    again.iterations += report.iterations;
+    again.factorizations += report.factorizations;
+    report = again;
   }
 
   /// What one Newton iteration leaves for the next.

@@ -30,7 +30,7 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
     : f_(model, method), options_(options) {
   const int nv = f_.velocities(), nc = f_.constraints();
   a_ = residual_ = delta_ = best_a_ = VecX::Zero(nv);
-  lambda_ = gamma_ = work_ = increments_ = best_lambda_ = VecX::Zero(nc);
+  lambda_ = gamma_ = work_ = best_lambda_ = VecX::Zero(nc);
   reactions_.joints.resize(model.joints.size());
   reactions_.motions.assign(model.joints.size(), 0.0);
   reactions_.rods.resize(model.rods.size());
@@ -75,6 +75,7 @@ void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs
   if (factorize() < 0) iterate();
   f_.constraint_accelerations(a_, gamma_);
   f_.residual(a_, lambda_, 0.0, residual_);
+  f_.balance(lambda_, residual_);
   force_error_ = largest_entry(residual_);
   acceleration_error_ = largest_entry(gamma_);
   collect_wrenches();
@@ -92,13 +93,12 @@ void ReactionSolver<F>::iterate() noexcept {
   double best = std::numeric_limits<double>::infinity();
   for (int pass = 0, idle = 0; pass < most_passes && idle < idle_passes; ++pass) {
     f_.residual(a_, lambda_, 0.0, residual_);
+    f_.balance(lambda_, residual_);
     f_.constraint_accelerations(a_, gamma_);
     delta_ = -residual_;
-    work_ = -p * gamma_;
-    f_.solve(delta_, work_, increments_, reaction_slot);
+    f_.solve(delta_, gamma_, p, work_, reaction_slot);
     a_ += delta_;
-    lambda_ += p * gamma_;
-    lambda_ += p * increments_;
+    lambda_ += p * work_;
     const double size = largest_entry(delta_);
     if (!std::isfinite(size)) break;
     ++idle;

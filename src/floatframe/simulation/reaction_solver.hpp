@@ -81,7 +81,7 @@ class ReactionSolver {
   ReactionOptions options_;
   bool lacks_mass_ = false;
   std::optional<LeastReactions<F>> least_;
-  VecX a_, lambda_, residual_, gamma_, delta_, work_, increments_, best_a_, best_lambda_;
+  VecX a_, lambda_, residual_, gamma_, delta_, work_, best_a_, best_lambda_;
   VecX least_lambda_;  ///< of all joints, rods and motions
   double force_error_ = 0.0, acceleration_error_ = 0.0;
   Reactions reactions_;

@@ -46,6 +46,11 @@ MatX balanced_multipliers(const MatX& J) {
 
 }  // namespace
 
+bool nearly_dependent(const MatX& J) {
+  constexpr double nearly = 1e-2;
+  return pivoted_rank(J.transpose(), nearly) < pivoted_rank(J.transpose(), dependent);
+}
+
 int rank_of(const MatX& J) { return static_cast<int>(pivoted_rank(J.transpose(), dependent)); }
 
 ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
@@ -155,9 +160,14 @@ bool StaticsJoint::unique() const {
 }
 
 std::string redundancy_text(const std::vector<RedundantDirection>& redundant) {
+  constexpr int most = 5;  // joints or rods
   std::string text;
+  int named = 0;
   for (std::size_t k = 0; k < redundant.size(); ++k) {
     const bool same = k > 0 && redundant[k].owner == redundant[k - 1].owner;
+    if (!same && ++named > most) {
+      return text + fmt::format("; and {} more", redundant.size() - k);
+    }
     if (same)
       text += ", " + redundant[k].direction;
     else

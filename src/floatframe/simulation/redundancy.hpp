@@ -43,5 +43,7 @@ void report_redundancy(RelativeFormulation& f, const State& state, StartReport& 
 
 /// Rank of the rows of J.
 int rank_of(const MatX& J);
+/// Some rows of J that are independent are so to a hundredth only.
+bool nearly_dependent(const MatX& J);
 
 }  // namespace floatframe

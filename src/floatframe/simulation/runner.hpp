@@ -13,6 +13,7 @@
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/overflow.hpp"
 #include "floatframe/simulation/reaction_solver.hpp"
+#include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/results.hpp"
 #include "floatframe/simulation/step_report.hpp"
 
@@ -154,7 +155,19 @@ class Runner {
     if (force >= 0)
       text += fmt::format(" (largest force: '{}', {:.3g} N)", f_.model().forces[force].name,
                           f_.force(force).force);
-    return text;
+    return text + singular_position();
+  }
+
+  /// The rest of the sentence if constraints hinder the step that depend on each other nearly.
+  std::string singular_position() const {
+    constexpr int most = 1000;  // coordinates; dense linear algebra
+    if (last_.status != AttemptStatus::not_converged || f_.constraints() == 0 ||
+        f_.velocities() > most || !nearly_dependent(f_.constraint_jacobian()))
+      return {};
+    return fmt::format(
+        "; constraints nearly depend on each other there: next to a singular position, where the "
+        "mechanism may branch, a smaller step or a tolerance above {:g} may pass",
+        integrator_.options().tolerance);
   }
 
   /// Index of the force element with the largest force at the last evaluation; -1: there is none.
