@@ -87,8 +87,8 @@ void AbsoluteFormulation::number_coordinates(InertiaMethod method) {
 }
 
 /// True if some motion z of the undeformed body has hardly any mass: of turning next to the largest
-/// inertia, since world axes stand at any angle to those about which there is little; of a mode next
-/// to the body moving as far as its markers do.
+/// inertia, since world axes stand at any angle to those about which there is little; of a mode
+/// next to the body moving as far as its markers do.
 bool AbsoluteFormulation::lacks_mass(int i) {
   BodyData& b = bodies_[i];
   b.A.setIdentity();

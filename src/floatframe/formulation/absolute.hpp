@@ -21,10 +21,12 @@
 //
 // Linear systems. (1) and (2) are a body's own: what they leave free is z = (delta r0, theta,
 // delta y), world axes, with
-//   delta u = theta x u, ..., delta r_P = delta r0 + theta x (r_P - r0) + J_P delta y: x = B z,   (5)
+//   delta u = theta x u, ..., delta r_P = delta r0 + theta x (r_P - r0) + J_P delta y,
+//   x = B z,                                                                                  (5)
 // so a tangent T acts as B^T T B, (6 + nm)^2 a body, without any penalty on (1) and (2): increments
 // meet them exactly (`advance` turns A by exp(theta)), and their multipliers are what balances the
-// residual across B (`balance`). The rows (3) stay with multipliers mu of their own, a saddle point,
+// residual across B (`balance`). The rows (3) stay with multipliers mu of their own, a saddle
+// point,
 //   [B^T T B  G^T; G  -1/penalty] [z; mu] = [B^T b; -Phi],  G = Phi_q B,                        (6)
 // for the normal equations B^T T B + penalty G^T G square the condition of G: a chain of 256 links
 // would not be left a digit. (6) is factorised by bodies (BlockLdlt), mu of a joint with the body

@@ -90,7 +90,7 @@ class AugmentedLagrangian {
   static constexpr double stiffer = 100.0;
 
   StepAttempt advance(State& state, double h) noexcept {
-    const Scheme k(options_, h);
+    Scheme k(options_, h);
     StepAttempt report;
     // Experience from another run must not matter (the caller may round t).
     if (!(std::abs(state.t - experience_.continues_at) < 1e-6 * h)) {
@@ -158,9 +158,8 @@ class AugmentedLagrangian {
   }
 
   /// Near a singular position the penalty may be too soft for what a constraint still moves, and a
-  /// shorter step is no cure: the same step once more with a stiffer one. The projections keep
-  /// theirs.
-  void try_stiffer(const State& state, Scheme k, StepAttempt& report) noexcept {
+  /// shorter step is no cure: the same step once more with a stiffer one.
+  void try_stiffer(const State& state, Scheme& k, StepAttempt& report) noexcept {
     k.penalty *= stiffer;
     k.alpha *= stiffer;
     StepAttempt again;

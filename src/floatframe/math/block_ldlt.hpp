@@ -7,8 +7,8 @@
 // A block may end with inner unknowns, which are coupled with this block and with neighbours that
 // are eliminated later, but are eliminated with it: the multipliers of a saddle point. Pivots are
 // taken in the order given (z of a body with mass, then multipliers: quasi-definite, so every order
-// has a factorisation); in blocks that ask for it they are chosen within the block, 1x1 or 2x2. Such
-// blocks come first: what others hand on to them would bury what is small in them.
+// has a factorisation); in blocks that ask for it they are chosen within the block, 1x1 or 2x2.
+// Such blocks come first: what others hand on to them would bury what is small in them.
 #include <utility>
 #include <vector>
 

@@ -165,8 +165,8 @@ class Runner {
         f_.velocities() > most || !nearly_dependent(f_.constraint_jacobian()))
       return {};
     return fmt::format(
-        "; constraints nearly depend on each other there: next to a singular position, where the "
-        "mechanism may branch, a smaller step or a tolerance above {:g} may pass",
+        "; constraints nearly depend on each other there: next to a singular position where the "
+        "mechanism may branch a smaller step or a tolerance above {:g} may pass",
         integrator_.options().tolerance);
   }
 
