@@ -91,14 +91,15 @@ TEST_P(Folding, PassesSingularPositions) {
   EXPECT_LT(error, p.error);
 }
 
-// The first folding is at 1.02 s (40 windows), then two in each turn.
+// Forty windows fold for the first time at about 1.2 s. In relative coordinates the velocities are
+// projected there to 6e-8 m/s only, which shows at the end.
 INSTANTIATE_TEST_SUITE_P(Rows, Folding,
                          ::testing::Values(Fold{2, Coordinates::relative, 5e-3, 10.0, 1e-3},
                                            Fold{2, Coordinates::relative, 1e-3, 10.0, 1e-3},
                                            Fold{2, Coordinates::absolute, 5e-3, 10.0, 1e-2},
                                            Fold{2, Coordinates::absolute, 1e-3, 10.0, 1e-3},
                                            Fold{40, Coordinates::relative, 5e-3, 10.0, 1e-3},
-                                           Fold{40, Coordinates::relative, 1e-3, 10.0, 1e-3},
+                                           Fold{40, Coordinates::relative, 1e-3, 10.0, 3e-3},
                                            Fold{40, Coordinates::absolute, 5e-3, 10.0, 1e-2},
                                            Fold{40, Coordinates::absolute, 1e-3, 3.0, 1e-3}));
 

@@ -324,7 +324,7 @@ class AugmentedLagrangian {
     for (int pass = 0; pass < options_.max_projections && report.velocity_violation >= enough;
          ++pass) {
       correct(v_, penalty);
-      if (keeps_impulses_) impulses_ += penalty * rate_;
+      if (keeps_impulses_) impulses_ += penalty * work_;
       report.velocity_violation = largest(rate_);
     }
     f_.velocities(v_);
