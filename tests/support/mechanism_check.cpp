@@ -173,6 +173,8 @@ Judgement judge(const Mechanism& mechanism) {
   std::vector<double> relative_drift, absolute_drift;
   double scale = 0.0;
   bool stopped = true;
+  // Wherever one stops, both do, next to a singular position.
+  bool at_singular_position = true;
   std::string stops;
   std::vector<Level> levels;
   for (int level = 0; level < most_levels; ++level, o.step *= 0.5) {
@@ -192,7 +194,10 @@ Judgement judge(const Mechanism& mechanism) {
       return verdict(Verdict::not_finite);
     levels.push_back({r, a});
     if (!r.finished || !a.finished) {
-      if (r.finished != a.finished) stopped = false;
+      if (r.finished != a.finished) stopped = at_singular_position = false;
+      for (const Outcome* run : {&r, &a})
+        if (run->reason.find("singular position") == std::string::npos)
+          at_singular_position = false;
       stops = (r.finished ? "" : "relative: " + r.reason) +
               (a.finished ? "" : " absolute: " + a.reason);
       j.differences.push_back(std::numeric_limits<double>::infinity());
@@ -232,7 +237,8 @@ Judgement judge(const Mechanism& mechanism) {
     return verdict(Verdict::kinked, figures);
   if (falls_before(model, levels, j.step))
     return verdict(stops.empty() ? Verdict::out_of_range : Verdict::weightless, figures);
-  if (!std::isfinite(last)) return verdict(Verdict::split, stops);
+  if (!std::isfinite(last))
+    return verdict(at_singular_position ? Verdict::stopped : Verdict::split, stops);
   bool ordered = false;
   for (std::size_t k = 0; k < j.differences.size(); ++k)
     ordered = ordered || j.differences[k] < nothing ||

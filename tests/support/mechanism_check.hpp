@@ -12,7 +12,8 @@
 //                  lifts off or meets an edge): the error of that one step depends on where in the
 //                  step it lies, so d need only fall, by 2 a halving in the mean, to the last step
 //   refused        both refuse the model, with a sentence
-//   stopped        both run and stop before the end at all steps, with a sentence
+//   stopped        both run and stop before the end at all steps, with a sentence; at all but the
+//                  largest if it says that a singular position is next: large steps may leap it
 //   weightless     a run stops with the sentence that a body can move almost without mass where it
 //                  has come to: its speed is unbounded there, or its place jumps. Until half of
 //                  that time d falls by 3 to 5 at some halving, or is below 1e-8
