@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 
 #include "floatframe/core/output_error.hpp"
+#include "floatframe/report/results_reader.hpp"
 
 namespace floatframe {
 namespace {
@@ -95,22 +94,6 @@ class CurveCollector {
   std::vector<Extremes> extremes_of_stretch_;
 };
 
-/// False if the line does not hold as many numbers.
-bool read_row(const std::string& line, std::vector<double>& row) {
-  const char* at = line.data();
-  const char* const end = at + line.size();
-  for (std::size_t c = 0; c < row.size(); ++c) {
-    if (c > 0 && (at == end || *at++ != ',')) return false;
-    const auto [next, error] = std::from_chars(at, end, row[c]);
-    if (error == std::errc::result_out_of_range)  // denormal numbers: strtod takes them
-      row[c] = std::strtod(at, nullptr);
-    else if (error != std::errc())
-      return false;
-    at = next;
-  }
-  return at == end;
-}
-
 }  // namespace
 
 ReportCurves report_curves(const ResultTable& table) {
@@ -127,12 +110,19 @@ ReportCurves report_curves(const std::string& file, const std::vector<Column>& c
   std::string line;
   std::vector<double> row(columns.size());
   static_cast<void>(std::getline(in, line));  // the header
+  std::size_t column = 0, at = 0;
   for (std::size_t k = 0; k < rows; ++k) {
-    if (!std::getline(in, line) || !read_row(line, row))
+    if (!std::getline(in, line) || !read_numbers(line, row, column, at))
       throw OutputError(fmt::format(
           "the file '{}' cannot be read back: row {} is not as it was written", file, k + 1));
     collector.add(row.data());
   }
+  return collector.take();
+}
+
+ReportCurves report_curves(ResultsReader& in, std::size_t rows) {
+  CurveCollector collector(in.columns(), rows);
+  for (std::size_t k = 0; k < rows && in.next(); ++k) collector.add(in.row().data());
   return collector.take();
 }
 

@@ -11,6 +11,8 @@
 
 namespace floatframe {
 
+class ResultsReader;
+
 struct CurvePoint {
   double time = 0.0, value = 0.0;
 };
@@ -39,5 +41,8 @@ ReportCurves report_curves(const ResultTable& table);
 /// bit. Throws OutputError if they are not there.
 ReportCurves report_curves(const std::string& file, const std::vector<Column>& columns,
                            std::size_t rows);
+
+/// The same of the next rows of a file; there must be as many. Throws InputError.
+ReportCurves report_curves(ResultsReader& in, std::size_t rows);
 
 }  // namespace floatframe

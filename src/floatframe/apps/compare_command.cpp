@@ -1,0 +1,93 @@
+// floatframe compare: how far two results are apart.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "floatframe/apps/commands.hpp"
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/build_info.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/report/comparison_report.hpp"
+
+namespace floatframe {
+namespace {
+
+struct CompareArguments {
+  std::string a, b, tolerance, absolute, report;
+  std::vector<std::string> channels;
+  bool overlap = false, json = false;
+};
+
+/// A folder stands for the results in it.
+std::string results_file(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return path;
+  return (std::filesystem::path(path) / "results.csv").string();
+}
+
+std::optional<ComparisonTolerance> tolerance_of(const CompareArguments& a) {
+  if (a.tolerance.empty() && a.absolute.empty()) return std::nullopt;
+  ComparisonTolerance t;
+  if (!a.tolerance.empty())
+    t.relative = option_number("--tolerance", a.tolerance, non_negative_number(""));
+  if (!a.absolute.empty())
+    t.absolute = option_number("--absolute", a.absolute, non_negative_number(""));
+  return t;
+}
+
+/// Of the rows that a first reading has found.
+ReportCurves curves_of(const ResultsReader& read) {
+  ResultsReader again(read.file());
+  return report_curves(again, read.rows());
+}
+
+int compare(const CompareArguments& a) {
+  ComparedResults results;
+  results.file_a = results_file(a.a);
+  results.file_b = results_file(a.b);
+  results.tolerance = tolerance_of(a);
+  results.overlap = a.overlap;
+  require_writable({{"--report", a.report}}, {results.file_a, results.file_b});
+  ResultsReader first(results.file_a), second(results.file_b);
+  results.comparison = compare_results(first, second, a.channels);
+  if (!a.report.empty())
+    write_file(a.report,
+               comparison_html(results, curves_of(first), curves_of(second), build_description()));
+  print(a.json ? comparison_json(results) : comparison_text(results));
+  const std::vector<std::string> sentences = disagreements(results);
+  for (const std::string& sentence : sentences) say(sentence);
+  return sentences.empty() ? exit_code::done : exit_code::failed;
+}
+
+}  // namespace
+
+Command compare_command() {
+  const auto a = std::make_shared<CompareArguments>();
+  return {
+      .name = "compare",
+      .help = "Show how far the results of two runs are apart, channel by channel",
+      .options = {file_position("A", a->a, "results.csv of a run, or the folder that holds it"),
+                  file_position("B", a->b, "The one that is compared with it"),
+                  text_option("--tolerance", a->tolerance, "NUMBER",
+                              "Exit code 1 if a channel differs by more than this part of its "
+                              "largest magnitude in A"),
+                  text_option("--absolute", a->absolute, "NUMBER",
+                              "Added to what --tolerance allows, in the unit of each channel"),
+                  repeated_option("--channel", a->channels, "NAME",
+                                  "Compare this channel only (repeatable)"),
+                  flag("--overlap", a->overlap,
+                       "Compare the span of time that both have; otherwise another span is a "
+                       "difference"),
+                  flag("--json", a->json, "JSON on standard output"),
+                  text_option("--report", a->report, "FILE",
+                              "Page with the curves of both over each other")},
+      .footer =
+          "Instants: those that both have, if one has all of the other; else those of A, between\n"
+          "which B is taken as linear. Any file with a header line and a first column `time` will "
+          "do.\n"
+          "Exit codes: 0 within the tolerance or none given, 1 beyond it, 2 bad input.",
+      .run = [a] { return compare(*a); }};
+}
+
+}  // namespace floatframe

@@ -1,0 +1,250 @@
+#include "floatframe/report/comparison_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "floatframe/core/plural.hpp"
+#include "floatframe/core/printable.hpp"
+#include "floatframe/core/text_table.hpp"
+#include "floatframe/report/html_text.hpp"
+#include "floatframe/report/json_values.hpp"
+#include "floatframe/report/report_style.hpp"
+#include "floatframe/report/svg_plot.hpp"
+
+namespace floatframe {
+namespace {
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::string text = fmt::format(
+      "{}",
+      fmt::join(names.begin(),
+                names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most)), ", "));
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text;
+}
+
+bool beyond(const ComparedResults& r, const ChannelDifference& d) {
+  return r.tolerance && !agrees(d, *r.tolerance);
+}
+
+/// Largest difference for its size first. Channels that are rounding beside others of their unit
+/// would lead all others.
+std::vector<const ChannelDifference*> worst_first(const ResultsComparison& c) {
+  constexpr double rounding = 1e-9;
+  std::map<std::string, double> largest;  // by unit
+  std::vector<const ChannelDifference*> order;
+  for (const ChannelDifference& d : c.channels) {
+    order.push_back(&d);
+    double& size = largest[d.unit];
+    size = std::max(size, d.size);
+  }
+  const auto weight = [&](const ChannelDifference& d) {
+    const double size = std::max(d.size, rounding * largest[d.unit]);
+    return size > 0.0 ? d.largest / size : d.relative();
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const auto* x, const auto* y) { return weight(*x) > weight(*y); });
+  return order;
+}
+
+/// What is not a difference but must be known to read the figures.
+std::vector<std::string> comparison_notes(const ComparedResults& r) {
+  const ResultsComparison& c = r.comparison;
+  std::vector<std::string> notes;
+  if (c.interpolated)
+    notes.push_back(fmt::format(
+        "the instants of the two differ: compared at those of '{}', between which the other "
+        "is taken as linear",
+        r.file_a));
+  if (c.torn_a || c.torn_b)
+    notes.push_back(fmt::format("the last line of '{}' was cut off and is left out",
+                                c.torn_a ? r.file_a : r.file_b));
+  if (!r.tolerance || r.overlap) {
+    if (c.spans_differ())
+      notes.push_back(
+          fmt::format("compared from {:g} to {:g} s: the one goes from {:g} to {:g} s, "
+                      "the other from {:g} to {:g} s",
+                      c.from, c.to, c.start_a, c.end_a, c.start_b, c.end_b));
+  }
+  if (!r.tolerance) {
+    for (const auto& [names, file] : {std::pair{&c.only_a, &r.file_a}, {&c.only_b, &r.file_b}})
+      if (!names->empty()) notes.push_back(fmt::format("only in '{}': {}", *file, listed(*names)));
+    if (!c.other_units.empty())
+      notes.push_back("in different units, not compared: " + listed(c.other_units));
+  }
+  return notes;
+}
+
+std::string verdict(const ComparedResults& r) {
+  const ResultsComparison& c = r.comparison;
+  const std::string compared =
+      fmt::format("{} at {}", plural(static_cast<long>(c.channels.size()), "channel", "channels"),
+                  plural(static_cast<long>(c.instants), "instant", "instants"));
+  if (std::all_of(c.channels.begin(), c.channels.end(),
+                  [](const ChannelDifference& d) { return d.largest == 0.0; }))
+    return "equal to the last bit: " + compared;
+  if (!r.tolerance) return compared;
+  const auto count = std::count_if(c.channels.begin(), c.channels.end(),
+                                   [&](const ChannelDifference& d) { return beyond(r, d); });
+  const std::string within =
+      r.tolerance->absolute > 0.0
+          ? fmt::format("{:g} of the size and {:g}", r.tolerance->relative, r.tolerance->absolute)
+          : fmt::format("{:g} of the size", r.tolerance->relative);
+  if (count == 0) return fmt::format("within {}: {}", within, compared);
+  return fmt::format("beyond {}: {} of {}", within, count, compared);
+}
+
+/// The curves of both in one table, a name with "A" and one with "B" for each channel.
+ReportCurves overlaid(const ReportCurves& a, const ReportCurves& b, const ResultsComparison& c,
+                      std::vector<PlotGroup>& groups) {
+  ReportCurves both;
+  const auto add = [&](const ReportCurves& from, std::size_t column, const std::string& name) {
+    both.columns.push_back({name, from.columns[column].unit});
+    both.extremes.push_back(from.extremes[column]);
+    both.points.push_back(from.points[column]);
+    return both.columns.size() - 1;
+  };
+  add(a, 0, a.columns.front().name);
+  ColumnExtremes& time = both.extremes.front();
+  time.low = std::min(time.low, b.extremes.front().low);
+  time.high = std::max(time.high, b.extremes.front().high);
+  const auto column_of = [](const ReportCurves& curves, const std::string& name) {
+    std::size_t k = 1;
+    while (k < curves.columns.size() && curves.columns[k].name != name) ++k;
+    return k;
+  };
+  for (const ChannelDifference* d : worst_first(c)) {
+    const std::size_t in_a = add(a, column_of(a, d->name), "A");
+    const std::size_t in_b = add(b, column_of(b, d->name), "B");
+    groups.push_back({d->name, d->name, d->unit, {in_a, in_b}});
+  }
+  return both;
+}
+
+std::string difference_line(const ChannelDifference& d) {
+  return fmt::format("largest difference {:.3g}{} at {:g} s, RMS {:.3g}, {:.2g} of the size",
+                     d.largest, d.unit.empty() ? "" : " " + d.unit, d.at, d.rms, d.relative());
+}
+
+}  // namespace
+
+std::vector<std::string> disagreements(const ComparedResults& r) {
+  std::vector<std::string> out;
+  if (!r.tolerance) return out;
+  const ResultsComparison& c = r.comparison;
+  for (const auto& [names, file] : {std::pair{&c.only_a, &r.file_a}, {&c.only_b, &r.file_b}})
+    if (!names->empty()) out.push_back(fmt::format("only in '{}': {}", *file, listed(*names)));
+  if (!c.other_units.empty()) out.push_back("in different units: " + listed(c.other_units));
+  if (c.spans_differ() && !r.overlap)
+    out.push_back(
+        fmt::format("'{}' goes from {:g} to {:g} s, '{}' from {:g} to {:g} s (--overlap compares "
+                    "the span that both have)",
+                    r.file_a, c.start_a, c.end_a, r.file_b, c.start_b, c.end_b));
+  std::vector<std::string> names;
+  for (const ChannelDifference* d : worst_first(c))
+    if (beyond(r, *d)) names.push_back(fmt::format("{} ({:.2g})", d->name, d->largest));
+  if (!names.empty()) out.push_back("beyond the tolerance: " + listed(names));
+  return out;
+}
+
+std::string comparison_text(const ComparedResults& r) {
+  std::string text =
+      fmt::format("A  {}\nB  {}\n{}\n", printable(r.file_a), printable(r.file_b), verdict(r));
+  for (const std::string& note : comparison_notes(r)) text += "note: " + printable(note) + "\n";
+  TextTable table({"channel", "unit", "largest difference", "at [s]", "RMS", "size of A",
+                   "difference/size", ""},
+                  {0, 1, 7});
+  for (const ChannelDifference* d : worst_first(r.comparison)) {
+    if (d->largest == 0.0) continue;
+    table.add({printable(d->name), printable(d->unit), fmt::format("{:.4g}", d->largest),
+               fmt::format("{:.6g}", d->at), fmt::format("{:.4g}", d->rms),
+               fmt::format("{:.4g}", d->size), fmt::format("{:.2g}", d->relative()),
+               beyond(r, *d) ? "beyond" : ""});
+  }
+  if (!table.empty()) text += "\n" + table.text();
+  const auto equal = std::count_if(r.comparison.channels.begin(), r.comparison.channels.end(),
+                                   [](const ChannelDifference& d) { return d.largest == 0.0; });
+  if (equal > 0 && !table.empty())
+    text += fmt::format("and {} to the last bit\n",
+                        plural(equal, "channel that is equal", "channels that are equal"));
+  return text;
+}
+
+std::string comparison_json(const ComparedResults& r) {
+  using Json = nlohmann::ordered_json;
+  const ResultsComparison& c = r.comparison;
+  Json channels = Json::array();
+  for (const ChannelDifference& d : c.channels)
+    channels.push_back({{"name", d.name},
+                        {"unit", d.unit},
+                        {"largest", d.largest},
+                        {"at_s", d.at},
+                        {"rms", d.rms},
+                        {"size", d.size},
+                        {"agrees", r.tolerance ? Json(!beyond(r, d)) : Json()}});
+  const auto span = [](double start, double end) { return Json{{"from_s", start}, {"to_s", end}}; };
+  return json_document({{"a", r.file_a},
+                        {"b", r.file_b},
+                        {"relative_tolerance", r.tolerance ? Json(r.tolerance->relative) : Json()},
+                        {"absolute_tolerance", r.tolerance ? Json(r.tolerance->absolute) : Json()},
+                        {"agrees", r.tolerance ? Json(disagreements(r).empty()) : Json()},
+                        {"disagreements", disagreements(r)},
+                        {"instants", c.instants},
+                        {"interpolated", c.interpolated},
+                        {"compared", span(c.from, c.to)},
+                        {"span_a", span(c.start_a, c.end_a)},
+                        {"span_b", span(c.start_b, c.end_b)},
+                        {"only_in_a", c.only_a},
+                        {"only_in_b", c.only_b},
+                        {"other_units", c.other_units},
+                        {"channels", channels}});
+}
+
+std::string comparison_html(const ComparedResults& r, const ReportCurves& a, const ReportCurves& b,
+                            const std::string& software) {
+  std::vector<PlotGroup> groups;
+  const ReportCurves both = overlaid(a, b, r.comparison, groups);
+  fmt::memory_buffer page;
+  auto out = std::back_inserter(page);
+  fmt::format_to(out,
+                 "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                 "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Comparison - "
+                 "Floatframe report</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n"
+                 "<header>\n<p class=\"kind\">Floatframe comparison</p>\n<h1>{}</h1>\n"
+                 "<p class=\"kind\">{}A: {}</p>\n<p class=\"kind\">{}B: {}</p>\n</header>\n",
+                 report_style, html_escape(verdict(r)), svg_legend_key(0), html_escape(r.file_a),
+                 svg_legend_key(1), html_escape(r.file_b));
+  if (const auto sentences = disagreements(r); !sentences.empty()) {
+    fmt::format_to(out,
+                   "<div class=\"failed\" role=\"alert\"><b>The two do not agree.</b>\n<ul>\n");
+    for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>\n", html_escape(s));
+    fmt::format_to(out, "</ul></div>\n");
+  }
+  if (const auto sentences = comparison_notes(r); !sentences.empty()) {
+    fmt::format_to(out, "<div class=\"warned\" role=\"note\"><ul>\n");
+    for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>\n", html_escape(s));
+    fmt::format_to(out, "</ul></div>\n");
+  }
+  const auto order = worst_first(r.comparison);
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    fmt::format_to(out,
+                   "<figure>\n<figcaption><h3>{}</h3><span class=\"note\">{}{}</span>"
+                   "</figcaption>\n<div class=\"plot\">{}</div>\n</figure>\n",
+                   html_escape(groups[k].title), html_escape(difference_line(*order[k])),
+                   beyond(r, *order[k]) ? ", <b>beyond the tolerance</b>" : "",
+                   svg_plot(both, groups[k]));
+  fmt::format_to(out,
+                 "<footer>Floatframe {}<br>Channels with the largest difference for their size "
+                 "come first.</footer>\n</main>\n</body>\n</html>\n",
+                 html_escape(software));
+  return fmt::to_string(page);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,30 @@
+#pragma once
+// A comparison of two results for the terminal, for other programs, and as one self-contained page
+// with the curves of both over each other.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floatframe/report/report_curves.hpp"
+#include "floatframe/report/results_comparison.hpp"
+
+namespace floatframe {
+
+struct ComparedResults {
+  std::string file_a, file_b;
+  ResultsComparison comparison;
+  std::optional<ComparisonTolerance> tolerance;  ///< none: differences are shown, not judged
+  bool overlap = false;                          ///< spans may differ
+};
+
+/// What keeps two results from agreeing, a sentence each; nothing without a tolerance.
+std::vector<std::string> disagreements(const ComparedResults& results);
+
+std::string comparison_text(const ComparedResults& results);
+std::string comparison_json(const ComparedResults& results);
+
+/// `a` and `b`: curves of the two files, of which channels that were compared are drawn.
+std::string comparison_html(const ComparedResults& results, const ReportCurves& a,
+                            const ReportCurves& b, const std::string& software);
+
+}  // namespace floatframe

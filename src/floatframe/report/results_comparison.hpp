@@ -1,0 +1,56 @@
+#pragma once
+// How far two results are apart, channel by channel, read row by row in the memory of a few rows.
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "floatframe/report/results_reader.hpp"
+
+namespace floatframe {
+
+/// Two values agree if |a - b| <= absolute + relative * (largest magnitude of the channel in A).
+struct ComparisonTolerance {
+  double relative = 0.0;
+  double absolute = 0.0;  ///< in the unit of each channel
+};
+
+struct ChannelDifference {
+  std::string name, unit;
+  double largest = 0.0;  ///< |a - b|; infinite where only one of them is a number
+  double at = 0.0;       ///< when [s]
+  double rms = 0.0;      ///< over the instants at which both are numbers
+  double size = 0.0;     ///< largest magnitude in A
+  /// largest / size; zero if both are zero
+  double relative() const noexcept {
+    if (largest == 0.0) return 0.0;
+    return size > 0.0 ? largest / size : std::numeric_limits<double>::infinity();
+  }
+};
+
+struct ResultsComparison {
+  std::vector<ChannelDifference> channels;  ///< in the order of A
+  /// Names that only one has, or that have other units ("z [m] and z [mm]").
+  std::vector<std::string> only_a, only_b, other_units;
+  /// Where both are: if one has all instants of the other in the span of both, these; else all of
+  /// A, between which B is linear.
+  std::size_t instants = 0;
+  bool interpolated = false;
+  double from = 0.0, to = 0.0;  ///< the span that both have [s]
+  double start_a = 0.0, start_b = 0.0, end_a = 0.0, end_b = 0.0;
+  bool torn_a = false, torn_b = false;  ///< the last line was cut off
+
+  /// Beginnings and ends differ, by more than rounding.
+  bool spans_differ() const noexcept;
+  bool same_channels() const noexcept {
+    return only_a.empty() && only_b.empty() && other_units.empty();
+  }
+};
+
+bool agrees(const ChannelDifference& d, const ComparisonTolerance& tolerance) noexcept;
+
+/// `names`: the channels to compare; empty: all. Throws InputError if a file cannot be read to its
+/// end, has no rows, misses a channel that is named, or if the spans do not meet.
+ResultsComparison compare_results(ResultsReader& a, ResultsReader& b,
+                                  const std::vector<std::string>& names = {});
+
+}  // namespace floatframe

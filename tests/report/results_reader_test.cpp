@@ -1,0 +1,109 @@
+// What is read back of results, and the sentence about each thing that cannot be.
+#include "floatframe/report/results_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/report/results_csv.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace floatframe::test {
+namespace {
+
+class Reading : public ::testing::Test {
+ protected:
+  std::string file(const std::string& text) {
+    const std::string path = (folder_.path() / "r.csv").string();
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  /// The sentence about a file that is refused, without its name.
+  std::string complaint(const std::string& text) {
+    const std::string path = file(text);
+    try {
+      ResultsReader in(path);
+      while (in.next()) {
+      }
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.rfind(path, 0), 0u) << what;
+      return what.substr(path.size() + 1);
+    }
+    return "accepted";
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Reading, GivesBackEveryBit) {
+  ResultTable table{{{"time", "s"}, {"a, \"b\"", "m/s"}, {"c", ""}, {"d [e]", "N"}}, {}};
+  const double odd[] = {5e-324, -1e-310, 1.7976931348623157e308, -0.0, 0.1, -1.0 / 3.0};
+  for (int k = 0; k < 6; ++k)
+    table.data.insert(table.data.end(), {0.1 * k, odd[k], 3.0, odd[5 - k]});
+  ResultsReader in(file(results_csv(table)));
+  ASSERT_EQ(in.columns().size(), 4u);
+  for (std::size_t c = 0; c < 4; ++c) {
+    EXPECT_EQ(in.columns()[c].name, table.columns[c].name);
+    EXPECT_EQ(in.columns()[c].unit, table.columns[c].unit);
+  }
+  for (std::size_t r = 0; r < 6; ++r) {
+    ASSERT_TRUE(in.next());
+    for (std::size_t c = 0; c < 4; ++c) {
+      EXPECT_EQ(in.row()[c], table.at(r, c));
+      EXPECT_EQ(std::signbit(in.row()[c]), std::signbit(table.at(r, c)));
+    }
+  }
+  EXPECT_FALSE(in.next());
+  EXPECT_FALSE(in.torn());
+  EXPECT_EQ(in.rows(), 6u);
+}
+
+TEST_F(Reading, TakesFilesOfOtherPrograms) {
+  ResultsReader in(
+      file("\xEF\xBB\xBFtime, x [m] ,\"y, z\"\r\n0, 1 ,\t2\r\n\r\n0.5,nan,-inf\r\n1,4,5"));
+  EXPECT_EQ(in.columns()[1].name, "x");
+  EXPECT_EQ(in.columns()[1].unit, "m");
+  EXPECT_EQ(in.columns()[2].name, "y, z");
+  ASSERT_TRUE(in.next());
+  EXPECT_EQ(in.row(), (std::vector<double>{0.0, 1.0, 2.0}));
+  ASSERT_TRUE(in.next());
+  EXPECT_TRUE(std::isnan(in.row()[1]));
+  ASSERT_TRUE(in.next());  // the last line needs no line break
+  EXPECT_EQ(in.row(), (std::vector<double>{1.0, 4.0, 5.0}));
+  EXPECT_FALSE(in.next());
+}
+
+TEST_F(Reading, LeavesOutALineThatWasCutOff) {
+  for (const char* rest : {"0.2", "0.2,", "0.2,1,", "0.2,1e", "-"}) {
+    ResultsReader in(file(std::string("time,x,y\n0,1,2\n0.1,3,4\n") + rest));
+    EXPECT_TRUE(in.next());
+    EXPECT_TRUE(in.next());
+    EXPECT_FALSE(in.next()) << rest;
+    EXPECT_TRUE(in.torn()) << rest;
+    EXPECT_EQ(in.time(), 0.1) << rest;
+  }
+}
+
+TEST_F(Reading, SaysWhatIsNotAsExpected) {
+  EXPECT_EQ(complaint(""), " the file is empty, expected results");
+  EXPECT_EQ(complaint("x,y\n"), "1:1: found 'x' as the first column, expected 'time [s]'");
+  EXPECT_EQ(complaint("time,x,x\n"), "1:8: found a second column 'x', expected each once");
+  EXPECT_EQ(complaint("time,\"x\n"), "1:6: found a quote that is not closed");
+  EXPECT_EQ(complaint("time,x,y\n0,1,2\n1,a,3\n"), "3:3: found 'a', expected a number for 'x'");
+  EXPECT_EQ(complaint("time,x,y\n0,1\n1,2,3\n"), "2:3: found '1', expected a number for 'x'");
+  EXPECT_EQ(complaint("time,x\n0,1,2\n"),
+            "2:3: found '1', expected a number for 'x' and the end of the line");
+  EXPECT_EQ(complaint("time,x\n0,\n1,2\n"),
+            "2:3: found the end of the line, expected a number for 'x' and the end of the line");
+  EXPECT_EQ(complaint("time,x\n0,1\n0,1\n"), "3:1: found the time 0 after 0, expected a later one");
+  EXPECT_EQ(complaint("time,x\nnan,1\n"), "2:1: found the time nan, expected a number of seconds");
+  EXPECT_EQ(complaint(std::string("time,x\n0,") + std::string(2 << 20, '1') + "\n"),
+            "2:1: found a line of more than 1 MiB, expected comma-separated numbers");
+  EXPECT_THROW(ResultsReader((folder_.path() / "none.csv").string()), InputError);
+  EXPECT_THROW(ResultsReader(folder_.path().string()), InputError);
+}
+
+}  // namespace
+}  // namespace floatframe::test
