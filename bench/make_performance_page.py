@@ -13,6 +13,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import history  # noqa: E402
+import paper_figures  # noqa: E402
 import svg_chart  # noqa: E402
 
 PAGE = history.ROOT / "docs" / "performance.md"
@@ -193,21 +194,20 @@ def scaling_plots(run):
 def iltis(run):
     rows, llt = run["iltis"]["rows"], run["iltis"]["dense_llt_98_us"]
     elements = sorted({r["elements_per_bar"] for r in rows})
-    paper = {"Abs. + B": (4.19, 4.48, 7.58, 12.59), "Abs. + P": (3.85,) * 4, "Rel. + B": (1.11, 1.48, 4.32, 8.21),
-             "Rel. + P": (0.79,) * 4}
     times, cost = [], []
     for c, i in [("absolute", "projection"), ("absolute", "preprocessing"), ("relative", "projection"),
                  ("relative", "preprocessing")]:
         of = [find(rows, coordinates=c, inertia=i, elements_per_bar=n) for n in elements]
         title = name(of[0])
         if elements == [5, 10, 50, 100]:
-            times.append([f"{title}, paper"] + [f"{s:.2f}" for s in paper[title]])
+            times.append([f"{title}, paper"] + [f"{s:.2f}" for s in paper_figures.PAPER[c, i]])
         times.append([f"{title}, here"] + [f"{r['cpu_s_min']:.4f}" for r in of])
         last = of[-1]
         cost.append([title, f"{1e6 * last['cpu_s_min'] / last['iterations']:.1f}", f"{last['us_per_step_min']:.1f}",
                      f"{last['llt_per_step_min']:.2f}", f"{last['real_time_factor']:.0f}",
                      f"{last['iterations'] / last['steps']:.2f}", f"{last['factorizations'] / last['steps']:.2f}",
                      small(last["max_position_violation_m"]), small(last["max_velocity_violation_m_s"])])
+    (FIGURES / "paper_7.svg").write_text(paper_figures.time_figure(rows))
     one = run["iltis"]["rel_p_iteration_us"]
     return "\n\n".join([
         table([""] + [str(n) for n in elements], times),

@@ -32,10 +32,14 @@ def _ticks(low, high, logarithmic):
 
 
 def curves(title, x_label, y_label, series, x_log=True, y_log=True, y_range=None):
-    """series: list of (name, [(x, y), ...]); a name that ends in * is drawn without markers (a reference line)."""
-    width, height, left, right, top, bottom = 640, 380, 66, 20, 34, 92
-    xs = [x for _, points in series for x, _ in points]
-    ys = [y for _, points in series for _, y in points]
+    """series: list of (name, [(x, y), ...]) or (name, points, colour, dashes), the last two by their number; a name that
+    ends in * is drawn without markers (a reference line)."""
+    series = [(s[0], s[1], *(s[2:] or (k, k))) for k, s in enumerate(series)]
+    rows = max(2, (len(series) + 2) // 3)
+    width, left, right, top, bottom = 640, 66, 20, 34, 56 + 18 * rows
+    height = 288 + bottom
+    xs = [x for _, points, *_ in series for x, _ in points]
+    ys = [y for _, points, *_ in series for _, y in points]
     x_low, x_high = min(xs), max(xs)
     y_low, y_high = y_range or (min(ys), max(ys))
     if y_log and not y_range:
@@ -66,15 +70,15 @@ def curves(title, x_label, y_label, series, x_log=True, y_log=True, y_range=None
     middle = (top + height - bottom) / 2
     body.append(f'<text x="16" y="{middle}" text-anchor="middle" transform="rotate(-90 16 {middle})" {FONT}>'
                 f'{html.escape(y_label)}</text>')
-    for index, (name, points) in enumerate(series):
-        colour, dash = COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
+    for index, (name, points, colour, dash) in enumerate(series):
+        colour, dash = COLOURS[colour % len(COLOURS)], DASHES[dash % len(DASHES)]
         path = " ".join(f"{x:.1f},{y:.1f}" for x, y in (at(*p) for p in sorted(points)))
         body.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2" '
                     f'stroke-dasharray="{dash}"/>')
         if not name.endswith("*"):
             body += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{colour}"/>' for x, y in (at(*p) for p in points)]
         column, row = index % 3, index // 3
-        x, y = left + column * 190, height - 36 + row * 18
+        x, y = left + column * 190, height - 18 * rows + row * 18
         body.append(f'<line x1="{x}" x2="{x + 26}" y1="{y - 4}" y2="{y - 4}" stroke="{colour}" stroke-width="2" '
                     f'stroke-dasharray="{dash}"/><text x="{x + 32}" y="{y}" {FONT}>{html.escape(name.rstrip("*"))}</text>')
     return _frame(width, height, title, body)

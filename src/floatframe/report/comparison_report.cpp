@@ -36,7 +36,7 @@ bool beyond(const ComparedResults& r, const ChannelDifference& d) {
 /// Largest difference for its size first. Channels that are rounding beside others of their unit
 /// would lead all others.
 std::vector<const ChannelDifference*> worst_first(const ResultsComparison& c) {
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-6;
   std::map<std::string, double> largest;  // by unit
   std::vector<const ChannelDifference*> order;
   for (const ChannelDifference& d : c.channels) {
@@ -97,7 +97,7 @@ std::string verdict(const ComparedResults& r) {
           ? fmt::format("{:g} of the size and {:g}", r.tolerance->relative, r.tolerance->absolute)
           : fmt::format("{:g} of the size", r.tolerance->relative);
   if (count == 0) return fmt::format("within {}: {}", within, compared);
-  return fmt::format("beyond {}: {} of {}", within, count, compared);
+  return fmt::format("{} of {} beyond {}", count, compared, within);
 }
 
 /// The curves of both in one table, a name with "A" and one with "B" for each channel.
@@ -223,13 +223,13 @@ std::string comparison_html(const ComparedResults& r, const ReportCurves& a, con
                  svg_legend_key(1), html_escape(r.file_b));
   if (const auto sentences = disagreements(r); !sentences.empty()) {
     fmt::format_to(out,
-                   "<div class=\"failed\" role=\"alert\"><b>The two do not agree.</b>\n<ul>\n");
-    for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>\n", html_escape(s));
+                   "<div class=\"failed\" role=\"alert\"><b>The two do not agree.</b><ul>");
+    for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>", html_escape(s));
     fmt::format_to(out, "</ul></div>\n");
   }
   if (const auto sentences = comparison_notes(r); !sentences.empty()) {
     fmt::format_to(out, "<div class=\"warned\" role=\"note\"><ul>\n");
-    for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>\n", html_escape(s));
+    for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>", html_escape(s));
     fmt::format_to(out, "</ul></div>\n");
   }
   const auto order = worst_first(r.comparison);
