@@ -10,6 +10,8 @@ import sys
 import tempfile
 import unittest
 
+from report_page import text_of
+
 BINARY = os.environ.get("FLOATFRAME_BINARY") or (
     sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else "build/floatframe")
 BINARY = str(pathlib.Path(BINARY).resolve())
@@ -39,7 +41,7 @@ class Range(unittest.TestCase):
             self.assertEqual(done.stderr, "".join(f"floatframe: warning: {w}\n" for w in warnings))
             self.assertIn("body 'beam' deforms too far for small deformations", warnings[0])
             self.assertEqual(self.summary["status"], "completed")
-            report = (self.folder / "out" / "report.html").read_text()
+            report = text_of(self.folder / "out" / "report.html")
             self.assertLess(report.index("deforms too far for small deformations"), report.index("Newton iterations per step"))
 
     def test_strict_makes_them_errors(self):
@@ -49,7 +51,7 @@ class Range(unittest.TestCase):
         self.assertEqual(self.summary["status"], "failed")
         self.assertAlmostEqual(self.summary["duration_s"], 0.3)
         self.assertEqual(len((self.folder / "out" / "results.csv").read_text().splitlines()), 302)
-        report = (self.folder / "out" / "report.html").read_text()
+        report = text_of(self.folder / "out" / "report.html")
         self.assertIn("This run counts as failed", report)
         self.assertNotIn("partial", report)
 

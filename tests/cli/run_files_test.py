@@ -7,6 +7,7 @@ import signal
 import unittest
 
 from run_case import MODEL, RunCase
+from report_page import text_of
 
 
 def fingerprint(data):
@@ -53,7 +54,7 @@ class Growing(RunCase):
             self.assertEqual(summary["steps"] + 1, self.rows("out"))
             self.assertTrue((self.folder / "out/results.csv").read_bytes().endswith(b"\n"))
             self.assertAlmostEqual(summary["duration_s"], 1e-3 * summary["steps"], 9)
-            page = (self.folder / "out/report.html").read_text()
+            page = text_of(self.folder / "out/report.html")
             self.assertIn("This run was interrupted: the results are partial.", page)
             self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
                              ["report.html", "results.csv", "summary.json"])

@@ -8,6 +8,8 @@ import subprocess
 import tempfile
 import unittest
 
+from report_page import text_of
+
 BINARY = os.environ.get("FLOATFRAME_BINARY", "build/floatframe")
 
 MODEL = """\
@@ -70,7 +72,7 @@ class States(unittest.TestCase):
             for a, b in zip(whole[200:], second):
                 for x, y in zip(a, b):
                     self.assertLess(abs(x - y), close)
-        self.assertIn("state at 0.2 s from end.json", (self.path / "second" / "report.html").read_text())
+        self.assertIn("state at 0.2 s from end.json", text_of(self.path / "second" / "report.html"))
 
     def test_statics_write_the_state_of_the_equilibrium(self):
         text = self.run_program("statics", "swing.yaml", "--json", "--write-state", "rest.json").stdout

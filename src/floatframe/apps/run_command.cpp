@@ -16,7 +16,7 @@
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/state_json.hpp"
 #include "floatframe/report/notes_text.hpp"
-#include "floatframe/report/report_html.hpp"
+#include "floatframe/report/run_page.hpp"
 #include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/program_identity.hpp"
@@ -200,6 +200,7 @@ int run_model(const RunArguments& arguments) {
     // A summary and a report that say so, in place of older results.
     report.result.summary = failed_summary(description.name, description.simulation, error.what());
   }
+  report.subjects = channel_subjects(model);
   report.facts.push_back(setting_facts(arguments, description.simulation));
   report.software = build_description();
   report.processor = processor_name();

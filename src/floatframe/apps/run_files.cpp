@@ -5,10 +5,13 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/report/results_csv.hpp"
+#include "floatframe/report/results_reader.hpp"
+#include "floatframe/report/run_page.hpp"
 #include "floatframe/report/summary_json.hpp"
 
 namespace floatframe {
@@ -96,6 +99,25 @@ void RunFiles::keep(const RunCheckpoint& checkpoint) {
   });
 }
 
+void RunFiles::write_report(Report& report) const {
+  const ResultTable& table = report.result.table;
+  if (page_template().empty()) {
+    if (results_) report.curves = report_curves(paths_.results, table.columns, results_->rows());
+    write_file(paths_.report, report_html(report));
+    return;
+  }
+  PageCurves curves;
+  if (results_) {
+    ResultsReader rows(paths_.results);
+    curves = page_curves(rows, results_->rows());
+  } else {
+    curves = page_curves(table);
+  }
+  PageBuffer buffer;
+  const auto page = run_page(report, curves, buffer);
+  write_file(paths_.report, page_html(page_template(), page, buffer));
+}
+
 std::vector<std::string> RunFiles::finish(Report&& report) {
   if (from_ && !results_) return {};  // not even begun: all is as it was
   const RunResult& result = report.result;
@@ -117,12 +139,7 @@ std::vector<std::string> RunFiles::finish(Report&& report) {
   else
     remove_file(paths_.results);
   remove_file(paths_.report);
-  if (options_.report)
-    attempt([&] {
-      if (results_)
-        report.curves = report_curves(paths_.results, result.table.columns, results_->rows());
-      write_file(paths_.report, report_html(report));
-    });
+  if (options_.report) attempt([&] { write_report(report); });
   if (result.summary.status == "completed" || !results_) remove_file(paths_.checkpoint);
   lock_.release_space();
   attempt([&] { write_file(paths_.summary, summary_json(result.summary)); });

@@ -52,6 +52,8 @@ class RunFiles {
   template <class Write>
   void watched(const Write& write);
   void remove_remains() const;
+  /// The page of the viewer, or without it the static report.
+  void write_report(Report& report) const;
 
   RunPaths paths_;
   Options options_;

@@ -222,8 +222,7 @@ std::string comparison_html(const ComparedResults& r, const ReportCurves& a, con
                  report_style, html_escape(verdict(r)), svg_legend_key(0), html_escape(r.file_a),
                  svg_legend_key(1), html_escape(r.file_b));
   if (const auto sentences = disagreements(r); !sentences.empty()) {
-    fmt::format_to(out,
-                   "<div class=\"failed\" role=\"alert\"><b>The two do not agree.</b><ul>");
+    fmt::format_to(out, "<div class=\"failed\" role=\"alert\"><b>The two do not agree.</b><ul>");
     for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>", html_escape(s));
     fmt::format_to(out, "</ul></div>\n");
   }

@@ -1,5 +1,7 @@
 #include "floatframe/report/html_text.hpp"
 
+#include <algorithm>
+
 namespace floatframe {
 namespace {
 
@@ -59,6 +61,11 @@ std::string html_escape(std::string_view text) {
     text.remove_prefix(length);
   }
   return out;
+}
+
+std::string spaced_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 }  // namespace floatframe

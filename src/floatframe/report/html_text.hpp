@@ -8,4 +8,7 @@ namespace floatframe {
 
 std::string html_escape(std::string_view text);
 
+/// "modal_damping" -> "modal damping"
+std::string spaced_words(std::string name);
+
 }  // namespace floatframe

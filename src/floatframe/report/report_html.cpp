@@ -90,12 +90,6 @@ void run_table(fmt::memory_buffer& page, const RunSummary& s) {
   fmt::format_to(out, "</table></section>\n");
 }
 
-/// "modal_damping" -> "modal damping"
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 void warning_list(fmt::memory_buffer& page, const std::vector<RangeWarning>& warnings) {
   if (warnings.empty()) return;
   auto out = std::back_inserter(page);
@@ -114,7 +108,8 @@ void balance_rows(fmt::memory_buffer& page, const EnergySummary& e, bool damped)
                    number(value));
   };
   for (std::size_t k = 0; k < EnergyFlows::size(); ++k)
-    if (e.work.value[k] != 0.0) row("work of " + spaced(energy_flow_names[k]), e.work.value[k]);
+    if (e.work.value[k] != 0.0)
+      row("work of " + spaced_words(energy_flow_names[k]), e.work.value[k]);
   row(damped ? "remainder: numerical dissipation" : "remainder: error of the integration",
       e.remainder);
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/report/page_curves.hpp"
 #include "floatframe/report/report_curves.hpp"
 #include "floatframe/simulation/results.hpp"
 
@@ -23,6 +24,8 @@ struct Report {
   RunResult result;
   /// Of results that are in a file; else they are made of the table.
   std::optional<ReportCurves> curves;
+  std::vector<ChannelSubject>
+      subjects;                    ///< of the columns but the time, for the grouping of curves
   std::optional<double> rows_end;  ///< where rows that could not be written are missing [s]
   std::vector<FactTable> facts;    ///< model, settings
   std::string software;            ///< version and build

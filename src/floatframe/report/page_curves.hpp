@@ -1,0 +1,43 @@
+#pragma once
+// The curves of a page: all rows of all columns at common instants, or if those are too many the
+// smallest and the largest value of each column in equal stretches of rows, so that peaks survive.
+// Takes memory for what is shown, not for the rows.
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "floatframe/report/page_writer.hpp"
+#include "floatframe/simulation/result_table.hpp"
+
+namespace floatframe {
+
+class ResultsReader;
+
+/// What a column shows, for the grouping of curves.
+struct ChannelSubject {
+  std::string body;  ///< name of a body, joint, rod or force; empty: none
+  std::string kind;  ///< "position", "joint_force", ...
+};
+
+struct PageCurves {
+  std::vector<Column> columns;              ///< the first is the time
+  std::size_t rows = 0;                     ///< of the results
+  std::vector<double> time;                 ///< of the instants shown [s]
+  std::vector<std::vector<double>> values;  ///< of every column but the time, at these instants
+  bool thinned() const noexcept { return time.size() < rows; }
+};
+
+/// Numbers in all that a page shows.
+inline constexpr std::size_t most_numbers_of_curves = 1'000'000;
+
+PageCurves page_curves(const ResultTable& table);
+/// Of the next rows of a file; there must be as many. Throws InputError.
+PageCurves page_curves(ResultsReader& in, std::size_t rows);
+
+/// The "curves" of a page: {"time", "channels": [...]}. Constant columns and those that are rounding
+/// beside others of their unit are marked. `subjects`: for each column but the time, or empty.
+nlohmann::ordered_json curves_json(const PageCurves& curves,
+                                   const std::vector<ChannelSubject>& subjects, PageBuffer& buffer);
+
+}  // namespace floatframe

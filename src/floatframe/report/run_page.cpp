@@ -1,0 +1,155 @@
+#include "floatframe/report/run_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "floatframe/core/plural.hpp"
+#include "floatframe/report/html_text.hpp"
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string joules(double value) { return fmt::format("{:.6g} J", value); }
+
+/// How the run ended, in sentences.
+std::vector<std::string> ending(const Report& report) {
+  const RunSummary& s = report.result.summary;
+  std::vector<std::string> out;
+  if (s.status == "completed") {
+    out.push_back(fmt::format(
+        "{:g} s simulated in {:.3g} s of processor time{}.", s.duration, s.cpu,
+        s.cpu > 0.0 ? fmt::format(", {:.3g} times real time", s.real_time_factor) : ""));
+  } else if (s.strict) {
+    out.push_back("This run counts as failed: " + s.message);
+  } else {
+    out.push_back(fmt::format("This run {}: the results are partial. They end at {:g} s.",
+                              s.status == "interrupted" ? "was interrupted" : "failed",
+                              report.rows_end.value_or(s.duration)));
+    out.push_back(s.message);
+  }
+  for (const std::string& note : s.start.notes) out.push_back(note);
+  return out;
+}
+
+Json facts_json(const std::vector<FactTable>& tables) {
+  Json out = Json::array();
+  for (const FactTable& table : tables) {
+    Json rows = Json::array();
+    for (const auto& row : table.rows) rows.push_back({row[0], row[1]});
+    out.push_back({{"heading", table.title}, {"rows", rows}});
+  }
+  return out;
+}
+
+Json energy_table(const EnergySummary& e, bool damped) {
+  Json rows = Json::array();
+  const auto row = [&](const std::string& name, double start, double end) {
+    rows.push_back({name, joules(start), joules(end), joules(end - start)});
+  };
+  row("kinetic", e.kinetic_start, e.kinetic_end);
+  row("potential", e.potential_start, e.potential_end);
+  row("elastic", e.elastic_start, e.elastic_end);
+  row("total", e.total_start, e.total_end);
+  if (e.balanced) {
+    for (std::size_t k = 0; k < EnergyFlows::size(); ++k)
+      if (e.work.value[k] != 0.0)
+        rows.push_back(
+            {"work of " + spaced_words(energy_flow_names[k]), "", "", joules(e.work.value[k])});
+    rows.push_back(
+        {damped ? "remainder: numerical dissipation" : "remainder: error of the integration", "",
+         "", joules(e.remainder)});
+  }
+  return {{"heading", "Energy"}, {"columns", {"energy", "start", "end", "change"}}, {"rows", rows}};
+}
+
+Json trust_rows(const RunSummary& s) {
+  Json rows = Json::array();
+  const auto row = [&](const char* name, const std::string& value, bool good) {
+    rows.push_back({name, value, good ? "ok" : "warn"});
+  };
+  row("largest violation of a position constraint after a step",
+      fmt::format("{:.2g} m", s.max_position_violation), s.max_position_violation < 1e-6);
+  row("largest violation of a velocity constraint after the projections",
+      fmt::format("{:.2g} m/s", s.max_velocity_violation), s.max_velocity_violation < 1e-5);
+  row("steps that had to be halved", fmt::format("{} extra of {}", s.substeps, s.steps),
+      s.substeps * 20 <= s.steps);
+  if (s.energy.balanced) {
+    const double exchanged = s.energy.exchanged;
+    const double part = exchanged > 0.0 ? std::abs(s.energy.largest_remainder) / exchanged : 0.0;
+    row("largest remainder of the energy balance",
+        fmt::format("{} at {:.4g} s, {:.2g} of the energy exchanged",
+                    joules(s.energy.largest_remainder), s.energy.largest_remainder_at, part),
+        part < 0.05);
+  }
+  row("limits of the method that were left",
+      s.warnings.empty() ? "none" : plural(static_cast<long>(s.warnings.size()), "warning"),
+      s.warnings.empty());
+  return rows;
+}
+
+Json speed_rows(const Report& report) {
+  const RunSummary& s = report.result.summary;
+  Json rows = Json::array();
+  const double steps = static_cast<double>(std::max(s.steps, 1L));
+  rows.push_back({"simulated", fmt::format("{:g} s", s.duration)});
+  rows.push_back({"processor time", fmt::format("{:.4g} s", s.cpu)});
+  if (s.cpu > 0.0) rows.push_back({"real-time factor", fmt::format("{:.4g}", s.real_time_factor)});
+  rows.push_back({"steps", fmt::format("{} of {:g} s", s.steps, s.step)});
+  rows.push_back(
+      {"Newton iterations per step",
+       fmt::format("{:.2f}, {} in all", static_cast<double>(s.iterations) / steps, s.iterations)});
+  rows.push_back({"factorisations per step",
+                  fmt::format("{:.2f}, {} in all", static_cast<double>(s.factorizations) / steps,
+                              s.factorizations)});
+  rows.push_back({"program", "Floatframe " + report.software});
+  rows.push_back({"processor", report.processor});
+  return rows;
+}
+
+std::string subject_of(const Model& model, const Output& o) {
+  if (o.rod >= 0) return model.rods[o.rod].name;
+  if (o.joint >= 0) return model.joints[o.joint].name;
+  if (o.force >= 0) return model.forces[o.force].name;
+  if (o.body >= 0) return model.bodies[o.body].name;
+  if (o.marker >= 0 && model.markers[o.marker].body >= 0)
+    return model.bodies[model.markers[o.marker].body].name;
+  return {};
+}
+
+}  // namespace
+
+std::vector<ChannelSubject> channel_subjects(const Model& model) {
+  std::vector<ChannelSubject> out;
+  for (const Output& o : model.outputs)
+    out.push_back({subject_of(model, o), spaced_words(output_type_name(o.type))});
+  return out;
+}
+
+Json run_page(const Report& report, const PageCurves& curves, PageBuffer& buffer) {
+  const RunSummary& s = report.result.summary;
+  Json warnings = Json::array();
+  for (const RangeWarning& w : s.warnings) warnings.push_back(w.sentence);
+  return {{"schema", 1},
+          {"kind", "run"},
+          {"title", s.model},
+          {"program", "Floatframe " + report.software},
+          {"subtitle", fmt::format("{} coordinates, inertia terms by {}, step {:g} s",
+                                   s.coordinates, s.inertia, s.step)},
+          {"status",
+           {{"state", s.strict ? "failed" : s.status},
+            {"sentences", ending(report)},
+            {"warnings", warnings}}},
+          {"facts", facts_json(report.facts)},
+          {"tables", Json::array({energy_table(s.energy, report.spectral_radius < 1.0)})},
+          {"curves", curves_json(curves, report.subjects, buffer)},
+          {"trust", {{"channels", Json::array()}, {"rows", trust_rows(s)}}},
+          {"speed", {{"rows", speed_rows(report)}, {"step_times", nullptr}}},
+          {"scene", nullptr}};
+}
+
+}  // namespace floatframe
