@@ -1,5 +1,5 @@
-// Pages of the viewer as the program writes them: numbers come back as they went in, no text ends its
-// element.
+// Pages of the viewer as the program writes them: numbers come back as they went in, no text ends
+// its element.
 #include "floatframe/report/page_writer.hpp"
 
 #include <gtest/gtest.h>

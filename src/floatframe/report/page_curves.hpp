@@ -36,7 +36,8 @@ PageCurves page_curves(const ResultTable& table);
 PageCurves page_curves(ResultsReader& in, std::size_t rows);
 
 /// The "curves" of a page: {"time", "channels": [...]}. Constant columns and those that are
-/// rounding beside others of their unit are marked. `subjects`: for each column but the time, or empty.
+/// rounding beside others of their unit are marked. `subjects`: for each column but the time, or
+/// empty.
 nlohmann::ordered_json curves_json(const PageCurves& curves,
                                    const std::vector<ChannelSubject>& subjects, PageBuffer& buffer);
 
