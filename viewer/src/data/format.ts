@@ -1,0 +1,46 @@
+// Numbers as text.
+
+const MINUS = '\u2212';
+
+/** About `digits` significant digits, without an exponent where that is readable. */
+export function formatNumber(value: number, digits = 4): string {
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? '–' : value > 0 ? '∞' : `${MINUS}∞`;
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  let result: string;
+  if (size >= 1e6 || size < 1e-4) result = value.toExponential(digits - 1).replace(/\.?0+e/, 'e').replace('e+', 'e');
+  else {
+    const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+    result = value.toFixed(Math.min(decimals, 10));
+    if (result.includes('.')) result = result.replace(/\.?0+$/, '');
+  }
+  return result.replace(/^-/, MINUS).replace('e-', `e${MINUS}`);
+}
+
+export function withUnit(value: number, unit: string, digits = 4): string {
+  return unit ? `${formatNumber(value, digits)} ${unit}` : formatNumber(value, digits);
+}
+
+/** The unit of lengths in which numbers up to `size` metres are easy to read. */
+export function lengthUnit(size: number): { name: string; factor: number } {
+  if (size >= 1) return { name: 'm', factor: 1 };
+  if (size >= 1e-4) return { name: 'mm', factor: 1e3 };
+  if (size >= 1e-7) return { name: 'µm', factor: 1e6 };
+  return size > 0 ? { name: 'nm', factor: 1e9 } : { name: 'mm', factor: 1e3 };
+}
+
+export function formatLength(metres: number, digits = 3): string {
+  const unit = lengthUnit(Math.abs(metres));
+  return `${formatNumber(metres * unit.factor, digits)} ${unit.name}`;
+}
+
+/** The largest of 1, 2 and 5 times a power of ten that is at most `value`. */
+export function niceBelow(value: number): number {
+  const power = 10 ** Math.floor(Math.log10(value));
+  const lead = value / power;
+  return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
+}
+
+export function plural(count: number, one: string, many = `${one}s`): string {
+  return `${count} ${count === 1 ? one : many}`;
+}

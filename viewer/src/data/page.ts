@@ -1,0 +1,156 @@
+// The page's data as the program writes them; viewer/README.md describes each key.
+
+export type ViewType = 'f16' | 'f32' | 'f64' | 'u16' | 'u32';
+
+/** An array in the buffer: row-major, `offset` in bytes. */
+export interface View {
+  type: ViewType;
+  offset: number;
+  shape: number[];
+}
+
+export type Triple = [number, number, number];
+export type Quadruple = [number, number, number, number];
+export type PageKind = 'run' | 'check' | 'reduce' | 'compare';
+
+export interface ChannelJson {
+  name: string;
+  label?: string | null;
+  unit?: string | null;
+  body?: string | null;
+  kind?: string | null;
+  data: View;
+  offset?: number | null;
+  constant?: boolean | null;
+  noise?: boolean | null;
+  group?: string | null;
+  other?: View | null;
+  other_offset?: number | null;
+  difference?: { max?: number | null; rms?: number | null; tolerance?: number | null; beyond?: boolean | null } | null;
+}
+
+export interface CurvesJson {
+  time: View;
+  other_time?: View | null;
+  /** Names of the two runs of a comparison. */
+  names?: [string, string] | null;
+  channels: ChannelJson[];
+}
+
+export interface TableJson {
+  heading: string;
+  columns?: string[] | null;
+  rows: (string | number)[][];
+  note?: string | null;
+}
+
+export interface PlacedJson {
+  position?: Triple | null;
+  quaternion?: Quadruple | null;
+}
+
+export interface FieldJson {
+  name: string;
+  unit?: string | null;
+  /** Linear in the amplitudes: f16 [V, m]. */
+  modes?: View | null;
+  /** Values at the amplitudes zero: f16 [V]; with `modes` only. */
+  base?: View | null;
+  /** Or given at each frame: f16 [F, V]. */
+  history?: View | null;
+}
+
+export interface MeshJson {
+  kind: 'mesh';
+  vertices: View;
+  triangles: View;
+  normals?: View | null;
+  displacements?: View | null;
+  nodes?: View | null;
+  generated?: boolean | null;
+}
+
+export type ShapeJson =
+  | MeshJson
+  | ({ kind: 'box' | 'ellipsoid'; size: Triple } & PlacedJson)
+  | ({
+      kind: 'file';
+      format: 'stl' | 'obj' | 'gltf' | 'glb';
+      bytes: { offset: number; length: number };
+      scale?: number | null;
+    } & PlacedJson);
+
+export interface ModesJson {
+  first: number;
+  count: number;
+  frequencies?: (number | null)[] | null;
+  names?: string[] | null;
+}
+
+export interface BodyJson {
+  name: string;
+  mass?: number | null;
+  facts?: [string, string][] | null;
+  modes?: ModesJson | null;
+  shape?: ShapeJson | null;
+  bound?: number | null;
+  size?: number | null;
+  fields?: FieldJson[] | null;
+  spiders?: { point: number; vertices: View }[] | null;
+}
+
+export interface PointJson {
+  name?: string | null;
+  body: number;
+  p: Triple;
+  modes?: Triple[] | null;
+}
+
+export interface JointJson {
+  name: string;
+  type: string;
+  a: number;
+  b: number;
+  axis?: Triple | null;
+  axes?: Quadruple | null;
+  cut?: boolean | null;
+}
+
+export interface ForceJson {
+  name: string;
+  type: string;
+  a: number;
+  b: number;
+  axis?: Triple | null;
+  radius?: number | null;
+  width?: number | null;
+  channel?: string | null;
+}
+
+export interface SceneJson {
+  frames: { time: View; pose: View; amplitudes?: View | null } | null;
+  origin?: Triple | null;
+  up?: Triple | null;
+  bodies: BodyJson[];
+  points?: PointJson[] | null;
+  joints?: JointJson[] | null;
+  forces?: ForceJson[] | null;
+  rods?: { name: string; a: number; b: number }[] | null;
+  roads?: { name: string; profile: View; width: [number, number] }[] | null;
+  gravity?: Triple | null;
+}
+
+export interface PageJson {
+  schema: number;
+  kind: PageKind;
+  title?: string | null;
+  program?: string | null;
+  compression?: string | null;
+  status?: { state?: string | null; sentences?: string[] | null; warnings?: string[] | null } | null;
+  facts?: TableJson[] | null;
+  tables?: TableJson[] | null;
+  curves?: CurvesJson | null;
+  trust?: { channels?: ChannelJson[] | null; rows?: string[][] | null } | null;
+  speed?: { rows?: string[][] | null; step_times?: { edges: number[]; counts: number[] } | null } | null;
+  scene?: SceneJson | null;
+}

@@ -1,0 +1,222 @@
+// Materials of flexible bodies: modes are blended in the vertex shader.
+//
+// Texel (vertex * modes + mode) of a texture of half floats holds the displacement of a vertex at amplitude one. The amplitudes of
+// all bodies are one small texture, the only thing that changes from frame to frame. Normals: the fragment shader knows the plane of
+// its triangle at rest and bent (derivatives of the interpolated places); the turn from one to the other is given to the smooth normal.
+
+import {
+  DataTexture,
+  DoubleSide,
+  FloatType,
+  HalfFloatType,
+  LineBasicMaterial,
+  MeshPhongMaterial,
+  NearestFilter,
+  RedFormat,
+  RGBAFormat,
+  type IUniform,
+  type Material,
+  type Texture,
+} from 'three';
+import type { BodyData, FieldData, MeshData } from '../data/scene_data';
+
+const WIDTH_BITS = 12;
+const WIDTH = 1 << WIDTH_BITS;
+const AMPLITUDE_BITS = 8;
+
+function texture(data: Uint16Array | Float32Array, width: number, height: number, format: typeof RGBAFormat | typeof RedFormat): DataTexture {
+  const result = new DataTexture(data as never, width, height, format, data instanceof Float32Array ? FloatType : HalfFloatType);
+  result.magFilter = NearestFilter;
+  result.minFilter = NearestFilter;
+  result.needsUpdate = true;
+  return result;
+}
+
+/** Half floats in rows of WIDTH texels, `parts` numbers given for each texel. */
+function halfTexture(values: Uint16Array, parts: 1 | 3): DataTexture {
+  const texels = values.length / parts;
+  const width = Math.min(WIDTH, Math.max(1, texels));
+  const height = Math.max(1, Math.ceil(texels / WIDTH));
+  if (parts === 1) {
+    const data = new Uint16Array(width * height);
+    data.set(values);
+    return texture(data, width, height, RedFormat);
+  }
+  const data = new Uint16Array(4 * width * height);
+  for (let i = 0, from = 0, to = 0; i < texels; ++i, from += 3, to += 4) {
+    data[to] = values[from];
+    data[to + 1] = values[from + 1];
+    data[to + 2] = values[from + 2];
+  }
+  return texture(data, width, height, RGBAFormat);
+}
+
+export class Amplitudes {
+  readonly texture: DataTexture;
+  private readonly data: Float32Array;
+
+  constructor(count: number) {
+    const width = 1 << AMPLITUDE_BITS;
+    this.data = new Float32Array(width * Math.max(1, Math.ceil(count / width)));
+    this.texture = texture(this.data, width, this.data.length / width, RedFormat);
+  }
+
+  set(values: Float32Array): void {
+    this.data.set(values);
+    this.texture.needsUpdate = true;
+  }
+}
+
+export interface SharedUniforms {
+  amplitudes: IUniform<Texture>;
+  deformation: IUniform<number>;
+  colourMap: IUniform<Texture>;
+}
+
+export interface BendingUniforms extends Record<string, IUniform> {
+  modeCount: IUniform<number>;
+  scalarKind: IUniform<number>;
+  scalarRange: IUniform<[number, number]>;
+}
+
+const VERTEX_DECLARATIONS = `
+attribute float source;
+uniform highp sampler2D modeTexture;
+uniform highp sampler2D amplitudeTexture;
+uniform highp sampler2D fieldTexture;
+uniform highp sampler2D fieldBase;
+uniform int modeCount;
+uniform int firstMode;
+uniform int vertexCount;
+uniform int scalarKind;
+uniform vec2 fieldFrame;
+uniform float deformation;
+varying vec3 restPlace;
+varying float scalarValue;
+float amplitude(int j) {
+  int i = firstMode + j;
+  return texelFetch(amplitudeTexture, ivec2(i & ${(1 << AMPLITUDE_BITS) - 1}, i >> ${AMPLITUDE_BITS}), 0).r;
+}
+ivec2 texel(int i) { return ivec2(i & ${WIDTH - 1}, i >> ${WIDTH_BITS}); }
+`;
+
+const VERTEX_BEGIN = `
+vec3 transformed = position;
+{
+  int vertex = int(source + 0.5);
+  int first = vertex * modeCount;
+  vec3 bent = vec3(0.0);
+  for (int j = 0; j < modeCount; ++j) bent += amplitude(j) * texelFetch(modeTexture, texel(first + j), 0).xyz;
+  transformed += deformation * bent;
+  restPlace = (modelViewMatrix * vec4(position, 1.0)).xyz;
+  scalarValue = length(bent);
+  if (scalarKind == 2) {
+    scalarValue = texelFetch(fieldBase, texel(vertex), 0).r;
+    for (int j = 0; j < modeCount; ++j) scalarValue += amplitude(j) * texelFetch(fieldTexture, texel(first + j), 0).r;
+  } else if (scalarKind == 3) {
+    int at = int(fieldFrame.x) * vertexCount + vertex;
+    float a = texelFetch(fieldTexture, texel(at), 0).r;
+    float b = fieldFrame.y > 0.0 ? texelFetch(fieldTexture, texel(at + vertexCount), 0).r : a;
+    scalarValue = mix(a, b, fieldFrame.y);
+  }
+}
+`;
+
+const FRAGMENT_DECLARATIONS = `
+varying vec3 restPlace;
+varying float scalarValue;
+uniform int scalarKind;
+uniform vec2 scalarRange;
+uniform sampler2D colourMap;
+`;
+
+const FRAGMENT_COLOUR = `
+if (scalarKind > 0) {
+  float part = clamp((scalarValue - scalarRange.x) / max(scalarRange.y - scalarRange.x, 1e-30), 0.0, 1.0);
+  diffuseColor.rgb = texture2D(colourMap, vec2((part * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+}
+`;
+
+const FRAGMENT_NORMAL = `
+{
+  vec3 before = cross(dFdx(restPlace), dFdy(restPlace));
+  vec3 after = cross(dFdx(-vViewPosition), dFdy(-vViewPosition));
+  float sizes = length(before) * length(after);
+  if (sizes > 0.0) {
+    vec3 turn = cross(before, after) / sizes;
+    float c = dot(before, after) / sizes;
+    if (c > -0.99) normal = normalize(normal * c + cross(turn, normal) + turn * dot(turn, normal) / (1.0 + c));
+  }
+}
+`;
+
+const none = texture(new Uint16Array(1), 1, 1, RedFormat);
+
+export class Bending {
+  readonly uniforms: BendingUniforms;
+  readonly surface: MeshPhongMaterial;
+  readonly lines: LineBasicMaterial;
+  private readonly fields = new Map<FieldData, Texture>();
+  private readonly bases = new Map<FieldData, Texture>();
+
+  constructor(body: BodyData, mesh: MeshData, shared: SharedUniforms, colour: string) {
+    this.uniforms = {
+      modeTexture: { value: mesh.modes ? halfTexture(mesh.modes, 3) : none },
+      amplitudeTexture: shared.amplitudes,
+      fieldTexture: { value: none },
+      fieldBase: { value: none },
+      modeCount: { value: mesh.modes ? body.modeCount : 0 },
+      firstMode: { value: body.firstMode },
+      vertexCount: { value: mesh.vertices.length / 3 },
+      scalarKind: { value: 0 },
+      scalarRange: { value: [0, 1] },
+      fieldFrame: { value: [0, 0] },
+      deformation: shared.deformation,
+      colourMap: shared.colourMap,
+    };
+    this.surface = new MeshPhongMaterial({ color: colour, specular: '#1d1f22', shininess: 28, side: DoubleSide });
+    // The surface lies a little behind its edges.
+    this.surface.polygonOffset = true;
+    this.surface.polygonOffsetFactor = 1;
+    this.surface.polygonOffsetUnits = 1;
+    this.inject(this.surface, true);
+    this.lines = new LineBasicMaterial({ color: '#1c2329', transparent: true, opacity: 0.45 });
+    this.inject(this.lines, false);
+  }
+
+  /** Colours by elastic displacement (null), a field of the body, or none (undefined). */
+  colourBy(field: FieldData | null | undefined, range: [number, number]): void {
+    this.uniforms.scalarRange.value = range;
+    if (field === undefined) this.uniforms.scalarKind.value = 0;
+    else if (field === null) this.uniforms.scalarKind.value = 1;
+    else {
+      if (!this.fields.has(field)) {
+        this.fields.set(field, halfTexture((field.modes ?? field.history)!, 1));
+        this.bases.set(field, field.base ? halfTexture(field.base, 1) : halfTexture(new Uint16Array(this.uniforms.vertexCount.value), 1));
+      }
+      this.uniforms.fieldTexture.value = this.fields.get(field)!;
+      this.uniforms.fieldBase.value = this.bases.get(field)!;
+      this.uniforms.scalarKind.value = field.modes ? 2 : 3;
+    }
+  }
+
+  setFrame(frame: number, part: number): void {
+    const value = this.uniforms.fieldFrame.value as [number, number];
+    value[0] = frame;
+    value[1] = part;
+  }
+
+  private inject(material: Material, shaded: boolean): void {
+    material.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, this.uniforms);
+      shader.vertexShader = VERTEX_DECLARATIONS + shader.vertexShader.replace('#include <begin_vertex>', VERTEX_BEGIN);
+      if (!shaded) return;
+      shader.fragmentShader =
+        FRAGMENT_DECLARATIONS +
+        shader.fragmentShader
+          .replace('#include <color_fragment>', `#include <color_fragment>\n${FRAGMENT_COLOUR}`)
+          .replace('#include <normal_fragment_begin>', `#include <normal_fragment_begin>\n${FRAGMENT_NORMAL}`);
+    };
+    material.customProgramCacheKey = () => (shaded ? 'bending surface' : 'bending lines');
+  }
+}

@@ -1,0 +1,146 @@
+// What is drawn of each body, in a group that has the body's frame.
+
+import { Box3, Color, Group, LineBasicMaterial, LineSegments, Mesh, type MeshPhongMaterial, Vector3 } from 'three';
+import type { BodyData, FieldData, SceneData } from '../data/scene_data';
+import type { Motion } from '../motion/motion';
+import { Bending, type SharedUniforms } from './bending';
+import { BODY_COLOURS } from './palette';
+import { buildSolid, buildSticks } from './solids';
+import { buildSurface } from './surface';
+import { buildTriad, plain } from './symbols';
+
+const HIGHLIGHT = new Color('#2f81c7');
+const NEUTRAL = new Color('#9ba3ab');
+
+export class BodyView {
+  readonly group = new Group();
+  readonly data: BodyData;
+  readonly bending: Bending | null = null;
+  readonly mesh: Mesh | null = null;
+  readonly colour: Color;
+  triad: Group | null = null;
+  private readonly material: MeshPhongMaterial;
+  private readonly lines: LineSegments | null = null;
+  private readonly restBox = new Box3();
+
+  constructor(scene: SceneData, body: BodyData, shared: SharedUniforms, modelSize: number, changed: () => void, report: (sentence: string) => void) {
+    this.data = body;
+    this.colour = new Color(BODY_COLOURS[body.index % BODY_COLOURS.length]);
+    const colour = `#${this.colour.getHexString()}`;
+    this.group.name = body.name;
+    if (body.mesh) {
+      const surface = buildSurface(body.mesh);
+      this.bending = new Bending(body, body.mesh, shared, colour);
+      this.material = this.bending.surface;
+      this.mesh = new Mesh(surface.geometry, this.material);
+      this.mesh.frustumCulled = false;
+      this.lines = new LineSegments(surface.edges, this.bending.lines);
+      this.lines.frustumCulled = false;
+      this.group.add(this.mesh, this.lines);
+      this.restBox.copy(surface.geometry.boundingBox!);
+    } else {
+      this.material = plain(colour);
+      const lines = new LineBasicMaterial({ color: '#1c2329', transparent: true, opacity: 0.35 });
+      const solid = body.solid
+        ? buildSolid(
+            body,
+            body.solid,
+            this.material,
+            lines,
+            () => {
+              this.measure();
+              changed();
+            },
+            report,
+          )
+        : buildSticks(
+            scene.points.filter((point) => point.body === body.index).map((point) => point.p),
+            0.006 * modelSize,
+            this.material,
+          );
+      this.group.add(solid);
+      this.measure();
+    }
+  }
+
+  get flexible(): boolean {
+    return this.bending !== null && this.data.mesh?.modes !== null && this.data.modeCount > 0;
+  }
+
+  /** Size of the undeformed body about its own frame. */
+  private measure(): void {
+    const position = this.group.position.clone();
+    const quaternion = this.group.quaternion.clone();
+    const parent = this.group.parent;
+    this.group.removeFromParent();
+    this.group.position.set(0, 0, 0);
+    this.group.quaternion.identity();
+    this.group.updateMatrixWorld(true);
+    this.restBox.setFromObject(this.group);
+    this.group.position.copy(position);
+    this.group.quaternion.copy(quaternion);
+    parent?.add(this.group);
+  }
+
+  box(out: Box3): Box3 {
+    this.group.updateMatrix();
+    if (this.restBox.isEmpty()) out.set(this.group.position, this.group.position);
+    else out.copy(this.restBox).applyMatrix4(this.group.matrix);
+    return out;
+  }
+
+  place(motion: Motion): void {
+    const b = this.data.index;
+    this.group.position.set(motion.position[3 * b], motion.position[3 * b + 1], motion.position[3 * b + 2]);
+    this.group.quaternion.set(motion.quaternion[4 * b], motion.quaternion[4 * b + 1], motion.quaternion[4 * b + 2], motion.quaternion[4 * b + 3]);
+    this.bending?.setFrame(motion.frame, motion.frame + 1 < motion.scene.time.length ? motion.part : 0);
+  }
+
+  /** Colours by displacement (null), a field, or the body's own colour (undefined). */
+  colourBy(field: FieldData | null | undefined, range: [number, number], neutral: boolean): void {
+    const coloured = field === undefined ? false : field === null ? this.flexible : (this.data.mesh?.fields.includes(field) ?? false);
+    this.bending?.colourBy(coloured ? field : undefined, range);
+    this.material.color.copy(neutral ? NEUTRAL : this.colour);
+  }
+
+  setSelected(selected: boolean): void {
+    this.material.emissive.copy(HIGHLIGHT);
+    this.material.emissiveIntensity = selected ? 0.28 : 0;
+  }
+
+  setGhost(ghost: boolean): void {
+    this.material.transparent = ghost;
+    this.material.opacity = ghost ? 0.35 : 1;
+    this.material.depthWrite = !ghost;
+  }
+
+  setEdges(visible: boolean): void {
+    this.group.traverse((object) => {
+      if (object instanceof LineSegments) object.visible = visible;
+    });
+  }
+
+  setWire(wire: boolean): void {
+    if (this.mesh) this.material.wireframe = wire;
+  }
+
+  setTriad(visible: boolean, size: number): void {
+    if (visible && !this.triad) {
+      this.triad = buildTriad(size);
+      this.group.add(this.triad);
+    }
+    if (this.triad) this.triad.visible = visible;
+  }
+}
+
+const corner = new Vector3();
+
+/** Radius about the frame that holds the undeformed body. */
+export function radiusOf(body: BodyData): number {
+  if (body.bound > 0) return body.bound;
+  let radius = 0;
+  const vertices = body.mesh?.vertices;
+  if (vertices) for (let i = 0; i < vertices.length; i += 3) radius = Math.max(radius, corner.set(vertices[i], vertices[i + 1], vertices[i + 2]).length());
+  else if (body.solid && body.solid.kind !== 'file') radius = Math.hypot(...body.solid.size) / 2 + Math.hypot(...body.solid.position);
+  return radius;
+}

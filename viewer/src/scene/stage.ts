@@ -1,0 +1,329 @@
+// The 3-D view: everything that is drawn, the camera, and what happens at each time.
+
+import { Box3, Color, DirectionalLight, Group, HemisphereLight, PerspectiveCamera, Quaternion, Scene, Sphere, Vector3, WebGLRenderer } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { Triple } from '../data/page';
+import type { FieldData, SceneData } from '../data/scene_data';
+import { niceBelow } from '../data/format';
+import { elastic, Motion } from '../motion/motion';
+import { Amplitudes, type SharedUniforms } from './bending';
+import { BodyView, radiusOf } from './bodies';
+import { Connections, type History, type Layer } from './connections';
+import { Annotations } from './annotations';
+import { buildRoad, Grid } from './ground';
+import { mapTexture, type MapName } from './palette';
+import { pick, rayThrough, type Pick } from './picking';
+
+export type ViewName = 'iso' | 'front' | 'side' | 'top';
+
+const DIRECTIONS: Record<ViewName, Triple> = { iso: [0.78, -1, 0.55], front: [1, 0, 0.02], side: [0, -1, 0.02], top: [0, -0.001, 1] };
+
+export interface ColourChoice {
+  /** Elastic displacement (null), a field by its name, or colours of bodies (undefined). */
+  field: string | null | undefined;
+  range: [number, number];
+  map: MapName;
+}
+
+export class Stage {
+  readonly canvas = document.createElement('canvas');
+  readonly renderer: WebGLRenderer;
+  readonly camera = new PerspectiveCamera(32, 1, 0.01, 1000);
+  readonly controls: OrbitControls;
+  readonly motion: Motion;
+  readonly bodies: BodyView[] = [];
+  readonly connections: Connections;
+  readonly annotations: Annotations;
+  readonly size: number;
+  readonly root = new Group();
+  readonly scene: SceneData;
+  readonly grid: Grid;
+  readonly roads = new Group();
+  deformation = 1;
+  follow = -1;
+  selected: { body: number; vertex: number | null } | null = null;
+  /** Sets amplitudes at a time where no motion is recorded (modes of a part). */
+  shape: ((time: number) => void) | null = null;
+  private readonly world = new Scene();
+  private readonly amplitudes: Amplitudes;
+  private readonly shared: SharedUniforms;
+  private readonly roadLooks: ReturnType<typeof buildRoad>[] = [];
+  private readonly followed = new Vector3();
+  private readonly sky = new HemisphereLight('#ffffff', '#8d9299', 1.55);
+  private readonly sun = new DirectionalLight('#ffffff', 1.9);
+  private readonly fill = new DirectionalLight('#dfe9f5', 0.5);
+  private dirty = true;
+  private viewListeners: (() => void)[] = [];
+
+  /** Throws if the browser gives no WebGL. */
+  constructor(scene: SceneData, history: (channel: string) => History | null, report: (sentence: string) => void) {
+    this.scene = scene;
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, powerPreference: 'high-performance' });
+    this.renderer.debug.checkShaderErrors = true;
+    this.motion = new Motion(scene);
+    this.root.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(...scene.up).normalize(), new Vector3(0, 0, 1)));
+    this.amplitudes = new Amplitudes(scene.amplitudeCount);
+    this.shared = { amplitudes: { value: this.amplitudes.texture }, deformation: { value: 1 }, colourMap: { value: mapTexture('viridis') } };
+    this.size = this.modelSize();
+    const changed = (): void => this.invalidate();
+    for (const body of scene.bodies) {
+      const view = new BodyView(scene, body, this.shared, this.size, changed, report);
+      this.bodies.push(view);
+      this.root.add(view.group);
+    }
+    this.connections = new Connections(scene, this.size, history);
+    this.annotations = new Annotations(this);
+    this.root.add(this.connections.root, this.roads);
+    const level = this.groundLevel();
+    for (const road of scene.roads) {
+      let base = level;
+      for (let i = 1; i < road.profile.length; i += 2) base = Math.min(base, road.profile[i] - 0.02 * this.size);
+      const built = buildRoad(road, base);
+      this.roadLooks.push(built);
+      this.roads.add(built.group);
+    }
+    this.grid = new Grid(niceBelow(this.size / 6), level - (scene.roads.length > 0 ? 0.02 * this.size : 0), 14 * this.size);
+    this.sun.position.set(0.45, -0.8, 1.4);
+    this.fill.position.set(-0.8, 0.6, 0.25);
+    this.world.add(this.root, this.grid.mesh, this.sky, this.sun, this.fill);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.enableDamping = true;
+    this.controls.dampingFactor = 0.16;
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener('change', () => {
+      this.dirty = true;
+      for (const listener of this.viewListeners) listener();
+    });
+    this.go(this.motion.scene.time[0] ?? 0);
+  }
+
+  /** What looks at the camera: scale bar, axes. */
+  onView(listener: () => void): void {
+    this.viewListeners.push(listener);
+  }
+
+  invalidate(): void {
+    this.dirty = true;
+  }
+
+  private modelSize(): number {
+    const box = new Box3();
+    for (const body of this.scene.bodies) {
+      const at = this.motion.toWorld(body.index, 0, 0, 0);
+      const radius = radiusOf(body);
+      box.union(new Sphere(new Vector3(...at), radius).getBoundingBox(new Box3()));
+    }
+    for (const point of this.scene.points) if (point.body >= -1) box.expandByPoint(new Vector3(...this.motion.pointPosition(point, 0)));
+    const size = box.getSize(new Vector3()).length();
+    // Balls about frames are larger than what they hold.
+    return size > 0 ? 0.75 * size : 1;
+  }
+
+  /** Zero where bodies stand near it, else below the lowest place of the run. */
+  private groundLevel(): number {
+    let lowest = Infinity;
+    const radii = this.scene.bodies.map((body) => Math.min(radiusOf(body), 0.1 * this.size));
+    const n = this.scene.time.length;
+    const probe = new Vector3();
+    for (let k = 0; k < Math.max(1, Math.min(n, 60)); ++k) {
+      if (n > 0) this.motion.go(this.scene.time[Math.floor((k * (n - 1)) / Math.max(1, Math.min(n, 60) - 1))]);
+      this.bodies.forEach((_, b) => {
+        probe.set(...this.motion.toWorld(b, 0, 0, 0)).applyQuaternion(this.root.quaternion);
+        lowest = Math.min(lowest, probe.z - radii[b]);
+      });
+      for (const point of this.scene.points) {
+        if (point.body < 0) continue;
+        probe.set(...this.motion.pointPosition(point, 0)).applyQuaternion(this.root.quaternion);
+        lowest = Math.min(lowest, probe.z);
+      }
+    }
+    if (n > 0) this.motion.go(this.scene.time[0]);
+    const zero = -this.scene.origin[2];
+    if (this.scene.roads.length > 0) return Math.min(...this.scene.roads.map((road) => road.profile.reduce((low, z, i) => (i % 2 ? Math.min(low, z) : low), Infinity)));
+    const near = lowest >= zero - 0.12 * this.size && lowest < zero + 1.2 * this.size;
+    return near ? Math.min(zero, lowest) : lowest - 0.05 * this.size;
+  }
+
+  setTheme(dark: boolean): void {
+    (this.grid.material.uniforms.ink.value as Color).set(dark ? '#8b9cae' : '#5b6b7b');
+    this.sky.intensity = dark ? 1.4 : 1.75;
+    this.sky.groundColor.set(dark ? '#6b737c' : '#a3a9b0');
+    for (const road of this.roadLooks) {
+      road.surface.color.set(dark ? '#5d656e' : '#b3bac2');
+      road.lines.color.set(dark ? '#a7b3bf' : '#56616c');
+    }
+    for (const view of this.bodies) {
+      view.bending?.lines.color.set(dark ? '#0c0f12' : '#1c2329');
+    }
+    this.annotations.setTheme(dark);
+    this.invalidate();
+  }
+
+  setColour(choice: ColourChoice): void {
+    this.shared.colourMap.value = mapTexture(choice.map);
+    for (const view of this.bodies) {
+      const field = typeof choice.field === 'string' ? (view.data.mesh?.fields.find((f: FieldData) => f.name === choice.field) ?? undefined) : choice.field;
+      view.colourBy(field, choice.range, choice.field !== undefined);
+    }
+    this.invalidate();
+  }
+
+  setDeformation(scale: number): void {
+    this.deformation = scale;
+    this.shared.deformation.value = scale;
+    this.refresh();
+  }
+
+  setLayer(layer: Layer, visible: boolean): void {
+    this.connections.layers[layer].visible = visible;
+    this.invalidate();
+  }
+
+  setVisible(body: number, visible: boolean): void {
+    this.bodies[body].group.visible = visible;
+    this.connections.hideWith((b) => this.bodies[b].group.visible);
+    this.annotations.refresh();
+    this.invalidate();
+  }
+
+  setFollow(body: number): void {
+    this.follow = body;
+    if (body >= 0) this.followed.copy(this.bodyWorld(body));
+  }
+
+  select(body: number, vertex: number | null): void {
+    this.selected = body >= 0 ? { body, vertex } : null;
+    this.bodies.forEach((view, b) => view.setSelected(b === body));
+    this.annotations.mark();
+    this.invalidate();
+  }
+
+  private bodyWorld(body: number): Vector3 {
+    return new Vector3(...this.motion.toWorld(body, 0, 0, 0)).applyQuaternion(this.root.quaternion);
+  }
+
+  private time = 0;
+
+  /** All places at a time. No work per vertex. */
+  go(time: number): void {
+    this.time = time;
+    this.motion.go(time);
+    this.shape?.(time);
+    this.refresh();
+  }
+
+  refresh(): void {
+    this.amplitudes.set(this.motion.amplitudes);
+    for (const view of this.bodies) view.place(this.motion);
+    this.connections.update(this.motion, this.deformation, this.time);
+    this.annotations.update();
+    if (this.follow >= 0) {
+      const now = this.bodyWorld(this.follow);
+      const shift = now.clone().sub(this.followed);
+      this.camera.position.add(shift);
+      this.controls.target.add(shift);
+      this.followed.copy(now);
+    }
+    this.invalidate();
+  }
+
+  /** Place of a vertex in the world, relative to the scene's origin, as drawn. */
+  vertexPosition(body: number, vertex: number): Triple {
+    const data = this.scene.bodies[body];
+    const { vertices } = data.mesh!;
+    const u = elastic(data, vertex, this.motion.amplitudes, data.firstMode);
+    const s = this.deformation;
+    return this.motion.toWorld(body, vertices[3 * vertex] + s * u[0], vertices[3 * vertex + 1] + s * u[1], vertices[3 * vertex + 2] + s * u[2]);
+  }
+
+  private sceneBox(): Box3 {
+    const box = new Box3();
+    const part = new Box3();
+    const any = this.bodies.some((view) => view.group.visible);
+    for (const view of this.bodies) if (view.group.visible || !any) box.union(view.box(part));
+    if (this.connections.layers.tyres.visible) {
+      for (const force of this.scene.forces) {
+        if (!force.radius || force.a < 0) continue;
+        const point = this.scene.points[force.a];
+        if (point.body >= 0 && !this.bodies[point.body].group.visible) continue;
+        box.union(new Sphere(new Vector3(...this.motion.pointPosition(point, this.deformation)), force.radius).getBoundingBox(part));
+      }
+    }
+    return box.applyMatrix4(this.root.matrixWorld);
+  }
+
+  fit(direction?: Vector3): void {
+    this.root.updateMatrixWorld(true);
+    const box = this.sceneBox();
+    if (box.isEmpty()) return;
+    const centre = box.getCenter(new Vector3());
+    const from = direction?.clone() ?? this.camera.position.clone().sub(this.controls.target);
+    if (from.lengthSq() === 0) from.set(...DIRECTIONS.iso);
+    from.normalize();
+    const right = new Vector3().crossVectors(this.camera.up, from).normalize();
+    const up = new Vector3().crossVectors(from, right).normalize();
+    const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
+    let distance = 1e-6;
+    // The distance from which all corners are inside the picture, with a margin.
+    for (let k = 0; k < 8; ++k) {
+      const corner = new Vector3(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z).sub(centre);
+      const depth = corner.dot(from);
+      distance = Math.max(distance, depth + (1.14 * Math.abs(corner.dot(up))) / tangent, depth + (1.1 * Math.abs(corner.dot(right))) / (tangent * this.camera.aspect));
+    }
+    distance = Math.max(distance, 0.05 * this.size);
+    this.controls.target.copy(centre);
+    this.camera.position.copy(centre).addScaledVector(from, distance);
+    this.controls.update();
+    if (this.follow >= 0) this.followed.copy(this.bodyWorld(this.follow));
+    for (const listener of this.viewListeners) listener();
+    this.invalidate();
+  }
+
+  standard(name: ViewName): void {
+    this.fit(new Vector3(...DIRECTIONS[name]));
+  }
+
+  resize(width: number, height: number): void {
+    if (width <= 0 || height <= 0) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.annotations.resize(height, this.camera.fov);
+    for (const listener of this.viewListeners) listener();
+    this.invalidate();
+  }
+
+  /** Metres of one pixel at the place that the camera turns about. */
+  pixelSize(): number {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    return (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.max(1, this.canvas.clientHeight);
+  }
+
+  /** Draws if anything changed; true if it did. */
+  draw(force = false): boolean {
+    this.controls.update();
+    if (!this.dirty && !force) return false;
+    this.dirty = false;
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    this.camera.near = Math.max(distance / 200, 1e-5 * this.size);
+    this.camera.far = distance + 30 * this.size;
+    this.camera.updateProjectionMatrix();
+    this.grid.focus(this.controls.target.x, this.controls.target.y);
+    this.renderer.render(this.world, this.camera);
+    return true;
+  }
+
+  pickAt(clientX: number, clientY: number): Pick | null {
+    const box = this.canvas.getBoundingClientRect();
+    const x = ((clientX - box.left) / box.width) * 2 - 1;
+    const y = 1 - ((clientY - box.top) / box.height) * 2;
+    this.root.updateMatrixWorld(true);
+    const tyres = this.scene.forces
+      .filter((force) => /tyre|tire|wheel/.test((force.type ?? '').toLowerCase()) && force.a >= 0)
+      .map((force, k) => ({ object: this.connections.layers.tyres.children[k], body: this.scene.points[force.a].body }))
+      .filter((tyre) => tyre.object && tyre.body >= 0);
+    return pick(this.bodies, this.motion, this.deformation, rayThrough(x, y, this.camera), tyres);
+  }
+}

@@ -1,0 +1,67 @@
+// Which scalar the surfaces are coloured by, and its range over the run.
+
+import type { SceneData } from '../data/scene_data';
+import { fieldRange, largestDisplacement } from '../motion/elastic_range';
+import type { MapName } from '../scene/palette';
+import type { ColourChoice } from '../scene/stage';
+
+export interface Scalar {
+  /** null: elastic displacement. */
+  field: string | null;
+  label: string;
+  unit: string;
+}
+
+export class Colours {
+  readonly scalars: Scalar[] = [];
+  map: MapName = 'viridis';
+  private readonly scene: SceneData;
+  private readonly ranges = new Map<string | null, [number, number]>();
+  /** Largest displacement of each body. */
+  readonly largest: Float64Array;
+
+  constructor(scene: SceneData) {
+    this.scene = scene;
+    this.largest = new Float64Array(scene.bodies.length);
+    const flexible = scene.bodies.filter((body) => body.mesh?.modes);
+    if (flexible.length > 0) this.scalars.push({ field: null, label: 'Elastic displacement', unit: 'm' });
+    for (const body of scene.bodies) {
+      for (const field of body.mesh?.fields ?? []) {
+        if (!this.scalars.some((scalar) => scalar.field === field.name)) this.scalars.push({ field: field.name, label: field.name, unit: field.unit });
+      }
+    }
+    for (const body of flexible) this.largest[body.index] = largestDisplacement(scene, body);
+    const most = this.largest.reduce((a, b) => Math.max(a, b), 0);
+    this.ranges.set(null, [0, most > 0 ? most : 1e-6]);
+  }
+
+  setRange(field: string | null, range: [number, number]): void {
+    this.ranges.set(field, range);
+  }
+
+  private range(field: string | null): [number, number] {
+    const known = this.ranges.get(field);
+    if (known) return known;
+    let low = Infinity;
+    let high = -Infinity;
+    for (const body of this.scene.bodies) {
+      for (const candidate of body.mesh?.fields ?? []) {
+        const range = candidate.name === field ? fieldRange(this.scene, body, candidate) : null;
+        if (!range) continue;
+        low = Math.min(low, range[0]);
+        high = Math.max(high, range[1]);
+      }
+    }
+    const range: [number, number] = low < high ? [low, high] : Number.isFinite(low) ? [low - 0.5, low + 0.5] : [0, 1];
+    this.ranges.set(field, range);
+    return range;
+  }
+
+  choice(field: string | null | undefined): ColourChoice {
+    return { field, range: field === undefined ? [0, 1] : this.range(field), map: this.map };
+  }
+
+  unit(field: string | null | undefined): string {
+    return this.scalars.find((scalar) => scalar.field === field)?.unit ?? '';
+  }
+}

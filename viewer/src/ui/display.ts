@@ -1,0 +1,128 @@
+// Settings of the view: deformation, colours, camera, layers.
+
+import type { SceneData } from '../data/scene_data';
+import type { Layer } from '../scene/connections';
+import type { MapName } from '../scene/palette';
+import type { Stage } from '../scene/stage';
+import type { Colours } from './colours';
+import { check, h } from './dom';
+import type { Legend } from './legend';
+
+const MOST = 1000;
+
+export class Display {
+  readonly element = h('div', { class: 'display' });
+  private readonly stage: Stage;
+  private readonly colours: Colours;
+  private readonly legend: Legend;
+  private readonly relative: boolean;
+  private field: string | null | undefined;
+  private follow: HTMLSelectElement | null = null;
+  readonly slider: HTMLInputElement;
+  private readonly sliderText = h('output', {});
+
+  constructor(stage: Stage, colours: Colours, legend: Legend) {
+    this.stage = stage;
+    this.colours = colours;
+    this.legend = legend;
+    const { scene } = stage;
+    this.relative = scene.kind === 'reduce';
+    this.field = scene.kind === 'check' || colours.scalars.length === 0 ? undefined : colours.scalars[0].field;
+    const [low, high] = this.relative ? [-1, 1] : [0, Math.log10(MOST)];
+    this.slider = h('input', { type: 'range', min: low, max: high, step: 0.01, value: 0, 'aria-label': 'Deformation scale' });
+    this.slider.addEventListener('input', () => this.setDeformation(10 ** Number(this.slider.value)));
+    if (scene.bodies.some((body) => body.mesh?.modes)) {
+      this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, h('span', {}, 'Deformation'), this.sliderText), this.slider));
+    }
+    if (colours.scalars.length > 0) this.addColours();
+    if (scene.time.length > 1) this.addFollow(scene);
+    this.addLayers(scene);
+    this.setDeformation(1);
+    this.apply();
+  }
+
+  setDeformation(scale: number): void {
+    const rounded = scale < 10 ? Math.round(scale * 100) / 100 : scale < 100 ? Math.round(scale * 10) / 10 : Math.round(scale);
+    this.stage.setDeformation(rounded);
+    this.slider.value = String(Math.log10(rounded));
+    this.sliderText.textContent = `${rounded}×`;
+    this.slider.setAttribute('aria-valuetext', `${rounded} times`);
+    const part = (Number(this.slider.value) - Number(this.slider.min)) / (Number(this.slider.max) - Number(this.slider.min));
+    this.slider.style.setProperty('--part', `${(100 * part).toFixed(1)}%`);
+  }
+
+  apply(): void {
+    const choice = this.colours.choice(this.field);
+    this.stage.setColour(choice);
+    this.legend.show(choice, this.colours.unit(this.field), this.relative && this.field === null);
+  }
+
+  setFollow(body: number): void {
+    this.stage.setFollow(body);
+    if (this.follow) this.follow.value = String(body);
+  }
+
+  private addColours(): void {
+    const BODIES = 'bodies';
+    const select = h(
+      'select',
+      { class: 'field', 'aria-label': 'Colour by' },
+      ...this.colours.scalars.map((scalar, k) => h('option', { value: k, selected: scalar.field === this.field && this.field !== undefined }, scalar.label)),
+      h('option', { value: BODIES, selected: this.field === undefined }, 'Bodies'),
+    );
+    select.addEventListener('change', () => {
+      this.field = select.value === BODIES ? undefined : this.colours.scalars[Number(select.value)].field;
+      this.apply();
+    });
+    const map = h('select', { class: 'field', 'aria-label': 'Colour map' }, h('option', { value: 'viridis' }, 'Viridis'), h('option', { value: 'cividis' }, 'Cividis'));
+    map.addEventListener('change', () => {
+      this.colours.map = map.value as MapName;
+      this.apply();
+    });
+    this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Colour'), h('div', { class: 'row' }, select, map)));
+  }
+
+  private addFollow(scene: SceneData): void {
+    this.follow = h('select', { class: 'field', 'aria-label': 'Camera follows' }, h('option', { value: -1 }, 'Stands still'), ...scene.bodies.map((body) => h('option', { value: body.index }, `Follows ${body.name}`)));
+    this.follow.addEventListener('change', () => this.stage.setFollow(Number(this.follow!.value)));
+    this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Camera'), this.follow));
+    // A model that leaves its place is followed at its heaviest body.
+    const heaviest = scene.bodies.reduce((best, body) => ((body.mass ?? 0) > (scene.bodies[best].mass ?? 0) ? body.index : best), 0);
+    const last = 7 * (scene.bodies.length * (scene.time.length - 1) + heaviest);
+    const way = Math.hypot(...[0, 1, 2].map((i) => scene.pose[last + i] - scene.pose[7 * heaviest + i]));
+    if (way > 1.2 * this.stage.size) this.setFollow(heaviest);
+  }
+
+  private addLayers(scene: SceneData): void {
+    const { stage } = this;
+    const checking = scene.kind === 'check';
+    const layers = h('div', { class: 'layers' });
+    const add = (label: string, on: boolean, set: (on: boolean) => void): void => {
+      set(on);
+      layers.append(check(label, on, set));
+    };
+    const layer = (label: string, name: Layer, on: boolean): void => {
+      if (stage.connections.count(name) > 0) add(label, on, (visible) => stage.setLayer(name, visible));
+    };
+    if (stage.annotations.nameCount > 0) add('Names', checking, (on) => stage.annotations.setNames(on));
+    layer('Joints', 'joints', checking);
+    layer('Springs, rods', 'springs', true);
+    layer('Tyres', 'tyres', true);
+    layer('Forces', 'loads', checking);
+    add('Body axes', checking, (on) => {
+      for (const view of stage.bodies) view.setTriad(on, 0.05 * stage.size);
+      stage.invalidate();
+    });
+    if (scene.roads.length > 0) add('Road', true, (on) => this.show(() => (stage.roads.visible = on)));
+    add('Ground', true, (on) => this.show(() => (stage.grid.mesh.visible = on)));
+    add('Edges', true, (on) => this.show(() => stage.bodies.forEach((view) => view.setEdges(on))));
+    if (scene.bodies.some((body) => body.mesh)) add('Mesh only', false, (on) => this.show(() => stage.bodies.forEach((view) => view.setWire(on))));
+    if (stage.annotations.spiders.children.length > 0) add('Interfaces', true, (on) => this.show(() => (stage.annotations.spiders.visible = on)));
+    this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Shown'), layers));
+  }
+
+  private show(change: () => void): void {
+    change();
+    this.stage.invalidate();
+  }
+}

@@ -1,0 +1,205 @@
+// The section of the 3-D view: the picture, its tools, the player, the panel beside it.
+
+import type { SceneData } from '../data/scene_data';
+import { Player } from '../motion/player';
+import type { History } from '../scene/connections';
+import { Stage, type ViewName } from '../scene/stage';
+import { BodyList } from './body_list';
+import { Colours } from './colours';
+import { Display } from './display';
+import { button, h } from './dom';
+import { buildGizmo } from './gizmo';
+import type { Hub } from './hub';
+import { Legend } from './legend';
+import { ModeList, SWING } from './modes';
+import { PlayerBar } from './player_bar';
+import { saveScreenshot, takePicture } from './screenshot';
+import { Selection } from './selection';
+import { isDark, onTheme } from './theme';
+
+const VIEWS: [ViewName, string][] = [
+  ['iso', 'Iso'],
+  ['front', 'Front'],
+  ['side', 'Side'],
+  ['top', 'Top'],
+];
+
+function instants(scene: SceneData): ArrayLike<number> {
+  if (scene.kind === 'reduce') return Array.from({ length: 49 }, (_, k) => (SWING * k) / 48);
+  return scene.time.length > 0 ? scene.time : [0];
+}
+
+export class ViewSection {
+  readonly element: HTMLElement;
+  readonly stage: Stage;
+  readonly player: Player;
+  readonly display: Display;
+  readonly bodies: BodyList;
+  readonly modes: ModeList | null = null;
+  readonly legend = new Legend();
+  private readonly selection: Selection;
+  private readonly bar: PlayerBar;
+  private readonly frame: HTMLElement;
+  private readonly tabs: { button: HTMLButtonElement; panel: HTMLElement }[] = [];
+  private readonly title: string;
+  private readonly scriptTimes = new Float32Array(120);
+  private scriptCount = 0;
+  private before = 0;
+  private frames = 0;
+  private since = 0;
+  rate = 0;
+
+  constructor(scene: SceneData, hub: Hub, history: (channel: string) => History | null, title: string, report: (sentence: string) => void) {
+    this.title = title;
+    this.stage = new Stage(scene, history, report);
+    this.player = new Player(instants(scene));
+    hub.player = this.player;
+    this.player.onTime(() => hub.tellTime());
+    const colours = new Colours(scene);
+    if (scene.kind === 'reduce') {
+      colours.setRange(null, ModeList.range(scene));
+      this.modes = new ModeList(this.stage, this.player);
+    }
+    this.stage.setTheme(isDark());
+    onTheme((dark) => this.stage.setTheme(dark));
+    this.display = new Display(this.stage, colours, this.legend);
+    this.bodies = new BodyList(this.stage, (body) => this.choose(body, null, true));
+    this.selection = new Selection(this.stage, hub, colours.largest);
+    this.bar = new PlayerBar(this.player, 's');
+    this.stage.canvas.className = 'canvas';
+    this.stage.canvas.tabIndex = 0;
+    this.stage.canvas.setAttribute('aria-label', 'The model in three dimensions. Drag to turn, wheel to come nearer, right button to move.');
+    const tools = h(
+      'div',
+      { class: 'view-tools no-print' },
+      h('div', { class: 'segmented', role: 'group', 'aria-label': 'Standard views' }, ...VIEWS.map(([name, label], k) => h('button', { type: 'button', title: `${label} view (${k + 1})`, onclick: () => this.stage.standard(name) }, label))),
+      button('fit', 'Fit (F)', () => this.stage.fit()),
+      button('camera', 'Save a picture', () => this.screenshot()),
+      button('full', 'Full screen', () => this.fullScreen()),
+    );
+    this.frame = h('div', { class: 'frame' }, this.stage.canvas, tools, buildGizmo(this.stage), this.legend.element);
+    const side = this.buildSide();
+    this.element = h('section', { id: 'view', class: 'card view', 'aria-label': '3-D view' }, h('div', { class: 'view-main' }, this.frame, this.player.moves ? this.bar.element : null), side);
+    this.listenToPointer();
+    this.player.onTime(() => this.stage.go(this.player.time));
+    new ResizeObserver(() => this.resize()).observe(this.frame);
+    window.addEventListener('beforeprint', () => this.stage.draw(true));
+  }
+
+  /** After the section has its place on the page. */
+  start(): void {
+    this.resize();
+    this.stage.standard('iso');
+    if (this.modes && !window.matchMedia('(prefers-reduced-motion: reduce)').matches) this.player.play();
+    const tick = (now: number): void => {
+      this.tick(now);
+      requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  choose(body: number, vertex: number | null, open: boolean): void {
+    this.stage.select(body, vertex);
+    this.bodies.choose(body);
+    this.selection.show(body, vertex);
+    if (open && body >= 0) this.openTab(this.tabs.length - 1);
+  }
+
+  screenshot(): void {
+    this.stage.draw(true);
+    void saveScreenshot(this.picture(), `${this.title}-${this.player.time.toFixed(3)}s.png`);
+  }
+
+  /** The picture with its legend, as it would be saved. */
+  picture(): HTMLCanvasElement {
+    this.stage.draw(true);
+    return takePicture(this.stage.canvas, this.legend, `${this.title}${this.player.moves && !this.modes ? `, ${this.player.time.toFixed(3)} s` : ''}`);
+  }
+
+  /** Mean script time of the last pictures, milliseconds: places, uniforms and the calls that draw. */
+  scriptTime(): number {
+    const n = Math.min(this.scriptCount, this.scriptTimes.length);
+    let sum = 0;
+    for (let i = 0; i < n; ++i) sum += this.scriptTimes[i];
+    return n > 0 ? sum / n : 0;
+  }
+
+  resetScriptTime(): void {
+    this.scriptCount = 0;
+  }
+
+  private tick(now: number): void {
+    const seconds = this.before > 0 ? Math.min(0.25, (now - this.before) / 1000) : 0;
+    this.before = now;
+    const begin = performance.now();
+    this.player.advance(seconds);
+    if (this.stage.draw()) {
+      this.scriptTimes[this.scriptCount++ % this.scriptTimes.length] = performance.now() - begin;
+      ++this.frames;
+    }
+    if (now - this.since > 500) {
+      this.rate = (1000 * this.frames) / (now - this.since);
+      this.bar.showRate(this.rate);
+      this.frames = 0;
+      this.since = now;
+    }
+  }
+
+  private resize(): void {
+    this.stage.resize(this.frame.clientWidth, this.frame.clientHeight);
+    this.stage.draw(true);
+  }
+
+  private fullScreen(): void {
+    if (document.fullscreenElement) void document.exitFullscreen();
+    else void this.element.requestFullscreen?.();
+  }
+
+  private buildSide(): HTMLElement {
+    const panels: [string, HTMLElement][] = [];
+    if (this.modes && this.modes.count > 0) panels.push(['Modes', this.modes.element]);
+    panels.push(['Display', this.display.element], ['Bodies', this.bodies.element], ['Selection', this.selection.element]);
+    const list = h('div', { class: 'tabs', role: 'tablist' });
+    const side = h('div', { class: 'side no-print' }, list);
+    panels.forEach(([label, content], k) => {
+      const panel = h('div', { class: 'panel', role: 'tabpanel', id: `panel-${k}`, 'aria-labelledby': `tab-${k}`, tabindex: -1 }, content);
+      const tab = h('button', { type: 'button', role: 'tab', id: `tab-${k}`, 'aria-controls': `panel-${k}`, onclick: () => this.openTab(k) }, label);
+      tab.addEventListener('keydown', (event) => {
+        const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
+        if (step === 0) return;
+        event.preventDefault();
+        event.stopPropagation();
+        const next = (k + step + this.tabs.length) % this.tabs.length;
+        this.openTab(next);
+        this.tabs[next].button.focus();
+      });
+      list.append(tab);
+      side.append(panel);
+      this.tabs.push({ button: tab, panel });
+    });
+    this.openTab(0);
+    return side;
+  }
+
+  private openTab(index: number): void {
+    this.tabs.forEach(({ button: tab, panel }, k) => {
+      tab.setAttribute('aria-selected', String(k === index));
+      tab.tabIndex = k === index ? 0 : -1;
+      panel.hidden = k !== index;
+    });
+  }
+
+  private listenToPointer(): void {
+    let down: { x: number; y: number } | null = null;
+    this.stage.canvas.addEventListener('pointerdown', (event) => (down = event.button === 0 ? { x: event.clientX, y: event.clientY } : null));
+    this.stage.canvas.addEventListener('pointerup', (event) => {
+      if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 4) return;
+      const found = this.stage.pickAt(event.clientX, event.clientY);
+      this.choose(found?.body ?? -1, found?.vertex ?? null, true);
+    });
+    this.stage.canvas.addEventListener('dblclick', (event) => {
+      const found = this.stage.pickAt(event.clientX, event.clientY);
+      if (!found) this.stage.fit();
+    });
+  }
+}

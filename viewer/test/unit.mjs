@@ -1,0 +1,3 @@
+import { runTests } from './tools.mjs';
+
+await runTests('test/unit');
