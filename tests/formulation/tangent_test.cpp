@@ -5,7 +5,8 @@
 // and multipliers of point and distance constraints. That is all of dr/dq for rigid bodies, and for
 // constraints on flexible bodies in absolute coordinates. Left out on purpose, because a Newton
 // iteration multiplies it with s = h^2/4:
-//   - geometric stiffness of direction rows (perpendicular, in_line, drives);
+//   - geometric stiffness of direction rows (perpendicular, in_line, drives), but for those that
+//     hold a body without mass in absolute coordinates;
 //   - second derivatives of a marker's motion with respect to modal amplitudes;
 //   - relative: that a force between two bodies turns with the body that carries both.
 // In relative coordinates an increment of a ball joint is a rotation vector, and dr/dq is not
@@ -20,10 +21,11 @@ namespace {
 
 enum class Closure { none, spherical, revolute, rod, spring_to_ground, spring_between };
 
-Model build_chain(JointType middle, Closure closure, int modes) {
+Model build_chain(JointType middle, Closure closure, int modes, bool massless = false) {
   RandomSystem s(40 + static_cast<unsigned>(middle));
   s.d.gravity.setZero();
   for (const char* name : {"a", "b", "c"}) s.add_body(name, modes);
+  if (massless) s.d.bodies[1].kind = RigidDescription();
   s.add_joint("first", JointType::revolute, ground_name, 0, "a", 0);
   s.add_joint("middle", middle, "a", 1, "b", 0);
   s.add_joint("last", JointType::revolute, "b", 1, "c", 0);
@@ -64,6 +66,11 @@ struct Tangent {
   double difference = 0.0, mass = 0.0, stiffness = 0.0;
 };
 
+bool has_mass(const Model& model, int marker) {
+  const int body = model.markers[marker].body;
+  return body < 0 || model.bodies[body].data->invariants.m > 0.0;
+}
+
 template <class F>
 Tangent compare(F& f, const VecX& q, double s, double alpha) {
   const int n = f.velocities();
@@ -71,7 +78,8 @@ Tangent compare(F& f, const VecX& q, double s, double alpha) {
   VecX lambda = Random(3).vector(f.constraints(), 10.0);
   for (std::size_t k = 0; k < f.constraint_set().parts().size(); ++k) {
     const ConstraintPart& part = f.constraint_set().parts()[k];
-    if (constraint_kind(part.type).gradients == PartGradients::general)
+    if (constraint_kind(part.type).gradients == PartGradients::general &&
+        has_mass(f.model(), part.a) && has_mass(f.model(), part.b))
       lambda.segment(f.constraint_set().offset(k), part.rows()).setZero();
   }
   VecX plus(n), minus(n), q1 = q;
@@ -155,6 +163,19 @@ TEST_P(TangentOfJoint, AbsoluteConstraintsOnFlexibleBodiesAreExactToo) {
     const Tangent t = compare(absolute, qa, 1e-2, 10.0);
     EXPECT_LT(t.difference, 1e-8 * (t.mass + t.stiffness)) << static_cast<int>(closure);
   }
+}
+
+TEST_P(TangentOfJoint, TurningOfTheJointsOfABodyWithoutMassIsInIt) {
+  const Model m = build_chain(GetParam(), Closure::none, 0, true);
+  RelativeFormulation relative(m, InertiaMethod::preprocessing);
+  AbsoluteFormulation absolute(m, InertiaMethod::preprocessing);
+  Random random(5);
+  VecX q, v, qa, va;
+  random_configuration(relative, random, q, v);
+  absolute.start_from(relative, q, v, qa, va);
+  const double s = 1e-2;
+  const Tangent t = compare(absolute, qa, s, 10.0);
+  EXPECT_LT(t.difference, 1e-9 * (t.mass + s * t.stiffness));
 }
 
 // What is left out is small beside the mass at a step of a millisecond.

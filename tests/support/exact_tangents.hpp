@@ -23,13 +23,7 @@ inline ForceTangent exact_tangent(const ForceInput& in) {
 inline Mat12 exact_curvature(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                              const double* lambda) {
   Mat12 K = Mat12::Zero();
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    ((part.type == constraint_types[I]
-          ? constraint_curvature_of<constraint_types[I]>(part, a, b, lambda, K)
-          : void()),
-     ...);
-  }
-  (std::make_index_sequence<std::size(constraint_types)>{});
+  add_constraint_curvature(part, a, b, lambda, K);
   return K;
 }
 

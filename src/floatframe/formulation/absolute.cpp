@@ -121,6 +121,7 @@ void AbsoluteFormulation::make_factors() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const int size = 6 + bodies_[i].nm;
     blocks.push_back({.size = size, .chooses = lacks_mass(static_cast<int>(i))});
+    if (bodies_[i].M.isZero(0.0)) omega2_.segment<12>(bodies_[i].offset).setConstant(no_inertia);
     widest = std::max(widest, size);
   }
   std::vector<std::pair<int, int>> edges;
@@ -141,10 +142,14 @@ void AbsoluteFormulation::make_factors() {
       place.at = home.size + home.inner;
       home.inner += p.rows();
     }
+    for (const int body : {a, b})
+      if (body >= 0 && blocks[body].chooses)
+        place.turns = constraint_kind(p.type).gradients == PartGradients::general;
     places_.push_back(place);
   }
   for (Factors& f : factors_) f.matrix = BlockLdlt(blocks, edges);
   ga_.z = gb_.z = VecX::Zero(widest);
+  motions_[0] = motions_[1] = product_ = MatX::Zero(widest, 6);
   unknowns_ = VecX::Zero(factors_[0].matrix.unknowns());
   correction_ = VecX::Zero(nq_);
   across_ = VecX::Zero(constraints());

@@ -32,7 +32,8 @@
 // would not be left a digit. (6) is factorised by bodies (BlockLdlt), mu of a joint with the body
 // that is eliminated first; pivots are chosen only in bodies without mass of their own in some
 // direction. The geometric stiffness in T is that of the multipliers of (1), (2), which is bilinear
-// in A and y, and of rods.
+// in A and y, of rods, and of joints of bodies without mass: a force across a slide turns with it,
+// which moves what has no inertia by force over stiffness, however short the step.
 #include <span>
 #include <string>
 #include <vector>
@@ -183,8 +184,9 @@ class AbsoluteFormulation {
   };
   /// Where the multipliers of a part stand in (6).
   struct PartPlace {
-    int home = -1;  ///< body that is eliminated first, -1: no body moves
-    int at = 0;     ///< its first multiplier among the unknowns of that body
+    int home = -1;       ///< body that is eliminated first, -1: no body moves
+    int at = 0;          ///< its first multiplier among the unknowns of that body
+    bool turns = false;  ///< the turning of its gradients is in T
   };
   /// T = mass M + damping C + s K, K with geometric stiffness or without, and the penalty of (6).
   struct TangentWeights {
@@ -218,6 +220,7 @@ class AbsoluteFormulation {
   /// The gradients of a wrench on two markers into ga_ and gb_; one body is one gradient.
   void gradients(int a, int b, const WrenchRow& w) noexcept;
   void add_rank_one(BlockLdlt& matrix, double weight) noexcept;
+  void add_curvature(int a, int b, const Mat12& K, BlockLdlt& matrix) noexcept;
   static void add_mass(const BodyData& b, double mass, const Mat3& stretch, MatX& f) noexcept;
   void assemble_body(const TangentWeights& t, int i, BlockLdlt& matrix) noexcept;
   void assemble_forces(const TangentWeights& t, BlockLdlt& matrix) noexcept;
@@ -237,8 +240,9 @@ class AbsoluteFormulation {
   std::vector<PartPlace> places_;  ///< of the constraint parts
   Factors factors_[2];
   Gradient ga_, gb_;
-  VecX unknowns_;             ///< of (6)
-  VecX correction_, across_;  ///< an increment that meets (1) and (2), and what it asks of (3)
+  MatX motions_[2], product_;  ///< of the markers of a part with z, transposed
+  VecX unknowns_;              ///< of (6)
+  VecX correction_, across_;   ///< an increment that meets (1) and (2), and what it asks of (3)
   int nq_ = 0;
   double time_ = 0.0;
   VecX omega2_, a_;

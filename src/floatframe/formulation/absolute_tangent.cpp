@@ -57,6 +57,38 @@ void AbsoluteFormulation::add_rank_one(BlockLdlt& matrix, double weight) noexcep
   }
 }
 
+/// The symmetric part of K over the motions (dr, dpi) of the markers a and b.
+void AbsoluteFormulation::add_curvature(int a, int b, const Mat12& K, BlockLdlt& matrix) noexcept {
+  const int markers[2] = {a, b};
+  int bodies[2], sizes[2] = {0, 0};
+  for (int k = 0; k < 2; ++k) {
+    for (int c = 0; c < 6; ++c) {
+      gradient(markers[k], c < 3 ? Vec3(Vec3::Unit(c)) : Vec3(Vec3::Zero()),
+               c < 3 ? Vec3(Vec3::Zero()) : Vec3(Vec3::Unit(c - 3)), ga_);
+      if (ga_.body >= 0) motions_[k].col(c) = ga_.z;
+    }
+    bodies[k] = ga_.body;
+    if (bodies[k] >= 0) sizes[k] = 6 + bodies_[bodies[k]].nm;
+  }
+  const Mat12 S = 0.5 * (K + K.transpose());
+  const auto add = [&](int row, int column, MatX& f, int below, bool lower) {
+    const Mat6 part = S.block<6, 6>(6 * row, 6 * column);
+    product_.topRows(sizes[row]).noalias() = motions_[row].topRows(sizes[row]).lazyProduct(part);
+    for (int j = 0; j < sizes[column]; ++j)
+      for (int i = lower ? j : 0; i < sizes[row]; ++i)
+        f(below + i, j) += product_.row(i).dot(motions_[column].row(j));
+  };
+  const bool same = bodies[0] == bodies[1];
+  for (int k = 0; k < 2; ++k)
+    if (bodies[k] >= 0) add(k, k, matrix.front(bodies[k]), 0, true);
+  if (bodies[0] < 0 || bodies[1] < 0) return;
+  int starts[2];
+  MatX& f = matrix.front(bodies[0], bodies[1], starts[0], starts[1]);
+  const int later = starts[1] > starts[0] ? 1 : 0;
+  add(later, 1 - later, f, starts[later], same);
+  if (same) add(1 - later, later, f, 0, true);
+}
+
 /// B^T (mass M + stretch (x) I) B onto the lower triangle of f, `stretch` between the axes.
 void AbsoluteFormulation::add_mass(const BodyData& b, double mass, const Mat3& stretch,
                                    MatX& f) noexcept {
@@ -165,7 +197,14 @@ void AbsoluteFormulation::assemble_parts(const TangentWeights& t, BlockLdlt& mat
       gradients(p.a, p.b, constraint_set_.row(row + r).gradient);
       assemble_row(place, r, matrix);
     }
-    if (t.geometric && constraint_kind(p.type).gradients == PartGradients::line) {
+    if (!t.geometric) continue;
+    if (place.turns) {
+      Mat12 K = Mat12::Zero();
+      add_constraint_curvature(p, constraint_state(p.a), constraint_state(p.b),
+                               constraint_set_.multipliers().data() + row, K);
+      add_curvature(p.a, p.b, t.s * K, matrix);
+    }
+    if (constraint_kind(p.type).gradients == PartGradients::line) {
       const double w = t.s * constraint_set_.multipliers()[row] / p.scale;
       for (int c = 0; c < 3; ++c) {
         WrenchRow unit;

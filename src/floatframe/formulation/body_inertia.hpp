@@ -5,6 +5,7 @@
 #include <string>
 
 #include "floatframe/body/flexible_body.hpp"
+#include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/inertia/projection.hpp"
 #include "floatframe/model/description.hpp"
@@ -48,11 +49,13 @@ class BodyInertia {
     else
       absolute_preprocessing(data_, A, Adot, y, ydot, work_, M, Qv);
   }
-  /// K_kk / M_kk of each mode, zero for massless ones [1/s2].
+  /// K_kk / M_kk of each mode, `no_inertia` for massless ones [1/s2].
   VecX own_frequencies_squared(const MatX& K) const {
     VecX w = VecX::Zero(data_.modes());
-    for (Eigen::Index k = 0; k < w.size(); ++k)
-      if (data_.M_ff(k, k) > 0.0) w[k] = std::max(0.0, K(k, k) / data_.M_ff(k, k));
+    for (Eigen::Index k = 0; k < w.size(); ++k) {
+      const double mass = data_.M_ff(k, k);
+      w[k] = mass > 0.0 ? std::max(0.0, K(k, k) / mass) : no_inertia;
+    }
     return w;
   }
   const PreprocessingData& data() const noexcept { return data_; }

@@ -47,6 +47,9 @@
 
 namespace floatframe {
 
+/// In `own_frequencies_squared`: a coordinate of a body, or an amplitude of a mode, without mass.
+inline constexpr double no_inertia = -1.0;
+
 // clang-format off
 template <class F>
 concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const VecX& in,
@@ -96,7 +99,8 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   { f.constraint_increments(in, out) } noexcept -> std::same_as<void>;
   { f.constraint_forces(in, out) } noexcept -> std::same_as<void>;
 
-  /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates [1/s2]: the first guess of a step.
+  /// K_kk / M_kk of modal amplitudes, zero for rigid coordinates, or `no_inertia` [1/s2]: the
+  /// first guess of a step.
   { c.own_frequencies_squared() } noexcept -> std::same_as<const VecX&>;
 
   // Configurations: (q0, x, q), (q0, x) and (x, delta).

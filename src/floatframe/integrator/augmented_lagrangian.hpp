@@ -88,6 +88,9 @@ class AugmentedLagrangian {
   static constexpr double softer = 1e-2;
   static constexpr int most_softer = 3;
   static constexpr double stiffer = 100.0;
+  /// An acceleration that moves a rigid coordinate further than this in a step [m, rad] may not be
+  /// that of the whole step: a second try leaves it out of its first guess.
+  static constexpr double farthest = 0.1;
 
   StepAttempt advance(State& state, double h) noexcept {
     Scheme k(options_, h);
@@ -96,10 +99,10 @@ class AugmentedLagrangian {
     if (!(std::abs(state.t - experience_.continues_at) < 1e-6 * h)) {
       experience_.reuse_rate = 0.1;
     }
-    predict(state, k);
+    predict(state, k, false);
     newton(state, k, report);
-    if (report.status == AttemptStatus::not_converged && f_.constraints() > 0)
-      try_stiffer(state, k, report);
+    if (!report.accepted() && report.iterations > 0 && f_.constraints() > 0)
+      try_again(state, k, report);
     if (!report.accepted()) {
       experience_.continues_at = std::numeric_limits<double>::quiet_NaN();
       return report;
@@ -140,7 +143,7 @@ class AugmentedLagrangian {
   };
 
   /// The histories v_hat and a_hat, and the first guess of x.
-  void predict(const State& state, const Scheme& k) noexcept {
+  void predict(const State& state, const Scheme& k, bool careful) noexcept {
     // (a) in (b) and (c), with x = 0 in (a): `known` is -a_alg_n+1 without x.
     const double h = k.h, from_v = h, from_a = h * h * (0.5 - k.beta);
     const VecX& omega2 = f_.own_frequencies_squared();
@@ -152,18 +155,25 @@ class AugmentedLagrangian {
       // a = f - omega^2 x under a constant load f. A Taylor step would throw modes with
       // omega h >> 1 far away.
       x_[i] = (state.a[i] - a_hat_[i]) / (k.c2 + omega2[i]);
+      // Accelerations of what has no mass mean nothing: they follow from positions, and the
+      // trapezoidal rule turns them over in each step.
+      const double steady = h * state.v[i];
+      if (omega2[i] == no_inertia ||
+          (careful && omega2[i] == 0.0 && std::abs(x_[i] - steady) > farthest))
+        x_[i] = steady;
     }
     f_.settle(state.q, x_);
     lambda_ = state.lambda;
   }
 
   /// Near a singular position the penalty may be too soft for what a constraint still moves, and a
-  /// shorter step is no cure: the same step once more with a stiffer one.
-  void try_stiffer(const State& state, Scheme& k, StepAttempt& report) noexcept {
+  /// shorter step is no cure; and a body light beside its forces may have been thrown far off. The
+  /// same step once more with a stiffer penalty and a careful first guess.
+  void try_again(const State& state, Scheme& k, StepAttempt& report) noexcept {
     k.penalty *= stiffer;
     k.alpha *= stiffer;
     StepAttempt again;
-    predict(state, k);
+    predict(state, k, true);
     newton(state, k, again);
     again.iterations += report.iterations;
     again.factorizations += report.factorizations;

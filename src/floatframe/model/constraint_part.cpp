@@ -41,4 +41,10 @@ void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const
                  [&](auto type) { constraint_rows_of<type()>(part, a, b, t, rows); });
 }
 
+void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
+                              const MarkerState& b, const double* lambda, Mat12& K) noexcept {
+  with_part_type(part.type, all_part_types,
+                 [&](auto type) { constraint_curvature_of<type()>(part, a, b, lambda, K); });
+}
+
 }  // namespace floatframe

@@ -48,8 +48,8 @@ void constraint_rows_of(const ConstraintPart& part, const MarkerState& a, const 
 
 /// K += d(sum lambda_r gradient_r)/d(motion): the exact geometric stiffness of multipliers on the
 /// rows. Not symmetric where rotations meet, because increments of a rotation multiply from the
-/// left. It stands beside the rows that it is derived from; what formulations take of it has a
-/// shorter way (PartGradients), and the tests hold that to this.
+/// left. It stands beside the rows that it is derived from. Formulations take it where a body
+/// without mass is held; else a shorter way (PartGradients), which the tests hold to this.
 template <ConstraintType type>
 void constraint_curvature_of(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                              const double* lambda, Mat12& K) noexcept;
@@ -98,6 +98,10 @@ PiecewisePolynomial::Value evaluate(const TimeFunction& f, double t) noexcept;
 /// Fills `rows[0 .. part.rows())`.
 void evaluate_constraint(const ConstraintPart& part, const MarkerState& a, const MarkerState& b,
                          double t, ConstraintRow* rows) noexcept;
+
+/// K += what `constraint_curvature_of` gives for the type of the part.
+void add_constraint_curvature(const ConstraintPart& part, const MarkerState& a,
+                              const MarkerState& b, const double* lambda, Mat12& K) noexcept;
 
 /// Parts that hold joint `index` of the model closed (without its motion).
 void append_joint_parts(const Model& model, int index, std::vector<ConstraintPart>& parts);
