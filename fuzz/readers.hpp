@@ -22,6 +22,8 @@
 #include "floatframe/formats/nastran/read_nastran.hpp"
 #include "floatframe/formats/sid/sid_file.hpp"
 #include "floatframe/formats/text/text_source.hpp"
+#include "floatframe/history/history_blocks.hpp"
+#include "floatframe/history/state_history.hpp"
 #include "packets.hpp"
 
 namespace floatframe::fuzz {
@@ -140,6 +142,30 @@ inline void body_file(std::string_view bytes) {
   read_body_bytes(zip_archive(members), "fuzz.ffb");
 }
 
+inline void read_all(const StateHistory& history) {
+  std::vector<double> row(history.header().columns);
+  for (std::size_t k = 0; k < history.instants(); ++k) history.instant(k, row);
+  for (std::size_t k = 0; k < history.header().arrays.size(); ++k)
+    static_cast<void>(history.numbers(k));
+}
+
+/// Checksums would keep every change away from what is behind them: bytes that do not begin as a
+/// file are the contents of blocks, the header first, then those of kinds D, R or E.
+inline void history(std::string_view bytes) {
+  if (bytes.starts_with(history_magic))
+    return read_all(StateHistory::of_bytes(std::string(bytes), "fuzz.ffr"));
+  const std::vector<std::string> parts = parts_of(bytes, 20);
+  std::string file = history_beginning() + history_block(HistoryBlockKind::head, parts[0]);
+  for (std::size_t k = 1; k < parts.size(); ++k) {
+    const char kind = parts[k].empty() ? 'R' : parts[k][0];
+    file += history_block(kind == 'D'   ? HistoryBlockKind::data
+                          : kind == 'E' ? HistoryBlockKind::done
+                                        : HistoryBlockKind::rows,
+                          std::string_view(parts[k]).substr(parts[k].empty() ? 0 : 1));
+  }
+  read_all(StateHistory::of_bytes(std::move(file), "fuzz.ffr"));
+}
+
 struct Reader {
   const char* name;
   void (*read)(std::string_view bytes);
@@ -157,6 +183,7 @@ inline constexpr Reader readers[] = {
     {"sid", sid},
     {"body_file", body_file},
     {"udp", udp},
+    {"history", history},
 };
 
 /// Reads and forgets. Everything but an InputError is an error of the reader.

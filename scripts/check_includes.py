@@ -37,17 +37,18 @@ ALLOWED = {
     "simulation": DYNAMICS,
     "yaml": {"core", "math"},
     "model_file": FE | {"body", "reduction", "model", "formats/sid", "parts", "yaml"},
+    "history": DYNAMICS | {"simulation"},
     "report": DYNAMICS | {"simulation"},
     "realtime": DYNAMICS | {"simulation"},
-    "sweep": DYNAMICS | {"simulation", "yaml", "model_file", "report"},
+    "sweep": DYNAMICS | {"simulation", "yaml", "model_file", "history", "report"},
     "analyses": DYNAMICS | {"simulation", "report", "formats/body_file", "model_file"},
     "apps": DYNAMICS | FE | {"reduction", "formats/body_file", "formats/sid", "formats/text", "parts", "simulation", "realtime",
-                             "model_file", "report", "analyses", "sweep"},
+                             "model_file", "history", "report", "analyses", "sweep"},
 }
 
 # Rooms, and single files, that public headers may reach.
 PUBLIC = {"core", "math", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "parts", "model", "model_file",
-          "formulation/counts.hpp", "simulation", "report", "analyses", "realtime", "sweep"}
+          "formulation/counts.hpp", "simulation", "history", "report", "analyses", "realtime", "sweep"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
 # Programs and modules beside the library see one header of it each.
 OUTSIDE = {"main": "apps/command_line.hpp", "mpi": "sweep/ranks.hpp", "mumps": "math/sparse_engine.hpp"}

@@ -1,4 +1,7 @@
 #pragma once
-// Sampled outputs: the table of a run, and the table as CSV.
+// What is left of a run: the table of its outputs, the table as CSV, the file of its states and new
+// channels from these.
+#include "floatframe/history/new_channels.hpp"
+#include "floatframe/history/state_history.hpp"
 #include "floatframe/report/results_csv.hpp"
 #include "floatframe/simulation/result_table.hpp"

@@ -143,12 +143,12 @@ class Help(CommandLine):
 class Misuse(CommandLine):
     def test_bad_options_exit_2_with_one_line(self):
         for arguments, message in (
-                ((), "a command is required: run, check, statics, advise, mass, realtime, bench, sweep, reduce, info or compare"),
-                (("fly",), "found the command 'fly', expected run, check, statics, advise, mass, realtime, bench, sweep, reduce, info or compare"),
+                ((), "a command is required: run, check, statics, advise, mass, realtime, bench, sweep, reduce, info, compare or outputs"),
+                (("fly",), "found the command 'fly', expected run, check, statics, advise, mass, realtime, bench, sweep, reduce, info, compare or outputs"),
                 (("run",), "MODEL is required"),
                 (("run", ""), "MODEL: found an empty name, expected a file"),
                 (("sweep", "", "--vary", "a=1,2"), "MODEL: found an empty name, expected a file"),
-                (("runn", "pendulum.yaml"), "or compare, did you mean 'run'? (see floatframe --help)"),
+                (("runn", "pendulum.yaml"), "or outputs, did you mean 'run'? (see floatframe --help)"),
                 (("bench", "chian"), "expected iltis, chain, scaling or step, did you mean 'chain'? (see floatframe bench --help)"),
                 (("run", "pendulum.yaml", "--frobnicate"), "floatframe: unknown option '--frobnicate' (see floatframe run --help)"),
                 (("run", "pendulum.yaml", "--stepp", "1"), "unknown option '--stepp', did you mean '--step'? (see floatframe run --help)"),
@@ -267,7 +267,7 @@ class Run(CommandLine):
         for name in ("results.csv", "report.html", "summary.json"):
             self.assertIn(f"out/pendulum/{name}", done.stdout)
         self.assertEqual(done.stderr, "")
-        self.assertEqual(self.files("out"), ["report.html", "results.csv", "summary.json"])
+        self.assertEqual(self.files("out"), ["report.html", "results.csv", "states.ffr", "summary.json"])
 
         rows = self.read_csv("out/pendulum")
         self.assertEqual(rows[0], ["time [s]", "rod.z [m]"])
@@ -309,7 +309,7 @@ class Run(CommandLine):
     def test_options_reach_the_run(self):
         self.expect(0, "run", "--set", "mass=3", "pendulum.yaml", "--coordinates", "absolute", "--step", "0.005",
                     "--duration", "0.1", "--out", "a/b", "--no-report", "--quiet")
-        self.assertEqual(self.files("a/b"), ["results.csv", "summary.json"])
+        self.assertEqual(self.files("a/b"), ["results.csv", "states.ffr", "summary.json"])
         summary = json.loads((self.folder / "a/b/summary.json").read_text())
         self.assertEqual((summary["coordinates"], summary["step_s"], summary["steps"]), ("absolute", 0.005, 20))
 

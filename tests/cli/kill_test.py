@@ -75,12 +75,12 @@ class Kill(RunCase):
                 self.killed(moment, *setting, "--out", "out")
                 self.check_beginning("out", expected)
                 self.assertLessEqual({p.name for p in (self.folder / "out").glob("*") if ".part-" not in p.name},
-                                     {"results.csv", "summary.json", "report.html", "run.lock"})
+                                     {"results.csv", "states.ffr", "summary.json", "report.html", "run.lock"})
         # What the killed ones have left is in nobody's way.
         self.program(*setting, "--out", "out")
         self.same_files("out", "whole")
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
-                         ["report.html", "results.csv", "summary.json"])
+                         ["report.html", "results.csv", "states.ffr", "summary.json"])
 
     def test_checkpoints(self):
         for options in ((), ("--coordinates", "absolute", "--inertia", "projection")):

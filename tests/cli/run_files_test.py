@@ -37,7 +37,7 @@ class Growing(RunCase):
         self.program("run", "m.yaml", "--out", "other", "--set", "duration=0.2", "--quiet")
         self.same_files("out", "other")
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
-                         ["report.html", "results.csv", "summary.json"])
+                         ["report.html", "results.csv", "states.ffr", "summary.json"])
 
     def test_signals_end_a_run_with_its_files(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
@@ -57,7 +57,7 @@ class Growing(RunCase):
             page = text_of(self.folder / "out/report.html")
             self.assertIn("This run was interrupted: the results are partial.", page)
             self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
-                             ["report.html", "results.csv", "summary.json"])
+                             ["report.html", "results.csv", "states.ffr", "summary.json"])
 
     def test_one_run_at_a_time_in_a_folder(self):
         process = self.begin("run", "m.yaml", "--out", "out")
@@ -91,7 +91,8 @@ class Unwritable(RunCase):
     def limited(self, size, *arguments, code):
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
-        return self.program("run", "m.yaml", "--out", "out", *arguments, code=code, preexec_fn=limit)
+        return self.program("run", "m.yaml", "--out", "out", "--record", "none", *arguments, code=code,
+                            preexec_fn=limit)
 
     def test_a_file_that_cannot_grow_keeps_its_rows(self):
         done = self.limited(200_000, "--no-report", code=1)
@@ -114,7 +115,7 @@ class Unwritable(RunCase):
         setting = ("--set", "duration=4")
         done = self.limited(300_000, *setting, "--checkpoint-every", "0.5", code=1)
         self.assertIn("the same command with --resume continues the run", done.stderr)
-        self.program("run", "m.yaml", "--out", "out", *setting, "--resume", "--quiet")
+        self.program("run", "m.yaml", "--out", "out", "--record", "none", *setting, "--resume", "--quiet")
         self.program("run", "m.yaml", "--out", "whole", *setting, "--quiet")
         self.same_files("out", "whole")
 

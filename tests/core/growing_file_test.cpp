@@ -52,13 +52,41 @@ TEST(GrowingFile, IsContinuedFromAPosition) {
     return folder.without(error_of([&] { GrowingFile(path, position); }));
   };
   EXPECT_EQ(refused(), "no error");
+  const auto looked_at = [&] {
+    return folder.without(error_of([&] { GrowingFile::require(path, position); }));
+  };
+  folder.write("x.csv", "first\nsecond\nother\nmore\n");
+  EXPECT_EQ(looked_at(), "no error");
+  EXPECT_EQ(folder.read("x.csv"), "first\nsecond\nother\nmore\n") << "it is only looked at";
   folder.write("x.csv", "first\nsecond\n");
+  EXPECT_EQ(looked_at(), refused());
   EXPECT_EQ(refused(), "the file 'x.csv' cannot be continued: found 13 bytes, expected 19 or more");
   folder.write("x.csv", "first\nSecond\nother\n");
   EXPECT_EQ(refused(), "the file 'x.csv' cannot be continued: its content is not what was written");
   EXPECT_EQ(folder.read("x.csv"), "first\nSecond\nother\n") << "nothing is cut off";
   std::filesystem::remove(path);
   EXPECT_EQ(refused(), "the file 'x.csv' cannot be continued: No such file or directory");
+}
+
+TEST(GrowingFile, AtALimitABlockIsKeptWholeOrNotAtAll) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("x.bin");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = 10;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  {
+    GrowingFile file(path);
+    file.append_whole("abc\n");
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    EXPECT_THROW(file.append_whole("de\nfghi\nj\n"), OutputError);
+    EXPECT_EQ(file.bytes(), 4u);
+    file.append_whole("defghi");
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  }
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(folder.read("x.bin"), "abc\ndefghi");
 }
 
 TEST(GrowingFile, AtALimitWholeLinesAreKept) {

@@ -48,6 +48,8 @@ ModelDescription read_model(const ModelArguments& arguments, bool quiet, ModelFi
   }
   ReadOptions options;
   if (!quiet) options.say = say_line;
+  options.keep_text = used != nullptr;
+  options.outputs = arguments.outputs;
   return read_model(arguments.path, overrides, used, options);
 }
 

@@ -31,7 +31,8 @@ struct Command {
 /// MODEL and --set, as every command that reads a model takes them.
 struct ModelArguments {
   std::string path;
-  std::vector<std::string> settings;  ///< "name=value"
+  std::vector<std::string> settings;   ///< "name=value"
+  std::vector<std::string> outputs{};  ///< further ones, as model files write them
 };
 std::vector<Option> model_options(ModelArguments& arguments);
 /// `first`, then `second`.

@@ -15,12 +15,13 @@ Command sweep_command();
 Command reduce_command();
 Command info_command();
 Command compare_command();
+Command outputs_command();
 
 inline std::vector<Command> all_commands() {
   std::vector<Command> commands{run_command()};
   for (Command& analysis : analysis_commands()) commands.push_back(std::move(analysis));
   for (const auto make : {realtime_command, bench_command, sweep_command, reduce_command,
-                          info_command, compare_command})
+                          info_command, compare_command, outputs_command})
     commands.push_back(make());
   return commands;
 }

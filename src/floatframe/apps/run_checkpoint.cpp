@@ -13,7 +13,7 @@ namespace floatframe {
 namespace {
 
 constexpr std::string_view checkpoint_magic = "ffcheck\n";
-constexpr std::uint64_t checkpoint_version = 1;
+constexpr std::uint64_t checkpoint_version = 2;
 constexpr std::size_t checkpoint_sum_size = 32;
 
 std::string_view text_of(std::span<const std::byte> bytes) {
@@ -34,6 +34,8 @@ void walk_file(Stream& s, Checkpoint& c) {
   s(c.results.file.content);
   s(c.results.rows);
   s(c.results.last_time);
+  s(c.states.bytes);
+  s(c.states.content);
   s(c.run.time);
 }
 

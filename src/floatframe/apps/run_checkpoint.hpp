@@ -24,6 +24,7 @@ struct CheckpointFile {
   RunOrigin origin;
   double every = 0.0;  ///< [s] of simulated time
   ResultsFile::Position results;
+  GrowingFile::Position states;  ///< if they are kept
   RunCheckpoint run;
 };
 

@@ -11,6 +11,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/history/history_content.hpp"
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
@@ -27,7 +28,7 @@ namespace {
 struct RunArguments {
   ModelArguments model;
   std::string coordinates, inertia, step, duration, out, write_state;
-  std::string checkpoint_every;
+  std::string checkpoint_every, record;
   bool resume = false, no_report = false, quiet = false, strict = false;
 };
 
@@ -37,6 +38,9 @@ void apply(const RunArguments& arguments, SimulationDescription& simulation) {
   }
   if (!arguments.inertia.empty()) simulation.inertia = inertia_from(arguments.inertia);
   set_clock(simulation, arguments.step, arguments.duration);
+  using States = RecordDescription::States;
+  if (!arguments.record.empty())
+    simulation.record.states = arguments.record == "none" ? States::none : States::states;
   require_valid_run(simulation);
   check_step(simulation);
 }
@@ -116,13 +120,37 @@ std::string summary_text(const RunSummary& s) {
 std::string files_text(const RunPaths& paths, bool has_table) {
   std::string text;
   if (has_table) text += fmt::format("  results  {}\n", paths.results);
+  if (std::filesystem::exists(paths.states)) text += fmt::format("  states   {}\n", paths.states);
   if (std::filesystem::exists(paths.report)) text += fmt::format("  report   {}\n", paths.report);
   return text + fmt::format("  summary  {}\n", paths.summary);
 }
 
+HistoryOrigin history_origin(const RunArguments& arguments, const ModelFingerprint& used,
+                             const RunPaths& paths) {
+  HistoryOrigin o;
+  o.program = version();
+  o.library = build_description();
+  o.model_file = arguments.model.path;
+  std::error_code ignored;
+  const auto folder = std::filesystem::weakly_canonical(paths.folder, ignored);
+  o.from_here = std::filesystem::weakly_canonical(arguments.model.path, ignored)
+                    .lexically_relative(folder)
+                    .string();
+  o.settings = arguments.model.settings;
+  o.files = relative_to_model(arguments.model.path, used.files);
+  o.text = used.text;
+  return o;
+}
+
 RunFiles::Options run_file_options(const RunArguments& arguments, const ModelFingerprint& used,
-                                   const ModelDescription& description) {
+                                   const ModelDescription& description, const Model& model,
+                                   const RunPaths& paths) {
   RunFiles::Options o;
+  if (description.simulation.record.states != RecordDescription::States::none)
+    o.history = [&](const StateLayout& layout) {
+      return history_content(model, description.simulation, layout,
+                             history_origin(arguments, used, paths));
+    };
   o.report = !arguments.no_report;
   o.resume = arguments.resume;
   if (!arguments.checkpoint_every.empty())
@@ -148,6 +176,10 @@ RunResult run_with(RunFiles& files, const Model& model, const SimulationDescript
     options.rows = [&](const std::vector<Column>& columns, std::span<const double> numbers) {
       files.take(columns, numbers);
     };
+    if (files.keeps_states())
+      options.states = [&](const StateLayout& layout, std::span<const double> numbers) {
+        files.take_states(layout, numbers);
+      };
     options.checkpoint = [&](const RunCheckpoint& checkpoint) { files.keep(checkpoint); };
   }
   ProgressBar bar(!arguments.quiet, simulation.duration, "s");
@@ -185,11 +217,12 @@ int run_model(const RunArguments& arguments) {
   const RunPaths paths = make_paths(arguments, description.name);
   require_writable({{"--write-state", arguments.write_state},
                     {"--out", paths.results},
+                    {"--out", paths.states},
                     {"--out", paths.report},
                     {"--out", paths.summary},
                     {"--out", paths.checkpoint}},
                    files_of(used));
-  RunFiles files(paths, run_file_options(arguments, used, description));
+  RunFiles files(paths, run_file_options(arguments, used, description, model, paths));
   const StopSignal stop_signal;
 
   Report report;
@@ -255,14 +288,18 @@ Command run_command() {
                "time [s]"),
            flag("--resume", a->resume,
                 "Continue from the checkpoint in DIR: same model, options and copy of the program"),
+           word_option(
+               "--record", a->record, {"states", "none"},
+               "Keep the states of the run in DIR/states.ffr, or not; default: as the model "
+               "file says, else states"),
            flag("--no-report", a->no_report, "Do not write report.html"),
            flag("--strict", a->strict, "Warnings count as errors: exit code 1, results are kept"),
            flag("--quiet", a->quiet,
                 "No progress bar, no summary; errors and warnings are still shown")}),
       .footer =
-          "Files: results.csv (SI units, radians), which grows while the run goes on, "
-          "report.html,\n"
-          "summary.json. Ctrl-C ends the run with its files.\n"
+          "Files: results.csv (SI units, radians) and states.ffr, which grow while the run goes "
+          "on,\n"
+          "report.html, summary.json. Ctrl-C ends the run with its files.\n"
           "Exit codes: 0 completed, 1 failed (results up to there are kept) or, with --strict, "
           "with\n"
           "warnings, 2 bad input, 130 or 143 interrupted.",

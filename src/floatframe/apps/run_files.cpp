@@ -27,6 +27,7 @@ bool is_regular_or_new(const std::string& path) {
 RunPaths::RunPaths(const std::string& where)
     : folder(where),
       results((std::filesystem::path(where) / "results.csv").string()),
+      states((std::filesystem::path(where) / "states.ffr").string()),
       report((std::filesystem::path(where) / "report.html").string()),
       summary((std::filesystem::path(where) / "summary.json").string()),
       checkpoint((std::filesystem::path(where) / "run.checkpoint").string()) {}
@@ -63,14 +64,17 @@ void RunFiles::remove_remains() const {
 }
 
 void RunFiles::begin(const std::vector<Column>& columns) {
-  // A continued file is looked at before anything is changed.
+  // Continued files are looked at before anything is changed.
+  if (from_ && keeps_states()) GrowingFile::require(paths_.states, from_->states);
   if (from_) results_.emplace(paths_.results, columns, from_->results);
+  if (from_ && keeps_states()) states_.emplace(paths_.states, from_->states);
   options_.summary.status = "running";
   options_.summary.message = "not complete: the run has not ended, or was killed";
   write_file(paths_.summary, summary_json(options_.summary));
   remove_file(paths_.report);
   if (from_) return;
   remove_file(paths_.checkpoint);
+  remove_file(paths_.states);
   results_.emplace(paths_.results, columns, options_.checkpoint_every > 0.0);
 }
 
@@ -91,11 +95,22 @@ void RunFiles::take(const std::vector<Column>& columns, std::span<const double> 
   });
 }
 
+void RunFiles::take_states(const StateLayout& layout, std::span<const double> numbers) {
+  watched([&] {
+    if (!states_)
+      states_.emplace(paths_.states, options_.history(layout), options_.checkpoint_every > 0.0);
+    states_->append(numbers);
+  });
+}
+
 void RunFiles::keep(const RunCheckpoint& checkpoint) {
   watched([&] {
     results_->to_disk();  // a checkpoint is never ahead of its rows
-    write_file(paths_.checkpoint, checkpoint_bytes({options_.origin, options_.checkpoint_every,
-                                                    results_->position(), checkpoint}));
+    if (states_) states_->to_disk();
+    write_file(
+        paths_.checkpoint,
+        checkpoint_bytes({options_.origin, options_.checkpoint_every, results_->position(),
+                          states_ ? states_->position() : GrowingFile::Position(), checkpoint}));
   });
 }
 
@@ -118,6 +133,17 @@ void RunFiles::write_report(Report& report) const {
   write_file(paths_.report, page_html(page_template(), page, buffer));
 }
 
+/// A disk that was full before has been spoken of.
+void RunFiles::finish_states(const RunSummary& summary, std::vector<std::string>& failed) {
+  try {
+    const bool good = summary.status == "completed" || summary.strict;
+    states_->finish(good ? "completed" : summary.status, summary.message);
+    states_->to_disk();
+  } catch (const OutputError& error) {
+    if (!cut_at_) failed.emplace_back(error.what());
+  }
+}
+
 std::vector<std::string> RunFiles::finish(Report&& report) {
   if (from_ && !results_) return {};  // not even begun: all is as it was
   const RunResult& result = report.result;
@@ -138,11 +164,13 @@ std::vector<std::string> RunFiles::finish(Report&& report) {
     attempt([&] { write_file(paths_.results, results_csv(result.table)); });
   else
     remove_file(paths_.results);
+  if (!states_) remove_file(paths_.states);
   remove_file(paths_.report);
   if (options_.report) attempt([&] { write_report(report); });
   if (result.summary.status == "completed" || !results_) remove_file(paths_.checkpoint);
   lock_.release_space();
   attempt([&] { write_file(paths_.summary, summary_json(result.summary)); });
+  if (states_) finish_states(result.summary, failed);
   return failed;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-// The files of one run as they come into being: results that grow, checkpoints, and at its end the
-// report and the summary. Until then the summary has the status "running", so that a reader knows
-// at any time what he has before him.
+// The files of one run as they come into being: results and states that grow, checkpoints, and at
+// its end the report and the summary. Until then the summary has the status "running", so that a
+// reader knows at any time what he has before him.
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,14 +10,17 @@
 
 #include "floatframe/apps/run_checkpoint.hpp"
 #include "floatframe/core/folder_lock.hpp"
+#include "floatframe/history/states_file.hpp"
 #include "floatframe/report/report_html.hpp"
 
 namespace floatframe {
 
 struct RunPaths {
   explicit RunPaths(const std::string& folder);
-  std::string folder, results, report, summary, checkpoint;
+  std::string folder, results, states, report, summary, checkpoint;
 };
+
+struct StateLayout;
 
 class RunFiles {
  public:
@@ -26,6 +30,8 @@ class RunFiles {
     bool resume = false;
     RunOrigin origin;    ///< for checkpoints
     RunSummary summary;  ///< of what was asked for
+    /// What is written before the states, which are kept if it is there.
+    std::function<HistoryContent(const StateLayout&)> history;
   };
 
   /// Takes the folder for itself. Throws InputError if another run has it, if there is nothing to
@@ -35,10 +41,12 @@ class RunFiles {
   /// False: results go to a device, at the end.
   bool streams() const noexcept { return streams_; }
   const RunCheckpoint* resumed() const noexcept { return from_ ? &from_->run : nullptr; }
+  bool keeps_states() const noexcept { return streams_ && options_.history; }
   double checkpoint_every() const noexcept { return options_.checkpoint_every; }
 
-  /// As RunOptions::rows and RunOptions::checkpoint.
+  /// As RunOptions::rows, RunOptions::states and RunOptions::checkpoint.
   void take(const std::vector<Column>& columns, std::span<const double> numbers);
+  void take_states(const StateLayout& layout, std::span<const double> numbers);
   void keep(const RunCheckpoint& checkpoint);
 
   /// Writes what is left to be written. What cannot be is said in a sentence each, in the result.
@@ -54,6 +62,7 @@ class RunFiles {
   void remove_remains() const;
   /// The page of the viewer, or without it the static report.
   void write_report(Report& report) const;
+  void finish_states(const RunSummary& summary, std::vector<std::string>& failed);
 
   RunPaths paths_;
   Options options_;
@@ -61,6 +70,7 @@ class RunFiles {
   bool streams_;
   std::optional<CheckpointFile> from_;
   std::optional<ResultsFile> results_;
+  std::optional<StatesFile> states_;
   std::optional<double> cut_at_;
 };
 

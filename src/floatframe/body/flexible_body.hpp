@@ -42,6 +42,8 @@ struct ProjectionData {
   int nodes() const noexcept { return static_cast<int>(p.cols()); }
 };
 
+struct BodyShape;
+
 struct FlexibleBody {
   InertiaInvariants invariants;
   MatX K;                        ///< nm x nm modal stiffness, symmetric
@@ -53,6 +55,9 @@ struct FlexibleBody {
   // What the user may want to know about the reduction.
   VecX fixed_interface_frequencies;  ///< [Hz], of the dynamic modes kept
   std::vector<std::string> mode_names;
+
+  /// What it looks like; null: not known.
+  std::shared_ptr<const BodyShape> shape = nullptr;
 
   int modes() const noexcept { return invariants.modes(); }
 };

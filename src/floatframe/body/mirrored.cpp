@@ -1,10 +1,26 @@
 #include "floatframe/body/mirrored.hpp"
 
 #include <cmath>
+#include <utility>
 
+#include "floatframe/body/body_shape.hpp"
 #include "floatframe/core/diagnostics.hpp"
 
 namespace floatframe {
+
+namespace {
+
+BodyShape mirrored_shape(const BodyShape& shape, const Vec3& s) {
+  BodyShape out = shape;
+  out.positions = s.asDiagonal() * out.positions;
+  for (Eigen::Index r = 0; r < out.modes.rows(); ++r) out.modes.row(r) *= s(r % 3);
+  if (s.prod() < 0.0)  // normals stay outward
+    for (auto& t : out.triangles) std::swap(t[1], t[2]);
+  for (BodyShape::Bar& b : out.bars) b.y = s.cwiseProduct(b.y);
+  return out;
+}
+
+}  // namespace
 
 FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
   const Vec3 s = P.diagonal();
@@ -26,6 +42,7 @@ FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
     node.X = s.asDiagonal() * node.X;
     node.X_theta = axial.asDiagonal() * node.X_theta;
   }
+  if (body.shape) out.shape = std::make_shared<const BodyShape>(mirrored_shape(*body.shape, s));
   if (body.projection) {
     auto data = std::make_shared<ProjectionData>(*body.projection);
     data->p = s.asDiagonal() * data->p;

@@ -1,5 +1,7 @@
 #include "floatframe/body/with_modes.hpp"
 
+#include "floatframe/body/body_shape.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -44,6 +46,11 @@ FlexibleBody with_modes(const FlexibleBody& body, const std::vector<int>& keep) 
   for (const int k : keep)
     if (static_cast<std::size_t>(k) < body.mode_names.size())
       out.mode_names.push_back(body.mode_names[k]);
+  if (body.shape && body.shape->modes.size() > 0) {
+    auto shape = std::make_shared<BodyShape>(*body.shape);
+    shape->modes = columns(shape->modes, keep);
+    out.shape = shape;
+  }
   if (keep.empty()) {
     out.projection = nullptr;
   } else if (body.projection) {

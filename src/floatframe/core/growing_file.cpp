@@ -31,6 +31,23 @@ GrowingFile::GrowingFile(const std::string& path, bool hashed) : path_(path), ha
   if (file_ < 0) throw not_written(path, errno);
 }
 
+/// What is before the position has been looked at.
+GrowingFile::GrowingFile(const std::string& path, const Position& position, int flags)
+    : path_(path), hashed_(true) {
+  file_ = ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (file_ < 0) throw not_continued(path, std::strerror(errno));
+  try {
+    read_up_to(position);
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
+}
+
+void GrowingFile::require(const std::string& path, const Position& position) {
+  const GrowingFile looked_at(path, position, O_RDONLY);
+}
+
 GrowingFile::GrowingFile(const std::string& path, const Position& position)
     : path_(path), hashed_(true) {
   file_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
@@ -68,26 +85,43 @@ void GrowingFile::read_up_to(const Position& position) {
   bytes_ = position.bytes;
 }
 
-void GrowingFile::append(std::string_view lines) {
+/// How many of them could be written, and why not all.
+std::size_t GrowingFile::write(std::string_view bytes, int& error) {
   std::size_t done = 0;
-  int error = 0;
-  while (done < lines.size() && error == 0) {
-    const ssize_t n = ::write(file_, lines.data() + done, lines.size() - done);
+  while (done < bytes.size() && error == 0) {
+    const ssize_t n = ::write(file_, bytes.data() + done, bytes.size() - done);
     if (n >= 0)
       done += static_cast<std::size_t>(n);
     else if (errno != EINTR)
       error = errno;
   }
-  if (error != 0) {  // no torn line: readers would take it for a whole one
-    const std::size_t end = lines.substr(0, done).rfind('\n');
-    done = end == std::string_view::npos ? 0 : end + 1;
-  }
-  if (hashed_) content_.append(lines.substr(0, done));
-  bytes_ += done;
+  return done;
+}
+
+/// Of what was written these bytes; with an error nothing else stays.
+void GrowingFile::keep(std::string_view bytes, int error) {
+  if (hashed_) content_.append(bytes);
+  bytes_ += bytes.size();
   if (error == 0) return;
   static_cast<void>(::ftruncate(file_, static_cast<off_t>(bytes_)));
   static_cast<void>(::lseek(file_, 0, SEEK_END));
   throw not_written(path_, error);
+}
+
+void GrowingFile::append(std::string_view lines) {
+  int error = 0;
+  std::size_t done = write(lines, error);
+  if (error != 0) {  // no torn line: readers would take it for a whole one
+    const std::size_t end = lines.substr(0, done).rfind('\n');
+    done = end == std::string_view::npos ? 0 : end + 1;
+  }
+  keep(lines.substr(0, done), error);
+}
+
+void GrowingFile::append_whole(std::string_view block) {
+  int error = 0;
+  const std::size_t done = write(block, error);
+  keep(block.substr(0, error == 0 ? done : 0), error);
 }
 
 void GrowingFile::to_disk() {

@@ -1,7 +1,8 @@
 #pragma once
-// A text that grows on disk while it is made, by whole lines. What ends the program later, be it
-// SIGKILL, leaves all that was appended before; only a power failure may take what `to_disk` has
-// not confirmed. A disk that is full, or a limit that is reached, leaves whole lines as well.
+// A file that grows on disk while it is made, by whole lines or whole blocks. What ends the program
+// later, be it SIGKILL, leaves all that was appended before; only a power failure may take what
+// `to_disk` has not confirmed. A disk that is full, or a limit that is reached, leaves whole ones
+// as well.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -13,7 +14,7 @@ namespace floatframe {
 
 class GrowingFile {
  public:
-  /// Where a text ends, and what is before.
+  /// Where a file ends, and what is before.
   struct Position {
     std::uint64_t bytes = 0;
     std::string content;  ///< fingerprint
@@ -26,12 +27,16 @@ class GrowingFile {
   /// such file or what is before the position is not what it was, OutputError if it cannot be
   /// written.
   GrowingFile(const std::string& path, const Position& position);
+  /// Throws InputError if the file cannot be continued from there. Changes nothing.
+  static void require(const std::string& path, const Position& position);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
   /// Whole lines. Throws OutputError; of the lines those that fitted in are kept.
   void append(std::string_view lines);
+  /// One block: all of it, or nothing. Throws OutputError.
+  void append_whole(std::string_view block);
   /// Waits until a power failure would leave all of it. Throws OutputError.
   void to_disk();
 
@@ -40,7 +45,10 @@ class GrowingFile {
   Position position() const { return {bytes_, content_.text()}; }
 
  private:
+  GrowingFile(const std::string& path, const Position& position, int flags);
   void read_up_to(const Position& position);
+  std::size_t write(std::string_view bytes, int& error);
+  void keep(std::string_view bytes, int error);
 
   std::string path_;
   int file_ = -1;

@@ -42,6 +42,7 @@ void ModelBuilder::bodies() {
       FlexibleBody data;
       data.invariants = InertiaInvariants::rigid(rigid->mass, rigid->p_BC, rigid->J_C);
       data.K = data.D = MatX::Zero(0, 0);
+      data.shape = rigid->shape;
       body.data = std::make_shared<const FlexibleBody>(std::move(data));
     } else if (const auto* given = std::get_if<FlexibleBody>(&b.kind)) {
       if (given->modes() > 0)

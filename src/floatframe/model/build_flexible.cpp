@@ -6,6 +6,7 @@
 
 #include "floatframe/body/mirrored.hpp"
 #include "floatframe/fe/bar_frame.hpp"
+#include "floatframe/model/bar_shape.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
 namespace floatframe {
@@ -151,7 +152,10 @@ std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription
     if (k.key == key.text()) plain = k.body;
   if (!plain) {
     try {
-      plain = std::make_shared<const FlexibleBody>(reduce(build_bar_frame(frame), options));
+      const FeModel model = build_bar_frame(frame);
+      FlexibleBody reduced = reduce(model, options);
+      reduced.shape = std::make_shared<const BodyShape>(bar_shape(f, model));
+      plain = std::make_shared<const FlexibleBody>(std::move(reduced));
     } catch (const InputError& error) {
       for (const ErrorEntry& entry : error.errors())
         errors.add(entry.mark.file.empty() ? body.origin.of("flexible") : entry.mark,

@@ -80,6 +80,8 @@ struct RigidDescription {
   double mass = 0.0;         ///< [kg]; zero is legitimate (massless link)
   Vec3 p_BC = Vec3::Zero();  ///< centre of mass in the body frame [m]
   Mat3 J_C = Mat3::Zero();   ///< inertia about the centre of mass, body axes [kg m2]
+  /// What it looks like, in the body frame; null: known by its mass and markers alone.
+  std::shared_ptr<const BodyShape> shape = nullptr;
 };
 
 struct BodyDescription {
@@ -300,6 +302,17 @@ struct StartOffset {
   std::optional<Vec3> rotation;
 };
 
+/// What a run keeps of its motion beside its outputs (docs/result-file.md).
+struct RecordDescription {
+  /// by_command: `floatframe run` keeps it, everything else does not.
+  enum class States { by_command, none, states } states = States::by_command;
+  /// Of the instants of the outputs every so many; 0: all, or as many as make 20 000 at most.
+  int every = 0;
+  std::vector<std::string>
+      bodies;                 ///< whose coordinates, and those of what carries them; empty: all
+  bool accelerations = true;  ///< of the integrator, which (q, v) do not decide to the bit
+};
+
 struct SystemState;
 
 struct SimulationDescription {
@@ -323,6 +336,7 @@ struct SimulationDescription {
   double penalty = 0.0;              ///< 0: chosen from masses and step
   double position_tolerance = 1e-9;  ///< constraint violation accepted after a step [m]
   double velocity_tolerance = 1e-8;  ///< after the projections [m/s]
+  RecordDescription record;
   /// Of the group in the model file; who changes `step` or `duration` afterwards calls `given_by`.
   Origin origin;
 

@@ -110,7 +110,8 @@ class ModelHash {
     all(p, X, M_s, X_theta, M_6);
   }
   void add(const FlexibleBody& body) {
-    const auto& [invariants, K, D, nodes, projection, mass_model, frequencies, mode_names] = body;
+    const auto& [invariants, K, D, nodes, projection, mass_model, frequencies, mode_names, shape] =
+        body;
     all(invariants, K, D, projection != nullptr, mass_model);  // nodes: those with markers
     if (projection) add(*projection);
   }

@@ -56,6 +56,8 @@ inline constexpr NumberRule tolerance{"a number from 1e-15 to 1", "", 1e-15, 1.0
 inline constexpr NumberRule penalty = non_negative_number("");
 inline constexpr NumberRule position_tolerance{"a number from 1e-15 to 1", "m", 1e-15, 1.0};
 inline constexpr NumberRule velocity_tolerance{"a number from 1e-15 to 1", "m/s", 1e-15, 1.0};
+inline constexpr const char* recorded[] = {"none", "states"};
+inline constexpr WholeNumberRule every{"a number of instants", 1, 1000000000};
 inline constexpr WholeNumberRule max_iterations{"a number of iterations", 1, 1000};
 inline constexpr double most_steps = 1e9;
 inline constexpr std::size_t column_length = 200;

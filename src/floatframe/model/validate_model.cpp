@@ -49,6 +49,7 @@ void validate(const SimulationDescription& s, ErrorList& errors) {
   group.number("penalty", s.penalty, rules::penalty);
   group.number("position_tolerance", s.position_tolerance, rules::position_tolerance);
   group.number("velocity_tolerance", s.velocity_tolerance, rules::velocity_tolerance);
+  if (s.record.every != 0) group.whole("record", s.record.every, rules::every);
 }
 
 void require_valid(const SimulationDescription& s) {

@@ -19,6 +19,8 @@ struct ModelFingerprint {
   std::string model;
   /// The same of the group `simulation`.
   std::string simulation;
+  /// The files with the values of parameters, if it was asked for (ReadOptions).
+  std::string text;
 };
 
 /// Names of files relative to the model file: a folder may be moved or reached by another path.

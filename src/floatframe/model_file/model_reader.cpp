@@ -10,6 +10,7 @@
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/load_instances.hpp"
 #include "floatframe/model_file/read_parts.hpp"
+#include "floatframe/model_file/resolved_text.hpp"
 
 namespace floatframe {
 namespace {
@@ -89,6 +90,7 @@ ModelDescription read_model(const std::string& path,
   if (root && used) {
     for (const auto& [name, value] : root->scope) used->parameters.push_back(name);
     fingerprint(*root, *used);
+    if (options.keep_text) used->text = resolved_text(*root);
   }
   if (root && root->root) {
     read_top(*root, path, model);
@@ -98,6 +100,7 @@ ModelDescription read_model(const std::string& path,
       every(*root, [&](const ModelInstance& self) { part(self, model); });
     read_simulation(*root, model);
     if (model.description.outputs.empty()) default_outputs(model);
+    read_added_outputs(*root, model);
     if (errors.empty() && model.description.bodies.empty())
       errors.add({path, 1, 1}, "bodies: found none, expected at least one body");
   }

@@ -16,6 +16,11 @@ struct ReadOptions {
   /// Receives in one line what is going on: parts that are reduced or taken from the cache, what
   /// their health reports warn of.
   std::function<void(const std::string& line)> say;
+  /// Gives `ModelFingerprint::text`, too.
+  bool keep_text = false;
+  /// Further outputs, as a model file writes them: "tip: {position: {body: arm, node: BALL}}". They
+  /// come last.
+  std::vector<std::string> outputs = {};
 };
 
 /// Throws InputError with every error found (file:line:column: sentence). `path` may hold subsystem

@@ -324,6 +324,18 @@ void read_outputs(const ModelInstance& self, ReadModel& model) {
     reader.read(name, v);
 }
 
+void read_added_outputs(const ModelInstance& root, ReadModel& model) {
+  for (const std::string& text : model.options.outputs) {
+    const YamlDocument document = parse_yaml("--add", text, *root.context.errors);
+    if (document.root.line == 0) continue;  // nothing was understood, and that has been said
+    const ReadContext context{&document.file, &root.scope, root.context.errors};
+    const YamlValue value(context, document.root, "outputs");
+    OutputReader reader(root, model);
+    for (const auto& [name, v] : value.named("a map of column names to quantities", true))
+      reader.read(name, v);
+  }
+}
+
 void default_outputs(ReadModel& model) {
   for (const BodyDescription& b : model.description.bodies) {
     if (!b.rigid && !std::holds_alternative<RigidDescription>(b.kind)) continue;
@@ -335,6 +347,7 @@ void default_outputs(ReadModel& model) {
       o.at.point = b.X_WB.p;
       o.component = k;
       o.origin.mark = b.origin.mark;
+      model.columns.insert(o.name);
       model.description.outputs.push_back(std::move(o));
     }
   }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "floatframe/body/body_shape.hpp"
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/formats/sid/sid_file.hpp"
 #include "floatframe/model_file/part_cache.hpp"
@@ -28,6 +29,13 @@ FlexibleRead known_part(FlexibleBody body) {
 FlexibleRead known_part(ReducedPart part) {
   std::vector<ModalNode> points =
       surface_points(part.body, part.surface_positions, part.surface_modes);
+  BodyShape shape;
+  shape.positions = std::move(part.surface_positions);
+  shape.modes = std::move(part.surface_modes);
+  shape.triangles = std::move(part.surface.triangles);
+  shape.lines = std::move(part.surface.lines);
+  shape.nodes = std::move(part.surface.nodes);
+  part.body.shape = std::make_shared<const BodyShape>(std::move(shape));
   FlexibleRead out = known_part(std::move(part.body));
   out.body->nodes.insert(out.body->nodes.end(), std::make_move_iterator(points.begin()),
                          std::make_move_iterator(points.end()));

@@ -45,6 +45,8 @@ void read_inputs(const ModelInstance& self, ReadModel& model);
 void read_forces(const ModelInstance& self, ReadModel& model);
 void read_initial(const ModelInstance& self, ReadModel& model);
 void read_outputs(const ModelInstance& self, ReadModel& model);
+/// Those of the options, by the names of the model file.
+void read_added_outputs(const ModelInstance& root, ReadModel& model);
 void read_simulation(const ModelInstance& self, ReadModel& model);
 /// x, y, z of every rigid body.
 void default_outputs(ReadModel& model);

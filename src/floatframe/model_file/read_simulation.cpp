@@ -60,6 +60,29 @@ void read_start(const ModelInstance& self, const YamlValue& value, SimulationDes
   read_offset(self, *offset, d);
 }
 
+/// none, states, or {states: {every: n, bodies: [...], accelerations: true}}
+void read_record(const ModelInstance& self, const YamlValue& value, RecordDescription& d) {
+  using States = RecordDescription::States;
+  if (!value.is_map()) {
+    if (const auto w = value.word(rules::recorded))
+      d.states = *w == 0 ? States::none : States::states;
+    return;
+  }
+  auto s = value.section();
+  const auto states = s->require("states");
+  s->finish();
+  auto options = states ? states->section("a map with every, bodies, accelerations") : std::nullopt;
+  if (!options) return;
+  d.states = States::states;
+  if (const auto v = options->get("every")) d.every = v->integer(rules::every).value_or(0);
+  if (const auto v = options->get("bodies"))
+    for (const YamlValue& item : v->list("a list of bodies"))
+      if (const auto name = item.text("the name of a body"))
+        if (const auto body = self.moving_body(*name, item)) d.bodies.push_back(*body);
+  d.accelerations = options->boolean("accelerations", d.accelerations);
+  options->finish();
+}
+
 }  // namespace
 
 void read_simulation(const ModelInstance& self, ReadModel& model) {
@@ -92,6 +115,7 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
       s.number("position_tolerance", rules::position_tolerance, d.position_tolerance);
   d.velocity_tolerance =
       s.number("velocity_tolerance", rules::velocity_tolerance, d.velocity_tolerance);
+  if (const auto v = s.get("record")) read_record(self, *v, d.record);
   s.finish();
   if (d.start == Start::state && !d.state) return;  // the file could not be read
   judge(s, d.origin, [&](const validation::Entity& group) { validate(d, group.errors); });

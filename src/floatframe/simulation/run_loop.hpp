@@ -14,6 +14,7 @@
 #include "floatframe/simulation/run_memory.hpp"
 #include "floatframe/simulation/run_watch.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/state_layout.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
 
 namespace floatframe {
@@ -39,6 +40,7 @@ class Run {
     s.energy.elastic_start = e.elastic;
     s.energy.total_start = e.total();
     prepare_table();
+    prepare_states();
     if (options.keep_state) joints_.emplace(steps_.model());
     if (options.record && options.watch)
       watch_.emplace(steps_.formulation(), o.step, planned_ / every_);
@@ -69,16 +71,34 @@ class Run {
                         0.0);
   }
 
+  void prepare_states() {
+    if (!options_.record || !options_.states) return;
+    states_.emplace(steps_.formulation(), o_.record);
+    states_every_ = states_every(o_.record, planned_ / every_ + 1);
+    state_columns_.resize(static_cast<std::size_t>(states_->layout().columns));
+    state_sink_ = [this](const std::vector<Column>&, std::span<const double> numbers) {
+      options_.states(states_->layout(), numbers);
+    };
+    state_block_.emplace(state_columns_, state_sink_);
+  }
+
   bool begin() {
     if (options_.record) sample();
+    sample_state(0);
     if (joints_) joints_->follow(steps_.formulation(), steps_.state());
     if (watch_) watch_->start(steps_.state());
-    return !block_ || handed_over();
+    return handed_over();
   }
 
   void sample() noexcept {
     ResultTable& table = result_.table;
     steps_.sample(block_ ? block_->next() : table.data.data() + table.columns.size() * rows_++);
+  }
+
+  /// After `sample`, which has brought the formulation there.
+  void sample_state(long step) noexcept {
+    if (state_block_ && (step == planned_ || step / every_ % states_every_ == 0))
+      states_->sample(steps_.state(), state_block_->next());
   }
 
   /// False: the run is to end here.
@@ -102,6 +122,7 @@ class Run {
     const bool sampled = good && options_.record && (k % every_ == 0 || k == planned_);
     if (sampled) sample();
     s.cpu += 1e-9 * static_cast<double>(thread_cpu_clock() - before);
+    if (sampled) sample_state(k);
     if (good && joints_) joints_->follow(steps_.formulation(), steps_.state());
     if (good && watch_) watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole);
     if (good) {
@@ -117,11 +138,12 @@ class Run {
   bool let_out() {
     if (checkpoint_every_ > 0 && made_ % checkpoint_every_ == 0 && made_ < planned_)
       return check_point();
-    return !block_ || !block_->due() || handed_over();
+    const bool rows = block_ && block_->due(), states = state_block_ && state_block_->due();
+    return (!rows && !states) || handed_over();
   }
 
   bool check_point() {
-    if (block_ && !handed_over()) return false;
+    if (!handed_over()) return false;
     RunMemory m;
     m.made = made_;
     m.steps = steps_.memory();
@@ -131,7 +153,10 @@ class Run {
   }
 
   bool handed_over() {
-    return written([&] { block_->hand_over(); });
+    return written([&] {
+      if (block_) block_->hand_over();
+      if (state_block_) state_block_->hand_over();
+    });
   }
 
   template <class Write>
@@ -141,6 +166,7 @@ class Run {
       return true;
     } catch (const OutputError& error) {
       block_.reset();  // what is on its way is lost
+      state_block_.reset();
       result_.summary.status = "failed";
       result_.summary.message = fmt::format("at t = {:.9g} s {}", steps_.state().t, error.what());
       return false;
@@ -149,7 +175,8 @@ class Run {
 
   RunIdentity identity() {
     return run_identity(steps_.model(), o_,
-                        {options_.record, watch_.has_value(), joints_.has_value()});
+                        {options_.record, watch_.has_value(), joints_.has_value(),
+                         states_ ? record_text(o_.record, states_every_) : "none"});
   }
 
   bool resume(const RunCheckpoint& checkpoint) {
@@ -159,11 +186,11 @@ class Run {
     steps_.set_memory(m.steps);
     result_.summary.cpu = m.cpu;
     if (joints_) joints_->restore(m.joints, m.steps.state.t);
-    return !block_ || handed_over();
+    return handed_over();
   }
 
   void finish() {
-    if (block_) handed_over();
+    if (block_ || state_block_) handed_over();
     RunSummary& s = result_.summary;
     result_.table.data.resize(rows_ * result_.table.columns.size());
     const StepCounters& c = steps_.counters();
@@ -197,6 +224,11 @@ class Run {
   RunResult result_;
   std::size_t rows_ = 0;           ///< in the table
   std::optional<RowBlock> block_;  ///< of rows that leave
+  std::optional<StateSampler<F>> states_;
+  long states_every_ = 1;  ///< of the rows so many are states
+  std::vector<Column> state_columns_;
+  RowBlock::Sink state_sink_;
+  std::optional<RowBlock> state_block_;  ///< of states that leave
   std::optional<JointFollower> joints_;
   std::optional<RunWatch<F>> watch_;
 };

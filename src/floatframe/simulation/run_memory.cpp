@@ -9,6 +9,13 @@
 
 namespace floatframe {
 
+std::string record_text(const RecordDescription& record, long every) {
+  std::string text = fmt::format("every {}", every);
+  if (!record.accelerations) text += ", without accelerations";
+  for (const std::string& body : record.bodies) text += ", " + body;
+  return text;
+}
+
 RunIdentity run_identity(const Model& model, const SimulationDescription& o,
                          const RunKeeps& keeps) {
   const auto number = [](double x) { return fmt::format("{}", x); };
@@ -28,7 +35,8 @@ RunIdentity run_identity(const Model& model, const SimulationDescription& o,
           {"velocity_tolerance", number(o.velocity_tolerance)},
           {"rows recorded", yes(keeps.rows)},
           {"range watched", yes(keeps.watch)},
-          {"state kept for the end (--write-state)", yes(keeps.state)}};
+          {"state kept for the end (--write-state)", yes(keeps.state)},
+          {"states recorded", keeps.states}};
 }
 
 namespace {

@@ -16,7 +16,11 @@ using RunIdentity = std::vector<std::pair<std::string, std::string>>;
 /// What a run keeps beside its rows.
 struct RunKeeps {
   bool rows = true, watch = true, state = false;
+  std::string states = "none";  ///< recorded: see `record_text`
 };
+
+/// Which states are recorded, in words.
+std::string record_text(const RecordDescription& record, long every);
 
 RunIdentity run_identity(const Model& model, const SimulationDescription& options,
                          const RunKeeps& keeps);

@@ -14,6 +14,8 @@
 
 namespace floatframe {
 
+struct StateLayout;
+
 /// Coordinates and constraints of both formulations, found from the assembled model (rank by SVD).
 ModelCounts check(const Model& model);
 
@@ -45,6 +47,10 @@ struct RunOptions {
   /// then, and the memory of a run does not depend on its length. At the start of a run that is
   /// resumed it is called without numbers. An OutputError that it throws ends the run, which fails.
   std::function<void(const std::vector<Column>&, std::span<const double>)> rows;
+  /// Takes the states of the run, as `record` of its description says which: blocks of whole rows,
+  /// as `rows` (only where rows are recorded), handed over after these. At the start of a run
+  /// that is resumed it is called without numbers.
+  std::function<void(const StateLayout&, std::span<const double>)> states;
   /// Looked at between steps: true ends the run, whose status is "interrupted".
   const std::atomic<bool>* stop = nullptr;
   /// Called every so many seconds of simulated time [s], and when the run is interrupted, after all

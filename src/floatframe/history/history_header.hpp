@@ -1,0 +1,75 @@
+#pragma once
+// The header of a result file: what its rows hold, what they belong to, and what the run was made
+// from. docs/result-file.md has its keys.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace floatframe {
+
+/// What a run was made from.
+struct HistoryOrigin {
+  std::string program;                ///< version
+  std::string library;                ///< which copy of it: version, build, fingerprint of its file
+  std::string model_file;             ///< as it was given
+  std::string from_here;              ///< the same from the folder of the result file
+  std::vector<std::string> settings;  ///< "name=value"
+  std::map<std::string, std::string> files;  ///< read, from the model file, and their fingerprints
+  std::string text;                          ///< of the model files, with the values of parameters
+};
+
+struct HistoryGroup {
+  std::string name;
+  std::size_t first = 0, count = 0;  ///< columns
+};
+
+struct HistoryBody {
+  std::string name;
+  double mass = 0.0;                           ///< [kg]
+  std::vector<std::string> modes;              ///< names
+  std::vector<double> frequencies;             ///< of each mode alone [Hz]; -1: not finite
+  int pose = -1, amplitudes = -1, rates = -1;  ///< first columns; -1: not recorded
+  int shape = -1;                              ///< index; bodies that are alike share one
+};
+
+/// The names of the nodes of a shape; its arrays are "shapes/0/...".
+struct HistoryShape {
+  std::vector<std::string> nodes;
+};
+
+struct HistoryArray {
+  std::string name, type;  ///< f32, f64 or u32
+  std::vector<std::uint64_t> shape;
+};
+
+struct HistoryHeader {
+  HistoryOrigin origin;
+  std::string model, model_hash;  ///< name, and fingerprint of what decides the motion
+  std::string coordinates, inertia;
+  double step = 0.0, duration = 0.0, output_interval = 0.0;  ///< [s]
+  std::size_t columns = 0;
+  std::vector<HistoryGroup> groups;
+  int configurations = 0, velocities = 0;  ///< coordinates of the model
+  std::vector<int> q, v;                   ///< those that are recorded, ascending
+  std::vector<std::string> owners;         ///< of each recorded velocity
+  std::vector<HistoryBody> bodies;
+  std::vector<HistoryShape> shapes;
+  std::vector<HistoryArray> arrays;
+
+  /// nullptr if there is none of that name.
+  const HistoryGroup* find(std::string_view name) const noexcept;
+  bool complete() const noexcept {
+    return static_cast<int>(q.size()) == configurations && static_cast<int>(v.size()) == velocities;
+  }
+};
+
+/// Bytes of an array; 0 if there are more than 2^62.
+std::uint64_t array_bytes(const HistoryArray& array) noexcept;
+
+std::string header_json(const HistoryHeader& header);
+/// Throws InputError, without a place, with what is wrong with it.
+HistoryHeader header_from_json(std::string_view text);
+
+}  // namespace floatframe

@@ -1,0 +1,39 @@
+#pragma once
+// The result file of a run while it grows (history_blocks.hpp has its layout). What ends the
+// program leaves all rows that were appended; a disk that is full leaves whole blocks.
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "floatframe/core/growing_file.hpp"
+#include "floatframe/history/history_header.hpp"
+
+namespace floatframe {
+
+/// What is written before the first row.
+struct HistoryContent {
+  HistoryHeader header;
+  std::vector<std::string> arrays;  ///< bytes of each that the header lists
+};
+
+class StatesFile {
+ public:
+  /// In place of a file that is there; `continuable`: positions are asked for. Throws OutputError.
+  StatesFile(const std::string& path, const HistoryContent& content, bool continuable);
+  /// Continues one, see GrowingFile.
+  StatesFile(const std::string& path, const GrowingFile::Position& position)
+      : file_(path, position) {}
+
+  /// Whole rows. Throws OutputError.
+  void append(std::span<const double> numbers);
+  /// How the run ended; nothing is appended afterwards.
+  void finish(const std::string& status, const std::string& message);
+  void to_disk() { file_.to_disk(); }
+  GrowingFile::Position position() const { return file_.position(); }
+
+ private:
+  GrowingFile file_;
+};
+
+}  // namespace floatframe

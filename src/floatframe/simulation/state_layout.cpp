@@ -1,0 +1,159 @@
+#include "floatframe/simulation/state_layout.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/suggest.hpp"
+#include "floatframe/formulation/absolute.hpp"
+
+namespace floatframe {
+namespace {
+
+/// A run of which every output is a state has at most so many, unless it is told how many.
+constexpr long most_states = 20000;
+
+template <class F>
+constexpr bool in_joint_coordinates = requires(const F& f) {
+  f.tree();
+};
+
+void append_range(std::vector<int>& out, int first, int count) {
+  for (int k = 0; k < count; ++k) out.push_back(first + k);
+}
+
+int column_among(const std::vector<int>& kept, int coordinate) {
+  return static_cast<int>(std::lower_bound(kept.begin(), kept.end(), coordinate) - kept.begin());
+}
+
+}  // namespace
+
+const StateLayout::Group* StateLayout::find(const std::string& name) const noexcept {
+  for (const Group& g : groups)
+    if (g.name == name) return &g;
+  return nullptr;
+}
+
+long states_every(const RecordDescription& record, long rows) noexcept {
+  return record.every > 0 ? record.every : std::max(1L, (rows + most_states - 1) / most_states);
+}
+
+template <class F>
+StateSampler<F>::StateSampler(F& formulation, const RecordDescription& record) : f_(formulation) {
+  keep_bodies(record);
+  find_coordinates();
+  place_columns(record);
+}
+
+/// Those that are named, and in joint coordinates all that they hang from.
+template <class F>
+void StateSampler<F>::keep_bodies(const RecordDescription& record) {
+  const std::vector<Body>& bodies = f_.model().bodies;
+  kept_.assign(bodies.size(), record.bodies.empty() ? 1 : 0);
+  for (const std::string& name : record.bodies) {
+    int i = 0;
+    while (i < static_cast<int>(bodies.size()) && bodies[i].name != name) ++i;
+    if (i == static_cast<int>(bodies.size())) {
+      std::vector<std::string> known;
+      for (const Body& b : bodies) known.push_back(b.name);
+      throw InputError("simulation.record.states.bodies: unknown body '" + name + "'" +
+                       did_you_mean(name, known));
+    }
+    if constexpr (in_joint_coordinates<F>)
+      for (; i >= 0; i = f_.tree().body(i).parent) kept_[i] = 1;
+    else
+      kept_[i] = 1;
+  }
+}
+
+template <class F>
+void StateSampler<F>::find_coordinates() {
+  StateLayout& l = layout_;
+  l.configurations = f_.configurations();
+  l.velocities = f_.velocities();
+  int offset = 0;
+  for (int i = 0; i < static_cast<int>(kept_.size()); ++i) {
+    if constexpr (in_joint_coordinates<F>) {
+      const TreeBody& b = f_.tree().body(i);
+      if (!kept_[i]) continue;
+      append_range(l.q, b.iq, b.iyq - b.iq);
+      append_range(l.q, b.iyq, b.nm);
+      append_range(l.v, b.iv, b.nj);
+      append_range(l.v, b.iy, b.nm);
+    } else {
+      offsets_.push_back(offset);
+      if (kept_[i]) append_range(l.q, offset, f_.body_size(i));
+      offset += f_.body_size(i);
+    }
+  }
+  if constexpr (!in_joint_coordinates<F>) l.v = l.q;
+  std::sort(l.q.begin(), l.q.end());
+  std::sort(l.v.begin(), l.v.end());
+  for (const int k : l.v) l.owners.push_back(f_.coordinate_owner(k));
+}
+
+template <class F>
+void StateSampler<F>::place_columns(const RecordDescription& record) {
+  StateLayout& l = layout_;
+  const auto group = [&](const char* name, std::size_t count) {
+    l.groups.push_back({name, l.columns, static_cast<int>(count)});
+    l.columns += static_cast<int>(count);
+    return l.groups.back().first;
+  };
+  group("time", 1);
+  const int q = group("q", l.q.size()), v = group("v", l.v.size());
+  if (record.accelerations) group("accelerations", l.v.size());
+  group("spring_angles", f_.spring_angles().size());
+  group("inputs", f_.inputs().size());
+  const auto bodies = static_cast<std::size_t>(std::count(kept_.begin(), kept_.end(), 1));
+  int pose = group("poses", 7 * bodies);
+  for (int i = 0; i < static_cast<int>(kept_.size()); ++i) {
+    StateLayout::BodyColumns c;
+    if (kept_[i]) {
+      c.pose = pose;
+      pose += 7;
+      int in_q = 0, in_v = 0;
+      if constexpr (in_joint_coordinates<F>) {
+        in_q = f_.tree().body(i).iyq;
+        in_v = f_.tree().body(i).iy;
+      } else {
+        in_q = in_v = offsets_[i] + 12;
+      }
+      if (f_.model().bodies[i].modes() > 0) {
+        c.amplitudes = q + column_among(l.q, in_q);
+        c.rates = v + column_among(l.v, in_v);
+      }
+    }
+    l.bodies.push_back(c);
+  }
+}
+
+template <class F>
+void StateSampler<F>::sample(const State& state, double* row) const noexcept {
+  const StateLayout& l = layout_;
+  *row++ = state.t;
+  for (const int k : l.q) *row++ = state.q[k];
+  for (const int k : l.v) *row++ = state.v[k];
+  if (l.groups[3].name[0] == 'a')
+    for (const int k : l.v) *row++ = state.a[k];
+  for (const double x : f_.spring_angles()) *row++ = x;
+  for (const double x : f_.inputs()) *row++ = x;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    if (!kept_[i]) continue;
+    const int body = static_cast<int>(i);
+    Vec3 p;
+    if constexpr (in_joint_coordinates<F>)
+      p = f_.body_position(body);
+    else
+      p = state.q.segment<3>(offsets_[i]);
+    const Eigen::Quaterniond turn(f_.body_rotation(body));
+    const Eigen::Quaterniond unit = turn.normalized();
+    for (int k = 0; k < 3; ++k) *row++ = p[k];
+    for (const double x : {unit.w(), unit.x(), unit.y(), unit.z()}) *row++ = x;
+  }
+}
+
+template class StateSampler<RelativeFormulation>;
+template class StateSampler<AbsoluteFormulation>;
+
+}  // namespace floatframe

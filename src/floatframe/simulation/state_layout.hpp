@@ -1,0 +1,70 @@
+#pragma once
+// The states of a run as rows of numbers, for who keeps them (history/states_file.hpp). A row is
+// one instant: the time, the coordinates q and velocities v of the formulation, its accelerations,
+// the angles that tell turns of joint springs, the inputs, and for those who have no formulation
+// the pose of each body. With them (`StateSampler`, history/new_channels.hpp) the formulation is
+// where it was, to the bit.
+//
+// Accelerations are the integrator's: it leaves a step with them before velocities and positions
+// are projected, so (q, v) decide them to its tolerance only.
+#include <string>
+#include <vector>
+
+#include "floatframe/integrator/step.hpp"
+#include "floatframe/model/model.hpp"
+
+namespace floatframe {
+
+struct StateLayout {
+  struct Group {
+    std::string name;
+    int first = 0, count = 0;  ///< columns
+  };
+  /// time, q, v, accelerations, spring_angles, inputs, poses: x, y, z [m] of the body frame and its
+  /// quaternion (w, x, y, z), body to world.
+  std::vector<Group> groups;
+  int columns = 0;
+  std::vector<int> q, v;  ///< the coordinates that are kept, as the formulation numbers them
+  int configurations = 0, velocities = 0;  ///< all there are
+  std::vector<std::string> owners;         ///< of each velocity: "joint 'hinge'"
+
+  /// First columns; -1: not kept.
+  struct BodyColumns {
+    int pose = -1;
+    int amplitudes = -1, rates = -1;  ///< of its modes, among q and v; without modes -1
+  };
+  std::vector<BodyColumns> bodies;
+
+  bool complete() const noexcept {
+    return q.size() == static_cast<std::size_t>(configurations) &&
+           v.size() == static_cast<std::size_t>(velocities);
+  }
+  const Group* find(const std::string& name) const noexcept;
+};
+
+/// Of the recorded rows every so many are states, in a run that records so many rows.
+long states_every(const RecordDescription& record, long rows) noexcept;
+
+/// Writes the states of one formulation as rows.
+template <class F>
+class StateSampler {
+ public:
+  /// Throws InputError for a body that the model does not have.
+  StateSampler(F& formulation, const RecordDescription& record);
+
+  const StateLayout& layout() const noexcept { return layout_; }
+  /// The formulation has been brought to the state. Allocates nothing.
+  void sample(const State& state, double* row) const noexcept;
+
+ private:
+  void keep_bodies(const RecordDescription& record);
+  void find_coordinates();
+  void place_columns(const RecordDescription& record);
+
+  F& f_;
+  StateLayout layout_;
+  std::vector<char> kept_;    ///< bodies
+  std::vector<int> offsets_;  ///< absolute coordinates: the first of each body
+};
+
+}  // namespace floatframe
