@@ -35,6 +35,18 @@ class Help(Bench):
 
 
 class Chain(Bench):
+    def test_long_chains_run_in_all_four_combinations(self):
+        self.bench("chain", "--links", "64,256", "--duration", 0.002, "--elements", 4, "--repeat", 1, "--seconds", 0.01,
+                   "--json", "long.json")
+        rows = json.loads((self.folder / "long.json").read_text())["rows"]
+        self.assertEqual(len(rows), 8)
+        for row in rows:
+            self.assertIsNone(row["failure"])
+            self.assertEqual(row["substeps"], 0)
+            self.assertGreaterEqual(row["steps"], 1)
+            self.assertTrue(1 <= row["iterations_per_step"] <= 4, row)
+            self.assertTrue(0 <= row["energy_drift"] < 1e-5, row)
+
     def test_table_and_json_hold_the_four_combinations(self):
         done = self.bench("chain", "--links", "1,2", "--duration", 0.05, "--elements", 4, "--repeat", 2, "--seconds", 0.01,
                           "--json", "chain.json")
