@@ -10,6 +10,8 @@
 #include <string>
 
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/stepping.hpp"
+#include "support/allocation_counter.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -102,6 +104,15 @@ TEST(MasslessSlides, NeedNoHalvedStep) {
     EXPECT_LT(largest_difference(a, r), p.step * 0.1);
     EXPECT_LT(a.summary.iterations, 8 * a.summary.steps);
   }
+}
+
+TEST(MasslessSlides, StepsDoNotAllocate) {
+  if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
+  const Model model = model_of(slides_text({235.2, 0.4968, 45.85, 0.45, 500.0, 1e-3}));
+  Simulation s(model, {.step = 1e-3, .coordinates = Coordinates::absolute});
+  const AllocationScope scope;
+  for (int k = 0; k < 50; ++k) EXPECT_TRUE(s.step());
+  EXPECT_EQ(scope.count(), 0u);
 }
 
 TEST(MasslessSlides, MoveAsThoseOfAGram) {
