@@ -8,6 +8,7 @@ foreach(command "ci;--no-audit;--no-fund;--fetch-retries=1;--fetch-timeout=60000
                   OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT failed EQUAL 0)
     string(STRIP "${said}" said)
+    string(SUBSTRING "${said}" 0 1000 said)
     list(JOIN command " " words)
     message("note: `npm ${words}` failed, so reports will have static curves, without the 3-D view; `make build` tries again.\n${said}")
     file(WRITE ${FOLDER}/template.html "")
