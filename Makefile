@@ -10,7 +10,7 @@ CTEST := ctest --output-on-failure --no-tests=error -j2
 help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
-	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, twenty kills of each kind"
+	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, twenty kills of each kind"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
 	@echo "make docs          reference of the C++ interface: build/docs/html/index.html"
 	@echo "make bench         timing of a chain of flexible links, the Iltis and single kernels"
@@ -38,6 +38,7 @@ test: build
 # docs/validation.md has the figures.
 test-all: test
 	FLOATFRAME_MECHANISMS=1000 build/tests/mechanisms_tests --gtest_brief=1
+	FLOATFRAME_STAIRS=1 build/tests/simulation_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
 
 demo: build

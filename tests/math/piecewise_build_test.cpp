@@ -109,5 +109,27 @@ TEST(Table, PointsThatAreNone) {
   EXPECT_EQ(profile({{0, 0}, {0, 1}}), "no error");
 }
 
+TEST(PiecewiseBuild, EdgesAreJumpsOfValueOrSlope) {
+  const PiecewisePolynomial stairs =
+      profile_function({{0, 0}, {1, 0}, {1, -0.5}, {2, -0.5}, {3, -0.5}, {4, 0.5}});
+  EXPECT_EQ(stairs.edges(), (std::vector<double>{1, 3, 4}));
+  EXPECT_EQ(stairs.stretch_index(0.5), 0u);
+  EXPECT_EQ(stairs.stretch_index(1.0), 1u);
+  EXPECT_EQ(stairs.stretch_value(0, 1.5).f, 0.0) << "beyond its edge";
+  EXPECT_EQ(stairs.stretch_value(1, 0.5).f, -0.5);
+  EXPECT_NEAR(stairs.stretch_value(2, 4.5).f, 1.0, 1e-15) << "along the tangent";
+  EXPECT_EQ(stairs.stretch_value(99, 5.0).f, 0.5) << "the last one";
+  const std::vector<TablePoint> points{{0, 0}, {1, 3}, {2, 4}, {4, 9}};
+  EXPECT_TRUE(table_function(points, Interpolation::cubic, Beyond::tangent).edges().empty());
+  EXPECT_EQ(table_function(points, Interpolation::linear, Beyond::tangent).edges(),
+            (std::vector<double>{1, 2}));
+  // A cubic piece does not grow beyond its edge as its cube does.
+  const PiecewisePolynomial cubic({1.0}, {{0.0, {0, 0, 0, 1}}, {0.0, {1}}});
+  EXPECT_EQ(cubic.stretch_value(0, 11.0).f, 31.0);
+  EXPECT_EQ(cubic.stretch_value(0, 0.5).f, 0.125);
+  // A function that is not valid has none, and can be looked at by the checks of models.
+  EXPECT_TRUE(PiecewisePolynomial({1.0, 2.0}, {{0.0, {1.0}}}).edges().empty());
+}
+
 }  // namespace
 }  // namespace floatframe

@@ -64,7 +64,7 @@ TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_EQ(keys, (std::vector<std::string>{"model", "coordinates", "inertia", "step_s",
                                             "duration_s", "steps", "substeps", "iterations",
-                                            "factorizations", "cpu_s", "real_time_factor",
+                                            "factorizations", "edges", "cpu_s", "real_time_factor",
                                             "max_position_violation", "max_velocity_violation",
                                             "energy", "warnings", "start", "status", "message"}));
   EXPECT_EQ(json["coordinates"], "relative");
@@ -73,6 +73,13 @@ TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
   EXPECT_TRUE(json["energy"]["balance"].is_null());
   EXPECT_TRUE(json["warnings"].empty());
   EXPECT_EQ(json["status"], "completed");
+  EXPECT_TRUE(json["edges"].is_null()) << "not looked for";
+  summary.locates_edges = true;
+  summary.edges = 40;
+  summary.edges_passed = 1;
+  const auto located = nlohmann::json::parse(summary_json(summary));
+  EXPECT_EQ(located["edges"]["located"], 40);
+  EXPECT_EQ(located["edges"]["steps_with_too_many"], 1);
 }
 
 TEST(SummaryJson, NotFiniteIsNullAndBrokenTextIsReplaced) {
@@ -103,7 +110,7 @@ TEST(SummaryJson, WhatNobodyMeasuredIsLeftOut) {
                                                    "status", "message"}));
   RunSummary ended = never;  // in its first step
   ended.cpu = 1e-6;
-  EXPECT_EQ(keys(ended).size(), 18u);
+  EXPECT_EQ(keys(ended).size(), 19u);
 }
 
 TEST(SummaryJson, SaysWhatBecameOfTheStartValues) {

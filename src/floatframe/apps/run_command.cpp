@@ -96,10 +96,19 @@ FactTable setting_facts(const RunArguments& arguments, const SimulationDescripti
                    {"spectral radius at infinity", fmt::format("{:g}", s.spectral_radius)},
                    {"Newton tolerance", fmt::format("{:g}", s.tolerance)},
                    {"Newton iterations at most", std::to_string(s.max_iterations)}}};
+  if (s.locate_edges) facts.rows.push_back({"edges", "located within the steps"});
   for (const std::string& setting : arguments.model.settings) {
     facts.rows.push_back({"parameter set", setting});
   }
   return facts;
+}
+
+std::string edges_text(const RunSummary& s) {
+  if (!s.locates_edges) return "";
+  std::string text = fmt::format("  {} located", plural(s.edges, "edge"));
+  if (s.edges_passed > 0)
+    text += fmt::format(", {} with too many to locate", plural(s.edges_passed, "step"));
+  return text + "\n";
 }
 
 std::string summary_text(const RunSummary& s) {
@@ -107,14 +116,14 @@ std::string summary_text(const RunSummary& s) {
       "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time){}\n"
       "  {} coordinates, inertia terms by {}, step {:g} s\n"
       "  {}, {} by halving, {}, {}\n"
-      "  largest constraint violation {:.2g} m, {:.2g} m/s\n{}",
+      "{}  largest constraint violation {:.2g} m, {:.2g} m/s\n{}",
       s.model, s.duration, s.cpu, s.real_time_factor,
       s.status == "completed" || s.strict ? ""
       : s.status == "interrupted"         ? ", then it was interrupted"
                                           : ", then it failed",
       s.coordinates, s.inertia, s.step, plural(s.steps, "step"), s.substeps,
       plural(s.iterations, "Newton iteration"), plural(s.factorizations, "factorisation"),
-      s.max_position_violation, s.max_velocity_violation, notes_text(s.start.notes));
+      edges_text(s), s.max_position_violation, s.max_velocity_violation, notes_text(s.start.notes));
 }
 
 std::string files_text(const RunPaths& paths, bool has_table) {

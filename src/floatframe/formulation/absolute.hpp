@@ -63,6 +63,15 @@ class AbsoluteFormulation {
   std::span<const double> inputs() const noexcept { return force_set_.inputs(); }
   std::span<const double> spring_angles() const noexcept { return force_set_.angles(); }
   void set_spring_angles(std::span<const double> angles) noexcept { force_set_.set_angles(angles); }
+  /// As in relative.hpp, at the present positions and velocities.
+  std::span<const std::int64_t> force_branches() const noexcept { return force_set_.branches(); }
+  void hold_force_branches(std::span<const std::int64_t> branches) noexcept {
+    force_set_.hold_branches(branches);
+  }
+  void hold_force_branch(std::size_t force, std::int64_t branch) noexcept {
+    force_set_.hold_branch(force, branch);
+  }
+  ForceSide force_side(std::size_t force) const noexcept;
 
   /// The same configuration and velocities as a relative state. Axes do not tell turns: the angles
   /// of joint springs go on from those of the tree.

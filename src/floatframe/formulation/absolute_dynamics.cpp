@@ -13,6 +13,11 @@ void AbsoluteFormulation::forces() noexcept {
                       [&](int marker) -> const MarkerState& { return markers_[marker].s; });
 }
 
+ForceSide AbsoluteFormulation::force_side(std::size_t force) const noexcept {
+  return force_set_.side(force, Vec3::Zero(), time_,
+                         [&](int marker) -> const MarkerState& { return markers_[marker].s; });
+}
+
 void AbsoluteFormulation::add_wrench(int marker, bool through_point, const Vec3& force,
                                      const Vec3& torque, VecX& out) const noexcept {
   const MarkerData& m = markers_[marker];

@@ -8,6 +8,7 @@ ForceSet::ForceSet(const Model& model) : model_(model) {
   states_.resize(model.forces.size());
   angles_.assign(model.forces.size(), 0.0);
   kept_angles_ = angles_;
+  branches_.assign(model.forces.size(), free_branch);
   for (const Input& input : model.inputs) inputs_.push_back(input.initial);
 }
 

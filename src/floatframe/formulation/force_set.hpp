@@ -35,6 +35,23 @@ class ForceSet {
   /// Turns are counted from the start values of these joints, or their motions at time t.
   void count_turns_from(const Model& values, double t) noexcept;
 
+  /// Branches of the laws that are held (`force_side`), a number for each force; `free_branch`
+  /// before any is.
+  std::span<const std::int64_t> branches() const noexcept { return branches_; }
+  void hold_branches(std::span<const std::int64_t> branches) noexcept {
+    assert(branches.size() == branches_.size());
+    std::copy(branches.begin(), branches.end(), branches_.begin());
+  }
+  void hold_branch(std::size_t force, std::int64_t branch) noexcept { branches_[force] = branch; }
+  /// What `force_side` says of a force whose law has branches.
+  template <class StateOf>
+  ForceSide side(std::size_t k, const Vec3& p_WO, double t, const StateOf& state) const noexcept {
+    const Force& f = model_.forces[k];
+    const MarkerState& b = state(f.b);
+    const MarkerState& a = f.a >= 0 ? state(f.a) : b;
+    return force_side(model_, f, a, b, p_WO, t, angles_[k], inputs_, branches_[k]);
+  }
+
   /// The beginning of a step, and its end: what angles turned by in a step that was not accepted is
   /// forgotten.
   void stepping(bool on, bool accepted) noexcept {
@@ -53,7 +70,7 @@ class ForceSet {
       const Force& f = model_.forces[k];
       const MarkerState& b = state(f.b);
       const MarkerState& a = f.a >= 0 ? state(f.a) : b;
-      evaluate_force(model_, f, a, b, p_WO, t, angles_[k], states_[k], inputs_);
+      evaluate_force(model_, f, a, b, p_WO, t, angles_[k], states_[k], inputs_, branches_[k]);
       if (f.rotational) angles_[k] = states_[k].length;
     }
   }
@@ -76,6 +93,7 @@ class ForceSet {
   std::vector<double> angles_;       ///< pick the turn of the next evaluation [rad]
   std::vector<double> kept_angles_;  ///< those at the beginning of the step
   std::vector<double> inputs_;
+  std::vector<std::int64_t> branches_;
 };
 
 }  // namespace floatframe

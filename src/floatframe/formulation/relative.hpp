@@ -42,6 +42,16 @@ class RelativeFormulation {
   /// turn the next angle belongs to, so they are a part of the state that q does not hold.
   std::span<const double> spring_angles() const noexcept { return force_set_.angles(); }
   void set_spring_angles(std::span<const double> angles) noexcept { force_set_.set_angles(angles); }
+  /// Branches of the laws of forces that are held, and the side of a force whose law has branches
+  /// at the present positions and velocities (model/force_evaluation.hpp).
+  std::span<const std::int64_t> force_branches() const noexcept { return force_set_.branches(); }
+  void hold_force_branches(std::span<const std::int64_t> branches) noexcept {
+    force_set_.hold_branches(branches);
+  }
+  void hold_force_branch(std::size_t force, std::int64_t branch) noexcept {
+    force_set_.hold_branch(force, branch);
+  }
+  ForceSide force_side(std::size_t force) const noexcept;
 
   /// Start values of the model in these coordinates (before loops are closed). Turns of the springs
   /// on cut joints are counted from here on.

@@ -31,6 +31,11 @@ void RelativeFormulation::forces() noexcept {
                       [&](int marker) -> const MarkerState& { return tree_.marker(marker).s; });
 }
 
+ForceSide RelativeFormulation::force_side(std::size_t force) const noexcept {
+  return force_set_.side(force, tree_.origin(), time_,
+                         [&](int marker) -> const MarkerState& { return tree_.marker(marker).s; });
+}
+
 void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
                                    VecX& out) noexcept {
   tree_.accelerations(a);

@@ -60,6 +60,10 @@ class AugmentedLagrangian {
     return report;
   }
 
+  /// At an edge within a step, where forces jump; see restart.hpp. h: the size of steps.
+  void project_velocities(State& state, double h) noexcept;
+  bool restart(State& state, double h) noexcept;
+
   const StepOptions& options() const noexcept { return options_; }
 
   /// With the same state and experience the next step is the same, bit for bit.
@@ -354,6 +358,8 @@ class AugmentedLagrangian {
     return true;
   }
 
+  bool solve_accelerations(const State& state, double s, double penalty) noexcept;
+
   /// One pass: z -= W^-1 Phi_q^T penalty rate, and the rate that is left.
   void correct(VecX& z, double penalty) noexcept {
     delta_.setZero();
@@ -389,3 +395,5 @@ class AugmentedLagrangian {
 };
 
 }  // namespace floatframe
+
+#include "floatframe/integrator/restart.hpp"  // the members that are not defined here

@@ -131,6 +131,33 @@ PiecewisePolynomial operator+(const PiecewisePolynomial& a, const PiecewisePolyn
   return PiecewisePolynomial(std::move(breaks), std::move(pieces));
 }
 
+void PiecewisePolynomial::find_edges() {
+  if (pieces_.size() != breaks_.size() + 1) return;  // not valid: the checks of models say so
+  // A jump of so small a part of the largest value or slope at the breaks is rounding.
+  constexpr double rounding = 1e-9;
+  double largest = 0.0, steepest = 0.0;
+  for (std::size_t k = 0; k < breaks_.size(); ++k)
+    for (const std::size_t piece : {k, k + 1}) {
+      const Value v = piece_value(piece, breaks_[k]);
+      largest = std::max(largest, std::abs(v.f));
+      steepest = std::max(steepest, std::abs(v.df));
+    }
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < breaks_.size();) {
+    std::size_t next = k + 1;  // the piece right of this break and of those equal to it
+    while (next < breaks_.size() && breaks_[next] == breaks_[k]) ++next;
+    const Value left = piece_value(k, breaks_[k]), right = piece_value(next, breaks_[k]);
+    if (std::abs(right.f - left.f) > rounding * largest ||
+        std::abs(right.df - left.df) > rounding * steepest) {
+      edges_.push_back(breaks_[k]);
+      stretches_.push_back({first, k});
+      first = next;
+    }
+    k = next;
+  }
+  if (!edges_.empty()) stretches_.push_back({first, breaks_.size()});
+}
+
 PiecewisePolynomial ramp_below(double x0, double stiffness) {
   return PiecewisePolynomial({x0}, {{x0, {0.0, stiffness}}, {x0, {0.0}}});
 }

@@ -4,6 +4,10 @@
 // +inf:
 //   f(x) = sum_j c[k][j] (x - centre[k])^j
 // Evaluation costs a binary search over the pieces and a Horner scheme; it never allocates.
+//
+// Edges are the breaks where f or its slope jumps. The pieces between two edges are a stretch: a
+// function that is continuous with its slope and goes on beyond both edges along its tangents (the
+// pieces themselves may grow without measure there).
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -24,7 +28,9 @@ class PiecewisePolynomial {
   PiecewisePolynomial() : pieces_{{0.0, {0.0}}} {}
   /// breaks ascending (equal neighbours are allowed: a jump); pieces.size() == breaks.size() + 1.
   PiecewisePolynomial(std::vector<double> breaks, std::vector<Piece> pieces)
-      : breaks_(std::move(breaks)), pieces_(std::move(pieces)) {}
+      : breaks_(std::move(breaks)), pieces_(std::move(pieces)) {
+    if (!breaks_.empty()) find_edges();
+  }
 
   static PiecewisePolynomial polynomial(std::vector<double> coefficients) {
     return PiecewisePolynomial({}, {{0.0, std::move(coefficients)}});
@@ -50,12 +56,39 @@ class PiecewisePolynomial {
     }
     return v;
   }
+  /// Ascending, each once.
+  const std::vector<double>& edges() const noexcept { return edges_; }
+  /// Stretch k holds on [edges[k-1], edges[k]).
+  std::size_t stretch_index(double x) const noexcept {
+    return std::upper_bound(edges_.begin(), edges_.end(), x) - edges_.begin();
+  }
+  /// Of the stretch k, or of the last one.
+  Value stretch_value(std::size_t k, double x) const noexcept {
+    if (edges_.empty()) return (*this)(x);
+    k = std::min(k, edges_.size());
+    double at = x;
+    if (k > 0 && x < edges_[k - 1]) at = edges_[k - 1];
+    if (k < edges_.size() && x > edges_[k]) at = edges_[k];
+    const Stretch& s = stretches_[k];
+    Value v = piece_value(std::clamp(piece_index(at), s.first, s.last), at);
+    if (at == x) return v;
+    v.f += v.df * (x - at);
+    v.ddf = 0.0;
+    return v;
+  }
   const std::vector<double>& breaks() const noexcept { return breaks_; }
   const std::vector<Piece>& pieces() const noexcept { return pieces_; }
 
  private:
+  struct Stretch {
+    std::size_t first, last;  ///< pieces
+  };
+  void find_edges();  // in piecewise_build.cpp
+
   std::vector<double> breaks_;
   std::vector<Piece> pieces_;
+  std::vector<double> edges_;
+  std::vector<Stretch> stretches_;  ///< one more than edges, if there is an edge
 };
 
 }  // namespace floatframe

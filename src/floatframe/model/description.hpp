@@ -336,6 +336,8 @@ struct SimulationDescription {
   double penalty = 0.0;              ///< 0: chosen from masses and step
   double position_tolerance = 1e-9;  ///< constraint violation accepted after a step [m]
   double velocity_tolerance = 1e-8;  ///< after the projections [m/s]
+  /// Steps are divided where a force or its slope jumps: edges of roads, touch, corners of laws.
+  bool locate_edges = false;
   RecordDescription record;
   /// Of the group in the model file; who changes `step` or `duration` afterwards calls `given_by`.
   Origin origin;

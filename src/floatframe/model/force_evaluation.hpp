@@ -9,6 +9,7 @@
 // held by the tests: the dependence of rates on positions (smaller than the damping by h |v| / s, h
 // the step), the turning of axes and loads, whatever is not symmetric. It costs iterations, not
 // accuracy.
+#include <cstdint>
 #include <span>
 
 #include "floatframe/model/law_energy.hpp"
@@ -42,11 +43,31 @@ struct ForceTangent {
   Mat12 C;  ///< -d(wrench)/d(rates)
 };
 
+/// What can be said of the branch of a force's law that is held: see `force_side`.
+struct ForceSide {
+  /// By how much the motion has left the branch, in a continuous measure: positive beyond its edge.
+  double beyond = -1.0;
+  std::int64_t next = 0;  ///< the branch that follows across the nearest edge
+};
+
+/// No branch is held: the law is that of the place.
+inline constexpr std::int64_t free_branch = -1;
+
 /// `origin`: the point that the markers' positions are measured from. `reference_angle` picks the
 /// turn of a joint angle: the result lies within half a turn of it. `inputs`: values of
 /// `model.inputs`; the tangents hold at fixed inputs.
 void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,
-                    ForceState& out, std::span<const double> inputs = {}) noexcept;
+                    ForceState& out, std::span<const double> inputs = {},
+                    std::int64_t branch = free_branch) noexcept;
+
+/// Where the force of an element or its slope jumps - an edge of the road, touch, a corner of a
+/// law - the element goes from one branch of its law to another. On one branch it is smooth, also
+/// beyond the edges, so a step may end on the wrong side of one and be made again up to it. With no
+/// branch held: the branch of this place in `next`.
+bool has_branches(const Force& force) noexcept;
+ForceSide force_side(const Model& model, const Force& force, const MarkerState& a,
+                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,
+                     std::span<const double> inputs, std::int64_t branch) noexcept;
 
 }  // namespace floatframe

@@ -23,10 +23,11 @@ struct ForceInput {
   const Model& model;
   const Force& force;
   const MarkerState &a, &b;
-  const Vec3& origin;              ///< the markers' positions are measured from here
-  double t;                        ///< [s]
-  double reference_angle;          ///< picks the turn of a joint angle [rad]
-  std::span<const double> inputs;  ///< values of model.inputs
+  const Vec3& origin;                 ///< the markers' positions are measured from here
+  double t;                           ///< [s]
+  double reference_angle;             ///< picks the turn of a joint angle [rad]
+  std::span<const double> inputs;     ///< values of model.inputs
+  std::int64_t branch = free_branch;  ///< that is held
 
   double input(int index) const noexcept { return index < 0 ? 0.0 : inputs[index]; }
   /// Of a load.
@@ -97,6 +98,8 @@ struct ForceKind {
   bool (*build)(ForceBuild& build);
   /// What the mirrored element has beside mirrored places and directions.
   void (*mirror)(ForceDescription& force, const Placement& x) = nullptr;
+  /// If its law has branches. Called between steps.
+  ForceSide (*side)(const ForceInput& in) noexcept = nullptr;
   std::span<const ForceRegime> regimes;
   /// A random element and motion in one of the regimes, away from the breaks of its laws.
   ForceExample (*example)(std::size_t regime, ExampleNumbers&);
@@ -144,6 +147,34 @@ constexpr std::array<ForceKey, 4> load_keys(ForceAxis axis) {
             .about = "the direction turns with the body",
             .member = kept_in<&L::follows>}}};
 }
+
+/// A law at x on the branch that is held: the stretch of the spring and that of the damper.
+struct SpringBranch {
+  std::int64_t held;
+  static constexpr std::int64_t most = std::int64_t{1} << 31;  ///< stretches of a law
+  static std::int64_t of(std::size_t spring, std::size_t damper) noexcept {
+    return static_cast<std::int64_t>(spring) * most + static_cast<std::int64_t>(damper);
+  }
+  std::size_t spring() const noexcept { return static_cast<std::size_t>(held / most); }
+  std::size_t damper() const noexcept { return static_cast<std::size_t>(held % most); }
+};
+inline PiecewisePolynomial::Value spring_of(const ForceInput& in, double x) noexcept {
+  if (in.branch == free_branch) return in.force.spring(x);
+  return in.force.spring.stretch_value(SpringBranch{in.branch}.spring(), x);
+}
+inline PiecewisePolynomial::Value damper_of(const ForceInput& in, double rate) noexcept {
+  if (in.branch == free_branch) return in.force.damper(rate);
+  return in.force.damper.stretch_value(SpringBranch{in.branch}.damper(), rate);
+}
+/// The side of an element with a spring and a damper, at their arguments.
+ForceSide spring_side(const ForceInput& in, double x, double rate) noexcept;
+
+/// How far x is beyond the nearer edge of the stretch k, and the stretch behind that edge.
+struct StretchSide {
+  double beyond;
+  std::size_t next;
+};
+StretchSide stretch_side(const PiecewisePolynomial& f, std::size_t k, double x) noexcept;
 
 /// Gives the element an actuator or a load driven by a function of time and an input.
 void add_example_drive(ForceExample& example, ExampleNumbers& numbers);

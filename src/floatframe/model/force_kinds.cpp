@@ -1,4 +1,6 @@
 // The list of force elements at work: facts for load time, direct calls for step time.
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "floatframe/model/force_kind.hpp"
@@ -42,13 +44,46 @@ const char* force_output_unit(const Force& force, ForceQuantity quantity) noexce
 
 void evaluate_force(const Model& model, const Force& force, const MarkerState& a,
                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,
-                    ForceState& out, std::span<const double> inputs) noexcept {
+                    ForceState& out, std::span<const double> inputs, std::int64_t branch) noexcept {
   const Vec3 zero = Vec3::Zero();
   out.wrench = {zero, zero, zero, zero};
   out.row_count = 0;
   out.force = out.length = out.rate = 0.0;
   out.energy = out.energy_rate = out.damping = 0.0;
-  evaluate_of(Types{}, {model, force, a, b, origin, t, reference_angle, inputs}, out);
+  evaluate_of(Types{}, {model, force, a, b, origin, t, reference_angle, inputs, branch}, out);
+}
+
+bool has_branches(const Force& force) noexcept {
+  if (force_kind(force.type).side == nullptr) return false;
+  return force.road >= 0 || !force.spring.edges().empty() || !force.damper.edges().empty();
+}
+
+ForceSide force_side(const Model& model, const Force& force, const MarkerState& a,
+                     const MarkerState& b, const Vec3& origin, double t, double reference_angle,
+                     std::span<const double> inputs, std::int64_t branch) noexcept {
+  return force_kind(force.type)
+      .side({model, force, a, b, origin, t, reference_angle, inputs, branch});
+}
+
+StretchSide stretch_side(const PiecewisePolynomial& f, std::size_t k, double x) noexcept {
+  const std::vector<double>& edges = f.edges();
+  constexpr double nowhere = -std::numeric_limits<double>::max();
+  k = std::min(k, edges.size());
+  const double left = k > 0 ? edges[k - 1] - x : nowhere;
+  const double right = k < edges.size() ? x - edges[k] : nowhere;
+  if (left > right) return {left, k - 1};
+  return {right, std::min(k + 1, edges.size())};
+}
+
+ForceSide spring_side(const ForceInput& in, double x, double rate) noexcept {
+  const PiecewisePolynomial &spring = in.force.spring, &damper = in.force.damper;
+  if (in.branch == free_branch)
+    return {-1.0, SpringBranch::of(spring.stretch_index(x), damper.stretch_index(rate))};
+  const SpringBranch held{in.branch};
+  const StretchSide s = stretch_side(spring, held.spring(), x);
+  const StretchSide d = stretch_side(damper, held.damper(), rate);
+  if (s.beyond > d.beyond) return {s.beyond, SpringBranch::of(s.next, held.damper())};
+  return {d.beyond, SpringBranch::of(held.spring(), d.next)};
 }
 
 void add_example_drive(ForceExample& example, ExampleNumbers& numbers) {

@@ -5,8 +5,9 @@
 
 namespace floatframe {
 
-RoadPoint road_at(const Road& road, double x) noexcept {
-  const PiecewisePolynomial::Value v = road.pieces(x);
+namespace {
+
+RoadPoint with_bumps(const Road& road, const PiecewisePolynomial::Value& v, double x) noexcept {
   RoadPoint p{v.f, v.df, v.ddf};
   for (const CosineBump& bump : road.bumps) {
     const double s = (x - bump.start) / bump.length;
@@ -18,6 +19,16 @@ RoadPoint road_at(const Road& road, double x) noexcept {
     p.curvature += 0.5 * bump.height * rate * rate * cosine;
   }
   return p;
+}
+
+}  // namespace
+
+RoadPoint road_at(const Road& road, double x) noexcept {
+  return with_bumps(road, road.pieces(x), x);
+}
+
+RoadPoint road_at(const Road& road, std::size_t stretch, double x) noexcept {
+  return with_bumps(road, road.pieces.stretch_value(stretch, x), x);
 }
 
 }  // namespace floatframe

@@ -20,6 +20,7 @@ StepLimits limits(const SimulationDescription& d, const RealTimeOptions& options
   l.min_step = options.fixed_iterations > 0 ? d.step : smallest_part * d.step;
   l.fixed_iterations = options.fixed_iterations;
   l.time_budget = options.time_budget;
+  l.bounded = true;
   return l;
 }
 

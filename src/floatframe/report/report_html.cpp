@@ -83,6 +83,10 @@ void run_table(fmt::memory_buffer& page, const RunSummary& s) {
   row("status", html_escape(s.status));
   row("steps", fmt::format("{}", s.steps));
   row("extra steps by halving", fmt::format("{}", s.substeps));
+  if (s.locates_edges) {
+    row("edges that steps were divided at", fmt::format("{}", s.edges));
+    row("steps with too many edges", fmt::format("{}", s.edges_passed));
+  }
   row("Newton iterations", fmt::format("{}", s.iterations));
   row("factorisations", fmt::format("{}", s.factorizations));
   row("largest position violation", quantity(s.max_position_violation, "m"));

@@ -40,6 +40,12 @@ Json balance(const EnergySummary& e) {
           {"exchanged_J", e.exchanged}};
 }
 
+/// Null for a run that does not look for them.
+Json edges(const RunSummary& s) {
+  if (!s.locates_edges) return nullptr;
+  return {{"located", s.edges}, {"steps_with_too_many", s.edges_passed}};
+}
+
 Json measured(const RunSummary& s) {
   const EnergySummary& e = s.energy;
   return {{"duration_s", s.duration},
@@ -47,6 +53,7 @@ Json measured(const RunSummary& s) {
           {"substeps", s.substeps},
           {"iterations", s.iterations},
           {"factorizations", s.factorizations},
+          {"edges", edges(s)},
           {"cpu_s", s.cpu},
           {"real_time_factor", s.real_time_factor},
           {"max_position_violation", s.max_position_violation},

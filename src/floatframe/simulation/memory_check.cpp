@@ -27,7 +27,8 @@ bool consistent(const SteppedMemory& m, double step) {
   const IntegratorExperience& e = m.runner.experience;
   if (!(e.reuse_rate >= 0.0 && e.reuse_rate <= 1.0) || std::isinf(e.continues_at)) return false;
   const StepCounters& c = m.runner.counters;
-  for (const long n : {c.steps, c.substeps, c.iterations, c.factorizations, c.cut_short})
+  for (const long n :
+       {c.steps, c.substeps, c.iterations, c.factorizations, c.cut_short, c.edges, c.edges_passed})
     if (n < 0 || n > most) return false;
   return c.max_position_violation >= 0.0 && c.max_velocity_violation >= 0.0;
 }
@@ -52,6 +53,10 @@ std::string memory_complaint(const SteppedMemory& d, const SteppedMemory& own, d
       return fmt::format("is damaged: {} of another number", x.name);
     if (!all_finite(x.given)) return fmt::format("is damaged: {} that are not finite", x.name);
   }
+  if (d.force_branches.size() != own.force_branches.size())
+    return "is damaged: branches of forces of another number";
+  for (const std::int64_t branch : d.force_branches)
+    if (branch < free_branch) return "is damaged: branches of forces that do not exist";
   if (d.runner.outputs.size() != own.runner.outputs.size())
     return "is damaged: outputs of another number";
   for (const FollowedOutput& o : d.runner.outputs)

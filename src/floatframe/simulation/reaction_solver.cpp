@@ -63,7 +63,9 @@ int ReactionSolver<F>::factorize() noexcept {
 
 template <class F>
 void ReactionSolver<F>::solve(const State& state, std::span<const double> inputs,
-                              std::span<const double> spring_angles) noexcept {
+                              std::span<const double> spring_angles,
+                              std::span<const std::int64_t> force_branches) noexcept {
+  if (!force_branches.empty()) f_.hold_force_branches(force_branches);
   f_.set_inputs(inputs);
   f_.set_spring_angles(spring_angles);
   f_.positions(state.t, state.q);

@@ -49,10 +49,12 @@ class ReactionSolver {
   ReactionSolver(const ReactionSolver&) = delete;
   ReactionSolver& operator=(const ReactionSolver&) = delete;
 
-  /// At t, q, v of the state, with the inputs and angles of springs of the formulation that made
+  /// At t, q, v of the state, with the inputs, angles of springs and branches of forces (those that
+  /// are held) of the formulation that made
   /// it; `a` of the state is where the iteration begins.
   void solve(const State& state, std::span<const double> inputs,
-             std::span<const double> spring_angles) noexcept;
+             std::span<const double> spring_angles,
+             std::span<const std::int64_t> force_branches = {}) noexcept;
 
   /// Impulses of the constraints of `set`, which is at the state of the last `solve`.
   void set_impulses(const ConstraintSet& set, const VecX& impulses) noexcept;

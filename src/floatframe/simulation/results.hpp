@@ -59,6 +59,8 @@ struct RunSummary {
   double step = 0, duration = 0;  ///< [s]; duration actually reached
   long steps = 0, substeps = 0;   ///< accepted output steps; extra steps by halving
   long iterations = 0, factorizations = 0;
+  bool locates_edges = false;         ///< with `locate_edges`
+  long edges = 0, edges_passed = 0;   ///< edges that steps were divided at; steps with too many
   double cpu = 0;                     ///< [s] of stepping, without input and output
   double real_time_factor = 0;        ///< duration / cpu
   double max_position_violation = 0;  ///< [m] after steps

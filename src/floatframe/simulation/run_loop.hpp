@@ -44,6 +44,11 @@ class Run {
     if (options.keep_state) joints_.emplace(steps_.model());
     if (options.record && options.watch)
       watch_.emplace(steps_.formulation(), o.step, planned_ / every_);
+    if (watch_)
+      steps_.set_edge_watch(
+          {&*watch_, [](void* watch, const State& state, const VecX& reactions) noexcept {
+             static_cast<RunWatch<F>*>(watch)->edge(state, reactions);
+           }});
   }
 
   RunResult result() {
@@ -199,6 +204,8 @@ class Run {
     s.substeps = c.substeps;
     s.iterations = c.iterations;
     s.factorizations = c.factorizations;
+    s.edges = c.edges;
+    s.edges_passed = c.edges_passed;
     s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
     s.max_position_violation = c.max_position_violation;
     s.max_velocity_violation = c.max_velocity_violation;

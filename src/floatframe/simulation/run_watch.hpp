@@ -48,6 +48,12 @@ class RunWatch {
     if (++records_ % every_ == 0) balance_.check(s.t, energies(s));
   }
 
+  /// At an edge that a step was divided at, before and after it: powers jump there. The formulation
+  /// is at this state, with its forces.
+  void edge(const State& s, const VecX& reactions) noexcept {
+    balance_.advance(s.t, flows(f_, s.v, reactions));
+  }
+
   /// What was watched so far, for a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
   void walk(Stream& s) {

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/model/output_kind.hpp"
+#include "floatframe/simulation/edge_locator.hpp"
 #include "floatframe/simulation/overflow.hpp"
 #include "floatframe/simulation/reaction_solver.hpp"
 #include "floatframe/simulation/redundancy.hpp"
@@ -41,6 +43,17 @@ class Runner {
     integrator_.keep_impulses();
   }
 
+  /// From now on steps are divided at the edges of forces; branches are those of the present state.
+  void locate_edges() {
+    locator_.emplace(f_, integrator_);
+    locator_->hold(state_);
+  }
+  bool locates_edges() const noexcept { return locator_.has_value(); }
+  /// Of the edges that are located.
+  void set_edge_watch(const EdgeWatch& watch) noexcept {
+    if (locator_) locator_->set_watch(watch);
+  }
+
   State& state() noexcept { return state_; }
   const State& state() const noexcept { return state_; }
   /// Multipliers that go with the accelerations of the last accepted step.
@@ -63,19 +76,19 @@ class Runner {
   /// substep.
   bool advance(double h) noexcept {
     asked_ = h;
-    StepAttempt r = integrator_.step(state_, h);
+    const double end = state_.t + h;
+    StepAttempt r = attempt(h);
     count(r);
     last_ = r;
     if (r.accepted()) {
       ++memory_.counters.steps;
       return true;
     }
-    double remaining = h, sub = 0.5 * h;
-    const double end = state_.t + h;
+    double remaining = locator_ ? end - state_.t : h, sub = 0.5 * remaining;
     while (remaining > 1e-9 * h) {
       if (sub < min_step_ || !(sub > 0.0)) return false;
       const double now = std::min(sub, remaining);
-      r = integrator_.step(state_, now);
+      r = attempt(now);
       count(r);
       last_ = r;
       if (r.accepted()) {
@@ -84,6 +97,7 @@ class Runner {
         if (remaining > 0.0 && sub < 0.5 * h) sub *= 2.0;
       } else {
         sub = 0.5 * now;
+        if (locator_) remaining = end - state_.t;
       }
     }
     state_.t = end;
@@ -106,7 +120,7 @@ class Runner {
     else
       f_.dynamics();
     if (reactions_) {
-      reactions_->solve(state_, f_.inputs(), f_.spring_angles());
+      reactions_->solve(state_, f_.inputs(), f_.spring_angles(), f_.force_branches());
       reactions_->set_impulses(f_.constraint_set(), integrator_.impulses());
     }
     f_.set_accelerations(reactions_ ? reactions_->accelerations() : state_.a);
@@ -222,6 +236,11 @@ class Runner {
   double max_velocity_violation() const noexcept { return counters().max_velocity_violation; }
 
  private:
+  StepAttempt attempt(double h) noexcept {
+    if (!locator_) return integrator_.step(state_, h);
+    return locator_->step(state_, h, memory_.counters.edges, memory_.counters.edges_passed);
+  }
+
   /// Substep that was tried last [s].
   double smallest() const noexcept { return std::min(min_step_, asked_); }
 
@@ -238,6 +257,7 @@ class Runner {
 
   F& f_;
   AugmentedLagrangian<F> integrator_;
+  std::optional<EdgeLocator<F>> locator_;
   State state_;
   double min_step_, asked_ = 0.0;
   StepAttempt last_;

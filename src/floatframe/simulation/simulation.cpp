@@ -59,6 +59,7 @@ RunSummary asked_summary(const std::string& model, const SimulationDescription& 
   s.coordinates = rules::coordinates[index_of(o.coordinates)];
   s.inertia = rules::inertia_methods[index_of(o.inertia)];
   s.step = o.step;
+  s.locates_edges = o.locate_edges;
   return s;
 }
 

@@ -26,6 +26,7 @@ SimulationDescription described(const Model& model, const SimulationOptions& opt
   set("penalty", d.penalty, options.penalty);
   set("position_tolerance", d.position_tolerance, options.position_tolerance);
   set("velocity_tolerance", d.velocity_tolerance, options.velocity_tolerance);
+  set("locate_edges", d.locate_edges, options.locate_edges);
   require_valid(d);
   return d;
 }

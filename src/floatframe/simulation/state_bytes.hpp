@@ -37,6 +37,10 @@ class StateWriter {
     (*this)(static_cast<std::uint64_t>(v.size()));
     for (const double x : v) (*this)(x);
   }
+  void operator()(const std::vector<std::int64_t>& v) {
+    (*this)(static_cast<std::uint64_t>(v.size()));
+    for (const std::int64_t n : v) (*this)(n);
+  }
   void operator()(const Vec3& v) {
     for (int k = 0; k < 3; ++k) (*this)(v[k]);
   }
@@ -79,6 +83,10 @@ class StateReader {
     v.resize(count(8));
     for (double& x : v) (*this)(x);
   }
+  void operator()(std::vector<std::int64_t>& v) {
+    v.resize(count(8));
+    for (std::int64_t& n : v) (*this)(n);
+  }
   void operator()(Vec3& v) {
     for (int k = 0; k < 3; ++k) (*this)(v[k]);
   }
@@ -116,11 +124,14 @@ void walk_steps(Stream& s, Memory& m) {
   s(m.state.t);
   for (auto* v : {&m.state.q, &m.state.v, &m.state.a, &m.state.a_alg, &m.state.lambda}) s(*v);
   s(m.spring_angles);
+  s(m.force_branches);
   s(m.runner.experience.continues_at);
   s(m.runner.experience.reuse_rate);
   s(m.runner.outputs);
   auto& c = m.runner.counters;
-  for (auto* n : {&c.steps, &c.substeps, &c.iterations, &c.factorizations, &c.cut_short}) s(*n);
+  for (auto* n : {&c.steps, &c.substeps, &c.iterations, &c.factorizations, &c.cut_short, &c.edges,
+                  &c.edges_passed})
+    s(*n);
   s(c.max_position_violation);
   s(c.max_velocity_violation);
 }

@@ -39,6 +39,8 @@ struct StepCounters {
   long steps = 0;     ///< asked for and completed
   long substeps = 0;  ///< by halving of steps that did not converge
   long iterations = 0, factorizations = 0;
+  long edges = 0;                       ///< that steps were divided at (`locate_edges`)
+  long edges_passed = 0;                ///< steps with more edges than are looked for
   long cut_short = 0;                   ///< accepted before they had converged (real time)
   double max_position_violation = 0.0;  ///< [m] after steps
   double max_velocity_violation = 0.0;  ///< [m/s] after the projections

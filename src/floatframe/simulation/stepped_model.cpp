@@ -32,10 +32,12 @@ SteppedModel<F>::SteppedModel(const Model& model, const SimulationDescription& o
       min_step_(limits.min_step.value_or(start_.min_step())),
       runner_(f_, step_options_, min_step_),
       grid_(start_.state().t, options.step, limits.duration) {
-  begin_at_start();
+  begin_at_start(options.locate_edges && !limits.bounded);
   prepare_reactions();
   if (reactions_ && !reactions_->open_outputs().empty())
     start_.add_note(open_outputs_note(reactions_->open_outputs()));
+  if (options.locate_edges && limits.bounded)
+    start_.add_note("locate_edges is left aside here: how often a step is divided is not bounded");
 }
 
 template <class F>
@@ -46,13 +48,14 @@ SteppedModel<F>::SteppedModel(const SteppedModel& found, double duration)
       min_step_(found.min_step_),
       runner_(f_, step_options_, min_step_),
       grid_(start_.state().t, found.grid_.step(), duration) {
-  begin_at_start();
+  begin_at_start(found.runner_.locates_edges());
   prepare_reactions();
 }
 
 template <class F>
-void SteppedModel<F>::begin_at_start() {
+void SteppedModel<F>::begin_at_start(bool locate_edges) {
   runner_.state() = start_.state();
+  if (locate_edges) runner_.locate_edges();
   first_ = memory();
 }
 
@@ -108,6 +111,8 @@ SteppedMemory SteppedModel<F>::memory() const {
   m.since_base = grid_.since_base();
   m.state = runner_.state();
   m.spring_angles.assign(f_.spring_angles().begin(), f_.spring_angles().end());
+  if (runner_.locates_edges())
+    m.force_branches.assign(f_.force_branches().begin(), f_.force_branches().end());
   m.runner = runner_.memory();
   return m;
 }
@@ -117,6 +122,7 @@ void SteppedModel<F>::set_memory(const SteppedMemory& m) {
   grid_.restore(m.base, m.since_base);
   runner_.state() = m.state;
   f_.set_spring_angles(m.spring_angles);
+  if (runner_.locates_edges()) f_.hold_force_branches(m.force_branches);
   runner_.set_memory(m.runner);
 }
 

@@ -23,6 +23,7 @@ struct StepLimits {
   std::optional<double> min_step = {};  ///< smallest substep [s]; else that of the options
   int fixed_iterations = 0;             ///< see StepOptions
   double time_budget = 0.0;             ///< see StepOptions [s]
+  bool bounded = false;                 ///< edges are not located, whatever the options say
 };
 
 /// All that decides the next steps, beside the inputs.
@@ -31,7 +32,8 @@ struct SteppedMemory {
   double base = 0.0;
   std::int64_t since_base = 0;
   State state;
-  std::vector<double> spring_angles;  ///< turns of joint springs
+  std::vector<double> spring_angles;         ///< turns of joint springs
+  std::vector<std::int64_t> force_branches;  ///< that are held; empty unless edges are located
   RunnerMemory runner;
 };
 
@@ -71,6 +73,9 @@ class SteppedModel {
   /// Index of the force element with the largest force at the last evaluation; -1: there is none.
   int largest_force() const noexcept { return runner_.largest_force(); }
 
+  /// Called at edges that steps are divided at.
+  void set_edge_watch(const EdgeWatch& watch) noexcept { runner_.set_edge_watch(watch); }
+
   /// Time and outputs at the present state, to which the formulation is brought. Outputs count
   /// turns from one sample to the next.
   void sample(double* row) noexcept;
@@ -89,7 +94,7 @@ class SteppedModel {
   void restart() { set_memory(first_); }
 
  private:
-  void begin_at_start();
+  void begin_at_start(bool locate_edges);
   void prepare_reactions();
 
   StartedModel<F> start_;

@@ -42,6 +42,7 @@ struct SimulationOptions {
   std::optional<double> min_step = {};  ///< smallest substep [s]; 0: step / 1024
   std::optional<double> penalty = {};
   std::optional<double> position_tolerance = {}, velocity_tolerance = {};  ///< [m], [m/s]
+  std::optional<bool> locate_edges = {};
 };
 
 class Simulation {

@@ -34,6 +34,7 @@ std::shared_ptr<SimulationState::Data> Simulation::Engine::present() {
   data->coordinates = static_cast<std::int64_t>(o_.coordinates);
   data->inertia = static_cast<std::int64_t>(o_.inertia);
   data->max_iterations = o_.max_iterations;
+  data->locate_edges = o_.locate_edges ? 1 : 0;
   data->step = o_.step;
   data->spectral_radius = o_.spectral_radius;
   data->tolerance = o_.tolerance;
@@ -65,6 +66,8 @@ std::string Simulation::Engine::complaint(const SimulationState::Data& d,
            {"inertia", static_cast<double>(d.inertia), static_cast<double>(own.inertia)},
            {"max_iterations", static_cast<double>(d.max_iterations),
             static_cast<double>(own.max_iterations)},
+           {"locate_edges", static_cast<double>(d.locate_edges),
+            static_cast<double>(own.locate_edges)},
            {"step", d.step, own.step},
            {"spectral_radius", d.spectral_radius, own.spectral_radius},
            {"tolerance", d.tolerance, own.tolerance},

@@ -48,7 +48,7 @@ std::string choose(E& field, const std::string& value, const char* first, const 
 
 const std::vector<std::string>& simulation_option_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> n{"coordinates", "inertia", "start", "max_iterations"};
+    std::vector<std::string> n{"coordinates", "inertia", "start", "max_iterations", "locate_edges"};
     for (const NumberOption& o : number_options()) n.emplace_back(o.name);
     return n;
   }();
@@ -61,6 +61,11 @@ std::string set_simulation_option(SimulationDescription& s, const std::string& n
   if (name == "inertia") return choose(s.inertia, value, "preprocessing", "projection");
   if (name == "start") return choose(s.start, value, "given", "equilibrium");
   const PlainScalar scalar = classify_plain_scalar(value);
+  if (name == "locate_edges") {
+    if (scalar.kind != PlainScalar::Kind::boolean) return found(value, "true or false");
+    s.locate_edges = scalar.boolean;
+    return "";
+  }
   const bool is_number = scalar.kind == PlainScalar::Kind::number;
   if (name == "max_iterations") {
     if (!is_number || scalar.number < 1 || scalar.number > 1000 ||

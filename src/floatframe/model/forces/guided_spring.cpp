@@ -15,7 +15,7 @@ void force_of<ForceType::guided_spring>(const ForceInput& in, ForceState& out) n
   const AxisMeasure m = axis_measure(in.a.R * in.force.axis, in.a, in.b);
   out.length = -m.s;
   out.rate = -m.rate;
-  const PiecewisePolynomial::Value s = in.force.spring(out.length), c = in.force.damper(out.rate);
+  const PiecewisePolynomial::Value s = spring_of(in, out.length), c = damper_of(in, out.rate);
   out.force = s.f + c.f + in.actuator();
   out.wrench = {out.force * m.g.Fa, out.force * m.g.Ta, out.force * m.g.Fb, Vec3::Zero()};
   out.rows[0] = {{-m.g.Fa, -m.g.Ta, -m.g.Fb, Vec3::Zero()}, s.df, c.df};
@@ -38,6 +38,11 @@ void force_tangent_of<ForceType::guided_spring>(const ForceInput& in, ForceTange
 }
 
 namespace {
+
+ForceSide guided_spring_side(const ForceInput& in) noexcept {
+  const AxisMeasure m = axis_measure(in.a.R * in.force.axis, in.a, in.b);
+  return spring_side(in, -m.s, -m.rate);
+}
 
 constexpr const char* turning_axis = "the turning of the axis with its body";
 constexpr ForceRegime guided_spring_regimes[] = {
@@ -120,6 +125,7 @@ constinit const ForceKind guided_spring_element = {
     .free_value = length_along_axis,
     .validate = guided_spring_validate,
     .build = guided_spring_build,
+    .side = guided_spring_side,
     .regimes = guided_spring_regimes,
     .example = guided_spring_example};
 

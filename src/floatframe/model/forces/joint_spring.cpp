@@ -44,6 +44,7 @@ struct Law {
   double f, f_s, f_rate;
   double stretch;               ///< s - target
   double energy_rate, damping;  ///< of the spring and of the damper
+  double rate;                  ///< sdot - rate of the target
 };
 
 Law law_at(const ForceInput& in, const Coordinate& m) noexcept {
@@ -56,10 +57,20 @@ Law law_at(const ForceInput& in, const Coordinate& m) noexcept {
                                         : evaluate(in.force.target_rate.function, in.t).f +
                                               in.input(in.force.target_rate.input);
   }
-  const PiecewisePolynomial::Value s = in.force.spring(m.s - target);
-  const PiecewisePolynomial::Value c = in.force.damper(m.rate - target_rate);
-  return {s.f + c.f - in.actuator(),   s.df, c.df, m.s - target, s.f * (m.rate - moves),
-          c.f * (m.rate - target_rate)};
+  const PiecewisePolynomial::Value s = spring_of(in, m.s - target);
+  const PiecewisePolynomial::Value c = damper_of(in, m.rate - target_rate);
+  return {s.f + c.f - in.actuator(),
+          s.df,
+          c.df,
+          m.s - target,
+          s.f * (m.rate - moves),
+          c.f * (m.rate - target_rate),
+          m.rate - target_rate};
+}
+
+ForceSide joint_spring_side(const ForceInput& in) noexcept {
+  const Law law = law_at(in, coordinate(in));
+  return spring_side(in, law.stretch, law.rate);
 }
 
 }  // namespace
@@ -216,6 +227,7 @@ constinit const ForceKind joint_spring_element = {
     .blank = [] { return ForceDescription::Values(J()); },
     .validate = joint_spring_validate,
     .build = joint_spring_build,
+    .side = joint_spring_side,
     .regimes = joint_spring_regimes,
     .example = joint_spring_example};
 

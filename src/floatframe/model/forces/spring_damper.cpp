@@ -32,7 +32,7 @@ Line line_between(const MarkerState& a, const MarkerState& b) noexcept {
 template <>
 void force_of<ForceType::spring_damper>(const ForceInput& in, ForceState& out) noexcept {
   const auto [n, length, rate] = line_between(in.a, in.b);
-  const PiecewisePolynomial::Value s = in.force.spring(length), c = in.force.damper(rate);
+  const PiecewisePolynomial::Value s = spring_of(in, length), c = damper_of(in, rate);
   const Vec3 zero = Vec3::Zero();
   out.length = length;
   out.rate = rate;
@@ -76,6 +76,11 @@ void force_tangent_of<ForceType::spring_damper>(const ForceInput& in, ForceTange
 }
 
 namespace {
+
+ForceSide spring_damper_side(const ForceInput& in) noexcept {
+  const auto [n, length, rate] = line_between(in.a, in.b);
+  return spring_side(in, length, rate);
+}
 
 constexpr ForceRegime spring_damper_regimes[] = {{.name = "anywhere"},
                                                  {.name = "short"},
@@ -156,6 +161,7 @@ constinit const ForceKind spring_damper_element = {
     .free_value = distance_in_design,
     .validate = spring_damper_validate,
     .build = spring_damper_build,
+    .side = spring_damper_side,
     .regimes = spring_damper_regimes,
     .example = spring_damper_example};
 

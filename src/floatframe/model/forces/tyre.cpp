@@ -10,8 +10,12 @@
 // dn = -q^2 tau dsigma, tau = q (1, 0, sigma) along the road:
 //   df = q (-k dh + c v_x dsigma) + f dq/q - q c (dv_z - sigma dv_x)
 //   d(torque) = d(arm) x f n + arm x d(f n)
+// Branches: the stretches of the road between its edges, each with touch and without. Without, the
+// wheel touches when both R - h and f are positive; a wheel that touches lets go when f, which is
+// then negative on this branch, vanishes. Only at the other end of touch does f jump, by -c hdot.
 // On a straight road -df = k n.dr of a radial tyre: one row. What the row leaves out does not
 // change the number of iterations of a vehicle on stairs.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,8 +26,18 @@ namespace floatframe {
 
 namespace {
 
+struct TyreBranch {
+  std::int64_t held;
+  static std::int64_t of(std::size_t stretch, bool touches) noexcept {
+    return static_cast<std::int64_t>(2 * stretch + (touches ? 1 : 0));
+  }
+  std::size_t stretch() const noexcept { return static_cast<std::size_t>(held / 2); }
+  bool touches() const noexcept { return held % 2 != 0; }
+};
+
 struct Contact {
   bool touches = false;
+  double x;  ///< of the centre
   RoadPoint road;
   double h, rate, q, f;
   Vec3 n;
@@ -32,16 +46,42 @@ struct Contact {
 Contact contact(const ForceInput& in) noexcept {
   const Force& t = in.force;
   const Vec3 centre = in.b.r + in.origin;
+  const Road& road = in.model.roads[t.road];
   Contact c;
-  c.road = road_at(in.model.roads[t.road], centre.x());
+  c.x = centre.x();
+  c.road = in.branch == free_branch ? road_at(road, c.x)
+                                    : road_at(road, TyreBranch{in.branch}.stretch(), c.x);
   c.h = centre.z() - c.road.z;
   c.rate = in.b.v.z() - c.road.slope * in.b.v.x();
   const bool radial = t.law == TyreLaw::radial;
   c.q = radial ? 1.0 / std::sqrt(1.0 + c.road.slope * c.road.slope) : 1.0;
   c.n = radial ? Vec3(-c.road.slope * c.q, 0.0, c.q) : Vec3::UnitZ();
   c.f = (t.stiffness * (t.radius - c.h) - t.damping * c.rate) * c.q;
-  c.touches = c.h < t.radius && c.f > 0.0;
+  c.touches =
+      in.branch == free_branch ? c.h < t.radius && c.f > 0.0 : TyreBranch{in.branch}.touches();
   return c;
+}
+
+/// The branch of a place on a stretch of the road.
+std::int64_t tyre_branch(const ForceInput& in, std::size_t stretch) noexcept {
+  ForceInput there = in;
+  there.branch = TyreBranch::of(stretch, false);
+  const Contact c = contact(there);
+  return TyreBranch::of(stretch, c.h < in.force.radius && c.f > 0.0);
+}
+
+ForceSide tyre_side(const ForceInput& in) noexcept {
+  const Force& t = in.force;
+  const PiecewisePolynomial& road = in.model.roads[t.road].pieces;
+  const Contact c = contact(in);
+  if (in.branch == free_branch) return {-1.0, tyre_branch(in, road.stretch_index(c.x))};
+  const TyreBranch held{in.branch};
+  const StretchSide s = stretch_side(road, held.stretch(), c.x);
+  // The force as a depth.
+  const double push = c.f / (t.stiffness > 0.0 ? t.stiffness : 1.0);
+  const double touch = held.touches() ? -push : std::min(t.radius - c.h, push);
+  if (s.beyond > touch) return {s.beyond, tyre_branch(in, s.next)};
+  return {touch, TyreBranch::of(held.stretch(), !held.touches())};
 }
 
 struct Wheel {
@@ -267,6 +307,7 @@ constinit const ForceKind tyre_element = {
     .account = ForceAccount::tyres,
     .blank = [] { return ForceDescription::Values(T()); },
     .build = tyre_build,
+    .side = tyre_side,
     .regimes = tyre_regimes,
     .example = tyre_example};
 

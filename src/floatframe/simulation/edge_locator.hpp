@@ -1,0 +1,278 @@
+#pragma once
+// Divides steps where the law of a force goes from one branch to another
+// (model/force_evaluation.hpp): across such an edge the force or its slope jumps, and a step over
+// it is of first order only.
+//
+// A step is made with the branches of its beginning, on which all forces are smooth. If a force has
+// left its branch at the end, the time of the first edge is found by a secant rule with steps from
+// the same beginning (regula falsi with the Illinois weights), to a part `close` of the step. That
+// step is kept, the force changes its branch, accelerations and multipliers of the new forces are
+// solved for, and the rest of the step is made. An edge next to the beginning, and the end next to
+// an edge, are reached by a single explicit move, whose error is of second order in a time that is
+// a small part of the step: a step so short would turn what the tolerances leave of constraints
+// into accelerations. Each coordinate moves as an oscillator of its own frequency omega by the
+// trapezoidal rule,
+//   v1 (1 + omega^2 dt^2/4) = v (1 - omega^2 dt^2/4) + dt a,   x = dt (v + v1)/2
+// which is v + dt a where it has none, and then velocities are projected onto the constraints.
+//
+// What leaves its branch and comes back within a step is looked for in the middle of the step, on
+// the cubic through both ends; seen there, half the step is made. What comes back within half a
+// step is not seen. A step with more than `most_edges` of them (a wheel that rests on an edge) is
+// finished as without this.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/model/force_evaluation.hpp"
+
+namespace floatframe {
+
+/// Whoever wants to see the state at an edge, just before and just after it: the formulation is at
+/// its positions and velocities, with the forces of that side.
+struct EdgeWatch {
+  void* who = nullptr;
+  void (*look)(void* who, const State& state, const VecX& reactions) noexcept = nullptr;
+};
+
+template <class F>
+class EdgeLocator {
+ public:
+  EdgeLocator(F& formulation, AugmentedLagrangian<F>& integrator)
+      : f_(formulation), integrator_(integrator) {
+    const std::vector<Force>& forces = f_.model().forces;
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      if (has_branches(forces[k])) forces_.push_back(k);
+    first_.resize(forces_.size());
+    here_ = between_ = last_ = first_;
+    free_.assign(forces.size(), free_branch);
+    angles_.resize(forces.size());
+    x_ = VecX::Zero(f_.velocities());
+    q_ = VecX::Zero(f_.configurations());
+    from_.q = q_;
+    from_.v = from_.a = from_.a_alg = x_;
+    from_.lambda = VecX::Zero(f_.constraints());
+  }
+
+  void set_watch(const EdgeWatch& watch) noexcept { watch_ = watch; }
+
+  /// Branches of this place.
+  void hold(const State& state) noexcept {
+    f_.hold_force_branches(free_);
+    look(state, here_);
+    for (std::size_t k = 0; k < forces_.size(); ++k)
+      f_.hold_force_branch(forces_[k], here_[k].next);
+  }
+
+  /// One step of size h. If it is not accepted the state is that of the last edge that was passed.
+  StepAttempt step(State& state, double h, long& edges, long& passed) noexcept {
+    if (forces_.empty()) return integrator_.step(state, h);
+    const double end = state.t + h;
+    StepAttempt total;
+    for (int count = 0;; ++count) {
+      const double left = count == 0 ? h : end - state.t;
+      if (left < shortest * h) {
+        move(state, left, h);
+        look(state, here_);
+        break;
+      }
+      keep(state);
+      look(state, first_);
+      attempt(state, left, total);
+      if (!total.accepted()) return total;
+      look_between(state, left);
+      look(state, last_);
+      double span = 1.0;  // that holds the first edge
+      if (earliest(between_, 0.5, none).force != none) {
+        return_to(state);
+        attempt(state, 0.5 * left, total);
+        if (!total.accepted()) return total;
+        look(state, here_);
+        if (earliest(here_, 0.5, none).force == none) continue;  // it was no more than a guess
+        last_ = here_;
+        span = 0.5;
+      } else if (earliest(last_, 1.0, none).force == none) {
+        break;
+      }
+      if (count == most_edges) {
+        return_to(state);
+        f_.hold_force_branches(free_);
+        attempt(state, left, total);
+        hold(total.accepted() ? state : from_);
+        if (total.accepted()) ++passed;
+        break;
+      }
+      if (!locate(state, h, left, span, total)) return total;
+      pass(state, h);
+      ++edges;
+    }
+    if (total.accepted()) state.t = end;
+    return total;
+  }
+
+ private:
+  static constexpr int most_edges = 16, most_passes = 20;
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  static constexpr double shortest = 0.02;  ///< of the step: what is made as a step
+  static constexpr double close = 1e-6;     ///< of the step: by which an edge may be missed
+  using Sides = std::vector<ForceSide>;
+
+  struct Crossing {
+    std::size_t force = none;  ///< index into `forces_`
+    double at = 1.0;           ///< part of the step
+  };
+
+  void look(const State& state, Sides& sides) noexcept {
+    f_.positions(state.t, state.q);
+    f_.velocities(state.v);
+    for (std::size_t k = 0; k < forces_.size(); ++k) sides[k] = f_.force_side(forces_[k]);
+  }
+
+  /// In the middle of a step of size h, from `from_` to the state.
+  void look_between(const State& state, double h) noexcept {
+    x_ = (0.125 * h) * (3.0 * from_.v + state.v);
+    f_.retract(from_.q, x_, q_);
+    x_ = 0.5 * (from_.v + state.v) + (0.125 * h) * (from_.a - state.a);
+    f_.positions(state.t - 0.5 * h, q_);
+    f_.velocities(x_);
+    for (std::size_t k = 0; k < forces_.size(); ++k) between_[k] = f_.force_side(forces_[k]);
+  }
+
+  void attempt(State& state, double h, StepAttempt& total) noexcept {
+    const StepAttempt r = integrator_.step(state, h);
+    const StepAttempt before = total;
+    total = r;
+    total.iterations += before.iterations;
+    total.factorizations += before.factorizations;
+  }
+
+  void keep(const State& state) noexcept {
+    copy(state, from_);
+    const auto angles = f_.spring_angles();
+    std::copy(angles.begin(), angles.end(), angles_.begin());
+  }
+  void return_to(State& state) noexcept {
+    copy(from_, state);
+    f_.set_spring_angles(angles_);
+  }
+  static void copy(const State& a, State& b) noexcept {  // of the same sizes: no allocation
+    b.t = a.t;
+    b.q = a.q;
+    b.v = a.v;
+    b.a = a.a;
+    b.a_alg = a.a_alg;
+    b.lambda = a.lambda;
+  }
+
+  /// By straight lines from the beginning to `sides`, at `at`; `but`: not this one.
+  Crossing earliest(const Sides& sides, double at, std::size_t but) const noexcept {
+    Crossing c;
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      if (k == but || !(sides[k].beyond > 0.0)) continue;
+      const double before = std::min(first_[k].beyond, 0.0);
+      const double x = at * before / (before - sides[k].beyond);
+      if (c.force == none || x < c.at) c = {k, x};
+    }
+    return c;
+  }
+
+  /// Brings the state to the first edge. False: a step to it was not accepted, and the state is
+  /// that of the beginning.
+  bool locate(State& state, double h, double left, double span, StepAttempt& total) noexcept {
+    const double enough = close * h / left;
+    std::size_t force = earliest(last_, span, none).force;
+    double low = 0.0, high = span;
+    double low_side = std::min(first_[force].beyond, 0.0), high_side = last_[force].beyond;
+    int idle = 0;  // how often in a row the other end stayed: > 0 the upper one
+    for (int pass = 0; pass < most_passes; ++pass) {
+      const double at = low + (high - low) * low_side / (low_side - high_side);
+      return_to(state);
+      moved_ = at * left < shortest * h;
+      if (moved_)
+        move(state, at * left, h);
+      else
+        attempt(state, at * left, total);
+      if (!total.accepted()) return false;
+      look(state, here_);
+      // On a curve another one may come first.
+      const Crossing other = earliest(here_, at, force);
+      if (other.force != none && other.at < at - 2.0 * enough) {
+        force = other.force;
+        low = 0.0;
+        high = at;
+        low_side = std::min(first_[force].beyond, 0.0);
+        high_side = here_[force].beyond;
+        idle = 0;
+        continue;
+      }
+      const double side = here_[force].beyond;
+      const double slope = (last_[force].beyond - first_[force].beyond);
+      const double distance = high - low;
+      // The line through the bracket says how far the edge is.
+      const double gap = std::abs(side) * distance / (high_side - low_side);
+      if (gap <= enough || !(std::abs(side) > 1e-15 * std::abs(slope))) break;
+      if (side > 0.0) {
+        high = at;
+        high_side = side;
+        if (idle > 0) low_side *= 0.5;
+        idle = 1;
+      } else {
+        low = at;
+        low_side = side;
+        if (idle < 0) high_side *= 0.5;
+        idle = -1;
+      }
+    }
+    found_ = force;
+    near_ = 2.0 * enough / span;
+    return true;
+  }
+
+  /// The force that was found, and all that are at an edge too, change their branches.
+  void pass(State& state, double h) noexcept {
+    f_.forces();
+    // Multipliers that a state restored elsewhere has, too.
+    if (watch_.look)
+      watch_.look(watch_.who, state, moved_ ? state.lambda : integrator_.reactions());
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+      const double way = last_[k].beyond - first_[k].beyond;  // in the step as it was first made
+      const bool at_edge = last_[k].beyond > 0.0 && std::abs(here_[k].beyond) <= near_ * way;
+      if (k == found_ || at_edge) f_.hold_force_branch(forces_[k], here_[k].next);
+    }
+    integrator_.restart(state, h);
+    if (watch_.look) watch_.look(watch_.who, state, integrator_.reactions());
+  }
+
+  /// Along the velocities and accelerations.
+  void move(State& state, double dt, double h) noexcept {
+    if (!(dt > 0.0)) return;
+    const VecX& omega2 = f_.own_frequencies_squared();
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      const double turn = 0.25 * dt * dt * omega2[i], before = state.v[i];
+      state.v[i] = (before * (1.0 - turn) + dt * state.a[i]) / (1.0 + turn);
+      x_[i] = 0.5 * dt * (before + state.v[i]);
+    }
+    f_.settle(state.q, x_);
+    f_.retract(state.q, x_, q_);
+    state.q.swap(q_);
+    state.t += dt;
+    integrator_.project_velocities(state, h);
+  }
+
+  F& f_;
+  AugmentedLagrangian<F>& integrator_;
+  EdgeWatch watch_;
+  std::vector<std::size_t> forces_;  ///< whose laws have branches
+  Sides first_, here_, last_;        ///< at the beginning, at the last trial, at the end
+  Sides between_;                    ///< in the middle
+  std::vector<std::int64_t> free_;
+  std::vector<double> angles_;
+  State from_;
+  VecX x_, q_;
+  std::size_t found_ = none;
+  double near_ = 0.0;
+  bool moved_ = false;
+};
+
+}  // namespace floatframe
