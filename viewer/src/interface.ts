@@ -18,7 +18,10 @@ export interface FloatframeInterface {
   readonly scale: number;
   setScale(scale: number): void;
   readonly selected: { body: number; vertex: number | null } | null;
+  /** Median of the last 120 pictures, milliseconds. */
   frameScriptTime(): number;
+  /** Pictures since resetScriptTime. */
+  framesDrawn(): number;
   resetScriptTime(): void;
   frameRate(): number;
   /** The picture as a data URL. */
@@ -83,6 +86,7 @@ export function offerInterface(view: ViewSection | null, problems: string[], cha
       return view?.stage.selected ?? null;
     },
     frameScriptTime: () => view?.scriptTime() ?? 0,
+    framesDrawn: () => view?.pictures ?? 0,
     resetScriptTime: () => view?.resetScriptTime(),
     frameRate: () => view?.rate ?? 0,
     screenshot: () => view?.picture().toDataURL('image/png') ?? null,

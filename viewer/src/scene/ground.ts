@@ -38,7 +38,7 @@ export class Grid {
         }
         void main() {
           float fade = 1.0 - smoothstep(0.25, 1.0, length(at.xy - focus.xy) / reach);
-          float alpha = max(0.26 * lines(cell), 0.5 * lines(10.0 * cell)) * fade;
+          float alpha = max(0.2 * lines(cell), 0.36 * lines(10.0 * cell)) * fade;
           if (alpha < 0.004) discard;
           gl_FragColor = vec4(ink, alpha);
         }`,

@@ -34,8 +34,7 @@ async function loadFile(solid: SolidData): Promise<Group> {
     // Normals in files are often zero.
     geometry.computeVertexNormals();
     group.add(new Mesh(geometry));
-  }
-  else if (solid.format === 'obj') group.add(new OBJLoader().parse(new TextDecoder().decode(bytes)));
+  } else if (solid.format === 'obj') group.add(new OBJLoader().parse(new TextDecoder().decode(bytes)));
   else {
     const content = solid.format === 'gltf' ? new TextDecoder().decode(bytes) : bytes;
     const file = await new GLTFLoader(closed).parseAsync(content, '');

@@ -116,12 +116,15 @@ export class ViewSection {
     return takePicture(this.stage.canvas, this.legend, `${this.title}${this.player.moves && !this.modes ? `, ${this.player.time.toFixed(3)} s` : ''}`);
   }
 
-  /** Mean script time of the last pictures, milliseconds: places, uniforms and the calls that draw. */
+  /** Median script time of the last pictures, milliseconds: places, uniforms and the calls that draw. */
   scriptTime(): number {
     const n = Math.min(this.scriptCount, this.scriptTimes.length);
-    let sum = 0;
-    for (let i = 0; i < n; ++i) sum += this.scriptTimes[i];
-    return n > 0 ? sum / n : 0;
+    return n > 0 ? this.scriptTimes.slice(0, n).sort()[n >> 1] : 0;
+  }
+
+  /** Pictures since the last reset. */
+  get pictures(): number {
+    return this.scriptCount;
   }
 
   resetScriptTime(): void {

@@ -1,0 +1,334 @@
+// Pages opened from disk in a headless browser.
+
+import assert from 'node:assert/strict';
+import { statSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+import type { Browser, Page } from 'playwright-core';
+import { check, compare, damaged, large, reduce } from '../pages/others';
+import { armMesh, ARM, CHANNEL, motionAt, ORIGIN, RADIUS, road, vehicle } from '../pages/vehicle';
+import { modeShape } from '../pages/shapes';
+import { fillTemplate } from '../pages/writer';
+import { launch, open, snap, template, write } from '../browser';
+
+let browser: Browser;
+const html = template();
+
+before(async () => (browser = await launch()));
+after(async () => browser?.close());
+
+function path(name: string, made: ReturnType<typeof vehicle>): string {
+  return write(name, fillTemplate(html, made.page, made.writer));
+}
+
+async function at(page: Page, time: number): Promise<void> {
+  await page.evaluate((t) => window.floatframe!.setTime(t), time);
+}
+
+function turned(q: number[], v: number[]): number[] {
+  const [x, y, z, w] = q;
+  const t = [2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])];
+  return [v[0] + w * t[0] + y * t[2] - z * t[1], v[1] + w * t[1] + z * t[0] - x * t[2], v[2] + w * t[2] + x * t[1] - y * t[0]];
+}
+
+test('template: one file, small, with one place for data', () => {
+  assert.ok(html.length < 1_200_000, `${html.length} bytes`);
+  assert.equal(html.split('<!--FLOATFRAME-DATA-->').length, 2);
+  assert.ok(!/<(script|link|img)[^>]+(src|href)="(?!data:)/.test(html));
+});
+
+test('a run: opens without an error, moves, and bodies are where formulas say', async () => {
+  const opened = await open(browser, path('vehicle', vehicle()));
+  const { page } = opened;
+  console.log(`small page ready after ${opened.readyAfter} ms`);
+  assert.deepEqual(opened.errors, []);
+  assert.deepEqual(opened.requests, []);
+  assert.deepEqual(await page.evaluate(() => window.floatframe!.problems), []);
+  const canvas = page.locator('canvas.canvas');
+  const pictures: string[] = [];
+  for (const t of [0.2, 1.6, 3.1]) {
+    await at(page, t);
+    pictures.push((await canvas.screenshot()).toString('base64'));
+  }
+  assert.equal(new Set(pictures).size, 3);
+
+  const mesh = armMesh();
+  const vertex = mesh.vertices.length / 3 - 3;
+  const local = mesh.vertices.slice(3 * vertex, 3 * vertex + 3) as [number, number, number];
+  const modes = Array.from({ length: 6 }, (_, j) => modeShape(j, ARM, local[0], local[1], local[2]));
+  for (const scale of [1, 20]) {
+    await page.evaluate((s) => window.floatframe!.setScale(s), scale);
+    for (const t of [0, 1.64, 2.9]) {
+      await at(page, t);
+      const exact = motionAt(t);
+      const bent = local.map((x, i) => x + scale * modes.reduce((sum, mode, j) => sum + mode[i] * exact.amplitudes[6 + j], 0));
+      const expected = turned(exact.bodies[2].quaternion, bent).map((x, i) => x + exact.bodies[2].position[i] + ORIGIN[i]);
+      const found = await page.evaluate(
+        ({ v, l, m }) => [window.floatframe!.worldPosition(2, l, m)!, window.floatframe!.vertexPosition(2, v)!],
+        { v: vertex, l: local, m: modes },
+      );
+      for (let i = 0; i < 3; ++i) {
+        assert.ok(Math.abs(found[0][i] - expected[i]) < 2e-6, `${found[0]} and ${expected}`);
+        // Modes of meshes are half floats.
+        assert.ok(Math.abs(found[1][i] - expected[i]) < 2e-6 + scale * 2e-5, `${found[1]} and ${expected}`);
+      }
+    }
+  }
+  // Wheels stand on the road.
+  await at(page, 0.4);
+  const hub = (await page.evaluate(() => window.floatframe!.pointPosition(3)))!;
+  const above = hub[2] - ORIGIN[2] - road(hub[0] - ORIGIN[0]);
+  assert.ok(above > 0.85 * RADIUS && above < 1.1 * RADIUS, String(above));
+  await page.context().close();
+});
+
+test('time cursor, curve and scene agree, both ways', async () => {
+  const { page, errors } = await open(browser, path('vehicle', vehicle()));
+  await at(page, 1.64);
+  const { value, place } = await page.evaluate((name) => ({ value: window.floatframe!.channelValue(name), place: window.floatframe!.worldPosition(0, [0, 0, 0])! }), CHANNEL);
+  assert.ok(Math.abs(value - place[2]) < 1e-6);
+  const plot = page.locator('#curves .plot', { has: page.locator(`[title="${CHANNEL}"]`) });
+  await plot.scrollIntoViewIfNeeded();
+  await plot.locator('.u-over').waitFor();
+  await page.waitForFunction((name) => document.querySelector(`#curves [title="${name}"] .chip-value`)?.textContent !== '', CHANNEL);
+  const shown = Number((await plot.locator('.chip-value').first().textContent())!.replace('\u2212', '-'));
+  assert.ok(Math.abs(shown - value) < 1e-4 * Math.abs(value), `${shown} and ${value}`);
+  const over = (await plot.locator('.u-over').boundingBox())!;
+  const cursor = (await plot.locator('.time-cursor').boundingBox())!;
+  assert.ok(Math.abs((cursor.x + cursor.width / 2 - over.x) / over.width - 1.64 / 4) < 0.01);
+  // A click on the curve sets the time of the view.
+  await page.mouse.click(over.x + 0.75 * over.width, over.y + over.height / 2);
+  assert.ok(Math.abs((await page.evaluate(() => window.floatframe!.time)) - 3) < 0.03);
+  // Dragging zooms all plots alike.
+  await page.mouse.move(over.x + 0.25 * over.width, over.y + 40);
+  await page.mouse.down();
+  await page.mouse.move(over.x + 0.5 * over.width, over.y + 40, { steps: 4 });
+  await page.mouse.up();
+  const whole = page.getByRole('button', { name: 'Whole run' });
+  assert.ok(await whole.isEnabled());
+  await whole.click();
+  assert.ok(await whole.isDisabled());
+  const chip = plot.locator('.chip').first();
+  await chip.click();
+  assert.equal(await chip.getAttribute('aria-pressed'), 'false');
+  // Constant and noise channels are text.
+  assert.match((await page.locator('#curves .still').first().textContent())!, /lateralconstant \u221220 myawrounding noise, at most 1e\u221215 rad/);
+  assert.deepEqual(errors, []);
+  await page.context().close();
+});
+
+test('deformation, colours, hiding, picking, keys and the screenshot act', async () => {
+  const { page, errors } = await open(browser, path('vehicle', vehicle()));
+  const canvas = page.locator('canvas.canvas');
+  const picture = async (): Promise<string> => {
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    return (await canvas.screenshot()).toString('base64');
+  };
+  await at(page, 1.6);
+  let before = await picture();
+  const differs = async (what: string): Promise<void> => {
+    const now = await picture();
+    assert.notEqual(now, before, what);
+    before = now;
+  };
+  const slider = page.getByLabel('Deformation scale');
+  await slider.fill('1');
+  assert.equal(await page.evaluate(() => window.floatframe!.scale), 10);
+  await differs('deformation');
+  await slider.fill('3');
+  assert.equal(await page.evaluate(() => window.floatframe!.scale), 1000);
+  await slider.fill('0.5');
+  await differs('deformation');
+  await page.getByLabel('Colour map').selectOption('cividis');
+  await differs('colour map');
+  await page.getByLabel('Colour by').selectOption({ label: 'Axial stress' });
+  await differs('field');
+  assert.match((await page.locator('.legend').textContent())!, /Axial stress \[MPa\]/);
+  await page.getByLabel('Colour by').selectOption({ label: 'Bodies' });
+  await differs('body colours');
+  assert.ok(await page.locator('.legend').isHidden());
+  await page.getByLabel('Names').check();
+  await differs('names');
+  await page.getByRole('tab', { name: 'Bodies' }).click();
+  await page.getByRole('button', { name: 'Hide chassis' }).click();
+  assert.equal(await page.evaluate(() => window.floatframe!.bodies[0].visible), false);
+  await differs('hiding');
+  await page.getByRole('button', { name: 'Show only front_left_arm' }).click();
+  assert.deepEqual(await page.evaluate(() => window.floatframe!.bodies.filter((b) => b.visible).map((b) => b.name)), ['front_left_arm']);
+  await page.getByRole('button', { name: 'Fit' }).click();
+  await differs('isolated and fitted');
+  // The only body is in the middle.
+  const box = (await canvas.boundingBox())!;
+  await page.evaluate(() => window.floatframe!.setScale(1));
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  const chosen = await page.evaluate(() => window.floatframe!.selected);
+  assert.equal(chosen?.body, 1);
+  assert.ok(chosen!.vertex !== null);
+  const panel = page.locator('.selection');
+  assert.equal(await panel.locator('h3').first().textContent(), `front_left_arm, node ${1001 + chosen!.vertex!}`);
+  assert.match((await panel.textContent())!, /8\.4 kg.*Elastic displacement.*Position/s);
+  await panel.locator('.u-over').first().waitFor();
+  await page.keyboard.press('Escape');
+  assert.equal(await page.evaluate(() => window.floatframe!.selected), null);
+
+  const time = (): Promise<number> => page.evaluate(() => window.floatframe!.time);
+  await page.keyboard.press('Home');
+  assert.equal(await time(), 0);
+  await page.keyboard.press('ArrowRight');
+  assert.ok(Math.abs((await time()) - 0.02) < 1e-12);
+  await page.keyboard.press('Shift+ArrowRight');
+  assert.ok(Math.abs((await time()) - 0.22) < 1e-12);
+  await page.keyboard.press('End');
+  assert.equal(await time(), 4);
+  await page.keyboard.press('[');
+  assert.equal(await page.getByLabel('Speed').inputValue(), '0.5');
+  await page.keyboard.press('Home');
+  await page.keyboard.press(' ');
+  await page.waitForFunction(() => window.floatframe!.time > 0.05);
+  await page.keyboard.press(' ');
+  const stopped = await time();
+  await page.waitForTimeout(150);
+  assert.equal(await time(), stopped);
+  await page.keyboard.press('?');
+  assert.ok(await page.locator('dialog.help').isVisible());
+  await page.keyboard.press('Escape');
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save a picture' }).click();
+  assert.match((await download).suggestedFilename(), /^vehicle-.*s\.png$/);
+  assert.match((await page.evaluate(() => window.floatframe!.screenshot()))!, /^data:image\/png;base64,.{5000}/);
+  assert.deepEqual(errors, []);
+  await page.context().close();
+});
+
+test('a second run is dropped on the page', async () => {
+  const { page, errors } = await open(browser, path('vehicle', vehicle()));
+  const drop = (name: string, text: string): Promise<void> =>
+    page.evaluate(
+      ({ name: file, text: content }) => {
+        const transfer = new DataTransfer();
+        transfer.items.add(new File([content], file, { type: 'text/csv' }));
+        window.dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
+      },
+      { name, text },
+    );
+  const message = page.locator('#curves .message');
+  await drop('wrong.csv', 'x,y\n1,2\n');
+  await message.getByText('first column is "x", expected "time"').waitFor();
+  await drop('other.csv', 'time,elsewhere\n0,1\n');
+  await message.getByText('has no channel of this page').waitFor();
+  await drop('second.csv', `# run 2\ntime,${CHANNEL},elsewhere\n0,6,1\n2,6.1,1\n4,6.2,1\n`);
+  await message.getByText(/1 of 18 channels is laid over/).waitFor();
+  assert.match((await message.textContent())!, /The file has no chassis_x.*This page has no elsewhere\./);
+  const plot = page.locator('#curves .plot', { has: page.locator(`[title="${CHANNEL}"]`) });
+  await plot.scrollIntoViewIfNeeded();
+  await plot.getByText(/Δ max 0\.\d+, rms/).waitFor();
+  await page.getByRole('button', { name: 'Difference' }).click();
+  await page.getByRole('button', { name: 'Take the second run away' }).click();
+  assert.ok(await message.isHidden());
+  assert.deepEqual(errors, []);
+  await page.context().close();
+});
+
+test('dark and narrow: nothing wider than the window', async () => {
+  const file = path('vehicle', vehicle());
+  const looks: [number, number, boolean][] = [[1440, 900, true], [390, 844, false], [390, 844, true], [2560, 1300, false]];
+  const grounds = new Set<string>();
+  for (const [width, height, dark] of looks) {
+    const { page, errors } = await open(browser, file, { width, height, dark });
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), `${width} pixels`);
+    const clipped = await page.evaluate(() => [...document.querySelectorAll('main *')].filter((e) => e.getBoundingClientRect().right > window.innerWidth + 1 && !e.closest('.scroll, .frame, .plot-box')).map((e) => e.className));
+    assert.deepEqual(clipped, []);
+    grounds.add(await page.evaluate(() => getComputedStyle(document.body).backgroundColor));
+    await snap(page, `look_${width}_${dark ? 'dark' : 'light'}`);
+    assert.deepEqual(errors, []);
+    if (width === 1440) {
+      await page.getByRole('button', { name: 'Light or dark' }).click();
+      grounds.add(await page.evaluate(() => getComputedStyle(document.body).backgroundColor));
+    }
+    await page.context().close();
+  }
+  assert.equal(grounds.size, 2);
+});
+
+test('check, reduce and compare', async () => {
+  const first = await open(browser, path('check', check()));
+  assert.ok(await first.page.getByLabel('Names').isChecked());
+  assert.ok(await first.page.getByLabel('Joints').isChecked());
+  assert.equal(await first.page.locator('.player').count(), 0);
+  assert.equal(await first.page.locator('#curves').count(), 0);
+  assert.deepEqual(first.errors, []);
+  await first.page.context().close();
+
+  const part = await open(browser, path('reduce', reduce()));
+  const swing = (): Promise<number[]> =>
+    part.page.evaluate(() => {
+      window.floatframe!.setTime(0.5);
+      return window.floatframe!.pointPosition(1)!;
+    });
+  await part.page.getByRole('button', { name: /210.6 Hz/ }).click();
+  const torsion = await swing();
+  await part.page.getByRole('button', { name: /31.2 Hz/ }).click();
+  const bending = await swing();
+  // A quarter of a swing: the largest displacement is a tenth of the length.
+  assert.ok(Math.abs(bending[2] - 0.08) < 0.004, String(bending));
+  assert.ok(Math.abs(torsion[2]) < 1e-9);
+  assert.equal(await part.page.locator('.mode').count(), 9);
+  assert.deepEqual(part.errors, []);
+  await part.page.context().close();
+
+  const two = await open(browser, path('compare', compare()));
+  assert.match((await two.page.locator('#curves tbody').textContent())!, /travelm0.062/);
+  await two.page.getByRole('button', { name: 'Difference' }).click();
+  assert.deepEqual(two.errors, []);
+  await two.page.context().close();
+});
+
+test('hostile names are text', async () => {
+  const { page, errors } = await open(browser, path('hostile', vehicle({ hostile: true })));
+  await page.getByLabel('Names').check();
+  await page.getByRole('tab', { name: 'Bodies' }).click();
+  await page.locator('.body-name').first().click();
+  assert.equal(await page.evaluate(() => (window as { hacked?: number }).hacked), undefined);
+  assert.equal(await page.locator('img').count(), 0);
+  assert.match((await page.locator('h1').textContent())!, /vehicle<img src=x/);
+  assert.deepEqual(errors, []);
+  await page.context().close();
+});
+
+test('damaged pages say what is wrong and are never blank', async () => {
+  for (const [name, { html: text, says }] of Object.entries(damaged(html))) {
+    const { page, errors } = await open(browser, write(`damaged_${name}`, text));
+    await page.waitForFunction((pattern) => new RegExp(pattern).test(document.querySelector('main')?.textContent ?? ''), says.source, { timeout: 15_000 }).catch(async () => {
+      assert.fail(`${name}: expected ${says}, found: ${(await page.locator('main').textContent())!.slice(0, 300)}`);
+    });
+    assert.deepEqual(errors, [], name);
+    await page.context().close();
+  }
+});
+
+test('without WebGL the rest works and says why', async () => {
+  const plain = await launch([], false);
+  const { page } = await open(plain, path('vehicle', vehicle()));
+  assert.match((await page.locator('#view').textContent())!, /needs WebGL 2, which this browser does not give/);
+  assert.ok((await page.locator('#curves .plot').count()) > 4);
+  await page.locator('#curves .u-over').first().waitFor();
+  assert.ok(await page.locator('#trust').isVisible());
+  await plain.close();
+});
+
+test('a large model: size of the page, script time of a frame', async () => {
+  const file = path('large', large());
+  const size = statSync(file).size;
+  assert.ok(size < 15e6, `${size} bytes`);
+  const { page, errors, readyAfter } = await open(browser, file);
+  const time = (): Promise<number> => page.evaluate(() => window.floatframe!.time);
+  await page.evaluate(() => window.floatframe!.resetScriptTime());
+  await page.keyboard.press(' ');
+  // Enough pictures for a median, however busy the machine is.
+  await page.waitForFunction(() => window.floatframe!.framesDrawn() >= 30, undefined, { timeout: 120_000 });
+  const found = await page.evaluate(() => ({ script: window.floatframe!.frameScriptTime(), rate: window.floatframe!.frameRate() }));
+  console.log(`large page: ${(size / 1e6).toFixed(1)} MB, ready after ${readyAfter} ms, script ${found.script.toFixed(2)} ms a frame, ${found.rate.toFixed(1)} frames a second`);
+  assert.ok((await time()) > 0);
+  assert.ok(found.script > 0 && found.script < 4, `${found.script} ms`);
+  assert.deepEqual(errors, []);
+  await page.context().close();
+});

@@ -1,0 +1,130 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { PageBuffer } from '../../src/data/buffer';
+import { readScene, type SceneData } from '../../src/data/scene_data';
+import { largestDisplacement, largestOfModes } from '../../src/motion/elastic_range';
+import { elastic, Motion } from '../../src/motion/motion';
+import { Player } from '../../src/motion/player';
+import { rotate, slerp } from '../../src/motion/rotation';
+import { buildSurface } from '../../src/scene/surface';
+import { beamMesh, modeShape } from '../pages/shapes';
+import { ARM, armMesh, motionAt, STEP, vehicle } from '../pages/vehicle';
+
+function scene(): SceneData {
+  const { page, writer } = vehicle();
+  const said: string[] = [];
+  const result = readScene(page.scene!, 'run', new PageBuffer(writer.buffer()), (s) => said.push(s));
+  assert.deepEqual(said, []);
+  return result;
+}
+
+const near = (a: ArrayLike<number>, b: ArrayLike<number>, tolerance: number): void => {
+  for (let i = 0; i < b.length; ++i) assert.ok(Math.abs(a[i] - b[i]) <= tolerance, `${a[i]} and ${b[i]} at ${i}`);
+};
+
+test('orientations go the short way, at constant rate', () => {
+  const out = new Float64Array(4);
+  const half = Math.SQRT1_2;
+  slerp([0, 0, 0, 1], 0, [0, 0, half, half], 0, 1 / 3, out, 0);
+  near(out, [0, 0, Math.sin(Math.PI / 12), Math.cos(Math.PI / 12)], 1e-15);
+  // The same orientation with the other sign.
+  slerp([0, 0, 0, 1], 0, [0, 0, -half, -half], 0, 1 / 3, out, 0);
+  near(out, [0, 0, Math.sin(Math.PI / 12), Math.cos(Math.PI / 12)], 1e-15);
+  slerp([0, 0, 0, 1], 0, [0, 0, 1e-9, 1], 0, 0.5, out, 0);
+  near(out, [0, 0, 5e-10, 1], 1e-15);
+  near(rotate([0, 0, half, half], 0, 1, 2, 3), [-2, 1, 3], 1e-15);
+});
+
+test('motion at frames is that of the record, between them close to the formulas', () => {
+  const motion = new Motion(scene());
+  for (const [t, tolerance] of [[0, 1e-6], [50 * STEP, 1e-6], [1.234, 1e-3], [4, 1e-6]]) {
+    motion.go(t);
+    const exact = motionAt(t);
+    exact.bodies.forEach((body, b) => near(motion.position.subarray(3 * b, 3 * b + 3), body.position, tolerance));
+    near(motion.amplitudes, exact.amplitudes, tolerance);
+    const tip = motion.scene.points[2];
+    const u: [number, number, number] = [ARM, 0, 0];
+    for (let j = 0; j < 6; ++j) modeShape(j, ARM, ARM, 0, 0).forEach((x, i) => (u[i] += 100 * exact.amplitudes[j] * x));
+    const { position, quaternion } = exact.bodies[1];
+    near(motion.pointPosition(tip, 100), rotate(quaternion, 0, ...u).map((x, i) => x + position[i]), 100 * tolerance);
+  }
+});
+
+test('the sampled maximum is that of all vertices and frames', () => {
+  const data = scene();
+  for (const body of data.bodies.filter((b) => b.modeCount > 0)) {
+    let most = 0;
+    for (let f = 0; f < data.time.length; ++f) {
+      for (let v = 0; v < body.mesh!.vertices.length / 3; ++v) most = Math.max(most, Math.hypot(...elastic(body, v, data.amplitudes!, f * data.amplitudeCount + body.firstMode)));
+    }
+    const sampled = largestDisplacement(data, body);
+    assert.ok(most > 0.001 && sampled <= most && sampled > 0.99 * most, `${sampled} of ${most}`);
+  }
+  const modes = largestOfModes(data.bodies[1]);
+  assert.ok(modes[0] >= 1 && modes[0] < 1.02, String(modes[0]));
+});
+
+test('surfaces: sharp edges are doubled, round ones are not', () => {
+  const box = beamMesh(1, 1, 1, 2, 2);
+  // One closed box: equal places of the six faces are one vertex.
+  const place = new Map<string, number>();
+  const vertices: number[] = [];
+  const index = box.triangles.map((v) => {
+    const p = box.vertices.slice(3 * v, 3 * v + 3);
+    const key = p.map((x) => x.toFixed(6).replace('-0.000000', '0.000000')).join();
+    if (!place.has(key)) place.set(key, vertices.push(...p) / 3 - 1);
+    return place.get(key)!;
+  });
+  const mesh = { vertices: Float32Array.from(vertices), triangles: Uint32Array.from(index), normals: null, modes: null, nodes: null, generated: false, fields: [] };
+  const surface = buildSurface(mesh);
+  assert.equal(vertices.length / 3, 26);
+  assert.equal(surface.geometry.getAttribute('position').count, 6 * 9);
+  assert.equal(surface.edges.getIndex()!.count / 2, 12 * 2);
+  const tube = armMesh();
+  const smooth = buildSurface({ ...mesh, vertices: Float32Array.from(tube.vertices), triangles: Uint32Array.from(tube.triangles) });
+  assert.equal(smooth.geometry.getAttribute('position').count, tube.vertices.length / 3);
+});
+
+test('a damaged motion is shown as far as it goes', () => {
+  const { page, writer } = vehicle();
+  const buffer = new PageBuffer(writer.buffer());
+  const pose = buffer.read(page.scene!.frames!.pose, 'pose', ['f32'], [null, 10, 7]) as Float32Array;
+  pose[30 * 70 + 3] = NaN;
+  const said: string[] = [];
+  const data = readScene(page.scene!, 'run', buffer, (s) => said.push(s));
+  assert.equal(data.time.length, 30);
+  assert.match(said[0], /shown up to 0.58 s: frame 30 of 201/);
+});
+
+test('the player: steps, ends, loop and speeds', () => {
+  const player = new Player([0, 0.1, 0.2, 0.5]);
+  player.step(1);
+  assert.equal(player.time, 0.1);
+  player.set(0.15);
+  player.step(1);
+  assert.equal(player.time, 0.2);
+  player.set(0.15);
+  player.step(-1);
+  assert.equal(player.time, 0.1);
+  player.step(10);
+  assert.equal(player.time, 0.5);
+  player.step(1);
+  assert.equal(player.time, 0.5);
+  player.play();
+  assert.equal(player.time, 0);
+  player.setSpeed(2);
+  player.advance(0.1);
+  assert.ok(Math.abs(player.time - 0.2) < 1e-15);
+  player.advance(0.2);
+  assert.ok(Math.abs(player.time - 0.1) < 1e-12, 'begins again');
+  player.setLoop(false);
+  player.advance(1);
+  assert.equal(player.time, 0.5);
+  assert.equal(player.playing, false);
+  player.changeSpeed(1);
+  assert.equal(player.speed, 5);
+  for (let i = 0; i < 20; ++i) player.changeSpeed(-1);
+  assert.equal(player.speed, 0.01);
+  player.set(NaN);
+  assert.equal(player.time, 0.5);
+});
