@@ -203,6 +203,25 @@ class States(RunCase):
             self.assertEqual(head[1:], wide[-8:])
             self.assertEqual([row[1:] for row in table], [row[-8:] for row in expected])
 
+    def test_a_study_keeps_states_where_the_model_asks_for_them(self):
+        text = (self.folder / "m.yaml").read_text()
+        (self.folder / "kept.yaml").write_text(text.replace("simulation: {", "simulation: {record: states, "))
+        for model, there in (("m.yaml", False), ("kept.yaml", True)):
+            self.program("sweep", model, "--vary", "mass=1,2", "--vary", "simulation.step=0.001,0.002", "--set",
+                         "duration=0.1", "--keep-results", "--out", "study", "--fresh", "--quiet")
+            self.assertEqual((self.folder / "study/runs/3/states.ffr").exists(), there)
+        header, _, rows, end = self.states("study/runs/3")
+        self.assertEqual(header["origin"]["settings"], ["duration=0.1", "mass=2"])
+        self.assertEqual(end["status"], "completed")
+        _, table = self.results("study/runs/3")
+        self.assertEqual([row[0] for row in rows], [row[0] for row in table])
+        for number, rows in ((3, 101), (4, 51)):
+            done = self.program("outputs", f"study/runs/{number}", "--add", "again: {joint_position: spin}")
+            _, found = self.table(done.stdout)
+            _, table = self.results(f"study/runs/{number}")
+            self.assertEqual([row[1] for row in found], [row[2] for row in table])
+            self.assertEqual(len(found), rows)
+
     def test_wrong_questions_are_answered(self):
         self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.05", "--quiet")
 

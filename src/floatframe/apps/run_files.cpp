@@ -13,6 +13,7 @@
 #include "floatframe/report/results_reader.hpp"
 #include "floatframe/report/run_page.hpp"
 #include "floatframe/report/summary_json.hpp"
+#include "floatframe/simulation/state_layout.hpp"
 
 namespace floatframe {
 namespace {
@@ -67,7 +68,6 @@ void RunFiles::begin(const std::vector<Column>& columns) {
   // Continued files are looked at before anything is changed.
   if (from_ && keeps_states()) GrowingFile::require(paths_.states, from_->states);
   if (from_) results_.emplace(paths_.results, columns, from_->results);
-  if (from_ && keeps_states()) states_.emplace(paths_.states, from_->states);
   options_.summary.status = "running";
   options_.summary.message = "not complete: the run has not ended, or was killed";
   write_file(paths_.summary, summary_json(options_.summary));
@@ -97,6 +97,8 @@ void RunFiles::take(const std::vector<Column>& columns, std::span<const double> 
 
 void RunFiles::take_states(const StateLayout& layout, std::span<const double> numbers) {
   watched([&] {
+    if (!states_ && from_)
+      states_.emplace(paths_.states, from_->states, static_cast<std::size_t>(layout.columns));
     if (!states_)
       states_.emplace(paths_.states, options_.history(layout), options_.checkpoint_every > 0.0);
     states_->append(numbers);

@@ -1,5 +1,6 @@
 #include "floatframe/history/states_file.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "floatframe/history/history_blocks.hpp"
@@ -12,7 +13,7 @@ constexpr std::size_t longest_message = 10'000;
 }  // namespace
 
 StatesFile::StatesFile(const std::string& path, const HistoryContent& content, bool continuable)
-    : file_(path, continuable) {
+    : columns_(content.header.columns), file_(path, continuable) {
   file_.append_whole(history_beginning() +
                      history_block(HistoryBlockKind::head, header_json(content.header)));
   for (const std::string& array : content.arrays)
@@ -20,10 +21,14 @@ StatesFile::StatesFile(const std::string& path, const HistoryContent& content, b
 }
 
 void StatesFile::append(std::span<const double> numbers) {
-  if (numbers.empty()) return;
-  file_.append_whole(history_block(
-      HistoryBlockKind::rows,
-      {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)}));
+  const std::size_t rows = std::max<std::size_t>(1, largest_rows_block / (8 * columns_));
+  while (!numbers.empty()) {
+    const auto block = numbers.first(std::min(numbers.size(), rows * columns_));
+    file_.append_whole(history_block(
+        HistoryBlockKind::rows,
+        {reinterpret_cast<const char*>(block.data()), block.size() * sizeof(double)}));
+    numbers = numbers.subspan(block.size());
+  }
 }
 
 void StatesFile::finish(const std::string& status, const std::string& message) {

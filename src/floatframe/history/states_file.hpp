@@ -22,10 +22,10 @@ class StatesFile {
   /// In place of a file that is there; `continuable`: positions are asked for. Throws OutputError.
   StatesFile(const std::string& path, const HistoryContent& content, bool continuable);
   /// Continues one, see GrowingFile.
-  StatesFile(const std::string& path, const GrowingFile::Position& position)
-      : file_(path, position) {}
+  StatesFile(const std::string& path, const GrowingFile::Position& position, std::size_t columns)
+      : columns_(columns), file_(path, position) {}
 
-  /// Whole rows. Throws OutputError.
+  /// Whole rows. Throws OutputError; what it has written by then are whole blocks.
   void append(std::span<const double> numbers);
   /// How the run ended; nothing is appended afterwards.
   void finish(const std::string& status, const std::string& message);
@@ -33,6 +33,7 @@ class StatesFile {
   GrowingFile::Position position() const { return file_.position(); }
 
  private:
+  std::size_t columns_;
   GrowingFile file_;
 };
 

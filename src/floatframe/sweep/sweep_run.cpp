@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/build_info.hpp"
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/folder_lock.hpp"
@@ -16,6 +17,7 @@
 #include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
+#include "floatframe/sweep/sweep_states.hpp"
 
 namespace floatframe {
 namespace {
@@ -59,7 +61,8 @@ class RunFolder {
   std::optional<FolderLock> lock_;
 };
 
-void keep_files(const std::filesystem::path& folder, const RunResult& result) {
+void keep_files(const std::filesystem::path& folder, const RunResult& result,
+                const SweepStates& states) {
   const RunFolder held(folder.string());
   remove_torn_files(folder);
   const std::string table = (folder / "results.csv").string();
@@ -67,6 +70,7 @@ void keep_files(const std::filesystem::path& folder, const RunResult& result) {
     remove_file(table);
   else
     write_file(table, results_csv(result.table));
+  states.write(folder / "states.ffr", result.summary);
   write_file((folder / "summary.json").string(), summary_json(result.summary));
 }
 
@@ -77,6 +81,23 @@ std::vector<std::string> settings_of(const SweepOptions& options, std::size_t ru
   for (std::size_t k = 0; k < options.plan.names.size(); ++k)
     settings.push_back(options.plan.names[k] + '=' + options.plan.runs[run][k]);
   return settings;
+}
+
+/// What the states of a run say they were made from.
+HistoryOrigin origin_of(const SweepOptions& options, std::size_t run, const PreparedRun& prepared) {
+  HistoryOrigin o;
+  o.program = version();
+  o.library = build_description();
+  o.model_file = options.model;
+  std::error_code ignored;
+  o.from_here =
+      std::filesystem::weakly_canonical(options.model, ignored)
+          .lexically_relative(std::filesystem::weakly_canonical(folder_of(options, run), ignored))
+          .string();
+  for (const std::string& setting : settings_of(options, run))
+    if (!setting.starts_with("simulation.")) o.settings.push_back(setting);  // in the header
+  if (prepared.files) o.files = relative_to_model(options.model, *prepared.files);
+  return o;
 }
 
 }  // namespace
@@ -134,6 +155,7 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
   RunResult result;
   SweepRow row;
   PreparedRun prepared;
+  SweepStates states;
   try {
     std::shared_ptr<const Model> shared;
     if (auto known = prepared_.extract(run); !known.empty()) {
@@ -151,6 +173,8 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
       if (stop_.load(std::memory_order_relaxed)) throw RunGivenUp{};
       progress.store(fraction, std::memory_order_relaxed);
     };
+    const HistoryOrigin origin = origin_of(options_, run, prepared);
+    if (options_.keep_results) states.take_from(options, *shared, prepared.simulation, origin);
     try {
       result = floatframe::run(*shared, prepared.simulation, options);
       row = sweep_row(result, options_.measures);
@@ -170,7 +194,7 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
   if (options_.keep_results) {
     result.summary.settings = settings_of(options_, run);
     if (prepared.files) result.summary.files = *prepared.files;
-    keep_files(folder_of(options_, run), result);
+    keep_files(folder_of(options_, run), result, states);
   }
   return encode_row(run, row);
 }
@@ -187,7 +211,7 @@ std::string lost_line(const SweepOptions& options, std::size_t run, const std::s
     result.summary.status = "failed";
     result.summary.message = reason;
     result.summary.settings = settings_of(options, run);
-    keep_files(folder_of(options, run), result);
+    keep_files(folder_of(options, run), result, {});
   }
   return encode_row(run, failed_row(reason));
 }
