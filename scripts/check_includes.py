@@ -38,7 +38,7 @@ ALLOWED = {
     "yaml": {"core", "math"},
     "model_file": FE | {"body", "reduction", "model", "formats/sid", "parts", "yaml"},
     "history": DYNAMICS | {"simulation"},
-    "report": DYNAMICS | {"simulation"},
+    "report": DYNAMICS | {"simulation", "history"},
     "realtime": DYNAMICS | {"simulation"},
     "sweep": DYNAMICS | {"simulation", "yaml", "model_file", "history", "report"},
     "analyses": DYNAMICS | {"simulation", "report", "formats/body_file", "model_file"},

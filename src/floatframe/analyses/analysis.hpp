@@ -13,9 +13,10 @@ namespace floatframe {
 
 /// What an analysis found, for people and for programs.
 struct AnalysisReport {
-  std::string text;                     ///< tables (core/text_table.hpp) and sentences, SI units
-  std::string json;                     ///< a document (report/json_values.hpp)
-  std::vector<std::string> files{};     ///< their contents, in the order of `Analysis::files`
+  std::string text;  ///< tables (core/text_table.hpp) and sentences, SI units
+  std::string json;  ///< a document (report/json_values.hpp)
+  /// They give the contents of the files, in the order of `Analysis::files`, while the model lives.
+  std::vector<std::function<std::string()>> files{};
   std::vector<std::string> warnings{};  ///< a sentence each
 };
 

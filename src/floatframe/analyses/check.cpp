@@ -4,11 +4,16 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
+#include "floatframe/report/check_page.hpp"
 #include "floatframe/report/json_values.hpp"
 #include "floatframe/report/notes_text.hpp"
+#include "floatframe/report/page_writer.hpp"
+#include "floatframe/simulation/start_up.hpp"
+#include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
 namespace {
@@ -85,13 +90,32 @@ std::string check_json(const ModelCounts& c, const Model& model) {
                         {"flexible", flexible}});
 }
 
+/// The page of the model where a run of it begins.
+std::string page_of_start(const Model& model, const ModelCounts& counts) {
+  if (page_template().empty()) throw InputError(page_is_missing("--report"));
+  StartedModel<RelativeFormulation> start(model, model.simulation);
+  JointFollower joints(start.model());
+  SystemState state = system_state(start.formulation(), start.state(), joints);
+  place_bodies(start.model(), start.inertia(), state);
+  const CoordinateCounts &r = counts.relative, &a = counts.absolute;
+  const FactTable facts{"Model",
+                        {{"bodies (flexible)", bodies_counted(counts)},
+                         {"joints (cut)", fmt::format("{} ({})", counts.joints, counts.cut_joints)},
+                         {"coordinates, relative", std::to_string(r.total)},
+                         {"coordinates, absolute", std::to_string(a.total)},
+                         {"degrees of freedom", std::to_string(counts.degrees_of_freedom)},
+                         {"redundant constraints", std::to_string(counts.redundant_constraints)}}};
+  return check_page(model, state, counts.start.notes, {facts});
+}
+
 AnalysisReport report_check(const Model& model) {
   const ModelCounts counts = check(model);
   return {.text = fmt::format("{}: {}, {} ({} cut)\n\n", model.name, bodies_counted(counts),
                               plural(counts.joints, "joint"), counts.cut_joints) +
                   counts_text(counts) + flexible_bodies_text(model) +
                   notes_text(counts.start.notes),
-          .json = check_json(counts, model)};
+          .json = check_json(counts, model),
+          .files = {[&model, counts] { return page_of_start(model, counts); }}};
 }
 
 }  // namespace
@@ -99,6 +123,9 @@ AnalysisReport report_check(const Model& model) {
 Analysis check_analysis() {
   return {.name = "check",
           .help = "Check a model file and count its coordinates and constraints",
+          .files = {{"--report",
+                     "Write a page that shows the model as a run starts, with joints, axes and "
+                     "forces (HTML)"}},
           .footer =
               "Prints masses [kg] and frequencies [Hz] of the flexible bodies as well.\n"
               "Exit codes: 0 the model is valid, 1 it cannot be assembled, 2 bad input.",

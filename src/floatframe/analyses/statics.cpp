@@ -133,7 +133,7 @@ AnalysisReport report_statics(const Model& model) {
               "frame; angles from the design pose.\n" +
               redundancy_note(s),
       .json = statics_json(model, s, warnings),
-      .files = {state_json(*s.state)},
+      .files = {[state = s.state] { return state_json(*state); }},
       .warnings = warnings};
 }
 

@@ -48,9 +48,10 @@ int run_analysis(const Analysis& analysis, const AnalysisArguments& a) {
     require_steps(description.simulation);
   }
   check_inertia_method(description, description.simulation.inertia);
-  const AnalysisReport report = analysis.run(build_model(description));
+  const Model model = build_model(description);
+  const AnalysisReport report = analysis.run(model);
   for (std::size_t k = 0; k < a.files.size(); ++k)
-    if (!a.files[k].empty()) write_file(a.files[k], report.files.at(k));
+    if (!a.files[k].empty()) write_file(a.files[k], report.files.at(k)());
   print(a.json ? report.json : report.text);
   for (const std::string& warning : report.warnings) say("warning: " + warning);
   if (report.warnings.empty() || !a.strict) return exit_code::done;

@@ -5,10 +5,13 @@
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/part_arguments.hpp"
+#include "floatframe/apps/reduce_page.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/formats/sid/sid_file.hpp"
 #include "floatframe/parts/fe_info.hpp"
+#include "floatframe/report/check_page.hpp"
+#include "floatframe/report/page_writer.hpp"
 
 namespace floatframe {
 namespace {
@@ -49,6 +52,8 @@ int reduce_file(const ReduceArguments& a) {
   std::filesystem::path name = std::filesystem::path(a.part).filename();
   if (name.extension() == ".gz") name = name.stem();
   const std::string out = a.out.empty() ? name.stem().string() + ".ffb" : a.out;
+  const bool page = is_page_name(a.report);
+  if (page && page_template().empty()) throw InputError(page_is_missing("--report"));
   const PartJob job = job_of(a);
   const std::vector<OutputFile> outputs{{"-o", out}, {"--report", a.report}, {"--sid", a.sid}};
   std::vector<std::string> inputs{a.part};
@@ -62,7 +67,7 @@ int reduce_file(const ReduceArguments& a) {
   write_body_file(out, content);
   std::string files = fmt::format("\n  body    {}\n", out);
   if (!a.report.empty()) {
-    write_file(a.report, health_json(content.part.health) + '\n');
+    write_file(a.report, page ? part_page(content) : health_json(content.part.health) + '\n');
     files += fmt::format("  report  {}\n", a.report);
   }
   if (!a.sid.empty()) {
@@ -80,7 +85,8 @@ std::vector<Option> file_options(ReduceArguments& a) {
   return {file_position("PART", a.part, "Finite-element file (also .gz)"),
           text_option("-o,--out", a.out, "FILE",
                       "Body file to write; default: PART.ffb in this folder"),
-          text_option("--report", a.report, "FILE", "Health report as JSON"),
+          text_option("--report", a.report, "FILE",
+                      "Health report: a page with the modes in motion (.html), else JSON"),
           text_option("--sid", a.sid, "FILE", "Standard Input Data (SID_FEM) as well"),
           flag("--quiet", a.quiet, "No progress; the report is still printed")};
 }

@@ -9,9 +9,11 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/history/state_history.hpp"
 #include "floatframe/report/results_csv.hpp"
 #include "floatframe/report/results_reader.hpp"
 #include "floatframe/report/run_page.hpp"
+#include "floatframe/report/scene_json.hpp"
 #include "floatframe/report/summary_json.hpp"
 #include "floatframe/simulation/state_layout.hpp"
 
@@ -131,7 +133,10 @@ void RunFiles::write_report(Report& report) const {
     curves = page_curves(table);
   }
   PageBuffer buffer;
-  const auto page = run_page(report, curves, buffer);
+  auto page = run_page(report, curves, buffer);
+  if (states_ && options_.model)
+    page["scene"] = scene_json(*options_.model,
+                               scene_frames(*options_.model, StateHistory(paths_.states)), buffer);
   write_file(paths_.report, page_html(page_template(), page, buffer));
 }
 

@@ -124,6 +124,8 @@ export interface ForceJson {
   axis?: Triple | null;
   radius?: number | null;
   width?: number | null;
+  /** Loads: false if the axis is one of the world. */
+  follows?: boolean | null;
   channel?: string | null;
 }
 

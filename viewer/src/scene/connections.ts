@@ -181,7 +181,7 @@ export class Connections {
     const at = force.a >= 0 ? force.a : force.b;
     if (at < 0) return;
     const axis = force.axis ?? [0, 0, 1];
-    const body = this.scene.points[at].body;
+    const body = force.follows === false ? -1 : this.scene.points[at].body;
     this.addArrow({ ...force, a: at }, history, heads, (motion) => this.direction(axis, body, motion), 0);
   }
 

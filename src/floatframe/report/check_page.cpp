@@ -1,0 +1,83 @@
+#include "floatframe/report/check_page.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "floatframe/core/build_info.hpp"
+#include "floatframe/model/output_list.hpp"
+#include "floatframe/report/scene_json.hpp"
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string body_at(const Model& model, int marker) {
+  if (marker < 0) return "";
+  const int body = model.markers[marker].body;
+  return body < 0 ? ground_name : model.bodies[body].name;
+}
+
+/// Each joint with its bodies and the direction of its axis in the design configuration.
+Json joint_table(const Model& model) {
+  Json rows = Json::array();
+  for (const Joint& j : model.joints) {
+    if (j.automatic) continue;
+    const Marker& F = model.markers[j.frame_F];
+    const Mat3 R_WB = F.body < 0 ? Mat3::Identity() : model.bodies[F.body].X_WB.R;
+    const Vec3 z = R_WB * F.X_NM.R.col(2);
+    const auto direction = [](double x) { return std::abs(x) < 5e-5 ? 0.0 : x; };
+    rows.push_back(
+        {j.name, joint_type_name(j.type), body_at(model, j.frame_F), body_at(model, j.frame_M),
+         fmt::format("{:.4g}, {:.4g}, {:.4g}", direction(z[0]), direction(z[1]), direction(z[2])),
+         j.cut ? "cut" : ""});
+  }
+  return {{"heading", "Joints"},
+          {"columns", {"joint", "type", "parent", "child", "axis in the design", ""}},
+          {"rows", std::move(rows)}};
+}
+
+Json force_table(const Model& model) {
+  Json rows = Json::array();
+  for (const Force& f : model.forces)
+    rows.push_back(
+        {f.name, force_words[index_of(f.type)], body_at(model, f.a), body_at(model, f.b)});
+  return {{"heading", "Forces"}, {"columns", {"force", "type", "from", "to"}}, {"rows", rows}};
+}
+
+}  // namespace
+
+std::string page_is_missing(const std::string& option) {
+  return option +
+         ": this program was built without the viewer, expected one that was built where there is "
+         "Node 18 or later with npm";
+}
+
+std::string check_page(const Model& model, const SystemState& start,
+                       const std::vector<std::string>& notes, const std::vector<FactTable>& facts) {
+  PageBuffer buffer;
+  Json fact_list = Json::array();
+  for (const FactTable& t : facts) {
+    Json rows = Json::array();
+    for (const auto& row : t.rows) rows.push_back({row[0], row[1]});
+    fact_list.push_back({{"heading", t.title}, {"rows", std::move(rows)}});
+  }
+  Json sentences = Json::array({"The model in the configuration that a run starts from."});
+  for (const std::string& note : notes) sentences.push_back(note);
+  const Json page{
+      {"schema", 1},
+      {"kind", "check"},
+      {"title", model.name},
+      {"program", "Floatframe " + build_description()},
+      {"status", {{"state", "completed"}, {"sentences", sentences}, {"warnings", Json::array()}}},
+      {"facts", fact_list},
+      {"tables", Json::array({joint_table(model), force_table(model)})},
+      {"curves", nullptr},
+      {"trust", nullptr},
+      {"speed", nullptr},
+      {"scene", scene_json(model, scene_frames(model, start), buffer)}};
+  return page_html(page_template(), page, buffer);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,35 @@
+#pragma once
+// Where the bodies of a scene are: at instants of a run, or in one state.
+#include <vector>
+
+#include "floatframe/model/model.hpp"
+#include "floatframe/model/system_state.hpp"
+
+namespace floatframe {
+
+class StateHistory;
+
+struct SceneFrames {
+  std::vector<double> time;        ///< [s]
+  std::vector<double> poses;       ///< frames x bodies x 7: x, y, z [m], quaternion x, y, z, w
+  std::vector<double> amplitudes;  ///< frames x modes of all bodies
+  Vec3 origin = Vec3::Zero();      ///< what positions are measured from, so that floats are enough
+  std::vector<char> known;         ///< bodies that were recorded; others stay where they begin
+
+  double* pose(std::size_t frame, std::size_t body) {
+    return poses.data() + 7 * (frame * known.size() + body);
+  }
+  const double* pose(std::size_t frame, std::size_t body) const {
+    return poses.data() + 7 * (frame * known.size() + body);
+  }
+};
+
+/// Numbers in the frames of a page; of a longer run so many instants are taken, evenly.
+inline constexpr std::size_t most_numbers_of_frames = 600'000;
+
+/// Throws InputError if the states are not of this model.
+SceneFrames scene_frames(const Model& model, const StateHistory& history);
+/// One frame.
+SceneFrames scene_frames(const Model& model, const SystemState& state);
+
+}  // namespace floatframe

@@ -1,0 +1,328 @@
+#include "floatframe/report/scene_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "floatframe/body/modal_mass.hpp"
+#include "floatframe/body/surface_points.hpp"
+#include "floatframe/model/road.hpp"
+#include "floatframe/report/scene_mesh.hpp"
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json triple(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
+Json quaternion_json(const Mat3& R) {
+  const Eigen::Quaterniond q(R);
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+
+std::vector<float> as_floats(const std::vector<double>& x) { return {x.begin(), x.end()}; }
+
+class SceneWriter {
+ public:
+  SceneWriter(const Model& model, const SceneFrames& frames, PageBuffer& buffer)
+      : model_(model), frames_(frames), buffer_(buffer), places_(model.bodies.size()) {}
+
+  Json write() {
+    connections();
+    named_nodes();
+    Json bodies = Json::array();
+    std::size_t first = 0;
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      bodies.push_back(body(b, first));
+      first += static_cast<std::size_t>(model_.bodies[b].modes());
+    }
+    Json scene;
+    scene["frames"] = frames(first);
+    scene["origin"] = triple(frames_.origin);
+    scene["up"] = triple(up());
+    scene["bodies"] = std::move(bodies);
+    scene["points"] = std::move(points_);
+    scene["joints"] = std::move(joints_);
+    scene["forces"] = std::move(forces_);
+    scene["rods"] = std::move(rods_);
+    scene["roads"] = roads();
+    scene["gravity"] = triple(model_.gravity);
+    return scene;
+  }
+
+ private:
+  Json frames(std::size_t modes) {
+    const std::size_t count = frames_.time.size();
+    if (count == 0) return nullptr;
+    Json out;
+    out["time"] = buffer_.add(std::span<const double>(frames_.time), {count});
+    out["pose"] = buffer_.add(std::span<const float>(as_floats(frames_.poses)),
+                              {count, model_.bodies.size(), 7});
+    out["amplitudes"] = nullptr;
+    if (modes > 0)
+      out["amplitudes"] =
+          buffer_.add(std::span<const float>(as_floats(frames_.amplitudes)), {count, modes});
+    return out;
+  }
+
+  /// Against gravity, along an axis of the world.
+  Vec3 up() const {
+    Vec3 out = Vec3::UnitZ();
+    Eigen::Index k = 2;
+    if (model_.gravity.cwiseAbs().maxCoeff(&k) > 0.0)
+      out = Vec3::Unit(k) * (model_.gravity[k] > 0.0 ? -1.0 : 1.0);
+    return out;
+  }
+
+  // -- points: one for each marker that something holds
+
+  int point(int marker) {
+    if (marker < 0) return -1;
+    const auto known = point_of_.find(marker);
+    if (known != point_of_.end()) return known->second;
+    const int index = point_at(model_.markers[marker]);
+    point_of_.emplace(marker, index);
+    return index;
+  }
+
+  /// What nothing holds yet can be picked, too.
+  void named_nodes() {
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const std::vector<ModalNode>& nodes = model_.bodies[b].data->nodes;
+      for (std::size_t n = 0; n < nodes.size(); ++n) {
+        Marker m;
+        m.body = static_cast<int>(b);
+        m.node = static_cast<int>(n);
+        const bool held = held_.contains({m.body, m.node});
+        if (!held && !nodes[n].name.empty() && !is_surface_point(nodes[n])) point_at(m);
+      }
+    }
+  }
+
+  int point_at(const Marker& m) {
+    Json out{{"name", ""}, {"body", m.body}, {"p", nullptr}, {"modes", nullptr}};
+    Vec3 p = m.X_NM.p;
+    if (m.body < 0) {
+      p -= frames_.origin;
+    } else {
+      const FlexibleBody& data = *model_.bodies[m.body].data;
+      if (m.node >= 0) {
+        const ModalNode& node = data.nodes[m.node];
+        if (data.modes() > 0) {
+          Json modes = Json::array();
+          for (Eigen::Index k = 0; k < data.modes(); ++k)
+            modes.push_back(triple(node.X.col(k) + Vec3(node.X_theta.col(k)).cross(m.X_NM.p)));
+          out["modes"] = std::move(modes);
+        }
+        p += node.p;
+        out["name"] = node.name;
+        held_.emplace(m.body, m.node);
+      }
+      places_[m.body].push_back(p);
+    }
+    out["p"] = triple(p);
+    points_.push_back(std::move(out));
+    return static_cast<int>(points_.size()) - 1;
+  }
+
+  void connections() {
+    for (const Joint& j : model_.joints) {
+      if (j.automatic) continue;
+      const Mat3& R = model_.markers[j.frame_F].X_NM.R;
+      const bool has_axis =
+          j.type != JointType::weld && j.type != JointType::spherical && j.type != JointType::free;
+      joints_.push_back({{"name", j.name},
+                         {"type", joint_type_name(j.type)},
+                         {"a", point(j.frame_F)},
+                         {"b", point(j.frame_M)},
+                         {"axis", has_axis ? triple(R.col(2)) : Json()},
+                         {"axes", quaternion_json(R)},
+                         {"cut", j.cut}});
+    }
+    for (std::size_t k = 0; k < model_.forces.size(); ++k) forces_.push_back(force(k));
+    for (const Rod& r : model_.rods)
+      rods_.push_back({{"name", r.name}, {"a", point(r.a)}, {"b", point(r.b)}});
+  }
+
+  Json force(std::size_t index) {
+    const Force& f = model_.forces[index];
+    // What acts at one point is given with it as the first.
+    Json out{{"name", f.name},
+             {"type", force_words[index_of(f.type)]},
+             {"a", point(f.a < 0 ? f.b : f.a)},
+             {"b", f.a < 0 ? -1 : point(f.b)},
+             {"axis", nullptr},
+             {"radius", nullptr},
+             {"width", nullptr},
+             {"channel", nullptr}};
+    const bool load = f.type == ForceType::force || f.type == ForceType::torque;
+    if (f.type == ForceType::guided_spring)
+      out["axis"] = triple(model_.markers[f.a].X_NM.R * f.axis);
+    else if (f.type == ForceType::tyre || (load && f.follows))
+      out["axis"] = triple(model_.markers[f.b].X_NM.R * f.axis);
+    else if (load)
+      out["axis"] = triple(f.axis);  // of the world
+    if (load) out["follows"] = f.follows;
+    if (f.type == ForceType::tyre) {
+      out["radius"] = f.radius;
+      out["width"] = 0.4 * f.radius;  // the model has none; what a car's wheel has
+    }
+    for (const Output& o : model_.outputs)
+      if (o.type == OutputType::force && o.force == static_cast<int>(index))
+        out["channel"] = o.name;
+    return out;
+  }
+
+  // -- bodies
+
+  Json body(std::size_t index, std::size_t first) {
+    const Body& b = model_.bodies[index];
+    const FlexibleBody& data = *b.data;
+    Json out{{"name", b.name}, {"mass", data.invariants.m}, {"facts", body_facts(data)}};
+    out["modes"] = data.modes() > 0 ? modes(data, first) : Json();
+    const auto [known, fresh] = shapes_.emplace(&data, Shape{});
+    if (fresh) known->second = shape(data);
+    Shape mine = known->second;
+    if (mine.json.is_null()) mine = box(data, places_[index]);
+    for (const Vec3& p : places_[index]) mine.bound = std::max(mine.bound, p.norm());
+    out["shape"] = mine.json;
+    out["bound"] = mine.bound;
+    out["size"] = b.length;
+    if (!frames_.known.empty() && !frames_.known[index]) out["recorded"] = false;
+    return out;
+  }
+
+  static Json body_facts(const FlexibleBody& data) {
+    Json out = Json::array();
+    out.push_back({"mass", fmt::format("{:.6g} kg", data.invariants.m)});
+    if (data.invariants.m > 0.0) {
+      const Vec3 c = data.invariants.m_u / data.invariants.m;
+      out.push_back({"centre of mass", fmt::format("{:.4g}, {:.4g}, {:.4g} m", c[0], c[1], c[2])});
+    }
+    if (data.modes() > 0) out.push_back({"modes", std::to_string(data.modes())});
+    if (data.nodes.size() > 0) out.push_back({"nodes", std::to_string(data.nodes.size())});
+    return out;
+  }
+
+  static Json modes(const FlexibleBody& data, std::size_t first) {
+    const MatX M = modal_mass(data.invariants);
+    Json frequencies = Json::array(), names = Json::array();
+    for (int k = 0; k < data.modes(); ++k) {
+      const double f = std::sqrt(data.K(k, k) / M(k, k)) / (2.0 * std::numbers::pi);
+      frequencies.push_back(std::isfinite(f) ? Json(f) : Json());
+      const auto i = static_cast<std::size_t>(k);
+      names.push_back(i < data.mode_names.size() ? data.mode_names[i]
+                                                 : fmt::format("mode {}", k + 1));
+    }
+    return {{"first", first},
+            {"count", data.modes()},
+            {"frequencies", std::move(frequencies)},
+            {"names", std::move(names)}};
+  }
+
+  struct Shape {
+    Json json;
+    double bound = 0.0;
+  };
+
+  /// The views of bodies that are alike are the same.
+  Shape shape(const FlexibleBody& data) {
+    const SceneMesh mesh = scene_mesh(data);
+    if (mesh.triangles.empty()) return {};
+    const std::size_t vertices = mesh.nodes.size();
+    Shape out;
+    for (std::size_t v = 0; v < vertices; ++v)
+      out.bound = std::max<double>(
+          out.bound,
+          std::hypot(mesh.vertices[3 * v], mesh.vertices[3 * v + 1], mesh.vertices[3 * v + 2]));
+    Json& j = out.json;
+    j["kind"] = "mesh";
+    j["vertices"] = buffer_.add(std::span<const float>(mesh.vertices), {vertices, 3});
+    j["triangles"] =
+        buffer_.add(std::span<const std::uint32_t>(mesh.triangles), {mesh.triangles.size() / 3, 3});
+    j["normals"] = nullptr;
+    j["displacements"] = nullptr;
+    if (data.modes() > 0)
+      j["displacements"] = buffer_.add_half(mesh.displacements,
+                                            {vertices, static_cast<std::size_t>(data.modes()), 3});
+    j["nodes"] = buffer_.add(std::span<const std::uint32_t>(mesh.nodes), {vertices});
+    j["generated"] = mesh.generated;
+    return out;
+  }
+
+  static Shape box(const FlexibleBody& data, const std::vector<Vec3>& places) {
+    const SceneBox box = scene_box(data, places);
+    return {{{"kind", "box"},
+             {"size", triple(box.size)},
+             {"position", triple(box.position)},
+             {"quaternion", quaternion_json(box.axes)}},
+            box.position.norm() + 0.5 * box.size.norm()};
+  }
+
+  // -- roads, as far as wheels come
+
+  Json roads() {
+    Json out = Json::array();
+    for (std::size_t r = 0; r < model_.roads.size(); ++r) {
+      Vec3 low = Vec3::Constant(HUGE_VAL), high = -low;
+      double radius = 0.0;
+      for (const Force& f : model_.forces) {
+        if (f.type != ForceType::tyre || f.road != static_cast<int>(r)) continue;
+        const int body = model_.markers[f.b].body;
+        radius = std::max(radius, f.radius);
+        for (std::size_t k = 0; body >= 0 && k < frames_.time.size(); ++k) {
+          const Vec3 p = Eigen::Map<const Vec3>(frames_.pose(k, static_cast<std::size_t>(body)));
+          low = low.cwiseMin(p);
+          high = high.cwiseMax(p);
+        }
+      }
+      if (!(low[0] <= high[0])) continue;  // nothing drives there
+      out.push_back(road(model_.roads[r], low - Vec3::Constant(6.0 * radius),
+                         high + Vec3::Constant(6.0 * radius)));
+    }
+    return out;
+  }
+
+  Json road(const Road& road, const Vec3& low, const Vec3& high) {
+    constexpr std::size_t most = 4000;
+    constexpr double finest = 0.01;  // [m]
+    const auto count = static_cast<std::size_t>(
+        std::clamp(std::ceil((high[0] - low[0]) / finest), 2.0, static_cast<double>(most)));
+    std::vector<float> profile;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double x =
+          low[0] + (high[0] - low[0]) * static_cast<double>(k) / static_cast<double>(count - 1);
+      profile.push_back(static_cast<float>(x));
+      profile.push_back(
+          static_cast<float>(road_at(road, x + frames_.origin[0]).z - frames_.origin[2]));
+    }
+    return {{"name", road.name},
+            {"profile", buffer_.add(std::span<const float>(profile), {count, 2})},
+            {"width", {low[1], high[1]}}};
+  }
+
+  const Model& model_;
+  const SceneFrames& frames_;
+  PageBuffer& buffer_;
+  std::vector<std::vector<Vec3>> places_;  ///< points on each body
+  std::map<int, int> point_of_;            ///< of markers
+  std::set<std::pair<int, int>> held_;     ///< bodies and their nodes that have a point
+  std::map<const FlexibleBody*, Shape> shapes_;
+  Json points_ = Json::array(), joints_ = Json::array(), forces_ = Json::array(),
+       rods_ = Json::array();
+};
+
+}  // namespace
+
+nlohmann::ordered_json scene_json(const Model& model, const SceneFrames& frames,
+                                  PageBuffer& buffer) {
+  return SceneWriter(model, frames, buffer).write();
+}
+
+}  // namespace floatframe

@@ -1,0 +1,14 @@
+#pragma once
+// The scene of a page for the viewer (viewer/README.md): bodies with their surfaces and modes,
+// where they are, and what holds and drives them.
+#include <nlohmann/json_fwd.hpp>
+
+#include "floatframe/report/page_writer.hpp"
+#include "floatframe/report/scene_frames.hpp"
+
+namespace floatframe {
+
+nlohmann::ordered_json scene_json(const Model& model, const SceneFrames& frames,
+                                  PageBuffer& buffer);
+
+}  // namespace floatframe

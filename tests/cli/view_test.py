@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""The scenes of pages: of a run, of a model before it is run, of a reduced part. Without the viewer a sentence instead."""
+import base64
+import os
+import pathlib
+import re
+import struct
+import unittest
+import zlib
+
+from report_page import page_of
+from run_case import RunCase
+
+EXAMPLES = pathlib.Path(os.environ.get("FLOATFRAME_EXAMPLES", "examples")).resolve()
+PARTS = pathlib.Path(os.environ.get("FLOATFRAME_TEST_DATA", "tests/data")).resolve() / "fe"
+
+
+def buffer_of(path, page):
+    text = re.search(r'id="floatframe-buffer">(.*?)</script>', path.read_text("utf-8"), re.S)[1]
+    data = base64.b64decode(text)
+    return zlib.decompress(data) if page.get("compression") == "deflate" else data
+
+
+def numbers(data, view):
+    count = 1
+    for n in view["shape"]:
+        count *= n
+    letter = {"f16": "e", "f32": "f", "f64": "d", "u16": "H", "u32": "I"}[view["type"]]
+    return struct.unpack_from(f"<{count}{letter}", data, view["offset"])
+
+
+class View(RunCase):
+    def test_a_run_shows_its_motion(self):
+        self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.2", "--quiet")
+        path = self.folder / "out/report.html"
+        page = page_of(path)
+        if page is None:
+            self.skipTest("built without the viewer")
+        scene, data = page["scene"], buffer_of(path, page)
+        self.assertEqual([b["name"] for b in scene["bodies"]], ["crank", "slider", "disc", "beam"])
+        time = numbers(data, scene["frames"]["time"])
+        self.assertEqual(len(time), 201)
+        pose = numbers(data, scene["frames"]["pose"])
+        rows = (self.folder / "out/results.csv").read_text().splitlines()[1:]
+        point = next(p for p in scene["points"] if p["name"] == "tip")
+        y = numbers(data, scene["frames"]["amplitudes"])
+        for frame in (0, 77, 200):
+            local = [point["p"][c] + sum(point["modes"][m][c] * y[4 * frame + m] for m in range(4)) for c in range(3)]
+            x0, y0, z0, x, y1, z, w = pose[7 * (4 * frame + 3):7 * (4 * frame + 4)]
+            v = (x, y1, z)
+            cross = lambda a, b: (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+            t = [2 * c for c in cross(v, local)]
+            u = cross(v, t)
+            world = [o + local[c] + w * t[c] + u[c] for c, o in enumerate((x0, y0, z0))]
+            expected = [float(n) for n in rows[frame].split(",")[4:7]]
+            for a, b in zip(world, expected):
+                self.assertAlmostEqual(a, b, 5)
+        self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.2", "--quiet", "--record", "none")
+        self.assertIsNone(page_of(path)["scene"])
+
+    def test_the_vehicle_stands_on_the_road(self):
+        model = EXAMPLES / "iltis/iltis.yaml"
+        done = self.program("check", str(model), "--report", "check.html", code=None)
+        path = self.folder / "check.html"
+        if done.returncode == 2:
+            self.assertIn("--report: this program was built without the viewer", done.stderr)
+            self.skipTest("built without the viewer")
+        page = page_of(path)
+        self.assertEqual(page["kind"], "check")
+        scene, data = page["scene"], buffer_of(path, page)
+        self.assertEqual(len(numbers(data, scene["frames"]["time"])), 1)
+        pose = numbers(data, scene["frames"]["pose"])
+        road = numbers(data, scene["roads"][0]["profile"])
+        tyres = [f for f in scene["forces"] if f["type"] == "tyre"]
+        self.assertEqual(len(tyres), 4)
+        for tyre in tyres:
+            point = scene["points"][tyre["a"]]
+            x, _, z = pose[7 * point["body"]:7 * point["body"] + 3]
+            nearest = min(range(0, len(road), 2), key=lambda k: abs(road[k] - x))
+            height = z - road[nearest + 1]
+            self.assertLess(height, tyre["radius"])
+            self.assertGreater(height, 0.9 * tyre["radius"])
+        self.assertIn("Joints", [t["heading"] for t in page["tables"]])
+        self.assertLess(path.stat().st_size, 5_000_000)
+
+    def test_a_reduced_part_shows_its_modes(self):
+        arguments = ("reduce", str(PARTS / "aarm_coarse_free.inp"), "--units", "mm-t-s", "--interface", "BALL=set:BALL",
+                     "--interface", "BUSH_F=set:BUSH_F", "--modes", "3", "--quiet", "--report", "part.html")
+        done = self.program(*arguments, code=None)
+        if done.returncode == 2:
+            self.assertIn("--report: this program was built without the viewer", done.stderr)
+            self.skipTest("built without the viewer")
+        page = page_of(self.folder / "part.html")
+        self.assertEqual(page["kind"], "reduce")
+        body = page["scene"]["bodies"][0]
+        self.assertIsNone(page["scene"]["frames"])
+        self.assertEqual(body["shape"]["kind"], "mesh")
+        self.assertEqual(body["modes"]["count"], body["shape"]["displacements"]["shape"][1])
+        self.assertEqual([p["name"] for p in page["scene"]["points"]], ["BALL", "BUSH_F"])
+        self.assertEqual(len(body["spiders"]), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
