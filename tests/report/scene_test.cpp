@@ -237,6 +237,7 @@ simulation: {step: 0.001, duration: 0.01}
   EXPECT_NEAR(profile[0], 345.25 - 7.2, 1e-3);
   EXPECT_NEAR(profile[1], 6.0, 1e-6);
   EXPECT_EQ(d.scene["forces"][0]["radius"], 1.2);
+  EXPECT_TRUE(d.scene["bodies"][0]["shape"].is_null()) << "its tyre is drawn";
 }
 
 TEST(Scene, AStateIsOneFrame) {

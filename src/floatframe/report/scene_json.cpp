@@ -189,13 +189,22 @@ class SceneWriter {
     const auto [known, fresh] = shapes_.emplace(&data, Shape{});
     if (fresh) known->second = shape(data);
     Shape mine = known->second;
-    if (mine.json.is_null()) mine = box(data, places_[index]);
+    if (mine.json.is_null() && !has_tyre(index)) mine = box(data, places_[index]);
+    if (mine.json.is_null()) mine.bound = b.length;
     for (const Vec3& p : places_[index]) mine.bound = std::max(mine.bound, p.norm());
     out["shape"] = mine.json;
     out["bound"] = mine.bound;
     out["size"] = b.length;
     if (!frames_.known.empty() && !frames_.known[index]) out["recorded"] = false;
     return out;
+  }
+
+  /// A wheel is its tyre, which is drawn; a box would stand out of it.
+  bool has_tyre(std::size_t body) const {
+    for (const Force& f : model_.forces)
+      if (f.type == ForceType::tyre && model_.markers[f.b].body == static_cast<int>(body))
+        return true;
+    return false;
   }
 
   static Json body_facts(const FlexibleBody& data) {

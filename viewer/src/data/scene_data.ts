@@ -134,7 +134,7 @@ function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: num
     triangles,
     normals: json.normals ? optional(() => buffer.read(json.normals!, `${what}, normals`, ['f32'], [count, 3]) as Float32Array, 'They are computed instead.') : null,
     modes: null,
-    nodes: json.nodes ? optional(() => buffer.read(json.nodes!, `${what}, nodes`, ['u32'], [count]) as Uint32Array, 'Labels of nodes are left out.') : null,
+    nodes: json.nodes ? optional(() => Uint32Array.from(buffer.read(json.nodes!, `${what}, nodes`, ['u16', 'u32'], [count])), 'Labels of nodes are left out.') : null,
     generated: json.generated === true,
     fields: [],
   };
@@ -184,7 +184,7 @@ function readBody(json: BodyJson, index: number, frames: number, amplitudeCount:
       if (body.modeCount === 0) body.mesh.modes = null;
       const vertexCount = body.mesh.vertices.length / 3;
       for (const spider of json.spiders ?? []) {
-        const vertices = buffer.read(spider.vertices, `Body "${name}", spider`, ['u32'], [null]) as Uint32Array;
+        const vertices = Uint32Array.from(buffer.read(spider.vertices, `Body "${name}", spider`, ['u16', 'u32'], [null]));
         body.spiders.push({ point: spider.point, vertices: vertices.filter((v) => v < vertexCount) });
       }
     } else if (shape?.kind === 'box' || shape?.kind === 'ellipsoid' || shape?.kind === 'file') {
