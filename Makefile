@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -40,6 +40,12 @@ test-all: test
 	FLOATFRAME_MECHANISMS=1000 build/tests/mechanisms_tests --gtest_brief=1
 	FLOATFRAME_STAIRS=1 build/tests/simulation_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
+	$(MAKE) --no-print-directory test-viewer
+
+# The page of a run: its units in Node, then pages in a headless Chromium.
+test-viewer:
+	@scripts/install_packages.sh --viewer
+	cd viewer && npm ci --no-audit --no-fund && npm run build && npm test
 
 demo: build
 	build/floatframe run $(DEMO_MODEL) --out $(DEMO_OUTPUT)

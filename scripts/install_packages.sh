@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
 # Installs what Floatframe needs to be built and tested on Debian 12 or Ubuntu 24.04 (and their relatives).
 #
-#   scripts/install_packages.sh [--check | --docs]
+#   scripts/install_packages.sh [--check | --docs | --viewer]
 #
 # Runs nothing when everything is there. Otherwise prints what is missing and installs it, through sudo when not
 # root. Exit code 1, with the command to run, when it cannot install. --check only looks; --docs: with what the reference
-# of the C++ interface is made with.
+# of the C++ interface is made with; --viewer: with the browser that the page of a run is tested in.
+#
+# Node builds that page. It is looked for as commands, since a Node from elsewhere conflicts with the packages of the
+# system; without it there is a note and the program writes reports with static curves.
 set -euo pipefail
 
 packages=(
@@ -21,8 +24,11 @@ if [[ "${1:-}" == "--check" ]]; then
   check_only=yes
 elif [[ "${1:-}" == "--docs" ]]; then
   packages+=(doxygen)
+elif [[ "${1:-}" == "--viewer" ]]; then
+  command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null ||
+    packages+=(chromium)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [--check | --docs]" >&2
+  echo "usage: $0 [--check | --docs | --viewer]" >&2
   exit 2
 fi
 
@@ -55,8 +61,24 @@ find_missing() {
   done
 }
 
+# Node and npm, wanted but not needed.
+install_node() {
+  command -v node >/dev/null && command -v npm >/dev/null && return
+  local wanted=() root=(env)
+  command -v node >/dev/null || wanted+=(nodejs)
+  command -v npm >/dev/null || wanted+=(npm)
+  [[ $(id -u) -eq 0 ]] || root=(sudo -n env)
+  echo "Installing what builds the page of a run: ${wanted[*]}"
+  if ! "${root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 install -y \
+    --no-install-recommends "${wanted[@]}" >/dev/null 2>&1; then
+    echo "Note: ${wanted[*]} could not be installed, so reports will have static curves, without the 3-D view."
+    echo "With Node 18 or later and npm (from anywhere) the next build has it."
+  fi
+}
+
 find_missing
 if [[ ${#missing[@]} -eq 0 ]]; then
+  [[ "$check_only" == yes ]] || install_node
   exit 0
 fi
 
@@ -108,3 +130,4 @@ fi
 
 find_missing
 [[ ${#missing[@]} -eq 0 ]] || give_up "Still missing after the installation: ${missing[*]}"
+install_node

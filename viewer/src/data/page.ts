@@ -96,6 +96,8 @@ export interface BodyJson {
   bound?: number | null;
   size?: number | null;
   fields?: FieldJson[] | null;
+  /** False: its states were not recorded. */
+  recorded?: boolean | null;
   spiders?: { point: number; vertices: View }[] | null;
 }
 
@@ -122,6 +124,8 @@ export interface ForceJson {
   a: number;
   b: number;
   axis?: Triple | null;
+  /** Of loads: whether the axis turns with b's body or stands in the world. */
+  follows?: boolean | null;
   radius?: number | null;
   width?: number | null;
   /** Loads: false if the axis is one of the world. */

@@ -45,6 +45,7 @@ export interface BodyData {
   solid: SolidData | null;
   bound: number;
   size: number;
+  recorded: boolean;
   spiders: { point: number; vertices: Uint32Array }[];
 }
 
@@ -163,6 +164,7 @@ function readBody(json: BodyJson, index: number, frames: number, amplitudeCount:
     solid: null,
     bound: typeof json.bound === 'number' && json.bound > 0 ? json.bound : 0,
     size: typeof json.size === 'number' && json.size > 0 ? json.size : 0,
+    recorded: json.recorded !== false,
     spiders: [],
   };
   const modes = json.modes;
@@ -262,6 +264,8 @@ export function readScene(json: SceneJson, kind: PageKind, buffer: PageBuffer, r
   }
   const bodies = json.bodies.map((body, index) => readBody(body ?? ({} as BodyJson), index, given, amplitudeCount, buffer, report));
   const points = pointsOf(json, bodies, report);
+  const lost = bodies.filter((body) => !body.recorded).map((body) => body.name);
+  if (lost.length > 0) report(`${lost.length === 1 ? 'The motion of one body was' : `The motion of ${lost.length} bodies was`} not recorded (${lost.slice(0, 5).join(', ')}${lost.length > 5 ? ', …' : ''}); the view hides what it does not know.`);
   const placed = (index: unknown): boolean => Number.isInteger(index) && points[index as number] !== undefined && points[index as number].body !== -2;
   const roads: RoadData[] = [];
   for (const road of json.roads ?? []) {

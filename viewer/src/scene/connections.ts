@@ -178,7 +178,8 @@ export class Connections {
   }
 
   private addLoad(force: ForceJson, history: History | null, heads: number): void {
-    const at = force.a >= 0 ? force.a : force.b;
+    // A load acts on b; its axis turns with that body or stands in the world.
+    const at = force.b >= 0 ? force.b : force.a;
     if (at < 0) return;
     const axis = force.axis ?? [0, 0, 1];
     const body = force.follows === false ? -1 : this.scene.points[at].body;

@@ -64,6 +64,7 @@ export class ViewSection {
     onTheme((dark) => this.stage.setTheme(dark));
     this.display = new Display(this.stage, colours, this.legend);
     this.bodies = new BodyList(this.stage, (body) => this.choose(body, null, true));
+    for (const body of scene.bodies) if (!body.recorded) this.bodies.set(body.index, false);
     this.selection = new Selection(this.stage, hub, colours.largest);
     this.bar = new PlayerBar(this.player, 's');
     this.stage.canvas.className = 'canvas';
