@@ -55,12 +55,16 @@ export function readChannel(json: ChannelJson, curves: CurvesJson, time: Float64
     const second = buffer.read(json.other, `Second curve of channel "${name}"`, ['f32', 'f64'], [otherTime.length]);
     other = { time: Float64Array.from(otherTime), values: shifted(second, Number(json.other_offset ?? json.offset ?? 0)) };
   }
+  // Under the heading of its body a channel needs no more than the rest of its name.
+  const body = text(json.body);
+  const long = text(json.label) || name;
+  const label = body && long.startsWith(`${body}.`) && long.length > body.length + 1 ? long.slice(body.length + 1) : long;
   const flat = range !== null && range.min === range.max && !other;
   return {
     name,
-    label: text(json.label) || name,
+    label,
     unit: text(json.unit),
-    body: text(json.body) || null,
+    body: body || null,
     kind: text(json.kind) || 'other',
     group: text(json.group) || 'other',
     time,

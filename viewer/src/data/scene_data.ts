@@ -17,7 +17,7 @@ export interface MeshData {
   normals: Float32Array | null;
   /** Half floats [V, m, 3]. */
   modes: Uint16Array | null;
-  nodes: Uint32Array | null;
+  nodes: Uint16Array | Uint32Array | null;
   generated: boolean;
   fields: FieldData[];
 }
@@ -135,7 +135,7 @@ function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: num
     triangles,
     normals: json.normals ? optional(() => buffer.read(json.normals!, `${what}, normals`, ['f32'], [count, 3]) as Float32Array, 'They are computed instead.') : null,
     modes: null,
-    nodes: json.nodes ? optional(() => Uint32Array.from(buffer.read(json.nodes!, `${what}, nodes`, ['u16', 'u32'], [count])), 'Labels of nodes are left out.') : null,
+    nodes: json.nodes ? optional(() => buffer.read(json.nodes!, `${what}, nodes`, ['u16', 'u32'], [count]) as Uint16Array | Uint32Array, 'Labels of nodes are left out.') : null,
     generated: json.generated === true,
     fields: [],
   };
@@ -186,8 +186,8 @@ function readBody(json: BodyJson, index: number, frames: number, amplitudeCount:
       if (body.modeCount === 0) body.mesh.modes = null;
       const vertexCount = body.mesh.vertices.length / 3;
       for (const spider of json.spiders ?? []) {
-        const vertices = Uint32Array.from(buffer.read(spider.vertices, `Body "${name}", spider`, ['u16', 'u32'], [null]));
-        body.spiders.push({ point: spider.point, vertices: vertices.filter((v) => v < vertexCount) });
+        const vertices = buffer.read(spider.vertices, `Body "${name}", spider`, ['u16', 'u32'], [null]);
+        body.spiders.push({ point: spider.point, vertices: Uint32Array.from(vertices).filter((v) => v < vertexCount) });
       }
     } else if (shape?.kind === 'box' || shape?.kind === 'ellipsoid' || shape?.kind === 'file') {
       body.solid = {
@@ -285,7 +285,7 @@ export function readScene(json: SceneJson, kind: PageKind, buffer: PageBuffer, r
     amplitudeCount,
     bodies,
     points,
-    joints: (json.joints ?? []).filter((joint) => placed(joint.a) && placed(joint.b)),
+    joints: (json.joints ?? []).filter((joint) => placed(joint.a) && placed(joint.b) && joint.type !== 'free'),
     forces: (json.forces ?? []).filter((force) => (placed(force.a) || force.a === -1) && (placed(force.b) || force.b === -1)),
     rods: (json.rods ?? []).filter((rod) => placed(rod.a) && placed(rod.b)),
     roads,

@@ -20,6 +20,7 @@ export class Annotations {
   private readonly names: Named[] = [];
   private labels: Label[] = [];
   private shown = false;
+  private others = false;
   private dark = false;
   private pixel = 0.001;
   private readonly marker: Mesh;
@@ -70,8 +71,10 @@ export class Annotations {
     return this.names.length;
   }
 
-  setNames(shown: boolean): void {
-    this.shown = shown;
+  /** Names of bodies, and of joints, forces and points. */
+  setNames(bodies: boolean, others: boolean): void {
+    this.shown = bodies;
+    this.others = others;
     this.refresh();
   }
 
@@ -90,7 +93,7 @@ export class Annotations {
 
   /** After a change of what is visible. */
   refresh(): void {
-    if (this.shown && this.labels.length === 0) {
+    if ((this.shown || this.others) && this.labels.length === 0) {
       this.labels = this.names.map((name) => {
         const label = new Label(name.text, this.dark, name.strong);
         label.resize(this.pixel);
@@ -100,7 +103,7 @@ export class Annotations {
     }
     this.labels.forEach((label, k) => {
       const bodies = this.names[k].bodies.filter((b) => b >= 0);
-      label.sprite.visible = this.shown && (bodies.length === 0 || bodies.some((b) => this.stage.bodies[b].group.visible));
+      label.sprite.visible = (this.names[k].strong ? this.shown : this.others) && (bodies.length === 0 || bodies.some((b) => this.stage.bodies[b].group.visible));
     });
     this.update();
     this.stage.invalidate();
@@ -112,7 +115,7 @@ export class Annotations {
   }
 
   update(): void {
-    if (this.shown) this.labels.forEach((label, k) => label.sprite.position.set(...this.names[k].place()));
+    if (this.shown || this.others) this.labels.forEach((label, k) => label.sprite.position.set(...this.names[k].place()));
     const chosen = this.stage.selected;
     if (chosen && chosen.vertex !== null) this.marker.position.set(...this.stage.vertexPosition(chosen.body, chosen.vertex));
     if (this.spiders.visible) this.moveSpiders();

@@ -23,7 +23,7 @@ export class BodyView {
   private readonly lines: LineSegments | null = null;
   private readonly restBox = new Box3();
 
-  constructor(scene: SceneData, body: BodyData, shared: SharedUniforms, modelSize: number, changed: () => void, report: (sentence: string) => void) {
+  constructor(scene: SceneData, body: BodyData, shared: SharedUniforms, modelSize: number, look: { empty: boolean; ghost: boolean }, changed: () => void, report: (sentence: string) => void) {
     this.data = body;
     this.colour = new Color(BODY_COLOURS[body.index % BODY_COLOURS.length]);
     const colour = `#${this.colour.getHexString()}`;
@@ -38,6 +38,8 @@ export class BodyView {
       this.lines.frustumCulled = false;
       this.group.add(this.mesh, this.lines);
       this.restBox.copy(surface.geometry.boundingBox!);
+    } else if (look.empty) {
+      this.material = plain(colour);
     } else {
       this.material = plain(colour);
       const lines = new LineBasicMaterial({ color: '#1c2329', transparent: true, opacity: 0.35 });
@@ -60,6 +62,7 @@ export class BodyView {
           );
       this.group.add(solid);
       this.measure();
+      if (look.ghost && body.solid && body.solid.kind !== 'file') this.setGhost();
     }
   }
 
@@ -108,10 +111,11 @@ export class BodyView {
     this.material.emissiveIntensity = selected ? 0.28 : 0;
   }
 
-  setGhost(ghost: boolean): void {
-    this.material.transparent = ghost;
-    this.material.opacity = ghost ? 0.35 : 1;
-    this.material.depthWrite = !ghost;
+  /** Seen through: a shape that stands for an inertia would hide what bends. */
+  private setGhost(): void {
+    this.material.transparent = true;
+    this.material.opacity = 0.3;
+    this.material.depthWrite = false;
   }
 
   setEdges(visible: boolean): void {

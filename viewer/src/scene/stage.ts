@@ -66,8 +66,12 @@ export class Stage {
     this.shared = { amplitudes: { value: this.amplitudes.texture }, deformation: { value: 1 }, colourMap: { value: mapTexture('viridis') } };
     this.size = this.modelSize();
     const changed = (): void => this.invalidate();
+    const bends = scene.bodies.some((body) => body.mesh);
+    // A wheel is shown by its tyre.
+    const wheels = new Set(scene.forces.filter((force) => force.a >= 0 && /tyre|tire/.test((force.type ?? '').toLowerCase())).map((force) => scene.points[force.a].body));
     for (const body of scene.bodies) {
-      const view = new BodyView(scene, body, this.shared, this.size, changed, report);
+      const look = { empty: wheels.has(body.index) && body.solid?.kind !== 'file', ghost: bends };
+      const view = new BodyView(scene, body, this.shared, this.size, look, changed, report);
       this.bodies.push(view);
       this.root.add(view.group);
     }

@@ -78,10 +78,13 @@ export class Curves {
       this.differences,
     );
     for (const group of groupChannels(channels)) this.addGroup(group);
+    this.element.append(this.grid);
     this.element.append(h('p', { class: 'hint no-print' }, 'Drag over a curve to zoom all, double-click for the whole run, shift and wheel to zoom at the pointer, click to set the time. Drop a results.csv of another run anywhere on the page.'));
     if (names) this.listDifferences();
     this.listenToDrops();
   }
+
+  private readonly grid = h('div', { class: 'groups' });
 
   private addGroup(group: ReturnType<typeof groupChannels>[number]): void {
     const grid = h('div', { class: 'plots' });
@@ -91,9 +94,9 @@ export class Curves {
       return { element: plot.element, words: spec.channels.map((c) => `${c.name} ${c.label} ${c.kind}`).join(' ').toLowerCase() };
     });
     const still = stillList(group.still);
-    const element = h('div', { class: 'body-group' }, h('h3', {}, group.body ?? 'Model'), plots.length > 0 ? grid : null, still);
+    const element = h('div', { class: plots.length + (still ? 1 : 0) > 1 ? 'body-group many' : 'body-group' }, h('h3', {}, group.body ?? 'Model'), plots.length > 0 ? grid : null, still);
     this.groups.push({ element, plots, words: `${group.body ?? 'model'} ${group.still.map((c) => `${c.name} ${c.label}`).join(' ')}`.toLowerCase() });
-    this.element.append(element);
+    this.grid.append(element);
   }
 
   private filter(text: string): void {

@@ -104,7 +104,19 @@ export class Display {
     const layer = (label: string, name: Layer, on: boolean): void => {
       if (stage.connections.count(name) > 0) add(label, on, (visible) => stage.setLayer(name, visible));
     };
-    if (stage.annotations.nameCount > 0) add('Names', checking, (on) => stage.annotations.setNames(on));
+    const names = { bodies: false, others: false };
+    add('Names', checking, (on) => {
+      names.bodies = on;
+      stage.annotations.setNames(names.bodies, names.others);
+    });
+    // Many names cover each other.
+    const count = stage.annotations.nameCount;
+    if (count > scene.bodies.length) {
+      add('More names', checking && count <= 24 || scene.kind === 'reduce', (on) => {
+        names.others = on;
+        stage.annotations.setNames(names.bodies, names.others);
+      });
+    }
     layer('Joints', 'joints', checking);
     layer('Springs, rods', 'springs', true);
     layer('Tyres', 'tyres', true);

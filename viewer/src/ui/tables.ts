@@ -19,7 +19,15 @@ export function statusSection(page: PageJson, problems: string[]): { element: HT
   const [word, look] = STATES[status.state ?? ''] ?? ['', 'ok'];
   const warnings = (status.warnings ?? []).map(String);
   const list = h('ul', { class: 'warnings' });
-  const warn = (sentence: string): void => list.append(h('li', {}, icon('warn'), h('span', {}, sentence)));
+  const rest = h('details', { hidden: true }, h('summary', {}, 'More'));
+  list.append(rest);
+  const warn = (sentence: string): void => {
+    const item = h('li', {}, icon('warn'), h('span', {}, sentence));
+    if (list.childElementCount <= 6) return list.insertBefore(item, rest) as never;
+    rest.hidden = false;
+    rest.append(item);
+    rest.firstElementChild!.textContent = `${rest.childElementCount - 1} more`;
+  };
   warnings.forEach(warn);
   problems.forEach(warn);
   const sentences = (status.sentences ?? []).map((text) => h('p', {}, String(text)));

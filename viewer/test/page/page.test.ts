@@ -146,7 +146,7 @@ test('deformation, colours, hiding, picking, keys and the screenshot act', async
   await page.getByLabel('Colour by').selectOption({ label: 'Bodies' });
   await differs('body colours');
   assert.ok(await page.locator('.legend').isHidden());
-  await page.getByLabel('Names').check();
+  await page.getByLabel('Names', { exact: true }).check();
   await differs('names');
   await page.getByRole('tab', { name: 'Bodies' }).click();
   await page.getByRole('button', { name: 'Hide chassis' }).click();
@@ -251,7 +251,7 @@ test('dark and narrow: nothing wider than the window', async () => {
 
 test('check, reduce and compare', async () => {
   const first = await open(browser, path('check', check()));
-  assert.ok(await first.page.getByLabel('Names').isChecked());
+  assert.ok(await first.page.getByLabel('Names', { exact: true }).isChecked());
   assert.ok(await first.page.getByLabel('Joints').isChecked());
   assert.equal(await first.page.locator('.player').count(), 0);
   assert.equal(await first.page.locator('#curves').count(), 0);
@@ -284,7 +284,7 @@ test('check, reduce and compare', async () => {
 
 test('hostile names are text', async () => {
   const { page, errors } = await open(browser, path('hostile', vehicle({ hostile: true })));
-  await page.getByLabel('Names').check();
+  await page.getByLabel('Names', { exact: true }).check();
   await page.getByRole('tab', { name: 'Bodies' }).click();
   await page.locator('.body-name').first().click();
   assert.equal(await page.evaluate(() => (window as { hacked?: number }).hacked), undefined);
