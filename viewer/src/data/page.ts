@@ -128,8 +128,6 @@ export interface ForceJson {
   follows?: boolean | null;
   radius?: number | null;
   width?: number | null;
-  /** Loads: false if the axis is one of the world. */
-  follows?: boolean | null;
   channel?: string | null;
 }
 
