@@ -134,7 +134,7 @@ export class Annotations {
         this.spiderLines.push({ lines, body: body.index, point, vertices });
       }
     }
-    const ball = new SphereGeometry(0.009 * this.stage.size, 18, 12);
+    const ball = new SphereGeometry(0.006 * this.stage.size, 18, 12);
     if (this.stage.scene.kind !== 'reduce') return;
     for (const point of this.stage.scene.points) {
       const mesh = new Mesh(ball, new MeshBasicMaterial({ color: '#d5803b' }));

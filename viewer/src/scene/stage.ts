@@ -246,6 +246,8 @@ export class Stage {
     const part = new Box3();
     const any = this.bodies.some((view) => view.group.visible);
     for (const view of this.bodies) if (view.group.visible || !any) box.union(view.box(part));
+    // Modes of a part swing by a tenth of its size.
+    if (this.scene.kind === 'reduce') box.expandByScalar(Math.max(...this.scene.bodies.map((body) => 0.08 * body.size)));
     if (this.connections.layers.tyres.visible) {
       for (const force of this.scene.forces) {
         if (!force.radius || force.a < 0) continue;

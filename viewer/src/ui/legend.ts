@@ -23,7 +23,7 @@ export class Legend {
     if (choice.field === undefined) return;
     const [low, high] = choice.range;
     let factor = 1;
-    let name = unit;
+    let name = relative ? '' : unit;
     if (choice.field === null && !relative) {
       const length = lengthUnit(high);
       factor = length.factor;
