@@ -244,6 +244,7 @@ std::size_t allocations(F& f, State state, double step, double penalty) {
   for (int k = 0; k < 20; ++k) {
     runner.advance(step);
     watch.step(runner.state(), runner.reactions(), k % 2 == 0, true);
+    watch.attempt(runner.state(), runner.last());
   }
   return scope.count();
 }

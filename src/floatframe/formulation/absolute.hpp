@@ -98,6 +98,7 @@ class AbsoluteFormulation {
   int factorize_metric(double s, double penalty, int slot) noexcept {
     return eliminate({1.0, 0.0, s, penalty, false}, factors_[slot]);
   }
+  double log_pivots(int slot) const noexcept { return factors_[slot].matrix.log_pivots(); }
   void solve(VecX& b, int slot = 0) noexcept;
   void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept;
   void balance(VecX& lambda, VecX& r) noexcept;

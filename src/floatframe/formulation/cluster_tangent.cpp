@@ -2,6 +2,7 @@
 #include "floatframe/formulation/cluster_tangent.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "floatframe/math/partial_ldlt.hpp"
 #include "floatframe/math/small_products.hpp"
@@ -303,6 +304,22 @@ void ClusterTangent::hand_front_to_parent(const Cluster& c, const MatX& front) n
       T(j, i) += x;
     }
   }
+}
+
+double ClusterTangent::log_pivots(int slot) const noexcept {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < clusters_.size(); ++k) {
+    const MatX& front = factors_[slot].fronts[k];
+    double product = 1.0;  // of four at a time, for the price of one logarithm
+    for (int j = 0; j < clusters_[k].size; ++j) {
+      product *= front(j, j);
+      if (j % 4 != 3) continue;
+      sum -= std::log(std::abs(product));
+      product = 1.0;
+    }
+    sum -= std::log(std::abs(product));
+  }
+  return sum;
 }
 
 int ClusterTangent::factorize(const std::vector<BodyTerms>& terms, const Weights& weights,

@@ -53,6 +53,8 @@ class ClusterTangent {
   /// with the directions of motion it was made with, so it solves on when the configuration has
   /// moved.
   int factorize(const std::vector<BodyTerms>& terms, const Weights& weights, int slot) noexcept;
+  /// Sum of the logarithms of the pivots.
+  double log_pivots(int slot) const noexcept;
   /// b := T^-1 b
   void solve(VecX& b, int slot) noexcept { solve(b, nullptr, nullptr, slot); }
   /// b := T^-1 (b + Phi_q^T w), increments := Phi_q b with the Phi_q of the factorisation.

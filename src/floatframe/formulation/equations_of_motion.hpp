@@ -80,6 +80,9 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   /// forces, without geometric stiffness: the metric of the projections. -1, or a coordinate with a
   /// vanishing pivot.
   { f.factorize_metric(x, x, slot) } noexcept -> std::same_as<int>;
+  /// Sum of the logarithms of the pivots of a slot's factorisation: log |det| but for what a
+  /// formulation leaves out always.
+  { c.log_pivots(slot) } noexcept -> std::same_as<double>;
   /// b := T^-1 b
   { f.solve(out, slot) } noexcept -> std::same_as<void>;
   /// b := T^-1 (b - penalty Phi_q^T phi) and mu := phi + Phi_q b, for (b, phi, penalty, mu, slot),

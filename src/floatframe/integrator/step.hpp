@@ -42,6 +42,10 @@ struct StepAttempt {
   int coordinate = -1;     ///< with the vanishing pivot or the largest residual
   int constraint = -1;     ///< with the largest violation, if that did not converge
   double increment = 0.0;  ///< the last Newton increment, largest coordinate [m, rad, amplitudes]
+  double size = 0.0;       ///< of the step [s]
+  /// Sum of the logarithms of the pivots of the projections' metric with its usual penalty: it
+  /// falls where constraints become dependent. NaN: there are no projections.
+  double log_pivots = std::numeric_limits<double>::quiet_NaN();
   /// The state was replaced by that of the end of the step.
   bool accepted() const noexcept {
     return status == AttemptStatus::converged || status == AttemptStatus::cut_short;

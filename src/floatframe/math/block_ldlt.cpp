@@ -170,6 +170,14 @@ int BlockLdlt::factorize() noexcept {
   return -1;
 }
 
+double BlockLdlt::log_pivots() const noexcept {
+  double sum = 0.0;
+  for (const Node& n : nodes_)
+    if (!n.chooses)
+      for (int j = 0; j < n.size; ++j) sum -= std::log(std::abs(n.matrix(j, j)));
+  return sum;
+}
+
 void BlockLdlt::solve(VecX& x) noexcept {
   for (const int k : order_) {
     Node& n = nodes_[k];

@@ -16,11 +16,13 @@ enum class RangeLimit {
   sine,          ///< ... for the sine of a load or motion
   table,         ///< ... for a table
   damping,       ///< numerical damping takes too much energy
-  balance        ///< the energy balance does not close
+  balance,       ///< the energy balance does not close
+  branch         ///< the mechanism passed a singular position, where it may branch
 };
 /// In this order.
-inline constexpr std::array<const char*, 9> range_limit_names{
-    "displacement", "rotation", "spin", "turn", "phase", "sine", "table", "damping", "balance"};
+inline constexpr std::array<const char*, 10> range_limit_names{
+    "displacement", "rotation", "spin",    "turn",    "phase",
+    "sine",         "table",    "damping", "balance", "branch"};
 
 struct RangeWarning {
   RangeLimit limit = RangeLimit::displacement;

@@ -51,6 +51,21 @@ bool nearly_dependent(const MatX& J) {
   return pivoted_rank(J.transpose(), nearly) < pivoted_rank(J.transpose(), dependent);
 }
 
+std::vector<int> dependent_rows(const MatX& J) {
+  const SymmetricEigen e = symmetric_eigen(J * J.transpose());
+  std::vector<int> rows;
+  if (!e.found) return rows;
+  const double zero = 1e-13 * e.values[e.values.size() - 1];
+  for (Eigen::Index k = 0; k < e.values.size(); ++k) {
+    if (e.values[k] < zero) continue;
+    const VecX part = e.vectors.col(k).cwiseAbs();
+    for (Eigen::Index i = 0; i < part.size(); ++i)
+      if (part[i] > 0.3 * part.maxCoeff()) rows.push_back(static_cast<int>(i));
+    break;
+  }
+  return rows;
+}
+
 int rank_of(const MatX& J) { return static_cast<int>(pivoted_rank(J.transpose(), dependent)); }
 
 ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)

@@ -43,6 +43,9 @@ void report_redundancy(RelativeFormulation& f, const State& state, StartReport& 
 
 /// Rank of the rows of J.
 int rank_of(const MatX& J);
+/// The rows with the largest part in the combination of rows of J that is nearest to zero without
+/// being zero.
+std::vector<int> dependent_rows(const MatX& J);
 /// Some rows of J that are independent are so to a hundredth only.
 bool nearly_dependent(const MatX& J);
 

@@ -129,7 +129,10 @@ class Run {
     s.cpu += 1e-9 * static_cast<double>(thread_cpu_clock() - before);
     if (sampled) sample_state(k);
     if (good && joints_) joints_->follow(steps_.formulation(), steps_.state());
-    if (good && watch_) watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole);
+    if (good && watch_) {
+      watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole);
+      watch_->attempt(steps_.state(), steps_.last());
+    }
     if (good) {
       made_ = k;
       return true;

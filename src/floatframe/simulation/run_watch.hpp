@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/simulation/branch_watch.hpp"
 #include "floatframe/simulation/energy_balance.hpp"
 #include "floatframe/simulation/motion_watch.hpp"
 
@@ -16,7 +17,10 @@ class RunWatch {
  public:
   /// `records`: rows that will be recorded.
   RunWatch(F& formulation, double step, long records)
-      : f_(formulation), motion_(formulation, step), every_(std::max(1L, records / energy_checks)) {
+      : f_(formulation),
+        motion_(formulation, step),
+        branches_(step, formulation.configurations()),
+        every_(std::max(1L, records / energy_checks)) {
     double total = 0.0;
     for (const Body& b : f_.model().bodies) mass_.push_back(b.data->invariants.m);
     for (const double m : mass_) total += m;
@@ -54,21 +58,27 @@ class RunWatch {
     balance_.advance(s.t, flows(f_, s.v, reactions));
   }
 
+  /// After a step, too: its last attempt.
+  void attempt(const State& s, const StepAttempt& a) noexcept { branches_.observe(s, a); }
+
   /// What was watched so far, for a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
   void walk(Stream& s) {
     balance_.walk(s);
     motion_.walk(s);
+    branches_.walk(s);
     s(records_);
   }
 
   /// Fills the balance and the warnings of the summary, with the state at the end.
   void finish(const State& s, double spectral_radius, RunSummary& out) {
+    const auto branch = branches_.warning(f_);
     evaluate(s);
     balance_.check(s.t, energies(s));
     out.energy.balanced = true;
     balance_.write(out.energy);
     out.warnings = motion_.range().warnings(out.energy, spectral_radius);
+    if (branch) out.warnings.push_back(*branch);
   }
 
  private:
@@ -104,6 +114,7 @@ class RunWatch {
 
   F& f_;
   MotionWatch<F> motion_;
+  BranchWatch branches_;
   EnergyBalance balance_;
   std::vector<double> mass_;  ///< of the bodies, for the energy of their motion [kg]
   long every_, records_ = 0;

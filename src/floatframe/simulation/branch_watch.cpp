@@ -1,0 +1,63 @@
+#include "floatframe/simulation/branch_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "floatframe/simulation/redundancy.hpp"
+
+namespace floatframe {
+namespace {
+
+/// " of joint 'a', joint 'b' and 3 more"
+std::string branch_owners(const ConstraintSet& constraints, const std::vector<int>& rows) {
+  std::vector<std::string> owners;
+  for (const int row : rows) {
+    if (constraints.part_of_row(row) == constraints.parts().size()) continue;
+    const std::string owner = constraints.owner_of_row(row);
+    if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
+  }
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, owners.size()); ++k)
+    text += (k == 0 ? " of " : ", ") + owners[k];
+  if (owners.size() > most) text += fmt::format(" and {} more", owners.size() - most);
+  return text;
+}
+
+}  // namespace
+
+BranchWatch::BranchWatch(double step, int configurations)
+    : step_(step), highest_(std::numeric_limits<double>::lowest()) {
+  first_.q = deepest_.q = VecX::Zero(configurations);
+}
+
+void BranchWatch::observe(const State& s, const StepAttempt& last) noexcept {
+  // Substeps have a metric of their own.
+  if (!std::isfinite(last.log_pivots) || std::abs(last.size - step_) > 1e-6 * step_) return;
+  const double x = last.log_pivots;
+  highest_ = std::max(highest_, x);
+  if (x > highest_ - depth) {
+    first_ended_ = first_.found;
+    return;
+  }
+  if (first_ended_ == 0.0) first_.offer(x, s);
+  deepest_.offer(x, s);
+}
+
+std::optional<RangeWarning> BranchWatch::judged(const MatX& J, const ConstraintSet& constraints,
+                                                double t) {
+  if (!nearly_dependent(J)) return {};
+  return RangeWarning{
+      RangeLimit::branch,
+      fmt::format("the mechanism passes a singular position at t = {:.4g} s: constraints{} nearly "
+                  "depend on each other there, so that it may go on in more than one way; compare "
+                  "with a run in smaller steps",
+                  t, branch_owners(constraints, dependent_rows(J)))};
+}
+
+}  // namespace floatframe
