@@ -32,7 +32,7 @@ SimulationDescription streamed_options(const StreamKind& kind) {
   o.inertia = kind.inertia;
   o.output_interval = 3.0 * o.step;
   if (kind.substeps) {
-    o.max_iterations = kind.coordinates == Coordinates::relative ? 3 : 2;
+    o.max_iterations = 2;
     o.tolerance = 1e-11;
   }
   return o;

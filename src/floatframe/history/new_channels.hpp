@@ -2,9 +2,9 @@
 // Outputs that a run did not have, from its states. The formulation of the run is brought to each
 // recorded instant - coordinates, velocities, accelerations of the integrator, turns of springs,
 // inputs - and sampled as the run samples it: the numbers are those of a run that had the outputs
-// from the start. Reactions and the accelerations that go with them are solved for (simulation/
-// reaction_solver.hpp). Where the file holds no accelerations they are found so too, and differ
-// from those of the run within its tolerance.
+// from the start. Reactions and the accelerations that go with them are solved for. Where the file
+// holds no accelerations they are found so too, and differ from those of the run within its
+// tolerance.
 #include "floatframe/history/state_history.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/simulation/result_table.hpp"

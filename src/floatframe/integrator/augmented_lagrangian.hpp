@@ -37,6 +37,7 @@
 
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/integrator/step.hpp"
+#include "floatframe/integrator/step_scheme.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -83,6 +84,7 @@ class AugmentedLagrangian {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Scheme = StepScheme;
   static constexpr int newton_slot = 0, projection_slot = 1;
   /// The projections have no nonlinear terms to disturb: a stiffer penalty saves passes.
   static constexpr double metric_penalty = 300.0;
@@ -130,26 +132,6 @@ class AugmentedLagrangian {
     state.lambda.swap(lambda_);
     return report;
   }
-
-  /// The constants of one step size.
-  struct Scheme {
-    Scheme(const StepOptions& o, double step) noexcept : h(step) {
-      const double rho = o.spectral_radius;
-      trapezoidal = rho >= 1.0;
-      am = trapezoidal ? 0.0 : (2.0 * rho - 1.0) / (rho + 1.0);
-      af = trapezoidal ? 0.0 : rho / (rho + 1.0);
-      gamma = trapezoidal ? 0.5 : 0.5 + af - am;
-      beta = trapezoidal ? 0.25 : 0.25 * (gamma + 0.5) * (gamma + 0.5);
-      base = 1.0 / (beta * h * h);
-      c1 = gamma / (beta * h);
-      c2 = (1.0 - am) / ((1.0 - af) * beta * h * h);
-      s = 1.0 / c2;
-      penalty = o.penalty_mass;
-      alpha = penalty / s;
-    }
-    double h, am, af, gamma, beta, base, c1, c2, s, penalty, alpha;
-    bool trapezoidal;
-  };
 
   /// The histories v_hat and a_hat, and the first guess of x.
   void predict(const State& state, const Scheme& k, bool careful) noexcept {
