@@ -1,0 +1,29 @@
+// A picture of the 3-D view of a report: npm run picture -- REPORT.html OUT.png [SECONDS [SCALE]].
+
+import { writeFileSync } from 'node:fs';
+import { resolve } from 'node:path';
+import { launch, open } from './browser';
+
+const [report, out, time, scale] = process.argv.slice(2);
+if (!report || !out) {
+  console.error('usage: npm run picture -- REPORT.html OUT.png [SECONDS [SCALE]]');
+  process.exit(2);
+}
+const browser = await launch();
+const { page, errors } = await open(browser, resolve(process.env.INIT_CWD ?? '.', report), { width: 1500, height: 1000 });
+await page.evaluate(
+  ([t, factor]) => {
+    const shown = window.floatframe!;
+    if (t !== null) shown.setTime(t);
+    if (factor !== null) shown.setScale(factor);
+  },
+  [time ? Number(time) : null, scale ? Number(scale) : null] as [number | null, number | null],
+);
+await page.waitForTimeout(2000);
+const url = await page.evaluate(() => window.floatframe!.screenshot());
+await browser.close();
+if (!url) {
+  console.error(`${report} has no 3-D view here: ${errors.join('; ')}`);
+  process.exit(1);
+}
+writeFileSync(resolve(process.env.INIT_CWD ?? '.', out), Buffer.from(url.slice(url.indexOf(',') + 1), 'base64'));
