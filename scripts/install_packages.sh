@@ -61,17 +61,18 @@ find_missing() {
   done
 }
 
-# Node and npm, wanted but not needed.
+# Node and npm, wanted but not needed. A Node from elsewhere brings its npm; Debian's would be in its way.
 install_node() {
-  command -v node >/dev/null && command -v npm >/dev/null && return
-  local wanted=() root=(env)
-  command -v node >/dev/null || wanted+=(nodejs)
-  command -v npm >/dev/null || wanted+=(npm)
+  command -v node >/dev/null && return
+  local root=(env)
   [[ $(id -u) -eq 0 ]] || root=(sudo -n env)
-  echo "Installing what builds the page of a run: ${wanted[*]}"
-  if ! "${root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 install -y \
-    --no-install-recommends "${wanted[@]}" >/dev/null 2>&1; then
-    echo "Note: ${wanted[*]} could not be installed, so reports will have static curves, without the 3-D view."
+  echo "Installing what builds the page of a run: nodejs npm"
+  node_packages() {
+    "${root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@" >/dev/null 2>&1
+  }
+  if ! node_packages install -y --no-install-recommends nodejs npm &&
+    ! { node_packages update && node_packages install -y --no-install-recommends nodejs npm; }; then
+    echo "Note: nodejs and npm could not be installed, so reports will have static curves, without the 3-D view."
     echo "With Node 18 or later and npm (from anywhere) the next build has it."
   fi
 }

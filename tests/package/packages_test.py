@@ -17,6 +17,7 @@ class InstallPackages(unittest.TestCase):
         for tool in ("bash", "env", "cat"):
             path = next(p for p in (pathlib.Path("/bin") / tool, pathlib.Path("/usr/bin") / tool) if p.exists())
             (self.bin / tool).symlink_to(path)
+        self.stand_in("node", "true")
 
     def tearDown(self):
         self.folder.cleanup()
@@ -47,6 +48,23 @@ class InstallPackages(unittest.TestCase):
         self.stand_in("dpkg-query", "echo -n installed")
         result, calls = self.run_script()
         self.assertEqual((result.returncode, result.stdout, result.stderr, calls), (0, "", "", []))
+
+    def test_node_is_installed_only_where_there_is_none(self):
+        self.debian(user=0)
+        self.stand_in("dpkg-query", "echo -n installed")
+        (self.bin / "node").unlink()
+        result, calls = self.run_script()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([call.split(" ")[-2:] for call in calls], [["nodejs", "npm"]])
+
+    def test_without_node_the_build_goes_on(self):
+        self.debian(user=0)
+        self.stand_in("dpkg-query", "echo -n installed")
+        self.stand_in("apt-get", "exit 100")
+        (self.bin / "node").unlink()
+        result, _ = self.run_script()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("Note: nodejs and npm could not be installed", result.stdout)
 
     def test_root_refreshes_the_lists_and_installs_what_is_missing(self):
         self.debian(installed_after=True, user=0)
