@@ -17,6 +17,7 @@ namespace {
 
 constexpr int most_levels = 4;
 constexpr double nothing = 1e-8;
+constexpr double same = 1e-6;       ///< next to a singular position, which makes much of round-off
 constexpr double meaningful = 0.1;  ///< larger differences fall by chance, if they fall
 
 struct Outcome {
@@ -51,13 +52,32 @@ bool compared(OutputType type) {
          type == OutputType::modal_amplitude;
 }
 
+/// Whether an output says where a body without any mass is.
+bool without_mass(const Model& model, const Output& o) {
+  const auto massless = [&](int body) {
+    return body >= 0 && model.bodies[body].data->invariants.m == 0.0 &&
+           model.bodies[body].data->invariants.P_u.isZero(0.0);
+  };
+  const auto on_massless = [&](int marker) {
+    return marker >= 0 && massless(model.markers[marker].body);
+  };
+  return massless(o.body) || on_massless(o.marker) || on_massless(o.to) ||
+         (o.joint >= 0 &&
+          (massless(model.joints[o.joint].parent) || massless(model.joints[o.joint].child)));
+}
+
+enum class Bodies { all, with_mass };
+
 double difference(const Model& model, const ResultTable& a, const ResultTable& b,
-                  double until = std::numeric_limits<double>::infinity()) {
+                  double until = std::numeric_limits<double>::infinity(),
+                  Bodies bodies = Bodies::all) {
   double d = 0.0;
-  for (std::size_t r = 0; r < std::min(a.rows(), b.rows()) && a.at(r, 0) <= until; ++r)
-    for (std::size_t c = 0; c < model.outputs.size(); ++c)
-      if (compared(model.outputs[c].type))
-        d = std::max(d, std::abs(a.at(r, c + 1) - b.at(r, c + 1)));
+  for (std::size_t c = 0; c < model.outputs.size(); ++c) {
+    const Output& o = model.outputs[c];
+    if (!compared(o.type) || (bodies == Bodies::with_mass && without_mass(model, o))) continue;
+    for (std::size_t r = 0; r < std::min(a.rows(), b.rows()) && a.at(r, 0) <= until; ++r)
+      d = std::max(d, std::abs(a.at(r, c + 1) - b.at(r, c + 1)));
+  }
   return d;
 }
 
@@ -88,16 +108,20 @@ std::optional<double> beginning(const std::string& sentence) {
 }
 
 /// How far a run says it may be judged: until it leaves the range of small deformations, and half
-/// the way to where a freedom has lost its mass. Nothing if it stops for another reason.
+/// the way to where a body turns too far in one step or a freedom has lost its mass. Nothing if it
+/// stops for another reason.
 std::optional<double> judged_until(const Outcome& o) {
   double until = o.result.summary.duration;
   if (!o.finished) {
     if (o.reason.find("almost without mass") == std::string::npos) return std::nullopt;
     until *= 0.5;
   }
-  for (const RangeWarning& w : o.result.summary.warnings)
-    if (w.limit == RangeLimit::displacement || w.limit == RangeLimit::rotation)
-      if (const std::optional<double> t = beginning(w.sentence)) until = std::min(until, *t);
+  for (const RangeWarning& w : o.result.summary.warnings) {
+    const bool deforms = w.limit == RangeLimit::displacement || w.limit == RangeLimit::rotation;
+    if (!deforms && w.limit != RangeLimit::turn) continue;
+    if (const std::optional<double> t = beginning(w.sentence))
+      until = std::min(until, deforms ? *t : 0.5 * *t);
+  }
   return until;
 }
 
@@ -130,6 +154,21 @@ bool falls_before(const Model& model, const std::vector<Level>& levels, double s
     before = now;
   }
   return false;
+}
+
+/// Whether all run at all steps, and the bodies with mass agree: where one without mass goes along
+/// forces that vanish is determined by nothing.
+bool only_massless_differ(const Model& model, const std::vector<Level>& levels) {
+  double before = 0.0;
+  bool falling = false;
+  for (const Level& l : levels) {
+    if (!l.relative.finished || !l.absolute.finished) return false;
+    const double now = difference(model, l.relative.result.table, l.absolute.result.table,
+                                  std::numeric_limits<double>::infinity(), Bodies::with_mass);
+    falling = falling || now < nothing || (before > 0.0 && falls(before, now));
+    before = now;
+  }
+  return falling;
 }
 
 std::string list(const std::vector<double>& values) {
@@ -173,8 +212,8 @@ Judgement judge(const Mechanism& mechanism) {
   std::vector<double> relative_drift, absolute_drift;
   double scale = 0.0;
   bool stopped = true;
-  // Wherever one stops, both do, next to a singular position.
-  bool at_singular_position = true;
+  // Each stop is next to a singular position, and wherever one stops both do.
+  bool at_singular_position = true, alike = true;
   std::string stops;
   std::vector<Level> levels;
   for (int level = 0; level < most_levels; ++level, o.step *= 0.5) {
@@ -194,9 +233,9 @@ Judgement judge(const Mechanism& mechanism) {
       return verdict(Verdict::not_finite);
     levels.push_back({r, a});
     if (!r.finished || !a.finished) {
-      if (r.finished != a.finished) stopped = at_singular_position = false;
+      if (r.finished != a.finished) stopped = alike = false;
       for (const Outcome* run : {&r, &a})
-        if (run->reason.find("singular position") == std::string::npos)
+        if (!run->finished && run->reason.find("singular position") == std::string::npos)
           at_singular_position = false;
       stops = (r.finished ? "" : "relative: " + r.reason) +
               (a.finished ? "" : " absolute: " + a.reason);
@@ -237,8 +276,16 @@ Judgement judge(const Mechanism& mechanism) {
     return verdict(Verdict::kinked, figures);
   if (falls_before(model, levels, j.step))
     return verdict(stops.empty() ? Verdict::out_of_range : Verdict::weightless, figures);
-  if (!std::isfinite(last))
-    return verdict(at_singular_position ? Verdict::stopped : Verdict::split, stops);
+  if (only_massless_differ(model, levels)) return verdict(Verdict::weightless, figures);
+  if (!std::isfinite(last)) {
+    // One may pass where the other does not, if they agree where both do.
+    const auto apart = [](double d) { return std::isfinite(d) && d > same; };
+    const auto agrees = [](double d) { return d <= same; };
+    const bool agree = std::none_of(j.differences.begin(), j.differences.end(), apart) &&
+                       std::any_of(j.differences.begin(), j.differences.end(), agrees);
+    return verdict(at_singular_position && (alike || agree) ? Verdict::stopped : Verdict::split,
+                   stops);
+  }
   bool ordered = false;
   for (std::size_t k = 0; k < j.differences.size(); ++k)
     ordered = ordered || j.differences[k] < nothing ||

@@ -13,12 +13,16 @@
 //                  step it lies, so d need only fall, by 2 a halving in the mean, to the last step
 //   refused        both refuse the model, with a sentence
 //   stopped        both run and stop before the end at all steps, with a sentence; at all but the
-//                  largest if it says that a singular position is next: large steps may leap it
+//                  largest if it says that a singular position is next: large steps may leap it,
+//                  and one may where the other does not, if d < 1e-6 at the steps where both do
 //   weightless     a run stops with the sentence that a body can move almost without mass where it
 //                  has come to: its speed is unbounded there, or its place jumps. Until half of
-//                  that time d falls by 3 to 5 at some halving, or is below 1e-8
+//                  that time d falls by 3 to 5 at some halving, or is below 1e-8. Or all run, and
+//                  the same holds to the end of all but bodies without any mass, which forces that
+//                  vanish leave where they are
 //   out_of_range   a run says that a body deforms or bends too far for linear modes, which soon
-//                  grow without bound: the same until then
+//                  grow without bound: the same until then; or that it turns too far in one step:
+//                  the same until half of that time
 // Everything else is a violation.
 #include <string>
 #include <vector>

@@ -33,6 +33,22 @@ std::vector<char> needed_markers(const Model& model, const ConstraintSet& constr
   return needed;
 }
 
+/// Bodies without any mass on them or further out, and out of every loop: what they do follows from
+/// forces and positions alone.
+std::vector<char> bodies_without_mass(const TreeKinematics& tree,
+                                      const ConstraintSet& constraints) {
+  std::vector<char> without;
+  for (const Body& body : tree.model().bodies)
+    without.push_back(body.data->invariants.m == 0.0 && body.data->invariants.P_u.isZero(0.0));
+  for (const ConstraintPart& p : constraints.parts())
+    for (const int marker : {p.a, p.b})
+      if (marker >= 0 && tree.marker(marker).body >= 0) without[tree.marker(marker).body] = 0;
+  const std::vector<Topology::Link>& links = tree.topology().links;
+  for (auto link = links.rbegin(); link != links.rend(); ++link)
+    if (link->parent >= 0 && !without[link->body]) without[link->parent] = 0;
+  return without;
+}
+
 }  // namespace
 
 RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod method)
@@ -57,6 +73,9 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
     terms.damped = b.nm > 0 && !body.data->D.isZero(0.0);
     omega2_.segment(b.iy, b.nm) = terms.inertia.own_frequencies_squared(body.data->K);
   }
+  const std::vector<char> without = bodies_without_mass(tree_, constraint_set_);
+  for (int i = 0; i < tree_.body_count(); ++i)
+    if (without[i]) omega2_.segment(tree_.body(i).iv, tree_.body(i).nj).setConstant(no_inertia);
   // The angle of a spring on a tree joint is the joint's own coordinate, whatever it turns in a
   // step.
   for (const Force& f : model.forces)
