@@ -42,7 +42,7 @@ ModelDescription vehicle_on_stairs(Vehicle vehicle) {
   return d;
 }
 
-void expect_second_order(double order, double low, const std::string& what) {
+void expect_order_two(double order, double low, const std::string& what) {
   figure(what, order);
   EXPECT_GT(order, low) << what;
   EXPECT_LT(order, 2.2) << what;
@@ -122,17 +122,16 @@ TEST_P(IltisStairs, OrderTwoWithEdgesLocated) {
         if (vehicle == Vehicle::flexible)
           figure("    order", order);
         else
-          expect_second_order(order, 1.8, std::string("    order of ") + stair_columns[k]);
+          expect_order_two(order, 1.8, std::string("    order of ") + stair_columns[k]);
       }
       before[k] = last[k];
     }
   }
   // Over both halvings; of the undamped vehicle the rear wheel has 1.69.
   for (int k = 0; k < 4; ++k)
-    expect_second_order(0.5 * std::log2(first[k] / last[k]),
-                        vehicle == Vehicle::flexible ? 1.6 : 1.8,
-                        std::string("order over the range of ") + stair_columns[k]);
-  expect_second_order(
+    expect_order_two(0.5 * std::log2(first[k] / last[k]), vehicle == Vehicle::flexible ? 1.6 : 1.8,
+                     std::string("order over the range of ") + stair_columns[k]);
+  expect_order_two(
       0.5 * std::log2(*std::max_element(first, first + 4) / *std::max_element(last, last + 4)), 1.8,
       "order over the range of the largest error");
 }
