@@ -125,9 +125,9 @@ TEST(MasslessSlides, MoveAsThoseOfAGram) {
   EXPECT_LT(difference, 1e-4);
 }
 
-// A leg of spring and damper holds a link without mass at one point of a universal joint: where that
-// point goes along the sphere of constant length nothing decides, but the lever that carries it
-// must not notice. Accelerations of the link in the first guess threw it round and round.
+// A leg of spring and damper holds a link without mass at one point of a universal joint: where
+// that point goes along the sphere of constant length nothing decides, but the lever that carries
+// it must not notice. Accelerations of the link in the first guess threw it round and round.
 TEST(MasslessLink, IsNotThrownByItsFirstGuess) {
   const Model model = model_of(
       "bodies:\n"
