@@ -194,6 +194,35 @@ class Resumed(RunCase):
         refused(message="--resume: 'out/run.checkpoint': the file does not exist; expected a checkpoint of this run")
         self.program("run", "m.yaml", "--out", "out", "--checkpoint-every", "-1", code=2)
 
+    def test_a_complete_run_is_not_continued(self):
+        run = ("run", "m.yaml", "--out", "out", "--set", "duration=0.3")
+        self.program(*run, "--checkpoint-every", "0.1", "--quiet")
+
+        def files():
+            return {p.name: (p.read_bytes(), p.stat().st_mtime_ns) for p in (self.folder / "out").iterdir()}
+
+        complete = "the run in 'out' is complete, there is nothing to continue"
+        before = files()
+        done = self.program(*run, "--resume", "--quiet")
+        self.assertEqual((done.stdout, done.stderr), ("", f"floatframe: {complete}\n"))
+        # Killed after its summary and before its checkpoint went.
+        (self.folder / "out/run.checkpoint").write_bytes(b"of this run")
+        self.assertIn(complete, self.program(*run, "--resume").stderr)
+        self.assertIn(f"--write-state: {complete}; its state at the end is not known",
+                      self.program(*run, "--resume", "--write-state", "end.json", code=2).stderr)
+        other = "--resume: the run in 'out' is complete, and of another model or with other options"
+        path = self.folder / "m.yaml"
+        for options in (("--step", "0.002"), ("--set", "duration=0.4"), ("--duration", "0.4"), ("--coordinates", "absolute")):
+            self.assertIn(other, self.program(*run, *options, "--resume", code=2).stderr)
+        path.write_text(MODEL.replace("spring: 3", "spring: 4"))
+        self.assertIn(other, self.program(*run, "--resume", code=2).stderr)
+        path.write_text(MODEL)
+        self.assertEqual(files(), before)
+        summary = self.folder / "out/summary.json"
+        for damage in ("", "{", "[]", '{"status": 1}'):
+            summary.write_text(damage)
+            self.assertIn("the file does not exist; expected a checkpoint", self.program(*run, "--resume", code=2).stderr)
+
     def test_a_new_run_begins_without_the_checkpoint_of_another(self):
         process = self.begin("run", "m.yaml", "--out", "out", "--checkpoint-every", "0.1")
         self.wait_for((self.folder / "out/run.checkpoint").exists, process)

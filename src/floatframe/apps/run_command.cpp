@@ -166,6 +166,7 @@ RunFiles::Options run_file_options(const RunArguments& arguments, const ModelFin
   if (!arguments.checkpoint_every.empty())
     o.checkpoint_every = positive_number("--checkpoint-every", arguments.checkpoint_every);
   o.summary = asked_summary(description.name, description.simulation);
+  o.summary.duration = description.simulation.duration;
   o.summary.settings = arguments.model.settings;
   o.summary.files = used.files;
   if (o.resume || o.checkpoint_every > 0.0)
@@ -217,6 +218,16 @@ int end_of(const RunPaths& paths, const RunSummary& summary, bool has_table,
   return summary.status == "completed" && unwritten.empty() ? exit_code::done : exit_code::failed;
 }
 
+/// Of a run that was to be continued.
+int complete_before(const RunArguments& arguments, const RunPaths& paths) {
+  const std::string text =
+      fmt::format("the run in '{}' is complete, there is nothing to continue", paths.folder);
+  if (!arguments.write_state.empty())
+    throw InputError(fmt::format("--write-state: {}; its state at the end is not known", text));
+  say(text);
+  return exit_code::done;
+}
+
 int run_model(const RunArguments& arguments) {
   ModelFingerprint used;
   ModelDescription description = read_model(arguments.model, arguments.quiet, &used);
@@ -233,6 +244,7 @@ int run_model(const RunArguments& arguments) {
                     {"--out", paths.checkpoint}},
                    files_of(used));
   RunFiles files(paths, run_file_options(arguments, used, description, model, paths));
+  if (files.complete()) return complete_before(arguments, paths);
   const StopSignal stop_signal;
 
   Report report;

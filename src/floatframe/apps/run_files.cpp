@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "floatframe/apps/completed_run.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/history/state_history.hpp"
@@ -46,6 +47,17 @@ RunFiles::RunFiles(const RunPaths& paths, Options options)
         "'{}' is not a regular file, expected one that a run with checkpoints can continue",
         paths_.results));
   if (!options_.resume) return;
+  const EarlierRun earlier = earlier_run(paths_.summary, options_.summary);
+  complete_ = earlier == EarlierRun::completed;
+  if (complete_) {
+    remove_file(paths_.checkpoint);  // if the run was killed before it could
+    return;
+  }
+  if (earlier == EarlierRun::other && !std::filesystem::exists(paths_.checkpoint))
+    throw InputError(
+        fmt::format("--resume: the run in '{}' is complete, and of another model or with other "
+                    "options; expected one of these that has not ended",
+                    paths_.folder));
   from_ = read_checkpoint(paths_.checkpoint);
   if (const std::string text = origin_difference(from_->origin, options_.origin); !text.empty())
     throw InputError(fmt::format("the checkpoint '{}' {}", paths_.checkpoint, text));
@@ -174,10 +186,11 @@ std::vector<std::string> RunFiles::finish(Report&& report) {
   if (!states_) remove_file(paths_.states);
   remove_file(paths_.report);
   if (options_.report) attempt([&] { write_report(report); });
-  if (result.summary.status == "completed" || !results_) remove_file(paths_.checkpoint);
   lock_.release_space();
-  attempt([&] { write_file(paths_.summary, summary_json(result.summary)); });
   if (states_) finish_states(result.summary, failed);
+  attempt([&] { write_file(paths_.summary, summary_json(result.summary)); });
+  // Last: a run that is killed before goes on from there.
+  if (result.summary.status == "completed" || !results_) remove_file(paths_.checkpoint);
   return failed;
 }
 

@@ -29,7 +29,7 @@ class RunFiles {
     double checkpoint_every = 0.0;  ///< [s]; 0: none
     bool resume = false;
     RunOrigin origin;    ///< for checkpoints
-    RunSummary summary;  ///< of what was asked for
+    RunSummary summary;  ///< of what was asked for, with its duration
     /// What is written before the states, which are kept if it is there.
     std::function<HistoryContent(const StateLayout&)> history;
     const Model* model = nullptr;  ///< what the view of the report shows
@@ -41,6 +41,8 @@ class RunFiles {
 
   /// False: results go to a device, at the end.
   bool streams() const noexcept { return streams_; }
+  /// True: a run that is to be continued has ended before, with all its files.
+  bool complete() const noexcept { return complete_; }
   const RunCheckpoint* resumed() const noexcept { return from_ ? &from_->run : nullptr; }
   bool keeps_states() const noexcept { return streams_ && options_.history; }
   double checkpoint_every() const noexcept { return options_.checkpoint_every; }
@@ -68,7 +70,7 @@ class RunFiles {
   RunPaths paths_;
   Options options_;
   FolderLock lock_;
-  bool streams_;
+  bool streams_, complete_ = false;
   std::optional<CheckpointFile> from_;
   std::optional<ResultsFile> results_;
   std::optional<StatesFile> states_;
