@@ -40,6 +40,10 @@ std::pair<double, double> range_of(const ReportCurves& curves,
 /// Range of the vertical axis: rounding noise is not blown up to the full height; zero is shown
 /// when it is near.
 std::pair<double, double> vertical_range(double low, double high) {
+  // Their difference must remain a number.
+  constexpr double largest = 1e300;
+  low = std::clamp(low, -largest, largest);
+  high = std::clamp(high, -largest, largest);
   const double size = std::max(std::abs(low), std::abs(high));
   if (high - low <= 1e-7 * size || high - low < 1e-280) {
     const double half = size > 1e-280 ? 0.1 * size : 1.0;
