@@ -86,8 +86,8 @@ class AugmentedLagrangian {
   using Clock = std::chrono::steady_clock;
   using Scheme = StepScheme;
   static constexpr int newton_slot = 0, projection_slot = 1;
-  /// The projections have no nonlinear terms to disturb: a stiffer penalty saves passes. But next to
-  /// a singular position it makes more of round-off.
+  /// The projections have no nonlinear terms to disturb: a stiffer penalty saves passes. But next
+  /// to a singular position it makes more of round-off.
   static constexpr double metric_penalty = 30.0;
   /// What holds a freedom without mass is its stiffness times s, which next to the penalty may be
   /// less than round-off. A matrix with a vanishing pivot is made again with so much of the
