@@ -5,6 +5,7 @@ import json
 import os
 import unittest
 
+from report_page import page_of
 from run_case import RunCase
 
 
@@ -45,6 +46,26 @@ class Compare(RunCase):
     def test_the_page(self):
         self.program("compare", "one", "two", "--report", "page.html")
         page = (self.folder / "page.html").read_text()
+        names = [c.split(" [")[0] for c in (self.folder / "one" / "results.csv").read_text().split("\n")[0].split(",")[1:]]
+        data = page_of(self.folder / "page.html")
+        if data is not None:
+            self.assertEqual((data["kind"], data["status"]["state"]), ("compare", "compared"))
+            channels = data["curves"]["channels"]
+            self.assertEqual(sorted(c["name"] for c in channels), sorted(names))
+            self.assertEqual(data["curves"]["names"], ["A: one/results.csv", "B: two/results.csv"])
+            table = {c["name"]: c for c in json.loads(self.program("compare", "one", "two", "--json").stdout)["channels"]}
+            drawn = [c for c in channels if c.get("other")]
+            self.assertTrue(drawn)
+            for channel in drawn:
+                self.assertEqual(channel["difference"]["max"], table[channel["name"]]["largest"])
+                self.assertEqual(channel["difference"]["rms"], table[channel["name"]]["rms"])
+            self.program("compare", "one", "two", "--tolerance", "1e-15", "--report", "page.html", code=1)
+            data = page_of(self.folder / "page.html")
+            self.assertEqual(data["status"]["state"], "differ")
+            self.assertTrue(data["curves"]["channels"][0]["difference"]["beyond"])
+            self.program("compare", "one", "one", "--tolerance", "0", "--report", "page.html")
+            self.assertEqual(page_of(self.folder / "page.html")["status"]["state"], "agree")
+            return
         header = (self.folder / "one" / "results.csv").read_text().split("\n")[0]
         html.parser.HTMLParser().feed(page)
         self.assertEqual(page.count("<figure>"), len(header.split(",")) - 1)

@@ -8,6 +8,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/report/comparison_page.hpp"
 #include "floatframe/report/comparison_report.hpp"
 
 namespace floatframe {
@@ -36,10 +37,15 @@ std::optional<ComparisonTolerance> tolerance_of(const CompareArguments& a) {
   return t;
 }
 
-/// Of the rows that a first reading has found.
-ReportCurves curves_of(const ResultsReader& read) {
-  ResultsReader again(read.file());
-  return report_curves(again, read.rows());
+/// Read once more, for the rows that the first reading has found.
+std::string report_of(const ComparedResults& results, const ResultsReader& a,
+                      const ResultsReader& b) {
+  ResultsReader first(a.file()), second(b.file());
+  if (page_template().empty())
+    return comparison_html(results, report_curves(first, a.rows()), report_curves(second, b.rows()),
+                           build_description());
+  return comparison_page(results, page_curves(first, a.rows()), page_curves(second, b.rows()),
+                         build_description());
 }
 
 int compare(const CompareArguments& a) {
@@ -51,9 +57,7 @@ int compare(const CompareArguments& a) {
   require_writable({{"--report", a.report}}, {results.file_a, results.file_b});
   ResultsReader first(results.file_a), second(results.file_b);
   results.comparison = compare_results(first, second, a.channels);
-  if (!a.report.empty())
-    write_file(a.report,
-               comparison_html(results, curves_of(first), curves_of(second), build_description()));
+  if (!a.report.empty()) write_file(a.report, report_of(results, first, second));
   print(a.json ? comparison_json(results) : comparison_text(results));
   const std::vector<std::string> sentences = disagreements(results);
   for (const std::string& sentence : sentences) say(sentence);

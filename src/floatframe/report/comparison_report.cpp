@@ -29,77 +29,6 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-bool beyond(const ComparedResults& r, const ChannelDifference& d) {
-  return r.tolerance && !agrees(d, *r.tolerance);
-}
-
-/// Largest difference for its size first. Channels that are rounding beside others of their unit
-/// would lead all others.
-std::vector<const ChannelDifference*> worst_first(const ResultsComparison& c) {
-  constexpr double rounding = 1e-6;
-  std::map<std::string, double> largest;  // by unit
-  std::vector<const ChannelDifference*> order;
-  for (const ChannelDifference& d : c.channels) {
-    order.push_back(&d);
-    double& size = largest[d.unit];
-    size = std::max(size, d.size);
-  }
-  const auto weight = [&](const ChannelDifference& d) {
-    const double size = std::max(d.size, rounding * largest[d.unit]);
-    return size > 0.0 ? d.largest / size : d.relative();
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](const auto* x, const auto* y) { return weight(*x) > weight(*y); });
-  return order;
-}
-
-/// What is not a difference but must be known to read the figures.
-std::vector<std::string> comparison_notes(const ComparedResults& r) {
-  const ResultsComparison& c = r.comparison;
-  std::vector<std::string> notes;
-  if (c.interpolated)
-    notes.push_back(fmt::format(
-        "the instants of the two differ: compared at those of '{}', between which the other "
-        "is taken as linear",
-        r.file_a));
-  if (c.torn_a || c.torn_b)
-    notes.push_back(fmt::format("the last line of '{}' was cut off and is left out",
-                                c.torn_a ? r.file_a : r.file_b));
-  if (!r.tolerance || r.overlap) {
-    if (c.spans_differ())
-      notes.push_back(
-          fmt::format("compared from {:g} to {:g} s: the one goes from {:g} to {:g} s, "
-                      "the other from {:g} to {:g} s",
-                      c.from, c.to, c.start_a, c.end_a, c.start_b, c.end_b));
-  }
-  if (!r.tolerance) {
-    for (const auto& [names, file] : {std::pair{&c.only_a, &r.file_a}, {&c.only_b, &r.file_b}})
-      if (!names->empty()) notes.push_back(fmt::format("only in '{}': {}", *file, listed(*names)));
-    if (!c.other_units.empty())
-      notes.push_back("in different units, not compared: " + listed(c.other_units));
-  }
-  return notes;
-}
-
-std::string verdict(const ComparedResults& r) {
-  const ResultsComparison& c = r.comparison;
-  const std::string compared =
-      fmt::format("{} at {}", plural(static_cast<long>(c.channels.size()), "channel", "channels"),
-                  plural(static_cast<long>(c.instants), "instant", "instants"));
-  if (std::all_of(c.channels.begin(), c.channels.end(),
-                  [](const ChannelDifference& d) { return d.largest == 0.0; }))
-    return "equal to the last bit: " + compared;
-  if (!r.tolerance) return compared;
-  const auto count = std::count_if(c.channels.begin(), c.channels.end(),
-                                   [&](const ChannelDifference& d) { return beyond(r, d); });
-  const std::string within =
-      r.tolerance->absolute > 0.0
-          ? fmt::format("{:g} of the size and {:g}", r.tolerance->relative, r.tolerance->absolute)
-          : fmt::format("{:g} of the size", r.tolerance->relative);
-  if (count == 0) return fmt::format("within {}: {}", within, compared);
-  return fmt::format("{} of {} beyond {}", count, compared, within);
-}
-
 /// The curves of both in one table, a name with "A" and one with "B" for each channel.
 ReportCurves overlaid(const ReportCurves& a, const ReportCurves& b, const ResultsComparison& c,
                       std::vector<PlotGroup>& groups) {
@@ -134,6 +63,74 @@ std::string difference_line(const ChannelDifference& d) {
 
 }  // namespace
 
+bool beyond(const ComparedResults& r, const ChannelDifference& d) {
+  return r.tolerance && !agrees(d, *r.tolerance);
+}
+
+std::vector<const ChannelDifference*> worst_first(const ResultsComparison& c) {
+  constexpr double rounding = 1e-6;
+  std::map<std::string, double> largest;  // by unit
+  std::vector<const ChannelDifference*> order;
+  for (const ChannelDifference& d : c.channels) {
+    order.push_back(&d);
+    double& size = largest[d.unit];
+    size = std::max(size, d.size);
+  }
+  const auto weight = [&](const ChannelDifference& d) {
+    const double size = std::max(d.size, rounding * largest[d.unit]);
+    return size > 0.0 ? d.largest / size : d.relative();
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const auto* x, const auto* y) { return weight(*x) > weight(*y); });
+  return order;
+}
+
+std::vector<std::string> comparison_notes(const ComparedResults& r) {
+  const ResultsComparison& c = r.comparison;
+  std::vector<std::string> notes;
+  if (c.interpolated)
+    notes.push_back(fmt::format(
+        "the instants of the two differ: compared at those of '{}', between which the other "
+        "is taken as linear",
+        r.file_a));
+  if (c.torn_a || c.torn_b)
+    notes.push_back(fmt::format("the last line of '{}' was cut off and is left out",
+                                c.torn_a ? r.file_a : r.file_b));
+  if (!r.tolerance || r.overlap) {
+    if (c.spans_differ())
+      notes.push_back(
+          fmt::format("compared from {:g} to {:g} s: the one goes from {:g} to {:g} s, "
+                      "the other from {:g} to {:g} s",
+                      c.from, c.to, c.start_a, c.end_a, c.start_b, c.end_b));
+  }
+  if (!r.tolerance) {
+    for (const auto& [names, file] : {std::pair{&c.only_a, &r.file_a}, {&c.only_b, &r.file_b}})
+      if (!names->empty()) notes.push_back(fmt::format("only in '{}': {}", *file, listed(*names)));
+    if (!c.other_units.empty())
+      notes.push_back("in different units, not compared: " + listed(c.other_units));
+  }
+  return notes;
+}
+
+std::string comparison_verdict(const ComparedResults& r) {
+  const ResultsComparison& c = r.comparison;
+  const std::string compared =
+      fmt::format("{} at {}", plural(static_cast<long>(c.channels.size()), "channel", "channels"),
+                  plural(static_cast<long>(c.instants), "instant", "instants"));
+  if (std::all_of(c.channels.begin(), c.channels.end(),
+                  [](const ChannelDifference& d) { return d.largest == 0.0; }))
+    return "equal to the last bit: " + compared;
+  if (!r.tolerance) return compared;
+  const auto count = std::count_if(c.channels.begin(), c.channels.end(),
+                                   [&](const ChannelDifference& d) { return beyond(r, d); });
+  const std::string within =
+      r.tolerance->absolute > 0.0
+          ? fmt::format("{:g} of the size and {:g}", r.tolerance->relative, r.tolerance->absolute)
+          : fmt::format("{:g} of the size", r.tolerance->relative);
+  if (count == 0) return fmt::format("within {}: {}", within, compared);
+  return fmt::format("{} of {} beyond {}", count, compared, within);
+}
+
 std::vector<std::string> disagreements(const ComparedResults& r) {
   std::vector<std::string> out;
   if (!r.tolerance) return out;
@@ -154,8 +151,8 @@ std::vector<std::string> disagreements(const ComparedResults& r) {
 }
 
 std::string comparison_text(const ComparedResults& r) {
-  std::string text =
-      fmt::format("A  {}\nB  {}\n{}\n", printable(r.file_a), printable(r.file_b), verdict(r));
+  std::string text = fmt::format("A  {}\nB  {}\n{}\n", printable(r.file_a), printable(r.file_b),
+                                 comparison_verdict(r));
   for (const std::string& note : comparison_notes(r)) text += "note: " + printable(note) + "\n";
   TextTable table({"channel", "unit", "largest difference", "at [s]", "RMS", "size of A",
                    "difference/size", ""},
@@ -219,8 +216,8 @@ std::string comparison_html(const ComparedResults& r, const ReportCurves& a, con
                  "Floatframe report</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n"
                  "<header>\n<p class=\"kind\">Floatframe comparison</p>\n<h1>{}</h1>\n"
                  "<p class=\"kind\">{}A: {}</p>\n<p class=\"kind\">{}B: {}</p>\n</header>\n",
-                 report_style, html_escape(verdict(r)), svg_legend_key(0), html_escape(r.file_a),
-                 svg_legend_key(1), html_escape(r.file_b));
+                 report_style, html_escape(comparison_verdict(r)), svg_legend_key(0),
+                 html_escape(r.file_a), svg_legend_key(1), html_escape(r.file_b));
   if (const auto sentences = disagreements(r); !sentences.empty()) {
     fmt::format_to(out, "<div class=\"failed\" role=\"alert\"><b>The two do not agree.</b><ul>");
     for (const std::string& s : sentences) fmt::format_to(out, "<li>{}</li>", html_escape(s));

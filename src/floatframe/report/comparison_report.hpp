@@ -20,6 +20,16 @@ struct ComparedResults {
 /// What keeps two results from agreeing, a sentence each; nothing without a tolerance.
 std::vector<std::string> disagreements(const ComparedResults& results);
 
+/// Beyond the tolerance, if there is one.
+bool beyond(const ComparedResults& results, const ChannelDifference& difference);
+/// Largest difference for its size first. Channels that are rounding beside others of their unit
+/// would lead all others.
+std::vector<const ChannelDifference*> worst_first(const ResultsComparison& comparison);
+/// "2 of 31 channels at 801 instants beyond 1e-06 of the size"
+std::string comparison_verdict(const ComparedResults& results);
+/// What is not a difference but must be known to read the figures.
+std::vector<std::string> comparison_notes(const ComparedResults& results);
+
 std::string comparison_text(const ComparedResults& results);
 std::string comparison_json(const ComparedResults& results);
 

@@ -12,6 +12,8 @@ const STATES: Record<string, [string, string]> = {
   completed: ['Completed', 'ok'],
   interrupted: ['Interrupted', 'warn'],
   failed: ['Failed', 'failed'],
+  agree: ['They agree', 'ok'],
+  differ: ['They differ', 'failed'],
 };
 
 export function statusSection(page: PageJson, problems: string[]): { element: HTMLElement; add: (sentence: string) => void } {

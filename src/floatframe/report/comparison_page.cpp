@@ -1,0 +1,81 @@
+#include "floatframe/report/comparison_page.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace floatframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json by_name(const Json& curves) {
+  Json out = Json::object();
+  for (const Json& channel : curves["channels"])
+    out[channel["name"].get_ref<const std::string&>()] = channel;
+  return out;
+}
+
+/// A channel with its curves of both; a kind of its own gives it a plot of its own.
+Json both_curves(const ComparedResults& r, const ChannelDifference& d, Json channel,
+                 const Json& other) {
+  channel["kind"] = d.name;
+  if (d.largest == 0.0 && channel["constant"].get<bool>()) return channel;
+  channel["constant"] = false;
+  // Rounding in the one may be a signal in the other.
+  channel["noise"] = channel["noise"].get<bool>() && other["noise"].get<bool>();
+  channel["other"] = other["data"];
+  channel["other_offset"] = other["offset"];
+  channel["difference"] = {{"max", std::isfinite(d.largest) ? Json(d.largest) : Json()},
+                           {"rms", d.rms},
+                           {"beyond", beyond(r, d)}};
+  return channel;
+}
+
+}  // namespace
+
+std::string comparison_page(const ComparedResults& r, const PageCurves& a, const PageCurves& b,
+                            const std::string& software) {
+  PageBuffer buffer;
+  const Json first = curves_json(a, {}, buffer), second = curves_json(b, {}, buffer);
+  const Json of_a = by_name(first), of_b = by_name(second);
+  Json channels = Json::array();
+  for (const ChannelDifference* d : worst_first(r.comparison))
+    channels.push_back(both_curves(r, *d, of_a.at(d->name), of_b.at(d->name)));
+  Json sentences = Json::array({comparison_verdict(r) + "."});
+  for (const std::string& note : comparison_notes(r)) sentences.push_back(note);
+  Json warnings = Json::array();
+  for (const std::string& s : disagreements(r)) warnings.push_back(s);
+  const char* state = !r.tolerance ? "compared" : warnings.empty() ? "agree" : "differ";
+  const ResultsComparison& c = r.comparison;
+  const auto span = [](double start, double end) {
+    return fmt::format("{:g} to {:g} s", start, end);
+  };
+  const Json page{{"schema", 1},
+                  {"kind", "compare"},
+                  {"title", "Comparison"},
+                  {"program", "Floatframe " + software},
+                  {"status", {{"state", state}, {"sentences", sentences}, {"warnings", warnings}}},
+                  {"facts", Json::array({{{"heading", "Compared"},
+                                          {"rows",
+                                           {{"A", r.file_a},
+                                            {"B", r.file_b},
+                                            {"A goes from", span(c.start_a, c.end_a)},
+                                            {"B goes from", span(c.start_b, c.end_b)},
+                                            {"channels", std::to_string(c.channels.size())},
+                                            {"instants", std::to_string(c.instants)}}}}})},
+                  {"tables", Json::array()},
+                  {"curves",
+                   {{"time", first["time"]},
+                    {"other_time", second["time"]},
+                    {"names", {"A: " + r.file_a, "B: " + r.file_b}},
+                    {"channels", std::move(channels)}}},
+                  {"trust", nullptr},
+                  {"speed", nullptr},
+                  {"scene", nullptr}};
+  return page_html(page_template(), page, buffer);
+}
+
+}  // namespace floatframe
