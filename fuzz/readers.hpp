@@ -14,6 +14,7 @@
 #include "floatframe/formats/body_file/body_file.hpp"
 #include "floatframe/formats/body_file/npy.hpp"
 #include "floatframe/formats/body_file/zip_store.hpp"
+#include "floatframe/formats/geometry/geometry_file.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
@@ -142,6 +143,13 @@ inline void body_file(std::string_view bytes) {
   read_body_bytes(zip_archive(members), "fuzz.ffb");
 }
 
+/// The first line is the ending, the rest the file.
+inline void geometry(std::string_view bytes) {
+  const std::size_t line = bytes.find('\n');
+  if (line == std::string_view::npos || line > 10) return;
+  parse_geometry(bytes.substr(line + 1), "fuzz." + std::string(bytes.substr(0, line)));
+}
+
 inline void read_all(const StateHistory& history) {
   std::vector<double> row(history.header().columns);
   for (std::size_t k = 0; k < history.instants(); ++k) history.instant(k, row);
@@ -182,6 +190,7 @@ inline constexpr Reader readers[] = {
     {"dmig", dmig},
     {"sid", sid},
     {"body_file", body_file},
+    {"geometry", geometry},
     {"udp", udp},
     {"history", history},
 };

@@ -163,13 +163,14 @@ class Range(unittest.TestCase):
                          "m.yaml:4:14: simulation.tolerance: found 1e300, expected a number from 1e-15 to 1")
 
     def test_the_summary_says_what_was_read(self):
-        shutil.copy(EXAMPLES / "iltis" / "suspension.yaml", self.folder)
-        shutil.copy(EXAMPLES / "iltis" / "iltis.yaml", self.folder)
+        names = {"iltis.yaml", "suspension.yaml", "body.obj"}
+        for name in names:
+            shutil.copy(EXAMPLES / "iltis" / name, self.folder)
         arguments = ["--set", "flexible=false", "--set", "speed=4", "--set", "speed=6", "--duration", "0.05", "--no-report", "--quiet"]
         self.assertEqual(self.run_model("iltis.yaml", *arguments).returncode, 0)
         self.assertEqual(self.summary["settings"], {"flexible": "false", "speed": "6"})
         before = self.summary["files"]
-        self.assertEqual({pathlib.Path(f).name for f in before}, {"iltis.yaml", "suspension.yaml"})
+        self.assertEqual({pathlib.Path(f).name for f in before}, names)
         for value in before.values():
             self.assertRegex(value, "^[0-9a-f]{32}$")
         with open(self.folder / "suspension.yaml", "a") as file:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/math/so3.hpp"
@@ -64,6 +65,45 @@ void draw(const std::string& text, Drawn& out,
   const Recorded r = recorded_run(out.model, o, folder.file("x.ffr"));
   out.table = r.result.table;
   out.scene = scene_json(out.model, scene_frames(out.model, StateHistory(r.path)), out.buffer);
+}
+
+TEST(Scene, GeometryOfAFileIsDrawnInThePlaceOfTheBox) {
+  Drawn d;
+  d.model = model_of(recorded_machine);
+  FlexibleBody body = *d.model.bodies[0].data;
+  ASSERT_EQ(body.modes(), 0);
+  auto shape = std::make_shared<BodyShape>();
+  shape->positions = Mat3X::Random(3, 4);
+  shape->triangles = {{0, 1, 2}, {0, 2, 3}};
+  shape->color = "#3a6ea5";
+  body.shape = shape;
+  d.model.bodies[0].data = std::make_shared<const FlexibleBody>(body);
+  const TemporaryFolder folder;
+  const Recorded r = recorded_run(d.model, d.model.simulation, folder.file("x.ffr"));
+  d.scene = scene_json(d.model, scene_frames(d.model, StateHistory(r.path)), d.buffer);
+  const Json& drawn = d.scene["bodies"][0]["shape"];
+  EXPECT_EQ(drawn["kind"], "mesh");
+  EXPECT_EQ(drawn["color"], "#3a6ea5");
+  EXPECT_TRUE(drawn["nodes"].is_null());
+  EXPECT_TRUE(drawn["displacements"].is_null());
+  const auto vertices = numbers_of<float>(d.buffer, drawn["vertices"], "f32");
+  for (Eigen::Index k = 0; k < 12; ++k)
+    EXPECT_EQ(vertices[static_cast<std::size_t>(k)],
+              static_cast<float>(shape->positions(k % 3, k / 3)));
+  EXPECT_EQ(indices_of(d.buffer, drawn["triangles"]),
+            (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+  EXPECT_FALSE(d.scene["bodies"][1]["shape"].contains("color"));
+  // The result stands alone: the surface and its colour are in it.
+  const StateHistory history(r.path);
+  const HistoryBody& kept = history.header().bodies[0];
+  ASSERT_GE(kept.shape, 0);
+  EXPECT_EQ(history.header().shapes[static_cast<std::size_t>(kept.shape)].color, "#3a6ea5");
+  const std::string at = "shapes/" + std::to_string(kept.shape) + "/";
+  std::set<std::string> names;
+  for (const HistoryArray& a : history.header().arrays) names.insert(a.name);
+  EXPECT_TRUE(names.contains(at + "surface_positions"));
+  EXPECT_TRUE(names.contains(at + "surface_triangles"));
+  EXPECT_FALSE(names.contains(at + "surface_modes"));
 }
 
 TEST(Scene, PointsMoveAsTheOutputsOfTheRunSay) {

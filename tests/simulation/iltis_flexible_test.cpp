@@ -156,7 +156,7 @@ ModelDescription changed_suspension(
   namespace fs = std::filesystem;
   const fs::path from = fs::path(FLOATFRAME_EXAMPLES) / "iltis";
   const TemporaryFolder to;
-  fs::copy_file(from / "iltis.yaml", to / "iltis.yaml");
+  for (const char* name : {"iltis.yaml", "body.obj"}) fs::copy_file(from / name, to / name);
   std::stringstream text;
   text << std::ifstream(from / "suspension.yaml").rdbuf();
   std::string s = text.str();

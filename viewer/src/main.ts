@@ -126,8 +126,7 @@ async function build(app: HTMLElement): Promise<void> {
   if (page.scene) {
     try {
       const scene = readScene(page.scene, page.kind, buffer, report);
-      if (!hasWebgl()) throw new Error('');
-      view = new ViewSection(scene, hub, history, page.title || 'floatframe', report);
+      view = new ViewSection(scene, hub, history, page.title || 'floatframe');
     } catch (error) {
       const text = error instanceof PageError ? error.message : hasWebgl() ? sentence(error) : webglSentence(error);
       noView = h('section', { id: 'view', class: 'card no-view' }, h('p', {}, text));

@@ -2,6 +2,7 @@
 // What a body looks like, for pictures and for what is measured in them; nothing that moves depends
 // on it. Body frame, SI units.
 #include <array>
+#include <string>
 #include <vector>
 
 #include "floatframe/math/types.hpp"
@@ -9,9 +10,10 @@
 namespace floatframe {
 
 struct BodyShape {
-  // Of a part: its outer surface. A point moves by X y, X its three rows of `modes`.
+  // Of a part: its outer surface. A point moves by X y, X its three rows of `modes`. Of a file that
+  // another program drew: a surface that does not bend.
   Mat3X positions;                            ///< 3 x n [m]
-  MatX modes;                                 ///< 3n x nm [m per unit of amplitude]
+  MatX modes;                                 ///< 3n x nm [m per unit of amplitude]; or empty
   std::vector<std::array<int, 3>> triangles;  ///< indices of points, outward normals
   std::vector<std::array<int, 2>> lines;      ///< of beams, indices of points
   std::vector<int> nodes;  ///< of each point: its node in the finite-element file, from 0
@@ -25,6 +27,8 @@ struct BodyShape {
     double inner = 0.0;                ///< of a tube: its bore as a fraction of width and height
   };
   std::vector<Bar> bars;
+
+  std::string color;  ///< "#rrggbb"; empty: that of the page
 
   bool empty() const noexcept { return triangles.empty() && lines.empty() && bars.empty(); }
 };

@@ -20,13 +20,22 @@ BodyShape mirrored_shape(const BodyShape& shape, const Vec3& s) {
   return out;
 }
 
-}  // namespace
-
-FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
+Vec3 signs_of(const Mat3& P) {
   const Vec3 s = P.diagonal();
   if (P != Mat3(s.asDiagonal()) || s.cwiseAbs() != Vec3::Ones()) {
     throw InputError("a mirror must be a diagonal matrix of +1 and -1");
   }
+  return s;
+}
+
+}  // namespace
+
+BodyShape mirrored(const BodyShape& shape, const Mat3& P) {
+  return mirrored_shape(shape, signs_of(P));
+}
+
+FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
+  const Vec3 s = signs_of(P);
   const Vec3 axial = s.prod() * s;
   FlexibleBody out = body;
   InertiaInvariants& v = out.invariants;

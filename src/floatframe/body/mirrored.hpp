@@ -8,5 +8,6 @@ namespace floatframe {
 
 /// P must be diagonal with entries +1 or -1; InputError otherwise.
 FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P);
+BodyShape mirrored(const BodyShape& shape, const Mat3& P);
 
 }  // namespace floatframe

@@ -70,7 +70,7 @@ void add_shape(const BodyShape& shape, Eigen::Index nm, const std::string& at, A
   if (points > 0) {
     arrays.add<float>(at + "surface_positions", "f32", {points, 3},
                       [&](Eigen::Index k) { return shape.positions(k % 3, k / 3); });
-    if (nm > 0)
+    if (nm > 0 && shape.modes.size() > 0)
       arrays.add<float>(at + "surface_modes", "f32", {points, 3, static_cast<std::uint64_t>(nm)},
                         [&](Eigen::Index k) { return shape.modes(k / nm, k % nm); });
     arrays.add_indices(at + "surface_triangles", shape.triangles, 3);
@@ -128,6 +128,7 @@ void add_bodies(const Model& model, const StateLayout& layout, HistoryContent& c
         const std::string name = fmt::format("shapes/{}/", b.shape);
         HistoryShape shape;
         for (const ModalNode& n : data.nodes) shape.nodes.push_back(n.name);
+        if (data.shape) shape.color = data.shape->color;
         h.shapes.push_back(std::move(shape));
         add_nodes(data, name, arrays);
         if (data.shape) add_shape(*data.shape, data.modes(), name, arrays);

@@ -174,8 +174,11 @@ void read_bodies(const HeaderReader& in, HistoryHeader& h) {
 }
 
 void read_arrays(const HeaderReader& in, HistoryHeader& h) {
-  for (const Json& item : in.items("shapes"))
-    h.shapes.push_back({in.element("shapes", item).list<std::string>("nodes")});
+  for (const Json& item : in.items("shapes")) {
+    const HeaderReader shape = in.element("shapes", item);
+    h.shapes.push_back({shape.list<std::string>("nodes")});
+    if (item.contains("color")) h.shapes.back().color = shape.get<std::string>("color");
+  }
   for (const Json& item : in.items("arrays")) {
     const HeaderReader a = in.element("arrays", item);
     HistoryArray array{a.get<std::string>("name"), a.get<std::string>("type"), {}};
@@ -235,7 +238,10 @@ std::string header_json(const HistoryHeader& h) {
   for (const HistoryGroup& g : h.groups)
     j["groups"].push_back({{"name", g.name}, {"first", g.first}, {"count", g.count}});
   j["shapes"] = Json::array();
-  for (const HistoryShape& s : h.shapes) j["shapes"].push_back({{"nodes", s.nodes}});
+  for (const HistoryShape& s : h.shapes) {
+    j["shapes"].push_back({{"nodes", s.nodes}});
+    if (!s.color.empty()) j["shapes"].back()["color"] = s.color;
+  }
   j["arrays"] = Json::array();
   for (const HistoryArray& a : h.arrays)
     j["arrays"].push_back({{"name", a.name}, {"type", a.type}, {"shape", a.shape}});

@@ -34,9 +34,10 @@ struct HistoryBody {
   int shape = -1;                              ///< index; bodies that are alike share one
 };
 
-/// The names of the nodes of a shape; its arrays are "shapes/0/...".
+/// The names of the nodes of a shape and its colour; its arrays are "shapes/0/...".
 struct HistoryShape {
   std::vector<std::string> nodes;
+  std::string color = {};  ///< "#rrggbb" or empty
 };
 
 struct HistoryArray {

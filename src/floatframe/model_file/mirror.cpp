@@ -1,5 +1,7 @@
 #include "floatframe/model_file/mirror.hpp"
 
+#include "floatframe/body/body_shape.hpp"
+#include "floatframe/body/mirrored.hpp"
 #include "floatframe/model/force_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
 
@@ -12,6 +14,8 @@ void place(BodyDescription& b, const Placement& x) {
   if (auto* r = std::get_if<RigidDescription>(&b.kind)) {
     r->p_BC = x.P * r->p_BC;
     r->J_C = x.P * r->J_C * x.P;
+    if (r->shape && x.P != Mat3::Identity())
+      r->shape = std::make_shared<const BodyShape>(mirrored(*r->shape, x.P));
     b.X_WT = b.X_WB;
   } else {
     b.mirror = x.P * b.mirror;

@@ -1,6 +1,7 @@
 // Bodies: position and orientation, rigid data, the choice between rigid and flexible.
 #include <cmath>
 
+#include "floatframe/body/body_shape.hpp"
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/math/so3.hpp"
@@ -8,7 +9,6 @@
 #include "floatframe/model_file/read_parts.hpp"
 
 namespace floatframe {
-namespace {
 
 Mat3 read_orientation(const YamlValue& value) {
   const char* what =
@@ -33,6 +33,8 @@ Mat3 read_orientation(const YamlValue& value) {
   }
   return q.normalized().toRotationMatrix();
 }
+
+namespace {
 
 Mat3 read_inertia(const YamlValue& value) {
   const char* what = "[Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] [kg m2]";
@@ -162,6 +164,14 @@ void note_keys(const YamlSection& group, Origin& origin) {
   for (const auto& [key, mark] : group.origin().keys) origin.keys.emplace(key, mark);
 }
 
+/// What a body looks like by its own data goes before the file that it was given.
+void dress(BodyDescription& body, std::shared_ptr<const BodyShape> shape) {
+  if (auto* rigid = std::get_if<RigidDescription>(&body.kind))
+    rigid->shape = std::move(shape);
+  else if (auto* part = std::get_if<FlexibleBody>(&body.kind))
+    if (!part->shape || part->shape->empty()) part->shape = std::move(shape);
+}
+
 void read_body(const ModelInstance& self, const std::string& name, YamlSection& s,
                ReadModel& model) {
   BodyDescription body;
@@ -176,6 +186,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
   const double tolerance = s.number("align_tolerance", positive_number("m"), 1e-6);
   const auto align = s.get("align");
   const auto use = read_use(s, rigid_value.has_value(), part.value.has_value());
+  const auto geometry = s.get("geometry");
   s.finish({"rigid.mass", "rigid.centre_of_mass", "rigid.inertia", "flexible.material",
             "flexible.bars", "flexible.masses", "flexible.clamped", "flexible.static_modes",
             "flexible.normal_modes", "flexible.mass_model", "flexible.damping"});
@@ -223,6 +234,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
     known.valid = false;
     body.kind = RigidDescription{};
   }
+  if (geometry) dress(body, read_body_geometry(self, *geometry));
   body.X_WT = body.X_WB;
   place(body, self.world);
   known.origin = body.X_WB.p;

@@ -42,16 +42,6 @@ FlexibleRead known_part(ReducedPart part) {
   return out;
 }
 
-/// Errors of a file keep their place; others belong to the value that names the file.
-void add_errors(const YamlValue& value, const InputError& error) {
-  for (const ErrorEntry& entry : error.errors()) {
-    if (entry.mark.line > 0)
-      value.context().errors->add(entry.mark, entry.message, entry.count);
-    else
-      value.error(entry.text(), entry.count);
-  }
-}
-
 FlexibleRead from_body_file(const ModelInstance& self, const ReadModel& model,
                             const std::string& who, const YamlValue& value) {
   const auto name = value.text("bars, a finite-element file or the name of a body file");
@@ -100,6 +90,15 @@ FlexibleRead from_job(const ModelInstance& self, const ReadModel& model, const s
 }
 
 }  // namespace
+
+void add_errors(const YamlValue& value, const InputError& error) {
+  for (const ErrorEntry& entry : error.errors()) {
+    if (entry.mark.line > 0)
+      value.context().errors->add(entry.mark, entry.message, entry.count);
+    else
+      value.error(entry.text(), entry.count);
+  }
+}
 
 std::string beside(const ModelInstance& self, const std::string& file) {
   return (std::filesystem::path(self.document->file).parent_path() / file)

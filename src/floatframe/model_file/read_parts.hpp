@@ -4,6 +4,7 @@
 // description.
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -76,6 +77,14 @@ std::optional<PartJob> read_part_job(const ModelInstance& self, YamlSection sect
 /// points.
 std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& value,
                                    double tolerance, const FlexibleBody& part);
+/// Errors of a file keep their place; others belong to the value that names the file.
+void add_errors(const YamlValue& value, const InputError& error);
+/// A rotation vector, a unit quaternion or {roll, pitch, yaw}.
+Mat3 read_orientation(const YamlValue& value);
+/// The key `geometry` of a body: the triangles of a file in the body's frame. nullptr and errors if
+/// it cannot be shown.
+std::shared_ptr<const BodyShape> read_body_geometry(const ModelInstance& self,
+                                                    const YamlValue& value);
 /// `file` as written in a file of the model: relative to the folder of that file.
 std::string beside(const ModelInstance& self, const std::string& file);
 

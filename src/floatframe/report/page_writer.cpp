@@ -97,11 +97,6 @@ Json PageBuffer::add_half(std::span<const float> values, Shape shape) {
   return put("f16", halves.data(), halves.size() * sizeof halves[0], shape);
 }
 
-Json PageBuffer::add_bytes(std::string_view bytes) {
-  const Json view = put("", bytes.data(), bytes.size(), {});
-  return {{"offset", view["offset"]}, {"length", bytes.size()}};
-}
-
 std::string page_html(std::string_view page_template, const Json& page, const PageBuffer& buffer) {
   const std::size_t at = page_template.find(place_of_data);
   if (at == std::string_view::npos)

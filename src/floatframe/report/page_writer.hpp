@@ -22,8 +22,6 @@ class PageBuffer {
   nlohmann::ordered_json add(std::span<const float> values, Shape shape);
   nlohmann::ordered_json add(std::span<const std::uint32_t> values, Shape shape);
   nlohmann::ordered_json add_half(std::span<const float> values, Shape shape);
-  /// Of a file: {"offset", "length"}.
-  nlohmann::ordered_json add_bytes(std::string_view bytes);
 
   const std::string& bytes() const noexcept { return bytes_; }
 

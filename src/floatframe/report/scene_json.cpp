@@ -244,7 +244,7 @@ class SceneWriter {
   Shape shape(const FlexibleBody& data) {
     const SceneMesh mesh = scene_mesh(data);
     if (mesh.triangles.empty()) return {};
-    const std::size_t vertices = mesh.nodes.size();
+    const std::size_t vertices = mesh.vertices.size() / 3;
     Shape out;
     for (std::size_t v = 0; v < vertices; ++v)
       out.bound = std::max<double>(
@@ -257,11 +257,14 @@ class SceneWriter {
         buffer_.add(std::span<const std::uint32_t>(mesh.triangles), {mesh.triangles.size() / 3, 3});
     j["normals"] = nullptr;
     j["displacements"] = nullptr;
-    if (data.modes() > 0)
+    if (!mesh.displacements.empty())
       j["displacements"] = buffer_.add_half(mesh.displacements,
                                             {vertices, static_cast<std::size_t>(data.modes()), 3});
-    j["nodes"] = buffer_.add(std::span<const std::uint32_t>(mesh.nodes), {vertices});
+    j["nodes"] = nullptr;
+    if (mesh.nodes.size() == vertices)
+      j["nodes"] = buffer_.add(std::span<const std::uint32_t>(mesh.nodes), {vertices});
     j["generated"] = mesh.generated;
+    if (!data.shape->color.empty()) j["color"] = data.shape->color;
     return out;
   }
 

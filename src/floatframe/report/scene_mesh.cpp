@@ -88,12 +88,12 @@ void copy_surface(const BodyShape& shape, Eigen::Index nm, SceneMesh& mesh) {
   for (Eigen::Index v = 0; v < shape.positions.cols(); ++v) {
     for (Eigen::Index k = 0; k < 3; ++k)
       mesh.vertices.push_back(static_cast<float>(shape.positions(k, v)));
-    for (Eigen::Index m = 0; m < nm; ++m)
-      for (Eigen::Index k = 0; k < 3; ++k)
-        mesh.displacements.push_back(static_cast<float>(shape.modes(3 * v + k, m)));
-    const auto i = static_cast<std::size_t>(v);
-    mesh.nodes.push_back(static_cast<std::uint32_t>(i < shape.nodes.size() ? shape.nodes[i] : v));
+    if (shape.modes.size() > 0)
+      for (Eigen::Index m = 0; m < nm; ++m)
+        for (Eigen::Index k = 0; k < 3; ++k)
+          mesh.displacements.push_back(static_cast<float>(shape.modes(3 * v + k, m)));
   }
+  for (const int n : shape.nodes) mesh.nodes.push_back(static_cast<std::uint32_t>(n));
   for (const auto& t : shape.triangles)
     for (const int v : t) mesh.triangles.push_back(static_cast<std::uint32_t>(v));
 }

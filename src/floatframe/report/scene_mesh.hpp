@@ -13,9 +13,9 @@ namespace floatframe {
 struct SceneMesh {
   std::vector<float> vertices;           ///< x, y, z [m]
   std::vector<std::uint32_t> triangles;  ///< three vertices each
-  std::vector<float> displacements;      ///< vertices x modes x 3 [m per unit of amplitude]
-  std::vector<std::uint32_t> nodes;      ///< of each vertex
-  bool generated = false;                ///< swept
+  std::vector<float> displacements;  ///< vertices x modes x 3 [m per unit of amplitude]; or empty
+  std::vector<std::uint32_t> nodes;  ///< of each vertex; empty for a surface from a file
+  bool generated = false;            ///< swept
 };
 
 /// Of a body with triangles or bars; empty without.

@@ -79,11 +79,4 @@ export class PageBuffer {
         return new Uint16Array(buffer, at, count);
     }
   }
-
-  slice(offset: number, length: number, what: string): ArrayBuffer {
-    if (!Number.isInteger(offset) || !Number.isInteger(length) || offset < 0 || length < 0 || offset + length > this.bytes.length) {
-      throw new PageError(`${what}: the bytes end beyond the data of the page, which are cut short or damaged.`);
-    }
-    return this.bytes.slice(offset, offset + length).buffer as ArrayBuffer;
-  }
 }

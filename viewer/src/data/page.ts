@@ -68,17 +68,13 @@ export interface MeshJson {
   displacements?: View | null;
   nodes?: View | null;
   generated?: boolean | null;
+  /** "#rrggbb" */
+  color?: string | null;
 }
 
 export type ShapeJson =
   | MeshJson
-  | ({ kind: 'box' | 'ellipsoid'; size: Triple } & PlacedJson)
-  | ({
-      kind: 'file';
-      format: 'stl' | 'obj' | 'gltf' | 'glb';
-      bytes: { offset: number; length: number };
-      scale?: number | null;
-    } & PlacedJson);
+  | ({ kind: 'box' | 'ellipsoid'; size: Triple } & PlacedJson);
 
 export interface ModesJson {
   first: number;

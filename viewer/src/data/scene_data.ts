@@ -19,15 +19,14 @@ export interface MeshData {
   modes: Uint16Array | null;
   nodes: Uint16Array | Uint32Array | null;
   generated: boolean;
+  /** "#rrggbb" that the model file gives. */
+  colour: string | null;
   fields: FieldData[];
 }
 
 export interface SolidData {
-  kind: 'box' | 'ellipsoid' | 'file';
+  kind: 'box' | 'ellipsoid';
   size: Triple;
-  format: 'stl' | 'obj' | 'gltf' | 'glb';
-  bytes: ArrayBuffer | null;
-  scale: number;
   position: Triple;
   quaternion: Quadruple;
 }
@@ -137,6 +136,7 @@ function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: num
     modes: null,
     nodes: json.nodes ? optional(() => buffer.read(json.nodes!, `${what}, nodes`, ['u16', 'u32'], [count]) as Uint16Array | Uint32Array, 'Labels of nodes are left out.') : null,
     generated: json.generated === true,
+    colour: typeof json.color === 'string' && /^#[0-9a-f]{6}$/i.test(json.color) ? json.color : null,
     fields: [],
   };
   if (json.displacements && modeCount > 0) {
@@ -189,16 +189,8 @@ function readBody(json: BodyJson, index: number, frames: number, amplitudeCount:
         const vertices = buffer.read(spider.vertices, `Body "${name}", spider`, ['u16', 'u32'], [null]);
         body.spiders.push({ point: spider.point, vertices: Uint32Array.from(vertices).filter((v) => v < vertexCount) });
       }
-    } else if (shape?.kind === 'box' || shape?.kind === 'ellipsoid' || shape?.kind === 'file') {
-      body.solid = {
-        kind: shape.kind,
-        size: shape.kind === 'file' ? [1, 1, 1] : triple(shape.size, [0.1, 0.1, 0.1]),
-        format: shape.kind === 'file' ? shape.format : 'stl',
-        bytes: shape.kind === 'file' ? buffer.slice(shape.bytes?.offset, shape.bytes?.length, `Body "${name}", geometry`) : null,
-        scale: (shape.kind === 'file' && shape.scale) || 1,
-        position: triple(shape.position, [0, 0, 0]),
-        quaternion: quadruple(shape.quaternion),
-      };
+    } else if (shape?.kind === 'box' || shape?.kind === 'ellipsoid') {
+      body.solid = { kind: shape.kind, size: triple(shape.size, [0.1, 0.1, 0.1]), position: triple(shape.position, [0, 0, 0]), quaternion: quadruple(shape.quaternion) };
     } else if (shape) {
       report(`Body "${name}": its shape is of a kind that this page does not know; it is left out.`);
     }

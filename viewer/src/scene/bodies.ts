@@ -23,9 +23,9 @@ export class BodyView {
   private readonly lines: LineSegments | null = null;
   private readonly restBox = new Box3();
 
-  constructor(scene: SceneData, body: BodyData, shared: SharedUniforms, modelSize: number, look: { empty: boolean; ghost: boolean }, changed: () => void, report: (sentence: string) => void) {
+  constructor(scene: SceneData, body: BodyData, shared: SharedUniforms, modelSize: number, look: { empty: boolean; ghost: boolean }) {
     this.data = body;
-    this.colour = new Color(BODY_COLOURS[body.index % BODY_COLOURS.length]);
+    this.colour = new Color(body.mesh?.colour ?? BODY_COLOURS[body.index % BODY_COLOURS.length]);
     const colour = `#${this.colour.getHexString()}`;
     this.group.name = body.name;
     if (body.mesh) {
@@ -44,17 +44,7 @@ export class BodyView {
       this.material = plain(colour);
       const lines = new LineBasicMaterial({ color: '#1c2329', transparent: true, opacity: 0.35 });
       const solid = body.solid
-        ? buildSolid(
-            body,
-            body.solid,
-            this.material,
-            lines,
-            () => {
-              this.measure();
-              changed();
-            },
-            report,
-          )
+        ? buildSolid(body.solid, this.material, lines)
         : buildSticks(
             scene.points.filter((point) => point.body === body.index).map((point) => point.p),
             0.006 * modelSize,
@@ -62,7 +52,7 @@ export class BodyView {
           );
       this.group.add(solid);
       this.measure();
-      if (look.ghost && body.solid && body.solid.kind !== 'file') this.setGhost();
+      if (look.ghost && body.solid) this.setGhost();
     }
   }
 
@@ -103,7 +93,8 @@ export class BodyView {
   colourBy(field: FieldData | null | undefined, range: [number, number], neutral: boolean): void {
     const coloured = field === undefined ? false : field === null ? this.flexible : (this.data.mesh?.fields.includes(field) ?? false);
     this.bending?.colourBy(coloured ? field : undefined, range);
-    this.material.color.copy(neutral ? NEUTRAL : this.colour);
+    // A body with a colour of its own keeps it beside a scale.
+    this.material.color.copy(neutral && !this.data.mesh?.colour ? NEUTRAL : this.colour);
   }
 
   setSelected(selected: boolean): void {
@@ -145,6 +136,6 @@ export function radiusOf(body: BodyData): number {
   let radius = 0;
   const vertices = body.mesh?.vertices;
   if (vertices) for (let i = 0; i < vertices.length; i += 3) radius = Math.max(radius, corner.set(vertices[i], vertices[i + 1], vertices[i + 2]).length());
-  else if (body.solid && body.solid.kind !== 'file') radius = Math.hypot(...body.solid.size) / 2 + Math.hypot(...body.solid.position);
+  else if (body.solid) radius = Math.hypot(...body.solid.size) / 2 + Math.hypot(...body.solid.position);
   return radius;
 }

@@ -56,22 +56,20 @@ export class Stage {
   private viewListeners: (() => void)[] = [];
 
   /** Throws if the browser gives no WebGL. */
-  constructor(scene: SceneData, history: (channel: string) => History | null, report: (sentence: string) => void) {
+  constructor(scene: SceneData, history: (channel: string) => History | null) {
     this.scene = scene;
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, powerPreference: 'high-performance' });
-    this.renderer.debug.checkShaderErrors = true;
     this.motion = new Motion(scene);
     this.root.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(...scene.up).normalize(), new Vector3(0, 0, 1)));
     this.amplitudes = new Amplitudes(scene.amplitudeCount);
     this.shared = { amplitudes: { value: this.amplitudes.texture }, deformation: { value: 1 }, colourMap: { value: mapTexture('viridis') } };
     this.size = this.modelSize();
-    const changed = (): void => this.invalidate();
     const bends = scene.bodies.some((body) => body.mesh);
     // A wheel is shown by its tyre.
     const wheels = new Set(scene.forces.filter((force) => force.a >= 0 && /tyre|tire/.test((force.type ?? '').toLowerCase())).map((force) => scene.points[force.a].body));
     for (const body of scene.bodies) {
-      const look = { empty: wheels.has(body.index) && body.solid?.kind !== 'file', ghost: bends };
-      const view = new BodyView(scene, body, this.shared, this.size, look, changed, report);
+      const look = { empty: wheels.has(body.index), ghost: bends };
+      const view = new BodyView(scene, body, this.shared, this.size, look);
       this.bodies.push(view);
       this.root.add(view.group);
     }
@@ -290,16 +288,23 @@ export class Stage {
     this.fit(new Vector3(...DIRECTIONS[name]));
   }
 
-  resize(width: number, height: number): void {
-    if (width <= 0 || height <= 0) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+  /** False if the size is what it was. */
+  resize(width: number, height: number): boolean {
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    if (width <= 0 || height <= 0) return false;
+    if (this.shownSize === `${width} ${height} ${ratio}`) return false;
+    this.shownSize = `${width} ${height} ${ratio}`;
+    this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.annotations.resize(height, this.camera.fov);
     for (const listener of this.viewListeners) listener();
     this.invalidate();
+    return true;
   }
+
+  private shownSize = '';
 
   /** Metres of one pixel at the place that the camera turns about. */
   pixelSize(): number {

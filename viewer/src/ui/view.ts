@@ -49,9 +49,9 @@ export class ViewSection {
   private since = 0;
   rate = 0;
 
-  constructor(scene: SceneData, hub: Hub, history: (channel: string) => History | null, title: string, report: (sentence: string) => void) {
+  constructor(scene: SceneData, hub: Hub, history: (channel: string) => History | null, title: string) {
     this.title = title;
-    this.stage = new Stage(scene, history, report);
+    this.stage = new Stage(scene, history);
     this.player = new Player(instants(scene));
     hub.player = this.player;
     this.player.onTime(() => hub.tellTime());
@@ -89,14 +89,17 @@ export class ViewSection {
 
   /** After the section has its place on the page. */
   start(): void {
-    this.resize();
+    this.stage.resize(this.frame.clientWidth, this.frame.clientHeight);
     this.stage.standard('iso');
     if (this.modes && !window.matchMedia('(prefers-reduced-motion: reduce)').matches) this.player.play();
     const tick = (now: number): void => {
       this.tick(now);
       requestAnimationFrame(tick);
     };
-    requestAnimationFrame(tick);
+    requestAnimationFrame((now) => {
+      tick(now);
+      performance.mark('first picture');
+    });
   }
 
   choose(body: number, vertex: number | null, open: boolean): void {
@@ -149,9 +152,9 @@ export class ViewSection {
     }
   }
 
+  /** A canvas of another size is empty until it is drawn. */
   private resize(): void {
-    this.stage.resize(this.frame.clientWidth, this.frame.clientHeight);
-    this.stage.draw(true);
+    if (this.stage.resize(this.frame.clientWidth, this.frame.clientHeight)) this.stage.draw(true);
   }
 
   private fullScreen(): void {

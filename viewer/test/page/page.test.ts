@@ -1,14 +1,16 @@
 // Pages opened from disk in a headless browser.
 
 import assert from 'node:assert/strict';
-import { statSync } from 'node:fs';
+import { spawnSync } from 'node:child_process';
+import { existsSync, statSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import type { Browser, Page } from 'playwright-core';
 import { check, compare, damaged, large, reduce } from '../pages/others';
 import { armMesh, ARM, CHANNEL, motionAt, ORIGIN, RADIUS, road, vehicle } from '../pages/vehicle';
 import { modeShape } from '../pages/shapes';
 import { fillTemplate } from '../pages/writer';
-import { launch, open, snap, template, write } from '../browser';
+import { folder, launch, open, snap, template, write } from '../browser';
 
 let browser: Browser;
 const html = template();
@@ -114,6 +116,62 @@ test('time cursor, curve and scene agree, both ways', async () => {
   assert.match((await page.locator('#curves .still').first().textContent())!, /lateralconstant \u221220 myawrounding noise, at most 1e\u221215 rad/);
   assert.deepEqual(errors, []);
   await page.context().close();
+});
+
+const program = process.env.FLOATFRAME_PROGRAM ?? '../build/floatframe';
+
+test('geometry of files, read by the program: STL, OBJ and GLB in the place of boxes', { skip: existsSync(program) ? false : 'no program: make build' }, async (t) => {
+  const corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  const faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+  const stl = Buffer.alloc(84 + 50 * faces.length);
+  stl.writeUInt32LE(faces.length, 80);
+  faces.forEach((face, k) => face.forEach((v, i) => corners[v].forEach((x, c) => stl.writeFloatLE(x, 84 + 50 * k + 12 + 12 * i + 4 * c))));
+  writeFileSync(join(folder, 'tetrahedron.stl'), stl);
+  writeFileSync(join(folder, 'tetrahedron.obj'), `${corners.map((p) => `v ${p.join(' ')}\n`).join('')}${faces.map((f) => `f ${f.map((v) => v + 1).join(' ')}\n`).join('')}`);
+  const numbers = Buffer.concat([Buffer.from(Float32Array.from(corners.flat()).buffer), Buffer.from(Uint16Array.from(faces.flat()).buffer)]);
+  const json = JSON.stringify({
+    asset: { version: '2.0' },
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: 'VEC3' }, { bufferView: 1, componentType: 5123, count: 12, type: 'SCALAR' }],
+    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 24 }],
+    buffers: [{ byteLength: 72 }],
+  });
+  const text = Buffer.from(json.padEnd(4 * Math.ceil(json.length / 4)));
+  const words = (...values: number[]): Buffer => Buffer.from(Uint32Array.from(values).buffer);
+  writeFileSync(join(folder, 'tetrahedron.glb'), Buffer.concat([words(0x46546c67, 2, 28 + text.length + numbers.length), words(text.length, 0x4e4f534a), text, words(numbers.length, 0x004e4942), numbers]));
+  const bodies = ['stl', 'obj', 'glb'].map((kind, k) => `  ${kind}: {rigid: {mass: 1, inertia: [1, 1, 1]}, position: [${2 * k}, 0, 0], geometry: {file: tetrahedron.${kind}, scale: 0.5, position: [0, 0, 1], color: "#c2410c"}}\n`);
+  writeFileSync(join(folder, 'geometry.yaml'), `floatframe: 1\nbodies:\n${bodies.join('')}`);
+  const page = join(folder, 'geometry.html');
+  const run = spawnSync(program, ['check', join(folder, 'geometry.yaml'), '--report', page], { encoding: 'utf8' });
+  if (/built without the viewer/.test(run.stderr)) return t.skip('the program was built without the viewer');
+  assert.equal(run.status, 0, run.stderr);
+  const opened = await open(browser, page);
+  assert.deepEqual(opened.errors, []);
+  assert.deepEqual(await opened.page.evaluate(() => window.floatframe!.problems), []);
+  const centres = await opened.page.evaluate(() => [0, 1, 2].map((b) => [0, 1, 2, 3].map((v) => window.floatframe!.vertexPosition(b, v)!)));
+  centres.forEach((vertices, k) => {
+    assert.equal(Math.max(...vertices.map((p) => p[0])), 2 * k + 0.5);
+    assert.equal(Math.max(...vertices.map((p) => p[2])), 1.5);
+    assert.equal(Math.min(...vertices.map((p) => p[2])), 1);
+  });
+  // Their colour, somewhere in the picture.
+  const url = (await opened.page.evaluate(() => window.floatframe!.screenshot()))!;
+  const orange = await opened.page.evaluate(async (source) => {
+    const image = new Image();
+    image.src = source;
+    await image.decode();
+    const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
+    const context = canvas.getContext('2d')!;
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) if (data[i] > 1.8 * data[i + 1] && data[i] > 3 * data[i + 2] && data[i] > 80) ++count;
+    return count / (image.width * image.height);
+  }, url);
+  assert.ok(orange > 0.01, `${orange} of the picture`);
+  await opened.page.context().close();
 });
 
 test('deformation, colours, hiding, picking, keys and the screenshot act', async () => {

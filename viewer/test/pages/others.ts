@@ -182,7 +182,6 @@ export function damaged(template: string): Record<string, Damaged> {
     points: broken(/lie on bodies that do not exist/, (p) => p.scene!.points!.forEach((q, k) => (q.body = k < 3 ? 99 : q.body))),
     no_bodies: broken(/has no bodies/, (p) => (p.scene!.bodies = [])),
     shape: broken(/of a kind that this page does not know/, (p) => (p.scene!.bodies[5].shape = { kind: 'teapot' } as never)),
-    file: broken(/its geometry \(glb\) cannot be read/, (p) => Object.assign(p.scene!.bodies[9].shape!, { format: 'glb' })),
     channel: broken(/Channel "chassis_z": the shape is/, (p) => (p.curves!.channels[0].data.shape[0] = 7)),
     histogram: broken(/histogram of step times is left out/, (p) => p.speed!.step_times!.edges.pop()),
   };

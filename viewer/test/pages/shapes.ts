@@ -74,12 +74,7 @@ export function displacements(mesh: Mesh, length: number, modes: number): number
   return values;
 }
 
-/** A tetrahedron as a binary STL file. */
-export function stlBytes(size: number): Uint8Array {
-  const p = [[0, 0, 0], [size, 0, 0], [0, size, 0], [0, 0, size]];
-  const faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
-  const bytes = Buffer.alloc(84 + 50 * faces.length);
-  bytes.writeUInt32LE(faces.length, 80);
-  faces.forEach((face, k) => face.forEach((v, i) => p[v].forEach((x, c) => bytes.writeFloatLE(x, 84 + 50 * k + 12 + 12 * i + 4 * c))));
-  return bytes;
+/** A tetrahedron with its right corner at a place. */
+export function tetrahedron(size: number, [x, y, z]: [number, number, number]): Mesh {
+  return { vertices: [x, y, z, x + size, y, z, x, y + size, z, x, y, z + size], triangles: [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3] };
 }

@@ -1,7 +1,7 @@
 // A small vehicle on a bump: a rigid chassis, four flexible arms with wheels, springs, tyres, a road.
 
 import type { BodyJson, ForceJson, JointJson, PageJson, PointJson, Triple } from '../../src/data/page';
-import { beamMesh, displacements, modeShape, stlBytes, tubeMesh } from './shapes';
+import { beamMesh, displacements, modeShape, tetrahedron, tubeMesh } from './shapes';
 import { BufferWriter } from './writer';
 
 export const RADIUS = 0.35;
@@ -148,7 +148,8 @@ export function vehicle(options: { hostile?: boolean; frames?: number } = {}): {
     });
   });
   names.forEach((name) => bodies.push({ name: `${name}_wheel`, mass: 24, facts: [['mass', '24 kg']], modes: null, shape: { kind: 'ellipsoid', size: [0.26, 0.1, 0.26], position: [0, 0, 0], quaternion: [0, 0, 0, 1] }, bound: 0.15, size: 0.3 }));
-  bodies.push({ name: 'box', mass: 90, modes: null, shape: { kind: 'file', format: 'stl', bytes: writer.bytes(stlBytes(0.5)), scale: 0.9, position: [-0.2, -0.2, 0], quaternion: [0, 0, 0, 1] }, bound: 0.6, size: 0.5 });
+  const box = tetrahedron(0.45, [-0.2, -0.2, 0]);
+  bodies.push({ name: 'box', mass: 90, modes: null, shape: { kind: 'mesh', vertices: writer.view('f32', box.vertices, [4, 3]), triangles: writer.view('u16', box.triangles, [4, 3]), color: '#c2410c' }, bound: 0.6, size: 0.5 });
   CORNERS.forEach(([fore, side], k) => {
     const foot = point({ name: `${names[k]}_foot`, body: 0, p: [0.9 * fore, side * TRACK * 0.35, -0.3] });
     const root = point({ name: '', body: 1 + k, p: [0, 0, 0] });

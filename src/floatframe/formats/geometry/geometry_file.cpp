@@ -1,0 +1,126 @@
+#include "floatframe/formats/geometry/geometry_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <unordered_map>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/regular_file.hpp"
+#include "floatframe/formats/geometry/geometry_build.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+std::string geometry_ending(const std::filesystem::path& file) {
+  return lower_case(file.extension().string());
+}
+
+struct PointKey {
+  std::array<double, 3> x;
+  bool operator==(const PointKey&) const = default;
+};
+
+struct PointKeyHash {
+  std::size_t operator()(const PointKey& key) const noexcept {
+    std::uint64_t h = 0;
+    for (const double v : key.x) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &v, sizeof bits);
+      h = (h ^ bits) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 29;
+    }
+    return static_cast<std::size_t>(h);
+  }
+};
+
+}  // namespace
+
+int GeometryBuilder::point(const Vec3& p, int line) {
+  if (!p.allFinite())
+    stop(fmt::format("point {} is not finite, expected three numbers", points_.size() + 1), line);
+  if (points_.size() >= 3 * limits::geometry_triangles)
+    stop(fmt::format("found more than {} points, expected at most so many",
+                     3 * limits::geometry_triangles),
+         line);
+  points_.push_back(p);
+  return static_cast<int>(points_.size()) - 1;
+}
+
+void GeometryBuilder::triangle(int a, int b, int c) {
+  if (triangles_.size() >= limits::geometry_triangles)
+    stop(fmt::format("found more than {} triangles, expected at most so many",
+                     limits::geometry_triangles));
+  triangles_.push_back({a, b, c});
+}
+
+void GeometryBuilder::stop(const std::string& sentence, int line) const {
+  throw InputError(SourceMark{name_, line, 0}, sentence);
+}
+
+TriangleGeometry GeometryBuilder::finish() const {
+  TriangleGeometry out;
+  std::unordered_map<PointKey, int, PointKeyHash> known;
+  std::vector<int> used(points_.size(), -1);
+  std::vector<const Vec3*> places;
+  const auto place = [&](int k) {
+    int& index = used[static_cast<std::size_t>(k)];
+    if (index >= 0) return index;
+    const Vec3& p = points_[static_cast<std::size_t>(k)];
+    // + 0.0: a negative zero is the same place.
+    const auto [at, fresh] = known.emplace(PointKey{{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0}},
+                                           static_cast<int>(places.size()));
+    if (fresh) places.push_back(&p);
+    return index = at->second;
+  };
+  for (const auto& t : triangles_) {
+    const std::array<int, 3> corners{place(t[0]), place(t[1]), place(t[2])};
+    if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+      out.triangles.push_back(corners);
+  }
+  if (out.triangles.empty()) stop("found no triangles, expected a surface");
+  out.positions.resize(3, static_cast<Eigen::Index>(places.size()));
+  for (std::size_t k = 0; k < places.size(); ++k)
+    out.positions.col(static_cast<Eigen::Index>(k)) = *places[k];
+  return out;
+}
+
+bool is_geometry_file(const std::filesystem::path& file) {
+  const std::string ending = geometry_ending(file);
+  return ending == ".stl" || ending == ".obj" || ending == ".gltf" || ending == ".glb";
+}
+
+TriangleGeometry parse_geometry(std::string_view bytes, const std::string& name,
+                                const GeometryLoader& loader) {
+  GeometryBuilder out(name);
+  if (!is_geometry_file(name)) out.stop("found this ending, expected .stl, .obj, .gltf or .glb");
+  if (bytes.empty()) out.stop("the file is empty");
+  const std::string ending = geometry_ending(name);
+  if (ending == ".stl")
+    parse_stl(bytes, out);
+  else if (ending == ".obj")
+    parse_obj(bytes, out);
+  else
+    parse_gltf(bytes, loader, out);
+  return out.finish();
+}
+
+TriangleGeometry read_geometry(const std::filesystem::path& file) {
+  // An ending that is not read is said before the file is looked for.
+  if (!is_geometry_file(file))
+    throw InputError(SourceMark{file.string(), 0, 0},
+                     "found this ending, expected .stl, .obj, .gltf or .glb");
+  std::vector<std::filesystem::path> others;
+  const auto beside = [&](const std::string& name) {
+    others.push_back((file.parent_path() / name).lexically_normal());
+    return regular_file(others.back(), limits::geometry_bytes);
+  };
+  TriangleGeometry out =
+      parse_geometry(regular_file(file, limits::geometry_bytes), file.string(), beside);
+  out.others = std::move(others);
+  return out;
+}
+
+}  // namespace floatframe
