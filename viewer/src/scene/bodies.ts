@@ -52,7 +52,7 @@ export class BodyView {
           );
       this.group.add(solid);
       this.measure();
-      if (look.ghost && body.solid) this.setGhost();
+      if (look.ghost && body.solid) this.setGhost(true);
     }
   }
 
@@ -102,11 +102,12 @@ export class BodyView {
     this.material.emissiveIntensity = selected ? 0.28 : 0;
   }
 
-  /** Seen through: a shape that stands for an inertia would hide what bends. */
-  private setGhost(): void {
-    this.material.transparent = true;
-    this.material.opacity = 0.3;
-    this.material.depthWrite = false;
+  /** Seen through: a shape that stands for an inertia, or a shell, would hide what bends. */
+  setGhost(on: boolean): void {
+    this.material.transparent = on;
+    this.material.opacity = on ? 0.3 : 1;
+    this.material.depthWrite = !on;
+    this.material.needsUpdate = true;
   }
 
   setEdges(visible: boolean): void {

@@ -129,6 +129,8 @@ export class Display {
     add('Ground', true, (on) => this.show(() => (stage.grid.mesh.visible = on)));
     add('Edges', true, (on) => this.show(() => stage.bodies.forEach((view) => view.setEdges(on))));
     if (scene.bodies.some((body) => body.mesh)) add('Mesh only', false, (on) => this.show(() => stage.bodies.forEach((view) => view.setWire(on))));
+    const shells = stage.bodies.filter((view) => view.mesh && !view.flexible);
+    if (shells.length > 0 && stage.bodies.some((view) => view.flexible)) add('See-through', false, (on) => this.show(() => shells.forEach((view) => view.setGhost(on))));
     if (stage.annotations.spiders.children.length > 0) add('Interfaces', true, (on) => this.show(() => (stage.annotations.spiders.visible = on)));
     this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Shown'), layers));
   }
