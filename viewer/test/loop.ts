@@ -73,9 +73,9 @@ for (let k = 0; k < count; ++k) {
       const canvas = Object.assign(document.createElement('canvas'), { width, height });
       const context = canvas.getContext('2d', { alpha: false })!;
       context.imageSmoothingQuality = 'high';
-      // The middle of the picture, in the proportions of the film.
+      // In the proportions of the film, with the caption at the top.
       const part = Math.min(image.width / width, image.height / height);
-      context.drawImage(image, (image.width - part * width) / 2, (image.height - part * height) / 2, part * width, part * height, 0, 0, width, height);
+      context.drawImage(image, (image.width - part * width) / 2, 0.1 * (image.height - part * height), part * width, part * height, 0, 0, width, height);
       return canvas.toDataURL('image/webp', quality);
     },
     { time: begin + ((end - begin) * k) / count, ...SIZE, quality: QUALITY },
