@@ -97,13 +97,20 @@ class States(RunCase):
             self.skipTest("numpy is not installed")
         self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.05", "--quiet")
         with open(PAGE, encoding="utf-8") as page:
-            code = re.search(r"```python\n(.*?)```", page.read(), re.S).group(1)
+            code = [block for block in re.findall(r"```python\n(.*?)```", page.read(), re.S) if "def " in block]
         names = {}
-        exec(code, names)  # pylint: disable=exec-used
+        for block in code:
+            exec(block, names)  # pylint: disable=exec-used
         header, arrays, rows, end = names["read_states"](self.folder / "out/states.ffr")
         self.assertEqual(end["status"], "completed")
         places = names["positions"](header, arrays, rows, "beam")
         _, table = self.results("out")
+        health = names["health"](header, rows)
+        summary = self.summary("out")
+        self.assertEqual(health["iterations"].sum(), summary["iterations"])
+        self.assertEqual(health["position_violation"].max(), summary["max_position_violation"])
+        self.assertAlmostEqual(health["remainder"][-1], summary["energy"]["balance"]["remainder_J"], 9)
+        self.assertLess(0, health["beam.displacement"].max())
         tip = header["shapes"][header["bodies"][3]["shape"]]["nodes"].index("tip")
         self.assertLess(numpy.abs(places[:, tip] - numpy.array(table)[:, 4:7]).max(), 1e-12)
 
@@ -118,7 +125,7 @@ class States(RunCase):
         self.program("run", "some.yaml", "--out", "some", *short)
         header, _, rows, _ = self.states("some")
         self.assertEqual([group["name"] for group in header["groups"]],
-                         ["time", "q", "v", "spring_angles", "inputs", "poses"])
+                         ["time", "q", "v", "spring_angles", "inputs", "poses", "health"])
         self.assertEqual([b["name"] for b in header["bodies"] if b["pose"] >= 0], ["beam"])
         self.assertEqual(len(rows), 9)
         (self.folder / "none.yaml").write_text(text.replace("simulation: {", "simulation: {record: none, "))

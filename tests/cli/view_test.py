@@ -29,6 +29,21 @@ def numbers(data, view):
     return struct.unpack_from(f"<{count}{letter}", data, view["offset"])
 
 
+# A rod between two joints that it cannot reach.
+TORN = """
+floatframe: 1
+name: torn
+bodies:
+  crank: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [0.01, 0.01, 0.01]}}
+  slider: {rigid: {mass: 1, centre_of_mass: [5, 0, 0], inertia: [0.01, 0.01, 0.01]}}
+joints:
+  drive: {type: revolute, child: crank, at: [0, 0, 0], axis: z}
+  hinge: {type: revolute, child: slider, at: [5, 0, 0], axis: z}
+rods: {rod: {from: {body: crank, at: [0.1, 0, 0]}, to: {body: slider, at: [5.1, 0, 0]}, length: 1}}
+simulation: {step: 0.01, duration: 0.1}
+"""
+
+
 class View(RunCase):
     def test_a_run_shows_its_motion(self):
         self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.2", "--quiet")
@@ -58,6 +73,32 @@ class View(RunCase):
                 self.assertAlmostEqual(a, b, 5)
         self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.2", "--quiet", "--record", "none")
         self.assertIsNone(page_of(path)["scene"])
+
+    def test_a_run_shows_whether_it_can_be_trusted(self):
+        self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.2", "--quiet")
+        page = page_of(self.folder / "out/report.html")
+        if page is None:
+            self.skipTest("built without the viewer")
+        groups = [channel["group"] for channel in page["trust"]["channels"]]
+        self.assertEqual([groups.count(g) for g in ("constraints", "effort", "energy", "range")], [2, 3, 12, 2])
+        times = page["speed"]["step_times"]
+        self.assertEqual(sum(times["counts"]), self.summary("out")["steps"])
+        self.assertEqual([table["heading"] for table in page["tables"]][:3], ["Bodies", "Modes", "Coordinates"])
+
+    def test_a_model_that_cannot_start_is_shown_as_designed(self):
+        (self.folder / "torn.yaml").write_text(TORN)
+        done = self.program("check", "torn.yaml", "--report", "check.html", code=None)
+        if "without the viewer" in done.stderr:
+            self.skipTest("built without the viewer")
+        self.assertEqual(done.returncode, 1)
+        self.program("run", "torn.yaml", "--out", "out", "--quiet", code=1)
+        for name in ("check.html", "out/report.html"):
+            page = page_of(self.folder / name)
+            self.assertEqual(page["status"]["state"], "failed")
+            self.assertRegex(page["status"]["sentences"][0], "^(A run of this model cannot|This run could not) start: .*rod")
+            self.assertIn("design configuration", page["status"]["sentences"][1])
+            self.assertEqual([b["name"] for b in page["scene"]["bodies"]], ["crank", "slider"])
+            self.assertNotIn("NaN", (self.folder / name).read_text("utf-8").split('id="floatframe-buffer"', 1)[0][-20000:])
 
     def test_the_vehicle_stands_on_the_road(self):
         model = EXAMPLES / "iltis/iltis.yaml"

@@ -65,6 +65,7 @@ TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
   EXPECT_EQ(keys, (std::vector<std::string>{"model", "coordinates", "inertia", "step_s",
                                             "duration_s", "steps", "substeps", "iterations",
                                             "factorizations", "edges", "cpu_s", "real_time_factor",
+                                            "step_times",
                                             "max_position_violation", "max_velocity_violation",
                                             "energy", "warnings", "start", "status", "message"}));
   EXPECT_EQ(json["coordinates"], "relative");
@@ -110,7 +111,7 @@ TEST(SummaryJson, WhatNobodyMeasuredIsLeftOut) {
                                                    "status", "message"}));
   RunSummary ended = never;  // in its first step
   ended.cpu = 1e-6;
-  EXPECT_EQ(keys(ended).size(), 19u);
+  EXPECT_EQ(keys(ended).size(), 20u);
 }
 
 TEST(SummaryJson, SaysWhatBecameOfTheStartValues) {

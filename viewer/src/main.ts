@@ -113,7 +113,7 @@ async function build(app: HTMLElement): Promise<void> {
   const hub = new Hub();
   const curvesJson: CurvesJson = page.curves ?? { time: { type: 'f64', offset: 0, shape: [0] }, channels: [] };
   const channels = readChannels(page.curves?.channels ?? [], curvesJson, buffer, report);
-  const trusted = readChannels(page.trust?.channels ?? [], curvesJson, buffer, report);
+  const trusted = readChannels(page.trust?.channels ?? [], page.trust?.time ? { time: page.trust.time, channels: [] } : curvesJson, buffer, report);
   const history = (name: string): History | null => {
     const channel = [...channels, ...trusted].find((c) => c.name === name);
     if (!channel) return null;
@@ -140,7 +140,7 @@ async function build(app: HTMLElement): Promise<void> {
   const curves = channels.length > 0 ? new Curves(channels, hub, page.kind === 'compare' || page.curves?.names ? (page.curves?.names ?? ['first', 'second']) : null) : null;
   sections.push(['view', '3-D view', view?.element ?? noView]);
   sections.push(['curves', 'Curves', curves?.element ?? null]);
-  sections.push(['trust', 'Trust', trustSection((page.trust?.rows ?? []) as string[][], trusted, hub)]);
+  sections.push(['trust', 'Trust', trustSection((page.trust?.rows ?? []) as string[][], trusted, page.trust?.notes ?? {}, hub)]);
   sections.push(['facts', page.kind === 'reduce' ? 'The part' : 'Model', factsSection(page)]);
   sections.push(['speed', 'Speed', speedSection(page, report)]);
   const present = sections.filter(([, , element]) => element !== null);
@@ -154,7 +154,7 @@ async function build(app: HTMLElement): Promise<void> {
   onTheme(() => hub.redraw());
   listenToKeys(view, help.open);
   view?.start();
-  offerInterface(view, problems, channels);
+  offerInterface(view, problems, [...channels, ...trusted]);
 }
 
 const app = document.getElementById('app')!;

@@ -40,6 +40,9 @@ struct Analysis {
   std::string footer{};  ///< below the options in its help; ends in the exit codes
   /// Throws InputError (exit code 2) or RunError (1).
   std::function<AnalysisReport(const Model& model)> run{};
+  /// What a file says where `run` throws RunError, by its place in `files`; empty: none is written.
+  std::function<std::string(const Model& model, std::size_t file, const std::string& why)>
+      file_of_failure{};
 };
 
 #define FLOATFRAME_DECLARATION(name) Analysis name##_analysis();

@@ -105,7 +105,15 @@ std::string page_of_start(const Model& model, const ModelCounts& counts) {
                          {"coordinates, absolute", std::to_string(a.total)},
                          {"degrees of freedom", std::to_string(counts.degrees_of_freedom)},
                          {"redundant constraints", std::to_string(counts.redundant_constraints)}}};
-  return check_page(model, state, counts.start.notes, {facts});
+  std::vector<PageTable> tables = body_tables(model);
+  for (PageTable& t : coordinate_tables(model, counts)) tables.push_back(std::move(t));
+  return check_page(model, {std::move(state), counts.start.notes, {facts}, std::move(tables), {}});
+}
+
+/// The page of a model that a run cannot start with.
+std::string page_of_failure(const Model& model, const std::string& why) {
+  if (page_template().empty()) throw InputError(page_is_missing("--report"));
+  return check_page(model, {{}, {}, {}, body_tables(model), why});
 }
 
 AnalysisReport report_check(const Model& model) {
@@ -129,7 +137,10 @@ Analysis check_analysis() {
           .footer =
               "Prints masses [kg] and frequencies [Hz] of the flexible bodies as well.\n"
               "Exit codes: 0 the model is valid, 1 it cannot be assembled, 2 bad input.",
-          .run = report_check};
+          .run = report_check,
+          .file_of_failure = [](const Model& model, std::size_t, const std::string& why) {
+            return page_of_failure(model, why);
+          }};
 }
 
 }  // namespace floatframe

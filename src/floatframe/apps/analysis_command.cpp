@@ -9,6 +9,7 @@
 #include "floatframe/model/inertia_choice.hpp"
 #include "floatframe/model/validate.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
+#include "floatframe/simulation/run_error.hpp"
 
 namespace floatframe {
 namespace {
@@ -39,6 +40,19 @@ std::vector<OutputFile> output_files(const Analysis& analysis, const AnalysisArg
   return files;
 }
 
+/// Where it fails, files that say so take the place of older ones.
+AnalysisReport run_with_files(const Analysis& analysis, const Model& model,
+                              const AnalysisArguments& a) {
+  try {
+    return analysis.run(model);
+  } catch (const RunError& error) {
+    for (std::size_t k = 0; analysis.file_of_failure && k < a.files.size(); ++k)
+      if (!a.files[k].empty())
+        write_file(a.files[k], analysis.file_of_failure(model, k, error.what()));
+    throw;
+  }
+}
+
 int run_analysis(const Analysis& analysis, const AnalysisArguments& a) {
   ModelFingerprint used;
   ModelDescription description = read_model(a.model, false, &used);
@@ -49,7 +63,7 @@ int run_analysis(const Analysis& analysis, const AnalysisArguments& a) {
   }
   check_inertia_method(description, description.simulation.inertia);
   const Model model = build_model(description);
-  const AnalysisReport report = analysis.run(model);
+  const AnalysisReport report = run_with_files(analysis, model, a);
   for (std::size_t k = 0; k < a.files.size(); ++k)
     if (!a.files[k].empty()) write_file(a.files[k], report.files.at(k)());
   print(a.json ? report.json : report.text);

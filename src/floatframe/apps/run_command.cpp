@@ -57,8 +57,10 @@ RunPaths make_paths(const RunArguments& arguments, const std::string& model_name
   return RunPaths(folder.string());
 }
 
-FactTable model_facts(const Model& model) {
+/// Facts and tables of the model.
+void describe_model(const Model& model, Report& report) {
   FactTable facts{"Model", {}};
+  report.tables = body_tables(model);
   try {
     const ModelCounts c = check(model);
     const auto coordinates = [](const CoordinateCounts& k) {
@@ -70,10 +72,11 @@ FactTable model_facts(const Model& model) {
                   {"relative coordinates", coordinates(c.relative)},
                   {"absolute coordinates", coordinates(c.absolute)},
                   {"degrees of freedom", std::to_string(c.degrees_of_freedom)}};
+    for (PageTable& t : coordinate_tables(model, c)) report.tables.push_back(std::move(t));
   } catch (const RunError& error) {
     facts.rows = {{"coordinates", fmt::format("not counted: {}", error.what())}};
   }
-  return facts;
+  report.facts.push_back(std::move(facts));
 }
 
 std::string start_text(const SimulationDescription& s) {
@@ -248,7 +251,7 @@ int run_model(const RunArguments& arguments) {
   const StopSignal stop_signal;
 
   Report report;
-  if (!arguments.no_report) report.facts.push_back(model_facts(model));
+  if (!arguments.no_report) describe_model(model, report);
   try {
     report.result = run_with(files, model, description.simulation, arguments);
   } catch (const RunError& error) {

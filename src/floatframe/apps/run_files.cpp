@@ -11,6 +11,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/history/state_history.hpp"
+#include "floatframe/report/page_trust.hpp"
 #include "floatframe/report/results_csv.hpp"
 #include "floatframe/report/results_reader.hpp"
 #include "floatframe/report/run_page.hpp"
@@ -146,9 +147,16 @@ void RunFiles::write_report(Report& report) const {
   }
   PageBuffer buffer;
   auto page = run_page(report, curves, buffer);
-  if (states_ && options_.model)
-    page["scene"] = scene_json(*options_.model,
-                               scene_frames(*options_.model, StateHistory(paths_.states)), buffer);
+  if (states_ && options_.model) {
+    const StateHistory states(paths_.states);
+    page["scene"] = scene_json(*options_.model, scene_frames(*options_.model, states), buffer);
+    add_trust_curves(states, page["trust"], buffer);
+  } else if (options_.model && report.result.table.columns.empty()) {  // it could not start
+    page["scene"] =
+        scene_json(*options_.model, scene_frames(*options_.model, SystemState()), buffer);
+    page["status"]["sentences"].push_back(
+        "The view shows the design configuration, where the model file puts the bodies.");
+  }
   write_file(paths_.report, page_html(page_template(), page, buffer));
 }
 

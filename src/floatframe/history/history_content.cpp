@@ -161,6 +161,8 @@ HistoryContent history_content(const Model& model, const SimulationDescription& 
   h.q = layout.q;
   h.v = layout.v;
   h.owners = layout.owners;
+  for (const HealthColumn& c : layout.health)
+    h.health.push_back({c.name, c.unit, c.group, c.body, c.size});
   add_bodies(model, layout, content);
   return content;
 }

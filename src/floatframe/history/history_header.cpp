@@ -9,6 +9,7 @@
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/model/rules.hpp"
+#include "floatframe/simulation/state_layout.hpp"
 
 namespace floatframe {
 namespace {
@@ -32,6 +33,12 @@ Json body_json(const HistoryBody& b) {
           {"modes", b.modes}, {"frequencies_Hz", b.frequencies},
           {"pose", b.pose},   {"amplitudes", b.amplitudes},
           {"rates", b.rates}, {"shape", b.shape}};
+}
+
+Json health_column_json(const HistoryHealth& column) {
+  Json json{{"name", column.name}, {"unit", column.unit}, {"group", column.group}};
+  if (!column.body.empty()) json.update({{"body", column.body}, {"size_m", column.size}});
+  return json;
 }
 
 /// Values of a JSON object by key, each of the type that is asked for.
@@ -173,6 +180,26 @@ void read_bodies(const HeaderReader& in, HistoryHeader& h) {
   }
 }
 
+void read_health(const HeaderReader& in, HistoryHeader& h) {
+  for (const Json& item : in.items("health")) {
+    const HeaderReader c = in.element("health", item);
+    HistoryHealth column{c.get<std::string>("name"),
+                         c.get<std::string>("unit"),
+                         c.get<std::string>("group"),
+                         {},
+                         0.0};
+    if (item.contains("body")) {
+      column.body = c.get<std::string>("body");
+      column.size = c.get<double>("size_m");
+    }
+    h.health.push_back(std::move(column));
+  }
+  const HistoryGroup* g = h.find(health_group);
+  if ((g ? g->count : 0) != h.health.size())
+    HeaderReader::refuse(
+        "health", fmt::format("found {} columns, expected {}", h.health.size(), g ? g->count : 0));
+}
+
 void read_arrays(const HeaderReader& in, HistoryHeader& h) {
   for (const Json& item : in.items("shapes")) {
     const HeaderReader shape = in.element("shapes", item);
@@ -247,6 +274,8 @@ std::string header_json(const HistoryHeader& h) {
     j["arrays"].push_back({{"name", a.name}, {"type", a.type}, {"shape", a.shape}});
   j["bodies"] = Json::array();
   for (const HistoryBody& b : h.bodies) j["bodies"].push_back(body_json(b));
+  j["health"] = Json::array();
+  for (const HistoryHealth& column : h.health) j["health"].push_back(health_column_json(column));
   return j.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -288,6 +317,7 @@ HistoryHeader header_from_json(std::string_view text) {
   read_groups(in, h);
   read_arrays(in, h);
   read_bodies(in, h);
+  read_health(in, h);
   return h;
 }
 

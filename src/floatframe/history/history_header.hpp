@@ -34,6 +34,13 @@ struct HistoryBody {
   int shape = -1;                              ///< index; bodies that are alike share one
 };
 
+/// A column of the group "health".
+struct HistoryHealth {
+  std::string name, unit, group;
+  std::string body;   ///< empty: of the system
+  double size = 0.0;  ///< of the body [m]
+};
+
 /// The names of the nodes of a shape and its colour; its arrays are "shapes/0/...".
 struct HistoryShape {
   std::vector<std::string> nodes;
@@ -56,6 +63,7 @@ struct HistoryHeader {
   std::vector<int> q, v;                   ///< those that are recorded, ascending
   std::vector<std::string> owners;         ///< of each recorded velocity
   std::vector<HistoryBody> bodies;
+  std::vector<HistoryHealth> health;  ///< empty: the run was not watched
   std::vector<HistoryShape> shapes;
   std::vector<HistoryArray> arrays;
 

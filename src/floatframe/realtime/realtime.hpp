@@ -16,7 +16,7 @@
 
 #include "floatframe/model/description.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/realtime/histogram.hpp"
+#include "floatframe/core/histogram.hpp"
 #include "floatframe/realtime/realtime_options.hpp"
 #include "floatframe/realtime/signal_port.hpp"
 #include "floatframe/simulation/results.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "floatframe/realtime/clocks.hpp"
 #include "floatframe/realtime/input_watch.hpp"
 #include "floatframe/realtime/realtime.hpp"
 #include "floatframe/realtime/realtime_rules.hpp"

@@ -6,6 +6,7 @@
 
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/model/output_list.hpp"
+#include "floatframe/report/page_json.hpp"
 #include "floatframe/report/scene_json.hpp"
 
 namespace floatframe {
@@ -54,29 +55,33 @@ std::string page_is_missing(const std::string& option) {
          "Node 18 or later with npm";
 }
 
-std::string check_page(const Model& model, const SystemState& start,
-                       const std::vector<std::string>& notes, const std::vector<FactTable>& facts) {
+std::string check_page(const Model& model, const CheckedStart& start) {
   PageBuffer buffer;
-  Json fact_list = Json::array();
-  for (const FactTable& t : facts) {
-    Json rows = Json::array();
-    for (const auto& row : t.rows) rows.push_back({row[0], row[1]});
-    fact_list.push_back({{"heading", t.title}, {"rows", std::move(rows)}});
+  Json sentences = Json::array();
+  if (start.failure.empty()) {
+    sentences.push_back("The model in the configuration that a run starts from.");
+  } else {
+    sentences.push_back("A run of this model cannot start: " + start.failure);
+    sentences.push_back("Shown is the design configuration, where the model file puts the bodies.");
   }
-  Json sentences = Json::array({"The model in the configuration that a run starts from."});
-  for (const std::string& note : notes) sentences.push_back(note);
-  const Json page{
-      {"schema", 1},
-      {"kind", "check"},
-      {"title", model.name},
-      {"program", "Floatframe " + build_description()},
-      {"status", {{"state", "completed"}, {"sentences", sentences}, {"warnings", Json::array()}}},
-      {"facts", fact_list},
-      {"tables", Json::array({joint_table(model), force_table(model)})},
-      {"curves", nullptr},
-      {"trust", nullptr},
-      {"speed", nullptr},
-      {"scene", scene_json(model, scene_frames(model, start), buffer)}};
+  for (const std::string& note : start.notes) sentences.push_back(note);
+  Json tables = tables_json(start.tables);
+  tables.push_back(joint_table(model));
+  tables.push_back(force_table(model));
+  const Json page{{"schema", 1},
+                  {"kind", "check"},
+                  {"title", model.name},
+                  {"program", "Floatframe " + build_description()},
+                  {"status",
+                   {{"state", start.failure.empty() ? "completed" : "failed"},
+                    {"sentences", sentences},
+                    {"warnings", Json::array()}}},
+                  {"facts", facts_json(start.facts)},
+                  {"tables", tables},
+                  {"curves", nullptr},
+                  {"trust", nullptr},
+                  {"speed", nullptr},
+                  {"scene", scene_json(model, scene_frames(model, start.state), buffer)}};
   return page_html(page_template(), page, buffer);
 }
 

@@ -10,9 +10,17 @@
 
 namespace floatframe {
 
-/// `start`: where a run of the model begins. Needs a program that was built with the viewer.
-std::string check_page(const Model& model, const SystemState& start,
-                       const std::vector<std::string>& notes, const std::vector<FactTable>& facts);
+/// Where a run of the model begins, and what is said of it.
+struct CheckedStart {
+  SystemState state{};  ///< without bodies: the design configuration
+  std::vector<std::string> notes;
+  std::vector<FactTable> facts;
+  std::vector<PageTable> tables;  ///< of the model; those of joints and forces are added
+  std::string failure;            ///< why a run cannot start
+};
+
+/// Needs a program that was built with the viewer.
+std::string check_page(const Model& model, const CheckedStart& start);
 
 /// Why there is no page, in a sentence, of a program that was built without the viewer.
 std::string page_is_missing(const std::string& option);

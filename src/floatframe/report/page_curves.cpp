@@ -16,12 +16,13 @@ using Json = nlohmann::ordered_json;
 /// Takes the rows one after the other.
 class Collector {
  public:
-  Collector(const std::vector<Column>& columns, std::size_t rows) {
+  Collector(const std::vector<Column>& columns, std::size_t rows,
+            std::size_t most_numbers = most_numbers_of_curves) {
     out_.columns = columns;
     out_.rows = rows;
     const std::size_t channels = columns.empty() ? 0 : columns.size() - 1;
     const std::size_t most =
-        std::max<std::size_t>(most_numbers_of_curves / std::max<std::size_t>(channels, 1), 200);
+        std::max<std::size_t>(most_numbers / std::max<std::size_t>(channels, 1), 200);
     stretches_ = rows <= most ? 0 : (most - 2) / 2;
     out_.values.resize(channels);
     for (auto& v : out_.values) v.reserve(std::min(rows, most));
@@ -103,6 +104,18 @@ Extent extent_of(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+PageCurves page_curves(const std::vector<Column>& columns, std::size_t rows,
+                       std::size_t most_numbers,
+                       const std::function<void(std::size_t, double*)>& read) {
+  Collector collector(columns, rows, most_numbers);
+  std::vector<double> row(columns.size());
+  for (std::size_t k = 0; k < rows; ++k) {
+    read(k, row.data());
+    collector.add(row.data());
+  }
+  return collector.take();
+}
 
 PageCurves page_curves(const ResultTable& table) {
   Collector collector(table.columns, table.rows());

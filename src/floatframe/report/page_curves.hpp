@@ -3,6 +3,7 @@
 // smallest and the largest value of each column in equal stretches of rows, so that peaks survive.
 // Takes memory for what is shown, not for the rows.
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -31,6 +32,10 @@ struct PageCurves {
 /// Numbers in all that a page shows.
 inline constexpr std::size_t most_numbers_of_curves = 1'000'000;
 
+/// Of rows that `read` writes one after the other, time first.
+PageCurves page_curves(const std::vector<Column>& columns, std::size_t rows,
+                       std::size_t most_numbers,
+                       const std::function<void(std::size_t row, double* out)>& read);
 PageCurves page_curves(const ResultTable& table);
 /// Of the next rows of a file; there must be as many. Throws InputError.
 PageCurves page_curves(ResultsReader& in, std::size_t rows);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "floatframe/report/page_curves.hpp"
+#include "floatframe/report/page_tables.hpp"
 #include "floatframe/report/report_curves.hpp"
 #include "floatframe/simulation/results.hpp"
 
@@ -28,6 +29,7 @@ struct Report {
       subjects;                    ///< of the columns but the time, for the grouping of curves
   std::optional<double> rows_end;  ///< where rows that could not be written are missing [s]
   std::vector<FactTable> facts;    ///< model, settings
+  std::vector<PageTable> tables;   ///< of the model, for the page of the viewer
   std::string software;            ///< version and build
   std::string processor;
   double spectral_radius = 1.0;  ///< of the integrator: below 1 it dissipates

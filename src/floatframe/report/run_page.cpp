@@ -8,6 +8,7 @@
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/report/html_text.hpp"
+#include "floatframe/report/page_json.hpp"
 
 namespace floatframe {
 namespace {
@@ -26,6 +27,8 @@ std::vector<std::string> ending(const Report& report) {
         s.cpu > 0.0 ? fmt::format(", {:.3g} times real time", s.real_time_factor) : ""));
   } else if (s.strict) {
     out.push_back("This run counts as failed: " + s.message);
+  } else if (report.result.table.columns.empty()) {
+    out.push_back("This run could not start: " + s.message);
   } else {
     out.push_back(fmt::format("This run {}: the results are partial. They end at {:g} s.",
                               s.status == "interrupted" ? "was interrupted" : "failed",
@@ -33,16 +36,6 @@ std::vector<std::string> ending(const Report& report) {
     out.push_back(s.message);
   }
   for (const std::string& note : s.start.notes) out.push_back(note);
-  return out;
-}
-
-Json facts_json(const std::vector<FactTable>& tables) {
-  Json out = Json::array();
-  for (const FactTable& table : tables) {
-    Json rows = Json::array();
-    for (const auto& row : table.rows) rows.push_back({row[0], row[1]});
-    out.push_back({{"heading", table.title}, {"rows", rows}});
-  }
   return out;
 }
 
@@ -67,6 +60,15 @@ Json energy_table(const EnergySummary& e, bool damped) {
   return {{"heading", "Energy"}, {"columns", {"energy", "start", "end", "change"}}, {"rows", rows}};
 }
 
+/// Nothing of a run that made no step.
+Json page_tables(const Report& report) {
+  Json out = tables_json(report.tables);
+  const RunSummary& s = report.result.summary;
+  if (!report.result.table.columns.empty())
+    out.push_back(energy_table(s.energy, report.spectral_radius < 1.0));
+  return out;
+}
+
 Json trust_rows(const RunSummary& s) {
   Json rows = Json::array();
   const auto row = [&](const char* name, const std::string& value, bool good) {
@@ -82,8 +84,8 @@ Json trust_rows(const RunSummary& s) {
     const double exchanged = s.energy.exchanged;
     const double part = exchanged > 0.0 ? std::abs(s.energy.largest_remainder) / exchanged : 0.0;
     row("largest remainder of the energy balance",
-        fmt::format("{} at {:.4g} s, {:.2g} of the energy exchanged",
-                    joules(s.energy.largest_remainder), s.energy.largest_remainder_at, part),
+        fmt::format("{:.4g} J at {:.4g} s, {:.2g} % of the energy exchanged",
+                    s.energy.largest_remainder, s.energy.largest_remainder_at, 100.0 * part),
         part < 0.05);
   }
   row("limits of the method that were left",
@@ -100,6 +102,15 @@ Json speed_rows(const Report& report) {
   rows.push_back({"processor time", fmt::format("{:.4g} s", s.cpu)});
   if (s.cpu > 0.0) rows.push_back({"real-time factor", fmt::format("{:.4g}", s.real_time_factor)});
   rows.push_back({"steps", fmt::format("{} of {:g} s", s.steps, s.step)});
+  const StepTimes& t = s.step_times;
+  const auto milliseconds = [](double x) { return fmt::format("{:.3g} ms", 1e3 * x); };
+  if (t.steps > 0) {
+    rows.push_back({"step, median", milliseconds(t.median)});
+    rows.push_back({"step, 99 % at most", milliseconds(t.percent_99)});
+    rows.push_back({"step, longest",
+                    fmt::format("{}, {:.2g} % of the time it simulates", milliseconds(t.largest),
+                                s.step > 0.0 ? 100.0 * t.largest / s.step : 0.0)});
+  }
   rows.push_back(
       {"Newton iterations per step",
        fmt::format("{:.2f}, {} in all", static_cast<double>(s.iterations) / steps, s.iterations)});
@@ -109,6 +120,18 @@ Json speed_rows(const Report& report) {
   rows.push_back({"program", "Floatframe " + report.software});
   rows.push_back({"processor", report.processor});
   return rows;
+}
+
+/// Edges in ms; null without a step.
+Json step_times_json(const StepTimes& t) {
+  if (t.steps == 0) return nullptr;
+  Json edges = Json::array();
+  for (const double e : t.edges) edges.push_back(1e3 * e);
+  return {{"edges", edges},
+          {"counts", t.counts},
+          {"median", 1e3 * t.median},
+          {"percent_99", 1e3 * t.percent_99},
+          {"largest", 1e3 * t.largest}};
 }
 
 std::string subject_of(const Model& model, const Output& o) {
@@ -132,6 +155,7 @@ std::vector<ChannelSubject> channel_subjects(const Model& model) {
 
 Json run_page(const Report& report, const PageCurves& curves, PageBuffer& buffer) {
   const RunSummary& s = report.result.summary;
+  const bool began = !report.result.table.columns.empty();
   Json warnings = Json::array();
   for (const RangeWarning& w : s.warnings) warnings.push_back(w.sentence);
   return {{"schema", 1},
@@ -145,10 +169,12 @@ Json run_page(const Report& report, const PageCurves& curves, PageBuffer& buffer
             {"sentences", ending(report)},
             {"warnings", warnings}}},
           {"facts", facts_json(report.facts)},
-          {"tables", Json::array({energy_table(s.energy, report.spectral_radius < 1.0)})},
+          {"tables", page_tables(report)},
           {"curves", curves_json(curves, report.subjects, buffer)},
-          {"trust", {{"channels", Json::array()}, {"rows", trust_rows(s)}}},
-          {"speed", {{"rows", speed_rows(report)}, {"step_times", nullptr}}},
+          {"trust", {{"channels", Json::array()}, {"rows", began ? trust_rows(s) : Json::array()}}},
+          {"speed",
+           {{"rows", began ? speed_rows(report) : Json::array()},
+            {"step_times", step_times_json(s.step_times)}}},
           {"scene", nullptr}};
 }
 

@@ -46,6 +46,16 @@ Json edges(const RunSummary& s) {
   return {{"located", s.edges}, {"steps_with_too_many", s.edges_passed}};
 }
 
+/// Null without a step.
+Json step_times(const StepTimes& t) {
+  if (t.steps == 0) return nullptr;
+  return {{"median_s", t.median},
+          {"percent_99_s", t.percent_99},
+          {"largest_s", t.largest},
+          {"edges_s", t.edges},
+          {"counts", t.counts}};
+}
+
 Json measured(const RunSummary& s) {
   const EnergySummary& e = s.energy;
   return {{"duration_s", s.duration},
@@ -56,6 +66,7 @@ Json measured(const RunSummary& s) {
           {"edges", edges(s)},
           {"cpu_s", s.cpu},
           {"real_time_factor", s.real_time_factor},
+          {"step_times", step_times(s.step_times)},
           {"max_position_violation", s.max_position_violation},
           {"max_velocity_violation", s.max_velocity_violation},
           {"energy",

@@ -65,6 +65,7 @@ class EnergyBalance {
   struct Energies {
     double kinetic = 0.0, potential = 0.0, elastic = 0.0;
     double motion = 0.0;  ///< kinetic, if all mass moved as fast as the outermost may
+    double gravity = 0.0, springs = 0.0, tyres = 0.0;  ///< what `potential` consists of
     double total() const noexcept { return kinetic + potential + elastic; }
   };
 
@@ -93,16 +94,23 @@ class EnergyBalance {
 
   /// The energies at the time of the last `advance`.
   void check(double t, const Energies& e) noexcept {
-    low_ = {std::min(low_.kinetic, e.kinetic), std::min(low_.potential, e.potential),
-            std::min(low_.elastic, e.elastic)};
-    high_ = {std::max(high_.kinetic, e.kinetic), std::max(high_.potential, e.potential),
-             std::max(high_.elastic, e.elastic), std::max(high_.motion, e.motion)};
-    remainder_ = e.total() - start_ - work_.total();
+    low_.kinetic = std::min(low_.kinetic, e.kinetic);
+    low_.potential = std::min(low_.potential, e.potential);
+    low_.elastic = std::min(low_.elastic, e.elastic);
+    high_.kinetic = std::max(high_.kinetic, e.kinetic);
+    high_.potential = std::max(high_.potential, e.potential);
+    high_.elastic = std::max(high_.elastic, e.elastic);
+    high_.motion = std::max(high_.motion, e.motion);
+    remainder_ = remainder(e);
     if (std::abs(remainder_) > std::abs(largest_)) {
       largest_ = remainder_;
       largest_at_ = t;
     }
   }
+
+  const EnergyFlows& work() const noexcept { return work_; }  ///< up to the last `advance`
+  /// With the energies at that time.
+  double remainder(const Energies& e) const noexcept { return e.total() - start_ - work_.total(); }
 
   /// What the remainder is measured against [J]: the largest of the ranges of the energies and of
   /// the amounts of work, and at least a millionth of the largest energy and the noise, below which

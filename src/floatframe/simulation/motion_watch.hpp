@@ -2,9 +2,11 @@
 // Watches deformation, spin and phase of a run of any formulation, from a formulation whose
 // positions and velocities are those of the state. Nothing here allocates after construction; the
 // formulation and the state stay as they are.
+#include <map>
 #include <vector>
 
 #include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/simulation/body_energy.hpp"
 #include "floatframe/simulation/range_watch.hpp"
 
 namespace floatframe {
@@ -15,7 +17,13 @@ class MotionWatch {
   MotionWatch(F& formulation, double step) : f_(formulation), range_(formulation.model(), step) {
     int modes = 0;
     for (const Body& b : f_.model().bodies) modes = std::max(modes, b.modes());
-    y_ = VecX::Zero(modes);
+    y_ = ydot_ = VecX::Zero(modes);
+    std::map<const FlexibleBody*, std::size_t> known;
+    for (const Body& b : f_.model().bodies) {
+      const auto [at, fresh] = known.emplace(b.data.get(), energies_.size());
+      if (fresh) energies_.emplace_back(b.data->invariants);
+      energy_.push_back(at->second);
+    }
   }
 
   const RangeWatch& range() const noexcept { return range_; }
@@ -32,6 +40,36 @@ class MotionWatch {
       const Vec3 w = f_.body_rotation(body).transpose() * f_.body_angular_velocity(body);
       range_.bodies()[i].observe(s.t, range_.step(), w, y_.data(), range_.limits());
     }
+  }
+
+  /// Of each flexible body: its largest elastic displacement, and the largest that one of its modes
+  /// alone makes [m].
+  void deformations(const State& s, double* out) noexcept {
+    for (std::size_t i = 0; i < range_.bodies().size(); ++i) {
+      const int modes = f_.model().bodies[i].modes();
+      if (modes == 0) continue;
+      for (int k = 0; k < modes; ++k) y_[k] = f_.amplitude(s.q, static_cast<int>(i), k);
+      const BodyRange& body = range_.bodies()[i];
+      *out++ = body.displacement_now(y_.data());
+      *out++ = body.displacement_of_one_mode(y_.data());
+    }
+  }
+
+  /// Of all bodies [J].
+  double kinetic_energy(const State& s) noexcept {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < energy_.size(); ++i) {
+      const int body = static_cast<int>(i);
+      for (int k = 0; k < f_.model().bodies[i].modes(); ++k) {
+        y_[k] = f_.amplitude(s.q, body, k);
+        ydot_[k] = f_.amplitude_rate(s.v, body, k);
+      }
+      const Mat3 R_BW = f_.body_rotation(body).transpose();
+      sum += energies_[energy_[i]].kinetic(R_BW * f_.body_velocity(body),
+                                           R_BW * f_.body_angular_velocity(body), y_.data(),
+                                           ydot_.data());
+    }
+    return sum;
   }
 
   /// Velocities at the start, and after every full step since.
@@ -57,7 +95,9 @@ class MotionWatch {
 
   F& f_;
   RangeWatch range_;
-  VecX y_;
+  VecX y_, ydot_;
+  std::vector<BodyEnergy> energies_;  ///< of bodies that are alike one
+  std::vector<std::size_t> energy_;   ///< which, of each body
 };
 
 }  // namespace floatframe

@@ -121,6 +121,26 @@ void BodyRange::observe(double t, double h, const Vec3& w, const double* y,
   }
 }
 
+double BodyRange::displacement_now(const double* y) const noexcept {
+  const Eigen::Index modes = data_.modes();
+  double most = 0.0;
+  for (const int n : nodes_) {
+    const double* x = data_.nodes[static_cast<std::size_t>(n)].X.data();
+    double u[3] = {0.0, 0.0, 0.0};
+    for (Eigen::Index k = 0; k < modes; ++k, x += 3)
+      for (int c = 0; c < 3; ++c) u[c] += y[k] * x[c];
+    most = std::max(most, u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+  }
+  return std::sqrt(most);
+}
+
+double BodyRange::displacement_of_one_mode(const double* y) const noexcept {
+  double most = 0.0;
+  for (Eigen::Index k = 0; k < data_.modes(); ++k)
+    most = std::max(most, displaced_[k] * std::abs(y[k]));
+  return most;
+}
+
 double PhaseMeter::energy() const noexcept {
   return count_ > 0 ? 0.5 * mass_ * spread_ / static_cast<double>(count_) : 0.0;
 }

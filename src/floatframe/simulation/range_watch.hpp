@@ -54,6 +54,11 @@ class BodyRange {
   /// `w`: angular velocity in body axes [rad/s]; `y`: modal amplitudes; h: the step [s].
   void observe(double t, double h, const Vec3& w, const double* y, const RangeLimits& l) noexcept;
 
+  /// Of the nodes that are looked at [m].
+  double displacement_now(const double* y) const noexcept;
+  /// The largest of a node that one of the modes alone makes [m].
+  double displacement_of_one_mode(const double* y) const noexcept;
+
   double size() const noexcept { return size_; }
   /// Lowest angular frequency with the body frame held [rad/s]; 0: none.
   double lowest_frequency() const noexcept { return lowest_; }
@@ -120,6 +125,7 @@ class RangeWatch {
   RangeWatch(const Model& model, double step, const RangeLimits& limits = {});
 
   std::vector<BodyRange>& bodies() noexcept { return bodies_; }
+  const std::vector<BodyRange>& bodies() const noexcept { return bodies_; }
   /// Two per body, its motion and its turning, then one per mode.
   std::vector<PhaseMeter>& meters(int body) noexcept { return meters_[body]; }
   double step() const noexcept { return step_; }

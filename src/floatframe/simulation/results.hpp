@@ -3,6 +3,7 @@
 // the model.
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -54,15 +55,24 @@ struct EnergySummary {  ///< [J]
   double exchanged = 0;                                    ///< what remainders are measured against
 };
 
+/// The processor time of steps with their outputs [s], counted in bins of about equal ratio.
+struct StepTimes {
+  std::uint64_t steps = 0;
+  double median = 0, percent_99 = 0, largest = 0;
+  std::vector<double> edges;          ///< of the bins, one more than there are
+  std::vector<std::uint64_t> counts;  ///< from the first bin with a step to the last
+};
+
 struct RunSummary {
   std::string model, coordinates, inertia;
   double step = 0, duration = 0;  ///< [s]; duration actually reached
   long steps = 0, substeps = 0;   ///< accepted output steps; extra steps by halving
   long iterations = 0, factorizations = 0;
-  bool locates_edges = false;         ///< with `locate_edges`
-  long edges = 0, edges_passed = 0;   ///< edges that steps were divided at; steps with too many
-  double cpu = 0;                     ///< [s] of stepping, without input and output
-  double real_time_factor = 0;        ///< duration / cpu
+  bool locates_edges = false;        ///< with `locate_edges`
+  long edges = 0, edges_passed = 0;  ///< edges that steps were divided at; steps with too many
+  double cpu = 0;                    ///< [s] of stepping, without input and output
+  double real_time_factor = 0;       ///< duration / cpu
+  StepTimes step_times;
   double max_position_violation = 0;  ///< [m] after steps
   double max_velocity_violation = 0;  ///< [m/s] after the projections
   EnergySummary energy;

@@ -15,6 +15,7 @@
 #include "floatframe/simulation/run_watch.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/state_layout.hpp"
+#include "floatframe/simulation/step_times.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
 
 namespace floatframe {
@@ -40,7 +41,6 @@ class Run {
     s.energy.elastic_start = e.elastic;
     s.energy.total_start = e.total();
     prepare_table();
-    prepare_states();
     if (options.keep_state) joints_.emplace(steps_.model());
     if (options.record && options.watch)
       watch_.emplace(steps_.formulation(), o.step, planned_ / every_);
@@ -49,6 +49,7 @@ class Run {
           {&*watch_, [](void* watch, const State& state, const VecX& reactions) noexcept {
              static_cast<RunWatch<F>*>(watch)->edge(state, reactions);
            }});
+    prepare_states();
   }
 
   RunResult result() {
@@ -78,7 +79,8 @@ class Run {
 
   void prepare_states() {
     if (!options_.record || !options_.states) return;
-    states_.emplace(steps_.formulation(), o_.record);
+    states_.emplace(steps_.formulation(), o_.record,
+                    watch_ ? watch_->health_columns() : std::vector<HealthColumn>());
     states_every_ = states_every(o_.record, planned_ / every_ + 1);
     state_columns_.resize(static_cast<std::size_t>(states_->layout().columns));
     state_sink_ = [this](const std::vector<Column>&, std::span<const double> numbers) {
@@ -92,6 +94,7 @@ class Run {
     sample_state(0);
     if (joints_) joints_->follow(steps_.formulation(), steps_.state());
     if (watch_) watch_->start(steps_.state());
+    sample_health();
     return handed_over();
   }
 
@@ -102,8 +105,18 @@ class Run {
 
   /// After `sample`, which has brought the formulation there.
   void sample_state(long step) noexcept {
-    if (state_block_ && (step == planned_ || step / every_ % states_every_ == 0))
-      states_->sample(steps_.state(), state_block_->next());
+    state_row_ = nullptr;
+    if (!state_block_ || (step != planned_ && step / every_ % states_every_ != 0)) return;
+    state_row_ = state_block_->next();
+    states_->sample(steps_.state(), state_row_);
+  }
+
+  /// In the row that `sample_state` has begun, when the step has been watched.
+  void sample_health() noexcept {
+    if (!state_row_ || !watch_) return;
+    watch_->health(steps_.state(), steps_.counters(),
+                   state_row_ + states_->layout().groups.back().first);
+    state_row_ = nullptr;
   }
 
   /// False: the run is to end here.
@@ -126,12 +139,15 @@ class Run {
     const bool good = steps_.advance(planned);
     const bool sampled = good && options_.record && (k % every_ == 0 || k == planned_);
     if (sampled) sample();
-    s.cpu += 1e-9 * static_cast<double>(thread_cpu_clock() - before);
+    const Nanoseconds taken = thread_cpu_clock() - before;
+    s.cpu += 1e-9 * static_cast<double>(taken);
+    if (good) step_times_.add(taken);
     if (sampled) sample_state(k);
     if (good && joints_) joints_->follow(steps_.formulation(), steps_.state());
     if (good && watch_) {
       watch_->step(steps_.state(), steps_.reactions(), sampled, planned.whole);
       watch_->attempt(steps_.state(), steps_.last());
+      sample_health();
     }
     if (good) {
       made_ = k;
@@ -156,6 +172,7 @@ class Run {
     m.made = made_;
     m.steps = steps_.memory();
     m.cpu = result_.summary.cpu;
+    m.step_times = step_times_;
     if (joints_) m.joints = joints_->numbers();
     return written([&] { options_.checkpoint(to_checkpoint(identity(), m, watch_)); });
   }
@@ -193,6 +210,7 @@ class Run {
     made_ = m.made;
     steps_.set_memory(m.steps);
     result_.summary.cpu = m.cpu;
+    step_times_ = m.step_times;
     if (joints_) joints_->restore(m.joints, m.steps.state.t);
     return handed_over();
   }
@@ -210,6 +228,7 @@ class Run {
     s.edges = c.edges;
     s.edges_passed = c.edges_passed;
     s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
+    s.step_times = step_times(step_times_);
     s.max_position_violation = c.max_position_violation;
     s.max_velocity_violation = c.max_velocity_violation;
     const Energies e = steps_.energies();
@@ -232,6 +251,7 @@ class Run {
   const long checkpoint_every_;  ///< steps; 0: no checkpoints
   long made_ = 0;                ///< steps
   RunResult result_;
+  Histogram step_times_;
   std::size_t rows_ = 0;           ///< in the table
   std::optional<RowBlock> block_;  ///< of rows that leave
   std::optional<StateSampler<F>> states_;
@@ -239,6 +259,7 @@ class Run {
   std::vector<Column> state_columns_;
   RowBlock::Sink state_sink_;
   std::optional<RowBlock> state_block_;  ///< of states that leave
+  double* state_row_ = nullptr;          ///< one of it that has no health yet
   std::optional<JointFollower> joints_;
   std::optional<RunWatch<F>> watch_;
 };

@@ -46,6 +46,7 @@ template <class Stream, class Memory>
 void walk_run(Stream& s, Memory& m) {
   s(m.made);
   s(m.cpu);
+  m.step_times.walk(s);
   walk_steps(s, m.steps);
   s(m.joints);
 }
@@ -62,7 +63,7 @@ std::string difference(const RunIdentity& found, const RunIdentity& own) {
 
 }  // namespace
 
-void walk_memory(StateWriter& s, const RunIdentity& identity, const RunMemory& memory) {
+void walk_memory(StateWriter& s, const RunIdentity& identity, RunMemory& memory) {
   for (const auto& [name, value] : identity) {
     s(name);
     s(value);
@@ -86,7 +87,8 @@ RunMemory walk_memory(StateReader& s, const RunIdentity& identity, const Stepped
   if (const std::string text = memory_complaint(memory.steps, own, step); !text.empty())
     refuse(text);
   if (memory.made != memory.steps.since_base || memory.made >= planned ||
-      memory.joints.size() != joints || !all_finite(memory.joints) || !(memory.cpu >= 0.0))
+      memory.joints.size() != joints || !all_finite(memory.joints) || !(memory.cpu >= 0.0) ||
+      !memory.step_times.holds(static_cast<std::uint64_t>(memory.made)))
     refuse("is damaged: times or counters that do not fit together");
   return memory;
 }

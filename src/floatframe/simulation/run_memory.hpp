@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "floatframe/core/histogram.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/state_bytes.hpp"
 
@@ -29,11 +30,12 @@ RunIdentity run_identity(const Model& model, const SimulationDescription& option
 struct RunMemory {
   std::int64_t made = 0;  ///< steps
   double cpu = 0.0;       ///< [s]
+  Histogram step_times;   ///< of these steps
   SteppedMemory steps;
   std::vector<double> joints;  ///< followed for the state at the end
 };
 
-void walk_memory(StateWriter& s, const RunIdentity& identity, const RunMemory& memory);
+void walk_memory(StateWriter& s, const RunIdentity& identity, RunMemory& memory);
 /// Throws InputError if the identity is another one or the memory is not one of a run of `planned`
 /// steps of that size, with this memory and number of joint coordinates.
 RunMemory walk_memory(StateReader& s, const RunIdentity& identity, const SteppedMemory& own,
@@ -43,7 +45,7 @@ inline constexpr const char* checkpoint_name = "the checkpoint";
 
 /// `watch` is a RunWatch, if there is one.
 template <class Watch>
-RunCheckpoint to_checkpoint(const RunIdentity& identity, const RunMemory& memory,
+RunCheckpoint to_checkpoint(const RunIdentity& identity, RunMemory& memory,
                             std::optional<Watch>& watch) {
   StateWriter out;
   walk_memory(out, identity, memory);

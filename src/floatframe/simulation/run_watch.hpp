@@ -8,6 +8,7 @@
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/simulation/branch_watch.hpp"
 #include "floatframe/simulation/energy_balance.hpp"
+#include "floatframe/simulation/health.hpp"
 #include "floatframe/simulation/motion_watch.hpp"
 
 namespace floatframe {
@@ -26,6 +27,11 @@ class RunWatch {
     for (const double m : mass_) total += m;
     // Without any mass the penalty is scaled by 1 kg, and so is what rounding leaves of it.
     if (total == 0.0) mass_.assign(mass_.size(), massless * f_.model().mean_mass);
+  }
+
+  /// What `health` writes.
+  std::vector<HealthColumn> health_columns() const {
+    return floatframe::health_columns(f_.model(), motion_.range());
   }
 
   /// At the start of the run; `lambda` belongs to its accelerations.
@@ -52,6 +58,16 @@ class RunWatch {
     if (++records_ % every_ == 0) balance_.check(s.t, energies(s));
   }
 
+  /// The health of the run (health.hpp) at a recorded instant, after `start` or `attempt`.
+  void health(const State& s, const StepCounters& counters, double* row) noexcept {
+    effort_.write(counters, row);
+    EnergyBalance::Energies e;
+    e.kinetic = motion_.kinetic_energy(s);
+    add_stored(s, e);
+    write_energies(e, balance_.work(), balance_.remainder(e), row + HealthEffort::columns);
+    motion_.deformations(s, row + health_of_system);
+  }
+
   /// At an edge that a step was divided at, before and after it: powers jump there. The formulation
   /// is at this state, with its forces.
   void edge(const State& s, const VecX& reactions) noexcept {
@@ -59,7 +75,10 @@ class RunWatch {
   }
 
   /// After a step, too: its last attempt.
-  void attempt(const State& s, const StepAttempt& a) noexcept { branches_.observe(s, a); }
+  void attempt(const State& s, const StepAttempt& a) noexcept {
+    branches_.observe(s, a);
+    effort_.observe(a);
+  }
 
   /// What was watched so far, for a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
@@ -67,6 +86,7 @@ class RunWatch {
     balance_.walk(s);
     motion_.walk(s);
     branches_.walk(s);
+    effort_.walk(s);
     s(records_);
   }
 
@@ -98,10 +118,7 @@ class RunWatch {
   EnergyBalance::Energies energies(const State& s) noexcept {
     EnergyBalance::Energies e;
     e.kinetic = f_.kinetic_energy(s.v);
-    e.potential = f_.gravity_energy(s.q);
-    for (std::size_t k = 0; k < f_.model().forces.size(); ++k)
-      e.potential += f_.force(static_cast<int>(k)).energy;
-    e.elastic = f_.elastic_energy(s.q);
+    add_stored(s, e);
     for (std::size_t i = 0; i < f_.model().bodies.size(); ++i) {
       const Body& b = f_.model().bodies[i];
       const int body = static_cast<int>(i);
@@ -112,10 +129,23 @@ class RunWatch {
     return e;
   }
 
+  /// All but the kinetic one.
+  void add_stored(const State& s, EnergyBalance::Energies& e) const noexcept {
+    e.potential = e.gravity = f_.gravity_energy(s.q);
+    for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
+      const double energy = f_.force(static_cast<int>(k)).energy;
+      e.potential += energy;
+      (force_account(f_.model().forces[k].type) == ForceAccount::tyres ? e.tyres : e.springs) +=
+          energy;
+    }
+    e.elastic = f_.elastic_energy(s.q);
+  }
+
   F& f_;
   MotionWatch<F> motion_;
   BranchWatch branches_;
   EnergyBalance balance_;
+  HealthEffort effort_;
   std::vector<double> mass_;  ///< of the bodies, for the energy of their motion [kg]
   long every_, records_ = 0;
 };

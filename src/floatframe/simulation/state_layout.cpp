@@ -39,9 +39,12 @@ long states_every(const RecordDescription& record, long rows) noexcept {
 }
 
 template <class F>
-StateSampler<F>::StateSampler(F& formulation, const RecordDescription& record) : f_(formulation) {
+StateSampler<F>::StateSampler(F& formulation, const RecordDescription& record,
+                              std::vector<HealthColumn> health)
+    : f_(formulation) {
   keep_bodies(record);
   find_coordinates();
+  layout_.health = std::move(health);
   place_columns(record);
 }
 
@@ -126,6 +129,7 @@ void StateSampler<F>::place_columns(const RecordDescription& record) {
     }
     l.bodies.push_back(c);
   }
+  if (!l.health.empty()) group(health_group, l.health.size());
 }
 
 template <class F>

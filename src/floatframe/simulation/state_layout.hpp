@@ -15,13 +15,21 @@
 
 namespace floatframe {
 
+/// One number of the health of a run at a recorded instant (health.hpp).
+struct HealthColumn {
+  std::string name, unit;
+  std::string group;   ///< "constraints", "effort", "energy", "range"
+  std::string body{};  ///< of "range"
+  double size = 0.0;   ///< of this body [m]
+};
+
 struct StateLayout {
   struct Group {
     std::string name;
     int first = 0, count = 0;  ///< columns
   };
   /// time, q, v, accelerations, spring_angles, inputs, poses: x, y, z [m] of the body frame and its
-  /// quaternion (w, x, y, z), body to world.
+  /// quaternion (w, x, y, z), body to world; of a run that is watched health.
   std::vector<Group> groups;
   int columns = 0;
   std::vector<int> q, v;  ///< the coordinates that are kept, as the formulation numbers them
@@ -34,6 +42,7 @@ struct StateLayout {
     int amplitudes = -1, rates = -1;  ///< of its modes, among q and v; without modes -1
   };
   std::vector<BodyColumns> bodies;
+  std::vector<HealthColumn> health;
 
   bool complete() const noexcept {
     return q.size() == static_cast<std::size_t>(configurations) &&
@@ -42,6 +51,8 @@ struct StateLayout {
   const Group* find(const std::string& name) const noexcept;
 };
 
+inline constexpr const char* health_group = "health";
+
 /// Of the recorded rows every so many are states, in a run that records so many rows.
 long states_every(const RecordDescription& record, long rows) noexcept;
 
@@ -49,8 +60,10 @@ long states_every(const RecordDescription& record, long rows) noexcept;
 template <class F>
 class StateSampler {
  public:
-  /// Throws InputError for a body that the model does not have.
-  StateSampler(F& formulation, const RecordDescription& record);
+  /// `health`: columns that are left to others. Throws InputError for a body that the model does
+  /// not have.
+  StateSampler(F& formulation, const RecordDescription& record,
+               std::vector<HealthColumn> health = {});
 
   const StateLayout& layout() const noexcept { return layout_; }
   /// The formulation has been brought to the state. Allocates nothing.

@@ -11,6 +11,7 @@ export interface Channel {
   body: string | null;
   kind: string;
   group: string;
+  limit?: number | null;
   time: Float64Array;
   values: Float64Array;
   range: Range | null;
@@ -67,6 +68,7 @@ export function readChannel(json: ChannelJson, curves: CurvesJson, time: Float64
     body: body || null,
     kind: text(json.kind) || 'other',
     group: text(json.group) || 'other',
+    limit: typeof json.limit === 'number' && Number.isFinite(json.limit) ? json.limit : null,
     time,
     values,
     range,

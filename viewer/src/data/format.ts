@@ -44,3 +44,17 @@ export function niceBelow(value: number): number {
 export function plural(count: number, one: string, many = `${one}s`): string {
   return `${count} ${count === 1 ? one : many}`;
 }
+
+/** Numbers along an axis, with the digits that tell them apart. */
+export function tickText(splits: number[]): string[] {
+  const step = splits.length > 1 ? Math.abs(splits[1] - splits[0]) : 1;
+  const largest = Math.max(...splits.map(Math.abs));
+  if (largest >= 1e6 || (largest < 1e-3 && largest > 0)) {
+    const digits = Math.max(0, Math.ceil(Math.log10(largest / step)));
+    return splits.map((v) => (Math.abs(v) < step * 1e-6 ? '0' : v.toExponential(Math.min(digits, 8)).replace('e+', 'e').replace(/-/g, '\u2212')));
+  }
+  // As many as the step needs: 0.5 has one, 2.5 one, 0.025 three.
+  let decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  while (decimals < 10 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6 * step * 10 ** decimals) ++decimals;
+  return splits.map((v) => (Math.abs(v) < step * 1e-6 ? '0' : v.toFixed(decimals).replace('-', '\u2212')));
+}

@@ -24,6 +24,8 @@ export interface ChannelJson {
   constant?: boolean | null;
   noise?: boolean | null;
   group?: string | null;
+  /** What the value is to stay below: drawn as a line where it is near. */
+  limit?: number | null;
   other?: View | null;
   other_offset?: number | null;
   difference?: { max?: number | null; rms?: number | null; tolerance?: number | null; beyond?: boolean | null } | null;
@@ -150,7 +152,9 @@ export interface PageJson {
   facts?: TableJson[] | null;
   tables?: TableJson[] | null;
   curves?: CurvesJson | null;
-  trust?: { channels?: ChannelJson[] | null; rows?: string[][] | null } | null;
-  speed?: { rows?: string[][] | null; step_times?: { edges: number[]; counts: number[] } | null } | null;
+  /** Channels have times of their own if `time` is given; notes are sentences by group. */
+  trust?: { time?: View | null; channels?: ChannelJson[] | null; rows?: string[][] | null; notes?: Record<string, string> | null } | null;
+  /** Step times in ms. */
+  speed?: { rows?: string[][] | null; step_times?: { edges: number[]; counts: number[]; median?: number | null; percent_99?: number | null } | null } | null;
   scene?: SceneJson | null;
 }

@@ -13,7 +13,7 @@ const LARGEST_FILE = 400e6;
 export function stillText(channel: Channel): string {
   const range = channel.range;
   if (!range) return 'no values';
-  if (channel.still === 'constant') return `constant ${withUnit(channel.values[0], channel.unit, 6)}`;
+  if (channel.still === 'constant') return range.min === 0 && range.max === 0 ? 'zero' : `constant ${withUnit((range.min + range.max) / 2, channel.unit, 6)}`;
   const middle = (range.min + range.max) / 2;
   const half = (range.max - range.min) / 2;
   if (Math.abs(middle) < 3 * half) return `rounding noise, at most ${withUnit(Math.max(Math.abs(range.min), Math.abs(range.max)), channel.unit, 2)}`;

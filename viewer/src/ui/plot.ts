@@ -2,7 +2,7 @@
 
 import uPlot from 'uplot';
 import type { Channel } from '../data/channels';
-import { formatNumber, withUnit } from '../data/format';
+import { formatNumber, tickText, withUnit } from '../data/format';
 import { difference, resample, union, valueAt, type Difference } from '../data/series';
 import { CURVE_COLOURS } from '../scene/palette';
 import { h } from './dom';
@@ -31,21 +31,15 @@ export interface PlotSpec {
   unit: string;
   channels: Channel[];
   height?: number;
+  /** What the values are to stay below. */
+  limit?: number | null;
 }
+
+// The limit belongs on the axis where the curves reach this part of it; further away it is said in words.
+const NEAR_LIMIT = 1 / 3;
 
 function gaps(values: Float64Array): ArrayLike<number> | (number | null)[] {
   return values.every(Number.isFinite) ? values : Array.from(values, (value) => (Number.isFinite(value) ? value : null));
-}
-
-function tickText(splits: number[]): string[] {
-  const step = splits.length > 1 ? Math.abs(splits[1] - splits[0]) : 1;
-  const largest = Math.max(...splits.map(Math.abs));
-  if (largest >= 1e6 || (largest < 1e-3 && largest > 0)) {
-    const digits = Math.max(0, Math.ceil(Math.log10(largest / step)));
-    return splits.map((v) => (Math.abs(v) < step * 1e-6 ? '0' : v.toExponential(Math.min(digits, 8)).replace('e+', 'e').replace(/-/g, '\u2212')));
-  }
-  const decimals = Math.min(10, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
-  return splits.map((v) => (Math.abs(v) < step * 1e-6 ? '0' : v.toFixed(decimals).replace('-', '\u2212')));
 }
 
 export class TimePlot implements HubMember {
@@ -70,7 +64,7 @@ export class TimePlot implements HubMember {
     this.element = h(
       'figure',
       { class: 'plot' },
-      h('figcaption', {}, h('span', { class: 'plot-title' }, spec.title), spec.unit ? h('span', { class: 'unit' }, spec.unit) : null),
+      h('figcaption', {}, h('span', { class: 'plot-title' }, spec.title), spec.unit ? h('span', { class: 'unit' }, spec.unit) : null, spec.limit == null ? null : h('span', { class: 'plot-note' }, `limit ${withUnit(spec.limit, spec.unit, 3)}`)),
       this.box,
       h('div', { class: 'chips' }, ...this.entries.map((entry) => entry.chip)),
     );
@@ -179,6 +173,8 @@ export class TimePlot implements HubMember {
         y: {
           range: (_u, min, max) => {
             if (min === null || max === null || !Number.isFinite(min) || !Number.isFinite(max)) return [0, 1];
+            const limit = this.spec.limit;
+            if (limit != null && max >= NEAR_LIMIT * limit) max = Math.max(max, limit);
             const pad = max > min ? 0.07 * (max - min) : Math.max(Math.abs(max) * 0.01, 1e-12);
             return [min - pad, max + pad];
           },
@@ -210,6 +206,7 @@ export class TimePlot implements HubMember {
             this.hub.setRange(min <= first && max >= last ? null : [min, max]);
           },
         ],
+        draw: [(u) => this.drawLimit(u)],
         setCursor: [
           (u) => {
             if (this.guard) return;
@@ -227,6 +224,21 @@ export class TimePlot implements HubMember {
     this.guard = false;
     this.rangeChanged();
     this.timeChanged();
+  }
+
+  private drawLimit(u: uPlot): void {
+    const { limit } = this.spec;
+    if (limit == null || !(limit >= u.scales.y.min! && limit <= u.scales.y.max!)) return;
+    const y = Math.round(u.valToPos(limit, 'y', true));
+    u.ctx.save();
+    u.ctx.strokeStyle = cssColour('--warn');
+    u.ctx.lineWidth = devicePixelRatio;
+    u.ctx.setLineDash([6 * devicePixelRatio, 4 * devicePixelRatio]);
+    u.ctx.beginPath();
+    u.ctx.moveTo(u.bbox.left, y);
+    u.ctx.lineTo(u.bbox.left + u.bbox.width, y);
+    u.ctx.stroke();
+    u.ctx.restore();
   }
 
   private listen(u: uPlot): void {

@@ -1,7 +1,7 @@
 // Status, trust, facts and speed: sentences, tables and a histogram.
 
 import { groupChannels, type Channel } from '../data/channels';
-import { formatNumber } from '../data/format';
+import { formatNumber, plural } from '../data/format';
 import type { PageJson, TableJson } from '../data/page';
 import { stillList } from './curves';
 import { h, icon } from './dom';
@@ -76,7 +76,7 @@ export function factsSection(page: PageJson): HTMLElement | null {
     h('div', { class: 'section-head' }, h('h2', {}, page.kind === 'reduce' ? 'The part' : 'Model')),
     facts.length > 0 ? h('div', { class: 'fact-grid' }, ...facts.map((fact) => h('div', { class: 'fact' }, h('h3', {}, fact.heading), tableOf({ ...fact, columns: null })))) : null,
     ...tables.map((table) => {
-      const large = table.rows.length > 14;
+      const large = table.rows.length > 20;
       const body = tableOf(table);
       return large
         ? h('details', { class: 'fold' }, h('summary', {}, `${table.heading} (${table.rows.length} rows)`), body)
@@ -92,7 +92,44 @@ const GROUPS: [string, string][] = [
   ['range', 'Range of the method'],
 ];
 
-export function trustSection(rows: string[][], channels: Channel[], hub: Hub): HTMLElement | null {
+function largest(channel: Channel): number {
+  return channel.range ? Math.max(Math.abs(channel.range.min), Math.abs(channel.range.max)) : 0;
+}
+
+function inEights(channels: Channel[]): Channel[][] {
+  return Array.from({ length: Math.ceil(channels.length / 8) }, (_, k) => channels.slice(8 * k, 8 * k + 8));
+}
+
+// Terms below this part of the largest are flat on its axis: they get one of their own.
+const SMALL_TERM = 0.02;
+
+function energyPlots(channels: Channel[], hub: Hub): HTMLElement[] {
+  const most = Math.max(0, ...channels.map(largest));
+  const small = channels.filter((c) => largest(c) < SMALL_TERM * most);
+  const large = channels.filter((c) => !small.includes(c));
+  const plots = (list: Channel[], title: string): HTMLElement[] => inEights(list).map((part) => new TimePlot({ title, unit: part[0].unit, channels: part, height: 240 }, hub).element);
+  return [...plots(large, 'Terms of the balance'), ...plots(small, 'Small terms')];
+}
+
+/** Bodies of one kind share an axis, those that deform most first. */
+function rangePlots(channels: Channel[], hub: Hub): HTMLElement[] {
+  const kinds = [...new Set(channels.map((c) => c.kind))];
+  return kinds.flatMap((kind) => {
+    const members = channels.filter((c) => c.kind === kind).sort((a, b) => largest(b) - largest(a));
+    return inEights(members).map((part) => new TimePlot({ title: kind, unit: part[0].unit, channels: part, limit: part[0].limit }, hub).element);
+  });
+}
+
+function sharedPlots(channels: Channel[], hub: Hub): HTMLElement[] {
+  return groupChannels(channels.map((c) => ({ ...c, body: null }))).flatMap((group) =>
+    group.plots.map((plot) => {
+      const title = plot.channels.length === 1 ? plot.channels[0].label : plot.kind.replace(/_/g, ' ');
+      return new TimePlot({ title: title.charAt(0).toUpperCase() + title.slice(1), unit: plot.unit, channels: plot.channels }, hub).element;
+    }),
+  );
+}
+
+export function trustSection(rows: string[][], channels: Channel[], notes: Record<string, string>, hub: Hub): HTMLElement | null {
   if (rows.length + channels.length === 0) return null;
   const element = h('section', { id: 'trust', class: 'card' }, h('div', { class: 'section-head' }, h('h2', {}, 'Can I trust it?')));
   if (rows.length > 0) {
@@ -111,38 +148,57 @@ export function trustSection(rows: string[][], channels: Channel[], hub: Hub): H
   for (const [key, heading] of [...GROUPS, ['', 'More'] as [string, string]]) {
     const members = channels.filter((c) => (key === '' ? !known.includes(c.group) : c.group === key));
     if (members.length === 0) continue;
-    const grid = h('div', { class: 'plots' });
-    const still: Channel[] = [];
-    if (key === 'energy') {
-      // All terms of the balance on one axis, whatever their size.
-      const moving = members.filter((c) => !c.still);
-      still.push(...members.filter((c) => c.still));
-      for (let k = 0; k < moving.length; k += 8) grid.append(new TimePlot({ title: 'Terms', unit: moving[0].unit, channels: moving.slice(k, k + 8), height: 240 }, hub).element);
-    } else {
-      for (const group of groupChannels(members.map((c) => ({ ...c, body: null })))) {
-        still.push(...group.still);
-        for (const plot of group.plots) grid.append(new TimePlot({ title: plot.channels.length === 1 ? plot.channels[0].label : plot.kind.replace(/_/g, ' '), unit: plot.unit, channels: plot.channels }, hub).element);
-      }
-    }
-    element.append(h('div', { class: 'body-group' }, h('h3', {}, heading), grid.childElementCount > 0 ? grid : null, stillList(still)));
+    const moving = members.filter((c) => !c.still);
+    const plots = key === 'energy' ? energyPlots(moving, hub) : key === 'range' ? rangePlots(moving, hub) : sharedPlots(moving, hub);
+    const note = notes[key] ? h('p', { class: 'hint' }, String(notes[key])) : null;
+    element.append(
+      h('div', { class: `body-group trust-${key || 'more'}` }, h('h3', {}, heading), note, plots.length > 0 ? h('div', { class: 'plots' }, ...plots) : null, stillList(members.filter((c) => c.still))),
+    );
   }
   return element;
 }
 
-function histogram(edges: number[], counts: number[]): HTMLElement {
-  const largest = Math.max(1, ...counts);
+interface StepTimes {
+  edges: number[];
+  counts: number[];
+  median?: number | null;
+  percent_99?: number | null;
+}
+
+/** Place of a time among bins of equal width on the page, 0 to 1. */
+export function placeAmongBins(edges: number[], value: number): number {
+  const bins = edges.length - 1;
+  let k = 0;
+  while (k < bins - 1 && value >= edges[k + 1]) ++k;
+  const part = (value - edges[k]) / (edges[k + 1] - edges[k]);
+  return (k + Math.min(1, Math.max(0, part))) / bins;
+}
+
+function histogram({ edges, counts, median, percent_99 }: StepTimes): HTMLElement {
+  const most = Math.max(1, ...counts);
   const total = counts.reduce((a, b) => a + b, 0);
   const bars = counts.map((count, k) => {
     const range = `${formatNumber(edges[k], 3)} to ${formatNumber(edges[k + 1], 3)} ms`;
-    const bar = h('div', { class: 'bar', style: `height: ${count > 0 ? Math.max(1.5, (100 * count) / largest).toFixed(2) : 0}%` });
-    return h('div', { class: 'slot', title: `${count} steps of ${range}` }, bar);
+    const bar = h('div', { class: 'bar', style: `height: ${count > 0 ? Math.max(1.5, (100 * count) / most).toFixed(2) : 0}%` });
+    return h('div', { class: 'slot', title: `${plural(count, 'step')} of ${range}` }, bar);
   });
+  const lines = (
+    [
+      ['median', median],
+      ['99 %', percent_99],
+    ] as [string, number | null | undefined][]
+  )
+    .filter(([, value]) => typeof value === 'number' && Number.isFinite(value))
+    .map(([name, value]) => {
+      const place = placeAmongBins(edges, value!);
+      return h('div', { class: `quantile${place > 0.6 ? ' left' : ''}`, style: `left: ${(100 * place).toFixed(2)}%` }, h('span', {}, `${name} ${formatNumber(value!, 3)} ms`));
+    });
   const marks = [0, 0.25, 0.5, 0.75, 1].map((part) => h('span', {}, `${formatNumber(edges[Math.round(part * (edges.length - 1))], 2)}`));
   return h(
     'figure',
     { class: 'histogram', role: 'img', 'aria-label': `Histogram of the time of ${total} steps` },
-    h('figcaption', {}, h('span', { class: 'plot-title' }, 'Time of a step'), h('span', { class: 'unit' }, `ms, ${total} steps`)),
-    h('div', { class: 'bars' }, ...bars),
+    h('figcaption', {}, h('span', { class: 'plot-title' }, 'Processor time of a step'), h('span', { class: 'unit' }, 'ms'), h('span', { class: 'plot-note' }, plural(total, 'step'))),
+    h('div', { class: 'bars' }, ...bars, ...lines),
     h('div', { class: 'marks' }, ...marks),
   );
 }
@@ -159,6 +215,6 @@ export function speedSection(page: PageJson, report: (sentence: string) => void)
     'section',
     { id: 'speed', class: 'card' },
     h('div', { class: 'section-head' }, h('h2', {}, 'Speed')),
-    h('div', { class: 'speed-grid' }, rows.length > 0 ? tableOf({ heading: '', rows }) : null, good ? histogram(times.edges, times.counts) : null),
+    h('div', { class: 'speed-grid' }, rows.length > 0 ? tableOf({ heading: '', rows }) : null, good ? histogram(times) : null),
   );
 }

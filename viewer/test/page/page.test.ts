@@ -390,3 +390,50 @@ test('a large model: size of the page, script time of a frame', async () => {
   assert.deepEqual(errors, []);
   await page.context().close();
 });
+
+test('trust: curves of their own times, limits, terms that are small, and step times', async () => {
+  const made = vehicle();
+  const { page, errors } = await open(browser, path('trust', made));
+  const trust = page.locator('#trust');
+  await trust.scrollIntoViewIfNeeded();
+  assert.deepEqual(
+    await trust.locator('h3').allTextContents(),
+    ['Constraints', 'Energy balance', 'Iterations and substeps', 'Range of the method'],
+  );
+  // Terms of the balance share an axis; what is small beside them has one of its own.
+  const titles = await trust.locator('.trust-energy .plot-title').allTextContents();
+  assert.deepEqual(titles, ['Terms of the balance', 'Small terms']);
+  const small = await trust.locator('.trust-energy .plot').nth(1).locator('.chip-label').allTextContents();
+  assert.deepEqual(small, ['elastic', 'balance'], 'below a fiftieth of the largest term');
+  assert.equal(await trust.locator('.trust-energy .hint').textContent(), made.page.trust!.notes!.energy);
+  // The body that deforms most comes first; its limit is on the axis, since it comes near.
+  const range = trust.locator('.trust-range .plot');
+  assert.equal((await range.locator('.chip-label').allTextContents())[0], 'rear_right_arm');
+  assert.equal(await range.locator('.plot-note').textContent(), 'limit 10 %');
+  await at(page, 1.5);
+  await range.scrollIntoViewIfNeeded();
+  const shown = Number((await range.locator('.chip-value').first().textContent())!.replace('\u2212', '-'));
+  assert.ok(Math.abs(shown - 4.5 * Math.sin(13.5) ** 2) < 0.1, String(shown));
+  assert.ok(await range.locator('.time-cursor').isVisible());
+  // Before the first step nothing is counted.
+  await at(page, 0);
+  assert.ok(Number.isNaN(await page.evaluate(() => window.floatframe!.channelValue('iterations'))));
+  // Zooming one zooms all.
+  const before = await range.locator('.u-over').boundingBox();
+  await page.mouse.move(before!.x + 0.3 * before!.width, before!.y + 40);
+  await page.mouse.down();
+  await page.mouse.move(before!.x + 0.6 * before!.width, before!.y + 40, { steps: 4 });
+  await page.mouse.up();
+  await at(page, 3.9);
+  await page.waitForTimeout(100);
+  assert.ok(!(await range.locator('.time-cursor').isVisible()), 'the time is outside of what is shown');
+  const speed = page.locator('#speed');
+  assert.deepEqual(await speed.locator('.quantile').allTextContents(), ['median 0.086 ms', '99 % 0.17 ms']);
+  const bars = (await speed.locator('.bars').boundingBox())!;
+  const { edges } = made.page.speed!.step_times!;
+  const line = (await speed.locator('.quantile').first().boundingBox())!;
+  const expected = (0.086 - edges[0]) / (edges[edges.length - 1] - edges[0]);
+  assert.ok(Math.abs((line.x - bars.x) / bars.width - expected) < 0.01);
+  assert.deepEqual(errors, []);
+  await page.context().close();
+});

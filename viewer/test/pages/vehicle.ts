@@ -1,6 +1,6 @@
 // A small vehicle on a bump: a rigid chassis, four flexible arms with wheels, springs, tyres, a road.
 
-import type { BodyJson, ForceJson, JointJson, PageJson, PointJson, Triple } from '../../src/data/page';
+import type { BodyJson, ChannelJson, ForceJson, JointJson, PageJson, PointJson, Triple } from '../../src/data/page';
 import { beamMesh, displacements, modeShape, tetrahedron, tubeMesh } from './shapes';
 import { BufferWriter } from './writer';
 
@@ -168,10 +168,12 @@ export function vehicle(options: { hostile?: boolean; frames?: number } = {}): {
     const at = profile.findIndex((value, i) => i % 2 === 0 && value >= x - 1e-9);
     profile.splice(at, 0, x - 1e-4, road(x - 1e-3));
   }
-  const channel = (name: string, label: string, unit: string, body: string | null, kind: string, f: (t: number, k: number) => number, more: object = {}) => {
-    const values = time.map(f);
-    const offset = values[0];
-    return { name, label, unit, body, kind, data: writer.view('f32', values.map((v) => v - offset)), offset, constant: false, noise: false, ...more };
+  const values = new Map<string, number[]>();
+  const channel = (name: string, label: string, unit: string, body: string | null, kind: string, f: (t: number, k: number) => number, more: object = {}): ChannelJson => {
+    const column = time.map(f);
+    const offset = column[0];
+    values.set(name, column);
+    return { name, label, unit, body, kind, data: writer.view('f32', column.map((v) => v - offset)), offset, constant: false, noise: false, ...more };
   };
   const curveTime = writer.view('f64', time);
   const channels = [
@@ -197,6 +199,11 @@ export function vehicle(options: { hostile?: boolean; frames?: number } = {}): {
     channel('iterations', 'iterations', '', null, 'iterations', (_t, k) => 3 + (k % 7 === 0 ? 1 : 0), { group: 'effort' }),
     channel('substeps', 'substeps', '', null, 'substeps', () => 1, { group: 'effort', constant: true }),
   ];
+  // Every second instant, but for the first without a value: as the program writes what is counted between instants.
+  const trustTime = time.filter((_t, k) => k % 2 === 0);
+  const own = (name: string, more: object, f: (t: number) => number): ChannelJson => ({ name, label: name, unit: '%', body: null, kind: 'Elastic displacement', group: 'range', data: writer.view('f32', trustTime.map(f)), offset: 0, ...more });
+  trust.splice(0, trust.length, ...trust.map((c) => ({ ...c, data: writer.view('f32', trustTime.map((_t, k) => (k === 0 && c.group === 'effort' ? NaN : values.get(c.name)![2 * k] - c.offset!))) })));
+  trust.push(...names.map((name, i) => own(`${name}_arm`, { limit: 10 }, (t) => (1.5 + i) * Math.sin(9 * t) ** 2)));
   const page: PageJson = {
     schema: 1,
     kind: 'run',
@@ -215,6 +222,8 @@ export function vehicle(options: { hostile?: boolean; frames?: number } = {}): {
     tables: [{ heading: 'Modes', columns: ['body', 'mode', 'kind', 'frequency [Hz]', 'damping'], rows: names.flatMap((n) => [212.4, 338.1, 902.5].map((f, j) => [`${n}_arm`, String(j + 1), 'fixed interface', String(f), '0.02'])) }],
     curves: { time: curveTime, channels },
     trust: {
+      time: writer.view('f64', trustTime),
+      notes: { energy: `Changes since the start.${evil}` },
       channels: trust,
       rows: [
         ['Largest position violation', '4.0e-11 m', 'ok'],
@@ -227,7 +236,7 @@ export function vehicle(options: { hostile?: boolean; frames?: number } = {}): {
     },
     speed: {
       rows: [['real-time factor', '114'], ['time of computing', '0.035 s'], ['steps', '400'], ['median of a step', '0.083 ms'], ['largest step', '0.21 ms']],
-      step_times: { edges: Array.from({ length: 41 }, (_, k) => 0.06 + 0.004 * k), counts: Array.from({ length: 40 }, (_, k) => Math.round(70 * Math.exp(-(((k - 6) / 4) ** 2)) + (k > 8 ? 6 * Math.exp(-(k - 8) / 9) : 0))) },
+      step_times: { median: 0.086, percent_99: 0.17, edges: Array.from({ length: 41 }, (_, k) => 0.06 + 0.004 * k), counts: Array.from({ length: 40 }, (_, k) => Math.round(70 * Math.exp(-(((k - 6) / 4) ** 2)) + (k > 8 ? 6 * Math.exp(-(k - 8) / 9) : 0))) },
     },
     scene: {
       frames: { time: writer.view('f64', time), pose: writer.view('f32', pose, [frames, bodies.length, 7]), amplitudes: writer.view('f32', amplitudes, [frames, 4 * MODES]) },

@@ -4,7 +4,7 @@ import { deflateSync } from 'node:zlib';
 import { decodeBuffer, PageBuffer, PageError } from '../../src/data/buffer';
 import { groupChannels, readChannel, shareAxes, type Channel } from '../../src/data/channels';
 import { parseCsv } from '../../src/data/csv';
-import { formatLength, formatNumber, niceBelow } from '../../src/data/format';
+import { formatLength, formatNumber, niceBelow, tickText } from '../../src/data/format';
 import { halfToFloat } from '../../src/data/half';
 import { difference, interval, rangeOf, resample, union, valueAt } from '../../src/data/series';
 import { BufferWriter, toHalf } from '../pages/writer';
@@ -130,4 +130,13 @@ test('numbers as text', () => {
   assert.equal(formatNumber(100), '100');
   assert.equal(formatLength(0.0025), '2.5 mm');
   assert.equal(niceBelow(0.073), 0.05);
+});
+
+test('numbers along an axis have the digits of their step', () => {
+  assert.deepEqual(tickText([0, 2.5, 5, 7.5, 10]), ['0.0', '2.5', '5.0', '7.5', '10.0'].map((t) => (t === '0.0' ? '0' : t)));
+  assert.deepEqual(tickText([0, 0.025, 0.05]), ['0', '0.025', '0.050']);
+  assert.deepEqual(tickText([-20, 0, 20]), ['\u221220', '0', '20']);
+  assert.deepEqual(tickText([0, 0.5, 1]), ['0', '0.5', '1.0']);
+  assert.deepEqual(tickText([0, 2.5e-10, 5e-10]), ['0', '2.5e\u221210', '5.0e\u221210']);
+  assert.ok(new Set(tickText([0, 1 / 3, 2 / 3])).size === 3);
 });

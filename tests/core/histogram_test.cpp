@@ -1,4 +1,4 @@
-#include "floatframe/realtime/histogram.hpp"
+#include "floatframe/core/histogram.hpp"
 
 #include <gtest/gtest.h>
 
@@ -67,6 +67,38 @@ TEST(Histogram, FiguresOfKnownValues) {
     return 1e-9 * static_cast<double>(x) >= middle;
   });
   EXPECT_EQ(h.count_above(middle), static_cast<std::uint64_t>(above));
+}
+
+/// Takes what is walked through, and gives it back.
+struct Tape {
+  std::vector<double> numbers;
+  std::size_t at = 0;
+  bool reads = false;
+  template <class T>
+  void operator()(T& x) {
+    if (!reads)
+      numbers.push_back(static_cast<double>(x));
+    else
+      x = static_cast<T>(numbers[at++]);
+  }
+};
+
+TEST(Histogram, IsTheSameWhereItGoesOn) {
+  Histogram h, other;
+  for (const Nanoseconds x : {5, 700, 90'000, 90'100, 3'000'000}) h.add(x);
+  Tape tape;
+  h.walk(tape);
+  tape.reads = true;
+  other.walk(tape);
+  EXPECT_TRUE(other.holds(5));
+  EXPECT_FALSE(other.holds(6));
+  EXPECT_EQ(other.percentile(0.5), h.percentile(0.5));
+  EXPECT_EQ(other.max(), h.max());
+  EXPECT_EQ(other.mean(), h.mean());
+  tape.numbers[0] += 1.0;
+  tape.at = 0;
+  other.walk(tape);
+  EXPECT_FALSE(other.holds(5)) << "a count too many";
 }
 
 }  // namespace

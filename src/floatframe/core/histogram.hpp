@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "floatframe/realtime/clocks.hpp"
+#include "floatframe/core/thread_clock.hpp"
 
 namespace floatframe {
 
@@ -60,6 +60,23 @@ class Histogram {
   static double lower(std::size_t bin) noexcept { return 1e-9 * static_cast<double>(start(bin)); }
   static double upper(std::size_t bin) noexcept {
     return 1e-9 * static_cast<double>(start(bin + 1));
+  }
+
+  /// What a run keeps elsewhere; `holds` says whether what was read back can be one.
+  template <class Stream>
+  void walk(Stream& s) {
+    for (std::uint64_t& n : counts_) s(n);
+    for (std::uint64_t* n : {&count_, &smallest_, &largest_}) s(*n);
+    s(sum_);
+  }
+  bool holds(std::uint64_t values) const noexcept {
+    std::uint64_t all = 0;
+    for (const std::uint64_t n : counts_) {
+      if (n > values) return false;
+      all += n;
+    }
+    return all == values && count_ == values && smallest_ <= largest_ && sum_ >= 0.0 &&
+           sum_ <= 1.001 * static_cast<double>(largest_) * static_cast<double>(values);
   }
 
   static std::size_t bin_of(std::uint64_t x) noexcept {

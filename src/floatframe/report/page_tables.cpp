@@ -1,0 +1,118 @@
+#include "floatframe/report/page_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/body/body_shape.hpp"
+#include "floatframe/body/modal_mass.hpp"
+#include "floatframe/model/joint_list.hpp"
+#include "floatframe/model/output_list.hpp"
+
+namespace floatframe {
+namespace {
+
+const char* type_text(const FlexibleBody& data) {
+  if (data.modes() == 0) return "rigid";
+  if (data.shape && !data.shape->bars.empty()) return "flexible, bars";
+  return "flexible, part";
+}
+
+/// How many modes, and of which kind as their names tell.
+std::string modes_text(const FlexibleBody& data) {
+  const int all = data.modes();
+  if (all == 0) return "";
+  int normal = 0;
+  for (const std::string& name : data.mode_names) normal += name.starts_with("normal") ? 1 : 0;
+  if (normal == 0 || normal == all) return std::to_string(all);
+  return fmt::format("{}: {} static, {} normal", all, all - normal, normal);
+}
+
+/// How the mass of finite elements enters the inertia terms.
+const char* mass_text(const FlexibleBody& data) {
+  if (data.modes() == 0) return "";
+  switch (data.mass_model) {
+    case MassModel::isoparametric:
+      return data.projection ? "scalar mass of each node" : "integrals of the part";
+    case MassModel::six_dof:
+      return "consistent, with rotations";
+    case MassModel::hermite:
+      break;
+  }
+  return "exact integrals of beams";
+}
+
+std::string body_name(const Model& model, int marker) {
+  const int body = marker < 0 ? -1 : model.markers[static_cast<std::size_t>(marker)].body;
+  return body < 0 ? ground_name : model.bodies[static_cast<std::size_t>(body)].name;
+}
+
+std::string short_number(double value, const char* format) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string();
+}
+
+void add_modes(const Body& body, PageTable& table) {
+  const FlexibleBody& data = *body.data;
+  const MatX M = modal_mass(data.invariants);
+  for (int k = 0; k < data.modes(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double omega = std::sqrt(data.K(k, k) / M(k, k));
+    table.rows.push_back({body.name, std::to_string(k + 1),
+                          i < data.mode_names.size() ? data.mode_names[i] : "",
+                          short_number(omega / (2.0 * std::numbers::pi), "{:.4g}")});
+  }
+}
+
+}  // namespace
+
+std::vector<PageTable> body_tables(const Model& model) {
+  PageTable bodies{
+      "Bodies", {"body", "type", "mass [kg]", "modes", "nodes", "inertia from"}, {}, {}};
+  PageTable modes{"Modes",
+                  {"body", "mode", "name", "frequency [Hz]"},
+                  {},
+                  "Each mode alone, with the frame of the body held."};
+  for (const Body& body : model.bodies) {
+    const FlexibleBody& data = *body.data;
+    bodies.rows.push_back(
+        {body.name, type_text(data), short_number(data.invariants.m, "{:.6g}"), modes_text(data),
+         data.nodes.empty() ? "" : std::to_string(data.nodes.size()), mass_text(data)});
+    add_modes(body, modes);
+  }
+  std::vector<PageTable> out{std::move(bodies)};
+  if (!modes.rows.empty()) out.push_back(std::move(modes));
+  return out;
+}
+
+std::vector<PageTable> coordinate_tables(const Model& model, const ModelCounts& c) {
+  PageTable coordinates{"Coordinates", {"", "relative", "absolute"}, {}, {}};
+  const auto row = [&](const char* name, int relative, int absolute) {
+    coordinates.rows.push_back({name, std::to_string(relative), std::to_string(absolute)});
+  };
+  row("rigid coordinates", c.relative.rigid, c.absolute.rigid);
+  row("elastic coordinates", c.relative.elastic, c.absolute.elastic);
+  row("all coordinates", c.relative.total, c.absolute.total);
+  row("constraints", c.relative.constraints, c.absolute.constraints);
+  row("degrees of freedom", c.degrees_of_freedom, c.degrees_of_freedom);
+  if (c.redundant_constraints > 0)
+    coordinates.note = fmt::format("Redundant constraints: {}.", c.redundant_constraints);
+  std::vector<PageTable> out{std::move(coordinates)};
+  if (c.cut_joint_names.empty()) return out;
+  PageTable cut{"Joints cut in relative coordinates",
+                {"joint", "type", "parent", "child"},
+                {},
+                "Each loop is closed by constraints where a joint or rod is cut."};
+  for (const std::string& name : c.cut_joint_names) {
+    std::vector<std::string> shown{name, "", "", ""};
+    for (const Joint& j : model.joints)
+      if (j.name == name)
+        shown = {name, joint_type_name(j.type), body_name(model, j.frame_F),
+                 body_name(model, j.frame_M)};
+    cut.rows.push_back(std::move(shown));
+  }
+  out.push_back(std::move(cut));
+  return out;
+}
+
+}  // namespace floatframe

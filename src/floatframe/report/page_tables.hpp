@@ -1,0 +1,24 @@
+#pragma once
+// Tables of what a model consists of, for pages: bodies, modes with their frequencies, coordinates
+// of both formulations, joints that are cut in the relative one.
+#include <string>
+#include <vector>
+
+#include "floatframe/model/model.hpp"
+#include "floatframe/simulation/results.hpp"
+
+namespace floatframe {
+
+struct PageTable {
+  std::string heading;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+  std::string note{};  ///< may be empty
+};
+
+/// Bodies, and modes if there are any.
+std::vector<PageTable> body_tables(const Model& model);
+/// Coordinates, and cut joints if there are any.
+std::vector<PageTable> coordinate_tables(const Model& model, const ModelCounts& counts);
+
+}  // namespace floatframe

@@ -1,0 +1,65 @@
+#pragma once
+// The health of a run at its recorded instants: what shows over time whether it can be trusted.
+// Violations of constraints and the effort of the steps since the instant before, every term of the
+// energy balance (energy_balance.hpp), and how far flexible bodies deform. Columns of a row of
+// states (state_layout.hpp); writing them allocates nothing.
+#include <algorithm>
+#include <vector>
+
+#include "floatframe/integrator/augmented_lagrangian.hpp"
+#include "floatframe/simulation/energy_balance.hpp"
+#include "floatframe/simulation/range_watch.hpp"
+#include "floatframe/simulation/state_layout.hpp"
+#include "floatframe/simulation/step_report.hpp"
+
+namespace floatframe {
+
+/// Since the instant before: largest violations at the ends of steps [m, m/s], numbers of steps, of
+/// extra steps by halving, of iterations and of factorizations.
+class HealthEffort {
+ public:
+  static constexpr int columns = 6;
+
+  /// After every step.
+  void observe(const StepAttempt& last) noexcept {
+    position_ = std::max(position_, last.position_violation);
+    velocity_ = std::max(velocity_, last.velocity_violation);
+  }
+  void write(const StepCounters& c, double* row) noexcept {
+    const long now[4] = {c.steps, c.substeps, c.iterations, c.factorizations};
+    *row++ = position_;
+    *row++ = velocity_;
+    for (int k = 0; k < 4; ++k) {
+      *row++ = static_cast<double>(now[k] - before_[k]);
+      before_[k] = now[k];
+    }
+    position_ = velocity_ = 0.0;
+  }
+  /// For a run that goes on elsewhere (state_bytes.hpp).
+  template <class Stream>
+  void walk(Stream& s) {
+    for (double* x : {&position_, &velocity_}) s(*x);
+    for (long& n : before_) s(n);
+  }
+
+ private:
+  double position_ = 0.0, velocity_ = 0.0;
+  long before_[4] = {0, 0, 0, 0};  ///< counts at the instant before
+};
+
+/// Columns of energies: kinetic, of gravity, springs, tyres and modes, works, remainder.
+inline constexpr int energy_columns = 6 + static_cast<int>(EnergyFlows::size());
+/// Those in front of the two of each flexible body.
+inline constexpr int health_of_system = HealthEffort::columns + energy_columns;
+
+inline void write_energies(const EnergyBalance::Energies& e, const EnergyFlows& work,
+                           double remainder, double* row) noexcept {
+  for (const double x : {e.kinetic, e.gravity, e.springs, e.tyres, e.elastic}) *row++ = x;
+  for (const double x : work.value) *row++ = x;
+  *row = remainder;
+}
+
+/// All of them, in the order of a row.
+std::vector<HealthColumn> health_columns(const Model& model, const RangeWatch& range);
+
+}  // namespace floatframe
