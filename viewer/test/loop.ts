@@ -7,7 +7,7 @@ import { writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { launch, open } from './browser';
 
-const SIZE = { width: 840, height: 470 };
+const WIDTH = 780;
 const PICTURES_A_SECOND = 20;
 const SLOWER = 2;
 const QUALITY = 0.62;
@@ -60,34 +60,35 @@ const browser = await launch();
 const { page, errors } = await open(browser, resolve(here, report), { width: 1180, height: 800 });
 const count = Math.max(2, Math.round((end - begin) * PICTURES_A_SECOND * SLOWER));
 const stills: Buffer[] = [];
+let height = 0;
 await page.evaluate((factor) => factor !== null && window.floatframe!.setScale(factor), scale ? Number(scale) : null);
 for (let k = 0; k < count; ++k) {
-  const url = await page.evaluate(
-    async ({ time, width, height, quality }) => {
+  const picture = await page.evaluate(
+    async ({ time, width, quality }) => {
       window.floatframe!.setTime(time);
       const source = window.floatframe!.screenshot();
       if (!source) return null;
       const image = new Image();
       image.src = source;
       await image.decode();
+      const height = 2 * Math.round((0.5 * width * image.height) / image.width);
       const canvas = Object.assign(document.createElement('canvas'), { width, height });
       const context = canvas.getContext('2d', { alpha: false })!;
       context.imageSmoothingQuality = 'high';
-      // In the proportions of the film, with the caption at the top.
-      const part = Math.min(image.width / width, image.height / height);
-      context.drawImage(image, (image.width - part * width) / 2, 0.1 * (image.height - part * height), part * width, part * height, 0, 0, width, height);
-      return canvas.toDataURL('image/webp', quality);
+      context.drawImage(image, 0, 0, width, height);
+      return { url: canvas.toDataURL('image/webp', quality), height };
     },
-    { time: begin + ((end - begin) * k) / count, ...SIZE, quality: QUALITY },
+    { time: begin + ((end - begin) * k) / count, width: WIDTH, quality: QUALITY },
   );
-  if (!url) {
+  if (!picture) {
     console.error(`${report} has no 3-D view here: ${errors.join('; ')}`);
     await browser.close();
     process.exit(1);
   }
-  stills.push(Buffer.from(url.slice(url.indexOf(',') + 1), 'base64'));
+  height = picture.height;
+  stills.push(Buffer.from(picture.url.slice(picture.url.indexOf(',') + 1), 'base64'));
 }
 await browser.close();
-const file = animated(stills, SIZE.width, SIZE.height, Math.round(1000 / PICTURES_A_SECOND));
+const file = animated(stills, WIDTH, height, Math.round(1000 / PICTURES_A_SECOND));
 writeFileSync(resolve(here, out), file);
 console.log(`${out}: ${count} pictures, ${(file.length / 1e6).toFixed(2)} MB`);

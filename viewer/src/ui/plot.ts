@@ -8,6 +8,7 @@ import { CURVE_COLOURS } from '../scene/palette';
 import { h } from './dom';
 import type { Hub, HubMember } from './hub';
 import { cssColour, isDark } from './theme';
+import { listenToTouches } from './touch';
 
 const DARK_CURVES = ['#56a9e8', '#f0853f', '#2fc092', '#e2a0c6', '#9fd7f7', '#f0b840', '#a99dff', '#bcc3ca'];
 
@@ -254,14 +255,20 @@ export class TimePlot implements HubMember {
         event.preventDefault();
         const at = u.posToVal(event.clientX - u.over.getBoundingClientRect().left, 'x');
         const factor = Math.exp(0.0015 * (event.deltaY || event.deltaX));
-        const first = u.data[0][0];
-        const last = u.data[0][u.data[0].length - 1];
-        const min = Math.max(first, at - factor * (at - u.scales.x.min!));
-        const max = Math.min(last, at + factor * (u.scales.x.max! - at));
-        if (max - min > 1e-9 * (last - first)) this.hub.setRange(min <= first && max >= last ? null : [min, max]);
+        this.showRange(u, at - factor * (at - u.scales.x.min!), at + factor * (u.scales.x.max! - at));
       },
       { passive: false },
     );
+    listenToTouches(u, () => this.hub.range !== null, (min, max) => this.showRange(u, min, max));
+  }
+
+  /** What of it there is. */
+  private showRange(u: uPlot, from: number, to: number): void {
+    const first = u.data[0][0];
+    const last = u.data[0][u.data[0].length - 1];
+    const min = Math.max(first, from);
+    const max = Math.min(last, to);
+    if (max - min > 1e-9 * (last - first)) this.hub.setRange(min <= first && max >= last ? null : [min, max]);
   }
 
   rangeChanged(): void {

@@ -307,6 +307,46 @@ test('dark and narrow: nothing wider than the window', async () => {
   assert.equal(grounds.size, 2);
 });
 
+test('fingers: the view turns and comes nearer, plots zoom', async () => {
+  const { page, errors } = await open(browser, path('vehicle', vehicle()), { width: 420, height: 900 });
+  const session = await page.context().newCDPSession(page);
+  await session.send('Emulation.setTouchEmulationEnabled', { enabled: true, maxTouchPoints: 2 });
+  type Places = [number, number][];
+  const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', places: Places): Promise<unknown> => session.send('Input.dispatchTouchEvent', { type, touchPoints: places.map(([x, y], id) => ({ x, y, id })) });
+  const glide = async (from: Places, to: Places): Promise<void> => {
+    await touch('touchStart', from);
+    for (let k = 1; k <= 5; ++k) await touch('touchMove', from.map(([x, y], i) => [x + ((to[i][0] - x) * k) / 5, y + ((to[i][1] - y) * k) / 5]));
+    await touch('touchEnd', []);
+  };
+  const canvas = page.locator('canvas.canvas');
+  await canvas.scrollIntoViewIfNeeded();
+  const frame = (await canvas.boundingBox())!;
+  const [x, y] = [frame.x + frame.width / 2, frame.y + frame.height / 2];
+  const bar = (): Promise<string> => page.locator('.gizmo .scale').evaluate((e) => `${e.textContent} ${(e.firstElementChild as HTMLElement).style.width}`);
+  const axes = (): Promise<string> => page.locator('.gizmo svg').innerHTML();
+  const [bar0, axes0] = [await bar(), await axes()];
+  await glide([[x, y]], [[x + 90, y + 20]]);
+  await page.waitForFunction((old) => document.querySelector('.gizmo svg')!.innerHTML !== old, axes0);
+  await glide([[x - 30, y], [x + 30, y]], [[x - 120, y], [x + 120, y]]);
+  await page.waitForFunction((old) => { const e = document.querySelector('.gizmo .scale')!; return `${e.textContent} ${(e.firstElementChild as HTMLElement).style.width}` !== old; }, bar0);
+
+  // Plots are made when they are near.
+  await page.locator('#curves .plot').first().scrollIntoViewIfNeeded();
+  const over = page.locator('#curves .plot .u-over').first();
+  await over.scrollIntoViewIfNeeded();
+  const box = (await over.boundingBox())!;
+  const [left, middle] = [box.x + box.width / 2, box.y + box.height / 2];
+  const ticks = (): Promise<number> => page.evaluate(() => window.floatframe!.time);
+  const before = await ticks();
+  await glide([[left - 20, middle], [left + 20, middle]], [[left - 80, middle], [left + 80, middle]]);
+  assert.ok(await page.getByRole('button', { name: 'Whole run' }).isEnabled());
+  assert.equal(await ticks(), before, 'zooming is not seeking');
+  await page.getByRole('button', { name: 'Whole run' }).click();
+  assert.ok(await page.getByRole('button', { name: 'Whole run' }).isDisabled());
+  assert.deepEqual(errors, []);
+  await page.context().close();
+});
+
 test('check, reduce and compare', async () => {
   const first = await open(browser, path('check', check()));
   assert.ok(await first.page.getByLabel('Names', { exact: true }).isChecked());
