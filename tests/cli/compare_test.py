@@ -50,6 +50,7 @@ class Compare(RunCase):
         data = page_of(self.folder / "page.html")
         if data is not None:
             self.assertEqual((data["kind"], data["status"]["state"]), ("compare", "compared"))
+            self.assertEqual(data["facts"][0]["rows"][:2], [["A", "one/results.csv"], ["B", "two/results.csv"]])
             channels = data["curves"]["channels"]
             self.assertEqual(sorted(c["name"] for c in channels), sorted(names))
             self.assertEqual(data["curves"]["names"], ["A: one/results.csv", "B: two/results.csv"])

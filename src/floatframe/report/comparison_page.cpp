@@ -53,19 +53,22 @@ std::string comparison_page(const ComparedResults& r, const PageCurves& a, const
   const auto span = [](double start, double end) {
     return fmt::format("{:g} to {:g} s", start, end);
   };
+  Json rows = Json::array();
+  const auto row = [&](const char* name, const std::string& value) {
+    rows.push_back(Json::array({name, value}));
+  };
+  row("A", r.file_a);
+  row("B", r.file_b);
+  row("A goes from", span(c.start_a, c.end_a));
+  row("B goes from", span(c.start_b, c.end_b));
+  row("channels", std::to_string(c.channels.size()));
+  row("instants", std::to_string(c.instants));
   const Json page{{"schema", 1},
                   {"kind", "compare"},
                   {"title", "Comparison"},
                   {"program", "Floatframe " + software},
                   {"status", {{"state", state}, {"sentences", sentences}, {"warnings", warnings}}},
-                  {"facts", Json::array({{{"heading", "Compared"},
-                                          {"rows",
-                                           {{"A", r.file_a},
-                                            {"B", r.file_b},
-                                            {"A goes from", span(c.start_a, c.end_a)},
-                                            {"B goes from", span(c.start_b, c.end_b)},
-                                            {"channels", std::to_string(c.channels.size())},
-                                            {"instants", std::to_string(c.instants)}}}}})},
+                  {"facts", Json::array({{{"heading", "Compared"}, {"rows", std::move(rows)}}})},
                   {"tables", Json::array()},
                   {"curves",
                    {{"time", first["time"]},

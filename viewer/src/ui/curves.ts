@@ -38,6 +38,7 @@ export class Curves {
   readonly element: HTMLElement;
   private readonly hub: Hub;
   private readonly channels: Channel[];
+  private readonly compares: boolean;
   private readonly message = h('p', { class: 'message', role: 'status', hidden: true });
   private readonly clear: HTMLButtonElement;
   private readonly reset: HTMLButtonElement;
@@ -46,6 +47,7 @@ export class Curves {
   private readonly groups: { element: HTMLElement; plots: { element: HTMLElement; words: string }[]; words: string }[] = [];
 
   constructor(channels: Channel[], hub: Hub, names: [string, string] | null) {
+    this.compares = names !== null;
     this.hub = hub;
     this.channels = channels;
     this.clear = button('close', 'Take the second run away', () => this.setOverlay(null, ''), { hidden: true });
@@ -89,12 +91,12 @@ export class Curves {
   private addGroup(group: ReturnType<typeof groupChannels>[number]): void {
     const grid = h('div', { class: 'plots' });
     const plots = group.plots.map((spec) => {
-      const plot = new TimePlot({ title: capital(spec.kind), unit: spec.unit, channels: spec.channels }, this.hub);
+      const plot = new TimePlot({ title: spec.channels.some((c) => c.name === spec.kind) ? spec.kind : capital(spec.kind), unit: spec.unit, channels: spec.channels }, this.hub);
       grid.append(plot.element);
       return { element: plot.element, words: spec.channels.map((c) => `${c.name} ${c.label} ${c.kind}`).join(' ').toLowerCase() };
     });
     const still = stillList(group.still);
-    const element = h('div', { class: plots.length + (still ? 1 : 0) > 1 ? 'body-group many' : 'body-group' }, h('h3', {}, group.body ?? 'Model'), plots.length > 0 ? grid : null, still);
+    const element = h('div', { class: plots.length + (still ? 1 : 0) > 1 ? 'body-group many' : 'body-group' }, h('h3', {}, group.body ?? (this.compares ? 'Channels' : 'Model')), plots.length > 0 ? grid : null, still);
     this.groups.push({ element, plots, words: `${group.body ?? 'model'} ${group.still.map((c) => `${c.name} ${c.label}`).join(' ')}`.toLowerCase() });
     this.grid.append(element);
   }
@@ -122,7 +124,8 @@ export class Curves {
         const span = channel.range ? channel.range.max - channel.range.min : 0;
         return { channel, max, rms, part: span > 0 ? max / span : max > 0 ? Infinity : 0 };
       })
-      .sort((a, b) => b.part - a.part);
+      // Those of a comparison come in its order: rounding beside larger values is last.
+      .sort((a, b) => (a.channel.stated && b.channel.stated ? 0 : b.part - a.part));
     if (rows.length === 0) return;
     const head = ['channel', 'unit', 'largest difference', 'RMS difference', 'of its range'];
     this.differences.append(

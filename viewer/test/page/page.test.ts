@@ -307,6 +307,30 @@ test('dark and narrow: nothing wider than the window', async () => {
   assert.equal(grounds.size, 2);
 });
 
+test('a comparison by the program: largest difference first, both curves, a verdict', { skip: existsSync(program) ? false : 'no program: make build' }, async (t) => {
+  const table = (pitch: number): string => `time [s],height [m],<img src=x onerror="window.hacked=1"> [rad],same [m]\n${Array.from({ length: 50 }, (_, k) => `${k / 10},${Math.sin(k)},${Math.cos(k) + pitch * k},${k}\n`).join('')}`;
+  writeFileSync(join(folder, 'first.csv'), table(0));
+  writeFileSync(join(folder, 'second.csv'), table(0.01));
+  const target = join(folder, 'compared.html');
+  const run = spawnSync(program, ['compare', join(folder, 'first.csv'), join(folder, 'second.csv'), '--tolerance', '1e-6', '--report', target], { encoding: 'utf8' });
+  assert.equal(run.status, 1, run.stderr);
+  const { page, errors } = await open(browser, target);
+  if ((await page.locator('#floatframe-page').count()) === 0) return t.skip('the program was built without the viewer');
+  assert.deepEqual(await page.evaluate(() => window.floatframe!.problems), []);
+  assert.match((await page.locator('#status').textContent())!, /They differ.*1 of 3 channels at 50 instants beyond 1e-06/);
+  const titles = await page.locator('#curves .plot-title').allTextContents();
+  assert.equal(titles.length, 3);
+  assert.match(titles[0], /^<img src=x/);
+  assert.match((await page.locator('#curves tbody tr.beyond').textContent())!, /0\.49/);
+  await page.locator('#curves .plot').first().scrollIntoViewIfNeeded();
+  await page.locator('#curves .chip-note').first().filter({ hasText: 'Δ max 0.49' }).waitFor();
+  assert.match((await page.locator('#facts').textContent())!, /first\.csv.*second\.csv/);
+  assert.equal(await page.evaluate(() => (window as { hacked?: number }).hacked), undefined);
+  assert.equal(await page.locator('img').count(), 0);
+  assert.deepEqual(errors, []);
+  await page.context().close();
+});
+
 test('fingers: the view turns and comes nearer, plots zoom', async () => {
   const { page, errors } = await open(browser, path('vehicle', vehicle()), { width: 420, height: 900 });
   const session = await page.context().newCDPSession(page);
