@@ -78,8 +78,8 @@ TEST_P(IltisStairs, OrderTwoWithEdgesLocated) {
     EXPECT_EQ(r.summary.edges_passed, 0);
     return r;
   };
-  // Of both formulations in relative coordinates: in absolute ones the rounding of positions 20 m
-  // away leaves 4e-8 m at this step, a seventh of the smallest error below.
+  // Of both formulations in relative coordinates: in absolute ones round-off grows as steps become
+  // shorter, to some 1e-8 m here.
   o.coordinates = Coordinates::relative;
   const RunResult reference = made(3.90625e-6, true);
   o.coordinates = coordinates;
