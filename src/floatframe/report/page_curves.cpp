@@ -21,8 +21,8 @@ class Collector {
     out_.columns = columns;
     out_.rows = rows;
     const std::size_t channels = columns.empty() ? 0 : columns.size() - 1;
-    const std::size_t most =
-        std::max<std::size_t>(most_numbers / std::max<std::size_t>(channels, 1), 200);
+    const std::size_t most = std::clamp<std::size_t>(
+        most_numbers / std::max<std::size_t>(channels, 1), 200, most_instants_of_curves);
     stretches_ = rows <= most ? 0 : (most - 2) / 2;
     out_.values.resize(channels);
     for (auto& v : out_.values) v.reserve(std::min(rows, most));

@@ -31,6 +31,8 @@ struct PageCurves {
 
 /// Numbers in all that a page shows.
 inline constexpr std::size_t most_numbers_of_curves = 1'000'000;
+/// Instants of one curve, however few curves there are: ten for each point of a wide screen.
+inline constexpr std::size_t most_instants_of_curves = 50'000;
 
 /// Of rows that `read` writes one after the other, time first.
 PageCurves page_curves(const std::vector<Column>& columns, std::size_t rows,

@@ -26,6 +26,8 @@ struct SceneFrames {
 
 /// Numbers in the frames of a page; of a longer run so many instants are taken, evenly.
 inline constexpr std::size_t most_numbers_of_frames = 600'000;
+/// However few bodies there are.
+inline constexpr std::size_t most_frames = 20'000;
 
 /// Throws InputError if the states are not of this model.
 SceneFrames scene_frames(const Model& model, const StateHistory& history);
