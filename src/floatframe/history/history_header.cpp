@@ -50,6 +50,7 @@ class HeaderReader {
       refuse(path_, "found " + json_excerpt(object) + ", expected an object");
   }
 
+  bool has(const char* key) const { return object_.contains(key); }
   const Json& value(const char* key) const {
     const auto it = object_.find(key);
     if (it == object_.end()) refuse(path_ + key, "it is missing");
@@ -180,20 +181,21 @@ void read_bodies(const HeaderReader& in, HistoryHeader& h) {
   }
 }
 
-void read_health(const HeaderReader& in, HistoryHeader& h) {
-  for (const Json& item : in.items("health")) {
-    const HeaderReader c = in.element("health", item);
-    HistoryHealth column{c.get<std::string>("name"),
-                         c.get<std::string>("unit"),
-                         c.get<std::string>("group"),
-                         {},
-                         0.0};
-    if (item.contains("body")) {
-      column.body = c.get<std::string>("body");
-      column.size = c.get<double>("size_m");
-    }
-    h.health.push_back(std::move(column));
+HistoryHealth health_column(const HeaderReader& in, const Json& item) {
+  const HeaderReader c = in.element("health", item);
+  HistoryHealth column{
+      c.get<std::string>("name"), c.get<std::string>("unit"), c.get<std::string>("group"), {}, 0.0};
+  if (c.has("body")) {
+    column.body = c.get<std::string>("body");
+    column.size = c.get<double>("size_m");
   }
+  return column;
+}
+
+/// Files of runs that were not watched may do without the key.
+void read_health(const HeaderReader& in, HistoryHeader& h) {
+  if (in.has("health"))
+    for (const Json& item : in.items("health")) h.health.push_back(health_column(in, item));
   const HistoryGroup* g = h.find(health_group);
   if ((g ? g->count : 0) != h.health.size())
     HeaderReader::refuse(
