@@ -167,7 +167,7 @@ TEST(BenchScaling, BrickLinksAreLikeBeamLinks) {
   options.clamped = {{"start", all_dofs}};
   options.interfaces = {{"end", all_dofs}};
   options.normal_modes = 2;
-  for (const int across : {1, 3}) {
+  for (const int across : {1, 3, 9}) {
     const FeModel mesh = solid_link(across, 50);
     EXPECT_EQ(mesh.nodes(), (across + 1) * (across + 1) * 51 + 2);
     const FlexibleBody link = reduce(mesh, options);

@@ -6,7 +6,8 @@ FeModel solid_link(int across, int along) {
   constexpr double length = 1.0, side = 0.02;  // [m]
   FeModel model;
   model.materials = {{2.0e11, 0.3, 7500.0}, {2.0e13, 0.3, 0.0}};  // steel, the star
-  model.sections = {BeamSection::solid_round(side)};
+  // As thin as the bricks: short thick rays would be stiffer than the digits of the bricks allow.
+  model.sections = {BeamSection::solid_round(side / across)};
   const int n = across + 1;
   const auto node = [n](int i, int j, int k) { return (i * n + j) * n + k; };
   for (int i = 0; i <= along; ++i) {
