@@ -62,12 +62,26 @@ TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
   const auto json = nlohmann::ordered_json::parse(summary_json(summary));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"model", "coordinates", "inertia", "step_s",
-                                            "duration_s", "steps", "substeps", "iterations",
-                                            "factorizations", "edges", "cpu_s", "real_time_factor",
+  EXPECT_EQ(keys, (std::vector<std::string>{"model",
+                                            "coordinates",
+                                            "inertia",
+                                            "step_s",
+                                            "duration_s",
+                                            "steps",
+                                            "substeps",
+                                            "iterations",
+                                            "factorizations",
+                                            "edges",
+                                            "cpu_s",
+                                            "real_time_factor",
                                             "step_times",
-                                            "max_position_violation", "max_velocity_violation",
-                                            "energy", "warnings", "start", "status", "message"}));
+                                            "max_position_violation",
+                                            "max_velocity_violation",
+                                            "energy",
+                                            "warnings",
+                                            "start",
+                                            "status",
+                                            "message"}));
   EXPECT_EQ(json["coordinates"], "relative");
   EXPECT_EQ(json["step_s"], 0.01);
   EXPECT_EQ(json["energy"]["end"]["total_J"], 2.5);

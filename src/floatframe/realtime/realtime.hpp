@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/core/histogram.hpp"
 #include "floatframe/model/description.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/core/histogram.hpp"
 #include "floatframe/realtime/realtime_options.hpp"
 #include "floatframe/realtime/signal_port.hpp"
 #include "floatframe/simulation/results.hpp"
