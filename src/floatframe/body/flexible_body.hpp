@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "floatframe/body/inertia_invariants.hpp"
+#include "floatframe/body/second_order.hpp"
 
 namespace floatframe {
 
@@ -38,6 +39,9 @@ struct ProjectionData {
   /// axes.
   MatX X_theta;
   Eigen::SparseMatrix<double, Eigen::RowMajor> M_6;
+  /// Bars only, else empty: (3 nm) n x nm, rows nm (3 k + j) and on are h_j of node k
+  /// (second_order.hpp).
+  MatX h;
   bool six_dof() const noexcept { return M_6.rows() > 0; }
   int nodes() const noexcept { return static_cast<int>(p.cols()); }
 };
@@ -51,6 +55,7 @@ struct FlexibleBody {
   std::vector<ModalNode> nodes;  ///< FE nodes, in the order of the FE model; empty for a rigid body
   std::shared_ptr<const ProjectionData> projection;  ///< null: only preprocessing is possible
   MassModel mass_model = MassModel::isoparametric;
+  std::shared_ptr<const SecondOrder> second_order = nullptr;  ///< null: not known
 
   // What the user may want to know about the reduction.
   VecX fixed_interface_frequencies;  ///< [Hz], of the dynamic modes kept
