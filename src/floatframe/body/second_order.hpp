@@ -29,9 +29,9 @@ struct SecondOrderNode {
 };
 
 struct SecondOrder {
-  std::array<MatX, 3> S2;                 ///< int h_j dm = -K_sigma of a load rho e_j
+  std::array<MatX, 3> S2;                  ///< int h_j dm = -K_sigma of a load rho e_j
   std::array<std::array<MatX, 3>, 3> S2i;  ///< [i][j]: int r_ui h_j dm: of a load rho r_ui e_j
-  std::vector<SecondOrderNode> nodes;     ///< ascending; nodes that are not here have none
+  std::vector<SecondOrderNode> nodes;      ///< ascending; nodes that are not here have none
 };
 
 }  // namespace floatframe
