@@ -106,12 +106,12 @@ class ModelHash {
         all(static_cast<int>(it.col()), it.value());
   }
   void add(const ProjectionData& d) {
-    const auto& [p, X, M_s, X_theta, M_6] = d;
+    const auto& [p, X, M_s, X_theta, M_6, h] = d;
     all(p, X, M_s, X_theta, M_6);
   }
   void add(const FlexibleBody& body) {
-    const auto& [invariants, K, D, nodes, projection, mass_model, frequencies, mode_names, shape] =
-        body;
+    const auto& [invariants, K, D, nodes, projection, mass_model, second_order, frequencies,
+                 mode_names, shape] = body;
     all(invariants, K, D, projection != nullptr, mass_model);  // nodes: those with markers
     if (projection) add(*projection);
   }
