@@ -52,11 +52,16 @@ FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
     node.X_theta = axial.asDiagonal() * node.X_theta;
   }
   if (body.shape) out.shape = std::make_shared<const BodyShape>(mirrored_shape(*body.shape, s));
+  if (body.second_order)
+    out.second_order = std::make_shared<const SecondOrder>(mirrored(*body.second_order, s));
   if (body.projection) {
     auto data = std::make_shared<ProjectionData>(*body.projection);
     data->p = s.asDiagonal() * data->p;
     for (Eigen::Index r = 0; r < data->X.rows(); ++r) data->X.row(r) *= s(r % 3);
     for (Eigen::Index r = 0; r < data->X_theta.rows(); ++r) data->X_theta.row(r) *= axial(r % 3);
+    if (data->h.size() > 0)  // blocks h_1, h_2, h_3 of each node
+      for (Eigen::Index b = 0; b < data->h.rows() / data->h.cols(); ++b)
+        data->h.middleRows(b * data->h.cols(), data->h.cols()) *= s(b % 3);
     const auto sign = [&](Eigen::Index dof) {
       const Eigen::Index k = dof % 6;
       return k < 3 ? s(k) : axial(k - 3);

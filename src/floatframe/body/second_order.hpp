@@ -32,6 +32,23 @@ struct SecondOrder {
   std::array<MatX, 3> S2;                  ///< int h_j dm = -K_sigma of a load rho e_j
   std::array<std::array<MatX, 3>, 3> S2i;  ///< [i][j]: int r_ui h_j dm: of a load rho r_ui e_j
   std::vector<SecondOrderNode> nodes;      ///< ascending; nodes that are not here have none
+
+  /// All zero, for nm modes, without nodes.
+  static SecondOrder zero(int nm) {
+    SecondOrder s;
+    s.S2.fill(MatX::Zero(nm, nm));
+    for (auto& row : s.S2i) row.fill(MatX::Zero(nm, nm));
+    return s;
+  }
 };
+
+/// Adds to S2i the second order 1/2 theta x (theta x r) of a rigid piece that turns with the modes
+/// `theta` (3 x nm) about its centre of mass. P = int r r^T dm.
+void add_turning(const Mat3& P, const Mat3X& theta, SecondOrder& out);
+
+/// The same in the modes X C. C: nm x new modes.
+SecondOrder combined(const SecondOrder& second_order, const MatX& C);
+/// Of the mirrored body: s holds the signs of the coordinates.
+SecondOrder mirrored(const SecondOrder& second_order, const Vec3& s);
 
 }  // namespace floatframe

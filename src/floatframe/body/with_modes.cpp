@@ -18,6 +18,28 @@ MatX block(const MatX& x, const std::vector<int>& keep) {
   return columns<MatX>(columns<MatX>(x, keep).transpose(), keep).transpose();
 }
 
+/// Of the blocks h of the nodes, one below the other.
+MatX blocks(const MatX& h, const std::vector<int>& keep) {
+  const Eigen::Index old = h.cols(), nm = static_cast<Eigen::Index>(keep.size());
+  MatX out(h.rows() / old * nm, nm);
+  for (Eigen::Index b = 0; b < h.rows() / old; ++b)
+    out.middleRows(b * nm, nm) = block(h.middleRows(b * old, old), keep);
+  return out;
+}
+
+std::shared_ptr<const SecondOrder> kept(const SecondOrder& all, const std::vector<int>& keep) {
+  auto out = std::make_shared<SecondOrder>(all);
+  for (std::size_t j = 0; j < 3; ++j) {
+    out->S2[j] = block(all.S2[j], keep);
+    for (std::size_t i = 0; i < 3; ++i) out->S2i[i][j] = block(all.S2i[i][j], keep);
+    for (SecondOrderNode& node : out->nodes) {
+      node.h[j] = block(node.h[j], keep);
+      node.theta[j] = block(node.theta[j], keep);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 FlexibleBody with_modes(const FlexibleBody& body, const std::vector<int>& keep) {
@@ -51,12 +73,15 @@ FlexibleBody with_modes(const FlexibleBody& body, const std::vector<int>& keep) 
     shape->modes = columns(shape->modes, keep);
     out.shape = shape;
   }
+  if (keep.empty()) out.second_order = nullptr;
+  if (out.second_order) out.second_order = kept(*out.second_order, keep);
   if (keep.empty()) {
     out.projection = nullptr;
   } else if (body.projection) {
     auto data = std::make_shared<ProjectionData>(*body.projection);
     data->X = columns(data->X, keep);
     if (data->X_theta.size() > 0) data->X_theta = columns(data->X_theta, keep);
+    if (data->h.size() > 0) data->h = blocks(data->h, keep);
     out.projection = data;
   }
   return out;

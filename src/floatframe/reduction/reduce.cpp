@@ -7,6 +7,7 @@
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
+#include "floatframe/reduction/bar_second_order.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
 namespace floatframe {
@@ -56,8 +57,8 @@ ModeSet user_basis(const FeModel& model, const MatX& X) {
   return set;
 }
 
-std::shared_ptr<const ProjectionData> projection_data(const FeModel& model, const MatX& X,
-                                                      const ReductionOptions& options) {
+std::shared_ptr<ProjectionData> projection_data(const FeModel& model, const MatX& X,
+                                                const ReductionOptions& options) {
   if (options.mass_model == MassModel::hermite) return nullptr;
   const int n = model.nodes();
   const int d = model.dofs_per_node();
@@ -111,7 +112,12 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
   const MatX X = set.X;
   FlexibleBody body = body_of_modes(std::move(set), std::move(invariants), options.damping_ratio);
   body.mass_model = options.mass_model;
-  body.projection = projection_data(model, X, options);
+  const std::shared_ptr<ProjectionData> projection = projection_data(model, X, options);
+  if (auto field = bar_second_order(model, X, options)) {
+    body.second_order = second_order_of(model, X, *field, options);
+    if (projection) projection->h = std::move(field->h);
+  }
+  body.projection = projection;
   const int d = model.dofs_per_node();
   const Eigen::Index nm = X.cols();
   body.nodes.resize(model.nodes());
