@@ -135,14 +135,29 @@ async function build(app: HTMLElement): Promise<void> {
   }
 
   const sections: [string, string, HTMLElement | null][] = [];
-  const status = statusSection(page, view || !noView ? problems : problems.slice(0, -1));
+  const shown = view || !noView ? problems : problems.slice(0, -1);
+  let status: ReturnType<typeof statusSection>;
+  try {
+    status = statusSection(page, shown);
+  } catch {
+    status = statusSection({ ...page, status: undefined }, [...shown, 'The status of the run is left out: its record is damaged.']);
+  }
   add = status.add;
-  const curves = channels.length > 0 ? new Curves(channels, hub, page.kind === 'compare' || page.curves?.names ? (page.curves?.names ?? ['first', 'second']) : null) : null;
+  // Damage of one section is a sentence; the others stay.
+  const part = <T,>(what: string, make: () => T): T | null => {
+    try {
+      return make();
+    } catch (error) {
+      report(error instanceof PageError ? error.message : `${what} left out: the record is damaged.`);
+      return null;
+    }
+  };
+  const curves = part('The curves are', () => (channels.length > 0 ? new Curves(channels, hub, page.kind === 'compare' || page.curves?.names ? (page.curves?.names ?? ['first', 'second']) : null) : null));
   sections.push(['view', '3-D view', view?.element ?? noView]);
   sections.push(['curves', 'Curves', curves?.element ?? null]);
-  sections.push(['trust', 'Trust', trustSection((page.trust?.rows ?? []) as string[][], trusted, page.trust?.notes ?? {}, hub)]);
-  sections.push(['facts', page.kind === 'reduce' ? 'The part' : 'Model', factsSection(page)]);
-  sections.push(['speed', 'Speed', speedSection(page, report)]);
+  sections.push(['trust', 'Trust', part('What tells whether to trust the run is', () => trustSection((page.trust?.rows ?? []) as string[][], trusted, page.trust?.notes ?? {}, hub))]);
+  sections.push(['facts', page.kind === 'reduce' ? 'The part' : 'Model', part('The tables of the model are', () => factsSection(page))]);
+  sections.push(['speed', 'Speed', part('The times of the steps are', () => speedSection(page, report))]);
   const present = sections.filter(([, , element]) => element !== null);
   const links = present.map(([id, label]): [string, string] => [id, label]);
   const pair = h('div', { class: `pair${view && curves ? ' both' : ''}` }, view?.element ?? noView, curves?.element);

@@ -183,6 +183,9 @@ export function damaged(template: string): Record<string, Damaged> {
     no_bodies: broken(/has no bodies/, (p) => (p.scene!.bodies = [])),
     shape: broken(/of a kind that this page does not know/, (p) => (p.scene!.bodies[5].shape = { kind: 'teapot' } as never)),
     channel: broken(/Channel "chassis_z": the shape is/, (p) => (p.curves!.channels[0].data.shape[0] = 7)),
+    facts: broken(/tables of the model are left out.*/, (p) => (p.facts = [{ title: 'Bodies', rows: 7 }] as never)),
+    trust: broken(/whether to trust the run is left out/, (p) => (p.trust!.rows = 'nothing' as never)),
+    status: broken(/status of the run is left out/, (p) => (p.status = { state: 'completed', warnings: 7 } as never)),
     histogram: broken(/histogram of step times is left out/, (p) => p.speed!.step_times!.edges.pop()),
   };
 }
