@@ -62,6 +62,10 @@ std::string value_text(const ForceKey& key) {
       return "[signal](#inputs) " + units(key, "[x]");
     case K::target_rate:
       return "[signal](#inputs) " + units(key, "[v]");
+    case K::stiffness_matrix:
+      return "6 x 6 [N/m, N, N m/m, N m/rad] or 2 x 2 [N/m]";
+    case K::damping_matrix:
+      return "6 x 6 [N s/m, N s, N m s/m, N m s/rad] or 2 x 2 [N s/m]";
   }
   return "";
 }

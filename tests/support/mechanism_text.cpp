@@ -152,6 +152,8 @@ bool is_conservative(const ModelDescription& d) {
     for (const ForceKey& key : force_keys(f.type())) {
       const auto signal = values.signal(key.name);
       if (key.kind == ForceKeyKind::damper && acts(values.law(key.name))) return false;
+      if (key.kind == ForceKeyKind::damping_matrix && !values.matrix(key.name).isZero(0.0))
+        return false;
       if (signal && (key.kind != ForceKeyKind::target || moves(*signal))) return false;
     }
   }

@@ -47,6 +47,20 @@ ForceDescription random_force(ForceType type, const RandomForceEnds& ends,
         s.pieces = PiecewisePolynomial::polynomial({size * numbers(-3.0, 3.0), size});
         return s;
       }
+      case K::stiffness_matrix:
+      case K::damping_matrix: {
+        // Symmetric, with cross terms; nothing about the axis of the shaft.
+        const bool stiff = key.kind == K::stiffness_matrix;
+        const double k = stiff ? ends.stiffness : ends.damping, l = ends.length;
+        const double sizes[] = {1.0, 1.0, 1.0, l, l, stiff ? 0.0 : l};
+        MatX M(6, 6);
+        for (int i = 0; i < 6; ++i)
+          for (int j = 0; j <= i; ++j) {
+            const double x = i == j ? numbers(0.5, 1.5) : numbers(-0.08, 0.08);
+            M(i, j) = M(j, i) = k * sizes[i] * sizes[j] * x;
+          }
+        return M;
+      }
       default:
         return std::nullopt;  // stops have kinks; targets are those of motors
     }

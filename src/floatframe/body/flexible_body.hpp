@@ -40,7 +40,7 @@ struct ProjectionData {
   MatX X_theta;
   Eigen::SparseMatrix<double, Eigen::RowMajor> M_6;
   /// Bars only, else empty: (3 nm) n x nm, rows nm (3 k + j) and on are h_j of node k
-  /// (second_order.hpp).
+  /// (SecondOrder).
   MatX h;
   bool six_dof() const noexcept { return M_6.rows() > 0; }
   int nodes() const noexcept { return static_cast<int>(p.cols()); }

@@ -12,7 +12,7 @@
 // with the stress stiffness K_sigma of the linear static solution under f. Straight bars: theory,
 // section 8; there h_1 = -H, the foreshortening.
 //
-// The integrals continue S and Si of the inertia integrals (inertia_invariants.hpp): with
+// The integrals continue S and Si of the inertia integrals: with
 // S(y) = S + y^T S2, Si(y) = Si + y^T S2i the mass matrix is that of u to first order in y.
 #include <array>
 #include <vector>

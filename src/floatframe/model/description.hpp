@@ -231,9 +231,9 @@ struct AppliedLoadDescription {
 };
 
 /// A value of a key: number, word by its place in the list of words, flag, name or word, direction,
-/// place, law, signal.
+/// place, law, signal, matrix.
 using ForceValue = std::variant<double, int, bool, std::string, Vec3, AttachmentDescription,
-                                PiecewisePolynomial, SignalDescription>;
+                                PiecewisePolynomial, SignalDescription, MatX>;
 
 /// A force element of any type, by the keys it has in model files (docs/model-file.md):
 ///   ForceValues{ForceType::tyre, {{"body", wheel}, {"radius", 0.3}, {"law", "radial"}, ...}}

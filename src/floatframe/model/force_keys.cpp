@@ -94,10 +94,16 @@ std::optional<SignalDescription> ForceView::signal(const std::string& name) cons
   return found ? std::optional(*found) : std::nullopt;
 }
 
+MatX ForceView::matrix(const std::string& name) const {
+  return value_or(force_value(*force_, key(name)), MatX());
+}
+
 bool ForceCheck::given(const std::string& key) const {
   if (description().origin.keys.contains(key)) return true;
   const auto value = force_value(description(), this->key(key));
   const auto* law = value ? std::get_if<PiecewisePolynomial>(&*value) : nullptr;
+  if (const auto* matrix = value ? std::get_if<MatX>(&*value) : nullptr)
+    return !matrix->isZero(0.0);
   return law ? !is_zero(*law) : value.has_value();
 }
 
@@ -114,7 +120,8 @@ void ForceCheck::some_law() const {
   for (const ForceKey& k : force_keys(description().type())) {
     const bool law = k.kind == ForceKeyKind::spring || k.kind == ForceKeyKind::damper ||
                      k.kind == ForceKeyKind::bump_stop || k.kind == ForceKeyKind::rebound_stop ||
-                     k.kind == ForceKeyKind::load;
+                     k.kind == ForceKeyKind::load || k.kind == ForceKeyKind::stiffness_matrix ||
+                     k.kind == ForceKeyKind::damping_matrix;
     if (!law) continue;
     if (given(k.name)) return;
     laws.push_back(k.name);

@@ -15,22 +15,24 @@
 namespace floatframe {
 
 enum class ForceKeyKind {
-  place,         ///< {body, at} or {body, node}, also on the ground
-  own_place,     ///< `body`, and `at` or `node`, among the keys of the force; not on the ground
-  joint,         ///< the name of one
-  road,          ///< the name of one
-  direction,     ///< its length does not matter
-  vector,        ///< the same, but used as given
-  number,        ///< as `rule` says
-  word,          ///< one of `words`
-  flag,          ///< true or false
-  spring,        ///< law of a displacement
-  damper,        ///< law of a rate
-  bump_stop,     ///< {length, stiffness}: a ramp below, added to the law `of` ...
-  rebound_stop,  ///< ... or above
-  load,          ///< signal, a force
-  target,        ///< signal, a displacement; its tables are smooth
-  target_rate    ///< signal, a rate
+  place,             ///< {body, at} or {body, node}, also on the ground
+  own_place,         ///< `body`, and `at` or `node`, among the keys of the force; not on the ground
+  joint,             ///< the name of one
+  road,              ///< the name of one
+  direction,         ///< its length does not matter
+  vector,            ///< the same, but used as given
+  number,            ///< as `rule` says
+  word,              ///< one of `words`
+  flag,              ///< true or false
+  spring,            ///< law of a displacement
+  damper,            ///< law of a rate
+  bump_stop,         ///< {length, stiffness}: a ramp below, added to the law `of` ...
+  rebound_stop,      ///< ... or above
+  load,              ///< signal, a force
+  target,            ///< signal, a displacement; its tables are smooth
+  target_rate,       ///< signal, a rate
+  stiffness_matrix,  ///< 6 x 6: three displacements and three rotations; or 2 x 2
+  damping_matrix     ///< the same of their rates
 };
 
 /// What laws and signals belong to: a displacement, a rotation, or the coordinate of the joint that
@@ -121,6 +123,7 @@ class ForceView {
   bool flag(const std::string& name) const;
   PiecewisePolynomial law(const std::string& name) const;
   std::optional<SignalDescription> signal(const std::string& name) const;
+  MatX matrix(const std::string& name) const;  ///< 0 x 0: not given
 
  private:
   const ForceDescription* force_;
@@ -141,7 +144,7 @@ struct ForceCheck : ForceView {
 
   /// There is a value and nothing is wrong with it.
   bool good(const std::string& key) const { return !wrong.contains(key) && has(key); }
-  /// The user has said something about it; of a law in a struct: other than zero.
+  /// The user has said something about it; of a law or matrix in a struct: other than zero.
   bool given(const std::string& key) const;
   /// The places are on two bodies; true if they are and both are good.
   bool two_bodies(const std::string& a, const std::string& b) const;

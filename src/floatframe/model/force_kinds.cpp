@@ -13,12 +13,13 @@ namespace {
 constexpr const ForceKind* force_list[] = {FLOATFRAME_FORCES(FLOATFRAME_KIND)};
 #undef FLOATFRAME_KIND
 
-/// Calls f<type> of the force's type: a chain of comparisons with direct calls.
+/// Calls f<type> of the force's type: a chain of comparisons with direct calls, up to the one that
+/// fits.
 template <std::size_t... I>
 void evaluate_of(std::index_sequence<I...>, const ForceInput& in, ForceState& out) noexcept {
-  ((in.force.type == static_cast<ForceType>(I) ? force_of<static_cast<ForceType>(I)>(in, out)
-                                               : void()),
-   ...);
+  (void)((in.force.type == static_cast<ForceType>(I) &&
+          (force_of<static_cast<ForceType>(I)>(in, out), true)) ||
+         ...);
 }
 
 using Types = std::make_index_sequence<std::size(force_types)>;

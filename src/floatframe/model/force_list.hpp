@@ -12,7 +12,8 @@
   entry(tyre)                    \
   entry(bushing)                 \
   entry(force)                   \
-  entry(torque)
+  entry(torque)                  \
+  entry(bearing)
 // clang-format on
 
 namespace floatframe {

@@ -54,6 +54,11 @@ Complaint rod_ends(const Vec3& a, const Vec3& b);
 Complaint spring_ends(const Vec3& a, const Vec3& b);
 /// `laws`: the keys, one of which is needed.
 std::string no_law(const std::vector<const char*>& laws);
+/// 6 x 6 or 2 x 2, finite.
+Complaint force_matrix(const MatX& M);
+std::string force_matrix_rows(std::size_t rows);
+/// Of a bearing, 6 x 6 or 2 x 2: nothing holds the spin.
+Complaint bearing_stiffness(const MatX& K);
 std::string target_without_law();
 std::string motion_and_start_value();
 std::string keep_alone();

@@ -35,6 +35,9 @@ const char* other_type(const ForceKey& key, const ForceValue& value) {
     case K::spring:
     case K::damper:
       return needs(static_cast<PiecewisePolynomial*>(nullptr), "a law");
+    case K::stiffness_matrix:
+    case K::damping_matrix:
+      return needs(static_cast<MatX*>(nullptr), "a matrix");
     case K::bump_stop:
     case K::rebound_stop:
       return "a ramp in the spring";
@@ -97,6 +100,10 @@ struct ForceValidation {
       case K::spring:
       case K::damper:
         entity.pieces(key.name, std::get<PiecewisePolynomial>(*x));
+        break;
+      case K::stiffness_matrix:
+      case K::damping_matrix:
+        entity.complain(key.name, sentences::force_matrix(std::get<MatX>(*x)));
         break;
       case K::load:
       case K::target:

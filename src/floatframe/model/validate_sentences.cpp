@@ -177,6 +177,24 @@ std::string no_law(const std::vector<const char*>& laws) {
   return "found no law, expected " + alternatives(laws);
 }
 
+std::string force_matrix_rows(std::size_t rows) {
+  return "found " + std::to_string(rows) + " rows, expected 6 rows of 6 numbers, or 2 rows of 2";
+}
+
+Complaint force_matrix(const MatX& M) {
+  if (M.rows() != M.cols() || (M.rows() != 6 && M.rows() != 2))
+    return "found " + std::to_string(M.rows()) + " x " + std::to_string(M.cols()) +
+           " numbers, expected 6 x 6 or 2 x 2";
+  if (!M.allFinite()) return "found numbers that are not finite, expected finite ones";
+  return std::nullopt;
+}
+
+Complaint bearing_stiffness(const MatX& K) {
+  if (K.rows() < 6 || (K.row(5).isZero(0.0) && K.col(5).isZero(0.0))) return std::nullopt;
+  return "found numbers in the sixth row or column, expected zeros: a bearing lets the shaft turn "
+         "about its axis (use a bushing or a joint_spring to hold it)";
+}
+
 std::string target_without_law() {
   return "found without spring and damper, expected a law that pulls to the target";
 }

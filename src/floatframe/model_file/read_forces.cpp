@@ -117,6 +117,29 @@ class ForceReader {
     return ForceValue(as_given ? *v : Vec3(v->stableNormalized()));
   }
 
+  /// A list of rows, 6 x 6 or 2 x 2.
+  std::optional<ForceValue> matrix(const YamlValue& value) const {
+    constexpr const char* what = "6 rows of 6 numbers, or 2 rows of 2";
+    if (!value.is_list()) {
+      value.unexpected(what);
+      return std::nullopt;
+    }
+    const auto rows = value.list(what);
+    const std::size_t n = rows.size() == 2 ? 2 : 6;
+    if (rows.size() != n) {
+      value.error(sentences::force_matrix_rows(rows.size()));
+      return std::nullopt;
+    }
+    MatX M(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+    bool good = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto row = rows[i].numbers(n, n, any_number(""), n == 2 ? "2 numbers" : "6 numbers");
+      if (row) M.row(static_cast<Eigen::Index>(i)) = VecX::Map(row->data(), M.cols()).transpose();
+      good = good && row;
+    }
+    return good ? std::optional(ForceValue(std::move(M))) : std::nullopt;
+  }
+
   std::optional<ForceValue> place_of(const YamlValue& value) const {
     const auto section = value.section("a place {body, at}");
     const auto at = section ? read_attachment(self_, model_, *section) : std::nullopt;
@@ -162,6 +185,9 @@ class ForceReader {
       case K::bump_stop:
       case K::rebound_stop:
         return stop(key, *value);
+      case K::stiffness_matrix:
+      case K::damping_matrix:
+        return matrix(*value);
       case K::load:
         return read_signal(self_, *value, u.force, Interpolation::linear);
       case K::target:
