@@ -3,4 +3,5 @@
 // that is built from it (Model): immutable, shared by threads, to be read and not to be filled.
 #include "floatframe/model/description.hpp"
 #include "floatframe/model/model.hpp"
+#include "floatframe/model/road_spectrum.hpp"
 #include "floatframe/model_file/load_model.hpp"

@@ -1,8 +1,10 @@
 // Force elements and roads.
 #include <cmath>
+#include <limits>
 
 #include "floatframe/model/force_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/road_spectrum.hpp"
 #include "floatframe/model/rules.hpp"
 #include "floatframe/model/sentences.hpp"
 #include "floatframe/model_file/read_parts.hpp"
@@ -247,12 +249,43 @@ void read_forces(const ModelInstance& self, ReadModel& model) {
   }
 }
 
+namespace {
+
+/// {class or roughness, start, length, seed}
+std::optional<RoadSpectrum> read_spectrum(const YamlValue& value) {
+  auto s = value.section("a map with class (or roughness), length and seed");
+  if (!s) return std::nullopt;
+  RoadSpectrum spectrum;
+  const std::size_t before = value.context().errors->size();
+  const auto word = s->get("class");
+  const auto number = s->get("roughness");
+  if (word && number) {
+    number->error("found with 'class', expected one of the two");
+  } else if (number) {
+    spectrum.roughness = number->number(non_negative_number("m3")).value_or(0.0);
+  } else if (const auto found = s->require("class")) {
+    const auto place = found->word(road_classes::names);
+    if (place) spectrum.roughness = road_classes::roughness(static_cast<int>(*place));
+  }
+  spectrum.start = s->number("start", any_number("m"), 0.0);
+  spectrum.length = s->required_number("length", rules::random_road_length, 100.0);
+  if (const auto seed = s->get("seed"))
+    spectrum.seed = seed->integer(0, std::numeric_limits<int>::max(), "a whole number").value_or(1);
+  s->finish();
+  if (value.context().errors->size() != before) return std::nullopt;
+  return spectrum;
+}
+
+}  // namespace
+
 void read_roads(const ModelInstance& self, ReadModel& model) {
   for (auto& [name, s] : active_entities(self, EntityKind::road)) {
     RoadDescription r;
     r.name = self.prefix + name;
     r.origin = s.origin();
     if (const auto v = s.get("profile")) r.pieces = read_profile(*v);
+    if (const auto v = s.get("spectrum"))
+      if (const auto spectrum = read_spectrum(*v)) r.pieces = r.pieces + random_road(*spectrum);
     if (const auto v = s.get("bumps"))
       for (const YamlValue& item : v->list("a list of bumps {start, length, height}")) {
         auto b = item.section("a bump {start, length, height}");

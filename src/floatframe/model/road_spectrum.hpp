@@ -1,0 +1,40 @@
+#pragma once
+// Random roads after ISO 8608: profiles whose height has the one-sided displacement spectrum
+//   G(n) = G0 (n / n0)^-2,   n0 = 0.1 cycles/m,   0.011 <= n <= 2.83 cycles/m        [m3]
+// with the roughness G0 = G(n0) of a class: A 16e-6, B 64e-6, ..., H 262144e-6 m3, four times as
+// much from class to class (the geometric means of the standard).
+#include <cstdint>
+
+#include "floatframe/math/piecewise_polynomial.hpp"
+
+namespace floatframe {
+
+namespace road_classes {
+inline constexpr const char* names[] = {"A", "B", "C", "D", "E", "F", "G", "H"};
+/// G0 of a class by its place [m3].
+constexpr double roughness(int place) { return 16e-6 * static_cast<double>(1 << (2 * place)); }
+inline constexpr double reference = 0.1;           ///< n0 [cycles/m]
+inline constexpr double low = 0.011, high = 2.83;  ///< [cycles/m]
+}  // namespace road_classes
+
+struct RoadSpectrum {
+  double roughness = road_classes::roughness(2);  ///< G0 [m3]
+  double start = 0.0, length = 100.0;             ///< [m]
+  std::int64_t seed = 1;                          ///< another one is another road
+};
+
+/// G(n) [m3]; 0 outside the range.
+double road_spectrum_at(const RoadSpectrum& spectrum, double n) noexcept;
+/// int G dn between two wave numbers [m2].
+double road_variance(const RoadSpectrum& spectrum, double from, double to) noexcept;
+
+/// A sum of 1000 waves with random phases, one in each of as many bands of equal ratio, which
+/// carries the variance of its band; the place in the band is random, so that the road does not
+/// repeat.
+/// Cubic pieces of 0.035 m with the exact heights and slopes at their ends: C1. Over the first and
+/// last 10 m (at most a tenth of the length) it rises out of and sinks into the plane, zero beyond.
+/// The same numbers give the same road on every machine but for rounding. Throws InputError if the
+/// length is not between 1 and 10 000 m or the roughness is negative or not finite.
+PiecewisePolynomial random_road(const RoadSpectrum& spectrum);
+
+}  // namespace floatframe
