@@ -8,80 +8,16 @@
 #include <limits>
 
 #include "floatframe/core/atomic_file.hpp"
-#include "floatframe/fe/bar_frame.hpp"
 #include "floatframe/formats/body_file/body_arrays.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/formats/body_file/npy.hpp"
 #include "floatframe/formats/body_file/zip_store.hpp"
-#include "floatframe/reduction/reduction.hpp"
+#include "formats/bracket_file.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
-
-/// A bracket of three steel bars with everything that a body file can hold.
-BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
-  BarFrame frame;
-  frame.material = {2.1e11, 0.3, 7850.0};
-  frame.points = {{"foot", {0, 0, 0}}, {"knee", {0.3, 0, 0.1}}, {"eye", {0.3, 0.2, 0.25}}};
-  for (const auto& [from, to] : {std::pair{"foot", "knee"}, {"knee", "eye"}}) {
-    Bar bar;
-    bar.name = from;
-    bar.from = from;
-    bar.to = to;
-    bar.elements = 2;
-    bar.section = BeamSection::solid_round(0.02);
-    frame.bars.push_back(bar);
-  }
-  ReductionOptions options;
-  options.clamped = {{"foot", all_dofs}};
-  options.interfaces = {{"eye", 7u}};
-  options.normal_modes = 2;
-  options.mass_model = mass_model;
-  options.damping_ratio = 0.01;
-  BodyFile out;
-  ReducedPart& part = out.part;
-  const FeModel model = build_bar_frame(frame);
-  part.body = reduce(model, options);
-  part.surface.nodes = {0, 1, 2};
-  part.surface.triangles = {{0, 1, 2}};
-  part.surface.lines = {{0, 1}, {1, 2}};
-  part.surface_positions = Mat3X::Random(3, 3);
-  part.surface_modes = MatX::Random(9, part.body.modes());
-  part.surface_stress = MatX::Random(18, part.body.modes());
-  std::erase_if(part.body.nodes, [](const ModalNode& n) { return n.name.empty(); });
-
-  HealthReport& h = part.health;
-  h.nodes = model.nodes();
-  h.elements = 4;
-  h.dofs = 30;
-  h.modes = part.body.modes();
-  const InertiaInvariants& v = part.body.invariants;
-  h.from_elements = {v.m, {0.1, 0.2, 0.3}, Mat3::Identity()};
-  h.from_invariants = {v.m, v.centre_of_mass(), v.inertia_about_origin()};
-  h.volume = 2e-4;
-  h.volume_times_density = 1.57;
-  h.rigid_eigenvalues = Vec6::LinSpaced(6, -1e-12, 1e-12);
-  h.rigid_residual = 3e-16;
-  h.rotary_inertia = false;
-  h.normal_modes = {{"normal 1", 100.0, Vec6::Constant(0.25), true}};
-  h.free_frequencies = {{100.0, 100.25}};
-  h.interfaces = {{"eye", 7, {0.3, 0.2, 0.25}, "rigid", 3.5, 1e-9}};
-  h.static_support = "foot";
-  h.solver = "test";
-  h.seconds = {{"read", 0.5}};
-  h.notes = {"a note"};
-  h.warnings = {"the interface 'eye' has few nodes"};
-  out.provenance = {"bracket.inp",
-                    "0123",
-                    "mm-t-s",
-                    {{"modes", "2"}, {"method", "cb"}},
-                    "2026-01-02T03:04:05Z",
-                    "0.1.0-test",
-                    {{"bracket.inp", "4567"}}};
-  return out;
-}
 
 void expect_equal(const BodyFile& a, const BodyFile& b) {
   const InertiaInvariants &v = a.part.body.invariants, &w = b.part.body.invariants;
@@ -120,6 +56,17 @@ void expect_equal(const BodyFile& a, const BodyFile& b) {
     EXPECT_EQ(p->X_theta, q->X_theta);
     EXPECT_EQ(MatX(p->M_s), MatX(q->M_s));
     EXPECT_EQ(MatX(p->M_6), MatX(q->M_6));
+    EXPECT_EQ(p->h, q->h);
+  }
+  ASSERT_EQ(!a.part.body.second_order, !b.part.body.second_order);
+  if (const auto s = a.part.body.second_order) {
+    const auto t = b.part.body.second_order;
+    EXPECT_TRUE(s->S2 == t->S2 && s->S2i == t->S2i);
+    ASSERT_EQ(s->nodes.size(), t->nodes.size());
+    for (std::size_t k = 0; k < s->nodes.size(); ++k) {
+      EXPECT_EQ(s->nodes[k].node, t->nodes[k].node);
+      EXPECT_TRUE(s->nodes[k].h == t->nodes[k].h && s->nodes[k].theta == t->nodes[k].theta);
+    }
   }
   EXPECT_EQ(health_json(a.part.health), health_json(b.part.health));
   const Provenance &p = a.provenance, &q = b.provenance;
@@ -127,35 +74,10 @@ void expect_equal(const BodyFile& a, const BodyFile& b) {
             std::tie(q.source, q.source_hash, q.units, q.options, q.date, q.version, q.files));
 }
 
-/// The file with one member replaced (or removed, if `content` is empty).
-std::string with_member(const std::string& bytes, const std::string& name,
-                        const std::string& content) {
-  std::vector<ZipMember> members = read_zip(bytes, "x");
-  std::erase_if(members, [&](const ZipMember& m) { return m.name == name && content.empty(); });
-  for (ZipMember& m : members)
-    if (m.name == name) m.content = content;
-  return zip_archive(members);
-}
-
-std::string member(const std::string& bytes, const std::string& name) {
-  for (const ZipMember& m : read_zip(bytes, "x"))
-    if (m.name == name) return std::string(m.content);
-  return "";
-}
-
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
-}
-
-std::string error_of_bytes(const std::string& bytes) {
-  try {
-    read_body_bytes(bytes, "arm.ffb");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(BodyFile, RoundTripIsExact) {
@@ -199,6 +121,9 @@ TEST(BodyFile, FileOfVersion1) {
   EXPECT_TRUE(file.part.body.projection);
   EXPECT_NEAR(file.part.body.invariants.m, bracket().part.body.invariants.m, 1e-14);
   EXPECT_EQ(file.part.health.warnings.size(), 1u);
+  // Written before there were displacements of second order.
+  EXPECT_EQ(file.part.body.second_order, nullptr);
+  EXPECT_EQ(file.part.body.projection->h.size(), 0);
 }
 
 TEST(BodyFile, ErrorsOfTheArchive) {

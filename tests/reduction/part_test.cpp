@@ -293,7 +293,8 @@ TEST(PartHealth, MassPropertiesAndWarnings) {
   EXPECT_LT(health.rigid_eigenvalues->cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_EQ(health.nodes, 118);
   EXPECT_EQ(health.modes, 14);
-  EXPECT_EQ(stages, (std::vector<std::string>{"model", "assembly", "modes", "body", "surface",
+  EXPECT_EQ(stages, (std::vector<std::string>{"model", "assembly", "modes", "unit loads", "body",
+                                              "stress stiffness", "surface",
                                               "free modes of the full model"}));
   ASSERT_FALSE(health.warnings.empty());
   EXPECT_EQ(health.warnings[0], "1 node is used by nothing: node 118");

@@ -4,6 +4,7 @@
 // generic tests run over the list.
 #include <span>
 #include <string>
+#include <vector>
 
 #include "floatframe/fe/element_shape.hpp"
 #include "floatframe/fe/fe_system.hpp"
@@ -18,6 +19,15 @@ struct ElementInput {
   ShellSection shell;
   Vec3 reference = Vec3::UnitZ();
   Integration integration = Integration::exact;
+};
+
+/// Where the stress of a load works on strains of second order, 1/2 grad u^T grad u: its share of
+/// the stress stiffness is sum_i (grad u_i)^T stress (grad u_i) (fe/stress_stiffness.hpp).
+struct StressedPoint {
+  /// 6 x dofs: stress (xx, yy, zz, xy, yz, zx) in body axes from the displacements, times the
+  /// volume of the point [N m]; of a shell the membrane stress, of a beam its axial stress.
+  MatX stress;
+  MatX gradient;  ///< 9 x dofs: du_i/dx_j in row 3 i + j
 };
 
 /// Which section an element has: a beam's, a shell's, or none.
@@ -39,6 +49,7 @@ struct ElementKernel {
   /// displacements of the nodes: taken at the points where they are best and carried to the nodes.
   /// Null for beams and shells.
   void (*nodal_strains)(const ElementInput&, MatX&) = nullptr;
+  void (*stressed_points)(const ElementInput&, std::vector<StressedPoint>&) = nullptr;
   ElementShape shape = {};
 };
 

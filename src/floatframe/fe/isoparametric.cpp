@@ -156,4 +156,18 @@ void nodal_strains(const IsoparametricElement& element, const ElementInput& in, 
   }
 }
 
+void stressed_points(const IsoparametricElement& element, const ElementInput& in,
+                     std::vector<StressedPoint>& points) {
+  const Positions P = positions(in, element.nodes);
+  const Mat6 D = elasticity_matrix(in.material);
+  points.resize(element.stress.size());
+  for (int q = 0; q < element.stress.size(); ++q) {
+    double detJ = 0.0;
+    const Gradients g = gradients(element.stress, q, P, detJ);
+    const Mat6 weighted = element.stress.weight(q) * detJ * D;
+    points[q].stress.noalias() = weighted * strain_matrix(g);
+    set_gradient(g, points[q].gradient);
+  }
+}
+
 }  // namespace floatframe::solid

@@ -61,6 +61,9 @@ void scalar_mass(const IsoparametricElement& element, const ElementInput& in, Ma
 void mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 /// Strains at the nodes (6 rows per node) from the displacements of the nodes.
 void nodal_strains(const IsoparametricElement& element, const ElementInput& in, MatX& B);
+/// At the points where stresses are taken.
+void stressed_points(const IsoparametricElement& element, const ElementInput& in,
+                     std::vector<StressedPoint>& points);
 
 /// The entry of the list for an isoparametric element.
 template <const IsoparametricElement& (*element)()>
@@ -73,6 +76,10 @@ constexpr ElementKernel kernel(int nodes, const ElementShape& shape) {
           .mass = [](const ElementInput& in, bool, MatX& out) { mass(element(), in, out); },
           .scalar_mass = [](const ElementInput& in, MatX& out) { scalar_mass(element(), in, out); },
           .nodal_strains = [](const ElementInput& in, MatX& B) { nodal_strains(element(), in, B); },
+          .stressed_points =
+              [](const ElementInput& in, std::vector<StressedPoint>& points) {
+                stressed_points(element(), in, points);
+              },
           .shape = shape};
 }
 

@@ -44,10 +44,8 @@ Mat3 plane_stress(const Material& m) {
   return D;
 }
 
-/// Dofs (u, v, rz) per node: basic part (constant stress) + 3/4 beta_0 of the higher-order part.
-Mat9 membrane(const Plane& t, const Material& material, double h) {
-  const Mat3 E = plane_stress(material);
-  const double A = t.area;
+/// Forces of the corners (u, v, rz) from a constant membrane stress.
+Eigen::Matrix<double, 9, 3> lumping(const Plane& t, double h) {
   constexpr double alpha = 1.5;
   Eigen::Matrix<double, 9, 3> L;
   for (int i = 0; i < 3; ++i) {
@@ -59,7 +57,14 @@ Mat9 membrane(const Plane& t, const Material& material, double h) {
         2.0 * (t.dx(k, i) * t.dy(i, k) - t.dx(i, j) * t.dy(j, i));
     L.row(3 * i + 2) *= alpha / 6.0;
   }
-  L *= 0.5 * h;
+  return 0.5 * h * L;
+}
+
+/// Dofs (u, v, rz) per node: basic part (constant stress) + 3/4 beta_0 of the higher-order part.
+Mat9 membrane(const Plane& t, const Material& material, double h) {
+  const Mat3 E = plane_stress(material);
+  const double A = t.area;
+  const Eigen::Matrix<double, 9, 3> L = lumping(t, h);
   const Mat9 basic = L * E * L.transpose() / (A * h);
 
   // Deviation of the drilling rotations from the mean rotation of the sides.
@@ -187,6 +192,19 @@ Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& mat
   }
   to_body_axes(R, K);
   return 0.5 * (K + K.transpose());
+}
+
+Eigen::Matrix<double, 3, 18> shell_triangle_membrane(const std::array<Vec3, 3>& p,
+                                                     const Material& material, double h) {
+  const Mat3 R = triangle_axes(p);
+  const Plane t = flatten(p, R);
+  const Eigen::Matrix<double, 3, 9> B = plane_stress(material) * lumping(t, h).transpose() / t.area;
+  Eigen::Matrix<double, 3, 18> N;
+  for (int i = 0; i < 3; ++i) {
+    N.block<3, 3>(0, 6 * i) = B.block<3, 2>(0, 3 * i) * R.leftCols<2>().transpose();
+    N.block<3, 3>(0, 6 * i + 3) = B.col(3 * i + 2) * R.col(2).transpose();
+  }
+  return N;
 }
 
 Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const Material& material, double h,

@@ -16,6 +16,10 @@ double triangle_area(const std::array<Vec3, 3>& p);
 /// In body axes, (ux uy uz rx ry rz) per node.
 Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& material,
                                double thickness);
+/// Mean membrane forces per length (xx, yy, xy) in the axes of the triangle from the displacements
+/// of the corners in body axes.
+Eigen::Matrix<double, 3, 18> shell_triangle_membrane(const std::array<Vec3, 3>& p,
+                                                     const Material& material, double thickness);
 Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const Material& material, double thickness,
                           bool section_inertia);
 

@@ -18,6 +18,13 @@ inline Strain strain_matrix(const Gradients& g) {
   return B;
 }
 
+/// A point with the gradients g of the shape functions, for the displacements of the nodes.
+inline void set_gradient(const Gradients& g, MatX& out) {
+  out = MatX::Zero(9, 3 * g.cols());
+  for (int a = 0; a < g.cols(); ++a)
+    for (int i = 0; i < 3; ++i) out.block<3, 1>(3 * i, 3 * a + i) = g.col(a);
+}
+
 /// M_s (x) I_3
 inline void expand(const MatX& scalar, MatX& out) {
   out = MatX::Zero(3 * scalar.rows(), 3 * scalar.cols());

@@ -41,6 +41,10 @@ std::string properties_text(const FlexibleBody& body) {
       v.m, c.x(), c.y(), c.z(), J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2));
 }
 
+std::string stiffening_text(const FlexibleBody& body) {
+  return fmt::format("  stiffening data  {}\n", body.second_order ? "yes" : "no");
+}
+
 std::string tables_text(const FlexibleBody& body) {
   std::string text;
   if (body.modes() > 0) {
@@ -95,7 +99,8 @@ Json body_json(const FlexibleBody& body) {
           {"frequencies_frame_held_Hz", frequencies(body)},
           {"normal_mode_frequencies_Hz", normal},
           {"markers", markers},
-          {"projection", body.projection != nullptr}};
+          {"projection", body.projection != nullptr},
+          {"geometric_stiffening", body.second_order != nullptr}};
 }
 
 std::string dump(const Json& json) {
@@ -114,6 +119,7 @@ std::string body_info_text(const std::string& file, const BodyFile& content) {
                       content.part.surface.lines.size(),
                       content.part.surface_stress.size() > 0 ? ", with stresses" : "");
   text += fmt::format("  projection data  {}\n", body.projection ? "yes" : "no");
+  text += stiffening_text(body);
   text += fmt::format("  made from        {} ({}) by Floatframe {}, {}\n", printable(from.source),
                       printable(from.units), printable(from.version), printable(from.date));
   text += fmt::format("  fingerprint      {} of {} file{}\n", printable(from.source_hash),
@@ -146,7 +152,7 @@ std::string body_info_json(const std::string& file, const BodyFile& content) {
 std::string sid_info_text(const std::string& file, const FlexibleBody& body,
                           const std::vector<std::string>& notes) {
   std::string text = fmt::format("{}: SID_FEM, {} modes (SI units)\n\n", file, body.modes()) +
-                     properties_text(body) + tables_text(body);
+                     properties_text(body) + stiffening_text(body) + tables_text(body);
   if (!notes.empty()) text += "\nNotes\n";
   for (const std::string& note : notes) text += "  - " + note + '\n';
   return printable(text, true);

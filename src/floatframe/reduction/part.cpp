@@ -19,6 +19,7 @@
 #include "floatframe/reduction/connectivity.hpp"
 #include "floatframe/reduction/mode_basis.hpp"
 #include "floatframe/reduction/part_health.hpp"
+#include "floatframe/reduction/part_second_order.hpp"
 #include "floatframe/reduction/rigid_check.hpp"
 #include "floatframe/reduction/static_check.hpp"
 
@@ -80,8 +81,8 @@ void check_beams(const FeModel& model, const FeSystem& system, const ModeBasis& 
                names, integration);
 }
 
-/// The same integrals over the volume: of the model with unit density and without point masses.
-MatX volume_conditions(FeModel model, const ModeBasis& basis, Integration integration) {
+/// Points of the model with unit density and without point masses: integrals over the volume.
+PointModel volume_points(FeModel model, Integration integration) {
   if (model.matrices) {
     throw InputError(
         "the Buckens reference weighs by volume, which a part given by matrices does not have; "
@@ -89,9 +90,7 @@ MatX volume_conditions(FeModel model, const ModeBasis& basis, Integration integr
   }
   for (Material& m : model.materials) m.density = 1.0;
   model.masses.clear();
-  const FeSystem system = assemble(model, integration);
-  const PointModel points = point_model(model, system, integration);
-  return momentum_of_modes(invariants_points(points.p, points.M_s, points.T * basis.X));
+  return point_model(model, assemble(model, integration), integration);
 }
 
 /// Uniform density without point masses: the volume weighs as the mass does.
@@ -110,7 +109,10 @@ MatX reference_conditions(const FeModel& model, const ModeBasis& basis,
     case BodyReference::Kind::mean_axis:
       break;
     case BodyReference::Kind::buckens:
-      if (!uniform(model)) return volume_conditions(model, basis, options.integration);
+      if (!uniform(model)) {
+        const PointModel points = volume_points(model, options.integration);
+        return momentum_of_modes(invariants_points(points.p, points.M_s, points.T * basis.X));
+      }
       break;
     case BodyReference::Kind::node:
       for (const InterfacePlace& place : interfaces) {
@@ -122,6 +124,36 @@ MatX reference_conditions(const FeModel& model, const ModeBasis& basis,
       break;
   }
   return momentum_of_modes(raw);
+}
+
+/// The same conditions on all dofs; `loads`: of the masses (body_loads).
+MatX reference_rows(const FeModel& model, const MatX& loads,
+                    const std::vector<InterfacePlace>& interfaces, const PartOptions& options) {
+  if (options.reference.kind == BodyReference::Kind::buckens && !uniform(model))
+    return momentum_rows(body_loads(volume_points(model, options.integration)));
+  for (const InterfacePlace& place : interfaces) {
+    if (options.reference.kind != BodyReference::Kind::node) break;
+    if (place.name != options.reference.node) continue;
+    MatX B = MatX::Zero(6, loads.rows());
+    for (Eigen::Index i = 0; i < 6; ++i) B(i, place.rows[i]) = 1.0;
+    return B;
+  }
+  return momentum_rows(loads);
+}
+
+/// The answers to unit loads that the stress stiffness needs; empty for given matrices.
+MatX unit_response(const FeModel& model, const FeSystem& system, const PointModel& points,
+                   const MatX& R, const ModeBasis& basis,
+                   const std::vector<InterfacePlace>& interfaces,
+                   const std::vector<MarkerPlace>& markers, const PartOptions& options,
+                   const std::optional<FixedInterface>& fixed,
+                   const std::optional<FreeStructure>& structure, const Eigenpairs& elastic) {
+  if (model.matrices) return {};
+  MatX loads = body_loads(points);
+  MatX B = reference_rows(model, loads, interfaces, options);
+  const UnitCases cases{std::move(loads), std::move(B), R, interfaces, markers};
+  return fixed ? held_response(system, cases, *fixed, basis)
+               : free_response(system, cases, *structure, elastic);
 }
 
 ModalNode interface_node(const FeModel& model, const FeSystem& system, const InterfacePlace& place,
@@ -173,6 +205,15 @@ MatX boundary_flexibility(const FreeStructure& structure, const Eigenpairs& elas
   for (std::size_t k = 0; k < rows.size(); ++k) F(rows[k], static_cast<Eigen::Index>(k)) = 1.0;
   const MatX u = structure.relieved_response(F, elastic);
   return u(rows, Eigen::all);
+}
+
+/// `structure`: if nothing holds it.
+Statics statics_of(const ModeBasis& basis, const std::optional<FreeStructure>& structure,
+                   const Eigenpairs& elastic, const std::vector<InterfacePlace>& interfaces,
+                   int n) {
+  if (structure) return {{}, boundary_flexibility(*structure, elastic, interfaces, n)};
+  const auto nb = static_cast<Eigen::Index>(basis.first_normal);
+  return {basis.K.topLeftCorner(nb, nb), {}};
 }
 
 void free_frequencies(const VecX& reduced, const Eigenpairs* full, HealthReport& health) {
@@ -281,18 +322,15 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
            : free_basis(model, system, R, interfaces, markers, options, structure, elastic);
   health.solver = basis.solver;
   health.normal_modes = basis.modes;
-  Statics statics;
-  if (held) {
-    const auto nb = static_cast<Eigen::Index>(basis.first_normal);
-    statics.stiffness = basis.K.topLeftCorner(nb, nb);
-  } else {
-    statics.flexibility = boundary_flexibility(*structure, elastic, interfaces, system.size());
-  }
+  const Statics statics = statics_of(basis, structure, elastic, interfaces, system.size());
+  stages.done("modes");
+  MatX response = unit_response(model, system, points, R, basis, interfaces, markers, options,
+                                fixed, structure, elastic);
   fixed.reset();  // the factors are the largest piece of memory
+  stages.done("unit loads");
   check_stiffness_of(model, system, elastic.shapes);
   check_beams(model, system, basis, options.integration);
   normalise(system, part_size(model, system), basis);
-  stages.done("modes");
 
   const InertiaInvariants raw = invariants_points(points.p, points.M_s, points.T * basis.X);
   // Those of the mean-axis frame are those of the body that nothing holds.
@@ -315,6 +353,11 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   health.rotary_inertia = points.p.cols() > model.nodes();
   check_body(part.body, *health.rotary_inertia);
   stages.done("body");
+  if (response.size() > 0 && X.cols() > 0) {
+    part.body.second_order =
+        part_second_order(model, system, X, response, part.body.nodes.size(), options.integration);
+    stages.done("stress stiffness");
+  }
 
   add_surface(model, system, X, options, part);
   stages.done("surface");

@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/quadrature.hpp"
 
 namespace floatframe {
 namespace {
@@ -118,6 +119,37 @@ void scalar_mass(const ElementInput& in, MatX& out) {
   out << line / 3.0, line / 6.0, line / 6.0, line / 3.0;
 }
 
+/// The axial force times slopes squared, at three points: exact.
+void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
+  const LineRule rule = gauss_jacobi(3, 0);
+  const double L = (in.p[1] - in.p[0]).norm();
+  const Mat3 T = beam_axes(in);
+  const Vec3 t = T.col(0);
+  Vec6 along;
+  along << t.cwiseAbs2(), t(0) * t(1), t(1) * t(2), t(2) * t(0);
+  points.resize(3);
+  for (int q = 0; q < 3; ++q) {
+    const double s = rule.u(q), s2 = s * s, dx = rule.weight(q) * L;
+    const double d[4] = {(-6 * s + 6 * s2) / L, 1 - 4 * s + 3 * s2, (6 * s - 6 * s2) / L,
+                         3 * s2 - 2 * s};
+    StressedPoint& point = points[q];
+    point.stress = MatX::Zero(6, 12);
+    point.gradient = MatX::Zero(9, 12);
+    for (int end = 0; end < 2; ++end) {
+      const double side = (end == 0 ? -1.0 : 1.0) * in.material.young * in.section.A / L * dx;
+      point.stress.middleCols<3>(6 * end) = side * along * t.transpose();
+      // v' and w' across the axis: from the displacements, and from rz = v', ry = -w'.
+      const Mat3 across = d[2 * end] * (Mat3::Identity() - t * t.transpose());
+      const Mat3 turned =
+          d[2 * end + 1] * (T.col(1) * T.col(2).transpose() - T.col(2) * T.col(1).transpose());
+      for (int i = 0; i < 3; ++i) {
+        point.gradient.block<3, 3>(3 * i, 6 * end) = t * across.row(i);
+        point.gradient.block<3, 3>(3 * i, 6 * end + 3) = t * turned.row(i);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Mat3 beam_axes(const ElementInput& in) {
@@ -136,6 +168,7 @@ constinit const ElementKernel beam2_kernel{.family = ElementFamily::beam,
                                            .error = &error,
                                            .stiffness = &stiffness,
                                            .mass = &mass,
-                                           .scalar_mass = &scalar_mass};
+                                           .scalar_mass = &scalar_mass,
+                                           .stressed_points = &stressed_points};
 
 }  // namespace floatframe

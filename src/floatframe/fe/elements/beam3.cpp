@@ -114,6 +114,26 @@ void scalar_mass(const ElementInput& in, MatX& out) {
   });
 }
 
+/// The axial force times slopes squared, at the points of the stiffness.
+void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
+  points.clear();
+  integrate(in, 2, [&](const Station& s) {
+    const Vec3 t = s.R.col(0);
+    Vec6 along;
+    along << t.cwiseAbs2(), t(0) * t(1), t(1) * t(2), t(2) * t(0);
+    const Mat3 across = Mat3::Identity() - t * t.transpose();
+    StressedPoint& point = points.emplace_back();
+    point.stress = MatX::Zero(6, 18);
+    point.gradient = MatX::Zero(9, 18);
+    for (int a = 0; a < 3; ++a) {
+      const double force = in.material.young * in.section.A * s.dN(a) * s.ds;
+      point.stress.middleCols<3>(6 * a) = force * along * t.transpose();
+      for (int i = 0; i < 3; ++i)
+        point.gradient.block<3, 3>(3 * i, 6 * a) = s.dN(a) * t * across.row(i);
+    }
+  });
+}
+
 }  // namespace
 
 constinit const ElementKernel beam3_kernel{.family = ElementFamily::beam,
@@ -122,6 +142,7 @@ constinit const ElementKernel beam3_kernel{.family = ElementFamily::beam,
                                            .error = &error,
                                            .stiffness = &stiffness,
                                            .mass = &mass,
-                                           .scalar_mass = &scalar_mass};
+                                           .scalar_mass = &scalar_mass,
+                                           .stressed_points = &stressed_points};
 
 }  // namespace floatframe

@@ -117,6 +117,24 @@ void nodal_strains_i(const ElementInput& in, MatX& B) {
   }
 }
 
+void stressed_points_i(const ElementInput& in, std::vector<StressedPoint>& points) {
+  Modes amplitudes;
+  MatX K;
+  incompatible(in, K, amplitudes);
+  solid::stressed_points(element(), in, points);
+  const solid::SampledRule& rule = element().stress;
+  const solid::Positions P = solid::positions(in, 8);
+  const Mat3 J0 = centre_jacobian(P);
+  const Mat6 D = elasticity_matrix(in.material);
+  for (int q = 0; q < rule.size(); ++q) {
+    double detJ = 0.0;
+    solid::gradients(rule, q, P, detJ);
+    const Eigen::Matrix<double, 6, 24> more =
+        incompatible_strains(J0, rule.points[q], detJ) * amplitudes;
+    points[q].stress += (rule.weight(q) * detJ) * (D * more);
+  }
+}
+
 /// Gradients of the shape functions averaged over the volume.
 Gradients8 mean_gradients(const solid::Positions& P, double& volume) {
   // int dN/dx det J has degree 2 in each direction: 2 x 2 x 2 points are exact.
@@ -177,19 +195,29 @@ void nodal_strains_r(const ElementInput& in, MatX& out) {
   out = B.replicate(8, 1);
 }
 
+void stressed_points_r(const ElementInput& in, std::vector<StressedPoint>& points) {
+  double volume = 0.0;
+  const Gradients8 b = mean_gradients(solid::positions(in, 8), volume);
+  points.resize(1);
+  points[0].stress = volume * elasticity_matrix(in.material) * solid::strain_matrix(b);
+  solid::set_gradient(b, points[0].gradient);
+}
+
 constexpr ElementKernel with(ElementKernel kernel, void (*stiffness)(const ElementInput&, MatX&),
-                             void (*nodal_strains)(const ElementInput&, MatX&)) {
+                             void (*nodal_strains)(const ElementInput&, MatX&),
+                             void (*points)(const ElementInput&, std::vector<StressedPoint>&)) {
   kernel.stiffness = stiffness;
   kernel.nodal_strains = nodal_strains;
+  kernel.stressed_points = points;
   return kernel;
 }
 
 }  // namespace
 
 constinit const ElementKernel hex8_kernel = solid::kernel<element>(8, shape::hex8);
-constinit const ElementKernel hex8i_kernel =
-    with(solid::kernel<element>(8, shape::hex8), &stiffness_i, &nodal_strains_i);
-constinit const ElementKernel hex8r_kernel =
-    with(solid::kernel<element>(8, shape::hex8), &stiffness_r, &nodal_strains_r);
+constinit const ElementKernel hex8i_kernel = with(
+    solid::kernel<element>(8, shape::hex8), &stiffness_i, &nodal_strains_i, &stressed_points_i);
+constinit const ElementKernel hex8r_kernel = with(
+    solid::kernel<element>(8, shape::hex8), &stiffness_r, &nodal_strains_r, &stressed_points_r);
 
 }  // namespace floatframe

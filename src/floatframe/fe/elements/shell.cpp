@@ -91,6 +91,37 @@ void scalar_mass(const ElementInput& in, MatX& out) {
   }
 }
 
+/// One in each triangle: displacements that are linear in it, the mean membrane forces.
+template <int nodes>
+void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
+  points.resize(parts<nodes>().size());
+  std::size_t q = 0;
+  for (const Part& part : parts<nodes>()) {
+    const std::array<Vec3, 3> p = corners(in, part);
+    const double area = triangle_area(p);
+    const Mat3 R = triangle_axes(p);
+    const auto N = shell_triangle_membrane(p, in.material, in.shell.thickness);
+    // Plane stress in body axes: sum of N_ab (e_a e_b^T), e the axes of the triangle.
+    constexpr int at[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+    Eigen::Matrix<double, 6, 3> turn;
+    for (int c = 0; c < 6; ++c) {
+      const int i = at[c][0], j = at[c][1];
+      turn.row(c) << R(i, 0) * R(j, 0), R(i, 1) * R(j, 1), R(i, 0) * R(j, 1) + R(i, 1) * R(j, 0);
+    }
+    const Eigen::Matrix<double, 6, 18> stress = part.weight * area * turn * N;
+    StressedPoint& point = points[q++];
+    point.stress = MatX::Zero(6, 6 * nodes);
+    point.gradient = MatX::Zero(9, 6 * nodes);
+    for (int a = 0; a < 3; ++a) {
+      const int to = 6 * part.nodes[a];
+      point.stress.middleCols<6>(to) = stress.middleCols<6>(6 * a);
+      const Vec3 side = p[(a + 2) % 3] - p[(a + 1) % 3];
+      const Vec3 g = R.col(2).cross(side) / (2.0 * area);
+      for (int i = 0; i < 3; ++i) point.gradient.block<3, 1>(3 * i, to + i) = g;
+    }
+  }
+}
+
 constexpr std::array<shape::Corners, 2> tri_corners{{{0, 1, 2, -1}, {0, 2, 1, -1}}};
 constexpr std::array<shape::Corners, 2> quad_corners{{{0, 1, 2, 3}, {0, 3, 2, 1}}};
 constexpr auto tri_faces = shape::linear(tri_corners);
@@ -105,6 +136,7 @@ constexpr ElementKernel shell_kernel(std::span<const FaceNodes> faces) {
           .stiffness = &stiffness<count>,
           .mass = &mass<count>,
           .scalar_mass = &scalar_mass<count>,
+          .stressed_points = &stressed_points<count>,
           .shape = {.faces = faces}};
 }
 

@@ -26,13 +26,15 @@ std::string error(const ElementInput& in) {
   return {};
 }
 
-solid::Strain strains(const ElementInput& in) {
+solid::Gradients gradients(const ElementInput& in) {
   const Mat3 inverse = edges(in).inverse();
   solid::Gradients g(3, 4);
   for (int i = 0; i < 3; ++i) g.col(i + 1) = inverse.row(i).transpose();
   g.col(0) = -(g.col(1) + g.col(2) + g.col(3));
-  return solid::strain_matrix(g);
+  return g;
 }
+
+solid::Strain strains(const ElementInput& in) { return solid::strain_matrix(gradients(in)); }
 
 void stiffness(const ElementInput& in, MatX& out) {
   const solid::Strain B = strains(in);
@@ -47,6 +49,13 @@ void scalar_mass(const ElementInput& in, MatX& out) {
 }
 
 void nodal_strains(const ElementInput& in, MatX& B) { B = strains(in).replicate(4, 1); }
+
+void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
+  const double volume = edges(in).determinant() / 6.0;
+  points.resize(1);
+  points[0].stress = volume * elasticity_matrix(in.material) * strains(in);
+  solid::set_gradient(gradients(in), points[0].gradient);
+}
 
 void mass(const ElementInput& in, bool, MatX& out) {
   MatX scalar;
@@ -64,6 +73,7 @@ constinit const ElementKernel tet4_kernel{.family = ElementFamily::solid,
                                           .mass = &mass,
                                           .scalar_mass = &scalar_mass,
                                           .nodal_strains = &nodal_strains,
+                                          .stressed_points = &stressed_points,
                                           .shape = shape::tet4};
 
 }  // namespace floatframe

@@ -12,6 +12,7 @@
 #include "floatframe/formats/body_file/body_file.hpp"
 #include "floatframe/formats/body_file/body_numbers.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
+#include "floatframe/formats/body_file/second_order_arrays.hpp"
 
 namespace floatframe {
 namespace {
@@ -57,6 +58,8 @@ class BodyReader {
     header();
     invariants();
     nodes();
+    body().second_order =
+        read_second_order(arrays_, body().modes(), static_cast<Eigen::Index>(body().nodes.size()));
     surface();
     if (arrays_.has("projection_p")) projection();
     errors_.throw_if_any();
@@ -247,6 +250,7 @@ class BodyReader {
     } else {
       data->M_s = read_sparse(arrays_, "projection_M_s", n);
     }
+    data->h = read_projection_h(arrays_, nm, n);
     body().projection = data;
   }
 

@@ -10,6 +10,7 @@
 #include "floatframe/formats/body_file/body_arrays.hpp"
 #include "floatframe/formats/body_file/body_file.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
+#include "floatframe/formats/body_file/second_order_arrays.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -165,6 +166,7 @@ std::string body_file_bytes(const BodyFile& content) {
       add_sparse(data.M_s, "projection_M_s", arrays);
     }
   }
+  add_second_order(body, arrays);
   const std::string header = header_of(content);
   std::vector<ZipMember> members{{"header.json", header}};
   for (const auto& [name, bytes] : arrays) members.push_back({name + ".npy", bytes});

@@ -7,6 +7,7 @@
 
 #include "floatframe/body/check_invariants.hpp"
 #include "floatframe/core/json_text.hpp"
+#include "floatframe/formats/body_file/second_order_arrays.hpp"
 #include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {
@@ -44,6 +45,7 @@ class Check {
                                   "kg",
                                   m, v.m));
     }
+    check_second_order(file_.part.body, arrays_);
     const VecX own = mode_frequencies(file_.part.body);
     for (std::size_t k = 0; k < header_.frequencies.size(); ++k) {
       const double f = own(static_cast<Eigen::Index>(k));
