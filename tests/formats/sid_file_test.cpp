@@ -136,7 +136,9 @@ TEST(SidFile, WrittenComesBack) {
 }
 
 TEST(SidFile, ClassicalFileKeepsFirstOrderAndTrace) {
-  for (const FlexibleBody& body : {random_body(21, 4), beam_body()}) {
+  FlexibleBody beam = beam_body();
+  beam.second_order = nullptr;  // tests/formats/sid_second_order_test.cpp
+  for (const FlexibleBody& body : {random_body(21, 4), beam}) {
     const SidBody read = parse_sid(without_second_order(write_sid(body, "")), "body.SID_FEM");
     expect_same_mass(body, read.body, 1e-10);
     ASSERT_EQ(read.notes.size(), 1u);

@@ -10,6 +10,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/formats/sid/sid_content.hpp"
+#include "floatframe/formats/sid/sid_second_order.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
@@ -38,7 +39,9 @@ class BodyOfSid {
     v.P_u = 0.5 * J.trace() * Mat3::Identity() - J;  // (21)
     static_moments(v);
     first_moments(v);
-    second_moments(v);
+    if (nq_ > 0)
+      sid_second_order(c_, symmetric(c_.Me, "Me"), out_.body,
+                       [this](int line, const std::string& text) { note(line, text); });
     out_.body.K = symmetric(c_.Ke, "Ke");
     out_.body.D = symmetric(c_.De, "De");
     out_.body.mode_names = c_.mode_names;
@@ -155,84 +158,6 @@ class BodyOfSid {
     }
   }
 
-  /// int phi_l x phi_k dm, component a, as (l, k); antisymmetric.
-  std::array<MatX, 3> differences() {
-    std::array<MatX, 3> D;
-    D.fill(MatX::Zero(nq_, nq_));
-    const bool from_Ge = c_.Cr.m1.empty();
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto column = static_cast<Eigen::Index>(a);
-      for (int l = 0; l < nq_; ++l) {
-        for (int k = 0; k < nq_; ++k) {
-          D[a](l, k) = from_Ge ? 0.5 * c_.Ge.m0(k, 3 * l + column) : c_.Cr.m1[l](k, column);
-        }
-      }
-    }
-    double even = 0.0, odd = 0.0;
-    for (MatX& d : D) {
-      even = std::max(even, 0.5 * (d + d.transpose()).cwiseAbs().maxCoeff());
-      d = 0.5 * (d - d.transpose()).eval();
-      odd = std::max(odd, d.cwiseAbs().maxCoeff());
-    }
-    const double scale = std::max(odd, c_.Me.m0.cwiseAbs().maxCoeff());
-    if (even > same_in_sid * scale) {
-      note(
-          from_Ge ? c_.Ge.line : c_.Cr.line,
-          fmt::format("the terms of {} of two modes must change sign when the modes are exchanged; "
-                      "a part of {:.2g} of the modal mass that does not is left out",
-                      from_Ge ? "Ge" : "m1 of Cr", even / scale));
-    }
-    return D;
-  }
-
-  /// S^ij from Me, the differences and, if it is of inertia alone, Oe m1.
-  void second_moments(InertiaInvariants& v) {
-    if (nq_ == 0) return;
-    const MatX Me = symmetric(c_.Me, "Me");
-    const std::array<MatX, 3> D = differences();
-    std::array<MatX, 6> O;  // Oe m1 as (l, k), symmetric part
-    O.fill(MatX::Zero(nq_, nq_));
-    if (!c_.Oe.m1.empty()) {
-      for (std::size_t a = 0; a < 6; ++a) {
-        for (int l = 0; l < nq_; ++l) {
-          O[a].row(l) = c_.Oe.m1[l].col(static_cast<Eigen::Index>(a));
-        }
-        O[a] = 0.5 * (O[a] + O[a].transpose()).eval();
-      }
-    }
-    const MatX trace = -0.5 * (O[0] + O[1] + O[2]);
-    const double off = (trace - Me).norm() / std::max(Me.norm(), 1e-300);
-    const bool known = c_.Oe.first_order() && off <= close;
-    for (std::size_t a = 0; a < 3; ++a) {
-      v.Sij[a][a] = Me / 3.0;
-      if (known) v.Sij[a][a] += trace + O[a] - trace / 3.0;
-    }
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t i = axes_of_cross[a][0];
-      const std::size_t j = axes_of_cross[a][1];
-      const MatX sum = known ? O[3 + (a == 0 ? 1u : a == 1 ? 2u : 0u)] : MatX::Zero(nq_, nq_);
-      v.Sij[i][j] = 0.5 * (sum + D[a]);
-      v.Sij[j][i] = v.Sij[i][j].transpose();
-    }
-    if (known && off > same_in_sid) {
-      note(c_.Oe.line,
-           fmt::format("second-order inertia terms are taken from m1 of Oe, which gives the modal "
-                       "masses with a deviation of {:.2g} from Me; Me is kept",
-                       off));
-    } else if (!known) {
-      note(
-          c_.Oe.first_order() ? c_.Oe.line : c_.Me.line,
-          std::string(c_.Oe.first_order()
-                          ? fmt::format("m1 of Oe does not give the modal masses (deviation {:.2g} "
-                                        "from Me), so it holds more than inertia and is not used. ",
-                                        off)
-                          : "") +
-              "The file has no second-order inertia terms: the mass matrix at zero deformation and "
-              "its first derivative are exact, its second derivative and softening by spin are "
-              "not (S^11, S^22 and S^33 are each taken as a third of Me)");
-    }
-  }
-
   void add_node(const SidFrame& f) {
     ModalNode node;
     node.name = f.node;
@@ -255,7 +180,6 @@ class BodyOfSid {
         break;
       }
     }
-    if (f.phi.first_order()) ++stiffening_nodes_;
     out_.body.nodes.push_back(std::move(node));
   }
 
@@ -267,17 +191,12 @@ class BodyOfSid {
     }
     std::string names;
     for (const auto& [block, name] :
-         {std::pair{&c_.Ct, "Ct"}, std::pair{&c_.Me, "Me"}, std::pair{&c_.Gr, "Gr"},
-          std::pair{&c_.Ge, "Ge"}, std::pair{&c_.ksigma, "ksigma"}, std::pair{&c_.Ke, "Ke"},
-          std::pair{&c_.De, "De"}}) {
+         {std::pair{&c_.Me, "Me"}, std::pair{&c_.Ge, "Ge"}, std::pair{&c_.ksigma, "ksigma"},
+          std::pair{&c_.Ke, "Ke"}, std::pair{&c_.De, "De"}}) {
       if (block->first_order()) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
     }
-    if (stiffening_nodes_ > 0) names += fmt::format("{}phi", names.empty() ? "" : ", ");
-    if (!names.empty()) {
-      note(0, fmt::format("terms of first order in {} (geometric stiffening, foreshortening) are "
-                          "left out: modes are linear",
-                          names));
-    }
+    if (!names.empty())
+      note(0, fmt::format("terms of first order in {} are left out: a body has none there", names));
   }
 
   /// Moments of inertia about the centre of mass, which a large distance from the origin may hide.
@@ -369,7 +288,6 @@ class BodyOfSid {
   std::string name_;
   SidBody out_;
   ErrorList errors_;
-  int stiffening_nodes_ = 0;
 };
 
 }  // namespace

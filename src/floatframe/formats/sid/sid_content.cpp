@@ -8,6 +8,7 @@
 
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/formats/sid/sid_second_order.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -157,6 +158,7 @@ SidContent sid_content(const FlexibleBody& body) {
                                body.nodes[i].name);
     }
   }
+  add_sid_second_order(body, c);
   return c;
 }
 

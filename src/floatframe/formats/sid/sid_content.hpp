@@ -24,7 +24,8 @@
 //
 // Signs of Cr, Gr and Oe are those of the file of PY_SID that EMBSlib uses as an example. Indices
 // of m1 in the file: (row, mode, column). ksigma is zero, Ke and De are the modal stiffness and
-// damping of first order.
+// damping of first order. Displacements of second order add to the first-order terms of Ct, Cr,
+// Oe, phi and psi: sid_second_order.hpp.
 #include <string>
 #include <vector>
 
