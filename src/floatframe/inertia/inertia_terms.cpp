@@ -34,6 +34,14 @@ BodyMotion complete(const FlexibleBody& body, BodyMotion motion) {
 
 InertiaTerms zero_terms(int n) { return {MatX::Zero(n, n), VecX::Zero(n)}; }
 
+StiffeningData stiffening_data(const FlexibleBody& body, const PreprocessingData& data) {
+  if (!body.second_order)
+    throw InputError(
+        "found a body without displacements of second order, expected one with SecondOrder for "
+        "geometric stiffening");
+  return {data, *body.second_order};
+}
+
 const ProjectionData& projection_data(const FlexibleBody& body) {
   if (!body.projection)
     throw InputError("found a body without nodal masses, expected one that keeps ProjectionData");
@@ -56,6 +64,12 @@ InertiaTerms relative_preprocessing(const FlexibleBody& body, const BodyMotion& 
   const PreprocessingData data(body.invariants);
   PreprocessingWorkspace work(body.modes());
   InertiaTerms t = zero_terms(6 + body.modes());
+  if (m.geometric_stiffening) {
+    StiffeningData stiffening = stiffening_data(body, data);
+    relative_stiffened(data, stiffening, m.r0, m.A, m.omega, m.y.data(), m.ydot.data(), work, t.M,
+                       t.Qv);
+    return t;
+  }
   relative_preprocessing(data, m.r0, m.A, m.omega, m.y.data(), m.ydot.data(), work, t.M, t.Qv);
   return t;
 }
@@ -65,6 +79,12 @@ InertiaTerms absolute_preprocessing(const FlexibleBody& body, const BodyMotion& 
   const PreprocessingData data(body.invariants);
   PreprocessingWorkspace work(body.modes());
   InertiaTerms t = zero_terms(12 + body.modes());
+  if (m.geometric_stiffening) {
+    StiffeningData stiffening = stiffening_data(body, data);
+    absolute_stiffened(data, stiffening, m.A, skew(m.omega) * m.A, m.y.data(), m.ydot.data(), work,
+                       t.M, t.Qv);
+    return t;
+  }
   absolute_preprocessing(data, m.A, skew(m.omega) * m.A, m.y.data(), m.ydot.data(), work, t.M,
                          t.Qv);
   return t;
@@ -72,6 +92,8 @@ InertiaTerms absolute_preprocessing(const FlexibleBody& body, const BodyMotion& 
 
 InertiaTerms relative_projection(const FlexibleBody& body, const BodyMotion& motion) {
   const BodyMotion m = complete(body, motion);
+  if (m.geometric_stiffening)
+    throw InputError("found geometric stiffening by projection, expected preprocessing");
   const ProjectionData& data = projection_data(body);
   ProjectionWorkspace work(data);
   InertiaTerms t = zero_terms(6 + body.modes());
@@ -81,6 +103,8 @@ InertiaTerms relative_projection(const FlexibleBody& body, const BodyMotion& mot
 
 InertiaTerms absolute_projection(const FlexibleBody& body, const BodyMotion& motion) {
   const BodyMotion m = complete(body, motion);
+  if (m.geometric_stiffening)
+    throw InputError("found geometric stiffening by projection, expected preprocessing");
   const ProjectionData& data = projection_data(body);
   ProjectionWorkspace work(data);
   InertiaTerms t = zero_terms(12 + body.modes());

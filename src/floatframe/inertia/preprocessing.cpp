@@ -98,13 +98,28 @@ void deform(const PreprocessingData& data, const double* y, DeformedInvariants& 
   }
 }
 
-void absolute_preprocessing(const PreprocessingData& data, const Mat3& A, const Mat3& Adot,
-                            const double* y, const double* ydot, PreprocessingWorkspace& work,
-                            MatX& M, VecX& Qv) noexcept {
+namespace {
+
+/// With S(y) in stiffening.S.
+void deform_stiffened(const PreprocessingData& data, StiffeningData& stiffening, const double* y,
+                      DeformedInvariants& d) noexcept {
+  const int nm = data.modes();
+  affine(data.S.data(), stiffening.S2.data(), 3 * nm, nm, y, stiffening.S.data());
+  d.m_bar = data.m_u + 0.5 * (times(data.S, y) + times(stiffening.S, y));
+  affine(data.Si.data(), stiffening.S_ij.data(), 9 * nm, nm, y, d.S_d.data());
+  const Mat3 both = times9(data.Si, y) + times9(d.S_d, y);
+  d.P_bar = data.P_u + 0.5 * (both + both.transpose());
+}
+
+/// `stiffening`: null, or with S(y).
+template <bool stiffened>
+void absolute_terms(const PreprocessingData& data, const StiffeningData* stiffening, const Mat3& A,
+                    const Mat3& Adot, const double* ydot, PreprocessingWorkspace& work, MatX& M,
+                    VecX& Qv) noexcept {
   const int nm = data.modes();
   const int nq = 12 + nm;
   DeformedInvariants& d = work.deformed;
-  deform(data, y, d);
+  const Mat3X& S = stiffened ? stiffening->S : data.S;
 
   M.topLeftCorner<12, 12>().setZero();
   for (int k = 0; k < 3; ++k) {
@@ -115,10 +130,15 @@ void absolute_preprocessing(const PreprocessingData& data, const Mat3& A, const 
     }
   }
 
-  Qv.head<3>() = -2.0 * (Adot * times(data.S, ydot));  // (43)
+  Qv.head<3>() = -2.0 * (Adot * times(S, ydot));  // (43)
   const Mat3 S_d_rate = times9(d.S_d, ydot);
   Mat3 Q_theta;
   Q_theta.noalias() = -2.0 * (Adot * S_d_rate);  // (44)
+  if constexpr (stiffened) {
+    const RateForces r = rate_forces(*stiffening, nm, ydot);
+    Qv.head<3>() -= A * r.q;
+    Q_theta.noalias() -= A * r.Q;
+  }
   Qv.segment<9>(3) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(Q_theta.data());
 
   const Mat3 G = A.transpose() * A;
@@ -128,7 +148,7 @@ void absolute_preprocessing(const PreprocessingData& data, const Mat3& A, const 
   double* rate = work.S_dot.data();
   affine(nullptr, data.Sij.data(), 9 * nm, nm, ydot, rate);
   for (int a = 0; a < nm; ++a) {
-    M.block<3, 1>(0, 12 + a).noalias() = A * data.S.col(a);  // (35)
+    M.block<3, 1>(0, 12 + a).noalias() = A * S.col(a);  // (35)
     for (int i = 0; i < 3; ++i) {
       M.block<3, 1>(3 + 3 * i, 12 + a).noalias() = A * d.S_d.block<3, 1>(3 * i, a);  // (37)
     }
@@ -145,6 +165,22 @@ void absolute_preprocessing(const PreprocessingData& data, const Mat3& A, const 
     }
     for (int k = 0; k < 12; ++k) M(12 + a, k) = column[k];
   }
+}
+
+}  // namespace
+
+void absolute_preprocessing(const PreprocessingData& data, const Mat3& A, const Mat3& Adot,
+                            const double* y, const double* ydot, PreprocessingWorkspace& work,
+                            MatX& M, VecX& Qv) noexcept {
+  deform(data, y, work.deformed);
+  absolute_terms<false>(data, nullptr, A, Adot, ydot, work, M, Qv);
+}
+
+void absolute_stiffened(const PreprocessingData& data, StiffeningData& stiffening, const Mat3& A,
+                        const Mat3& Adot, const double* y, const double* ydot,
+                        PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
+  deform_stiffened(data, stiffening, y, work.deformed);
+  absolute_terms<true>(data, &stiffening, A, Adot, ydot, work, M, Qv);
 }
 
 void subtract_literal_correction(const PreprocessingData& data, const DeformedInvariants& deformed,

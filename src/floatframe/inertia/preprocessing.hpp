@@ -13,12 +13,21 @@
 //                   of theory section 6; sdot is the velocity of the body's material point that
 //                   passes through the origin from which r0 is measured
 //
+// With geometric stiffening (SecondOrder) S and S^i depend on y, here and in all of the above:
+//   S(y) = S + y^T S2,   S^i_(j)(y) = S^i_(j) + y^T S2i_ij
+//   m_bar = m_u + (S + S(y)) y / 2,   P_bar likewise,   so d(m_bar) = S(y) dy
+// and a modal rate has an acceleration of its own, e_j ydot^T h_j ydot, with the forces
+//   -q, q_j = ydot^T S2_j ydot, and the moments -Q, Q_ij = ydot^T S2i_ij ydot.
+// This Qv is the exact one of this M: energy and momenta are kept. Centrifugal stiffening is in
+// S2i: -omega x (omega x r) of S_d^i(y) in Qv.
+//
 // Convention of the relative terms: sddot is the acceleration of the *material* point at the
 // origin,
 //   sddot = r0ddot - omegadot x r0 - omega x (omega x r0).
 // World axes for r0, A, omega, sdot; body axes for the integrals. SI units. All functions of step
 // time: no heap, noexcept. Cost for k = nm: about 24 k^2 + 120 k flops.
 #include "floatframe/body/inertia_invariants.hpp"
+#include "floatframe/body/second_order.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -50,6 +59,34 @@ struct PreprocessingData {
   int modes() const noexcept { return static_cast<int>(S.cols()); }
 };
 
+/// What geometric stiffening adds.
+struct StiffeningData {
+  MatX S2;     ///< 3nm x nm: row 3a+j, column b: S2_j(b, a)
+  MatX S_ij;   ///< as PreprocessingData::Sij, of S^ij + S2i_ij
+  MatX pairs;  ///< 12 x nm (nm+1)/2: S2_j, then S2i_ij in row 3+3i+j, of the pairs of modes a <= b
+  /// As in PreprocessingData::ByModes.
+  MatX S2_by_modes;    ///< 3 rows in each column b
+  MatX S_ij_by_modes;  ///< 9 rows in each column b
+  // Scratch.
+  Mat3X S;         ///< S(y)
+  VecX S_by_mode;  ///< 3 rows
+
+  StiffeningData() = default;
+  StiffeningData(const PreprocessingData& data, const SecondOrder& second_order);
+};
+
+/// q and Q: forces of second order of modal rates.
+struct RateForces {
+  Vec3 q;
+  Mat3 Q;  ///< column i: Q_ij
+};
+RateForces rate_forces(const StiffeningData& stiffening, int nm, const double* ydot) noexcept;
+
+/// out += weight K_G for the acceleration a + G r of the material points in body axes, gravity
+/// taken off: the derivative of their inertia forces by the amplitudes through h.
+void add_stiffness(const SecondOrder& second_order, const Vec3& a, const Mat3& G, double weight,
+                   MatX& out) noexcept;
+
 /// Integrals over the deformed body, body axes.
 struct DeformedInvariants {
   Vec3 m_bar = Vec3::Zero();  ///< static moment [kg m]
@@ -80,6 +117,14 @@ void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const
 void absolute_preprocessing(const PreprocessingData& data, const Mat3& A, const Mat3& Adot,
                             const double* y, const double* ydot, PreprocessingWorkspace& work,
                             MatX& M, VecX& Qv) noexcept;
+
+/// The same with geometric stiffening.
+void relative_stiffened(const PreprocessingData& data, StiffeningData& stiffening, const Vec3& r0,
+                        const Mat3& A, const Vec3& omega, const double* y, const double* ydot,
+                        PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept;
+void absolute_stiffened(const PreprocessingData& data, StiffeningData& stiffening, const Mat3& A,
+                        const Mat3& Adot, const double* y, const double* ydot,
+                        PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept;
 
 /// Turns the relative Qv of the material convention into that for sddot = d(sdot)/dt:
 ///   Qv -= int B^T (omega x sdot) dm.

@@ -53,10 +53,12 @@ struct DeformedIntegrals {
   const double* S_d;  ///< 9 rows over the modes: row 3i+j is row j of S_d^i, (38)
 };
 
-/// `y_row`, `ydot_row`: y and ydot padded with zeros.
-inline DeformedIntegrals deformed_integrals(const PreprocessingData& data, const double* y,
-                                            const double* ydot, double* S_d, double* y_row,
-                                            double* ydot_row) noexcept {
+/// `y_row`, `ydot_row`: y and ydot padded with zeros. `stiffening` gets S(y).
+template <bool stiffened>
+inline DeformedIntegrals deformed_integrals(const PreprocessingData& data,
+                                            [[maybe_unused]] StiffeningData* stiffening,
+                                            const double* y, const double* ydot, double* S_d,
+                                            double* y_row, double* ydot_row) noexcept {
   const int nm = data.modes(), nl = data.by_modes.stride;
   DeformedIntegrals out{data.m_u, data.P_u, Vec3::Zero(), Mat3::Zero(), S_d};
   if (nm == 0) return out;
@@ -65,9 +67,25 @@ inline DeformedIntegrals deformed_integrals(const PreprocessingData& data, const
   const double* S = data.by_modes.S.data();
   const double* Si = data.by_modes.Si.data();
   for (int r = 0; r < 9 * nl; r += 4) lanes(S_d + r) = lanes(Si + r);
-  add_columns(data.by_modes.Sij.data(), 9 * nl, nm, y, S_d);  // (38)
+  if constexpr (stiffened)
+    add_columns(stiffening->S_ij_by_modes.data(), 9 * nl, nm, y, S_d);
+  else
+    add_columns(data.by_modes.Sij.data(), 9 * nl, nm, y, S_d);  // (38)
   const Mat3 first = lane_times9(Si, y_row, nl);              // column i: S^i y
   const Mat3 second = lane_times9(S_d, y_row, nl);            // column i: S_d^i y
+  if constexpr (stiffened) {
+    double* Sy = stiffening->S_by_mode.data();
+    for (int r = 0; r < 3 * nl; r += 4) lanes(Sy + r) = lanes(S + r);
+    add_columns(stiffening->S2_by_modes.data(), 3 * nl, nm, y, Sy);
+    for (int j = 0; j < 3; ++j) {
+      out.m_u[j] += 0.5 * (dot(S + j * nl, y_row, nl) + dot(Sy + j * nl, y_row, nl));
+      out.S_rate[j] = dot(Sy + j * nl, ydot_row, nl);
+    }
+    out.S_d_rate = lane_times9(S_d, ydot_row, nl);
+    const Mat3 both = first + second;
+    out.P_u += 0.5 * (both + both.transpose());
+    return out;
+  }
   for (int j = 0; j < 3; ++j) {
     out.m_u[j] += dot(S + j * nl, y_row, nl);  // (29)
     out.S_rate[j] = dot(S + j * nl, ydot_row, nl);
@@ -92,15 +110,14 @@ inline Mat3 rotary_inertia(const Mat3& A, const Mat3& P_bar, double m, const Vec
 }
 
 /// Columns and rows of the modes in M and Q_v, four modes at a time. `w`: omega in body axes.
-inline void mode_columns(const PreprocessingData& data, const Vec3& r0, const Mat3& A,
-                         const Vec3& omega, const Vec3& w, const double* S_d,
+inline void mode_columns(const PreprocessingData& data, const double* S, const Vec3& r0,
+                         const Mat3& A, const Vec3& omega, const Vec3& w, const double* S_d,
                          const double* skew_rate, double* Q_row, MatX& M) noexcept {
   const int nm = data.modes(), nq = 6 + nm, nl = data.by_modes.stride;
   // F_d^T omega = S^T A^T ((omega x r0) x omega) + sum_ij (|w|^2 delta_ij - w_i w_j) (S_d^i)_(j)
   const Vec3 g = A.transpose() * omega.cross(r0).cross(omega);
   const Mat3 W = w.squaredNorm() * Mat3::Identity() - w * w.transpose();
   double* M_data = M.data();
-  const double* S = data.by_modes.S.data();
   for (int r = 0; r < nl; r += 4) {
     const Lanes s0 = lanes(S + r), s1 = lanes(S + nl + r), s2 = lanes(S + 2 * nl + r);
     const auto d = [&](int i, int j) -> const Lanes& { return lanes(S_d + (3 * i + j) * nl + r); };
@@ -130,11 +147,11 @@ inline void mode_columns(const PreprocessingData& data, const Vec3& r0, const Ma
   }
 }
 
-}  // namespace
-
-void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const Mat3& A,
-                            const Vec3& omega, const double* y, const double* ydot,
-                            PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
+template <bool stiffened>
+inline void relative_terms(const PreprocessingData& data, StiffeningData* stiffening,
+                           const Vec3& r0, const Mat3& A, const Vec3& omega, const double* y,
+                           const double* ydot, PreprocessingWorkspace& work, MatX& M,
+                           VecX& Qv) noexcept {
   const int nm = data.modes();
   const int nq = 6 + nm;
   const int nl = data.by_modes.stride;
@@ -143,7 +160,7 @@ void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const
   double* y_row = skew_rate + 3 * nl;
   double* ydot_row = y_row + nl;
   double* Q_row = ydot_row + nl;
-  const DeformedIntegrals u = deformed_integrals(data, y, ydot, S_d, y_row, ydot_row);
+  const DeformedIntegrals u = deformed_integrals<stiffened>(data, stiffening, y, ydot, S_d, y_row, ydot_row);
   const Vec3 AS_rate = A * u.S_rate;
   const Vec3 c = A * u.m_u;
   const Vec3 m_vec = data.m * r0 + c;  // (49)
@@ -164,16 +181,39 @@ void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const
   Qv.head<3>() = omega.cross(m_vec.cross(omega)) - 2.0 * omega.cross(AS_rate);    // (60)
   Qv.segment<3>(3) = -omega.cross(M.block<3, 3>(3, 3) * omega) - 2.0 * F_d_rate;  // (61)
   if (nm == 0) return;
+  const double* S = data.by_modes.S.data();
+  if constexpr (stiffened) {
+    S = stiffening->S_by_mode.data();
+    const RateForces f = rate_forces(*stiffening, nm, ydot);
+    const Vec3 force = A * f.q;
+    const Vec3 moment(f.Q(2, 1) - f.Q(1, 2), f.Q(0, 2) - f.Q(2, 0), f.Q(1, 0) - f.Q(0, 1));
+    Qv.head<3>() -= force;
+    Qv.segment<3>(3) -= r0.cross(force) + A * moment;
+  }
 
   for (int r = 0; r < 3 * nl; r += 4) lanes(skew_rate + r) = Lanes{};
   add_columns(data.by_modes.Sij_skew.data(), 3 * nl, nm, ydot, skew_rate);
-  mode_columns(data, r0, A, omega, w, S_d, skew_rate, Q_row, M);
+  mode_columns(data, S, r0, A, omega, w, S_d, skew_rate, Q_row, M);
   for (int a = 0; a < nm; ++a) Qv[6 + a] = Q_row[a];
   for (int a = 0; a < nm; ++a) {
     double* column = M.data() + static_cast<std::ptrdiff_t>(6 + a) * nq + 6;
     const double* mff = data.M_ff.data() + static_cast<std::ptrdiff_t>(a) * nm;
     for (int b = 0; b < nm; ++b) column[b] = mff[b];  // (54)
   }
+}
+
+}  // namespace
+
+void relative_preprocessing(const PreprocessingData& data, const Vec3& r0, const Mat3& A,
+                            const Vec3& omega, const double* y, const double* ydot,
+                            PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
+  relative_terms<false>(data, nullptr, r0, A, omega, y, ydot, work, M, Qv);
+}
+
+void relative_stiffened(const PreprocessingData& data, StiffeningData& stiffening, const Vec3& r0,
+                        const Mat3& A, const Vec3& omega, const double* y, const double* ydot,
+                        PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
+  relative_terms<true>(data, &stiffening, r0, A, omega, y, ydot, work, M, Qv);
 }
 
 }  // namespace floatframe

@@ -1,0 +1,49 @@
+// The integrals of geometric stiffening, laid out for speed.
+#include "floatframe/inertia/preprocessing.hpp"
+
+namespace floatframe {
+
+StiffeningData::StiffeningData(const PreprocessingData& data, const SecondOrder& second_order)
+    : S_ij(data.Sij), S_ij_by_modes(data.by_modes.Sij), S(data.S), S_by_mode(data.by_modes.S) {
+  const int nm = data.modes(), nl = data.by_modes.stride;
+  S2 = MatX::Zero(3 * nm, nm);
+  S2_by_modes = MatX::Zero(3 * nl, nm);
+  pairs = MatX::Zero(12, nm * (nm + 1) / 2);
+  int pair = 0;
+  for (int b = 0; b < nm; ++b) {
+    for (int a = 0; a < nm; ++a) {
+      const double twice = a == b ? 1.0 : 2.0;
+      for (int j = 0; j < 3; ++j) {
+        const double s = second_order.S2[j](b, a);
+        S2(3 * a + j, b) = S2_by_modes(j * nl + a, b) = s;
+        if (a <= b) pairs(j, pair) = twice * s;
+        for (int i = 0; i < 3; ++i) {
+          const double si = second_order.S2i[i][j](b, a);
+          S_ij(9 * a + 3 * i + j, b) += si;
+          S_ij_by_modes((3 * i + j) * nl + a, b) += si;
+          if (a <= b) pairs(3 + 3 * i + j, pair) = twice * si;
+        }
+      }
+      if (a <= b) ++pair;
+    }
+  }
+}
+
+void add_stiffness(const SecondOrder& second_order, const Vec3& a, const Mat3& G, double weight,
+                   MatX& out) noexcept {
+  for (int j = 0; j < 3; ++j) {
+    out += (weight * a[j]) * second_order.S2[j];
+    for (int i = 0; i < 3; ++i) out += (weight * G(j, i)) * second_order.S2i[i][j];
+  }
+}
+
+RateForces rate_forces(const StiffeningData& stiffening, int nm, const double* ydot) noexcept {
+  Eigen::Matrix<double, 12, 1> sum = Eigen::Matrix<double, 12, 1>::Zero();
+  int pair = 0;
+  for (int b = 0; b < nm; ++b)
+    for (int a = 0; a <= b; ++a)
+      sum += (ydot[a] * ydot[b]) * stiffening.pairs.col(pair++).head<12>();
+  return {sum.head<3>(), Eigen::Map<const Mat3>(sum.data() + 3)};
+}
+
+}  // namespace floatframe
