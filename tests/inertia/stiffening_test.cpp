@@ -43,8 +43,7 @@ struct Points {
       v.S += mass[k] * X[k];
       for (int i = 0; i < 3; ++i) {
         v.Si[i] += mass[k] * p[k][i] * X[k];
-        for (int j = 0; j < 3; ++j)
-          v.Sij[i][j] += mass[k] * X[k].row(i).transpose() * X[k].row(j);
+        for (int j = 0; j < 3; ++j) v.Sij[i][j] += mass[k] * X[k].row(i).transpose() * X[k].row(j);
       }
     }
     return v;
@@ -207,8 +206,8 @@ TEST(Stiffening, CentrifugalStiffnessOfASpinningRod) {
     H1 += points.mass[k] * x * x * x * x;
   }
   Stiffened body(points);
-  BodyState s{Vec3::Zero(), {0.0, 0.0, 3.0}, Vec3::Zero(), Mat3::Identity(), Mat3::Zero(),
-              VecX::Constant(1, 0.01), VecX::Zero(1)};
+  BodyState s{Vec3::Zero(), {0.0, 0.0, 3.0},         Vec3::Zero(), Mat3::Identity(),
+              Mat3::Zero(), VecX::Constant(1, 0.01), VecX::Zero(1)};
   MatX M(7, 7);
   VecX Q(7);
   body.relative(s, M, Q);

@@ -73,7 +73,9 @@ void AbsoluteFormulation::number_coordinates(InertiaMethod method) {
     b.row = rows;
     rows += b.rows();
     b.y = b.yd = VecX::Zero(b.nm);
-    b.inertia = BodyInertia(*m.data, m.name, method);
+    b.inertia = BodyInertia(m, method);
+    if (m.stiffens()) b.K_G = MatX::Zero(b.nm, b.nm);
+    stiffens_ = stiffens_ || m.stiffens();
     b.M = MatX::Zero(12 + b.nm, 12 + b.nm);
     b.Qv = b.work = VecX::Zero(12 + b.nm);
   }

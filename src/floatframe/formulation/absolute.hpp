@@ -179,6 +179,7 @@ class AbsoluteFormulation {
     BodyInertia inertia;
     MatX M;
     VecX Qv, work;
+    MatX K_G;  ///< of geometric stiffening, only with it
     int size() const noexcept { return 12 + nm + 3 * points; }
     int rows() const noexcept { return 6 + 3 * points; }
   };
@@ -233,6 +234,7 @@ class AbsoluteFormulation {
   void add_curvature(int a, int b, const Mat12& K, BlockLdlt& matrix) noexcept;
   static void add_mass(const BodyData& b, double mass, const Mat3& stretch, MatX& f) noexcept;
   void assemble_body(const TangentWeights& t, int i, BlockLdlt& matrix) noexcept;
+  void assemble_stiffening(const TangentWeights& t, BlockLdlt& matrix) noexcept;
   void assemble_forces(const TangentWeights& t, BlockLdlt& matrix) noexcept;
   void assemble_parts(const TangentWeights& t, BlockLdlt& matrix) noexcept;
   void assemble_row(const PartPlace& place, int r, BlockLdlt& matrix) noexcept;
@@ -253,6 +255,7 @@ class AbsoluteFormulation {
   MatX motions_[2], product_;  ///< of the markers of a part with z, transposed
   VecX unknowns_;              ///< of (6)
   VecX correction_, across_;   ///< an increment that meets (1) and (2), and what it asks of (3)
+  bool stiffens_ = false;      ///< a body has geometric stiffening
   int nq_ = 0;
   double time_ = 0.0;
   VecX omega2_, a_;

@@ -25,10 +25,8 @@ double AbsoluteFormulation::body_kinetic_energy(int i) const noexcept {
 
 double AbsoluteFormulation::body_gravity_energy(int i) const noexcept {
   const BodyData& b = bodies_[i];
-  const PreprocessingData& d = b.inertia.data();
-  Vec3 m_bar = d.m_u;
-  for (int k = 0; k < b.nm; ++k) m_bar += d.S.col(k) * b.y[k];
-  return -model_.gravity.dot(d.m * b.p_WB + b.A * m_bar);
+  const Vec3 m_bar = b.inertia.static_moment(b.y.data());
+  return -model_.gravity.dot(b.inertia.data().m * b.p_WB + b.A * m_bar);
 }
 
 double AbsoluteFormulation::body_elastic_energy(int i) const noexcept {
@@ -52,9 +50,8 @@ double AbsoluteFormulation::kinetic_energy(const VecX& v) noexcept {
 double AbsoluteFormulation::gravity_energy(const VecX&) const noexcept {
   double sum = 0.0;
   for (const BodyData& b : bodies_) {
-    const PreprocessingData& d = b.inertia.data();
-    const Vec3 m_bar = d.m_u + d.S * b.y;
-    sum -= model_.gravity.dot(d.m * b.p_WB + b.A * m_bar);
+    const Vec3 m_bar = b.inertia.static_moment(b.y.data());
+    sum -= model_.gravity.dot(b.inertia.data().m * b.p_WB + b.A * m_bar);
   }
   return sum;
 }

@@ -150,6 +150,40 @@ void AbsoluteFormulation::assemble_body(const TangentWeights& t, int i,
   }
 }
 
+/// K_G of the bodies that stiffen: of their accelerations and of forces and multipliers on them.
+void AbsoluteFormulation::assemble_stiffening(const TangentWeights& t, BlockLdlt& matrix) noexcept {
+  for (BodyData& b : bodies_) {
+    const SecondOrder* second_order = b.inertia.second_order();
+    if (!second_order) continue;
+    b.K_G.setZero();
+    const Vec3 a = b.A.transpose() * (a_.segment<3>(b.offset) - model_.gravity);
+    Mat3 G;
+    for (int c = 0; c < 3; ++c)
+      G.col(c).noalias() = b.A.transpose() * a_.segment<3>(b.offset + 3 + 3 * c);
+    add_stiffness(*second_order, a, G, t.s, b.K_G);
+  }
+  const auto add = [&](int marker, const Vec3& force, const Vec3& torque) {
+    const MarkerData& m = markers_[marker];
+    if (!m.second) return;
+    BodyData& b = bodies_[m.body];
+    m.add_stiffness(b.A.transpose() * force, b.A.transpose() * torque, t.s, b.K_G);
+  };
+  force_set_.add_wrenches(add);
+  const VecX& lambda = constraint_set_.multipliers();
+  for (const BodyData& b : bodies_)
+    for (int p = 0; p < b.points; ++p)
+      add(b.point_marker[p], -lambda.segment<3>(b.row + 6 + 3 * p), Vec3::Zero());
+  constraint_set_.add_wrenches(lambda, [&](int marker, const Vec3& force, const Vec3& torque) {
+    const bool through_point = markers_[marker].point >= 0;
+    add(marker, through_point ? Vec3(Vec3::Zero()) : force, torque);
+  });
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyData& b = bodies_[i];
+    if (b.inertia.second_order())
+      matrix.front(static_cast<int>(i)).block(6, 6, b.nm, b.nm) += b.K_G;
+  }
+}
+
 void AbsoluteFormulation::assemble_forces(const TangentWeights& t, BlockLdlt& matrix) noexcept {
   for (std::size_t k = 0; k < model_.forces.size(); ++k) {
     const Force& force = model_.forces[k];
@@ -223,6 +257,7 @@ int AbsoluteFormulation::eliminate(const TangentWeights& t, Factors& factors) no
   factors.penalty = t.penalty;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     assemble_body(t, static_cast<int>(i), factors.matrix);
+  if (stiffens_ && t.geometric) assemble_stiffening(t, factors.matrix);
   assemble_forces(t, factors.matrix);
   assemble_parts(t, factors.matrix);
   const int failed = factors.matrix.factorize();

@@ -8,7 +8,7 @@
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/inertia/projection.hpp"
-#include "floatframe/model/description.hpp"
+#include "floatframe/model/model.hpp"
 
 namespace floatframe {
 
@@ -16,9 +16,18 @@ class BodyInertia {
  public:
   BodyInertia() = default;
   /// Throws InputError if the body's mass model does not go with the method.
-  BodyInertia(const FlexibleBody& body, const std::string& name, InertiaMethod method)
-      : data_(body.invariants), work_(body.modes()) {
+  BodyInertia(const Body& of_model, InertiaMethod method)
+      : data_(of_model.data->invariants), work_(of_model.modes()) {
+    const FlexibleBody& body = *of_model.data;
+    const std::string& name = of_model.name;
     if (body.modes() == 0) return;
+    if (of_model.stiffens()) {
+      if (method == InertiaMethod::projection)
+        throw InputError("bodies." + name + ": geometric_stiffening needs inertia: preprocessing");
+      second_order_ = body.second_order.get();
+      stiffening_ = StiffeningData(data_, *second_order_);
+      special_ = true;
+    }
     if (method == InertiaMethod::projection) {
       if (body.mass_model == MassModel::hermite || !body.projection)
         throw InputError(
@@ -26,6 +35,7 @@ class BodyInertia {
             ": mass_model hermite has no nodal mass matrix, so it needs inertia: preprocessing; "
             "use mass_model isoparametric or six_dof with inertia: projection");
       projection_ = body.projection.get();
+      special_ = true;
       projection_work_ = ProjectionWorkspace(*projection_);
     } else if (body.mass_model == MassModel::six_dof) {
       throw InputError(
@@ -37,18 +47,35 @@ class BodyInertia {
 
   void relative(const Vec3& r0, const Mat3& A, const Vec3& omega, const double* y,
                 const double* ydot, MatX& M, VecX& Qv) noexcept {
-    if (projection_)
+    if (!special_)
+      relative_preprocessing(data_, r0, A, omega, y, ydot, work_, M, Qv);
+    else if (projection_)
       relative_projection(*projection_, r0, A, omega, y, ydot, projection_work_, M, Qv);
     else
-      relative_preprocessing(data_, r0, A, omega, y, ydot, work_, M, Qv);
+      relative_stiffened(data_, stiffening_, r0, A, omega, y, ydot, work_, M, Qv);
   }
   void absolute(const Mat3& A, const Mat3& Adot, const double* y, const double* ydot, MatX& M,
                 VecX& Qv) noexcept {
-    if (projection_)
+    if (!special_)
+      absolute_preprocessing(data_, A, Adot, y, ydot, work_, M, Qv);
+    else if (projection_)
       absolute_projection(*projection_, A, Adot, y, ydot, projection_work_, M, Qv);
     else
-      absolute_preprocessing(data_, A, Adot, y, ydot, work_, M, Qv);
+      absolute_stiffened(data_, stiffening_, A, Adot, y, ydot, work_, M, Qv);
   }
+  /// m_bar: its mass times the centre of mass in the body frame [kg m].
+  Vec3 static_moment(const double* y) const noexcept {
+    Vec3 m = data_.m_u;  // (29)
+    for (int a = 0; a < data_.modes(); ++a) m += data_.S.col(a) * y[a];
+    if (!second_order_) return m;
+    for (int j = 0; j < 3; ++j)
+      for (int a = 0; a < data_.modes(); ++a)
+        for (int b = 0; b < data_.modes(); ++b)
+          m[j] += 0.5 * y[a] * second_order_->S2[j](a, b) * y[b];
+    return m;
+  }
+  /// Of a body that stiffens, else null.
+  const SecondOrder* second_order() const noexcept { return second_order_; }
   /// K_kk / M_kk of each mode, `no_inertia` for massless ones [1/s2].
   VecX own_frequencies_squared(const MatX& K) const {
     VecX w = VecX::Zero(data_.modes());
@@ -65,6 +92,9 @@ class BodyInertia {
   PreprocessingWorkspace work_;
   const ProjectionData* projection_ = nullptr;
   ProjectionWorkspace projection_work_;
+  bool special_ = false;  ///< not preprocessing without stiffening
+  const SecondOrder* second_order_ = nullptr;
+  StiffeningData stiffening_;
 };
 
 /// A body's terms of the equations of motion at the last evaluation, over its rigid coordinates and

@@ -77,6 +77,34 @@ void ClusterTangent::gather_geometric(double s) noexcept {
       [&](int marker, const Vec3& force, const Vec3&) { add_geometric(marker, s * force); });
 }
 
+/// K_G of the bodies that stiffen: of their accelerations and of forces and multipliers on them.
+void ClusterTangent::add_stiffening(const std::vector<BodyTerms>& terms, double s) noexcept {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const SecondOrder* second_order = terms[i].inertia.second_order();
+    if (!second_order) continue;
+    const TreeBody& b = tree_.body(static_cast<int>(i));
+    const Vec6 z = b.Zdot + b.Zdot_0;
+    const Mat3 G = skew(Vec3(z.tail<3>())) + skew(b.w_WB) * skew(b.w_WB);
+    const Vec3 a = z.head<3>() + G * b.p_OB;
+    bodies_[i].K_G.setZero();
+    floatframe::add_stiffness(*second_order, b.R_WB.transpose() * a,
+                              b.R_WB.transpose() * G * b.R_WB, s, bodies_[i].K_G);
+  }
+  const auto add = [&](int marker, const Vec3& force, const Vec3& torque) {
+    const TreeMarker& m = tree_.marker(marker);
+    if (!m.second) return;
+    const Mat3 R_BW = tree_.body(m.body).R_WB.transpose();
+    m.add_stiffness(R_BW * force, R_BW * torque, s, bodies_[m.body].K_G);
+  };
+  forces_.add_wrenches(add);
+  constraints_.add_wrenches(constraints_.multipliers(), add);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    BodyTangent& t = bodies_[i];
+    if (!terms[i].inertia.second_order()) continue;
+    t.T.bottomRightCorner(t.K_G.rows(), t.K_G.cols()) += t.K_G;
+  }
+}
+
 // elements
 
 void ClusterTangent::assemble_ground_force(const TreeElement& e, const WrenchRow& row,
@@ -328,6 +356,7 @@ int ClusterTangent::factorize(const std::vector<BodyTerms>& terms, const Weights
   clear_geometric();
   if (weights.geometric) gather_geometric(weights.s);
   load_bodies(terms, weights, factors);
+  if (stiffens_ && weights.geometric) add_stiffening(terms, weights.s);
   for (MatX& front : factors.fronts) clear_lower(front);
   assemble_forces(weights, factors);
   assemble_parts(weights, factors);

@@ -76,6 +76,7 @@ class ClusterTangent {
     Mat3 G_virial;   ///< V = sum r F^T [N m], times s
     Mat3 G_angular;  ///< V - tr(V) I
     Mat3X G_modal;   ///< sum Jr x F, 3 x nm, times s
+    MatX K_G;        ///< of geometric stiffening, only with it; times s
   };
   /// Scratch of a cluster.
   struct Front {
@@ -96,6 +97,7 @@ class ClusterTangent {
   void clear_geometric() noexcept;
   void gather_geometric(double s) noexcept;
   void add_geometric(int marker, const Vec3& force) noexcept;
+  void add_stiffening(const std::vector<BodyTerms>& terms, double s) noexcept;
   void load_bodies(const std::vector<BodyTerms>& terms, const Weights& w, Factors& f) noexcept;
   void assemble_forces(const Weights& w, Factors& f) noexcept;
   void assemble_ground_force(const TreeElement& e, const WrenchRow& g, double weight) noexcept;
@@ -122,6 +124,7 @@ class ClusterTangent {
   Factors factors_[2];
   BodyVectors loads_, increments_;  ///< of `solve`: wrenches inwards, motions outwards
   VecX scratch_;                    ///< rows of an element
+  bool stiffens_ = false;           ///< a body has geometric stiffening
 };
 
 }  // namespace floatframe

@@ -8,6 +8,9 @@
 //   pddot_B = zetadot_B x o + zeta_B x (zeta_B x o),  zetadot_B = Hdot thetadot.
 // A modal rate moves the marker, in world axes, by
 //   Jw = A H X_theta,   Jr = A X + Jw x (A o).
+// With geometric stiffening (SecondOrderNode) X + e_j y^T h_j and X_theta + e_j y^T theta_j stand
+// for X and X_theta in rates and gradients, p_B and theta have half of these terms, and pddot_B
+// and the second derivative of theta e_j ydot^T h_j ydot and e_j ydot^T theta_j ydot.
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -26,10 +29,13 @@ struct LocalMarker {
   Vec3 o_B = Vec3::Zero();                               ///< o, from the node [m]
   Mat3 H = Mat3::Identity();                             ///< at theta
   // Fixed.
-  Vec3 node_p = Vec3::Zero();  ///< p [m]
-  Pose X_NM;                   ///< p_NM, R_NM
-  Mat3X X, X_theta;            ///< 3 x nm
-  Mat3X HX;                    ///< 3 x nm, H X_theta at theta
+  Vec3 node_p = Vec3::Zero();               ///< p [m]
+  Pose X_NM;                                ///< p_NM, R_NM
+  Mat3X X, X_theta;                         ///< 3 x nm; with `second` at y
+  const SecondOrderNode* second = nullptr;  ///< of a body that stiffens; then `rotates` is set
+  const ModalNode* node = nullptr;          ///< with `second`
+  bool turns = false;                       ///< with `second`: theta enters
+  Mat3X HX;                                 ///< 3 x nm, H X_theta at theta
   /// World axes (`world_gradients`), 3 x nm: velocity and angular velocity per modal rate.
   Mat3X Jr, Jw;
 
@@ -48,6 +54,12 @@ struct LocalMarker {
     X_theta = node.X_theta;
     rotates = m.rotates && !node.X_theta.isZero(0.0);
     local = !node.X.isZero(0.0) || rotates;
+    second = second_order_of(model, m);
+    if (!second) return;
+    this->node = &node;
+    turns = m.rotates;
+    if (!turns) X_theta.setZero();
+    local = rotates = true;
   }
 
   /// Only for markers with `local`.
@@ -56,6 +68,7 @@ struct LocalMarker {
     p_B += node_p;
     if (rotates) {
       theta.noalias() = X_theta * y;
+      if (second) bend(y);
       const Mat3 e = rotation_exp(theta);
       H = rotation_tangent(theta);
       HX.noalias() = H * X_theta;
@@ -69,6 +82,7 @@ struct LocalMarker {
   /// p_B for other amplitudes, y + dy.
   Vec3 position(const double* y, const double* dy) const noexcept {
     Vec3 p = node_p, turn = Vec3::Zero();
+    if (second) return stiffened_position(y, dy);
     for (Eigen::Index k = 0; k < X.cols(); ++k) {
       p += (y[k] + dy[k]) * X.col(k);
       if (rotates) turn += (y[k] + dy[k]) * X_theta.col(k);
@@ -81,9 +95,20 @@ struct LocalMarker {
     const Vec3 rate = X_theta * yd;
     zeta_B.noalias() = H * rate;
     zetadot_B = rotation_tangent_bias(theta, rate);
+    if (second && turns) zetadot_B += H * quadratic(second->theta, yd);
     const Vec3 o_dot = zeta_B.cross(o_B);
     pdot_B += o_dot;
     pddot_B = zetadot_B.cross(o_B) + zeta_B.cross(o_dot);
+    if (second) pddot_B += quadratic(second->h, yd);
+  }
+  /// out += weight times the derivative of Jr^T force + Jw^T torque, body axes, by h and theta.
+  void add_stiffness(const Vec3& force, const Vec3& torque, double weight,
+                     MatX& out) const noexcept {
+    const Vec3 moment = torque + o_B.cross(force);
+    for (int j = 0; j < 3; ++j) {
+      out += (weight * force[j]) * second->h[j];
+      if (turns) out += (weight * moment[j]) * second->theta[j];
+    }
   }
   /// Jr, Jw for the body rotation A.
   void world_gradients(const Mat3& A) noexcept {
@@ -92,6 +117,51 @@ struct LocalMarker {
     Jw.noalias() = A * HX;
     const Vec3 o = A * o_B;
     for (Eigen::Index k = 0; k < Jr.cols(); ++k) Jr.col(k) += Jw.col(k).cross(o);
+  }
+
+ private:
+  /// The node of a marker on a body that stiffens; null if it has no second order.
+  static const SecondOrderNode* second_order_of(const Model& model, const Marker& m) {
+    if (!model.bodies[m.body].stiffens()) return nullptr;
+    for (const SecondOrderNode& n : model.bodies[m.body].data->second_order->nodes)
+      if (n.node == m.node) return &n;
+    return nullptr;
+  }
+  static Vec3 quadratic(const std::array<MatX, 3>& h, const VecX& x) noexcept {
+    Vec3 q = Vec3::Zero();
+    for (int j = 0; j < 3; ++j)
+      for (Eigen::Index k = 0; k < x.size(); ++k) q[j] += x[k] * h[j].col(k).dot(x);
+    return q;
+  }
+  /// X, X_theta, p_B and theta at y.
+  void bend(const VecX& y) noexcept {
+    const Eigen::Index nm = y.size();
+    p_B = node_p;
+    theta.setZero();
+    for (Eigen::Index k = 0; k < nm; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        X(j, k) = node->X(j, k) + second->h[j].col(k).dot(y);
+        if (turns) X_theta(j, k) = node->X_theta(j, k) + second->theta[j].col(k).dot(y);
+      }
+      p_B += (0.5 * y[k]) * (node->X.col(k) + X.col(k));
+      if (turns) theta += (0.5 * y[k]) * (node->X_theta.col(k) + X_theta.col(k));
+    }
+  }
+  Vec3 stiffened_position(const double* y, const double* dy) const noexcept {
+    Vec3 p = node_p, turn = Vec3::Zero();
+    for (Eigen::Index k = 0; k < X.cols(); ++k) {
+      const double yk = y[k] + dy[k];
+      p += yk * node->X.col(k);
+      if (turns) turn += yk * node->X_theta.col(k);
+      for (Eigen::Index l = 0; l < X.cols(); ++l) {
+        const double half = 0.5 * yk * (y[l] + dy[l]);
+        for (int j = 0; j < 3; ++j) {
+          p[j] += half * second->h[j](k, l);
+          if (turns) turn[j] += half * second->theta[j](k, l);
+        }
+      }
+    }
+    return p + (turns ? Vec3(rotation_exp(turn) * X_NM.p) : X_NM.p);
   }
 };
 

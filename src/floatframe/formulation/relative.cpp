@@ -67,7 +67,7 @@ RelativeFormulation::RelativeFormulation(const Model& model, InertiaMethod metho
     const Body& body = model.bodies[i];
     const TreeBody& b = tree_.body(static_cast<int>(i));
     BodyTerms& terms = terms_[i];
-    terms.inertia = BodyInertia(*body.data, body.name, method);
+    terms.inertia = BodyInertia(body, method);
     terms.M = MatX::Zero(6 + b.nm, 6 + b.nm);
     terms.Qv = VecX::Zero(6 + b.nm);
     terms.damped = b.nm > 0 && !body.data->D.isZero(0.0);

@@ -31,10 +31,9 @@ double RelativeFormulation::body_kinetic_energy(int i) const noexcept {
 
 double RelativeFormulation::body_gravity_energy(int i) const noexcept {
   const TreeBody& b = tree_.body(i);
-  const PreprocessingData& d = terms_[i].inertia.data();
-  Vec3 m_bar = d.m_u;  // (29)
-  for (int k = 0; k < b.nm; ++k) m_bar += d.S.col(k) * b.y[k];
-  return -model_.gravity.dot(d.m * (tree_.origin() + b.p_OB) + b.R_WB * m_bar);
+  const BodyInertia& inertia = terms_[i].inertia;
+  const Vec3 m_bar = inertia.static_moment(b.y.data());
+  return -model_.gravity.dot(inertia.data().m * (tree_.origin() + b.p_OB) + b.R_WB * m_bar);
 }
 
 double RelativeFormulation::body_elastic_energy(int i) const noexcept {
@@ -63,10 +62,9 @@ double RelativeFormulation::gravity_energy(const VecX& q) const noexcept {
   double sum = 0.0;
   for (const int i : tree_.order()) {
     const TreeBody& b = tree_.body(i);
-    const PreprocessingData& d = terms_[i].inertia.data();
-    Vec3 m_bar = d.m_u;  // (29)
-    for (int k = 0; k < b.nm; ++k) m_bar += d.S.col(k) * q[b.iyq + k];
-    sum -= model_.gravity.dot(d.m * (tree_.origin() + b.p_OB) + b.R_WB * m_bar);
+    const BodyInertia& inertia = terms_[i].inertia;
+    const Vec3 m_bar = inertia.static_moment(q.data() + b.iyq);
+    sum -= model_.gravity.dot(inertia.data().m * (tree_.origin() + b.p_OB) + b.R_WB * m_bar);
   }
   return sum;
 }

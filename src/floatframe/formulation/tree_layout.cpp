@@ -41,8 +41,7 @@ TreeKinematics::TreeKinematics(const Model& model)
 bool TreeKinematics::moves_with_modes(int marker) const {
   const Marker& m = model_.markers[marker];
   if (m.body < 0 || m.node < 0) return false;
-  const ModalNode& node = model_.bodies[m.body].data->nodes[m.node];
-  return !node.X.isZero(0.0) || (m.rotates && !node.X_theta.isZero(0.0));
+  return LocalMarker(model_, m).local;
 }
 
 void TreeKinematics::number_coordinates(const std::vector<int>& order) {

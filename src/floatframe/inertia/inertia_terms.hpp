@@ -12,10 +12,10 @@ namespace floatframe {
 
 /// Where a body is and how it moves.
 struct BodyMotion {
-  Vec3 r0 = Vec3::Zero();     ///< origin of the body frame, world [m]
-  Mat3 A = Mat3::Identity();  ///< columns: axes of the body in the world
-  Vec3 omega = Vec3::Zero();  ///< angular velocity, world [rad/s]
-  VecX y, ydot;               ///< modal amplitudes and their rates; empty: zero
+  Vec3 r0 = Vec3::Zero();             ///< origin of the body frame, world [m]
+  Mat3 A = Mat3::Identity();          ///< columns: axes of the body in the world
+  Vec3 omega = Vec3::Zero();          ///< angular velocity, world [rad/s]
+  VecX y, ydot;                       ///< modal amplitudes and their rates; empty: zero
   bool geometric_stiffening = false;  ///< by preprocessing only
 };
 

@@ -71,8 +71,8 @@ inline DeformedIntegrals deformed_integrals(const PreprocessingData& data,
     add_columns(stiffening->S_ij_by_modes.data(), 9 * nl, nm, y, S_d);
   else
     add_columns(data.by_modes.Sij.data(), 9 * nl, nm, y, S_d);  // (38)
-  const Mat3 first = lane_times9(Si, y_row, nl);              // column i: S^i y
-  const Mat3 second = lane_times9(S_d, y_row, nl);            // column i: S_d^i y
+  const Mat3 first = lane_times9(Si, y_row, nl);                // column i: S^i y
+  const Mat3 second = lane_times9(S_d, y_row, nl);              // column i: S_d^i y
   if constexpr (stiffened) {
     double* Sy = stiffening->S_by_mode.data();
     for (int r = 0; r < 3 * nl; r += 4) lanes(Sy + r) = lanes(S + r);
@@ -160,7 +160,8 @@ inline void relative_terms(const PreprocessingData& data, StiffeningData* stiffe
   double* y_row = skew_rate + 3 * nl;
   double* ydot_row = y_row + nl;
   double* Q_row = ydot_row + nl;
-  const DeformedIntegrals u = deformed_integrals<stiffened>(data, stiffening, y, ydot, S_d, y_row, ydot_row);
+  const DeformedIntegrals u =
+      deformed_integrals<stiffened>(data, stiffening, y, ydot, S_d, y_row, ydot_row);
   const Vec3 AS_rate = A * u.S_rate;
   const Vec3 c = A * u.m_u;
   const Vec3 m_vec = data.m * r0 + c;  // (49)

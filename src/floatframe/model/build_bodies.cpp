@@ -32,6 +32,18 @@ Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
 
 }  // namespace
 
+void ModelBuilder::stiffening(const BodyDescription& b, Body& body) {
+  body.geometric_stiffening =
+      body.modes() > 0 && b.geometric_stiffening.value_or(d.simulation.geometric_stiffening);
+  if (!body.geometric_stiffening || body.data->second_order) return;
+  errors.add(b.geometric_stiffening ? b.origin.of("geometric_stiffening")
+                                    : d.simulation.origin.of("geometric_stiffening"),
+             "bodies." + b.name +
+                 ".geometric_stiffening: found true, but the displacements of second order of its "
+                 "modes are not known, expected false for this body (or a part of bars or a "
+                 "reduction that computes them)");
+}
+
 void ModelBuilder::bodies() {
   FlexibleBuilder flexible;
   for (const BodyDescription& b : d.bodies) {
@@ -56,6 +68,7 @@ void ModelBuilder::bodies() {
     }
     if (!body.data) body.data = std::make_shared<const FlexibleBody>();
     if (b.rigid) body.data = std::make_shared<const FlexibleBody>(with_modes(*body.data, {}));
+    stiffening(b, body);
     model.bodies.push_back(std::move(body));
   }
 }

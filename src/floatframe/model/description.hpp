@@ -94,6 +94,9 @@ struct BodyDescription {
   /// The modes of a flexible `kind` are held at zero: a rigid body with its mass properties, which
   /// keeps its nodes.
   bool rigid = false;
+  /// Displacements of second order of the modes enter, which stiffen a body that spins or carries
+  /// load; absent: as SimulationDescription says.
+  std::optional<bool> geometric_stiffening;
   std::variant<RigidDescription, FlexibleDescription, FlexibleBody> kind;
   Origin origin;
 };
@@ -318,9 +321,10 @@ struct SystemState;
 struct SimulationDescription {
   Coordinates coordinates = Coordinates::relative;
   InertiaMethod inertia = InertiaMethod::preprocessing;
-  double step = 1e-3;            ///< [s]
-  double duration = 1.0;         ///< [s]
-  double output_interval = 0.0;  ///< [s]; 0: every step
+  bool geometric_stiffening = false;  ///< of all flexible bodies that do not say it themselves
+  double step = 1e-3;                 ///< [s]
+  double duration = 1.0;              ///< [s]
+  double output_interval = 0.0;       ///< [s]; 0: every step
   Start start = Start::given;
   std::shared_ptr<const SystemState> state;   ///< where Start::state starts
   std::map<std::string, StartOffset> offset;  ///< by body, from the equilibrium or the state

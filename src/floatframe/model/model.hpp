@@ -29,7 +29,12 @@ struct Body {
   std::shared_ptr<const FlexibleBody> data;
   Pose X_WB;            ///< design pose
   double length = 1.0;  ///< characteristic length: scales direction rows to lengths [m]
+  bool geometric_stiffening = false;
   int modes() const noexcept { return data->modes(); }
+  /// Displacements of second order enter (body/second_order.hpp).
+  bool stiffens() const noexcept {
+    return geometric_stiffening && modes() > 0 && data->second_order != nullptr;
+  }
 };
 
 struct Joint {

@@ -31,6 +31,7 @@ struct ModelBuilder {
         input_names(description.inputs) {}
 
   void bodies();
+  void stiffening(const BodyDescription& b, Body& body);
   void roads();
   void inputs();
   void joints();

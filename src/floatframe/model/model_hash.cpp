@@ -109,6 +109,16 @@ class ModelHash {
     const auto& [p, X, M_s, X_theta, M_6, h] = d;
     all(p, X, M_s, X_theta, M_6);
   }
+  void add(const SecondOrder& s) {
+    const auto& [S2, S2i, nodes] = s;
+    for (const MatX& m : S2) add(m);
+    for (const auto& row : S2i)
+      for (const MatX& m : row) add(m);
+    for (const auto& [node, h, theta] : nodes) {
+      add(node);
+      for (int j = 0; j < 3; ++j) all(h[j], theta[j]);
+    }
+  }
   void add(const FlexibleBody& body) {
     const auto& [invariants, K, D, nodes, projection, mass_model, second_order, frequencies,
                  mode_names, shape] = body;
@@ -116,8 +126,9 @@ class ModelHash {
     if (projection) add(*projection);
   }
   void add(const Body& b) {
-    const auto& [name, data, X_WB, length] = b;
+    const auto& [name, data, X_WB, length, geometric_stiffening] = b;
     all(name, *data, X_WB, length);
+    if (b.stiffens()) add(*data->second_order);
   }
   void add(const ModalNode& n) {
     const auto& [name, p, X, X_theta] = n;

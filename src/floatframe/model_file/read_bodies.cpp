@@ -187,6 +187,8 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
   const auto align = s.get("align");
   const auto use = read_use(s, rigid_value.has_value(), part.value.has_value());
   const auto geometry = s.get("geometry");
+  if (s.has("geometric_stiffening"))
+    body.geometric_stiffening = s.boolean("geometric_stiffening", false);
   s.finish({"rigid.mass", "rigid.centre_of_mass", "rigid.inertia", "flexible.material",
             "flexible.bars", "flexible.masses", "flexible.clamped", "flexible.static_modes",
             "flexible.normal_modes", "flexible.mass_model", "flexible.damping"});
@@ -214,6 +216,8 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
     }
     flexible = read_part(self, model, body.name, *part.value);
   }
+  if (body.geometric_stiffening && !part.value && part.valid)
+    s.error("found geometric_stiffening on a rigid body, expected it with 'flexible' or 'part'");
   const bool take_part = part.value && (!rigid_value || (use && *use == 1));
   if (take_part) {
     known.flexible = part.on;

@@ -4,7 +4,7 @@
 
 namespace floatframe {
 
-BodyEnergy::BodyEnergy(const InertiaInvariants& v)
+BodyEnergy::BodyEnergy(const InertiaInvariants& v, const SecondOrder* second_order)
     : m_(v.m), m_u_(v.m_u), P_u_(v.P_u), modes_(v.modes()) {
   const MatX M_ff = modal_mass(v);
   for (int a = 0; a < modes_; ++a) {
@@ -20,6 +20,14 @@ BodyEnergy::BodyEnergy(const InertiaInvariants& v)
                         twice * (S(0, 1) + S(1, 0)), twice * (S(0, 2) + S(2, 0)),
                         twice * (S(1, 2) + S(2, 1)), twice * M_ff(a, b), S(1, 2) - S(2, 1),
                         S(2, 0) - S(0, 2), S(0, 1) - S(1, 0)});
+      if (!second_order) continue;
+      const auto h = [&](std::size_t i, std::size_t j) { return second_order->S2i[i][j](a, b); };
+      const std::array<double, 6> P{h(0, 0),           h(1, 1),           h(2, 2),
+                                    h(0, 1) + h(1, 0), h(0, 2) + h(2, 0), h(1, 2) + h(2, 1)};
+      for (std::size_t k = 0; k < P.size(); ++k) pairs_.back()[k] += twice * P[k];
+      const auto& S2 = second_order->S2;
+      second_.push_back({Vec3(S2[0](a, b), S2[1](a, b), S2[2](a, b)),
+                         Vec3(h(1, 2) - h(2, 1), h(2, 0) - h(0, 2), h(0, 1) - h(1, 0))});
     }
   }
 }
@@ -49,6 +57,18 @@ double BodyEnergy::kinetic(const Vec3& v, const Vec3& w, const double* y,
       P(1, 2) += 0.5 * yy * p[5];
       modal += ydot[a] * ydot[b] * p[6];
       h += turn * Vec3(p[7], p[8], p[9]);
+    }
+  }
+  if (!second_.empty()) {
+    const std::array<Vec3, 2>* second = second_.data();
+    for (int a = 0; a < modes_; ++a) {
+      for (int b = a; b < modes_; ++b, ++second) {
+        const double once = a < b ? 1.0 : 0.5;
+        const double rate = once * (y[a] * ydot[b] + y[b] * ydot[a]);
+        m_bar += once * y[a] * y[b] * (*second)[0];
+        s += rate * (*second)[0];
+        h += rate * (*second)[1];
+      }
     }
   }
   const double wPw = w[0] * w[0] * P(0, 0) + w[1] * w[1] * P(1, 1) + w[2] * w[2] * P(2, 2) +

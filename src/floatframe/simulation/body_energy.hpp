@@ -5,17 +5,20 @@
 //   m_bar = m_u + S y (29),  J = tr(P_bar) 1 - P_bar (33),  h = int rho x rhodot dm
 // rho = u + X y is the place of a point in the body frame, v the velocity of its origin, w its
 // angular velocity. Sums over pairs of modes (a <= b) use that S^ij + S^ji is symmetric and
-// S^ij - S^ji is not.
+// S^ij - S^ji is not. Geometric stiffening: S(y), P_bar of inertia/preprocessing.hpp.
 #include <array>
 #include <vector>
 
 #include "floatframe/body/inertia_invariants.hpp"
+#include "floatframe/body/second_order.hpp"
 
 namespace floatframe {
 
 class BodyEnergy {
  public:
-  explicit BodyEnergy(const InertiaInvariants& invariants);
+  /// `second_order`: of a body with geometric stiffening, else null.
+  explicit BodyEnergy(const InertiaInvariants& invariants,
+                      const SecondOrder* second_order = nullptr);
 
   /// y, ydot: one number for each mode.
   double kinetic(const Vec3& v, const Vec3& w, const double* y, const double* ydot) const noexcept;
@@ -31,6 +34,8 @@ class BodyEnergy {
   std::vector<Vec3> S_;                    ///< of each mode
   std::vector<std::array<double, 9>> Si_;  ///< of each mode: 3i+j is row j of S^i
   std::vector<Pair> pairs_;                ///< (0,0), (0,1), ..., (1,1), ...
+  /// With geometric stiffening of pairs of modes: S2, and int r_u x h dm.
+  std::vector<std::array<Vec3, 2>> second_;
 };
 
 }  // namespace floatframe

@@ -18,10 +18,13 @@ class MotionWatch {
     int modes = 0;
     for (const Body& b : f_.model().bodies) modes = std::max(modes, b.modes());
     y_ = ydot_ = VecX::Zero(modes);
-    std::map<const FlexibleBody*, std::size_t> known;
+    std::map<std::pair<const FlexibleBody*, bool>, std::size_t> known;
     for (const Body& b : f_.model().bodies) {
-      const auto [at, fresh] = known.emplace(b.data.get(), energies_.size());
-      if (fresh) energies_.emplace_back(b.data->invariants);
+      const auto [at, fresh] =
+          known.emplace(std::pair(b.data.get(), b.stiffens()), energies_.size());
+      if (fresh)
+        energies_.emplace_back(b.data->invariants,
+                               b.stiffens() ? b.data->second_order.get() : nullptr);
       energy_.push_back(at->second);
     }
   }

@@ -81,6 +81,15 @@ class Writer {
         [&](const BodyRange& b) { return limits_.spin * b.lowest_frequency(); },
         [&](const std::string& body, const BodyRange& b, const Largest& x) {
           const double ratio = x.value / b.lowest_frequency();
+          if (b.stiffening() > 0.0)
+            return fmt::format(
+                "{} spins too fast for its stiffness: from t = {:.4g} s on at more than {:g} times "
+                "its lowest frequency of {:.4g} rad/s, at t = {:.4g} s at {:.4g} rad/s; "
+                "centrifugal "
+                "tension, which is left out here, would raise its lowest stiffness by about {}; "
+                "geometric_stiffening: true counts it in",
+                body, x.first, limits_.spin, b.lowest_frequency(), x.at, x.value,
+                percent(b.stiffening() * x.value * x.value));
           return fmt::format(
               "{} spins too fast for its stiffness: from t = {:.4g} s on at more than {:g} times "
               "its lowest frequency of {:.4g} rad/s, at t = {:.4g} s at {:.4g} rad/s; centrifugal "

@@ -19,12 +19,15 @@ namespace {
 double largest_column(const Mat3X& X, Eigen::Index k) { return X.col(k).norm(); }
 
 /// Lowest angular frequency of K x = w^2 M x, also with modes without mass: M x = (1/w^2) K x.
-double lowest_frequency_of(const FlexibleBody& body) {
+/// `mode` gets its x, with x^T K x = 1.
+double lowest_frequency_of(const FlexibleBody& body, VecX& mode) {
   if (body.modes() == 0) return 0.0;
   const MatX M = modal_mass(body.invariants);
-  const SymmetricEigen inverse = generalised_eigenvalues(M, body.K);
+  const SymmetricEigen inverse = generalised_eigen(M, body.K);
   if (!inverse.found) return 0.0;
-  const double most = inverse.values.maxCoeff();
+  Eigen::Index which = 0;
+  const double most = inverse.values.maxCoeff(&which);
+  mode = inverse.vectors.col(which);
   return most > 0.0 && std::isfinite(most) ? 1.0 / std::sqrt(most) : 0.0;
 }
 
@@ -55,8 +58,21 @@ BodyRange::BodyRange(const Model& model, int index) : data_(*model.bodies[index]
     }
     size_ = std::max(size_, (high - low).norm());
   }
-  lowest_ = lowest_frequency_of(data_);
+  VecX mode;
+  lowest_ = lowest_frequency_of(data_, mode);
+  if (!model.bodies[index].stiffens()) softened_ = lowest_;
+  if (lowest_ > 0.0 && data_.second_order) estimate_stiffening(mode);
   choose_nodes(model, index);
+}
+
+/// K_G of a spin w e: w^2 sum S2i_ij (e e^T - 1)_ji.
+void BodyRange::estimate_stiffening(const VecX& mode) {
+  Mat3 q;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) q(i, j) = mode.dot(data_.second_order->S2i[i][j] * mode);
+  const Mat3 pull = 0.5 * (q + q.transpose()) - q.trace() * Mat3::Identity();
+  const double most = Eigen::SelfAdjointEigenSolver<Mat3>(pull).eigenvalues().maxCoeff();
+  stiffening_ = std::max(0.0, most / mode.dot(data_.K * mode));
 }
 
 void BodyRange::choose_nodes(const Model& model, int index) {
@@ -98,7 +114,7 @@ void BodyRange::observe(double t, double h, const Vec3& w, const double* y,
   turn_.offer(h * w.norm(), t, l.turn);
   const Eigen::Index modes = data_.modes();
   if (modes == 0) return;
-  if (lowest_ > 0.0) spin_.offer((stretch_ * w).norm(), t, l.spin * lowest_);
+  if (softened_ > 0.0) spin_.offer((stretch_ * w).norm(), t, l.spin * softened_);
   // The modes together move no node further than each its own: nodes are looked at one by one only
   // when that could be a new largest value.
   double move = 0.0, turn = 0.0;

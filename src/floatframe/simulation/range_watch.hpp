@@ -62,6 +62,9 @@ class BodyRange {
   double size() const noexcept { return size_; }
   /// Lowest angular frequency with the body frame held [rad/s]; 0: none.
   double lowest_frequency() const noexcept { return lowest_; }
+  /// Lowest stiffness with centrifugal stiffening over that without, less 1, per squared spin about
+  /// the worst axis [s2]; 0: not known.
+  double stiffening() const noexcept { return stiffening_; }
   const Largest& displacement() const { return displacement_; }  ///< [m]
   const Largest& rotation() const { return rotation_; }          ///< [rad]
   const Largest& spin() const { return spin_; }                  ///< [rad/s]
@@ -76,9 +79,12 @@ class BodyRange {
 
  private:
   void choose_nodes(const Model& model, int index);
+  void estimate_stiffening(const VecX& mode);
 
   const FlexibleBody& data_;
   double size_ = 0.0, lowest_ = 0.0;
+  double softened_ = 0.0;  ///< `lowest_` if centrifugal tension is left out, else 0
+  double stiffening_ = 0.0;
   /// |stretch w| is the spin that pulls at the body: that about a slender body's axis does not.
   Mat3 stretch_ = Mat3::Zero();
   /// Those that move or turn most in a mode, and those with markers.

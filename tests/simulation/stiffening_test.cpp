@@ -1,0 +1,235 @@
+// Geometric stiffening of beams: rotating cantilevers against Wright et al. (1982), Euler's load,
+// a spin-up against sixteen welded beams, and the energy of a free spin.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "figures.hpp"
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model_file/model_reader.hpp"
+#include "floatframe/simulation/linearization.hpp"
+#include "support/error_of.hpp"
+#include "support/model_text.hpp"
+
+namespace floatframe::test {
+namespace {
+
+/// L = rho A = E I = 1: frequencies and spins are those of the non-dimensional beam.
+Model unit_cantilever(double spin, bool stiffening, double load = 0.0) {
+  return model_of(
+      "gravity: [0, 0, 0]\n"
+      "points: {hub: [0, 0, 0], tip: [1, 0, 0]}\n"
+      "bodies:\n"
+      "  beam:\n"
+      "    flexible:\n"
+      "      material: {young: 7e10, poisson: 0.3, density: 1000}\n"
+      "      bars: {b: {from: hub, to: tip, elements: 24, reference: y,\n"
+      "                 section: {area: 1e-3, Iy: 1.4285714285714286e-11,\n"
+      "                           Iz: 1.4285714285714286e-11, J: 1e-9}}}\n"
+      "      clamped: [hub]\n"
+      "      normal_modes: 12\n"
+      "      mass_model: hermite\n"
+      "    geometric_stiffening: " +
+      std::string(stiffening ? "true" : "false") +
+      "\n"
+      "joints: {hub: {type: revolute, child: beam, at: hub, axis: z, velocity: " +
+      std::to_string(spin) +
+      "}}\n"
+      "forces: {load: {type: force, body: beam, at: tip, direction: [-1, 0, 0], magnitude: " +
+      std::to_string(load) +
+      "}}\n"
+      "simulation: {step: 0.001, duration: 1}\n");
+}
+
+/// Squares of the frequencies of the modes with the hub driven, without Coriolis terms.
+VecX mode_squares(const Model& model) {
+  RelativeFormulation f(model, InertiaMethod::preprocessing);
+  State s;
+  f.start(s.q, s.v);
+  s.lambda = VecX::Zero(0);
+  const LinearTerms l = linearize(f, s);
+  const Eigen::Index nm = model.bodies[0].modes();
+  const MatX K = l.K.bottomRightCorner(nm, nm), M = l.M.bottomRightCorner(nm, nm);
+  return Eigen::GeneralizedSelfAdjointEigenSolver<MatX>(0.5 * (K + K.transpose()), M).eigenvalues();
+}
+
+double nearest(const VecX& values, double x) {
+  Eigen::Index k = 0;
+  (values.array() - x).abs().minCoeff(&k);
+  return values[k];
+}
+
+struct Wright {
+  double spin;
+  std::array<double, 3> flap;
+};
+constexpr std::array<Wright, 12> wright{{{0, {3.516015268, 22.03449156, 61.69721441}},
+                                         {1, {3.681646814, 22.18101115, 61.84176259}},
+                                         {2, {4.137319573, 22.61492196, 62.27318411}},
+                                         {3, {4.797278533, 23.32026367, 62.98496748}},
+                                         {4, {5.585001421, 24.27334939, 63.96676049}},
+                                         {5, {6.449544749, 25.44608036, 65.20504052}},
+                                         {6, {7.360373019, 26.80908168, 66.68391438}},
+                                         {7, {8.299636928, 28.33408302, 68.38595069}},
+                                         {8, {9.256837601, 29.99538189, 70.29296219}},
+                                         {9, {10.22568628, 31.77051373, 72.38666921}},
+                                         {10, {11.20232776, 33.64036585, 74.64929460}},
+                                         {12, {13.17015049, 37.60311233, 79.61447849}}}};
+
+TEST(Stiffened, RotatingCantilever) {
+  double first = 0.0, third = 0.0;
+  for (const Wright& w : wright) {
+    SCOPED_TRACE(w.spin);
+    const VecX on = mode_squares(unit_cantilever(w.spin, true));
+    const VecX off = mode_squares(unit_cantilever(w.spin, false));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double flap2 = nearest(on, w.flap[k] * w.flap[k]);
+      const double fault = std::abs(std::sqrt(flap2) / w.flap[k] - 1.0);
+      EXPECT_LT(fault, k == 0 ? 1e-3 : 1e-2);
+      if (k == 0) first = std::max(first, fault);
+      if (k == 2) third = std::max(third, fault);
+      const double lag2 = flap2 - w.spin * w.spin;
+      EXPECT_NEAR(nearest(on, lag2), lag2, 1e-6 * flap2);
+      const double rest2 = wright[0].flap[k] * wright[0].flap[k];
+      EXPECT_NEAR(nearest(off, rest2), rest2, 1e-3 * rest2);
+      EXPECT_NEAR(nearest(off, rest2 - w.spin * w.spin), rest2 - w.spin * w.spin, 1e-3 * rest2);
+    }
+  }
+  figure("largest fault of the first frequency", first);
+  figure("largest fault of the third frequency", third);
+}
+
+TEST(Stiffened, EulerLoad) {
+  const double euler = 0.25 * std::numbers::pi * std::numbers::pi;
+  EXPECT_GT(mode_squares(unit_cantilever(0.0, true, 0.99 * euler)).minCoeff(), 0.0);
+  EXPECT_LT(mode_squares(unit_cantilever(0.0, true, 1.01 * euler)).minCoeff(), 0.0);
+  EXPECT_GT(mode_squares(unit_cantilever(0.0, false, 1.01 * euler)).minCoeff(), 12.0);
+}
+
+/// The tip in axes of the hub.
+struct Tip {
+  std::vector<double> stretch, deflection;
+};
+Tip tip_of(const ResultTable& t) {
+  const std::size_t x = column(t, "tip.x"), y = column(t, "tip.y"), angle = column(t, "hub.angle");
+  Tip tip;
+  for (std::size_t i = 0; i < t.rows(); ++i) {
+    const double c = std::cos(t.at(i, angle)), s = std::sin(t.at(i, angle));
+    tip.stretch.push_back(c * t.at(i, x) + s * t.at(i, y) - 10.0);
+    tip.deflection.push_back(c * t.at(i, y) - s * t.at(i, x));
+  }
+  return tip;
+}
+
+ModelDescription spin_up(bool stiffening) {
+  return read_model(FLOATFRAME_EXAMPLES "/spin_up/spin_up.yaml",
+                    {{"stiffening", stiffening ? "true" : "false"}});
+}
+
+/// The same beam as sixteen bodies welded to each other, without geometric stiffening.
+Model welded_beams() {
+  const ModelDescription one = spin_up(false);
+  ModelDescription d = one;
+  d.bodies.clear();
+  d.joints.clear();
+  const int n = 16;
+  const auto point = [](int k) { return Vec3(10.0 * k / n, 0.0, 0.0); };
+  for (int k = 0; k < n; ++k) {
+    BodyDescription b = one.bodies[0];
+    b.name = "beam" + std::to_string(k);
+    b.X_WB.p = b.X_WT.p = point(k);
+    b.geometric_stiffening = false;
+    auto& f = std::get<FlexibleDescription>(b.kind);
+    f.points["hub"] = point(k);
+    f.points["tip"] = point(k + 1);
+    f.bars[0].elements = 2;
+    f.normal_modes = 0;
+    d.bodies.push_back(b);
+    JointDescription j = one.joints[0];
+    j.child.body = b.name;
+    j.parent.point = j.child.point = point(k);
+    if (k > 0) {
+      j.name = "weld" + std::to_string(k);
+      j.type = JointType::weld;
+      j.motion.reset();
+      j.parent.body = "beam" + std::to_string(k - 1);
+    }
+    d.joints.push_back(j);
+  }
+  for (OutputDescription& o : d.outputs)
+    if (o.name.starts_with("tip")) o.at.body = "beam15";
+  return build_model(d);
+}
+
+TEST(Stiffened, SpinUp) {
+  const Tip welded = tip_of(run(welded_beams()).table);
+  double largest = 0.0;
+  for (const double v : welded.deflection) largest = std::max(largest, std::abs(v));
+  EXPECT_NEAR(largest, 0.5755, 1e-3);
+  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+    ModelDescription d = spin_up(true);
+    d.simulation.coordinates = coordinates;
+    const RunResult r = run(build_model(d));
+    for (const std::string& w : sentences(r.summary.warnings))
+      EXPECT_EQ(w.find("spins too fast"), std::string::npos) << w;
+    const Tip tip = tip_of(r.table);
+    ASSERT_EQ(tip.stretch.size(), welded.stretch.size());
+    double fault = 0.0;
+    for (std::size_t i = 0; i < tip.stretch.size(); ++i)
+      fault = std::max({fault, std::abs(tip.deflection[i] - welded.deflection[i]),
+                        std::abs(tip.stretch[i] - welded.stretch[i])});
+    figure("largest difference of the tip, part of its largest deflection", fault / largest);
+    EXPECT_LT(fault, 0.01 * largest);
+    figure("stretch at full speed [m]", tip.stretch.back());
+    EXPECT_NEAR(tip.stretch.back(), 5.14e-4, 0.01 * 5.14e-4);
+  }
+}
+
+TEST(Stiffened, FreeSpinKeepsEnergy) {
+  // A beam that spins freely and vibrates: the energy left over falls with the square of the step.
+  for (const char* coordinates : {"relative", "absolute"}) {
+    SCOPED_TRACE(coordinates);
+    const auto remainder = [&](double step) {
+      ModelDescription d = description_of(
+          "gravity: [0, 0, 0]\n"
+          "points: {hub: [0, 0, 0], tip: [1, 0, 0]}\n"
+          "bodies:\n"
+          "  beam:\n"
+          "    flexible:\n"
+          "      material: {young: 7e7, poisson: 0.3, density: 1000}\n"
+          "      bars: {b: {from: hub, to: tip, elements: 12, reference: y,\n"
+          "                 section: {area: 1e-3, Iy: 1.4e-8, Iz: 1.4e-8, J: 2e-8}}}\n"
+          "      clamped: [hub]\n"
+          "      static_modes: [{point: tip, dofs: [y, z]}]\n"
+          "      mass_model: hermite\n"
+          "      section_inertia: true\n"
+          "    geometric_stiffening: true\n"
+          "joints: {hub: {type: free, child: beam, at: hub, velocity: [0.1, 0.2, 0, 0.3, 0.5, "
+          "4]}}\n"
+          "initial: {amplitudes: {beam: [0.03, 0.05]}}\n"
+          "simulation: {duration: 2}\n");
+      d.simulation.step = step;
+      d.simulation.coordinates =
+          std::string(coordinates) == "relative" ? Coordinates::relative : Coordinates::absolute;
+      return std::abs(run(build_model(d)).summary.energy.largest_remainder);
+    };
+    const double coarse = remainder(0.004), fine = remainder(0.002), finest = remainder(0.001);
+    figure("energy left over [J]", finest);
+    EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.25);
+    EXPECT_NEAR(std::log2(fine / finest), 2.0, 0.25);
+  }
+}
+
+TEST(Stiffened, WhatCannotBe) {
+  ModelDescription d = spin_up(true);
+  d.simulation.inertia = InertiaMethod::projection;
+  EXPECT_EQ(error_of([&] { run(build_model(d)); }),
+            "bodies.beam: geometric_stiffening needs inertia: preprocessing");
+}
+
+}  // namespace
+}  // namespace floatframe::test
