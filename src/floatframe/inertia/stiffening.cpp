@@ -31,9 +31,17 @@ StiffeningData::StiffeningData(const PreprocessingData& data, const SecondOrder&
 
 void add_stiffness(const SecondOrder& second_order, const Vec3& a, const Mat3& G, double weight,
                    MatX& out) noexcept {
+  const Eigen::Index n = out.size();
+  double* o = out.data();
   for (int j = 0; j < 3; ++j) {
-    out += (weight * a[j]) * second_order.S2[j];
-    for (int i = 0; i < 3; ++i) out += (weight * G(j, i)) * second_order.S2i[i][j];
+    const double c = weight * a[j], c0 = weight * G(j, 0), c1 = weight * G(j, 1);
+    const double c2 = weight * G(j, 2);
+    const double* s = second_order.S2[j].data();
+    const double* s0 = second_order.S2i[0][j].data();
+    const double* s1 = second_order.S2i[1][j].data();
+    const double* s2 = second_order.S2i[2][j].data();
+    for (Eigen::Index k = 0; k < n; ++k)
+      o[k] += (c * s[k] + c0 * s0[k]) + (c1 * s1[k] + c2 * s2[k]);
   }
 }
 
