@@ -44,10 +44,21 @@ function text(value: unknown): string {
   return typeof value === 'string' ? value : '';
 }
 
+/** Single precision about an offset cannot tell numbers this near to zero from it. */
+function snap(values: Float64Array, offset: number): void {
+  let largest = 0;
+  for (const value of values) if (Number.isFinite(value)) largest = Math.max(largest, Math.abs(value - offset));
+  const resolution = largest * 2 ** -23;
+  values.forEach((value, i) => {
+    if (Math.abs(value) < resolution) values[i] = 0;
+  });
+}
+
 export function readChannel(json: ChannelJson, curves: CurvesJson, time: Float64Array, buffer: PageBuffer): Channel {
   const name = text(json.name) || 'channel without a name';
   const data = buffer.read(json.data, `Channel "${name}"`, ['f32', 'f64'], [time.length]);
   const values = shifted(data, Number(json.offset ?? 0));
+  if (json.data.type === 'f32') snap(values, Number(json.offset ?? 0));
   const range = rangeOf(values);
   let other: Channel['other'] = null;
   if (json.other) {

@@ -1,8 +1,11 @@
-// results.csv of another run: first column `time`, header names are those of channels, lines beginning with # are comments.
+// results.csv of another run: first column `time [s]`, then names of channels with their units, lines beginning with # are comments. Units may be left
+// out.
 
 export interface CsvTable {
   time: Float64Array;
   columns: Map<string, Float64Array>;
+  /** Of the columns that name one. */
+  units: Map<string, string>;
   /** Lines that are not rows of numbers. */
   skipped: number;
 }
@@ -31,12 +34,20 @@ function splitLine(line: string): string[] {
   return cells;
 }
 
+/** "chassis.z [m]" is the channel chassis.z in m. */
+function nameAndUnit(title: string): [string, string] {
+  const found = /^(.*\S)\s*\[([^[\]]*)\]$/.exec(title);
+  return found ? [found[1], found[2].trim()] : [title, ''];
+}
+
 /** Throws an Error with a sentence if the text is not a table over time. */
 export function parseCsv(text: string): CsvTable {
   const lines = text.split(/\r\n|\n|\r/).filter((line) => line.trim() !== '' && !line.trimStart().startsWith('#'));
   if (lines.length === 0) throw new Error('the file has no rows');
-  const names = splitLine(lines[0].replace(/^\ufeff/, '')).map((name) => name.trim());
+  const titles = splitLine(lines[0].replace(/^\ufeff/, '')).map((title) => nameAndUnit(title.trim()));
+  const names = titles.map(([name]) => name);
   if (names[0] !== 'time') throw new Error(`its first column is "${names[0].slice(0, 40)}", expected "time"`);
+  if (!['', 's'].includes(titles[0][1])) throw new Error(`its times are in "${titles[0][1].slice(0, 40)}", expected s`);
   const rows: number[][] = [];
   let skipped = 0;
   let last = -Infinity;
@@ -53,8 +64,11 @@ export function parseCsv(text: string): CsvTable {
   if (rows.length === 0) throw new Error('the file has a header but no rows of numbers');
   const column = (k: number): Float64Array => Float64Array.from(rows, (row) => row[k]);
   const columns = new Map<string, Float64Array>();
-  names.forEach((name, k) => {
-    if (k > 0 && name !== '') columns.set(name, column(k));
+  const units = new Map<string, string>();
+  titles.forEach(([name, unit], k) => {
+    if (k === 0 || name === '') return;
+    columns.set(name, column(k));
+    if (unit !== '') units.set(name, unit);
   });
-  return { time: column(0), columns, skipped };
+  return { time: column(0), columns, units, skipped };
 }

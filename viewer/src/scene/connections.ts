@@ -72,7 +72,17 @@ export class Connections {
   }
 
   private addJoint(joint: JointJson): void {
-    const symbol = buildJoint(joint.type ?? '', 0.0135 * this.size, plain(joint.cut ? CUT_COLOUR : JOINT_COLOUR));
+    const material = plain(joint.cut ? CUT_COLOUR : JOINT_COLOUR);
+    const symbol = buildJoint(joint.type ?? '', 0.0135 * this.size, material);
+    // Whoever checks a model looks for wrong axes: they are seen through bodies, and long.
+    if (this.scene.kind === 'check') {
+      const half = 0.06 * this.size;
+      if (joint.axis) symbol.add(bar([0, 0, -half], [0, 0, half], 0.0025 * this.size, material));
+      material.depthTest = false;
+      material.transparent = true;
+      material.opacity = 0.85;
+      symbol.traverse((object) => (object.renderOrder = 6));
+    }
     const local = new Quaternion();
     if (joint.axis) turnTo(joint.axis, local);
     else if (joint.axes) local.set(...joint.axes);

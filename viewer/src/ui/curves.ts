@@ -179,14 +179,31 @@ export class Curves {
     try {
       const table = parseCsv(await file.text());
       const here = new Set(this.channels.map((channel) => channel.name));
+      const last = this.channels.reduce((most, channel) => Math.max(most, channel.time[channel.time.length - 1] ?? -Infinity), -Infinity);
+      const first = this.channels.reduce((least, channel) => Math.min(least, channel.time[0] ?? Infinity), Infinity);
+      const [from, to] = [table.time[0], table.time[table.time.length - 1]];
+      if (from > last || to < first) return this.say(`${file.name} is not laid over: its times, ${formatNumber(from)} to ${formatNumber(to)} s, lie outside those of this page, ${formatNumber(first)} to ${formatNumber(last)} s.`, true);
+      // What cannot be compared does not go over.
+      const left: string[] = [];
+      for (const channel of this.channels) {
+        const unit = table.units.get(channel.name);
+        const column = table.columns.get(channel.name);
+        if (!column) continue;
+        if (unit !== undefined && unit !== channel.unit) left.push(`${channel.name} is in ${unit}, here in ${channel.unit || 'no unit'}`);
+        else if (!column.some(Number.isFinite)) left.push(`${channel.name} has no numbers`);
+        else continue;
+        table.columns.delete(channel.name);
+        here.delete(channel.name);
+      }
       const both = [...table.columns.keys()].filter((name) => here.has(name));
       const onlyThere = [...table.columns.keys()].filter((name) => !here.has(name));
       const onlyHere = [...here].filter((name) => !table.columns.has(name));
-      if (both.length === 0) return this.say(`${file.name} has no channel of this page; its columns are ${listed(onlyThere)}.`, true);
+      if (both.length === 0) return this.say(left.length > 0 ? `${file.name} is not laid over: ${listed(left)}.` : `${file.name} has no channel of this page; its columns are ${listed(onlyThere)}.`, true);
       const sentences = [`${file.name}: ${both.length} of ${plural(here.size, 'channel')} ${both.length === 1 ? 'is' : 'are'} laid over, dashed.`];
       if (onlyHere.length > 0) sentences.push(`The file has no ${listed(onlyHere)}.`);
       if (onlyThere.length > 0) sentences.push(`This page has no ${listed(onlyThere)}.`);
       if (table.skipped > 0) sentences.push(`${plural(table.skipped, 'line')} of the file ${table.skipped === 1 ? 'is' : 'are'} no row of numbers and passed over.`);
+      if (left.length > 0) sentences.push(`Left out: ${listed(left)}.`);
       const still = this.channels.filter((c) => c.still && table.columns.has(c.name)).length;
       if (still > 0) sentences.push(`${plural(still, 'channel')} without a curve ${still === 1 ? 'stays' : 'stay'} as text.`);
       this.setOverlay(table, sentences.join(' '));

@@ -85,10 +85,17 @@ export class TimePlot implements HubMember {
       this.timeChanged();
     });
     this.sizes.observe(this.box);
+    window.addEventListener('beforeprint', this.toPaper);
     hub.add(this);
   }
 
+  /** Plots are drawn when they come into view; paper shows all. */
+  private readonly toPaper = (): void => {
+    if (!this.plot) this.build();
+  };
+
   dispose(): void {
+    window.removeEventListener('beforeprint', this.toPaper);
     this.hub.remove(this);
     this.observer.disconnect();
     this.sizes.disconnect();

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { existsSync, statSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import type { Browser, Page } from 'playwright-core';
@@ -286,6 +286,33 @@ test('a second run is dropped on the page', async () => {
   await page.context().close();
 });
 
+test('results.csv that the program wrote is laid over the page it wrote', { skip: existsSync(program) ? false : 'no program: make build' }, async () => {
+  const out = ['first', 'second'].map((name, k) => {
+    const target = join(folder, `overlay_${name}`);
+    const run = spawnSync(program, ['run', join('..', 'examples', 'slider_crank', 'slider_crank.yaml'), '--duration', '0.02', '--step', k === 0 ? '1e-4' : '2e-4', '--out', target], { encoding: 'utf8' });
+    assert.equal(run.status, 0, run.stderr);
+    return target;
+  });
+  const { page, errors } = await open(browser, join(out[0], 'report.html'));
+  const text = readFileSync(join(out[1], 'results.csv'), 'utf8');
+  const drop = (content: string): Promise<void> =>
+    page.evaluate((csv) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([csv], 'results.csv', { type: 'text/csv' }));
+      window.dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    }, content);
+  const message = page.locator('#curves .message');
+  await drop(text);
+  const channels = text.split('\n')[0].split(',').length - 1;
+  await message.getByText(`results.csv: ${channels} of ${channels} channels are laid over`).waitFor();
+  await drop(text.replace('[m]', '[ft]'));
+  await message.getByText(/Left out: .* is in ft, here in m/).waitFor();
+  await drop('time [s],x [m]\n100,1\n101,2\n');
+  await message.getByText(/lie outside those of this page/).waitFor();
+  assert.deepEqual(errors, []);
+  await page.context().close();
+});
+
 test('dark and narrow: nothing wider than the window', async () => {
   const file = path('vehicle', vehicle());
   const looks: [number, number, boolean][] = [[1440, 900, true], [390, 844, false], [390, 844, true], [2560, 1300, false]];
@@ -414,6 +441,29 @@ test('hostile names are text', async () => {
   assert.match((await page.locator('h1').textContent())!, /vehicle<img src=x/);
   assert.deepEqual(errors, []);
   await page.context().close();
+});
+
+test('the longest names stay within the window', async () => {
+  const { page: json, writer } = vehicle();
+  const long = 'W'.repeat(100);
+  json.title = long;
+  json.scene!.bodies.slice(0, 2).forEach((body) => (body.name = long + body.name));
+  json.scene!.joints![0].name = long;
+  json.curves!.channels.forEach((channel, k) => {
+    if (k < 3) channel.body = channel.name = long;
+  });
+  json.facts = [...(json.facts ?? []), { heading: long, columns: ['body', long], rows: [[long, long]] }];
+  json.status = { ...json.status, sentences: [long], warnings: [long] };
+  const file = path('long', { page: json, writer });
+  for (const width of [1400, 420]) {
+    const { page, errors } = await open(browser, file, { width, height: 900 });
+    const wide = await page.evaluate(() => [...document.querySelectorAll('body *')].filter((e) => e.getBoundingClientRect().right > window.innerWidth + 1 && !e.closest('.scroll, .frame, .plot-box, nav')).map((e) => `${e.tagName}.${e.className}`));
+    assert.deepEqual(wide, [], `${width} pixels`);
+    const wider = await page.evaluate(() => [...document.querySelectorAll('body *')].filter((e) => e.getBoundingClientRect().right > window.innerWidth + 1).map((e) => `${e.tagName}.${String(e.className)} in ${String(e.parentElement!.className)} ${e.getBoundingClientRect().right}`));
+    assert.deepEqual(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth) ? [] : wider.slice(0, 8), [], `${width} pixels`);
+    assert.deepEqual(errors, []);
+    await page.context().close();
+  }
 });
 
 test('damaged pages say what is wrong and are never blank', async () => {

@@ -61,6 +61,11 @@ test('results.csv: comments, quotes, gaps and torn lines', () => {
   assert.deepEqual([...table.columns.get('c')!], [2, 3, 5]);
   assert.ok(Number.isNaN(table.columns.get('a, "b"')![1]));
   assert.equal(table.skipped, 3);
+  // As the program writes it.
+  const units = parseCsv('time [s],chassis.z [m],e []\n0,1,2\n');
+  assert.deepEqual([...units.columns.keys()], ['chassis.z', 'e']);
+  assert.deepEqual([...units.units], [['chassis.z', 'm']]);
+  assert.throws(() => parseCsv('time [ms],a\n0,1\n'), /times are in "ms"/);
   assert.throws(() => parseCsv('t,a\n0,1\n'), /first column is "t", expected "time"/);
   assert.throws(() => parseCsv('# only\n'), /no rows/);
   assert.throws(() => parseCsv('time,a\n'), /no rows of numbers/);
