@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "floatframe/core/folder_lock.hpp"
+#include "floatframe/core/output_error.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -133,6 +134,30 @@ TEST(FolderLock, IsHeldByOneAndLeavesNothing) {
   folder.write(FolderLock::file_name, "1\n");
   EXPECT_EQ(refused(), "no error");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// A link, or a file of somebody else, keeps what it holds.
+TEST(FolderLock, WritesIntoNothingButItsOwnFiles) {
+  const TemporaryFolder folder, other;
+  other.write("letter.txt", "dear reader\n");
+  const auto letter = other.path() / "letter.txt", lock = folder.path() / FolderLock::file_name;
+  const auto refused = [&] {
+    const std::string text = folder.without(error_of([&] { FolderLock(folder.path().string()); }));
+    return text.find("is not a lock of this program") != std::string::npos;
+  };
+  std::filesystem::create_symlink(letter, lock);
+  EXPECT_TRUE(refused());
+  std::filesystem::remove(lock);
+  std::filesystem::create_hard_link(letter, lock);
+  EXPECT_TRUE(refused());
+  std::filesystem::remove(lock);
+  std::filesystem::copy(letter, lock);
+  EXPECT_TRUE(refused());
+  EXPECT_EQ(folder.read(FolderLock::file_name), "dear reader\n");
+  EXPECT_EQ(other.read("letter.txt"), "dear reader\n");
+  std::filesystem::remove(lock);
+  std::filesystem::create_directory(lock);
+  EXPECT_THROW(FolderLock(folder.path().string()), OutputError);
 }
 
 }  // namespace

@@ -35,12 +35,33 @@ std::string holder(int file) {
                                               : "process " + number.substr(0, end);
 }
 
+/// What FolderLock makes: a file with one name that holds a number, then zeros, or nothing.
+/// Anything else of this name belongs to somebody: it is not written into.
+bool is_lock(int file) {
+  struct stat s {};
+  if (::fstat(file, &s) != 0 || !S_ISREG(s.st_mode) || s.st_nlink > 1) return false;
+  if (s.st_size == 0) return true;
+  char text[32] = {};
+  if (s.st_size > kept_space || ::pread(file, text, sizeof text - 1, 0) < 1) return false;
+  const std::string found(text);
+  const std::size_t end = found.find_first_not_of("0123456789");
+  // Zeros alone: killed between the space and the number.
+  return found.empty() || (end != 0 && end != std::string::npos && found.substr(end) == "\n");
+}
+
+[[noreturn]] void refuse_foreign(const std::string& path) {
+  throw InputError("the file '" + path +
+                   "' is not a lock of this program; remove it, or give another --out");
+}
+
 }  // namespace
 
 FolderLock::FolderLock(const std::string& folder)
     : path_((std::filesystem::path(folder) / file_name).string()) {
   for (int attempt = 0; file_ < 0 && attempt < 1000; ++attempt) {
-    const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
+    const int file =
+        ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW, 0666);
+    if (file < 0 && errno == ELOOP) refuse_foreign(path_);
     if (file < 0)
       throw OutputError("the file '" + path_ + "' cannot be written: " + std::strerror(errno));
     if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -49,7 +70,11 @@ FolderLock::FolderLock(const std::string& folder)
       throw InputError("the folder '" + folder + "' is in use: a run of " + who +
                        " writes there; give another --out, or wait for its end");
     }
-    // Between the two calls whoever had the lock may have removed the file.
+    if (!is_lock(file)) {
+      ::close(file);
+      refuse_foreign(path_);
+    }
+    // Between the calls whoever had the lock may have removed the file.
     if (is_file_at(file, path_))
       file_ = file;
     else
