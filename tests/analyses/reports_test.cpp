@@ -46,6 +46,26 @@ TEST(CheckJson, HasTheDocumentedKeys) {
   EXPECT_TRUE(json["flexible"].is_array());
 }
 
+// A bar on a hinge and a vertical rod at its end, which carries half of the weight.
+TEST(StaticsReport, RodsFollowTheForces) {
+  const Model model = model_of(R"(
+bodies:
+  bar: {rigid: {mass: 2, centre_of_mass: [0.5, 0, 0], inertia: [0.01, 0.2, 0.2]}}
+joints:
+  pin: {type: revolute, child: bar, at: [0, 0, 0], axis: y}
+rods:
+  tie: {from: {body: ground, at: [1, 0, 1]}, to: {body: bar, at: [1, 0, 0]}}
+simulation: {step: 0.01, duration: 0.1}
+)");
+  const AnalysisReport report = statics_analysis().run(model);
+  const auto json = Json::parse(report.json);
+  ASSERT_EQ(json["forces"].size(), 1u);
+  EXPECT_EQ(json["forces"][0]["type"], "rod");
+  EXPECT_NEAR(json["forces"][0]["force"].get<double>(), 9.81, 1e-8);
+  EXPECT_NE(report.text.find("tie"), std::string::npos);
+  EXPECT_NE(report.text.find("9.8100  N"), std::string::npos) << report.text;
+}
+
 TEST(StaticsJson, ListsForcesJointsAndBodies) {
   const Model model = model_of(four_bar);
   const StaticsResult s = statics(model);

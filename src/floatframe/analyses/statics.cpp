@@ -29,6 +29,11 @@ std::string forces_text(const Model& model, const StaticsResult& statics) {
   TextTable table({"force element", "type", "force", "", "measure", ""}, {1, 3, 5});
   for (std::size_t k = 0; k < statics.forces.size(); ++k) {
     const StaticsForce& f = statics.forces[k];
+    if (k >= model.forces.size()) {  // rods follow the force elements
+      table.add(
+          {f.name, f.type, starred(fixed(f.force, 4), f.unique), "N", fixed(f.length, 9), "m"});
+      continue;
+    }
     const Force& element = model.forces[k];
     const bool measured = force_has(element.type, ForceQuantity::length);
     table.add({f.name, f.type, starred(fixed(f.force, 4), f.unique),
