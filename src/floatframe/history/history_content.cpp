@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <numbers>
 
+#include "floatframe/body/alike.hpp"
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/core/enum_index.hpp"
@@ -107,7 +108,7 @@ std::vector<double> frequencies(const FlexibleBody& body) {
 void add_bodies(const Model& model, const StateLayout& layout, HistoryContent& content) {
   HistoryHeader& h = content.header;
   ArrayList arrays(content);
-  std::map<const FlexibleBody*, int> known;
+  std::vector<const FlexibleBody*> known;  // one for each shape
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const FlexibleBody& data = *model.bodies[i].data;
     const StateLayout::BodyColumns& columns = layout.bodies[i];
@@ -122,9 +123,12 @@ void add_bodies(const Model& model, const StateLayout& layout, HistoryContent& c
     b.amplitudes = columns.amplitudes;
     b.rates = columns.rates;
     if (columns.pose >= 0 && (!data.nodes.empty() || (data.shape && !data.shape->empty()))) {
-      const auto [at, fresh] = known.emplace(&data, static_cast<int>(h.shapes.size()));
-      b.shape = at->second;
-      if (fresh) {
+      const auto at = std::find_if(known.begin(), known.end(), [&](const FlexibleBody* other) {
+        return look_alike(*other, data);
+      });
+      b.shape = static_cast<int>(at - known.begin());
+      if (at == known.end()) {
+        known.push_back(&data);
         const std::string name = fmt::format("shapes/{}/", b.shape);
         HistoryShape shape;
         for (const ModalNode& n : data.nodes) shape.nodes.push_back(n.name);

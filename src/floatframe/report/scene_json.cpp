@@ -8,7 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
+#include <utility>
+#include <vector>
 
+#include "floatframe/body/alike.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/model/road.hpp"
@@ -186,8 +189,9 @@ class SceneWriter {
     const FlexibleBody& data = *b.data;
     Json out{{"name", b.name}, {"mass", data.invariants.m}, {"facts", body_facts(data)}};
     out["modes"] = data.modes() > 0 ? modes(data, first) : Json();
-    const auto [known, fresh] = shapes_.emplace(&data, Shape{});
-    if (fresh) known->second = shape(data);
+    auto known = std::find_if(shapes_.begin(), shapes_.end(),
+                              [&](const auto& other) { return look_alike(*other.first, data); });
+    if (known == shapes_.end()) known = shapes_.insert(shapes_.end(), {&data, shape(data)});
     Shape mine = known->second;
     if (mine.json.is_null() && !has_tyre(index)) mine = box(data, places_[index]);
     if (mine.json.is_null()) mine.bound = b.length;
@@ -325,7 +329,7 @@ class SceneWriter {
   std::vector<std::vector<Vec3>> places_;  ///< points on each body
   std::map<int, int> point_of_;            ///< of markers
   std::set<std::pair<int, int>> held_;     ///< bodies and their nodes that have a point
-  std::map<const FlexibleBody*, Shape> shapes_;
+  std::vector<std::pair<const FlexibleBody*, Shape>> shapes_;
   Json points_ = Json::array(), joints_ = Json::array(), forces_ = Json::array(),
        rods_ = Json::array();
 };
