@@ -172,9 +172,12 @@ int BlockLdlt::factorize() noexcept {
 
 double BlockLdlt::log_pivots() const noexcept {
   double sum = 0.0;
-  for (const Node& n : nodes_)
-    if (!n.chooses)
+  for (const Node& n : nodes_) {
+    if (n.chooses)
+      sum += pivoted_log(n.size, n.pivots);
+    else
       for (int j = 0; j < n.size; ++j) sum -= std::log(std::abs(n.matrix(j, j)));
+  }
   return sum;
 }
 

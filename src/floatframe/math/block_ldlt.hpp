@@ -50,7 +50,7 @@ class BlockLdlt {
   /// Returns -1 or the unknown (global index, blocks in their given order) whose pivot vanished.
   int factorize() noexcept;
   void solve(VecX& x) noexcept;
-  /// Sum of the logarithms of the pivots' magnitudes, but for those of blocks that choose them.
+  /// Sum of the logarithms of the pivots' magnitudes: log of the determinant's.
   double log_pivots() const noexcept;
 
  private:

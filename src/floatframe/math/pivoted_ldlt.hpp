@@ -124,6 +124,20 @@ inline int pivoted_ldlt(double* f, int n, int ne, PivotOrder& p, double toleranc
   return -1;
 }
 
+/// log |det D|.
+inline double pivoted_log(int ne, const PivotOrder& p) noexcept {
+  double sum = 0.0;
+  for (int k = 0; k < ne; ++k) {
+    double inverse = p.diagonal[k];
+    if (p.pair[k] != 0) {
+      inverse = p.diagonal[k] * p.diagonal[k + 1] - p.beside[k] * p.beside[k];
+      ++k;
+    }
+    sum -= std::log(std::abs(inverse));
+  }
+  return sum;
+}
+
 /// As `partial_forward`: the leading part of b becomes D^-1 L^-1 P b1, the trailing one
 /// b2 - L21 L11^-1 P b1.
 inline void pivoted_forward(const double* f, int n, int ne, PivotOrder& p, double* b) noexcept {
