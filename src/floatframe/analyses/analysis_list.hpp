@@ -4,6 +4,7 @@
 // which ends in what makes a command of it, `Analysis <name>_analysis()`. The public header
 // floatframe/analysis.hpp and the program run over this list, in its order.
 #include "floatframe/analyses/mass_properties.hpp"
+#include "floatframe/simulation/linear_system.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
@@ -12,5 +13,6 @@
   entry(check)                     \
   entry(statics)                   \
   entry(advise)                    \
-  entry(mass_properties)
+  entry(mass_properties)           \
+  entry(modes)
 // clang-format on

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <memory>
 #include <optional>
 
@@ -28,6 +29,15 @@ VecX symmetric_eigenvalues(const MatX& A);
 SymmetricEigen generalised_eigen(const MatX& A, const MatX& B);
 /// The same without vectors.
 SymmetricEigen generalised_eigenvalues(const MatX& A, const MatX& B);
+
+/// A x = lambda x of any real square matrix, |x| = 1; complex pairs stand one after the other. Rows
+/// and columns are scaled before (balancing): coordinates may be of unlike size.
+struct GeneralEigen {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+  bool found = false;
+};
+GeneralEigen general_eigen(const MatX& A);
 
 bool is_positive_definite(const MatX& A);
 

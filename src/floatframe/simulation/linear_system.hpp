@@ -1,0 +1,73 @@
+#pragma once
+// A model as a linear system of first order near a state, in as many coordinates as it has degrees
+// of freedom: for vibrations, stability and controllers, at rest or in motion.
+//
+// Of the increments x of the configuration, J x = 0 leaves as many free as there are degrees of
+// freedom. Those are coordinates of the model themselves, y = S x, the ones that the constraints
+// decide least: x = N y with S N = 1. With the derivatives of small_motions.hpp
+//   dv = N w + P y,  S dv = w,  J P = -G N                     velocities fit the constraints  (1)
+//   da = N wdot + R y + T w,  J R = -(H N + D P),  J T = -D N  and so do accelerations
+//   ydot = w + S Gamma N y
+//   N^T M N wdot + N^T (M T + C N) w + N^T (M R + C P + K N) y = 0                              (2)
+// so that z = (y, w), zdot = A z is the derivative of the motion itself, not of a frozen frame.
+//
+// Directions without mass have no wdot: where no damping acts on them they follow the others as
+// statics tells, where damping does they are states of first order. z is then a combination of
+// coordinates.
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "floatframe/simulation/linearize.hpp"
+
+namespace floatframe {
+
+struct LinearSystem {
+  MatX A;                           ///< nz x nz: zdot = A z [1/s]
+  MatX x_of, v_of;                  ///< nv x nz: increments and velocities that belong to z
+  std::vector<std::string> states;  ///< nz: "joint 'crank'", "rate of joint 'crank'", ...
+  /// Rows of each body: velocity, angular velocity in body axes, amplitude rates; then of each body
+  /// the amplitudes; of each force six measures times the root of their stiffness (or of none).
+  MatX rates_of, bends_of, springs_of;
+  std::vector<VecX> amplitudes;    ///< of each body, where it was linearised
+  int degrees = 0;                 ///< of freedom
+  int massless = 0;                ///< of these
+  double acceleration = 0.0;       ///< largest of a coordinate where it was linearised [../s2]
+  double speed = 0.0;              ///< largest velocity of a coordinate
+  std::vector<std::string> notes;  ///< a sentence each: where it holds less than one might think
+};
+
+/// One motion e^(lambda t) of a linear system.
+struct LinearMode {
+  std::complex<double> lambda;        ///< [1/s]; of a pair the one with Im > 0
+  Eigen::VectorXcd z;                 ///< |z| = 1
+  double frequency() const noexcept;  ///< |lambda| / (2 pi): undamped [Hz]
+  double damped() const noexcept;     ///< |Im lambda| / (2 pi) [Hz]
+  double damping() const noexcept;    ///< -Re lambda / |lambda|; 0 for a lambda of zero
+};
+
+struct SmallMotions;
+
+/// From derivatives, for the coordinates named. Throws RunError where a direction has neither mass
+/// nor stiffness nor damping.
+LinearSystem linear_system(const SmallMotions& motions,
+                           const std::vector<std::string>& coordinates);
+
+/// Pairs once, ascending by |lambda|. Throws RunError if the eigenvalues do not converge.
+std::vector<LinearMode> linear_modes(const LinearSystem& system);
+
+/// Who takes part in a mode, each list in parts of its sum.
+struct ModeParts {
+  std::vector<double> kinetic;  ///< of the bodies
+  std::vector<double> bending;  ///< of the potential energy: in the flexible bodies ...
+  std::vector<double> springs;  ///< ... and in the force elements
+  double potential = 0.0;       ///< of all, over the kinetic energy; near 0: a rigid motion
+};
+ModeParts mode_parts(const Model& model, const LinearSystem& system, const LinearMode& mode);
+
+/// At the start that the options ask for (linearize.hpp). Moving states need relative coordinates:
+/// coordinates of the absolute formulation turn with the bodies, and its frozen eigenvalues mean
+/// nothing; RunError for them.
+LinearSystem linear_system(const Model& model, const SimulationOptions& options = {});
+
+}  // namespace floatframe

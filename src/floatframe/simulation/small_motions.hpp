@@ -1,0 +1,151 @@
+#pragma once
+// First derivatives of everything that small motions about a state meet, at rest or moving. With
+// increments x of the configuration, q = q0 (+) x, at accelerations a and multipliers lambda,
+//   M = dr/da,  C = dr/dv,  K = dr/dx           r = M a - Q + Phi_q^T lambda                    (1)
+//   J = dPhi/dx = dPhidot/dv,  G = dPhidot/dx,  H = dPhiddot/dx,  D = dPhiddot/dv
+//   d(dx)/dt = dv + Gamma dx                                                                    (2)
+// K and C hold d(M a - Q_v)/dq, dQ_v/dv and all of Phi_q^T lambda. Gamma is what angular velocities
+// are not the rates of rotation vectors: with the increment of two increments one after the other,
+// x * d = x + d + b(x, d) + ..., Gamma x = b(x, v) - b(v, x).
+//
+// Differences over steps h and h/2 on both sides, extrapolated: the error falls with h^4. A force
+// whose slope jumps within the steps shows in second differences that fall with h instead of h^2.
+// Dense, allocates: load time only.
+#include <cmath>
+#include <vector>
+
+#include "floatframe/formulation/equations_of_motion.hpp"
+#include "floatframe/simulation/linearization.hpp"
+#include "floatframe/simulation/mass_scale.hpp"
+
+namespace floatframe {
+
+struct SmallMotions {
+  VecX scale;              ///< nv: mass that each coordinate could have (mass_scale.hpp)
+  MatX M, C, K;            ///< nv x nv
+  MatX J, G, H, D;         ///< nc x nv
+  MatX Gamma;              ///< nv x nv
+  VecX r;                  ///< nv, without accelerations
+  std::vector<int> kinks;  ///< coordinates along which a force has no one slope
+};
+
+/// Columns dg/dx_j at 0, of a g that gives a vector; steps: one for each x_j.
+struct PreciseDifferences {
+  MatX columns;
+  std::vector<int> kinks;  ///< columns whose first `watched` rows have no one slope
+};
+
+template <class Function>
+PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, const Function& g) {
+  const Eigen::Index n = steps.size();
+  VecX x = VecX::Zero(n);
+  const VecX middle = g(x);
+  PreciseDifferences d;
+  d.columns.resize(middle.size(), n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    VecX slope[2];
+    double bend[2];
+    for (int k = 0; k < 2; ++k) {
+      const double h = k == 0 ? steps[j] : 0.5 * steps[j];
+      x[j] = h;
+      const VecX ahead = g(x);
+      x[j] = -h;
+      const VecX behind = g(x);
+      slope[k] = (ahead - behind) / (2.0 * h);
+      const VecX second = (ahead - middle + (behind - middle)) / h;
+      bend[k] = watched > 0 ? second.head(watched).cwiseAbs().maxCoeff() : 0.0;
+    }
+    x[j] = 0.0;
+    d.columns.col(j) = (4.0 * slope[1] - slope[0]) / 3.0;
+    constexpr double smooth = 0.75, seen = 1e-4;  // smooth: a half; a corner: one
+    const double size = watched > 0 ? slope[1].head(watched).cwiseAbs().maxCoeff() : 0.0;
+    if (bend[1] > smooth * bend[0] && bend[1] > seen * size) d.kinks.push_back(static_cast<int>(j));
+  }
+  return d;
+}
+
+/// What angular velocities are not the rates of rotation vectors, (2). Moves `f`.
+template <EquationsOfMotion F>
+MatX connection(F& f, const State& s) {
+  const Eigen::Index nv = f.velocities();
+  MatX gamma = MatX::Zero(nv, nv);
+  const double speed = nv > 0 ? s.v.lpNorm<Eigen::Infinity>() : 0.0;
+  if (!(speed > 0.0)) return gamma;
+  constexpr double size = 1e-2;
+  const VecX d = size / speed * s.v;
+  VecX q = s.q;
+  const auto after = [&](VecX x, const VecX& more) {
+    f.retract(s.q, x, q);
+    f.positions(s.t, q);
+    f.advance(x, more);
+    return x;
+  };
+  const auto second = [&](const VecX& x, const VecX& more) {
+    const auto at = [&](double k) {
+      return VecX((after(k * x, k * more) + after(-k * x, -k * more)) / (2.0 * k * k));
+    };
+    return VecX((4.0 * at(0.5) - at(1.0)) / 3.0);
+  };
+  for (Eigen::Index j = 0; j < nv; ++j) {
+    const VecX x = size * VecX::Unit(nv, j);
+    gamma.col(j) = speed / (size * size) * (second(x, d) - second(d, x));
+  }
+  return gamma;
+}
+
+/// At t, q, v, a, lambda of the state (a: none counts as zero), where `f` is afterwards.
+template <EquationsOfMotion F>
+SmallMotions small_motions(F& f, const State& s) {
+  const Eigen::Index nv = f.velocities(), nc = f.constraints();
+  const VecX a = s.a.size() == nv ? s.a : VecX::Zero(nv);
+  SmallMotions m;
+  m.scale = possible_masses(f, s);
+
+  // Steps that move bodies by like distances, 0.1 mm of a metre.
+  double length = 0.0, mass = 0.0;
+  const auto bodies = static_cast<double>(f.model().bodies.size());
+  for (std::size_t i = 0; i < f.model().bodies.size(); ++i) {
+    length += f.model().bodies[i].length / bodies;
+    mass += possible_mass(f.model(), i) / bodies;
+  }
+  VecX steps(nv);
+  for (Eigen::Index j = 0; j < nv; ++j)
+    steps[j] =
+        m.scale[j] > 0.0 ? std::min(1e-3, 1e-4 * length * std::sqrt(mass / m.scale[j])) : 1e-4;
+
+  const auto terms = [&](const VecX& q, const VecX& v) {
+    VecX all(nv + 2 * nc), part(nc), r(nv);
+    f.positions(s.t, q);
+    f.velocities(v);
+    f.dynamics();
+    f.residual(a, s.lambda, 0.0, r);
+    all.head(nv) = r;
+    f.constraint_rates(part);
+    all.segment(nv, nc) = part;
+    f.constraint_accelerations(a, part);
+    all.tail(nc) = part;
+    return all;
+  };
+  VecX q = s.q;
+  const PreciseDifferences along = precise_differences(steps, nv, [&](const VecX& x) {
+    f.retract(s.q, x, q);
+    return terms(q, s.v);
+  });
+  const PreciseDifferences rates = precise_differences(
+      10.0 * steps, nv, [&](const VecX& x) { return terms(s.q, VecX(s.v + x)); });
+  m.K = along.columns.topRows(nv);
+  m.G = along.columns.middleRows(nv, nc);
+  m.H = along.columns.bottomRows(nc);
+  m.C = rates.columns.topRows(nv);
+  m.D = rates.columns.bottomRows(nc);
+  m.kinks = along.kinks;
+  for (const int j : rates.kinks)
+    if (std::find(m.kinks.begin(), m.kinks.end(), j) == m.kinks.end()) m.kinks.push_back(j);
+  m.Gamma = connection(f, s);
+  m.r = residual_at(f, s.t, s.q, s.v, s.lambda);
+  m.J = f.constraint_jacobian();
+  m.M = mass_matrix(f, test_accelerations(m.r, m.scale), m.r, s.lambda);
+  return m;
+}
+
+}  // namespace floatframe
