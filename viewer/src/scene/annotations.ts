@@ -1,10 +1,12 @@
 // What is written and marked in the view: names, the chosen node, spiders of interfaces, frames of bodies.
 
-import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, SphereGeometry } from 'three';
+import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, SphereGeometry, Vector3, type Camera } from 'three';
 import type { Triple } from '../data/page';
-import { Label } from './labels';
+import { Label, type Box } from './labels';
 import { MARK_COLOUR } from './palette';
 import type { Stage } from './stage';
+
+const point = new Vector3();
 
 interface Named {
   text: string;
@@ -103,10 +105,25 @@ export class Annotations {
     }
     this.labels.forEach((label, k) => {
       const bodies = this.names[k].bodies.filter((b) => b >= 0);
-      label.sprite.visible = (this.names[k].strong ? this.shown : this.others) && (bodies.length === 0 || bodies.some((b) => this.stage.bodies[b].group.visible));
+      label.wanted = (this.names[k].strong ? this.shown : this.others) && (bodies.length === 0 || bodies.some((b) => this.stage.bodies[b].group.visible));
     });
     this.update();
     this.stage.invalidate();
+  }
+
+  /** Names do not lie over each other: those of bodies first, others where there is room. Before each picture. */
+  arrange(camera: Camera, width: number, height: number): void {
+    const taken: Box[] = [];
+    for (const strong of [true, false]) {
+      this.labels.forEach((label, k) => {
+        if (this.names[k].strong !== strong) return;
+        label.sprite.visible = false;
+        if (!label.wanted) return;
+        label.sprite.getWorldPosition(point).project(camera);
+        if (Math.abs(point.x) > 1.2 || Math.abs(point.y) > 1.2 || Math.abs(point.z) > 1) return;
+        label.settle(((point.x + 1) / 2) * width, ((1 - point.y) / 2) * height, taken);
+      });
+    }
   }
 
   mark(): void {

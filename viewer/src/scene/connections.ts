@@ -81,7 +81,10 @@ export class Connections {
       material.depthTest = false;
       material.transparent = true;
       material.opacity = 0.85;
-      symbol.traverse((object) => (object.renderOrder = 6));
+      // Not of groups: their order stands above that of all that is drawn, names among it.
+      symbol.traverse((object) => {
+        if (!(object instanceof Group)) object.renderOrder = 6;
+      });
     }
     const local = new Quaternion();
     if (joint.axis) turnTo(joint.axis, local);

@@ -322,6 +322,8 @@ export class Stage {
     this.camera.far = distance + 30 * this.size;
     this.camera.updateProjectionMatrix();
     this.grid.focus(this.controls.target.x, this.controls.target.y);
+    this.camera.updateMatrixWorld();
+    this.annotations.arrange(this.camera, this.canvas.clientWidth, this.canvas.clientHeight);
     this.renderer.render(this.world, this.camera);
     return true;
   }
