@@ -17,19 +17,22 @@ namespace {
 
 constexpr double gravity = 9.81;
 
-std::string windows_text(int n) {
+/// `thin`: the bars have no inertia about their own axes.
+std::string windows_text(int n, bool thin = false) {
   std::string bodies, joints;
-  const std::string inertia = "inertia: [0.08333333333333333, 0.08333333333333333, 0.0833333333]";
+  const std::string own = thin ? "0" : "0.0833333333";
+  const std::string crank = "inertia: [0.0833333333, " + own + ", 0.0833333333]";
+  const std::string bar = "inertia: [" + own + ", 0.0833333333, 0.0833333333]";
   for (int i = 0; i <= n; ++i) {
     bodies += fmt::format("  crank_{}: {{rigid: {{mass: 1, centre_of_mass: [{}, 0.5, 0], {}}}}}\n",
-                          i, i, inertia);
+                          i, i, crank);
     joints += fmt::format(
         "  a_{}: {{type: revolute, child: crank_{}, at: [{}, 0, 0], axis: z, velocity: -1}}\n", i,
         i, i);
   }
   for (int i = 1; i <= n; ++i) {
     bodies += fmt::format("  bar_{}: {{rigid: {{mass: 1, centre_of_mass: [{}, 1, 0], {}}}}}\n", i,
-                          i - 0.5, inertia);
+                          i - 0.5, bar);
     joints += fmt::format(
         "  b_{}: {{type: revolute, parent: crank_{}, child: bar_{}, at: [{}, 1, 0], axis: z, "
         "velocity: 1}}\n",
@@ -110,6 +113,26 @@ INSTANTIATE_TEST_SUITE_P(Rows, Folding,
                                            Fold{40, Coordinates::relative, 1e-3, 10.0, 1e-3},
                                            Fold{40, Coordinates::absolute, 5e-3, 10.0, 1e-2},
                                            Fold{40, Coordinates::absolute, 1e-3, 3.0, 1e-3}));
+
+TEST(FoldingThinBars, SaysWhereItPassesInBothFormulations) {
+  const Model model = model_of(windows_text(2, true));
+  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+    SimulationDescription o = model.simulation;
+    o.coordinates = coordinates;
+    o.step = 1e-3;
+    o.duration = 1.0;
+    o.tolerance = 1e-9;
+    const RunResult r = run(model, o);
+    ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+    std::size_t branches = 0;
+    for (const RangeWarning& w : r.summary.warnings)
+      if (w.limit == RangeLimit::branch) {
+        ++branches;
+        EXPECT_NE(w.sentence.find("t = 0.714 s"), std::string::npos) << w.sentence;
+      }
+    EXPECT_EQ(branches, 1u);
+  }
+}
 
 }  // namespace
 }  // namespace floatframe::test

@@ -194,7 +194,7 @@ TEST(Stiffened, FreeSpinKeepsEnergy) {
   for (const char* coordinates : {"relative", "absolute"}) {
     SCOPED_TRACE(coordinates);
     const auto remainder = [&](double step) {
-      ModelDescription d = description_of(
+      ModelDescription d = test::description_of(
           "gravity: [0, 0, 0]\n"
           "points: {hub: [0, 0, 0], tip: [1, 0, 0]}\n"
           "bodies:\n"

@@ -43,7 +43,7 @@ BodyBalance body_balance(const F& f, const VecX& q, const Reactions& reactions,
   };
   for (std::size_t i = 0; i < n; ++i) {
     const int k = static_cast<int>(i), nm = model.bodies[i].modes();
-    BodyInertia inertia(*model.bodies[i].data, model.bodies[i].name, method);
+    BodyInertia inertia(model.bodies[i], method);
     MatX M = MatX::Zero(6 + nm, 6 + nm);
     VecX Qv = VecX::Zero(6 + nm), y(nm), yd(nm), z(6 + nm);
     for (int m = 0; m < nm; ++m) {
