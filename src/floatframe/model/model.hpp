@@ -31,7 +31,7 @@ struct Body {
   double length = 1.0;  ///< characteristic length: scales direction rows to lengths [m]
   bool geometric_stiffening = false;
   int modes() const noexcept { return data->modes(); }
-  /// Displacements of second order enter (body/second_order.hpp).
+  /// Displacements of second order enter (SecondOrder).
   bool stiffens() const noexcept {
     return geometric_stiffening && modes() > 0 && data->second_order != nullptr;
   }

@@ -157,6 +157,39 @@ LinearSystem first_order(const SecondOrderSystem& s, Eigen::Index heavy) {
   return out;
 }
 
+/// From derivatives, for the coordinates named. Throws RunError where a direction has neither mass
+/// nor stiffness nor damping.
+LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& coordinates) {
+  const FreeCoordinates c = free_coordinates(m);
+  const auto n = static_cast<Eigen::Index>(c.free.size());
+  const MatX Nt = c.N.transpose();
+  SecondOrderSystem s{Nt * m.M * c.N,
+                      Nt * (m.M * c.T + m.C * c.N),
+                      Nt * (m.M * c.R + m.C * c.P + m.K * c.N),
+                      MatX(n, n),
+                      c.N,
+                      c.P,
+                      c.N};
+  const MatX turned = m.Gamma * c.N;
+  for (Eigen::Index k = 0; k < n; ++k)
+    s.Gamma.row(k) = turned.row(c.free[static_cast<std::size_t>(k)]);
+  const Masslessness kinds = order_by_mass(s, m.scale);
+  follow_statics(s, kinds.without);
+  LinearSystem out = first_order(s, kinds.heavy);
+  out.degrees = static_cast<int>(n);
+  out.massless = static_cast<int>(kinds.damped + kinds.without);
+  for (Eigen::Index k = 0; k < out.A.rows(); ++k) {
+    const bool rate = k >= s.M.rows();
+    if (out.massless > 0)
+      out.states.push_back(fmt::format("combination {}", k + 1));
+    else
+      out.states.push_back((rate ? "rate of " : "") +
+                           coordinates[static_cast<std::size_t>(
+                               c.free[static_cast<std::size_t>(rate ? k - n : k)])]);
+  }
+  return out;
+}
+
 /// What the motions of each state are of bodies and force elements.
 template <class F>
 void describe_motions(F& f, const State& state, LinearSystem& system) {
@@ -226,7 +259,7 @@ LinearSystem system_of(const Model& model, const SimulationDescription& options)
         "the state moves: its linear system needs relative coordinates, since those of the "
         "absolute formulation turn with the bodies");
   const SmallMotions m = small_motions(f, state);
-  LinearSystem system = linear_system(m, coordinate_owners(f));
+  LinearSystem system = reduced_system(m, coordinate_owners(f));
   describe_motions(f, state, system);
   system.speed = speed;
   system.acceleration = largest(state.a);
@@ -253,37 +286,6 @@ double LinearMode::damped() const noexcept {
 double LinearMode::damping() const noexcept {
   const double size = std::abs(lambda);
   return size > 0.0 ? -lambda.real() / size : 0.0;
-}
-
-LinearSystem linear_system(const SmallMotions& m, const std::vector<std::string>& coordinates) {
-  const FreeCoordinates c = free_coordinates(m);
-  const auto n = static_cast<Eigen::Index>(c.free.size());
-  const MatX Nt = c.N.transpose();
-  SecondOrderSystem s{Nt * m.M * c.N,
-                      Nt * (m.M * c.T + m.C * c.N),
-                      Nt * (m.M * c.R + m.C * c.P + m.K * c.N),
-                      MatX(n, n),
-                      c.N,
-                      c.P,
-                      c.N};
-  const MatX turned = m.Gamma * c.N;
-  for (Eigen::Index k = 0; k < n; ++k)
-    s.Gamma.row(k) = turned.row(c.free[static_cast<std::size_t>(k)]);
-  const Masslessness kinds = order_by_mass(s, m.scale);
-  follow_statics(s, kinds.without);
-  LinearSystem out = first_order(s, kinds.heavy);
-  out.degrees = static_cast<int>(n);
-  out.massless = static_cast<int>(kinds.damped + kinds.without);
-  for (Eigen::Index k = 0; k < out.A.rows(); ++k) {
-    const bool rate = k >= s.M.rows();
-    if (out.massless > 0)
-      out.states.push_back(fmt::format("combination {}", k + 1));
-    else
-      out.states.push_back((rate ? "rate of " : "") +
-                           coordinates[static_cast<std::size_t>(
-                               c.free[static_cast<std::size_t>(rate ? k - n : k)])]);
-  }
-  return out;
 }
 
 std::vector<LinearMode> linear_modes(const LinearSystem& system) {

@@ -4,7 +4,7 @@
 //
 // Of the increments x of the configuration, J x = 0 leaves as many free as there are degrees of
 // freedom. Those are coordinates of the model themselves, y = S x, the ones that the constraints
-// decide least: x = N y with S N = 1. With the derivatives of small_motions.hpp
+// decide least: x = N y with S N = 1. With the first derivatives there
 //   dv = N w + P y,  S dv = w,  J P = -G N                     velocities fit the constraints  (1)
 //   da = N wdot + R y + T w,  J R = -(H N + D P),  J T = -D N  and so do accelerations
 //   ydot = w + S Gamma N y
@@ -46,13 +46,6 @@ struct LinearMode {
   double damping() const noexcept;    ///< -Re lambda / |lambda|; 0 for a lambda of zero
 };
 
-struct SmallMotions;
-
-/// From derivatives, for the coordinates named. Throws RunError where a direction has neither mass
-/// nor stiffness nor damping.
-LinearSystem linear_system(const SmallMotions& motions,
-                           const std::vector<std::string>& coordinates);
-
 /// Pairs once, ascending by |lambda|. Throws RunError if the eigenvalues do not converge.
 std::vector<LinearMode> linear_modes(const LinearSystem& system);
 
@@ -65,7 +58,7 @@ struct ModeParts {
 };
 ModeParts mode_parts(const Model& model, const LinearSystem& system, const LinearMode& mode);
 
-/// At the start that the options ask for (linearize.hpp). Moving states need relative coordinates:
+/// At the start that the options ask for, as `linearize`. Moving states need relative coordinates:
 /// coordinates of the absolute formulation turn with the bodies, and its frozen eigenvalues mean
 /// nothing; RunError for them.
 LinearSystem linear_system(const Model& model, const SimulationOptions& options = {});
