@@ -107,22 +107,29 @@ std::optional<double> beginning(const std::string& sentence) {
   return std::stod(sentence.substr(at + words.size()));
 }
 
+bool loses_mass(const Outcome& o) {
+  return !o.finished && o.reason.find("almost without mass") != std::string::npos;
+}
+
 /// How far a run says it may be judged: until it leaves the range of small deformations, and half
 /// the way to where a body turns too far in one step or a freedom has lost its mass. Nothing if it
-/// stops for another reason.
+/// stops for another reason before it has said so.
 std::optional<double> judged_until(const Outcome& o) {
   double until = o.result.summary.duration;
-  if (!o.finished) {
-    if (o.reason.find("almost without mass") == std::string::npos) return std::nullopt;
+  bool may_stop = o.finished;
+  if (loses_mass(o)) {
+    may_stop = true;
     until *= 0.5;
   }
   for (const RangeWarning& w : o.result.summary.warnings) {
     const bool deforms = w.limit == RangeLimit::displacement || w.limit == RangeLimit::rotation;
     if (!deforms && w.limit != RangeLimit::turn) continue;
-    if (const std::optional<double> t = beginning(w.sentence))
+    if (const std::optional<double> t = beginning(w.sentence)) {
+      may_stop = true;
       until = std::min(until, deforms ? *t : 0.5 * *t);
+    }
   }
-  return until;
+  return may_stop ? std::optional(until) : std::nullopt;
 }
 
 /// Both formulations with one step.
@@ -274,8 +281,12 @@ Judgement judge(const Mechanism& mechanism) {
   const double first = j.differences.front(), last = j.differences.back();
   if (j.kinked && last < meaningful && first > std::pow(2.0, most_levels - 1) * last)
     return verdict(Verdict::kinked, figures);
-  if (falls_before(model, levels, j.step))
-    return verdict(stops.empty() ? Verdict::out_of_range : Verdict::weightless, figures);
+  if (falls_before(model, levels, j.step)) {
+    const bool weightless = std::any_of(levels.begin(), levels.end(), [](const Level& l) {
+      return loses_mass(l.relative) || loses_mass(l.absolute);
+    });
+    return verdict(weightless ? Verdict::weightless : Verdict::out_of_range, figures);
+  }
   if (only_massless_differ(model, levels)) return verdict(Verdict::weightless, figures);
   if (!std::isfinite(last)) {
     // One may pass where the other does not, if they agree where both do.

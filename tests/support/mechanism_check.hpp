@@ -22,7 +22,7 @@
 //                  vanish leave where they are
 //   out_of_range   a run says that a body deforms or bends too far for linear modes, which soon
 //                  grow without bound: the same until then; or that it turns too far in one step:
-//                  the same until half of that time
+//                  the same until half of that time. What a run does after it, it may also stop at
 // Everything else is a violation.
 #include <string>
 #include <vector>
