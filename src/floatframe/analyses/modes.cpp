@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "floatframe/analyses/analysis.hpp"
@@ -11,6 +12,7 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/report/json_values.hpp"
 #include "floatframe/simulation/linear_system.hpp"
+#include "floatframe/simulation/operating_point.hpp"
 
 namespace floatframe {
 namespace {
@@ -67,6 +69,10 @@ std::vector<Share> potential_shares(const Model& model, const ModeParts& parts) 
   return shares;
 }
 
+std::string damping_text(double ratio) {
+  return fmt::format("{:.4f}", std::abs(ratio) < 5e-5 ? 0.0 : ratio);
+}
+
 /// Motions that nothing holds: the independent increments among the modes of zero. Place and speed
 /// of each have a lambda of zero, so that there are more of these.
 int rigid_motions(const LinearSystem& system, const std::vector<FoundMode>& modes) {
@@ -102,8 +108,8 @@ std::string vibrations_text(const Model& model, const LinearSystem& system,
     if (m.kind == "rigid") continue;
     const bool oscillates = m.kind == "vibration" || m.kind == "unstable";
     table.add({std::to_string(++number), oscillates ? fmt::format("{:.5g}", m.mode.damped()) : "0",
-               fmt::format("{:.5g}", m.mode.frequency()), fmt::format("{:.4f}", m.mode.damping()),
-               m.kind, shares_text(kinetic_shares(model, m.parts)),
+               fmt::format("{:.5g}", m.mode.frequency()), damping_text(m.mode.damping()), m.kind,
+               shares_text(kinetic_shares(model, m.parts)),
                shares_text(potential_shares(model, m.parts))});
   }
   std::string text =
@@ -149,7 +155,8 @@ std::string vibrations_json(const Model& model, const LinearSystem& system,
                         {"modes", list}});
 }
 
-AnalysisReport report_modes(const Model& model) {
+AnalysisReport report_modes(const Model& given, const std::string& at) {
+  const Model model = at_operating_point(given, at);
   const LinearSystem system = linear_system(model);
   const std::vector<LinearMode> found = linear_modes(system);
   double largest = 0.0;
@@ -165,16 +172,17 @@ AnalysisReport report_modes(const Model& model) {
 }  // namespace
 
 Analysis modes_analysis() {
+  const auto at = std::make_shared<std::string>();
   return {.name = "modes",
           .help =
-              "Natural vibrations of the whole model where it starts: frequencies [Hz], damping "
-              "ratios, who takes part",
+              "Natural vibrations of the whole model: frequencies [Hz], damping ratios, who takes "
+              "part",
+          .options = {operating_point_option(*at)},
           .json_help = "JSON on standard output (Hz, 1/s)",
           .footer =
-              "Where a run starts: with simulation.start: equilibrium in the equilibrium, with a "
-              "state there, also in\nmotion (relative coordinates).\n"
+              "States in motion need relative coordinates.\n"
               "Exit codes: 0 done, 1 the start or the eigenvalues cannot be found, 2 bad input.",
-          .run = report_modes};
+          .run = [at](const Model& model) { return report_modes(model, *at); }};
 }
 
 }  // namespace floatframe

@@ -67,16 +67,17 @@ FreeCoordinates free_coordinates(const SmallMotions& m) {
   return c;
 }
 
-/// (2): M wdot + C w + K y = 0, ydot = w + Gamma y; x = X y, v = V y + W w.
+/// (2): M wdot + C w + K y = 0, ydot = w + Gamma y; x = X y, v = V y + W w,
+/// a = W wdot + R y + T w.
 struct SecondOrderSystem {
-  MatX M, C, K, Gamma, X, V, W;
+  MatX M, C, K, Gamma, X, V, W, R, T;
 };
 
 /// y = B eta, w = B eta', for a B with the inverse `inverse`.
 SecondOrderSystem transformed(const SecondOrderSystem& s, const MatX& B, const MatX& inverse) {
   const MatX Bt = B.transpose();
-  return {Bt * s.M * B, Bt * s.C * B, Bt * s.K * B, inverse * s.Gamma * B,
-          s.X * B,      s.V * B,      s.W * B};
+  return {Bt * s.M * B, Bt * s.C * B, Bt * s.K * B, inverse * s.Gamma * B, s.X * B, s.V * B,
+          s.W * B,      s.R * B,      s.T * B};
 }
 
 /// Rows and columns without mass, of which the last `without` are also without damping.
@@ -154,6 +155,7 @@ LinearSystem first_order(const SecondOrderSystem& s, Eigen::Index heavy) {
         -lu_solve(s.M.topLeftCorner(heavy, heavy), s.C.topRows(heavy) * w + s.K.topRows(heavy) * y);
   out.x_of = s.X * y;
   out.v_of = s.V * y + s.W * w;
+  out.a_of = s.W * (w * out.A) + s.R * y + s.T * w;
   return out;
 }
 
@@ -169,13 +171,16 @@ LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string
                       MatX(n, n),
                       c.N,
                       c.P,
-                      c.N};
+                      c.N,
+                      c.R,
+                      c.T};
   const MatX turned = m.Gamma * c.N;
   for (Eigen::Index k = 0; k < n; ++k)
     s.Gamma.row(k) = turned.row(c.free[static_cast<std::size_t>(k)]);
   const Masslessness kinds = order_by_mass(s, m.scale);
   follow_statics(s, kinds.without);
   LinearSystem out = first_order(s, kinds.heavy);
+  out.xdot_of = out.v_of + m.Gamma * out.x_of;
   out.degrees = static_cast<int>(n);
   out.massless = static_cast<int>(kinds.damped + kinds.without);
   for (Eigen::Index k = 0; k < out.A.rows(); ++k) {
@@ -200,6 +205,7 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
   system.rates_of = MatX::Zero(rates, nz);
   system.bends_of = MatX::Zero(bends, nz);
   system.springs_of = MatX::Zero(6 * forces, nz);
+  system.places_of = MatX::Zero(6 * static_cast<Eigen::Index>(model.bodies.size()), nz);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     VecX y(model.bodies[i].modes());
     for (int m = 0; m < y.size(); ++m) y[m] = f.amplitude(state.q, static_cast<int>(i), m);
@@ -226,9 +232,12 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
     // Increments move markers as velocities do.
     const VecX x = system.x_of.col(z);
     f.velocities(x);
-    for (std::size_t i = 0; i < model.bodies.size(); ++i)
-      for (int m = 0; m < model.bodies[i].modes(); ++m, ++bend)
-        system.bends_of(bend, z) = f.amplitude_rate(x, static_cast<int>(i), m);
+    for (int k = 0; k < static_cast<int>(model.bodies.size()); ++k) {
+      system.places_of.block<3, 1>(6 * k, z) = f.body_velocity(k);
+      system.places_of.block<3, 1>(6 * k + 3, z) = f.body_angular_velocity(k);
+      for (int m = 0; m < model.bodies[static_cast<std::size_t>(k)].modes(); ++m, ++bend)
+        system.bends_of(bend, z) = f.amplitude_rate(x, k, m);
+    }
     for (Eigen::Index k = 0; k < forces; ++k) {
       const Force& force = model.forces[static_cast<std::size_t>(k)];
       const MarkerState& b = f.marker(force.b);
@@ -263,15 +272,19 @@ LinearSystem system_of(const Model& model, const SimulationDescription& options)
   describe_motions(f, state, system);
   system.speed = speed;
   system.acceleration = largest(state.a);
-  if (system.acceleration > 1e-3 && speed <= 1e-6)
+  if (system.acceleration > 1e-3)
     system.notes.push_back(fmt::format(
-        "the state is no equilibrium: coordinates accelerate by up to {:.3g} [m/s2, rad/s2]; the "
-        "linear system holds for a short time only",
-        system.acceleration));
-  for (const int k : m.kinks)
-    system.notes.push_back(
-        fmt::format("along {} a force has no one slope here: a mean of both sides was taken",
-                    f.coordinate_owner(k)));
+        "the state is no {}: coordinates accelerate by up to {:.3g} [m/s2, rad/s2]; the linear "
+        "system holds for a short time only",
+        speed > 1e-6 ? "steady motion" : "equilibrium", system.acceleration));
+  std::vector<std::string> owners;
+  for (const int k : m.kinks) {
+    std::string owner = f.coordinate_owner(k);
+    if (std::find(owners.begin(), owners.end(), owner) != owners.end()) continue;
+    system.notes.push_back(fmt::format(
+        "along {} a force has no one slope here: a mean of both sides was taken", owner));
+    owners.push_back(std::move(owner));
+  }
   return system;
 }
 

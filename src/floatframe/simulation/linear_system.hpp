@@ -24,11 +24,13 @@ namespace floatframe {
 
 struct LinearSystem {
   MatX A;                           ///< nz x nz: zdot = A z [1/s]
-  MatX x_of, v_of;                  ///< nv x nz: increments and velocities that belong to z
+  MatX x_of, v_of, a_of;            ///< nv x nz: increments, velocities, accelerations of z
+  MatX xdot_of;                     ///< nv x nz: rates of the increments, v_of + Gamma x_of
   std::vector<std::string> states;  ///< nz: "joint 'crank'", "rate of joint 'crank'", ...
   /// Rows of each body: velocity, angular velocity in body axes, amplitude rates; then of each body
   /// the amplitudes; of each force six measures times the root of their stiffness (or of none).
   MatX rates_of, bends_of, springs_of;
+  MatX places_of;                  ///< 6 a body: displacement of its origin, rotation; world axes
   std::vector<VecX> amplitudes;    ///< of each body, where it was linearised
   int degrees = 0;                 ///< of freedom
   int massless = 0;                ///< of these
