@@ -7,6 +7,8 @@
 #include <Eigen/SVD>
 #include <limits>
 
+#include "floatframe/math/balancing.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -57,26 +59,8 @@ SymmetricEigen generalised_eigenvalues(const MatX& A, const MatX& B) {
 GeneralEigen general_eigen(const MatX& A) {
   const Eigen::Index n = A.rows();
   if (n == 0) return {Eigen::VectorXcd(0), Eigen::MatrixXcd(0, 0), true};
-  // Powers of two, until row and column of each coordinate are of like size.
   MatX B = A;
-  VecX d = VecX::Ones(n);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double row = B.row(i).cwiseAbs().sum() - std::abs(B(i, i));
-      double column = B.col(i).cwiseAbs().sum() - std::abs(B(i, i));
-      if (!(row > 0.0 && column > 0.0 && row < 1e300 && column < 1e300)) continue;
-      const double sum = row + column;
-      double f = 1.0;
-      while (column < 0.5 * row) column *= 4.0, f *= 2.0;
-      while (column >= 2.0 * row) column /= 4.0, f /= 2.0;
-      if ((row / 1.0 + column) / f >= 0.95 * sum) continue;
-      changed = true;
-      d[i] *= f;
-      B.col(i) *= f;
-      B.row(i) /= f;
-    }
-  }
+  const VecX d = balance(B);
   const Eigen::EigenSolver<MatX> solver(B);
   if (solver.info() != Eigen::Success) return {};
   GeneralEigen e{solver.eigenvalues(), solver.eigenvectors(), true};

@@ -9,191 +9,13 @@
 #include "floatframe/formulation/owners.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/body_energy.hpp"
+#include "floatframe/simulation/linear_reduction.hpp"
 #include "floatframe/simulation/simulation_options.hpp"
-#include "floatframe/simulation/small_motions.hpp"
 #include "floatframe/simulation/start_up.hpp"
 
 namespace floatframe {
 
 namespace {
-
-/// Which coordinates are free, and what follows from them: (1).
-struct FreeCoordinates {
-  std::vector<Eigen::Index> free;
-  MatX N, P, R, T;  ///< nv x n
-};
-
-/// The solution X of J X = B that is zero in the free coordinates.
-MatX in_decided(const MatX& J_D, const std::vector<Eigen::Index>& decided, Eigen::Index nv,
-                const MatX& B) {
-  MatX X = MatX::Zero(nv, B.cols());
-  if (decided.empty()) return X;
-  const MatX x = qr_solve(J_D, B);  // rows may be redundant
-  for (std::size_t k = 0; k < decided.size(); ++k)
-    X.row(decided[k]) = x.row(static_cast<Eigen::Index>(k));
-  return X;
-}
-
-FreeCoordinates free_coordinates(const SmallMotions& m) {
-  const Eigen::Index nv = m.M.rows();
-  // In coordinates of like size; rows of lengths and angles are of like size already.
-  const VecX unit = m.scale.cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  std::vector<Eigen::Index> decided;
-  std::vector<bool> is_free(static_cast<std::size_t>(nv), true);
-  if (m.J.rows() > 0) {
-    const PivotedQr qr = pivoted_qr(m.J * unit.asDiagonal(), 1e-11);
-    for (Eigen::Index k = 0; k < qr.rank; ++k) {
-      decided.push_back(qr.pivots[k]);
-      is_free[static_cast<std::size_t>(qr.pivots[k])] = false;
-    }
-  }
-  FreeCoordinates c;
-  for (Eigen::Index j = 0; j < nv; ++j)
-    if (is_free[static_cast<std::size_t>(j)]) c.free.push_back(j);
-  const auto n = static_cast<Eigen::Index>(c.free.size());
-  MatX J_D(m.J.rows(), static_cast<Eigen::Index>(decided.size())), J_I(m.J.rows(), n);
-  for (std::size_t k = 0; k < decided.size(); ++k)
-    J_D.col(static_cast<Eigen::Index>(k)) = m.J.col(decided[k]);
-  MatX S = MatX::Zero(nv, n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    J_I.col(k) = m.J.col(c.free[static_cast<std::size_t>(k)]);
-    S(c.free[static_cast<std::size_t>(k)], k) = 1.0;
-  }
-  const auto follow = [&](const MatX& B) { return in_decided(J_D, decided, nv, B); };
-  c.N = S + follow(-J_I);
-  c.P = follow(-(m.G * c.N));
-  c.R = follow(-(m.H * c.N + m.D * c.P));
-  c.T = follow(-(m.D * c.N));
-  return c;
-}
-
-/// (2): M wdot + C w + K y = 0, ydot = w + Gamma y; x = X y, v = V y + W w,
-/// a = W wdot + R y + T w.
-struct SecondOrderSystem {
-  MatX M, C, K, Gamma, X, V, W, R, T;
-};
-
-/// y = B eta, w = B eta', for a B with the inverse `inverse`.
-SecondOrderSystem transformed(const SecondOrderSystem& s, const MatX& B, const MatX& inverse) {
-  const MatX Bt = B.transpose();
-  return {Bt * s.M * B, Bt * s.C * B, Bt * s.K * B, inverse * s.Gamma * B, s.X * B, s.V * B,
-          s.W * B,      s.R * B,      s.T * B};
-}
-
-/// Rows and columns without mass, of which the last `without` are also without damping.
-struct Masslessness {
-  Eigen::Index heavy = 0, damped = 0, without = 0;
-};
-
-/// The system in directions ordered by what holds them: with mass, damped without mass, neither.
-Masslessness order_by_mass(SecondOrderSystem& s, const VecX& possible) {
-  const Eigen::Index n = s.M.rows();
-  Masslessness kinds{n, 0, 0};
-  if (n == 0) return kinds;
-  const MatX scale = s.W.transpose() * possible.asDiagonal() * s.W;
-  const SymmetricEigen mass = generalised_eigen(0.5 * (s.M + s.M.transpose()), scale);
-  if (!mass.found) return kinds;
-  Eigen::Index light = 0;
-  while (light < n && !(mass.values[light] > no_mass)) ++light;
-  if (light == 0) return kinds;
-  MatX B(n, n);
-  B << mass.vectors.rightCols(n - light), mass.vectors.leftCols(light);
-  const MatX L = B.rightCols(light);
-  const MatX damping = L.transpose() * (0.5 * (s.C + s.C.transpose())) * L;
-  const SymmetricEigen d = symmetric_eigen(damping);
-  const double size = (B.transpose() * s.C * B).cwiseAbs().maxCoeff();
-  Eigen::Index undamped = 0;
-  std::vector<Eigen::Index> order;
-  for (Eigen::Index k = light; k-- > 0;)
-    if (std::abs(d.values[k]) > 1e-9 * size) order.push_back(k);
-  for (Eigen::Index k = 0; k < light; ++k)
-    if (!(std::abs(d.values[k]) > 1e-9 * size)) order.push_back(k), ++undamped;
-  MatX sorted(light, light);
-  for (std::size_t k = 0; k < order.size(); ++k)
-    sorted.col(static_cast<Eigen::Index>(k)) = d.vectors.col(order[k]);
-  B.rightCols(light) = L * sorted;
-  s = transformed(s, B, B.transpose() * scale);
-  return {n - light, light - undamped, undamped};
-}
-
-/// Directions with neither mass nor damping follow the others: y_u = E y, w_u = E w.
-void follow_statics(SecondOrderSystem& s, Eigen::Index without) {
-  if (without == 0) return;
-  const Eigen::Index n = s.M.rows() - without;
-  const MatX K_uu = s.K.bottomRightCorner(without, without);
-  const Singular values = singular_values(K_uu);
-  const double stiffest = s.K.cwiseAbs().maxCoeff();
-  if (!(values.values[without - 1] > 1e-12 * stiffest))
-    throw RunError(
-        "a motion has neither mass nor damping nor stiffness where the system was linearised; give "
-        "mass or inertia, or remove the freedom");
-  MatX B(n + without, n);
-  B << MatX::Identity(n, n), -lu_solve(K_uu, s.K.bottomLeftCorner(without, n));
-  MatX left = MatX::Zero(n, n + without);
-  left.leftCols(n).setIdentity();
-  s = transformed(s, B, left);
-}
-
-/// z = (y, w of what has mass).
-LinearSystem first_order(const SecondOrderSystem& s, Eigen::Index heavy) {
-  const Eigen::Index n = s.M.rows(), light = n - heavy, nz = n + heavy;
-  LinearSystem out;
-  // w of what has no mass: C_ll w_l = -(C_lh w_h + K_l y).
-  MatX w = MatX::Zero(n, nz);
-  w.block(0, n, heavy, heavy).setIdentity();
-  if (light > 0) {
-    MatX rows(light, nz);
-    rows << s.K.bottomRows(light), s.C.bottomLeftCorner(light, heavy);
-    w.bottomRows(light) = -lu_solve(s.C.bottomRightCorner(light, light), rows);
-  }
-  MatX y = MatX::Zero(n, nz);
-  y.leftCols(n).setIdentity();
-  out.A.resize(nz, nz);
-  out.A.topRows(n) = w + s.Gamma * y;
-  if (heavy > 0)
-    out.A.bottomRows(heavy) =
-        -lu_solve(s.M.topLeftCorner(heavy, heavy), s.C.topRows(heavy) * w + s.K.topRows(heavy) * y);
-  out.x_of = s.X * y;
-  out.v_of = s.V * y + s.W * w;
-  out.a_of = s.W * (w * out.A) + s.R * y + s.T * w;
-  return out;
-}
-
-/// From derivatives, for the coordinates named. Throws RunError where a direction has neither mass
-/// nor stiffness nor damping.
-LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& coordinates) {
-  const FreeCoordinates c = free_coordinates(m);
-  const auto n = static_cast<Eigen::Index>(c.free.size());
-  const MatX Nt = c.N.transpose();
-  SecondOrderSystem s{Nt * m.M * c.N,
-                      Nt * (m.M * c.T + m.C * c.N),
-                      Nt * (m.M * c.R + m.C * c.P + m.K * c.N),
-                      MatX(n, n),
-                      c.N,
-                      c.P,
-                      c.N,
-                      c.R,
-                      c.T};
-  const MatX turned = m.Gamma * c.N;
-  for (Eigen::Index k = 0; k < n; ++k)
-    s.Gamma.row(k) = turned.row(c.free[static_cast<std::size_t>(k)]);
-  const Masslessness kinds = order_by_mass(s, m.scale);
-  follow_statics(s, kinds.without);
-  LinearSystem out = first_order(s, kinds.heavy);
-  out.xdot_of = out.v_of + m.Gamma * out.x_of;
-  out.degrees = static_cast<int>(n);
-  out.massless = static_cast<int>(kinds.damped + kinds.without);
-  for (Eigen::Index k = 0; k < out.A.rows(); ++k) {
-    const bool rate = k >= s.M.rows();
-    if (out.massless > 0)
-      out.states.push_back(fmt::format("combination {}", k + 1));
-    else
-      out.states.push_back((rate ? "rate of " : "") +
-                           coordinates[static_cast<std::size_t>(
-                               c.free[static_cast<std::size_t>(rate ? k - n : k)])]);
-  }
-  return out;
-}
 
 /// What the motions of each state are of bodies and force elements.
 template <class F>
@@ -259,8 +81,14 @@ void describe_motions(F& f, const State& state, LinearSystem& system) {
 template <class F>
 LinearSystem system_of(const Model& model, const SimulationDescription& options) {
   StartedModel<F> started(model, options);
-  F& f = started.formulation();
-  const State& state = started.state();
+  return linear_system_at(started.formulation(), started.state());
+}
+
+}  // namespace
+
+template <class F>
+LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inputs,
+                              LinearInputs* response) {
   const double speed = largest(state.v);
   constexpr bool relative = std::is_same_v<F, RelativeFormulation>;
   if (!relative && speed > 1e-6)
@@ -268,7 +96,7 @@ LinearSystem system_of(const Model& model, const SimulationDescription& options)
         "the state moves: its linear system needs relative coordinates, since those of the "
         "absolute formulation turn with the bodies");
   const SmallMotions m = small_motions(f, state);
-  LinearSystem system = reduced_system(m, coordinate_owners(f));
+  LinearSystem system = reduced_system(m, coordinate_owners(f), inputs, response);
   describe_motions(f, state, system);
   system.speed = speed;
   system.acceleration = largest(state.a);
@@ -288,7 +116,10 @@ LinearSystem system_of(const Model& model, const SimulationDescription& options)
   return system;
 }
 
-}  // namespace
+template LinearSystem linear_system_at(RelativeFormulation&, const State&, const InputMotions*,
+                                       LinearInputs*);
+template LinearSystem linear_system_at(AbsoluteFormulation&, const State&, const InputMotions*,
+                                       LinearInputs*);
 
 double LinearMode::frequency() const noexcept {
   return std::abs(lambda) / (2.0 * std::numbers::pi);

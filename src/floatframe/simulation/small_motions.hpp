@@ -93,6 +93,21 @@ MatX connection(F& f, const State& s) {
   return gamma;
 }
 
+/// Steps of increments that move bodies by like distances, 0.1 mm of a metre, with the masses that
+/// coordinates could have (mass_scale.hpp).
+inline VecX motion_steps(const Model& model, const VecX& scale) {
+  double length = 0.0, mass = 0.0;
+  const auto bodies = static_cast<double>(model.bodies.size());
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    length += model.bodies[i].length / bodies;
+    mass += possible_mass(model, i) / bodies;
+  }
+  VecX steps(scale.size());
+  for (Eigen::Index j = 0; j < scale.size(); ++j)
+    steps[j] = scale[j] > 0.0 ? std::min(1e-3, 1e-4 * length * std::sqrt(mass / scale[j])) : 1e-4;
+  return steps;
+}
+
 /// At t, q, v, a, lambda of the state (a: none counts as zero), where `f` is afterwards.
 template <EquationsOfMotion F>
 SmallMotions small_motions(F& f, const State& s) {
@@ -101,18 +116,7 @@ SmallMotions small_motions(F& f, const State& s) {
   SmallMotions m;
   m.scale = possible_masses(f, s);
 
-  // Steps that move bodies by like distances, 0.1 mm of a metre.
-  double length = 0.0, mass = 0.0;
-  const auto bodies = static_cast<double>(f.model().bodies.size());
-  for (std::size_t i = 0; i < f.model().bodies.size(); ++i) {
-    length += f.model().bodies[i].length / bodies;
-    mass += possible_mass(f.model(), i) / bodies;
-  }
-  VecX steps(nv);
-  for (Eigen::Index j = 0; j < nv; ++j)
-    steps[j] =
-        m.scale[j] > 0.0 ? std::min(1e-3, 1e-4 * length * std::sqrt(mass / m.scale[j])) : 1e-4;
-
+  const VecX steps = motion_steps(f.model(), m.scale);
   const auto terms = [&](const VecX& q, const VecX& v) {
     VecX all(nv + 2 * nc), part(nc), r(nv);
     f.positions(s.t, q);

@@ -6,6 +6,8 @@
 //              It acts at the contact point, r_w below the centre in the plane of the wheel:
 //              e_x = axis x n / |axis x n|, e_z = e_x x axis, arm = -r_w e_z, r_w = h q^2 / e_z.z
 //   energy     k/2 (q (R - h))^2 while it touches
+// A road that is lifted as a whole by the target of the element (linearisations do, model files
+// cannot) has h and hdot less by the lift and its rate.
 // Derivatives, with dsigma = kappa dx, dh = dz - sigma dx, dq = -sigma q^3 dsigma,
 // dn = -q^2 tau dsigma, tau = q (1, 0, sigma) along the road:
 //   df = q (-k dh + c v_x dsigma) + f dq/q - q c (dv_z - sigma dv_x)
@@ -53,6 +55,11 @@ Contact contact(const ForceInput& in) noexcept {
                                     : road_at(road, TyreBranch{in.branch}.stretch(), c.x);
   c.h = centre.z() - c.road.z;
   c.rate = in.b.v.z() - c.road.slope * in.b.v.x();
+  if (t.targeted) {
+    const PiecewisePolynomial::Value lift = evaluate(t.target.function, in.t);
+    c.h -= lift.f;
+    c.rate -= lift.df;
+  }
   const bool radial = t.law == TyreLaw::radial;
   c.q = radial ? 1.0 / std::sqrt(1.0 + c.road.slope * c.road.slope) : 1.0;
   c.n = radial ? Vec3(-c.road.slope * c.q, 0.0, c.q) : Vec3::UnitZ();

@@ -1,0 +1,29 @@
+#pragma once
+// The frequency response of a linear model: inputs u e^(i w t) leave outputs G(i w) u e^(i w t)
+// when what the start excites has decayed,
+//   G(s) = C (s I - A)^-1 (B0 + s B1 + s^2 B2) + D0 + s D1 + s^2 D2
+// with inputs by their values: heights of roads, values of prescribed motions.
+#include <complex>
+
+#include "floatframe/math/resolvent.hpp"
+#include "floatframe/simulation/linear_ports.hpp"
+
+namespace floatframe {
+
+class FrequencyResponse {
+ public:
+  /// `linear` must outlive it.
+  explicit FrequencyResponse(const LinearModel& linear);
+
+  /// G at s [1/s], outputs x inputs. Throws RunError where s is an eigenvalue: a motion without
+  /// damping in resonance, or one that nothing holds at s = 0.
+  Eigen::MatrixXcd at(std::complex<double> s) const;
+  /// G(i 2 pi f), f [Hz].
+  Eigen::MatrixXcd at_frequency(double f) const;
+
+ private:
+  const LinearModel& linear_;
+  Resolvent resolvent_;
+};
+
+}  // namespace floatframe

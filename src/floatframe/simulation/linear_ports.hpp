@@ -1,0 +1,65 @@
+#pragma once
+// The linear system of a model between inputs and outputs. Inputs u are
+//   the model's own     by their values
+//   prescribed motions  of joints: by value, rate and second derivative [m, rad]
+//   roads               the height under the wheels, all together or each by itself, lifted without
+//                       a slope: by height and rate, since tyres damp [m]
+// and outputs y those of the model, with accelerations and reactions that satisfy the equations of
+// motion:
+//   zdot = A z + B0 u + B1 u' + B2 u'',   y = y0 + C z + D0 u + D1 u' + D2 u''                 (1)
+//   G(s) = C (s I - A)^-1 (B0 + s B1 + s^2 B2) + D0 + s D1 + s^2 D2
+// What moves by an input with z held is what the free coordinates of the model leave; z itself
+// moves with u.
+#include <string>
+#include <vector>
+
+#include "floatframe/simulation/linear_system.hpp"
+#include "floatframe/simulation/result_table.hpp"
+
+namespace floatframe {
+
+/// What a linear system can be driven by.
+struct LinearInput {
+  enum class Kind { signal, motion, road };
+  std::string name;  ///< "damper", "motion of crank", "road", "road at front.tyre"
+  std::string unit;
+  Kind kind = Kind::signal;
+  int index = -1;           ///< of the model's input, or of the joint
+  std::vector<int> wheels;  ///< of a road: the force elements that it moves under
+  /// How many derivatives enter: 0, 2 of motions, 1 of roads.
+  int order() const noexcept { return kind == Kind::motion ? 2 : kind == Kind::road ? 1 : 0; }
+};
+
+/// All that a model has: its inputs, its prescribed motions, "road" and, of several wheels, each.
+std::vector<LinearInput> linear_inputs(const Model& model);
+
+/// Names; none: all.
+struct LinearPorts {
+  std::vector<std::string> inputs = {}, outputs = {};
+};
+
+struct LinearModel {
+  LinearSystem system;
+  std::vector<LinearInput> inputs;
+  std::vector<Column> outputs;
+  MatX B[3], C, D[3];                ///< (1)
+  double time = 0.0;                 ///< where it was linearised [s]
+  VecX input_values, output_values;  ///< there; heights of roads count from there
+};
+
+/// At the start that the options ask for, as `linear_system`, with the same exceptions. Throws
+/// InputError for a name that the model does not have.
+LinearModel linear_model(const Model& model, const LinearPorts& ports = {},
+                         const SimulationOptions& options = {});
+
+/// zdot = A z + B u, y = C z + D u, in changes from the point of linearisation. An input that
+/// enters by derivatives stands as the highest of them, and its value and rate are states:
+/// "rate of road", "acceleration of motion of crank".
+struct StateSpace {
+  MatX A, B, C, D;
+  std::vector<std::string> states;
+  std::vector<Column> inputs, outputs;
+};
+StateSpace state_space(const LinearModel& linear);
+
+}  // namespace floatframe

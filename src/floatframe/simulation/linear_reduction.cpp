@@ -1,0 +1,281 @@
+#include "floatframe/simulation/linear_reduction.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floatframe/math/dense.hpp"
+#include "floatframe/simulation/results.hpp"
+
+namespace floatframe {
+
+namespace {
+
+/// Which coordinates are free, and what follows from them (linear_system.hpp).
+struct FreeCoordinates {
+  std::vector<Eigen::Index> free;
+  MatX N, P, R, T;    ///< nv x n
+  LinearInputs held;  ///< what inputs do with the free coordinates held: all but B
+};
+
+/// The solution X of J X = B that is zero in the free coordinates.
+MatX in_decided(const MatX& J_D, const std::vector<Eigen::Index>& decided, Eigen::Index nv,
+                const MatX& B) {
+  MatX X = MatX::Zero(nv, B.cols());
+  if (decided.empty() || B.cols() == 0) return X;
+  const MatX x = qr_solve(J_D, B);  // rows may be redundant
+  for (std::size_t k = 0; k < decided.size(); ++k)
+    X.row(decided[k]) = x.row(static_cast<Eigen::Index>(k));
+  return X;
+}
+
+FreeCoordinates free_coordinates(const SmallMotions& m, const InputMotions& u) {
+  const Eigen::Index nv = m.M.rows();
+  // In coordinates of like size; rows of lengths and angles are of like size already.
+  const VecX unit = m.scale.cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  std::vector<Eigen::Index> decided;
+  std::vector<bool> is_free(static_cast<std::size_t>(nv), true);
+  if (m.J.rows() > 0) {
+    const PivotedQr qr = pivoted_qr(m.J * unit.asDiagonal(), 1e-11);
+    for (Eigen::Index k = 0; k < qr.rank; ++k) {
+      decided.push_back(qr.pivots[k]);
+      is_free[static_cast<std::size_t>(qr.pivots[k])] = false;
+    }
+  }
+  FreeCoordinates c;
+  for (Eigen::Index j = 0; j < nv; ++j)
+    if (is_free[static_cast<std::size_t>(j)]) c.free.push_back(j);
+  const auto n = static_cast<Eigen::Index>(c.free.size());
+  MatX J_D(m.J.rows(), static_cast<Eigen::Index>(decided.size())), J_I(m.J.rows(), n);
+  for (std::size_t k = 0; k < decided.size(); ++k)
+    J_D.col(static_cast<Eigen::Index>(k)) = m.J.col(decided[k]);
+  MatX S = MatX::Zero(nv, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    J_I.col(k) = m.J.col(c.free[static_cast<std::size_t>(k)]);
+    S(c.free[static_cast<std::size_t>(k)], k) = 1.0;
+  }
+  const auto follow = [&](const MatX& B) { return in_decided(J_D, decided, nv, B); };
+  c.N = S + follow(-J_I);
+  c.P = follow(-(m.G * c.N));
+  c.R = follow(-(m.H * c.N + m.D * c.P));
+  c.T = follow(-(m.D * c.N));
+  LinearInputs& h = c.held;
+  h.x = follow(-u.value);
+  h.v[0] = follow(-(m.G * h.x + u.rate[0]));
+  h.v[1] = follow(-u.rate[1]);
+  h.a[0] = follow(-(m.H * h.x + m.D * h.v[0] + u.acceleration[0]));
+  h.a[1] = follow(-(m.D * h.v[1] + u.acceleration[1]));
+  h.a[2] = follow(-u.acceleration[2]);
+  return c;
+}
+
+/// M wdot + C w + K y + sum F_k u^(k) = 0, ydot = w + Gamma y + turned u; x = X y, v = V y + W w,
+/// a = W wdot + R y + T w, each with what inputs add.
+struct SecondOrderSystem {
+  MatX M, C, K, Gamma, X, V, W, R, T;
+  MatX F[3], turned;
+  LinearInputs u;
+};
+
+/// y = B eta, w = B eta', for a B with the inverse `inverse`.
+SecondOrderSystem transformed(const SecondOrderSystem& s, const MatX& B, const MatX& inverse) {
+  const MatX Bt = B.transpose();
+  return {Bt * s.M * B,
+          Bt * s.C * B,
+          Bt * s.K * B,
+          inverse * s.Gamma * B,
+          s.X * B,
+          s.V * B,
+          s.W * B,
+          s.R * B,
+          s.T * B,
+          {Bt * s.F[0], Bt * s.F[1], Bt * s.F[2]},
+          inverse * s.turned,
+          s.u};
+}
+
+/// Rows and columns without mass, of which the last `without` are also without damping.
+struct Masslessness {
+  Eigen::Index heavy = 0, damped = 0, without = 0;
+};
+
+/// The system in directions ordered by what holds them: with mass, damped without mass, neither.
+Masslessness order_by_mass(SecondOrderSystem& s, const VecX& possible) {
+  const Eigen::Index n = s.M.rows();
+  Masslessness kinds{n, 0, 0};
+  if (n == 0) return kinds;
+  const MatX scale = s.W.transpose() * possible.asDiagonal() * s.W;
+  const SymmetricEigen mass = generalised_eigen(0.5 * (s.M + s.M.transpose()), scale);
+  if (!mass.found) return kinds;
+  Eigen::Index light = 0;
+  while (light < n && !(mass.values[light] > no_mass)) ++light;
+  if (light == 0) return kinds;
+  MatX B(n, n);
+  B << mass.vectors.rightCols(n - light), mass.vectors.leftCols(light);
+  const MatX L = B.rightCols(light);
+  const MatX damping = L.transpose() * (0.5 * (s.C + s.C.transpose())) * L;
+  const SymmetricEigen d = symmetric_eigen(damping);
+  const double size = (B.transpose() * s.C * B).cwiseAbs().maxCoeff();
+  Eigen::Index undamped = 0;
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index k = light; k-- > 0;)
+    if (std::abs(d.values[k]) > 1e-9 * size) order.push_back(k);
+  for (Eigen::Index k = 0; k < light; ++k)
+    if (!(std::abs(d.values[k]) > 1e-9 * size)) order.push_back(k), ++undamped;
+  MatX sorted(light, light);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    sorted.col(static_cast<Eigen::Index>(k)) = d.vectors.col(order[k]);
+  B.rightCols(light) = L * sorted;
+  s = transformed(s, B, B.transpose() * scale);
+  return {n - light, light - undamped, undamped};
+}
+
+/// y = y_rest + Y u, w = w_rest + Y u': what follows is in the rest.
+void take_out(SecondOrderSystem& s, const MatX& Y) {
+  s.F[0] += s.K * Y;
+  s.F[1] += s.C * Y;
+  s.F[2] += s.M * Y;
+  s.turned += s.Gamma * Y;
+  s.u.x += s.X * Y;
+  s.u.v[0] += s.V * Y;
+  s.u.v[1] += s.W * Y;
+  s.u.a[0] += s.R * Y;
+  s.u.a[1] += s.T * Y;
+  s.u.a[2] += s.W * Y;
+}
+
+/// Directions with neither mass nor damping follow the others and the inputs:
+/// y_u = E y + Y u, w_u = E w + Y u'.
+void follow_statics(SecondOrderSystem& s, Eigen::Index without) {
+  if (without == 0) return;
+  const Eigen::Index n = s.M.rows() - without;
+  const MatX K_uu = s.K.bottomRightCorner(without, without);
+  const Singular values = singular_values(K_uu);
+  const double stiffest = s.K.cwiseAbs().maxCoeff();
+  if (!(values.values[without - 1] > 1e-12 * stiffest))
+    throw RunError(
+        "a motion has neither mass nor damping nor stiffness where the system was linearised; give "
+        "mass or inertia, or remove the freedom");
+  MatX Y = MatX::Zero(n + without, s.turned.cols());
+  if (Y.cols() > 0) Y.bottomRows(without) = -lu_solve(K_uu, s.F[0].bottomRows(without));
+  take_out(s, Y);
+  MatX B(n + without, n);
+  B << MatX::Identity(n, n), -lu_solve(K_uu, s.K.bottomLeftCorner(without, n));
+  MatX left = MatX::Zero(n, n + without);
+  left.leftCols(n).setIdentity();
+  s = transformed(s, B, left);
+}
+
+/// z = (y, w of what has mass).
+LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
+  const Eigen::Index n = s.M.rows(), light = n - heavy, nz = n + heavy, nu = s.turned.cols();
+  LinearSystem out;
+  // w of what has no mass: C_ll w_l = -(C_lh w_h + K_l y + F0_l u + F1_l u').
+  MatX w = MatX::Zero(n, nz), w_u[2] = {MatX::Zero(n, nu), MatX::Zero(n, nu)};
+  w.block(0, n, heavy, heavy).setIdentity();
+  if (light > 0) {
+    MatX rows(light, nz + 2 * nu);
+    rows << s.K.bottomRows(light), s.C.bottomLeftCorner(light, heavy), s.F[0].bottomRows(light),
+        s.F[1].bottomRows(light);
+    rows = -lu_solve(s.C.bottomRightCorner(light, light), rows);
+    w.bottomRows(light) = rows.leftCols(nz);
+    for (int k = 0; k < 2; ++k) w_u[k].bottomRows(light) = rows.middleCols(nz + k * nu, nu);
+  }
+  MatX y = MatX::Zero(n, nz);
+  y.leftCols(n).setIdentity();
+  const auto rates_of_heavy = [&](const MatX& force) {
+    return MatX(-lu_solve(s.M.topLeftCorner(heavy, heavy), force));
+  };
+  out.A.resize(nz, nz);
+  out.A.topRows(n) = w + s.Gamma * y;
+  if (heavy > 0)
+    out.A.bottomRows(heavy) = rates_of_heavy(s.C.topRows(heavy) * w + s.K.topRows(heavy) * y);
+  out.x_of = s.X * y;
+  out.v_of = s.V * y + s.W * w;
+  out.a_of = s.W * (w * out.A) + s.R * y + s.T * w;
+  if (nu == 0) return out;
+
+  for (int k = 0; k < 3; ++k) {
+    MatX& B = s.u.B[k];
+    B = MatX::Zero(nz, nu);
+    MatX force = s.F[k].topRows(heavy);
+    if (k < 2) {
+      B.topRows(n) = w_u[k];
+      force += s.C.topRows(heavy) * w_u[k];
+      s.u.v[k] += s.W * w_u[k];
+    }
+    if (k == 0) B.topRows(n) += s.turned;
+    if (heavy > 0) B.bottomRows(heavy) = rates_of_heavy(force);
+    s.u.a[k] += s.W * (w * B);
+    if (k < 2) s.u.a[k] += s.T * w_u[k];
+    if (k > 0) s.u.a[k] += s.W * w_u[k - 1];
+  }
+  return out;
+}
+
+InputMotions no_inputs(Eigen::Index nv, Eigen::Index nc) {
+  InputMotions u;
+  u.value = MatX(nc, 0);
+  for (int k = 0; k < 3; ++k) {
+    u.residual[k] = MatX(nv, 0);
+    u.rate[k] = u.acceleration[k] = MatX(nc, 0);
+  }
+  return u;
+}
+
+SecondOrderSystem second_order(const SmallMotions& m, const InputMotions& u,
+                               const FreeCoordinates& c) {
+  const auto n = static_cast<Eigen::Index>(c.free.size());
+  const MatX Nt = c.N.transpose();
+  const LinearInputs& h = c.held;
+  SecondOrderSystem s{
+      Nt * m.M * c.N,
+      Nt * (m.M * c.T + m.C * c.N),
+      Nt * (m.M * c.R + m.C * c.P + m.K * c.N),
+      MatX(n, n),
+      c.N,
+      c.P,
+      c.N,
+      c.R,
+      c.T,
+      {Nt * (m.M * h.a[0] + m.C * h.v[0] + m.K * h.x + u.residual[0]),
+       Nt * (m.M * h.a[1] + m.C * h.v[1] + u.residual[1]), Nt * (m.M * h.a[2] + u.residual[2])},
+      MatX(n, h.x.cols()),
+      h};
+  const MatX turned = m.Gamma * c.N, turned_by_inputs = m.Gamma * h.x;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    s.Gamma.row(k) = turned.row(c.free[static_cast<std::size_t>(k)]);
+    s.turned.row(k) = turned_by_inputs.row(c.free[static_cast<std::size_t>(k)]);
+  }
+  return s;
+}
+
+}  // namespace
+
+LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& coordinates,
+                            const InputMotions* inputs, LinearInputs* response) {
+  const InputMotions none = no_inputs(m.M.rows(), m.J.rows());
+  const InputMotions& u = inputs ? *inputs : none;
+  const FreeCoordinates c = free_coordinates(m, u);
+  const auto n = static_cast<Eigen::Index>(c.free.size());
+  SecondOrderSystem s = second_order(m, u, c);
+  const Masslessness kinds = order_by_mass(s, m.scale);
+  follow_statics(s, kinds.without);
+  LinearSystem out = first_order(s, kinds.heavy);
+  out.xdot_of = out.v_of + m.Gamma * out.x_of;
+  out.degrees = static_cast<int>(n);
+  out.massless = static_cast<int>(kinds.damped + kinds.without);
+  for (Eigen::Index k = 0; k < out.A.rows(); ++k) {
+    const bool rate = k >= s.M.rows();
+    if (out.massless > 0)
+      out.states.push_back(fmt::format("combination {}", k + 1));
+    else
+      out.states.push_back((rate ? "rate of " : "") +
+                           coordinates[static_cast<std::size_t>(
+                               c.free[static_cast<std::size_t>(rate ? k - n : k)])]);
+  }
+  if (response) *response = s.u;
+  return out;
+}
+
+}  // namespace floatframe

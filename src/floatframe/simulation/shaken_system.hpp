@@ -1,0 +1,55 @@
+#pragma once
+// A model whose inputs can be moved about the values they have: external signals, laws of
+// prescribed motions, roads that are lifted under each wheel, each with its first and second
+// derivative at the present time. It has a copy of the model, so that nobody else sees it, and
+// outputs with reactions that satisfy the equations of motion. Load time only.
+#include <optional>
+#include <vector>
+
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model/output_kind.hpp"
+#include "floatframe/simulation/linear_ports.hpp"
+#include "floatframe/simulation/linear_reduction.hpp"
+#include "floatframe/simulation/reaction_solver.hpp"
+#include "floatframe/simulation/start_up.hpp"
+
+namespace floatframe {
+
+template <class F>
+class ShakenSystem {
+ public:
+  /// At the start that was found, with these outputs alone.
+  ShakenSystem(StartedModel<F>& started, std::vector<Output> outputs, double step);
+  ShakenSystem(const ShakenSystem&) = delete;
+  ShakenSystem& operator=(const ShakenSystem&) = delete;
+
+  F& formulation() noexcept { return f_; }
+  const State& state() const noexcept { return state_; }
+  const std::vector<std::string>& open_outputs() const noexcept;
+
+  double value(const LinearInput& input) const;
+  /// The input by this much from its value, its rate and its second derivative; zeros put it back.
+  void move(const LinearInput& input, const Vec3& by);
+  /// What it does where x, v, a and lambda are held: `step` as a change of the input.
+  void derivatives(const LinearInput& input, double step, Eigen::Index column, InputMotions& out);
+  /// Of a signal: a step that changes forces by 1e-4 of the weight of a body or so.
+  double step_of(const LinearInput& input);
+  /// At increments x, dv and da of the state.
+  VecX outputs(const VecX& x, const VecX& dv, const VecX& da);
+
+ private:
+  VecX balance();  ///< residual, Phi and its derivatives
+
+  Model model_;
+  F f_;
+  State state_;
+  std::vector<TimeFunction> laws_;  ///< of the joints as they are
+  std::vector<double> inputs_;
+  std::optional<ReactionSolver<F>> reactions_;
+  std::vector<FollowedOutput> followed_;
+};
+
+extern template class ShakenSystem<RelativeFormulation>;
+extern template class ShakenSystem<AbsoluteFormulation>;
+
+}  // namespace floatframe
