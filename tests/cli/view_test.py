@@ -44,6 +44,34 @@ simulation: {step: 0.01, duration: 0.1}
 """
 
 
+# A box that nothing holds.
+FREE = """
+floatframe: 1
+name: free
+gravity: [0, 0, 0]
+bodies:
+  box: {position: [1, 2, 3], rigid: {mass: 2, inertia: [1, 1, 1]}}
+joints:
+  fly: {type: free, child: box, at: [1, 2, 3]}
+simulation: {step: 0.01, duration: 0.2}
+"""
+
+# A pendulum with its mass above the hinge: lambda = +-sqrt(g / l).
+UPRIGHT = """
+floatframe: 1
+name: upright
+bodies:
+  bob: {position: [0, 0, 1], rigid: {mass: 2, inertia: [0, 0, 0]}}
+joints:
+  hinge: {type: revolute, child: bob, at: [0, 0, 0], axis: y}
+simulation: {step: 0.01, duration: 0.2}
+"""
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
 class View(RunCase):
     def test_a_run_shows_its_motion(self):
         self.program("run", "m.yaml", "--out", "out", "--set", "duration=0.2", "--quiet")
@@ -64,7 +92,6 @@ class View(RunCase):
             local = [point["p"][c] + sum(point["modes"][m][c] * y[4 * frame + m] for m in range(4)) for c in range(3)]
             x0, y0, z0, x, y1, z, w = pose[7 * (4 * frame + 3):7 * (4 * frame + 4)]
             v = (x, y1, z)
-            cross = lambda a, b: (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
             t = [2 * c for c in cross(v, local)]
             u = cross(v, t)
             world = [o + local[c] + w * t[c] + u[c] for c, o in enumerate((x0, y0, z0))]
@@ -124,6 +151,91 @@ class View(RunCase):
             self.assertGreater(height, 0.9 * tyre["radius"])
         self.assertIn("Joints", [t["heading"] for t in page["tables"]])
         self.assertLess(path.stat().st_size, 5_000_000)
+
+    def modes_page(self, model, *options):
+        done = self.program("modes", str(model), *options, "--report", "modes.html", code=None)
+        if done.returncode == 2:
+            self.assertIn("--report: this program was built without the viewer", done.stderr)
+            self.skipTest("built without the viewer")
+        page = page_of(self.folder / "modes.html")
+        self.assertEqual(page["kind"], "modes")
+        return page, buffer_of(self.folder / "modes.html", page)
+
+    def moved(self, scene, data, motion):
+        """Complex displacement of a point of the scene in a motion: d + theta x R (p + X y) + R X dy."""
+        bodies, count = len(scene["bodies"]), sum(b["modes"]["count"] for b in scene["bodies"] if b["modes"])
+        pose = numbers(data, scene["frames"]["pose"])
+        start = motion * 12 * bodies
+        places = numbers(data, scene["vibrations"]["places"])[start:start + 12 * bodies]
+        present, swing = [], []
+        if count > 0:
+            present = numbers(data, scene["frames"]["amplitudes"])
+            swing = numbers(data, scene["vibrations"]["amplitudes"])[2 * count * motion:2 * count * (motion + 1)]
+
+        def turned(body, v):
+            x, y, z, w = pose[7 * body + 3:7 * body + 7]
+            t = [2 * c for c in cross((x, y, z), v)]
+            u = cross((x, y, z), t)
+            return [v[i] + w * t[i] + u[i] for i in range(3)]
+
+        def of(index):
+            point = scene["points"][index]
+            body = point["body"]
+            if body < 0:
+                return [0j, 0j, 0j]
+            local, bend = list(point["p"]), [0j, 0j, 0j]
+            for j, mode in enumerate(point["modes"] or []):
+                k = scene["bodies"][body]["modes"]["first"] + j
+                for i in range(3):
+                    local[i] += mode[i] * present[k]
+                    bend[i] += mode[i] * complex(swing[k], swing[count + k])
+            d, theta = ([complex(places[6 * body + at + i], places[6 * (bodies + body) + at + i]) for i in range(3)]
+                        for at in (0, 3))
+            arm = cross(theta, turned(body, local))
+            bent = turned(body, bend)
+            return [d[i] + arm[i] + bent[i] for i in range(3)]
+        return of
+
+    def test_vibrations_keep_joints_closed(self):
+        page, data = self.modes_page(EXAMPLES / "iltis/iltis.yaml", "--set", "speed=0")
+        scene = page["scene"]
+        self.assertEqual(len(numbers(data, scene["frames"]["time"])), 1)
+        motions = scene["vibrations"]["list"]
+        self.assertEqual([m["kind"] for m in motions[:4]], ["rigid"] * 3 + ["vibration"])
+        self.assertEqual([m["number"] for m in motions[:5]], [None, None, None, 1, 2])
+        self.assertAlmostEqual(motions[3]["frequency"], 1.527, 3)
+        self.assertEqual(motions[3]["moves"][0][0], "chassis")
+        closed = [j for j in scene["joints"] if j["type"] in ("spherical", "revolute", "universal", "weld")]
+        self.assertGreater(len(closed), 12)
+        for k in list(range(12)) + [30, 50]:
+            moved = self.moved(scene, data, k)
+            size = max(abs(x) for j in closed for x in moved(j["a"]))
+            gap = max(abs(x - y) for j in closed for x, y in zip(moved(j["a"]), moved(j["b"])))
+            self.assertLess(gap, 1e-4 * size, (k, motions[k]))
+        self.assertEqual(page["tables"][0]["heading"], "Vibrations")
+        self.assertEqual(page["tables"][0]["rows"][0][0], "1")
+
+    def test_rigid_motions_are_those_of_single_coordinates(self):
+        (self.folder / "free.yaml").write_text(FREE)
+        page, data = self.modes_page("free.yaml", "--at", "0.1")
+        self.assertIn("about the state that a run has at 0.1 s.", page["status"]["sentences"][0])
+        motions = page["scene"]["vibrations"]["list"]
+        self.assertEqual([m["kind"] for m in motions], ["rigid"] * 6)
+        for m in motions:
+            self.assertEqual([name for name, _ in m["moves"]], ["box"])
+            self.assertAlmostEqual(m["moves"][0][1], 1)
+        places = numbers(data, page["scene"]["vibrations"]["places"])
+        self.assertEqual(max(abs(x) for k in range(6) for x in places[12 * k + 6:12 * k + 12]), 0)
+        # A unit of one each, in the order of the coordinates.
+        for k in range(6):
+            for i, x in enumerate(places[12 * k:12 * k + 6]):
+                self.assertAlmostEqual(abs(x), 1 if i == k else 0, 5)
+
+    def test_what_grows_is_said(self):
+        (self.folder / "upright.yaml").write_text(UPRIGHT)
+        page, _ = self.modes_page("upright.yaml")
+        self.assertRegex(page["status"]["warnings"][0], r"^Mode \d grows without swinging, by e in 0.3193 s")
+        self.assertEqual({m["kind"] for m in page["scene"]["vibrations"]["list"]}, {"growth", "decay"})
 
     def test_a_reduced_part_shows_its_modes(self):
         arguments = ("reduce", str(PARTS / "aarm_coarse_free.inp"), "--units", "mm-t-s", "--interface", "BALL=set:BALL",

@@ -17,6 +17,9 @@ export interface FloatframeInterface {
   channelValue(name: string): number;
   readonly scale: number;
   setScale(scale: number): void;
+  /** The mode that is drawn, by its place in the list. */
+  readonly mode: number | null;
+  chooseMode(row: number): void;
   readonly selected: { body: number; vertex: number | null } | null;
   /** Median of the last 120 pictures, milliseconds. */
   frameScriptTime(): number;
@@ -79,9 +82,15 @@ export function offerInterface(view: ViewSection | null, problems: string[], cha
       return channel ? valueAt(channel.time, channel.values, view?.player.time ?? channel.time[0]) : NaN;
     },
     get scale() {
-      return view?.stage.deformation ?? 1;
+      return view?.stage.scale ?? 1;
     },
-    setScale: (scale) => view?.display.setDeformation(scale),
+    setScale: (scale) => view?.display.setScale(scale),
+    get mode() {
+      return view?.modes?.chosen ?? null;
+    },
+    chooseMode: (row) => {
+      if (view?.modes && row >= 0 && row < view.modes.count) view.modes.choose(row);
+    },
     get selected() {
       return view?.stage.selected ?? null;
     },

@@ -16,7 +16,7 @@ import { factsSection, speedSection, statusSection, trustSection } from './ui/ta
 import { isDark, onTheme, toggleTheme } from './ui/theme';
 import { ViewSection } from './ui/view';
 
-const KINDS: Record<string, string> = { run: 'Run', check: 'Check', reduce: 'Reduced part', compare: 'Comparison' };
+const KINDS: Record<string, string> = { run: 'Run', check: 'Check', reduce: 'Reduced part', compare: 'Comparison', modes: 'Vibrations' };
 const SCHEMA = 1;
 
 function textOf(id: string): string | null {

@@ -32,8 +32,8 @@ export function write(name: string, html: string): string {
   return path;
 }
 
-export async function open(browser: Browser, path: string, options: { width?: number; height?: number; dark?: boolean } = {}): Promise<Opened> {
-  const context = await browser.newContext({ viewport: { width: options.width ?? 1440, height: options.height ?? 900 }, colorScheme: options.dark ? 'dark' : 'light', acceptDownloads: true });
+export async function open(browser: Browser, path: string, options: { width?: number; height?: number; dark?: boolean; still?: boolean } = {}): Promise<Opened> {
+  const context = await browser.newContext({ viewport: { width: options.width ?? 1440, height: options.height ?? 900 }, colorScheme: options.dark ? 'dark' : 'light', reducedMotion: options.still ? 'reduce' : 'no-preference', acceptDownloads: true });
   const page = await context.newPage();
   page.setDefaultTimeout(60_000);
   const errors: string[] = [];

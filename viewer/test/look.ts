@@ -2,12 +2,13 @@
 
 import { check, compare, large, reduce } from './pages/others';
 import { vehicle } from './pages/vehicle';
+import { modes } from './pages/vibrations';
 import { fillTemplate } from './pages/writer';
 import { launch, open, snap, template, write } from './browser';
 
 const html = template();
 const only = process.argv.slice(2);
-const pages: Record<string, () => ReturnType<typeof vehicle>> = { vehicle, check, reduce, compare, large };
+const pages: Record<string, () => ReturnType<typeof vehicle>> = { vehicle, check, reduce, compare, large, modes };
 const looks: [string, string, { width: number; height: number; dark?: boolean }, boolean][] = [
   ['vehicle', 'vehicle', { width: 1440, height: 900 }, true],
   ['vehicle_dark', 'vehicle', { width: 1440, height: 900, dark: true }, false],
@@ -17,6 +18,8 @@ const looks: [string, string, { width: number; height: number; dark?: boolean },
   ['reduce', 'reduce', { width: 1440, height: 900, dark: true }, true],
   ['compare', 'compare', { width: 1440, height: 900 }, true],
   ['large', 'large', { width: 1440, height: 900 }, false],
+  ['modes', 'modes', { width: 1440, height: 900 }, true],
+  ['modes_narrow', 'modes', { width: 390, height: 844, dark: true }, true],
 ];
 const browser = await launch();
 for (const [name, source, size, whole] of looks) {

@@ -1,6 +1,6 @@
-// A short film of the 3-D view of a report: npm run loop -- REPORT.html OUT.webp FROM TO [SCALE].
+// A short film of the 3-D view of a report: npm run loop -- REPORT.html OUT.webp FROM TO [SCALE [MODE]].
 //
-// An animated WebP, which shows a second of the run in two: the browser compresses each picture, here they are put into one file
+// An animated WebP, which shows a second of a run in two, and modes at the pace of their page: the browser compresses each picture, here they are put into one file
 // (https://developers.google.com/speed/webp/docs/riff_container).
 
 import { writeFileSync } from 'node:fs';
@@ -48,20 +48,27 @@ function animated(stills: Buffer[], width: number, height: number, milliseconds:
   return chunk('RIFF', content);
 }
 
-const [report, out, from, to, scale] = process.argv.slice(2);
+const [report, out, from, to, scale, mode] = process.argv.slice(2);
 const [begin, end] = [Number(from), Number(to)];
 if (!report || !out || !(end > begin)) {
-  console.error('usage: npm run loop -- REPORT.html OUT.webp FROM TO [SCALE]    FROM and TO in seconds of the run');
+  console.error('usage: npm run loop -- REPORT.html OUT.webp FROM TO [SCALE [MODE]]    FROM and TO in seconds of the run');
   process.exit(2);
 }
 const here = process.env.INIT_CWD ?? '.';
 const browser = await launch();
 // A window in which the view is about as wide as the film, with room for its panel.
 const { page, errors } = await open(browser, resolve(here, report), { width: 1180, height: 800 });
-const count = Math.max(2, Math.round((end - begin) * PICTURES_A_SECOND * SLOWER));
+const count = Math.max(2, Math.round((end - begin) * PICTURES_A_SECOND * (mode ? 1 : SLOWER)));
 const stills: Buffer[] = [];
 let height = 0;
-await page.evaluate((factor) => factor !== null && window.floatframe!.setScale(factor), scale ? Number(scale) : null);
+await page.evaluate(
+  ([factor, number]) => {
+    const numbers = [...document.querySelectorAll('.mode-number')].map((element) => Number(element.textContent));
+    if (number !== null) window.floatframe!.chooseMode(numbers.indexOf(number));
+    if (factor !== null) window.floatframe!.setScale(factor);
+  },
+  [scale, mode].map((text) => (text ? Number(text) : null)),
+);
 for (let k = 0; k < count; ++k) {
   const picture = await page.evaluate(
     async ({ time, width, quality }) => {

@@ -1,23 +1,25 @@
-// A picture of the 3-D view of a report: npm run picture -- REPORT.html OUT.png [SECONDS [SCALE]].
+// A picture of the 3-D view of a report: npm run picture -- REPORT.html OUT.png [SECONDS [SCALE [MODE]]].
 
 import { writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { launch, open } from './browser';
 
-const [report, out, time, scale] = process.argv.slice(2);
+const [report, out, time, scale, mode] = process.argv.slice(2);
 if (!report || !out) {
-  console.error('usage: npm run picture -- REPORT.html OUT.png [SECONDS [SCALE]]');
+  console.error('usage: npm run picture -- REPORT.html OUT.png [SECONDS [SCALE [MODE]]]');
   process.exit(2);
 }
 const browser = await launch();
 const { page, errors } = await open(browser, resolve(process.env.INIT_CWD ?? '.', report), { width: 1500, height: 1000 });
 await page.evaluate(
-  ([t, factor]) => {
+  ([t, factor, number]) => {
     const shown = window.floatframe!;
+    const numbers = [...document.querySelectorAll('.mode-number')].map((element) => Number(element.textContent));
+    if (number !== null) shown.chooseMode(numbers.indexOf(number));
     if (t !== null) shown.setTime(t);
     if (factor !== null) shown.setScale(factor);
   },
-  [time ? Number(time) : null, scale ? Number(scale) : null] as [number | null, number | null],
+  [time, scale, mode].map((text) => (text ? Number(text) : null)),
 );
 await page.waitForTimeout(2000);
 const url = await page.evaluate(() => window.floatframe!.screenshot());

@@ -1,5 +1,5 @@
 // Modes: the natural vibrations of the whole model where a run of it starts, with damping and who
-// takes part.
+// takes part; as a table, and as a page on which their shapes move.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,12 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/report/check_page.hpp"
 #include "floatframe/report/json_values.hpp"
+#include "floatframe/report/modes_page.hpp"
 #include "floatframe/simulation/linear_system.hpp"
 #include "floatframe/simulation/operating_point.hpp"
+#include "floatframe/simulation/start_up.hpp"
+#include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
 namespace {
@@ -20,30 +25,19 @@ namespace {
 /// Below this part of the largest |lambda| a frequency is zero.
 constexpr double zero_part = 1e-7;
 
-struct Share {
-  std::string name;
-  double part;
-};
-
 /// The largest shares, at least 5 %, three at most.
-std::string shares_text(std::vector<Share> shares) {
+std::string shares_text(std::vector<EnergyShare> shares) {
   std::stable_sort(shares.begin(), shares.end(),
-                   [](const Share& a, const Share& b) { return a.part > b.part; });
+                   [](const EnergyShare& a, const EnergyShare& b) { return a.part > b.part; });
   std::string text;
   int shown = 0;
-  for (const Share& s : shares) {
+  for (const EnergyShare& s : shares) {
     if (s.part < 0.05 || shown == 3) break;
     text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", s.name, 100.0 * s.part);
     ++shown;
   }
   return text;
 }
-
-struct FoundMode {
-  LinearMode mode;
-  ModeParts parts;
-  std::string kind;  ///< "vibration", "rigid", "decay", "growth", "unstable"
-};
 
 /// What a lambda is.
 std::string kind_of(const LinearMode& m, double largest) {
@@ -53,15 +47,15 @@ std::string kind_of(const LinearMode& m, double largest) {
   return grows ? "unstable" : "vibration";
 }
 
-std::vector<Share> kinetic_shares(const Model& model, const ModeParts& parts) {
-  std::vector<Share> shares;
+std::vector<EnergyShare> kinetic_shares(const Model& model, const ModeParts& parts) {
+  std::vector<EnergyShare> shares;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     shares.push_back({model.bodies[i].name, parts.kinetic[i]});
   return shares;
 }
 
-std::vector<Share> potential_shares(const Model& model, const ModeParts& parts) {
-  std::vector<Share> shares;
+std::vector<EnergyShare> potential_shares(const Model& model, const ModeParts& parts) {
+  std::vector<EnergyShare> shares;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     if (model.bodies[i].modes() > 0) shares.push_back({model.bodies[i].name, parts.bending[i]});
   for (std::size_t k = 0; k < model.forces.size(); ++k)
@@ -73,49 +67,74 @@ std::string damping_text(double ratio) {
   return fmt::format("{:.4f}", std::abs(ratio) < 5e-5 ? 0.0 : ratio);
 }
 
-/// Motions that nothing holds: the independent increments among the modes of zero. Place and speed
-/// of each have a lambda of zero, so that there are more of these.
-int rigid_motions(const LinearSystem& system, const std::vector<FoundMode>& modes) {
-  MatX shapes(system.x_of.rows(), 0);
-  for (const FoundMode& m : modes) {
+/// Motions that nothing holds, a column of states each: the independent increments among the modes
+/// of zero, of which place and speed have one each. In each motion one coordinate moves that does
+/// not in the others, by one: a free body's are its three directions and three turns.
+MatX rigid_motions(const LinearSystem& system, const std::vector<ShownMotion>& modes) {
+  const Eigen::Index nz = system.A.rows();
+  MatX z(nz, 0);
+  for (const ShownMotion& m : modes) {
     if (m.kind != "rigid") continue;
-    const Eigen::Index at = shapes.cols();
-    shapes.conservativeResize(Eigen::NoChange, at + 2);
-    shapes.col(at) = system.x_of * m.mode.z.real();
-    shapes.col(at + 1) = system.x_of * m.mode.z.imag();
+    const Eigen::Index at = z.cols();
+    z.conservativeResize(Eigen::NoChange, at + 2);
+    z.col(at) = m.mode.z.real();
+    z.col(at + 1) = m.mode.z.imag();
   }
-  return shapes.cols() > 0 ? static_cast<int>(pivoted_rank(shapes, 1e-6)) : 0;
+  if (z.cols() == 0) return z;
+  const MatX x = system.x_of * z;
+  const PivotedQr columns = pivoted_qr(x, 1e-6);
+  const Eigen::Index count = columns.rank;
+  MatX chosen(nz, count), moved(x.rows(), count), square(count, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    chosen.col(k) = z.col(columns.pivots[k]);
+    moved.col(k) = x.col(columns.pivots[k]);
+  }
+  if (count == 0) return chosen;
+  const PivotedQr rows = pivoted_qr(moved.transpose());
+  std::vector<int> coordinates(rows.pivots.begin(), rows.pivots.begin() + count);
+  std::sort(coordinates.begin(), coordinates.end());
+  for (Eigen::Index k = 0; k < count; ++k)
+    square.row(k) = moved.row(coordinates[static_cast<std::size_t>(k)]);
+  return chosen * lu_solve(square, MatX::Identity(count, count));
 }
 
-std::string rigid_text(const Model& model, int count, const std::vector<FoundMode>& modes) {
+std::string rigid_text(const Model& model, Eigen::Index count,
+                       const std::vector<ShownMotion>& modes) {
   if (count == 0) return "";
   std::string names;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
-    if (std::any_of(modes.begin(), modes.end(), [&](const FoundMode& m) {
-          return m.kind == "rigid" && m.parts.kinetic[i] >= 0.05;
+    if (std::any_of(modes.begin(), modes.end(), [&](const ShownMotion& m) {
+          return m.kind == "rigid" && m.moves[i].part >= 0.05;
         }))
       names += (names.empty() ? ": moves " : ", ") + model.bodies[i].name;
   return fmt::format("{} that nothing holds (frequency 0){}\n\n", plural(count, "rigid motion"),
                      names);
 }
 
-std::string vibrations_text(const Model& model, const LinearSystem& system,
-                            const std::vector<FoundMode>& modes) {
-  TextTable table({"mode", "f [Hz]", "undamped [Hz]", "damping", "", "moves", "is held by"},
-                  {4, 5, 6});
-  int number = 0;
-  for (const FoundMode& m : modes) {
+const std::vector<std::string> vibration_columns{"mode", "f [Hz]", "undamped [Hz]", "damping",
+                                                 "",     "moves",  "is held by"};
+
+std::vector<std::vector<std::string>> vibration_rows(const std::vector<ShownMotion>& modes) {
+  std::vector<std::vector<std::string>> rows;
+  for (const ShownMotion& m : modes) {
     if (m.kind == "rigid") continue;
     const bool oscillates = m.kind == "vibration" || m.kind == "unstable";
-    table.add({std::to_string(++number), oscillates ? fmt::format("{:.5g}", m.mode.damped()) : "0",
-               fmt::format("{:.5g}", m.mode.frequency()), damping_text(m.mode.damping()), m.kind,
-               shares_text(kinetic_shares(model, m.parts)),
-               shares_text(potential_shares(model, m.parts))});
+    rows.push_back({std::to_string(m.number),
+                    oscillates ? fmt::format("{:.5g}", m.mode.damped()) : "0",
+                    fmt::format("{:.5g}", m.mode.frequency()), damping_text(m.mode.damping()),
+                    m.kind, shares_text(m.moves), shares_text(m.held)});
   }
+  return rows;
+}
+
+std::string vibrations_text(const Model& model, const LinearSystem& system,
+                            const std::vector<ShownMotion>& modes, Eigen::Index rigid) {
+  TextTable table(vibration_columns, {4, 5, 6});
+  for (const std::vector<std::string>& row : vibration_rows(modes)) table.add(row);
   std::string text =
       fmt::format("{}: {} of freedom{}\n\n", model.name, plural(system.degrees, "degree"),
                   system.massless > 0 ? fmt::format(", {} without mass", system.massless) : "");
-  text += rigid_text(model, rigid_motions(system, modes), modes);
+  text += rigid_text(model, rigid, modes);
   text += table.text();
   text +=
       "\nvibration: decays while it swings, or not; unstable: grows while it swings; decay, "
@@ -128,61 +147,150 @@ std::string vibrations_text(const Model& model, const LinearSystem& system,
 }
 
 std::string vibrations_json(const Model& model, const LinearSystem& system,
-                            const std::vector<FoundMode>& modes) {
+                            const std::vector<ShownMotion>& modes, Eigen::Index rigid) {
   using Json = nlohmann::ordered_json;
   Json list = Json::array();
-  const auto named = [](const std::vector<Share>& shares) {
+  const auto named = [](const std::vector<EnergyShare>& shares) {
     Json map = Json::object();
-    for (const Share& s : shares) map[s.name] = s.part;
+    for (const EnergyShare& s : shares) map[s.name] = s.part;
     return map;
   };
-  for (const FoundMode& m : modes)
+  for (const ShownMotion& m : modes)
     list.push_back({{"kind", m.kind},
                     {"real_1_s", m.mode.lambda.real()},
                     {"imaginary_1_s", m.mode.lambda.imag()},
                     {"frequency_Hz", m.mode.damped()},
                     {"undamped_frequency_Hz", m.mode.frequency()},
                     {"damping_ratio", m.mode.damping()},
-                    {"kinetic_energy", named(kinetic_shares(model, m.parts))},
-                    {"potential_energy", named(potential_shares(model, m.parts))}});
+                    {"kinetic_energy", named(m.moves)},
+                    {"potential_energy", named(m.held)}});
   return json_document({{"model", model.name},
                         {"degrees_of_freedom", system.degrees},
                         {"without_mass", system.massless},
-                        {"rigid_motions", rigid_motions(system, modes)},
+                        {"rigid_motions", rigid},
                         {"largest_speed", system.speed},
                         {"largest_acceleration", system.acceleration},
                         {"notes", system.notes},
                         {"modes", list}});
 }
 
-AnalysisReport report_modes(const Model& given, const std::string& at) {
-  const Model model = at_operating_point(given, at);
-  const LinearSystem system = linear_system(model);
+std::vector<ShownMotion> motions_of(const Model& model, const LinearSystem& system) {
   const std::vector<LinearMode> found = linear_modes(system);
   double largest = 0.0;
   for (const LinearMode& m : found) largest = std::max(largest, std::abs(m.lambda));
-  std::vector<FoundMode> modes;
+  std::vector<ShownMotion> modes;
+  int number = 0;
   for (const LinearMode& m : found) {
-    modes.push_back({m, mode_parts(model, system, m), kind_of(m, largest)});
+    const ModeParts parts = mode_parts(model, system, m);
+    ShownMotion shown{m, kind_of(m, largest), 0, kinetic_shares(model, parts),
+                      potential_shares(model, parts)};
+    if (shown.kind != "rigid") shown.number = ++number;
+    modes.push_back(std::move(shown));
   }
-  return {.text = vibrations_text(model, system, modes),
-          .json = vibrations_json(model, system, modes)};
+  return modes;
+}
+
+// -- the page
+
+template <class F>
+SystemState linearised_state(const Model& model) {
+  StartedModel<F> start(model, model.simulation);
+  JointFollower joints(start.model());
+  SystemState state = system_state(start.formulation(), start.state(), joints);
+  place_bodies(start.model(), start.inertia(), state);
+  return state;
+}
+
+/// Rigid motions first, as they are when nothing else moves; then the modes of the table. Who moves
+/// in a rigid motion is who has kinetic energy when the model goes that way.
+std::vector<ShownMotion> motions_to_draw(const Model& model, const LinearSystem& system,
+                                         const std::vector<ShownMotion>& modes, const MatX& rigid) {
+  std::vector<ShownMotion> out;
+  const MatX going =
+      rigid.cols() > 0 ? LeastNorm(system.v_of).solve(MatX(system.x_of * rigid)) : MatX();
+  for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
+    const ModeParts parts = mode_parts(model, system, {0.0, going.col(k)});
+    out.push_back({{0.0, rigid.col(k)}, "rigid", 0, kinetic_shares(model, parts), {}});
+  }
+  for (const ShownMotion& m : modes)
+    if (m.kind != "rigid") out.push_back(m);
+  return out;
+}
+
+std::string place_text(const std::string& at, double time) {
+  if (at.empty() || at == "start") return "about the state that a run starts from";
+  if (at == "equilibrium") return "about its equilibrium";
+  return fmt::format("about the state that a run has at {:g} s", time);
+}
+
+std::string page_of_modes(const Model& model, const LinearSystem& system,
+                          const std::vector<ShownMotion>& modes, const MatX& rigid,
+                          const std::string& at) {
+  if (page_template().empty()) throw InputError(page_is_missing("--report"));
+  ModesPage page;
+  page.state = model.simulation.coordinates == Coordinates::relative
+                   ? linearised_state<RelativeFormulation>(model)
+                   : linearised_state<AbsoluteFormulation>(model);
+  page.sentences = {
+      fmt::format("The natural vibrations of the model {}.", place_text(at, page.state.time)),
+      "Each is drawn at one slow pace and with an amplitude that stays, whatever its frequency and "
+      "its damping; what decays or grows without swinging is drawn as if it swung."};
+  if (system.speed > 1e-6)
+    page.sentences.push_back(
+        "The model moves there: drawn is the motion about that state, which is held still.");
+  for (const std::string& note : system.notes) page.warnings.push_back("Note: " + note + ".");
+  for (const ShownMotion& m : modes) {
+    if (m.kind == "unstable")
+      page.warnings.push_back(fmt::format(
+          "Mode {} ({:.4g} Hz) is unstable: it grows while it swings.", m.number, m.mode.damped()));
+    if (m.kind == "growth")
+      page.warnings.push_back(fmt::format(
+          "Mode {} grows without swinging, by e in {:.4g} s: the model does not stay there.",
+          m.number, 1.0 / m.mode.lambda.real()));
+  }
+  page.facts = {
+      {"Linear system",
+       {{"degrees of freedom", std::to_string(system.degrees)},
+        {"without mass", std::to_string(system.massless)},
+        {"rigid motions", std::to_string(rigid.cols())},
+        {"largest speed of a coordinate", fmt::format("{:.3g}", system.speed)},
+        {"largest acceleration of a coordinate", fmt::format("{:.3g}", system.acceleration)}}}};
+  std::vector<std::string> columns = vibration_columns;
+  columns[4] = "kind";
+  page.tables = {{"Vibrations", columns, vibration_rows(modes),
+                  "moves: part of the kinetic energy; is held by: part of the potential energy; "
+                  "undamped: the size of the eigenvalue over 2 pi."}};
+  for (PageTable& t : body_tables(model)) page.tables.push_back(std::move(t));
+  return modes_page(model, system, motions_to_draw(model, system, modes, rigid), page);
+}
+
+AnalysisReport report_modes(const Model& given, const std::string& at) {
+  const auto model = std::make_shared<const Model>(at_operating_point(given, at));
+  const auto system = std::make_shared<const LinearSystem>(linear_system(*model));
+  const std::vector<ShownMotion> modes = motions_of(*model, *system);
+  const MatX rigid = rigid_motions(*system, modes);
+  return {.text = vibrations_text(*model, *system, modes, rigid.cols()),
+          .json = vibrations_json(*model, *system, modes, rigid.cols()),
+          .files = {[=] { return page_of_modes(*model, *system, modes, rigid, at); }}};
 }
 
 }  // namespace
 
 Analysis modes_analysis() {
   const auto at = std::make_shared<std::string>();
-  return {.name = "modes",
-          .help =
-              "Natural vibrations of the whole model: frequencies [Hz], damping ratios, who takes "
-              "part",
-          .options = {operating_point_option(*at)},
-          .json_help = "JSON on standard output (Hz, 1/s)",
-          .footer =
-              "States in motion need relative coordinates.\n"
-              "Exit codes: 0 done, 1 the start or the eigenvalues cannot be found, 2 bad input.",
-          .run = [at](const Model& model) { return report_modes(model, *at); }};
+  return {
+      .name = "modes",
+      .help =
+          "Natural vibrations of the whole model: frequencies [Hz], damping ratios, who takes "
+          "part",
+      .options = {operating_point_option(*at)},
+      .json_help = "JSON on standard output (Hz, 1/s)",
+      .files = {{"--report",
+                 "Write a page that shows the model and moves it in each of its shapes (HTML)"}},
+      .footer =
+          "States in motion need relative coordinates.\n"
+          "Exit codes: 0 done, 1 the start or the eigenvalues cannot be found, 2 bad input.",
+      .run = [at](const Model& model) { return report_modes(model, *at); }};
 }
 
 }  // namespace floatframe

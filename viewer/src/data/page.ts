@@ -11,7 +11,7 @@ export interface View {
 
 export type Triple = [number, number, number];
 export type Quadruple = [number, number, number, number];
-export type PageKind = 'run' | 'check' | 'reduce' | 'compare';
+export type PageKind = 'run' | 'check' | 'reduce' | 'compare' | 'modes';
 
 export interface ChannelJson {
   name: string;
@@ -129,6 +129,28 @@ export interface ForceJson {
   channel?: string | null;
 }
 
+/** A name and its part of an energy. */
+export type ShareJson = [string, number];
+
+export interface VibrationJson {
+  /** Null: a rigid motion. */
+  number?: number | null;
+  kind: string;
+  frequency: number;
+  undamped: number;
+  damping: number;
+  moves?: ShareJson[] | null;
+  held?: ShareJson[] | null;
+}
+
+export interface VibrationsJson {
+  list: VibrationJson[];
+  /** f32 [n, 2, bodies, 6]: real and imaginary displacement and rotation vector, in the world. */
+  places: View;
+  /** f32 [n, 2, amplitudes] */
+  amplitudes?: View | null;
+}
+
 export interface SceneJson {
   frames: { time: View; pose: View; amplitudes?: View | null } | null;
   origin?: Triple | null;
@@ -140,6 +162,7 @@ export interface SceneJson {
   rods?: { name: string; a: number; b: number }[] | null;
   roads?: { name: string; profile: View; width: [number, number] }[] | null;
   gravity?: Triple | null;
+  vibrations?: VibrationsJson | null;
 }
 
 export interface PageJson {

@@ -1,6 +1,7 @@
 // The scene of the page, checked: what does not fit is left out and said in a sentence, the rest is shown.
 
 import { PageBuffer, PageError } from './buffer';
+import { readVibrations, type VibrationData } from './vibrations';
 import type { BodyJson, FieldJson, ForceJson, JointJson, MeshJson, PageKind, PointJson, Quadruple, SceneJson, Triple } from './page';
 
 export interface FieldData {
@@ -76,6 +77,7 @@ export interface SceneData {
   roads: RoadData[];
   origin: Triple;
   up: Triple;
+  vibrations: VibrationData[];
 }
 
 type Report = (sentence: string) => void;
@@ -269,6 +271,14 @@ export function readScene(json: SceneJson, kind: PageKind, buffer: PageBuffer, r
       report(sentenceOf(error));
     }
   }
+  let vibrations: VibrationData[] = [];
+  if (json.vibrations) {
+    try {
+      vibrations = readVibrations(json.vibrations, count, amplitudeCount, buffer, report);
+    } catch (error) {
+      report(sentenceOf(error));
+    }
+  }
   return {
     kind,
     time,
@@ -283,5 +293,6 @@ export function readScene(json: SceneJson, kind: PageKind, buffer: PageBuffer, r
     roads,
     origin: triple(json.origin, [0, 0, 0]),
     up: triple(json.up, [0, 0, 1]),
+    vibrations,
   };
 }

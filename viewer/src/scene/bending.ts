@@ -10,6 +10,7 @@ import {
   FloatType,
   HalfFloatType,
   LineBasicMaterial,
+  Matrix4,
   MeshPhongMaterial,
   NearestFilter,
   RedFormat,
@@ -19,6 +20,7 @@ import {
   type Texture,
 } from 'three';
 import type { BodyData, FieldData, MeshData } from '../data/scene_data';
+import { STILL_COLOUR } from './palette';
 
 const WIDTH_BITS = 12;
 const WIDTH = 1 << WIDTH_BITS;
@@ -55,9 +57,11 @@ export class Amplitudes {
   readonly texture: DataTexture;
   private readonly data: Float32Array;
 
-  constructor(count: number) {
+  /** Those of the model at rest stand behind the present ones, if there are any. */
+  constructor(count: number, still: Float32Array | null) {
     const width = 1 << AMPLITUDE_BITS;
-    this.data = new Float32Array(width * Math.max(1, Math.ceil(count / width)));
+    this.data = new Float32Array(width * Math.max(1, Math.ceil((still ? 2 * count : count) / width)));
+    if (still) this.data.set(still.subarray(0, count), count);
     this.texture = texture(this.data, width, this.data.length / width, RedFormat);
   }
 
@@ -70,6 +74,8 @@ export class Amplitudes {
 export interface SharedUniforms {
   amplitudes: IUniform<Texture>;
   deformation: IUniform<number>;
+  /** Largest displacement of the vibration that is drawn. */
+  swing: IUniform<number>;
   colourMap: IUniform<Texture>;
 }
 
@@ -91,12 +97,15 @@ uniform int vertexCount;
 uniform int scalarKind;
 uniform vec2 fieldFrame;
 uniform float deformation;
+uniform int stillMode;
+uniform mat4 away;
+uniform float swing;
 varying vec3 restPlace;
 varying float scalarValue;
-float amplitude(int j) {
-  int i = firstMode + j;
+float amplitudeAt(int i) {
   return texelFetch(amplitudeTexture, ivec2(i & ${(1 << AMPLITUDE_BITS) - 1}, i >> ${AMPLITUDE_BITS}), 0).r;
 }
+float amplitude(int j) { return amplitudeAt(firstMode + j); }
 ivec2 texel(int i) { return ivec2(i & ${WIDTH - 1}, i >> ${WIDTH_BITS}); }
 `;
 
@@ -118,6 +127,10 @@ vec3 transformed = position;
     float a = texelFetch(fieldTexture, texel(at), 0).r;
     float b = fieldFrame.y > 0.0 ? texelFetch(fieldTexture, texel(at + vertexCount), 0).r : a;
     scalarValue = mix(a, b, fieldFrame.y);
+  } else if (scalarKind == 4) {
+    vec3 still = position;
+    for (int j = 0; j < modeCount; ++j) still += amplitudeAt(stillMode + j) * texelFetch(modeTexture, texel(first + j), 0).xyz;
+    scalarValue = length((away * vec4(transformed, 1.0)).xyz - still) / max(swing, 1e-30);
   }
 }
 `;
@@ -155,11 +168,16 @@ const none = texture(new Uint16Array(1), 1, 1, RedFormat);
 export class Bending {
   readonly uniforms: BendingUniforms;
   readonly surface: MeshPhongMaterial;
+  /** 1: elastic; 4: from where the model rests. */
+  private readonly displacement: number;
   readonly lines: LineBasicMaterial;
+  /** Lines of the body at rest. */
+  readonly stillLines: LineBasicMaterial | null = null;
   private readonly fields = new Map<FieldData, Texture>();
   private readonly bases = new Map<FieldData, Texture>();
 
-  constructor(body: BodyData, mesh: MeshData, shared: SharedUniforms, colour: string) {
+  /** `still`: where the amplitudes at rest begin, of a model that swings. */
+  constructor(body: BodyData, mesh: MeshData, shared: SharedUniforms, colour: string, still: number | null) {
     this.uniforms = {
       modeTexture: { value: mesh.modes ? halfTexture(mesh.modes, 3) : none },
       amplitudeTexture: shared.amplitudes,
@@ -173,22 +191,29 @@ export class Bending {
       fieldFrame: { value: [0, 0] },
       deformation: shared.deformation,
       colourMap: shared.colourMap,
+      stillMode: { value: (still ?? 0) + body.firstMode },
+      away: { value: new Matrix4() },
+      swing: shared.swing,
     };
+    this.displacement = still === null ? 1 : 4;
     this.surface = new MeshPhongMaterial({ color: colour, specular: '#1d1f22', shininess: 28, side: DoubleSide });
     // The surface lies a little behind its edges.
     this.surface.polygonOffset = true;
     this.surface.polygonOffsetFactor = 1;
     this.surface.polygonOffsetUnits = 1;
-    this.inject(this.surface, true);
+    this.inject(this.surface, true, this.uniforms);
     this.lines = new LineBasicMaterial({ color: '#1c2329', transparent: true, opacity: 0.45 });
-    this.inject(this.lines, false);
+    this.inject(this.lines, false, this.uniforms);
+    if (still === null) return;
+    this.stillLines = new LineBasicMaterial({ color: STILL_COLOUR, transparent: true, opacity: 0.55 });
+    this.inject(this.stillLines, false, { ...this.uniforms, firstMode: this.uniforms.stillMode });
   }
 
-  /** Colours by elastic displacement (null), a field of the body, or none (undefined). */
+  /** Colours by displacement (null), a field of the body, or none (undefined). */
   colourBy(field: FieldData | null | undefined, range: [number, number]): void {
     this.uniforms.scalarRange.value = range;
     if (field === undefined) this.uniforms.scalarKind.value = 0;
-    else if (field === null) this.uniforms.scalarKind.value = 1;
+    else if (field === null) this.uniforms.scalarKind.value = this.displacement;
     else {
       if (!this.fields.has(field)) {
         this.fields.set(field, halfTexture((field.modes ?? field.history)!, 1));
@@ -206,9 +231,9 @@ export class Bending {
     value[1] = part;
   }
 
-  private inject(material: Material, shaded: boolean): void {
+  private inject(material: Material, shaded: boolean, uniforms: Record<string, IUniform>): void {
     material.onBeforeCompile = (shader) => {
-      Object.assign(shader.uniforms, this.uniforms);
+      Object.assign(shader.uniforms, uniforms);
       shader.vertexShader = VERTEX_DECLARATIONS + shader.vertexShader.replace('#include <begin_vertex>', VERTEX_BEGIN);
       if (!shaded) return;
       shader.fragmentShader =

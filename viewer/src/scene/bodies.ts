@@ -1,10 +1,10 @@
 // What is drawn of each body, in a group that has the body's frame.
 
-import { Box3, Color, Group, LineBasicMaterial, LineSegments, Mesh, type MeshPhongMaterial, Vector3 } from 'three';
+import { Box3, Color, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, type MeshPhongMaterial, Vector3 } from 'three';
 import type { BodyData, FieldData, SceneData } from '../data/scene_data';
 import type { Motion } from '../motion/motion';
 import { Bending, type SharedUniforms } from './bending';
-import { BODY_COLOURS } from './palette';
+import { BODY_COLOURS, STILL_COLOUR } from './palette';
 import { buildSolid, buildSticks } from './solids';
 import { buildSurface } from './surface';
 import { buildTriad, plain } from './symbols';
@@ -19,6 +19,9 @@ export class BodyView {
   readonly mesh: Mesh | null = null;
   readonly colour: Color;
   triad: Group | null = null;
+  /** Outlines where the body rests, of a model that swings. */
+  still: Group | null = null;
+  private back: Matrix4 | null = null;
   private readonly material: MeshPhongMaterial;
   private readonly lines: LineSegments | null = null;
   private readonly restBox = new Box3();
@@ -30,7 +33,7 @@ export class BodyView {
     this.group.name = body.name;
     if (body.mesh) {
       const surface = buildSurface(body.mesh);
-      this.bending = new Bending(body, body.mesh, shared, colour);
+      this.bending = new Bending(body, body.mesh, shared, colour, scene.vibrations.length > 0 ? scene.amplitudeCount : null);
       this.material = this.bending.surface;
       this.mesh = new Mesh(surface.geometry, this.material);
       this.mesh.frustumCulled = false;
@@ -86,12 +89,43 @@ export class BodyView {
     const b = this.data.index;
     this.group.position.set(motion.position[3 * b], motion.position[3 * b + 1], motion.position[3 * b + 2]);
     this.group.quaternion.set(motion.quaternion[4 * b], motion.quaternion[4 * b + 1], motion.quaternion[4 * b + 2], motion.quaternion[4 * b + 3]);
+    if (this.back && this.bending) {
+      this.group.updateMatrix();
+      (this.bending.uniforms.away.value as Matrix4).multiplyMatrices(this.back, this.group.matrix);
+    }
     this.bending?.setFrame(motion.frame, motion.frame + 1 < motion.scene.time.length ? motion.part : 0);
+  }
+
+  /** From now on the body swings about where it is. */
+  keepStill(): Group {
+    this.group.updateMatrix();
+    this.back = this.group.matrix.clone().invert();
+    this.still = new Group();
+    this.still.position.copy(this.group.position);
+    this.still.quaternion.copy(this.group.quaternion);
+    if (this.lines && this.bending?.stillLines) {
+      const lines = new LineSegments(this.lines.geometry, this.bending.stillLines);
+      lines.frustumCulled = false;
+      this.still.add(lines);
+    } else {
+      const material = new LineBasicMaterial({ color: STILL_COLOUR, transparent: true, opacity: 0.55 });
+      for (const part of this.group.children) {
+        const edges = part.getObjectByName('edges');
+        if (!(edges instanceof LineSegments)) continue;
+        const holder = new Group();
+        holder.position.copy(part.position);
+        holder.quaternion.copy(part.quaternion);
+        holder.scale.copy(part.scale);
+        holder.add(new LineSegments(edges.geometry, material));
+        this.still.add(holder);
+      }
+    }
+    return this.still;
   }
 
   /** Colours by displacement (null), a field, or the body's own colour (undefined). */
   colourBy(field: FieldData | null | undefined, range: [number, number], neutral: boolean): void {
-    const coloured = field === undefined ? false : field === null ? this.flexible : (this.data.mesh?.fields.includes(field) ?? false);
+    const coloured = field === undefined ? false : field === null ? this.flexible || (this.back !== null && this.mesh !== null) : (this.data.mesh?.fields.includes(field) ?? false);
     this.bending?.colourBy(coloured ? field : undefined, range);
     // A body with a colour of its own keeps it beside a scale.
     this.material.color.copy(neutral && !this.data.mesh?.colour ? NEUTRAL : this.colour);

@@ -20,6 +20,8 @@ export const JOINT_COLOUR = '#3f7fc4';
 export const CUT_COLOUR = '#c4563f';
 export const FORCE_COLOUR = '#d5453b';
 export const MARK_COLOUR = '#e8590c';
+/** Outlines of the model at rest. */
+export const STILL_COLOUR = '#7d8894';
 
 /** Curves: Okabe and Ito's colours, the yellow darker, the black by theme. */
 export const CURVE_COLOURS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#7a6ff0', '#8a8f98'];

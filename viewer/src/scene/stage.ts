@@ -5,7 +5,9 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Triple } from '../data/page';
 import type { FieldData, SceneData } from '../data/scene_data';
 import { niceBelow } from '../data/format';
+import type { VibrationData } from '../data/vibrations';
 import { elastic, Motion } from '../motion/motion';
+import { restOf, swing, type Drawing, type Rest } from '../motion/vibration';
 import { Amplitudes, type SharedUniforms } from './bending';
 import { BodyView, radiusOf } from './bodies';
 import { Connections, type History, type Layer } from './connections';
@@ -42,7 +44,11 @@ export class Stage {
   deformation = 1;
   follow = -1;
   selected: { body: number; vertex: number | null } | null = null;
-  /** Sets amplitudes at a time where no motion is recorded (modes of a part). */
+  /** Where the bodies of a model rest that swings, and how far it does. */
+  readonly rest: Rest | null = null;
+  amplitude = 1;
+  readonly still = new Group();
+  /** Moves what swings (modes of a part, vibrations of a model), at a time. */
   shape: ((time: number) => void) | null = null;
   private readonly world = new Scene();
   private readonly amplitudes: Amplitudes;
@@ -61,8 +67,9 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, powerPreference: 'high-performance' });
     this.motion = new Motion(scene);
     this.root.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(...scene.up).normalize(), new Vector3(0, 0, 1)));
-    this.amplitudes = new Amplitudes(scene.amplitudeCount);
-    this.shared = { amplitudes: { value: this.amplitudes.texture }, deformation: { value: 1 }, colourMap: { value: mapTexture('viridis') } };
+    if (scene.vibrations.length > 0) this.rest = restOf(this.motion);
+    this.amplitudes = new Amplitudes(scene.amplitudeCount, this.rest?.amplitudes ?? null);
+    this.shared = { amplitudes: { value: this.amplitudes.texture }, deformation: { value: 1 }, swing: { value: 1 }, colourMap: { value: mapTexture('viridis') } };
     this.size = this.modelSize();
     const bends = scene.bodies.some((body) => body.mesh);
     // A wheel is shown by its tyre.
@@ -72,7 +79,11 @@ export class Stage {
       const view = new BodyView(scene, body, this.shared, this.size, look);
       this.bodies.push(view);
       this.root.add(view.group);
+      if (!this.rest) continue;
+      view.place(this.motion);
+      this.still.add(view.keepStill());
     }
+    this.root.add(this.still);
     this.connections = new Connections(scene, this.size, history);
     this.annotations = new Annotations(this);
     this.root.add(this.connections.root, this.roads);
@@ -171,7 +182,25 @@ export class Stage {
     this.invalidate();
   }
 
-  setDeformation(scale: number): void {
+  /** Deformation of a run, amplitude of what swings. */
+  get scale(): number {
+    return this.rest ? this.amplitude : this.deformation;
+  }
+
+  setScale(scale: number): void {
+    if (this.rest) {
+      this.amplitude = scale;
+      this.go(this.time);
+    } else this.setDeformation(scale);
+  }
+
+  /** To an angle of a vibration. */
+  swing(vibration: VibrationData, drawing: Drawing, angle: number): void {
+    swing(this.motion, this.rest!, vibration, drawing, this.amplitude, angle);
+    this.shared.swing.value = drawing.largest * this.amplitude;
+  }
+
+  private setDeformation(scale: number): void {
     this.deformation = scale;
     this.shared.deformation.value = scale;
     this.refresh();
@@ -183,7 +212,9 @@ export class Stage {
   }
 
   setVisible(body: number, visible: boolean): void {
-    this.bodies[body].group.visible = visible;
+    const view = this.bodies[body];
+    view.group.visible = visible;
+    if (view.still) view.still.visible = visible;
     this.connections.hideWith((b) => this.bodies[b].group.visible);
     this.annotations.refresh();
     this.invalidate();
@@ -246,6 +277,7 @@ export class Stage {
     for (const view of this.bodies) if (view.group.visible || !any) box.union(view.box(part));
     // Modes of a part swing by a tenth of its size.
     if (this.scene.kind === 'reduce') box.expandByScalar(Math.max(...this.scene.bodies.map((body) => 0.08 * body.size)));
+    if (this.rest) box.expandByScalar(0.04 * this.size);
     if (this.connections.layers.tyres.visible) {
       for (const force of this.scene.forces) {
         if (!force.radius || force.a < 0) continue;

@@ -23,12 +23,18 @@ export class Colours {
   constructor(scene: SceneData) {
     this.scene = scene;
     this.largest = new Float64Array(scene.bodies.length);
+    const swings = scene.vibrations.length > 0;
     const flexible = scene.bodies.filter((body) => body.mesh?.modes);
-    if (flexible.length > 0) this.scalars.push({ field: null, label: 'Elastic displacement', unit: 'm' });
+    if (swings ? scene.bodies.some((body) => body.mesh) : flexible.length > 0) this.scalars.push({ field: null, label: swings ? 'Displacement' : 'Elastic displacement', unit: 'm' });
     for (const body of scene.bodies) {
       for (const field of body.mesh?.fields ?? []) {
         if (!this.scalars.some((scalar) => scalar.field === field.name)) this.scalars.push({ field: field.name, label: field.name, unit: field.unit });
       }
+    }
+    // Of what swings: in parts of the largest.
+    if (swings) {
+      this.ranges.set(null, [0, 1]);
+      return;
     }
     for (const body of flexible) this.largest[body.index] = largestDisplacement(scene, body);
     const most = this.largest.reduce((a, b) => Math.max(a, b), 0);

@@ -26,24 +26,26 @@ export class Display {
     this.colours = colours;
     this.legend = legend;
     const { scene } = stage;
-    this.relative = scene.kind === 'reduce';
+    const swings = scene.vibrations.length > 0;
+    this.relative = scene.kind === 'reduce' || swings;
     this.field = scene.kind === 'check' || colours.scalars.length === 0 ? undefined : colours.scalars[0].field;
-    const [low, high] = this.relative ? [-1, 1] : [0, Math.log10(MOST)];
-    this.slider = h('input', { type: 'range', min: low, max: high, step: 0.01, value: 0, 'aria-label': 'Deformation scale' });
-    this.slider.addEventListener('input', () => this.setDeformation(10 ** Number(this.slider.value)));
-    if (scene.bodies.some((body) => body.mesh?.modes)) {
-      this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, h('span', {}, 'Deformation'), this.sliderText), this.slider));
+    const what = swings ? 'Amplitude' : 'Deformation';
+    const [low, high] = swings ? [-1, 0.5] : this.relative ? [-1, 1] : [0, Math.log10(MOST)];
+    this.slider = h('input', { type: 'range', min: low, max: high, step: 0.01, value: 0, 'aria-label': `${what} scale` });
+    this.slider.addEventListener('input', () => this.setScale(10 ** Number(this.slider.value)));
+    if (swings || scene.bodies.some((body) => body.mesh?.modes)) {
+      this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, h('span', {}, what), this.sliderText), this.slider));
     }
     if (colours.scalars.length > 0) this.addColours();
     if (scene.time.length > 1) this.addFollow(scene);
     this.addLayers(scene);
-    this.setDeformation(1);
+    this.setScale(1);
     this.apply();
   }
 
-  setDeformation(scale: number): void {
+  setScale(scale: number): void {
     const rounded = scale < 10 ? Math.round(scale * 100) / 100 : scale < 100 ? Math.round(scale * 10) / 10 : Math.round(scale);
-    this.stage.setDeformation(rounded);
+    this.stage.setScale(rounded);
     this.slider.value = String(Math.log10(rounded));
     this.sliderText.textContent = `${rounded}×`;
     this.slider.setAttribute('aria-valuetext', `${rounded} times`);
@@ -127,6 +129,7 @@ export class Display {
     });
     if (scene.roads.length > 0) add('Road', true, (on) => this.show(() => (stage.roads.visible = on)));
     add('Ground', true, (on) => this.show(() => (stage.grid.mesh.visible = on)));
+    if (stage.rest) add('At rest', true, (on) => this.show(() => (stage.still.visible = on)));
     add('Edges', true, (on) => this.show(() => stage.bodies.forEach((view) => view.setEdges(on))));
     if (scene.bodies.some((body) => body.mesh)) add('Mesh only', false, (on) => this.show(() => stage.bodies.forEach((view) => view.setWire(on))));
     const shells = stage.bodies.filter((view) => view.mesh && !view.flexible);

@@ -8,6 +8,7 @@ const KEYS: [string, string][] = [
   ['← →', 'a frame back, forward (with shift: ten)'],
   ['Home End', 'to the start, to the end'],
   ['[ ]', 'slower, faster'],
+  ['↑ ↓', 'another mode, where there are modes'],
   ['L', 'loop'],
   ['F', 'fit the model into the view'],
   ['1 2 3 4', 'iso, front, side, top'],

@@ -16,7 +16,7 @@ export class ModeList {
   private readonly stage: Stage;
   private readonly player: Player;
   private readonly rows: { element: HTMLElement; body: number; mode: number; amplitude: number }[] = [];
-  private chosen = 0;
+  chosen = 0;
 
   constructor(stage: Stage, player: Player) {
     this.stage = stage;

@@ -16,6 +16,7 @@ import { PlayerBar } from './player_bar';
 import { saveScreenshot, takePicture } from './screenshot';
 import { Selection } from './selection';
 import { isDark, onTheme } from './theme';
+import { VibrationList } from './vibrations';
 
 const VIEWS: [ViewName, string][] = [
   ['iso', 'Iso'],
@@ -25,7 +26,7 @@ const VIEWS: [ViewName, string][] = [
 ];
 
 function instants(scene: SceneData): ArrayLike<number> {
-  if (scene.kind === 'reduce') return Array.from({ length: 49 }, (_, k) => (SWING * k) / 48);
+  if (scene.kind === 'reduce' || scene.vibrations.length > 0) return Array.from({ length: 49 }, (_, k) => (SWING * k) / 48);
   return scene.time.length > 0 ? scene.time : [0];
 }
 
@@ -35,7 +36,8 @@ export class ViewSection {
   readonly player: Player;
   readonly display: Display;
   readonly bodies: BodyList;
-  readonly modes: ModeList | null = null;
+  readonly modes: ModeList | VibrationList | null = null;
+  private readonly caption = h('div', { class: 'view-caption', 'aria-live': 'polite' });
   readonly legend = new Legend();
   private readonly selection: Selection;
   private readonly bar: PlayerBar;
@@ -59,6 +61,8 @@ export class ViewSection {
     if (scene.kind === 'reduce') {
       colours.setRange(null, ModeList.range(scene));
       this.modes = new ModeList(this.stage, this.player);
+    } else if (scene.vibrations.length > 0) {
+      this.modes = new VibrationList(this.stage, this.player, (text) => (this.caption.textContent = text));
     }
     this.stage.setTheme(isDark());
     onTheme((dark) => this.stage.setTheme(dark));
@@ -78,7 +82,7 @@ export class ViewSection {
       button('camera', 'Save a picture', () => this.screenshot()),
       button('full', 'Full screen', () => this.fullScreen()),
     );
-    this.frame = h('div', { class: 'frame' }, this.stage.canvas, tools, buildGizmo(this.stage), this.legend.element);
+    this.frame = h('div', { class: 'frame' }, this.stage.canvas, tools, buildGizmo(this.stage), this.legend.element, this.stage.rest ? this.caption : null);
     const side = this.buildSide();
     this.element = h('section', { id: 'view', class: 'card view', 'aria-label': '3-D view' }, h('div', { class: 'view-main' }, this.frame, this.player.moves ? this.bar.element : null), side);
     this.listenToPointer();
@@ -111,13 +115,13 @@ export class ViewSection {
 
   screenshot(): void {
     this.stage.draw(true);
-    void saveScreenshot(this.picture(), `${this.title}-${this.player.time.toFixed(3)}s.png`);
+    void saveScreenshot(this.picture(), `${this.title}-${this.stage.rest ? this.caption.textContent : `${this.player.time.toFixed(3)}s`}.png`);
   }
 
   /** The picture with its legend, as it would be saved. */
   picture(): HTMLCanvasElement {
     this.stage.draw(true);
-    return takePicture(this.stage.canvas, this.legend, `${this.title}${this.player.moves && !this.modes ? `, ${this.player.time.toFixed(3)} s` : ''}`);
+    return takePicture(this.stage.canvas, this.legend, `${this.title}${this.stage.rest ? `, ${this.caption.textContent}` : ''}${this.player.moves && !this.modes ? `, ${this.player.time.toFixed(3)} s` : ''}`);
   }
 
   /** Median script time of the last pictures, milliseconds: places, uniforms and the calls that draw. */
