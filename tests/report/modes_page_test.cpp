@@ -7,6 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "floatframe/simulation/linear_ports.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -63,8 +64,31 @@ joints:
   glue: {type: spherical, parent: bar, child: block, at: b}
 forces:
   hold: {type: joint_spring, joint: hinge, spring: 100, damper: 5}
+outputs:
+  end: {position: {body: bar, at: b}}
+  corner: {position: {body: block, at: [1.75, 2.1, 2.3]}}
 simulation: {step: 0.001, duration: 0.02}
 )";
+
+/// What a shape moves a marker by: the displacement of its body, the turn times the arm, and what
+/// the modes of the body add.
+Eigen::Vector3cd moved_marker(const Model& model, const Marker& m,
+                              const std::vector<Complex>& shape,
+                              const std::vector<Complex>& amplitudes) {
+  const auto b = static_cast<std::size_t>(m.body);
+  const FlexibleBody& data = *model.bodies[b].data;
+  const Mat3& R = model.bodies[b].X_WB.R;
+  Vec3 arm = m.X_NM.p;
+  Eigen::Vector3cd bend = Eigen::Vector3cd::Zero();
+  if (m.node >= 0) {
+    const ModalNode& node = data.nodes[m.node];
+    arm += node.p;
+    for (Eigen::Index j = 0; j < data.modes(); ++j)  // of the only body that has modes
+      bend += Vec3(node.X.col(j) + Vec3(node.X_theta.col(j)).cross(m.X_NM.p)) *
+              amplitudes[static_cast<std::size_t>(j)];
+  }
+  return triple_of(shape, 6 * b) + turned_arm(triple_of(shape, 6 * b + 3), R * arm) + R * bend;
+}
 
 TEST(ModesPage, HoldsTheShapesOfTheSystem) {
   const Model model = model_of(bar_with_block);
@@ -100,33 +124,45 @@ TEST(ModesPage, ShapesKeepJointsClosed) {
   const std::vector<ShownMotion> motions = shown_motions(system);
   PageBuffer buffer;
   const Json page = scene_vibrations(system, motions, buffer);
-  const Body& bar = model.bodies[0];
-  ASSERT_EQ(bar.modes(), 4);
+  ASSERT_EQ(model.bodies[0].modes(), 4);
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const auto shape = page_shape(buffer, page["places"], k);
     const auto amplitudes = page_shape(buffer, page["amplitudes"], k);
     double size = 0.0;  // metres, and radians on arms of about a metre; floats have seven digits
     for (const Complex& x : shape) size = std::max(size, std::abs(x));
-    const auto moved = [&](const Marker& m) {
-      const auto b = static_cast<std::size_t>(m.body);
-      const Mat3& R = model.bodies[b].X_WB.R;
-      Vec3 arm = m.X_NM.p;
-      Eigen::Vector3cd bend = Eigen::Vector3cd::Zero();
-      if (m.node >= 0) {
-        const ModalNode& node = bar.data->nodes[m.node];
-        arm += node.p;
-        for (Eigen::Index j = 0; j < bar.modes(); ++j)
-          bend += Vec3(node.X.col(j) + Vec3(node.X_theta.col(j)).cross(m.X_NM.p)) *
-                  amplitudes[static_cast<std::size_t>(j)];
-      }
-      return Eigen::Vector3cd(triple_of(shape, 6 * b) +
-                              turned_arm(triple_of(shape, 6 * b + 3), R * arm) + R * bend);
+    const auto moved = [&](int marker) {
+      return moved_marker(model, model.markers[marker], shape, amplitudes);
     };
-    EXPECT_LT(moved(model.markers[model.joints[0].frame_M]).norm(), 5e-7 * size) << k;
+    EXPECT_LT(moved(model.joints[0].frame_M).norm(), 5e-7 * size) << k;
     const Joint& glue = model.joints[1];
-    EXPECT_LT((moved(model.markers[glue.frame_M]) - moved(model.markers[glue.frame_F])).norm(),
-              5e-7 * size)
+    EXPECT_LT((moved(glue.frame_M) - moved(glue.frame_F)).norm(), 5e-7 * size) << k;
+  }
+}
+
+// Positions that a run would measure, differentiated by z, move as the shapes say.
+TEST(ModesPage, ShapesMoveOutputs) {
+  const Model model = model_of(bar_with_block);
+  const LinearModel linear = linear_model(model);
+  const std::vector<ShownMotion> motions = shown_motions(linear.system);
+  PageBuffer buffer;
+  const Json page = scene_vibrations(linear.system, motions, buffer);
+  ASSERT_EQ(linear.C.rows(), 6);
+  Marker corner;
+  corner.body = 1;
+  corner.X_NM.p = {0.05, 0.1, 0.1};
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const auto shape = page_shape(buffer, page["places"], k);
+    const auto amplitudes = page_shape(buffer, page["amplitudes"], k);
+    const Eigen::VectorXcd measured = linear.C * motions[k].mode.z;
+    double size = 0.0;
+    for (const Complex& x : shape) size = std::max(size, std::abs(x));
+    const Marker& end = model.markers[model.joints[1].frame_F];
+    EXPECT_LT((moved_marker(model, end, shape, amplitudes) - measured.head(3)).norm(), 1e-6 * size)
         << k;
+    EXPECT_LT((moved_marker(model, corner, shape, amplitudes) - measured.tail(3)).norm(),
+              1e-6 * size)
+        << k;
+    EXPECT_GT(measured.norm(), 1e-3 * size) << k;
   }
 }
 

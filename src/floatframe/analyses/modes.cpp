@@ -238,7 +238,11 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
   if (system.speed > 1e-6)
     page.sentences.push_back(
         "The model moves there: drawn is the motion about that state, which is held still.");
-  for (const std::string& note : system.notes) page.warnings.push_back("Note: " + note + ".");
+  for (const std::string& note : system.notes) {
+    page.warnings.push_back(note + ".");
+    char& first = page.warnings.back().front();
+    if (first >= 'a' && first <= 'z') first = static_cast<char>(first - 'a' + 'A');
+  }
   for (const ShownMotion& m : modes) {
     if (m.kind == "unstable")
       page.warnings.push_back(fmt::format(

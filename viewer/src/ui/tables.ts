@@ -75,12 +75,14 @@ export function factsSection(page: PageJson): HTMLElement | null {
     { id: 'facts', class: 'card' },
     h('div', { class: 'section-head' }, h('h2', {}, page.kind === 'reduce' ? 'The part' : 'Model')),
     facts.length > 0 ? h('div', { class: 'fact-grid' }, ...facts.map((fact) => h('div', { class: 'fact' }, h('h3', {}, fact.heading), tableOf({ ...fact, columns: null })))) : null,
-    ...tables.map((table) => {
+    ...tables.map((table, k) => {
       const large = table.rows.length > 20;
       const body = tableOf(table);
+      const note = table.note ? h('p', { class: 'hint' }, table.note) : null;
+      // The result of a page of vibrations is its first table: it stands open, on paper, too.
       return large
-        ? h('details', { class: 'fold' }, h('summary', {}, `${table.heading} (${table.rows.length} rows)`), body)
-        : h('div', { class: 'fact wide' }, h('h3', {}, table.heading), body, table.note ? h('p', { class: 'hint' }, table.note) : null);
+        ? h('details', { class: 'fold', open: page.kind === 'modes' && k === 0 }, h('summary', {}, `${table.heading} (${table.rows.length} rows)`), body, note)
+        : h('div', { class: 'fact wide' }, h('h3', {}, table.heading), body, note);
     }),
   );
 }

@@ -156,7 +156,7 @@ test('vibrations swing by themselves, print, fit narrow windows, and names are t
   await page.emulateMedia({ media: 'print' });
   assert.ok(await page.locator('.view-caption').isVisible());
   assert.ok(!(await page.locator('.side').isVisible()));
-  assert.match((await page.locator('#facts').textContent())!, /Vibrations.*1.5235/);
+  assert.ok(await page.locator('#facts td', { hasText: '99.5' }).isVisible());
   assert.deepEqual(errors, []);
   await page.context().close();
 });
