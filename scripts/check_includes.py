@@ -31,6 +31,7 @@ ALLOWED = {
     "formats/sid": {"core", "math", "body", "formats/text"},
     "formats/body_file": {"core", "math", "body", "reduction"},
     "formats/geometry": {"core", "math", "formats/text"},
+    "formats/matlab": {"core", "math"},
     "parts": FE | {"body", "reduction", "formats", "formats/body_file"},
     "model": FE | {"body", "reduction", "inertia"},
     "formulation": {"core", "math", "body", "inertia", "model"},
@@ -42,7 +43,7 @@ ALLOWED = {
     "report": DYNAMICS | {"simulation", "history"},
     "realtime": DYNAMICS | {"simulation"},
     "sweep": DYNAMICS | {"simulation", "yaml", "model_file", "history", "report"},
-    "analyses": DYNAMICS | {"simulation", "report", "formats/body_file", "model_file"},
+    "analyses": DYNAMICS | {"simulation", "report", "formats/body_file", "formats/matlab", "model_file"},
     "apps": DYNAMICS | FE | {"reduction", "formats/body_file", "formats/sid", "formats/text", "parts", "simulation", "realtime",
                              "model_file", "history", "report", "analyses", "sweep"},
 }

@@ -4,6 +4,8 @@
 // which ends in what makes a command of it, `Analysis <name>_analysis()`. The public header
 // floatframe/analysis.hpp and the program run over this list, in its order.
 #include "floatframe/analyses/mass_properties.hpp"
+#include "floatframe/simulation/frequency_response.hpp"
+#include "floatframe/simulation/linear_ports.hpp"
 #include "floatframe/simulation/linear_system.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
 #include "floatframe/simulation/simulation.hpp"
@@ -14,5 +16,6 @@
   entry(statics)                   \
   entry(advise)                    \
   entry(mass_properties)           \
-  entry(modes)
+  entry(modes)                     \
+  entry(linearize)
 // clang-format on

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/math/dense.hpp"
@@ -213,6 +214,19 @@ LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
   return out;
 }
 
+/// "joint 'ball', coordinate 2" where several have one owner.
+std::vector<std::string> told_apart(const std::vector<std::string>& owners) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < owners.size(); ++k) {
+    const auto same = std::count(owners.begin(), owners.end(), owners[k]);
+    const auto before =
+        std::count(owners.begin(), owners.begin() + static_cast<long>(k), owners[k]);
+    names.push_back(same == 1 ? owners[k]
+                              : fmt::format("{}, coordinate {}", owners[k], before + 1));
+  }
+  return names;
+}
+
 InputMotions no_inputs(Eigen::Index nv, Eigen::Index nc) {
   InputMotions u;
   u.value = MatX(nc, 0);
@@ -252,8 +266,9 @@ SecondOrderSystem second_order(const SmallMotions& m, const InputMotions& u,
 
 }  // namespace
 
-LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& coordinates,
+LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& owners,
                             const InputMotions* inputs, LinearInputs* response) {
+  const std::vector<std::string> coordinates = told_apart(owners);
   const InputMotions none = no_inputs(m.M.rows(), m.J.rows());
   const InputMotions& u = inputs ? *inputs : none;
   const FreeCoordinates c = free_coordinates(m, u);

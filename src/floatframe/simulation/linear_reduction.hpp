@@ -34,9 +34,9 @@ struct LinearInputs {
   MatX x, v[2], a[3];
 };
 
-/// For the coordinates named. Throws RunError where a direction has neither mass nor stiffness nor
-/// damping. `response` is filled if there are inputs.
-LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& coordinates,
+/// For coordinates with these owners. Throws RunError where a direction has neither mass nor
+/// stiffness nor damping. `response` is filled if there are inputs.
+LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& owners,
                             const InputMotions* inputs = nullptr, LinearInputs* response = nullptr);
 
 /// Where `f` is started; `linear_system` of a model for formulations and states at hand.

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>
 #include <optional>
 
+#include "floatframe/core/code_points.hpp"
 #include "floatframe/core/diagnostics.hpp"
 
 namespace floatframe {
@@ -142,6 +144,26 @@ NpyArray values(std::string_view bytes, const Header& header) {
   return {*header.shape, std::move(out)};
 }
 
+/// What stands before the values.
+std::string beginning(const std::string& type, const std::vector<std::size_t>& sizes) {
+  std::string shape;
+  for (const std::size_t n : sizes) shape += fmt::format("{}, ", n);
+  // NumPy writes (3,) but (3, 4).
+  if (sizes.size() == 1) shape.pop_back();
+  if (sizes.size() > 1) shape.resize(shape.size() - 2);
+  std::string header =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, shape);
+  const std::size_t before = magic.size() + 4;
+  header.append(alignment - (before + header.size() + 1) % alignment, ' ');
+  header += '\n';
+  std::string out(magic);
+  out += '\1';
+  out += '\0';
+  out += static_cast<char>(header.size() & 0xff);
+  out += static_cast<char>(header.size() >> 8);
+  return out + header;
+}
+
 }  // namespace
 
 std::string shape_text(const std::vector<std::size_t>& shape) {
@@ -152,28 +174,28 @@ std::string shape_text(const std::vector<std::size_t>& shape) {
 
 std::string npy_bytes(const NpyArray& array) {
   const char* descr[] = {"<f8", "<i4", "<i8"};
-  std::string shape;
-  for (const std::size_t n : array.shape) shape += fmt::format("{}, ", n);
-  // NumPy writes (3,) but (3, 4).
-  if (array.shape.size() == 1) shape.pop_back();
-  if (array.shape.size() > 1) shape.resize(shape.size() - 2);
-  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}",
-                                   descr[array.values.index()], shape);
-  const std::size_t before = magic.size() + 4;
-  header.append(alignment - (before + header.size() + 1) % alignment, ' ');
-  header += '\n';
-  std::string out(magic);
-  out += '\1';
-  out += '\0';
-  out += static_cast<char>(header.size() & 0xff);
-  out += static_cast<char>(header.size() >> 8);
-  out += header;
+  std::string out = beginning(descr[array.values.index()], array.shape);
   std::visit(
       [&](const auto& v) {
         if (!v.empty())
           out.append(reinterpret_cast<const char*>(v.data()), v.size() * sizeof(v.front()));
       },
       array.values);
+  return out;
+}
+
+std::string npy_texts(const std::vector<std::string>& texts) {
+  std::vector<std::u32string> wide;
+  std::size_t longest = 1;
+  for (const std::string& text : texts) {
+    wide.push_back(code_points(text));
+    longest = std::max(longest, wide.back().size());
+  }
+  std::string out = beginning(fmt::format("<U{}", longest), {texts.size()});
+  for (std::u32string& text : wide) {
+    text.resize(longest, U'\0');
+    out.append(reinterpret_cast<const char*>(text.data()), 4 * longest);
+  }
   return out;
 }
 

@@ -1,0 +1,30 @@
+#pragma once
+// UTF-8 text as code points, for files that hold UTF-16 or UTF-32. Bytes that are no UTF-8 become
+// U+FFFD.
+#include <string>
+#include <string_view>
+
+#include "floatframe/core/printable.hpp"
+
+namespace floatframe {
+
+inline std::u32string code_points(std::string_view text) {
+  std::u32string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text, at);
+    const auto lead = static_cast<unsigned char>(text[at]);
+    if (length == 0) {
+      out += U'\ufffd';
+      ++at;
+      continue;
+    }
+    char32_t code = length == 1 ? lead : lead & (0xffu >> (length + 1));
+    for (std::size_t k = 1; k < length; ++k)
+      code = code << 6 | (static_cast<unsigned char>(text[at + k]) & 0x3fu);
+    out += code;
+    at += length;
+  }
+  return out;
+}
+
+}  // namespace floatframe
