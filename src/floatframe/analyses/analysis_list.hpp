@@ -4,6 +4,7 @@
 // which ends in what makes a command of it, `Analysis <name>_analysis()`. The public header
 // floatframe/analysis.hpp and the program run over this list, in its order.
 #include "floatframe/analyses/mass_properties.hpp"
+#include "floatframe/simulation/campbell.hpp"
 #include "floatframe/simulation/frequency_response.hpp"
 #include "floatframe/simulation/linear_ports.hpp"
 #include "floatframe/simulation/linear_system.hpp"
@@ -17,5 +18,6 @@
   entry(advise)                    \
   entry(mass_properties)           \
   entry(modes)                     \
-  entry(linearize)
+  entry(linearize)                 \
+  entry(campbell)
 // clang-format on

@@ -1,0 +1,293 @@
+#include "floatframe/simulation/turning_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "floatframe/math/dense.hpp"
+#include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/linear_reduction.hpp"
+#include "floatframe/simulation/small_motions.hpp"
+#include "floatframe/simulation/steady_turning.hpp"
+#include "floatframe/simulation/whirl.hpp"
+
+namespace floatframe {
+
+struct TurningModel::Impl {
+  Model model;
+  std::unique_ptr<RelativeFormulation> f;
+  Rotor rotor;
+  VecX q;  ///< of the last steady state: where the next begins
+  double torque = 0.0;
+  int degrees = 0, massless = 0;
+  std::vector<std::string> notes;
+
+  SteadyTurning steady(double speed, double angle);
+  MatX motion_map(const SteadyTurning& s, double angle) const;
+  MatX world_map(const SteadyTurning& s, double angle) const;
+
+  /// What a state z is in the world, and its rate along the steady motion: T and Tdot + T A.
+  struct InWorld {
+    MatX T, rate;
+  };
+  InWorld in_world(const SteadyTurning& s);
+  bool bent(const SteadyTurning& s) const;
+  InWorld in_world(double speed, double angle, SteadyTurning& s);
+  AxisMotion axis_motion(const SteadyTurning& s) const;
+};
+
+SteadyTurning TurningModel::Impl::steady(double speed, double angle) {
+  if (rotor.driven) {
+    Joint& joint = model.joints[static_cast<std::size_t>(rotor.joint)];
+    const double begin = joint.position.empty() ? 0.0 : joint.position.back();
+    joint.motion = TimeFunction{PiecewisePolynomial::polynomial({begin + angle, speed})};
+    f = std::make_unique<RelativeFormulation>(model, model.simulation.inertia);
+  }
+  SteadyTurning s = steady_turning(*f, rotor, q, speed, angle);
+  torque = s.torque;
+  if (angle == 0.0) q = s.state.q;
+  return s;
+}
+
+/// W: what velocities are in the world, of each body the velocity of a point (of the axis, else the
+/// origin), its angular velocity times a length, and amplitude rates, those of the rotor turned by
+/// `angle` into the world. At the present positions of `f`.
+MatX TurningModel::Impl::motion_map(const SteadyTurning& s, double angle) const {
+  const int nv = f->velocities();
+  Eigen::Index rows = 0;
+  for (const Body& b : model.bodies) rows += 6 + b.modes();
+  MatX W = MatX::Zero(rows, nv);
+  std::vector<const RotorBody*> turning(model.bodies.size(), nullptr);
+  for (const RotorBody& r : rotor.bodies) turning[static_cast<std::size_t>(r.body)] = &r;
+  std::vector<MatX> D(model.bodies.size());
+  for (std::size_t i = 0; i < D.size(); ++i)
+    if (turning[i]) D[i] = turned_modes(turning[i]->G, s.angle + angle);
+  for (int j = 0; j < nv; ++j) {
+    const VecX unit = VecX::Unit(nv, j);
+    f->velocities(unit);
+    Eigen::Index row = 0;
+    for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+      const int k = static_cast<int>(i), nm = model.bodies[i].modes();
+      Vec3 v = f->body_velocity(k);
+      const Vec3 w = f->body_angular_velocity(k);
+      if (turning[i]) v += w.cross(f->body_rotation(k) * turning[i]->p_BP);
+      W.block<3, 1>(row, j) = v;
+      W.block<3, 1>(row + 3, j) = rotor.length * w;
+      VecX rates(nm);
+      for (int m = 0; m < nm; ++m) rates[m] = f->amplitude_rate(unit, k, m);
+      W.block(row + 6, j, nm, 1) = turning[i] ? VecX(D[i] * rates) : rates;
+      row += 6 + nm;
+    }
+  }
+  return W;
+}
+
+/// (W 0; d(W v)/dq W), `angle` further along the steady motion.
+MatX TurningModel::Impl::world_map(const SteadyTurning& s, double angle) const {
+  const VecX q1 = turned(*f, rotor, s.state.q, angle);
+  VecX v, a, q2 = q1;
+  f->positions(0.0, q1);
+  turn_steadily(*f, rotor, q1, s.speed, v, a);
+  const MatX W = motion_map(s, angle);
+  const Eigen::Index nv = W.cols(), n = W.rows();
+  MatX map = MatX::Zero(2 * n, 2 * nv);
+  map.topLeftCorner(n, nv) = W;
+  map.bottomRightCorner(n, nv) = W;
+  if (s.speed != 0.0)
+    map.bottomLeftCorner(n, nv) =
+        precise_differences(VecX::Constant(nv, 1e-3), 0, [&](const VecX& x) {
+          f->retract(q1, x, q2);
+          f->positions(0.0, q2);
+          return VecX(motion_map(s, angle) * v);
+        }).columns;
+  return map;
+}
+
+TurningModel::Impl::InWorld TurningModel::Impl::in_world(const SteadyTurning& s) {
+  const LinearSystem system = linear_system_at(*f, s.state);
+  degrees = system.degrees;
+  massless = system.massless;
+  const Eigen::Index nv = system.x_of.rows(), nz = system.A.rows();
+  MatX z(2 * nv, nz), rates(2 * nv, nz);
+  z << system.x_of, system.v_of;
+  rates << system.xdot_of, system.a_of;
+  InWorld w;
+  const MatX here = world_map(s, 0.0);
+  w.T = here * z;
+  w.rate = here * rates;
+  if (s.speed != 0.0) {
+    constexpr double h = 0.02;
+    const auto slope = [&](double step) {
+      return MatX((world_map(s, step) - world_map(s, -step)) / (2.0 * step));
+    };
+    w.rate += s.speed * ((4.0 * slope(0.5 * h) - slope(h)) / 3.0) * z;
+  }
+  return w;
+}
+
+/// The shape of the rotor turns in its own axes.
+bool TurningModel::Impl::bent(const SteadyTurning& s) const {
+  for (const RotorBody& r : rotor.bodies) {
+    const TreeBody& b = f->tree().body(r.body);
+    const Body& body = model.bodies[static_cast<std::size_t>(r.body)];
+    const VecX change = r.G * s.state.q.segment(b.iyq, b.nm);
+    for (const ModalNode& n : body.data->nodes)
+      if ((n.X * change).norm() > 1e-9 * body.length) return true;
+  }
+  return false;
+}
+
+/// Directions without mass follow the others by statics, at once: a bend that turns through them
+/// would need the rates of what they follow by.
+TurningModel::Impl::InWorld TurningModel::Impl::in_world(double speed, double angle,
+                                                         SteadyTurning& s) {
+  s = steady(speed, angle);
+  InWorld w = in_world(s);
+  if (massless == 0 || speed == 0.0 || !bent(s)) return w;
+  if (!(model.gravity.norm() > 0.0))
+    throw RunError(fmt::format(
+        "'{}' at {:g} rad/s: the rotor turns bent by loads, and {} of its motions have no mass; "
+        "give all of its bodies inertia (bars: mass_model: hermite, section_inertia: true)",
+        rotor.name, speed, massless));
+  model.gravity.setZero();
+  f = std::make_unique<RelativeFormulation>(model, model.simulation.inertia);
+  notes.push_back(
+      fmt::format("without weight: {} motions have no mass, and would meet a shape that sags "
+                  "(bars: mass_model: "
+                  "hermite, section_inertia: true)",
+                  massless));
+  return in_world(speed, angle, s);
+}
+
+namespace {
+
+/// The columns of T are of unlike size.
+MatX least_squares(const MatX& T, const MatX& B) {
+  const VecX unit = T.colwise().norm().cwiseMax(1e-300).cwiseInverse().transpose();
+  return unit.asDiagonal() * qr_solve(T * unit.asDiagonal(), B);
+}
+
+}  // namespace
+
+/// Displacements of points on the axis and its tilts, by rows of m.
+AxisMotion TurningModel::Impl::axis_motion(const SteadyTurning& s) const {
+  f->positions(0.0, s.state.q);
+  Eigen::Index rows = 0, count = 0;
+  std::vector<Eigen::Index> begin;
+  for (const Body& b : model.bodies) {
+    begin.push_back(rows);
+    rows += 6 + b.modes();
+  }
+  for (const RotorBody& r : rotor.bodies) count += 2 + static_cast<Eigen::Index>(r.on_axis.size());
+  AxisMotion axis;
+  axis.across_1 = axis.across_2 = axis.along = MatX::Zero(count, 2 * rows);
+  Eigen::Index at = 0;
+  for (const RotorBody& r : rotor.bodies) {
+    const std::size_t i = static_cast<std::size_t>(r.body);
+    const Mat3 R = f->body_rotation(r.body) * rotation_exp(-s.angle * r.axis);
+    const Vec3 e = (R * r.axis).normalized() * (s.speed < 0.0 ? -1.0 : 1.0);
+    const Vec3 e1 = e.unitOrthogonal(), e2 = e.cross(e1);
+    const auto add = [&](const MatX& u) {  // 3 x what is this body's of m
+      const auto columns = Eigen::seqN(begin[i], u.cols());
+      axis.across_1(at, columns) = e1.transpose() * u;
+      axis.across_2(at, columns) = e2.transpose() * u;
+      axis.along(at, columns) = e.transpose() * u;
+      ++at;
+    };
+    const int nm = model.bodies[i].modes();
+    MatX u = MatX::Zero(3, 6 + nm);
+    u.leftCols(3).setIdentity();
+    add(u);
+    u.setZero();
+    u.middleCols(3, 3) = -skew(e);  // of the tip of the axis, a length away
+    add(u);
+    for (const int k : r.on_axis) {
+      const ModalNode& n = model.bodies[i].data->nodes[static_cast<std::size_t>(k)];
+      u.leftCols(3).setIdentity();
+      u.middleCols(3, 3) = -skew(R * (n.p - r.p_BP)) / rotor.length;
+      u.rightCols(nm) = R * n.X;
+      add(u);
+    }
+  }
+  return axis;
+}
+
+TurningModel::TurningModel(const Model& model, const std::string& joint, const Vec3& axis)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->model = built(model);
+  impl_->f = std::make_unique<RelativeFormulation>(impl_->model, model.simulation.inertia);
+  impl_->rotor = find_rotor(*impl_->f, joint, axis);
+  VecX v;
+  impl_->f->start(impl_->q, v);
+  close_loops(*impl_->f, impl_->q, v, true);
+}
+
+TurningModel::~TurningModel() = default;
+
+std::vector<TurningMode> TurningModel::modes(double speed) {
+  SteadyTurning s;
+  const Impl::InWorld w = impl_->in_world(speed, 0.0, s);
+  const GeneralEigen e = general_eigen(least_squares(w.T, w.rate));
+  if (!e.found)
+    throw RunError(fmt::format("'{}' at {:g} rad/s: the eigenvalues do not converge",
+                               impl_->rotor.name, speed));
+  std::vector<TurningMode> modes;
+  for (Eigen::Index k = 0; k < e.values.size(); ++k) {
+    if (e.values[k].imag() < 0.0) continue;
+    TurningMode mode;
+    mode.lambda = e.values[k];
+    mode.m = w.T * e.vectors.col(k);
+    const double size = mode.m.norm();
+    if (size > 0.0) mode.m /= size;
+    modes.push_back(std::move(mode));
+  }
+  std::stable_sort(modes.begin(), modes.end(), [](const TurningMode& a, const TurningMode& b) {
+    return std::abs(a.lambda) < std::abs(b.lambda);
+  });
+  describe_whirl(impl_->axis_motion(s), modes);
+  return modes;
+}
+
+double TurningModel::dependence_on_angle(double speed) {
+  SteadyTurning s;
+  const Impl::InWorld here = impl_->in_world(speed, 0.0, s);
+  const MatX B = least_squares(here.T, here.rate);
+  const GeneralEigen alone = general_eigen(B);
+  const double stiffest = alone.values.cwiseAbs().maxCoeff();
+  double worst = 0.0;
+  for (const double angle : {0.7, 1.6}) {
+    const Impl::InWorld there = impl_->in_world(speed, angle, s);
+    const MatX rate = there.rate * least_squares(there.T, here.T);
+    const GeneralEigen mixed = general_eigen(least_squares(here.T, 0.5 * (here.rate + rate)));
+    if (!mixed.found) return std::numeric_limits<double>::infinity();
+    for (Eigen::Index k = 0; k < alone.values.size(); ++k) {
+      const double size = std::abs(alone.values[k]);
+      if (size < 1e-6 * stiffest) continue;  // rigid motions, to round-off
+      worst = std::max(worst, (mixed.values.array() - alone.values[k]).abs().minCoeff() / size);
+    }
+  }
+  return worst;
+}
+
+const Rotor& TurningModel::rotor() const { return impl_->rotor; }
+double TurningModel::torque() const { return impl_->torque; }
+int TurningModel::degrees() const { return impl_->degrees; }
+const std::vector<std::string>& TurningModel::notes() const { return impl_->notes; }
+
+double TurningModel::eccentricity() const {
+  Vec3 moment = Vec3::Zero();
+  double mass = 0.0;
+  for (const RotorBody& r : impl_->rotor.bodies) {
+    const InertiaInvariants& I =
+        impl_->model.bodies[static_cast<std::size_t>(r.body)].data->invariants;
+    const Vec3 c = I.centre_of_mass() - r.p_BP;
+    const Mat3 R = impl_->model.bodies[static_cast<std::size_t>(r.body)].X_WB.R;
+    moment += I.m * (R * (c - r.axis * r.axis.dot(c)));
+    mass += I.m;
+  }
+  return mass > 0.0 ? moment.norm() / mass : 0.0;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,57 @@
+#pragma once
+// A model whose rotor turns steadily, and its small motions in axes that do not turn.
+//
+// The linear system there, zdot = A z, is in coordinates of which some turn with the rotor. Seen
+// from the world they are m = T(t) z: displacements of points on the axis, rotations of bodies,
+// amplitudes D(theta) y, and the increments of all their rates. Along the steady motion
+//   mdot = (Tdot + T A) z = T B z,   B = T^+ (Tdot + T A)                                       (1)
+// with B constant if the rotor is symmetric about its axis, whatever holds it. Eigenvalues of B are
+// what one sees who stands beside the machine. Tdot T^+ + T A T^+ at another angle must be the
+// same operator: `dependence_on_angle` measures it.
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "floatframe/simulation/linear_system.hpp"
+#include "floatframe/simulation/rotor.hpp"
+
+namespace floatframe {
+
+/// One motion e^(lambda t) m of a turning system, in the world.
+struct TurningMode {
+  std::complex<double> lambda;  ///< [1/s], Im >= 0
+  Eigen::VectorXcd m;           ///< of unit size
+  /// 1: points of the axis whirl on circles with the rotor, -1: against it, 0: along lines.
+  double whirl = 0.0;
+  double across = 0.0;  ///< part of the motion of the axis that is across it; 0: no motion there
+};
+
+class TurningModel {
+ public:
+  /// Of the joint and axis of `find_rotor`. Relative coordinates whatever the model says. Weight
+  /// counts where the model has it. Throws InputError, or RunError for a start that cannot be.
+  TurningModel(const Model& model, const std::string& joint, const Vec3& axis);
+  ~TurningModel();
+
+  /// Modes at this speed [rad/s], ascending by |lambda|; of a pair the one with Im > 0. Throws
+  /// RunError where there is no steady state.
+  std::vector<TurningMode> modes(double speed);
+  /// By how much eigenvalues change, in parts of their size, if the system of other angles of the
+  /// rotor is mixed in: round-off for a rotor that is symmetric.
+  double dependence_on_angle(double speed);
+
+  const Rotor& rotor() const;
+  /// Of the last speed: distance of the centre of mass of the rotor from its axis [m].
+  double eccentricity() const;
+  /// Torque on the rotor that kept the last speed, 0 if it is driven [N m].
+  double torque() const;
+  int degrees() const;
+  /// What the user should know, a sentence each without its point.
+  const std::vector<std::string>& notes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace floatframe
