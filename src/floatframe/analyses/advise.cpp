@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/analyses/model_order.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/json_values.hpp"
@@ -178,6 +179,7 @@ AnalysisReport report_advice(const Model& model, const AdviceOptions& options) {
 
 Analysis advise_analysis() {
   const auto o = std::make_shared<AdviceOptions>();
+  const auto order = std::make_shared<ModelOrderOptions>();
   return {
       .name = "advise",
       .help = "Find out which modes of flexible bodies a model could do without",
@@ -190,14 +192,21 @@ Analysis advise_analysis() {
                "--tolerance", o->tolerance,
                "Largest change of an output allowed, as a fraction of its range; default 0.01"),
            whole_option("--repeat", o->repeat, 1, 1000,
-                        "Timed runs of both models, the quickest counts; default 3")},
+                        "Timed runs of both models, the quickest counts; default 3"),
+           number_option("--below", order->below, 1e-6, 1e9, "HERTZ",
+                         "Another question: modes that the vibrations of the whole model below "
+                         "this frequency need"),
+           fraction_option("--frequency-error", order->tolerance,
+                           "With --below: change of these frequencies allowed; default 0.01")},
       .footer =
           "The model is run with the options of its file, then without the modes whose shares are "
           "small;\n"
           "modes are only called droppable if that run agrees. Shares and thresholds: "
           "docs/mode-advisor.md.\n"
           "Exit codes: 0 done, 1 the model does not run, 2 bad input.",
-      .run = [o](const Model& model) { return report_advice(model, *o); }};
+      .run = [o, order](const Model& model) {
+        return order->below > 0.0 ? report_model_order(model, *order) : report_advice(model, *o);
+      }};
 }
 
 }  // namespace floatframe

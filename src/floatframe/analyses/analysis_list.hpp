@@ -9,6 +9,7 @@
 #include "floatframe/simulation/linear_ports.hpp"
 #include "floatframe/simulation/linear_system.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
+#include "floatframe/simulation/model_order.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 // clang-format off
