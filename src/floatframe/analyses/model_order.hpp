@@ -1,5 +1,6 @@
 #pragma once
-// How many modes each flexible body needs for a frequency range, as text and JSON: `advise --below`.
+// How many modes each flexible body needs for a frequency range, as text and JSON: what
+// `advise --below` prints.
 #include "floatframe/analyses/analysis.hpp"
 #include "floatframe/simulation/model_order.hpp"
 
