@@ -10,6 +10,7 @@
 #include "floatframe/simulation/linear_system.hpp"
 #include "floatframe/simulation/mode_advice.hpp"
 #include "floatframe/simulation/model_order.hpp"
+#include "floatframe/simulation/road_response.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 // clang-format off
@@ -20,5 +21,6 @@
   entry(mass_properties)           \
   entry(modes)                     \
   entry(linearize)                 \
-  entry(campbell)
+  entry(campbell)                  \
+  entry(response)
 // clang-format on

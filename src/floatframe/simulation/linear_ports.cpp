@@ -112,6 +112,13 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
     shaken.derivatives(input, steps.back(), j, motions);
     linear.input_values[j] = shaken.value(input);
   }
+  f.positions(shaken.state().t, shaken.state().q);
+  f.velocities(shaken.state().v);
+  for (LinearInput& input : linear.inputs)
+    if (input.wheels.size() == 1) {
+      const Force& wheel = model.forces[static_cast<std::size_t>(input.wheels[0])];
+      input.place = (f.marker(wheel.b).r + f.origin()).x();
+    }
   LinearInputs moved;
   linear.system = linear_system_at(f, shaken.state(), &motions, &moved);
   linear.time = shaken.state().t;
@@ -134,22 +141,27 @@ std::vector<LinearInput> linear_inputs(const Model& model) {
   std::vector<LinearInput> inputs;
   for (std::size_t k = 0; k < model.inputs.size(); ++k)
     inputs.push_back(
-        {model.inputs[k].name, model.inputs[k].unit, Kind::signal, static_cast<int>(k), {}});
+        {model.inputs[k].name, model.inputs[k].unit, Kind::signal, static_cast<int>(k), {}, 0.0});
   for (std::size_t k = 0; k < model.joints.size(); ++k)
     if (model.joints[k].motion)
       inputs.push_back({"motion of " + model.joints[k].name,
                         joint_unit_name(model.joints[k].type, 0),
                         Kind::motion,
                         static_cast<int>(k),
-                        {}});
+                        {},
+                        0.0});
   std::vector<int> wheels;
   for (std::size_t k = 0; k < model.forces.size(); ++k)
     if (model.forces[k].type == ForceType::tyre) wheels.push_back(static_cast<int>(k));
-  if (!wheels.empty()) inputs.push_back({"road", "m", Kind::road, -1, wheels});
+  if (!wheels.empty()) inputs.push_back({"road", "m", Kind::road, -1, wheels, 0.0});
   if (wheels.size() > 1)
     for (const int k : wheels)
-      inputs.push_back(
-          {"road at " + model.forces[static_cast<std::size_t>(k)].name, "m", Kind::road, -1, {k}});
+      inputs.push_back({"road at " + model.forces[static_cast<std::size_t>(k)].name,
+                        "m",
+                        Kind::road,
+                        -1,
+                        {k},
+                        0.0});
   return inputs;
 }
 

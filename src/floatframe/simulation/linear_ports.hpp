@@ -26,6 +26,7 @@ struct LinearInput {
   Kind kind = Kind::signal;
   int index = -1;           ///< of the model's input, or of the joint
   std::vector<int> wheels;  ///< of a road: the force elements that it moves under
+  double place = 0.0;       ///< x of the centre of its wheel, if it is one, in a LinearModel [m]
   /// How many derivatives enter: 0, 2 of motions, 1 of roads.
   int order() const noexcept { return kind == Kind::motion ? 2 : kind == Kind::road ? 1 : 0; }
 };

@@ -194,11 +194,11 @@ LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
   out.x_of = s.X * y;
   out.v_of = s.V * y + s.W * w;
   out.a_of = s.W * (w * out.A) + s.R * y + s.T * w;
+  for (MatX& B : s.u.B) B = MatX::Zero(nz, nu);
   if (nu == 0) return out;
 
   for (int k = 0; k < 3; ++k) {
     MatX& B = s.u.B[k];
-    B = MatX::Zero(nz, nu);
     MatX force = s.F[k].topRows(heavy);
     if (k < 2) {
       B.topRows(n) = w_u[k];

@@ -1,0 +1,163 @@
+// Response: of outputs to inputs over the frequency, in steady motion under a harmonic input, and
+// to random roads.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "floatframe/analyses/analysis.hpp"
+#include "floatframe/analyses/response_result.hpp"
+#include "floatframe/core/json_text.hpp"
+#include "floatframe/model/road_spectrum.hpp"
+#include "floatframe/simulation/frequency_response.hpp"
+#include "floatframe/simulation/operating_point.hpp"
+
+namespace floatframe {
+namespace {
+
+struct ResponseOptions {
+  LinearPorts ports;
+  std::string at;
+  double from = 0.1, to = 50.0;
+  int points = 400;
+  std::vector<std::string> harmonic;
+  std::string spectrum;
+  double speed = 0.0, waviness = 2.0;
+};
+
+std::optional<double> number_in(const std::string& text) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [read, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || read != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+double roughness_of(const std::string& text) {
+  for (int k = 0; k < static_cast<int>(std::size(road_classes::names)); ++k)
+    if (text == road_classes::names[k]) return road_classes::roughness(k);
+  const std::optional<double> value = number_in(text);
+  if (!value || !(*value > 0.0))
+    throw InputError(fmt::format(
+        "--road-spectrum: found '{}', expected a class, A to H, or the roughness at 0.1 cycles/m "
+        "[m3]",
+        excerpt(text)));
+  return *value;
+}
+
+/// "NAME=AMPLITUDE@HERTZ"
+struct HarmonicRequest {
+  std::string input;
+  double amplitude, frequency;
+};
+HarmonicRequest harmonic_request(const std::string& text) {
+  const std::size_t equals = text.rfind('='), at = text.rfind('@');
+  if (equals != std::string::npos && at != std::string::npos && equals < at) {
+    const auto amplitude = number_in(text.substr(equals + 1, at - equals - 1)),
+               frequency = number_in(text.substr(at + 1));
+    if (amplitude && frequency && *frequency >= 0.0)
+      return {text.substr(0, equals), *amplitude, *frequency};
+  }
+  throw InputError(fmt::format(
+      "--harmonic: found '{}', expected INPUT=AMPLITUDE@HERTZ, as road=0.01@1.5", excerpt(text)));
+}
+
+HarmonicResponse harmonic_of(const Model& model, const std::vector<std::string>& outputs,
+                             const HarmonicRequest& request) {
+  const LinearModel linear = linear_model(model, {{request.input}, outputs});
+  const Eigen::VectorXcd y =
+      request.amplitude * FrequencyResponse(linear).at_frequency(request.frequency).col(0);
+  HarmonicResponse h{request.input,
+                     linear.inputs[0].unit,
+                     request.amplitude,
+                     request.frequency,
+                     linear.outputs,
+                     {},
+                     {}};
+  for (Eigen::Index k = 0; k < y.size(); ++k) {
+    h.means.push_back(linear.output_values[k]);
+    h.values.push_back(y[k]);
+  }
+  return h;
+}
+
+void add_curves(const LinearModel& linear, ResponseResult& r) {
+  const FrequencyResponse response(linear);
+  for (const LinearInput& input : linear.inputs)
+    for (const Column& output : linear.outputs)
+      r.curves.push_back({output, {input.name, input.unit}, {}});
+  for (const double f : r.frequencies) {
+    const Eigen::MatrixXcd G = response.at_frequency(f);
+    std::size_t k = 0;
+    for (Eigen::Index j = 0; j < G.cols(); ++j)
+      for (Eigen::Index i = 0; i < G.rows(); ++i) r.curves[k++].values.push_back(G(i, j));
+  }
+}
+
+AnalysisReport report_response(const Model& given, const ResponseOptions& o) {
+  if (!(o.to > o.from))
+    throw InputError(
+        fmt::format("--to: found {:g} Hz, expected more than --from, {:g} Hz", o.to, o.from));
+  const Model model = at_operating_point(given, o.at);
+  const auto r = std::make_shared<ResponseResult>();
+  r->model = given.name;
+  r->frequencies = frequencies_between(o.from, o.to, o.points);
+  for (const std::string& text : o.harmonic)
+    r->harmonics.push_back(harmonic_of(model, o.ports.outputs, harmonic_request(text)));
+  if (!o.spectrum.empty()) {
+    if (!(o.speed > 0.0))
+      throw InputError("--road-spectrum needs --speed, a positive number [m/s]");
+    r->loading = {roughness_of(o.spectrum), o.waviness, o.speed, o.from, o.to};
+    r->road = road_response(model, o.ports.outputs, r->frequencies, r->loading);
+  } else if (o.speed > 0.0) {
+    throw InputError("--speed is of --road-spectrum, which is not given");
+  }
+  // Whoever asks for a road or a harmonic input has curves only of inputs that he names.
+  const bool others = r->road || !r->harmonics.empty();
+  const LinearModel linear = linear_model(model, {o.ports.inputs, o.ports.outputs});
+  r->time = linear.time;
+  r->notes = linear.system.notes;
+  if (!others || !o.ports.inputs.empty()) add_curves(linear, *r);
+  return {.text = response_text(*r),
+          .json = response_json(*r),
+          .files = {[r] { return response_csv(*r); }, [r] { return response_svg(*r); }}};
+}
+
+}  // namespace
+
+Analysis response_analysis() {
+  const auto o = std::make_shared<ResponseOptions>();
+  constexpr double largest = 1e9;
+  return {
+      .name = "response",
+      .help = "Frequency response of outputs to inputs, also to random roads (Hz, SI units)",
+      .options =
+          {word_list(
+               "--inputs", o->ports.inputs, {},
+               "Inputs of the model, 'motion of JOINT', 'road', 'road at TYRE'; default: all"),
+           word_list("--outputs", o->ports.outputs, {}, "Outputs of the model; default: all"),
+           operating_point_option(o->at),
+           number_option("--from", o->from, 1e-6, largest, "HERTZ", "Lowest frequency [Hz]"),
+           number_option("--to", o->to, 1e-6, largest, "HERTZ", "Highest frequency [Hz]"),
+           whole_option("--points", o->points, 1, 100'000,
+                        "Frequencies, evenly on a logarithmic axis"),
+           repeated_option("--harmonic", o->harmonic, "INPUT=AMPLITUDE@HERTZ",
+                           "Steady motion where an input swings; may be repeated"),
+           text_option("--road-spectrum", o->spectrum, "CLASS",
+                       "Spectra and rms on a random road (ISO 8608) of class A to H, or of this "
+                       "roughness at 0.1 cycles/m [m3]"),
+           number_option("--speed", o->speed, 0.0, 1e4, "M/S", "Along the road [m/s]"),
+           number_option("--waviness", o->waviness, 0.0, 10.0, "W",
+                         "Exponent of the road's spectrum")},
+      .json_help = "JSON on standard output",
+      .files = {{"--csv", "Write magnitude, phase, real and imaginary part, and densities"},
+                {"--svg", "Write Bode plots and densities"}},
+      .footer =
+          "Inputs are meant by their values: height of a road, angle of a prescribed motion.\n"
+          "Exit codes: 0 done, 1 the start cannot be found or the response has no bound, 2 "
+          "bad input.",
+      .run = [o](const Model& model) { return report_response(model, *o); }};
+}
+
+}  // namespace floatframe

@@ -1,0 +1,237 @@
+#include "floatframe/analyses/response_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "floatframe/core/csv_field.hpp"
+#include "floatframe/core/text_table.hpp"
+#include "floatframe/report/json_values.hpp"
+#include "floatframe/report/log_plot.hpp"
+#include "floatframe/report/svg_plot.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+double phase_of(std::complex<double> value) { return degrees * std::arg(value); }
+
+std::string density_unit(const Column& output) {
+  const std::string& u = output.unit;
+  if (u.empty()) return "1/Hz";
+  return (u.find_first_of("/ ") == std::string::npos ? u : "(" + u + ")") + "^2/Hz";
+}
+
+std::string curves_text(const ResponseResult& r) {
+  TextTable table(
+      {"output", "input", "unit", "at [Hz]", "magnitude", "phase [deg]", "largest", "there [Hz]"},
+      {1, 2});
+  for (const ResponseCurve& c : r.curves) {
+    const std::vector<double> sizes = c.magnitudes(), phases = c.phases();
+    const auto top = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
+    const std::size_t ends[] = {0, sizes.size() - 1};
+    for (const std::size_t k : ends) {
+      const bool first = k == 0;
+      if (!first && sizes.size() == 1) break;
+      table.add({first ? c.output.name : "", first ? c.input.name : "", first ? c.unit() : "",
+                 fmt::format("{:.4g}", r.frequencies[k]), fmt::format("{:.5g}", sizes[k]),
+                 fmt::format("{:.1f}", phases[k]),
+                 first ? fmt::format("{:.5g}", sizes[static_cast<std::size_t>(top)]) : "",
+                 first ? fmt::format("{:.4g}", r.frequencies[static_cast<std::size_t>(top)]) : ""});
+    }
+  }
+  return table.text();
+}
+
+std::string harmonic_text(const HarmonicResponse& h) {
+  TextTable table({"output", "unit", "mean", "amplitude", "phase [deg]"}, {1});
+  for (std::size_t k = 0; k < h.outputs.size(); ++k)
+    table.add({h.outputs[k].name, h.outputs[k].unit, fmt::format("{:.6g}", h.means[k]),
+               fmt::format("{:.6g}", std::abs(h.values[k])),
+               fmt::format("{:.2f}", phase_of(h.values[k]))});
+  return fmt::format("{} = {:g} {} cos(2 pi {:g} Hz t), in steady motion:\n{}", h.input,
+                     h.amplitude, h.unit, h.frequency, table.text());
+}
+
+std::string road_text(const RoadLoading& loading, const RoadResponse& road) {
+  TextTable table({"output", "unit", "rms"}, {1});
+  for (const OutputSpectrum& o : road.outputs)
+    table.add({o.output.name, o.output.unit, fmt::format("{:.5g}", o.rms)});
+  return fmt::format(
+      "road of {:g} m3 at 0.1 cycles/m, waviness {:g}, at {:g} m/s, from {:.4g} to {:.4g} Hz "
+      "(height: rms {:.4g} m):\n{}",
+      loading.roughness, loading.waviness, loading.speed, road.from, road.to, road.road,
+      table.text());
+}
+
+/// Curves of one unit share panels, a few of them each.
+template <class Curve, class Unit>
+std::vector<std::vector<const Curve*>> panels_of(const std::vector<Curve>& curves,
+                                                 const Unit& unit) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<const Curve*>> groups;
+  for (const Curve& c : curves) {
+    if (groups[unit(c)].empty()) order.push_back(unit(c));
+    groups[unit(c)].push_back(&c);
+  }
+  std::vector<std::vector<const Curve*>> panels;
+  for (const std::string& u : order)
+    for (std::size_t k = 0; k < groups[u].size(); ++k) {
+      if (k % max_curves_per_plot == 0) panels.emplace_back();
+      panels.back().push_back(groups[u][k]);
+    }
+  return panels;
+}
+
+}  // namespace
+
+std::string ResponseCurve::unit() const {
+  const std::string above = output.unit.empty() ? "1" : output.unit;
+  return input.unit.empty() ? above : above + " per " + input.unit;
+}
+
+std::vector<double> ResponseCurve::magnitudes() const {
+  std::vector<double> all;
+  for (const std::complex<double>& v : values) all.push_back(std::abs(v));
+  return all;
+}
+
+std::vector<double> ResponseCurve::phases() const {
+  std::vector<double> all;
+  for (const std::complex<double>& v : values) {
+    const double phase = phase_of(v);
+    all.push_back(all.empty() ? phase : all.back() + std::remainder(phase - all.back(), 360.0));
+  }
+  return all;
+}
+
+std::string response_text(const ResponseResult& r) {
+  std::string text = fmt::format("{} at t = {:g} s\n", r.model, r.time);
+  if (!r.curves.empty()) text += "\n" + curves_text(r);
+  for (const HarmonicResponse& h : r.harmonics) text += "\n" + harmonic_text(h);
+  if (r.road) text += "\n" + road_text(r.loading, *r.road);
+  if (r.curves.empty() && r.harmonics.empty() && !r.road)
+    text +=
+        "\nThe model has no inputs (its own, prescribed motions, roads), or no outputs: there is "
+        "nothing to respond.\n";
+  for (const std::string& note : r.notes) text += "Note: " + note + ".\n";
+  return text;
+}
+
+std::string response_json(const ResponseResult& r) {
+  using Json = nlohmann::ordered_json;
+  Json curves = Json::array(), harmonics = Json::array();
+  for (const ResponseCurve& c : r.curves) {
+    std::vector<double> real, imaginary;
+    for (const std::complex<double>& v : c.values)
+      real.push_back(v.real()), imaginary.push_back(v.imag());
+    curves.push_back({{"output", c.output.name},
+                      {"input", c.input.name},
+                      {"unit", c.unit()},
+                      {"magnitude", c.magnitudes()},
+                      {"phase_deg", c.phases()},
+                      {"real", real},
+                      {"imaginary", imaginary}});
+  }
+  for (const HarmonicResponse& h : r.harmonics) {
+    Json outputs = Json::array();
+    for (std::size_t k = 0; k < h.outputs.size(); ++k)
+      outputs.push_back({{"name", h.outputs[k].name},
+                         {"unit", h.outputs[k].unit},
+                         {"mean", h.means[k]},
+                         {"amplitude", std::abs(h.values[k])},
+                         {"phase_deg", phase_of(h.values[k])}});
+    harmonics.push_back({{"input", h.input},
+                         {"amplitude", h.amplitude},
+                         {"frequency_Hz", h.frequency},
+                         {"outputs", outputs}});
+  }
+  Json all{{"model", r.model},
+           {"time_s", r.time},
+           {"frequencies_Hz", r.frequencies},
+           {"responses", curves},
+           {"harmonic", harmonics}};
+  if (r.road) {
+    Json outputs = Json::array();
+    for (const OutputSpectrum& o : r.road->outputs)
+      outputs.push_back({{"name", o.output.name},
+                         {"unit", o.output.unit},
+                         {"rms", o.rms},
+                         {"density", o.density}});
+    all["road"] = {{"roughness_m3", r.loading.roughness},
+                   {"waviness", r.loading.waviness},
+                   {"speed_m_s", r.loading.speed},
+                   {"from_Hz", r.road->from},
+                   {"to_Hz", r.road->to},
+                   {"rms_m", r.road->road},
+                   {"outputs", outputs}};
+  }
+  all["notes"] = r.notes;
+  return json_document(all);
+}
+
+std::string response_csv(const ResponseResult& r) {
+  std::vector<std::pair<std::string, std::vector<double>>> columns;
+  columns.emplace_back("frequency [Hz]", r.frequencies);
+  for (const ResponseCurve& c : r.curves) {
+    const std::string name = c.output.name + " / " + c.input.name;
+    columns.emplace_back(csv_title(name + " magnitude", c.unit()), c.magnitudes());
+    columns.emplace_back(csv_title(name + " phase", "deg"), c.phases());
+    std::vector<double> real, imaginary;
+    for (const std::complex<double>& v : c.values)
+      real.push_back(v.real()), imaginary.push_back(v.imag());
+    columns.emplace_back(csv_title(name + " real", c.unit()), std::move(real));
+    columns.emplace_back(csv_title(name + " imaginary", c.unit()), std::move(imaginary));
+  }
+  if (r.road)
+    for (const OutputSpectrum& o : r.road->outputs)
+      columns.emplace_back(csv_title(o.output.name + " density", density_unit(o.output)),
+                           o.density);
+  std::string text;
+  for (const auto& [title, values] : columns) text += (text.empty() ? "" : ",") + csv_field(title);
+  text += "\n";
+  for (std::size_t k = 0; k < r.frequencies.size(); ++k) {
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      text += fmt::format("{}{:.12g}", c == 0 ? "" : ",", columns[c].second[k]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string response_svg(const ResponseResult& r) {
+  std::vector<LogPanel> panels;
+  for (const auto& group : panels_of(r.curves, [](const ResponseCurve& c) { return c.unit(); })) {
+    LogPanel size{"Magnitude", "[" + group[0]->unit() + "]", LogPanel::Scale::logarithmic, {}},
+        phase{"Phase", "", LogPanel::Scale::degrees, {}};
+    for (const ResponseCurve* c : group) {
+      const std::string name = c->output.name + " / " + c->input.name;
+      size.curves.push_back({name, c->magnitudes()});
+      phase.curves.push_back({name, c->phases()});
+    }
+    panels.push_back(std::move(size));
+    panels.push_back(std::move(phase));
+  }
+  if (r.road)
+    for (const auto& group : panels_of(
+             r.road->outputs, [](const OutputSpectrum& o) { return density_unit(o.output); })) {
+      LogPanel panel{"Spectral density",
+                     "[" + density_unit(group[0]->output) + "]",
+                     LogPanel::Scale::logarithmic,
+                     {}};
+      for (const OutputSpectrum* o : group)
+        panel.curves.push_back(
+            {fmt::format("{}, rms {:.4g} {}", o->output.name, o->rms, o->output.unit), o->density});
+      panels.push_back(std::move(panel));
+    }
+  const std::string title = r.road ? fmt::format("{}: road of {:g} m3 at {:g} m/s", r.model,
+                                                 r.loading.roughness, r.loading.speed)
+                                   : r.model;
+  return log_plots(title, "frequency [Hz]", r.frequencies, panels);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,46 @@
+#pragma once
+// What the command `response` found, and how it is written: tables, JSON, CSV, plots.
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floatframe/simulation/road_response.hpp"
+
+namespace floatframe {
+
+/// From one input to one output, at all frequencies.
+struct ResponseCurve {
+  Column output, input;
+  std::vector<std::complex<double>> values;
+  std::string unit() const;  ///< "m/s2 per m"
+  std::vector<double> magnitudes() const;
+  std::vector<double> phases() const;  ///< without jumps [deg]
+};
+
+/// Outputs in steady motion where an input moves by amplitude cos(2 pi f t).
+struct HarmonicResponse {
+  std::string input, unit;
+  double amplitude = 0.0, frequency = 0.0;
+  std::vector<Column> outputs;
+  std::vector<double> means;
+  std::vector<std::complex<double>> values;
+};
+
+struct ResponseResult {
+  std::string model;
+  double time = 0.0;
+  std::vector<double> frequencies;
+  std::vector<ResponseCurve> curves;
+  std::vector<HarmonicResponse> harmonics;
+  RoadLoading loading;
+  std::optional<RoadResponse> road;
+  std::vector<std::string> notes;
+};
+
+std::string response_text(const ResponseResult& r);
+std::string response_json(const ResponseResult& r);
+std::string response_csv(const ResponseResult& r);
+std::string response_svg(const ResponseResult& r);
+
+}  // namespace floatframe

@@ -1,0 +1,47 @@
+#pragma once
+// What a random road does to a model that drives along x: one-sided spectral densities and
+// effective values of outputs. A road of the wave number n [cycles/m] has the one-sided density
+//   G(n) = G0 (n / n0)^-w   [m3],   n0 = 0.1 cycles/m, from 0.011 to 2.83 cycles/m             (1)
+// (ISO 8608, w = 2), at the speed V met as S(f) = G(f / V) / V [m2/Hz]. Wheels on one road follow
+// each other: the wheel at x_k meets what a wheel at 0 meets x_k / V earlier,
+//   H_r(f) = sum over the wheels k of the road r  G_k(i 2 pi f) e^(i 2 pi f x_k / V)           (2)
+//   S_y(f) = sum over roads |H_r(f)|^2 S(f),   rms^2 = int S_y df
+// Different roads of a model are independent of each other. The linear system is that of the place
+// where the model is linearised, roads are lifted without a slope.
+#include <string>
+#include <vector>
+
+#include "floatframe/simulation/linear_ports.hpp"
+
+namespace floatframe {
+
+struct RoadLoading {
+  double roughness = 256e-6;     ///< G0 [m3]; class C
+  double waviness = 2.0;         ///< w
+  double speed = 0.0;            ///< V [m/s]
+  double from = 0.1, to = 50.0;  ///< the band asked for [Hz]; the road has 0.011 V to 2.83 V
+};
+
+struct OutputSpectrum {
+  Column output;
+  std::vector<double> density;  ///< at the frequencies asked for [unit^2/Hz]; 0 outside the band
+  double rms = 0.0;             ///< in the band, about the mean
+};
+
+struct RoadResponse {
+  std::vector<double> frequencies;  ///< [Hz]
+  std::vector<OutputSpectrum> outputs;
+  double from = 0.0, to = 0.0;  ///< the band: what both the road and the user have [Hz]
+  double road = 0.0;            ///< rms of the height in the band [m]
+  std::vector<std::string> notes;
+};
+
+/// Throws InputError if the model has no wheels or the band is empty, and as `linear_model`.
+RoadResponse road_response(const Model& model, const std::vector<std::string>& outputs,
+                           const std::vector<double>& frequencies, const RoadLoading& loading,
+                           const SimulationOptions& options = {});
+
+/// From `from` to `to`, evenly on a logarithmic axis, both included.
+std::vector<double> frequencies_between(double from, double to, int count);
+
+}  // namespace floatframe
