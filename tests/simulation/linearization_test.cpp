@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/simulation/small_motions.hpp"
 #include "support/model_text.hpp"
 #include "support/random_model.hpp"
 
@@ -29,13 +30,12 @@ simulation: {step: 0.001, duration: 1}
   State s;
   f.start(s.q, s.v);
   s.lambda = VecX::Zero(0);
-  const LinearTerms l = linearize(f, s);
+  const SmallMotions l = small_motions(f, s);
   EXPECT_NEAR(l.r[0], 0.0, 1e-14);
   EXPECT_NEAR(l.M(0, 0), 2 * 1.5 * 1.5, 1e-12);
   EXPECT_NEAR(l.K(0, 0), 2 * 1.5 * model.gravity.norm(), 1e-8);
   EXPECT_NEAR(l.C(0, 0), 0.0, 1e-10);
   EXPECT_EQ(l.J.rows(), 0);
-  EXPECT_EQ(l.phi.size(), 0);
 }
 
 TEST(Linearization, SlidingMassOnSpringAndDamper) {
@@ -49,7 +49,7 @@ simulation: {step: 0.001, duration: 1}
   VecX q, v;
   f.start(q, v);
   q[0] = 0.25;
-  const LinearTerms l = linearize(f, at(f, q, VecX::Constant(1, 0.5)));
+  const SmallMotions l = small_motions(f, at(f, q, VecX::Constant(1, 0.5)));
   EXPECT_NEAR(l.r[0], 40 * 0.25 + 7 * 0.5, 1e-12);
   EXPECT_NEAR(l.M(0, 0), 3, 1e-12);
   EXPECT_NEAR(l.K(0, 0), 40, 1e-7);
@@ -75,7 +75,7 @@ TEST(Linearization, StiffnessOfATreeIsAHessian) {
   Random random(3);
   VecX q, v;
   random_configuration(f, random, q, v);
-  const LinearTerms l = linearize(f, at(f, q, VecX::Zero(f.velocities())));
+  const SmallMotions l = small_motions(f, at(f, q, VecX::Zero(f.velocities())));
   EXPECT_GT(largest(l.K), 1.0);
   EXPECT_LT(largest(l.K - l.K.transpose()), 1e-6 * largest(l.K));
   EXPECT_LT(largest(l.M - l.M.transpose()), 1e-12 * largest(l.M));
@@ -87,7 +87,7 @@ void expect_second_order(F& f, const VecX& q, const VecX& v) {
   const State moving = at(f, q, v), still = at(f, q, VecX::Zero(v.size()));
   const VecX part =
       residual_at(f, 0.0, q, v, moving.lambda) - residual_at(f, 0.0, q, still.v, still.lambda);
-  const LinearTerms l = linearize(f, moving);
+  const SmallMotions l = small_motions(f, moving);
   EXPECT_GT(largest(part), 1e-2);
   EXPECT_LT(largest(l.C * v - 2.0 * part), 1e-8 * largest(part));
 }
@@ -104,8 +104,8 @@ TEST(Linearization, InertiaForcesInBothFormulations) {
   expect_second_order(absolute, qa, va);
   // The same masses, and rows of the cut joint, seen through the map of velocities.
   const MatX map = velocity_map(relative, absolute, q);
-  const LinearTerms r = linearize(relative, at(relative, q, v));
-  const LinearTerms a = linearize(absolute, at(absolute, qa, va));
+  const SmallMotions r = small_motions(relative, at(relative, q, v));
+  const SmallMotions a = small_motions(absolute, at(absolute, qa, va));
   EXPECT_LT(largest(map.transpose() * a.M * map - r.M), 1e-10 * largest(r.M));
   const std::vector<ConstraintPart>& parts = absolute.constraint_set().parts();
   std::size_t loop = parts.size();
@@ -125,7 +125,8 @@ TEST(Linearization, PredictsTheResidualOfASmallMotion) {
   random_configuration(f, random, q, v);
   State s = at(f, q, v);
   s.lambda = random.vector(f.constraints(), 5.0);
-  const LinearTerms l = linearize(f, s);
+  const SmallMotions l = small_motions(f, s);
+  const VecX phi = f.constraint_values();
   const int nv = f.velocities();
   const VecX x = random.vector(nv, 1.0), xdot = random.vector(nv, 1.0);
   const VecX dlambda = random.vector(f.constraints(), 1.0);
@@ -138,12 +139,72 @@ TEST(Linearization, PredictsTheResidualOfASmallMotion) {
         residual_at(f, 0.0, q1, VecX(v + sizes[k] * xdot), VecX(s.lambda + sizes[k] * dlambda));
     VecX all(nv + f.constraints());
     all << r - l.r - sizes[k] * (l.K * x + l.C * xdot + l.J.transpose() * dlambda),
-        f.constraint_values() - l.phi - sizes[k] * (l.J * x);
+        f.constraint_values() - phi - sizes[k] * (l.J * x);
     errors[k] = all;
   }
   // What is left is of second order.
   EXPECT_LT(largest(errors[0]), 1e-2 * sizes[0] * largest(l.K));
   EXPECT_NEAR(largest(errors[1]) / largest(errors[0]), 0.25, 0.02);
+}
+
+/// dg/ds at 0, of sixth order.
+template <class G>
+VecX slope(const G& g, double h) {
+  const auto central = [&](double step) { return VecX((g(step) - g(-step)) / (2.0 * step)); };
+  return (64.0 * central(0.25 * h) - 20.0 * central(0.5 * h) + central(h)) / 45.0;
+}
+
+/// All derivatives along random directions, in motion, with accelerations and multipliers.
+template <class F>
+double distance_from_differences(F& f, State s, Random& random) {
+  const int nv = f.velocities(), nc = f.constraints();
+  s.a = random.vector(nv, 3.0);
+  s.lambda = random.vector(nc, 5.0);
+  const SmallMotions m = small_motions(f, s);
+  const VecX x = random.vector(nv, 1.0);
+  const auto terms = [&](const VecX& dx, const VecX& dv, const VecX& da) {
+    VecX all(nv + 2 * nc), part(nc), r(nv), q = s.q;
+    f.retract(s.q, dx, q);
+    f.positions(s.t, q);
+    f.velocities(VecX(s.v + dv));
+    f.dynamics();
+    f.residual(VecX(s.a + da), s.lambda, 0.0, r);
+    all.head(nv) = r;
+    f.constraint_rates(part);
+    all.segment(nv, nc) = part;
+    f.constraint_accelerations(VecX(s.a + da), part);
+    all.tail(nc) = part;
+    return all;
+  };
+  const VecX zero = VecX::Zero(nv);
+  const VecX along = slope([&](double h) { return terms(VecX(h * x), zero, zero); }, 4e-3),
+             rate = slope([&](double h) { return terms(zero, VecX(h * x), zero); }, 4e-2),
+             acceleration = slope([&](double h) { return terms(zero, zero, VecX(h * x)); }, 1.0);
+  const auto off = [&](const VecX& found, const MatX& matrix) {
+    const double size = (matrix.cwiseAbs() * x.cwiseAbs()).maxCoeff();
+    return size > 0.0 ? largest(found - matrix * x) / size : largest(found);
+  };
+  return std::max({off(along.head(nv), m.K), off(along.segment(nv, nc), m.G),
+                   off(along.tail(nc), m.H), off(rate.head(nv), m.C),
+                   off(rate.segment(nv, nc), m.J), off(rate.tail(nc), m.D),
+                   off(acceleration.head(nv), m.M), off(acceleration.tail(nc), m.J)});
+}
+
+TEST(SmallMotions, DerivativesAgainstCentralDifferences) {
+  double worst = 0.0;
+  for (const std::uint64_t seed : {11, 12, 13}) {
+    const Model model = mechanism(true);
+    RelativeFormulation relative(model, InertiaMethod::preprocessing);
+    AbsoluteFormulation absolute(model, InertiaMethod::preprocessing);
+    Random random(seed);
+    VecX q, v, qa, va;
+    random_configuration(relative, random, q, v);
+    absolute.start_from(relative, q, v, qa, va);
+    worst = std::max({worst, distance_from_differences(relative, at(relative, q, v), random),
+                      distance_from_differences(absolute, at(absolute, qa, va), random)});
+  }
+  std::printf("[ figure ] derivatives_against_differences %.1e\n", worst);
+  EXPECT_LT(worst, 1e-7);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "figures.hpp"
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model_file/model_reader.hpp"
-#include "floatframe/simulation/linearization.hpp"
+#include "floatframe/simulation/small_motions.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
@@ -51,7 +51,7 @@ VecX mode_squares(const Model& model) {
   State s;
   f.start(s.q, s.v);
   s.lambda = VecX::Zero(0);
-  const LinearTerms l = linearize(f, s);
+  const SmallMotions l = small_motions(f, s);
   const Eigen::Index nm = model.bodies[0].modes();
   const MatX K = l.K.bottomRightCorner(nm, nm), M = l.M.bottomRightCorner(nm, nm);
   return Eigen::GeneralizedSelfAdjointEigenSolver<MatX>(0.5 * (K + K.transpose()), M).eigenvalues();

@@ -7,8 +7,8 @@
 //   M = dr/da,  C = dr/dv,  K = dr/dx,  J = Phi_q.
 // r is linear in a: a column of M is a difference of two residuals, exact but for round-off, which
 // is least if M times the trial acceleration is no smaller than the forces. C and K are central
-// differences (K holds the geometric stiffness of forces and multipliers). Everywhere a = 0: K
-// leaves out how M turns with the configuration. Dense, allocates: load time only.
+// differences (K holds the geometric stiffness of forces and multipliers), here at a = 0, as statics
+// needs them; small_motions.hpp has them at accelerations. Dense, allocates: load time only.
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 
@@ -79,25 +79,6 @@ MatX damping_matrix(F& f, const State& s) {
   return central_differences(f.velocities(), step, [&](const VecX& x) {
     return residual_at(f, s.t, s.q, VecX(s.v + x), s.lambda);
   });
-}
-
-struct LinearTerms {
-  VecX r, phi;   ///< at the state, without accelerations
-  MatX M, C, K;  ///< nv x nv
-  MatX J;        ///< nc x nv
-};
-
-/// (1) at t, q, v, lambda of the state, where `f` is afterwards.
-template <EquationsOfMotion F>
-LinearTerms linearize(F& f, const State& s) {
-  LinearTerms l;
-  l.K = stiffness_matrix(f, s);
-  l.C = damping_matrix(f, s);
-  l.r = residual_at(f, s.t, s.q, s.v, s.lambda);
-  l.phi = f.constraint_values();
-  l.J = f.constraint_jacobian();
-  l.M = mass_matrix(f, VecX::Ones(f.velocities()), l.r, s.lambda);
-  return l;
 }
 
 }  // namespace floatframe

@@ -1,8 +1,8 @@
 #include "floatframe/simulation/linearize.hpp"
 
 #include "floatframe/formulation/owners.hpp"
-#include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/simulation_options.hpp"
+#include "floatframe/simulation/small_motions.hpp"
 #include "floatframe/simulation/start_up.hpp"
 #include "floatframe/simulation/system_state.hpp"
 
@@ -13,7 +13,7 @@ template <class F>
 Linearization linearized(const Model& model, const SimulationDescription& options) {
   StartedModel<F> started(model, options);
   F& f = started.formulation();
-  LinearTerms terms = linearize(f, started.state());
+  SmallMotions terms = small_motions(f, started.state());
   Linearization l;
   l.M = std::move(terms.M);
   l.C = std::move(terms.C);

@@ -8,11 +8,11 @@
 //   (N^T M N) yddot + (N^T C N) ydot + (N^T K N) y = 0                                          (2)
 // has the vibrations of the model, the same in all coordinates.
 //
-// What is left out: all terms are taken without accelerations a. Where the state accelerates, r is
-// not zero, and K lacks (dM/dq) a, how M turns with the configuration; N changes with it, too. So
-// (2) holds in equilibrium (`Start::equilibrium`), and elsewhere as far as the accelerations are
-// small. Time and inputs are held as they are at the state. K and C are central differences over
-// 1e-6 [m, rad] and 1e-3 [m/s, rad/s]: a kink of a law within them is averaged.
+// K = dr/dx is complete: with d(M a - Q_v)/dx at the accelerations a of the state, and all of
+// J^T lambda. Where the state moves, N changes with it and (2) holds in equilibrium
+// (`Start::equilibrium`) only; `linear_system` is the motion itself, also there. Time and inputs are
+// held as they are. Derivatives are differences over two steps, extrapolated: a kink of a law within
+// them is averaged.
 #include <string>
 #include <vector>
 
