@@ -117,6 +117,18 @@ TEST(LinearPorts, QuarterCarIsItsClosedForm) {
   }
 }
 
+// On a flat road a radial tyre is a vertical one, also if the road is lifted.
+TEST(LinearPorts, RadialTyreOnAFlatRoad) {
+  std::string radial = two_quarter_cars;
+  const std::string damping = "damping: 300,";
+  radial.replace(radial.find(damping), damping.size(), damping + " law: radial,");
+  const LinearModel one = linear_model(model_of(two_quarter_cars), {{"road"}, {}}),
+                    two = linear_model(model_of(radial), {{"road"}, {}});
+  const Eigen::MatrixXcd G = FrequencyResponse(one).at_frequency(3.0),
+                         H = FrequencyResponse(two).at_frequency(3.0);
+  EXPECT_LT((G - H).cwiseAbs().maxCoeff(), 1e-9 * G.cwiseAbs().maxCoeff());
+}
+
 TEST(LinearPorts, StateSpaceHasTheSameTransferFunction) {
   const Model model = model_of(two_quarter_cars);
   const LinearModel linear = linear_model(model);
@@ -211,6 +223,42 @@ simulation: {start: equilibrium, step: 0.001, duration: 1}
   }
   figure("transfer_of_both_formulations", worst);
   EXPECT_LT(worst, 1e-6);
+}
+
+// A bead on a spring slides along an arm that a motor turns at 12 rad/s, where it is in balance:
+// m r'' + (k - m W^2) r = 2 m W rho u' for a small angle u of the motor more, with the torque
+// (I + m rho^2) u'' + 2 m rho W r'.
+TEST(LinearPorts, MotorOfAnArmThatTurns) {
+  const Model model = model_of(R"(
+gravity: [0, 0, 0]
+bodies:
+  arm: {position: [0, 0, 0], rigid: {mass: 1, inertia: [1, 1, 0.3]}}
+  bead: {position: [0.5, 0, 0], rigid: {mass: 0.2}}
+joints:
+  drive: {type: revolute, child: arm, at: [0, 0, 0], axis: z, motion: {polynomial: [0, 12]}}
+  slide: {type: prismatic, parent: arm, child: bead, at: [0.5, 0, 0], axis: x}
+forces: {s: {type: joint_spring, joint: slide, spring: {linear: {stiffness: 90, preload: -14.4}}}}
+outputs:
+  r: {joint_position: slide}
+  x: {position: bead, axis: x}
+  y: {position: bead, axis: y}
+  vx: {velocity: bead, axis: x}
+  motor: {motion_force: drive}
+simulation: {step: 0.001, duration: 1}
+)");
+  const LinearModel linear = linear_model(model);
+  ASSERT_EQ(linear.inputs.size(), 1u);
+  EXPECT_EQ(linear.inputs[0].unit, "rad");
+  const FrequencyResponse response(linear);
+  const double m = 0.2, W = 12.0, rho = 0.5, I = 0.3;
+  for (const double f : {0.1, 1.0, 2.0, 5.0, 20.0}) {
+    const Complex s(0.0, 2.0 * M_PI * f), r = 2.0 * W * rho * s / (s * s + 90.0 / m - W * W);
+    Eigen::VectorXcd expected(5);
+    expected << r, r, rho, s * r - W * rho, (I + m * rho * rho) * s * s + 2.0 * m * rho * W * s * r;
+    const Eigen::VectorXcd found = response.at_frequency(f).col(0);
+    for (Eigen::Index i = 0; i < 5; ++i)
+      EXPECT_LT(std::abs(found[i] - expected[i]), 1e-6 * std::abs(expected[i])) << f << ": " << i;
+  }
 }
 
 // An arm that leans, of two parts of which the second bends easily, on a carriage that a motor
