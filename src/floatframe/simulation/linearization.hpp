@@ -7,8 +7,9 @@
 //   M = dr/da,  C = dr/dv,  K = dr/dx,  J = Phi_q.
 // r is linear in a: a column of M is a difference of two residuals, exact but for round-off, which
 // is least if M times the trial acceleration is no smaller than the forces. C and K are central
-// differences (K holds the geometric stiffness of forces and multipliers), here at a = 0, as statics
-// needs them; small_motions.hpp has them at accelerations. Dense, allocates: load time only.
+// differences (K holds the geometric stiffness of forces and multipliers), here at a = 0, as
+// statics needs them; small_motions.hpp has them at accelerations. Dense, allocates: load time
+// only.
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 

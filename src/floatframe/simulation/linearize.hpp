@@ -10,9 +10,9 @@
 //
 // K = dr/dx is complete: with d(M a - Q_v)/dx at the accelerations a of the state, and all of
 // J^T lambda. Where the state moves, N changes with it and (2) holds in equilibrium
-// (`Start::equilibrium`) only; `linear_system` is the motion itself, also there. Time and inputs are
-// held as they are. Derivatives are differences over two steps, extrapolated: a kink of a law within
-// them is averaged.
+// (`Start::equilibrium`) only; `linear_system` is the motion itself, also there. Time and inputs
+// are held as they are. Derivatives are differences over two steps, extrapolated: a kink of a law
+// within them is averaged.
 #include <string>
 #include <vector>
 
