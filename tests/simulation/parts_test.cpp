@@ -254,7 +254,8 @@ TEST(TumblingRod, EnergyAndMomentaDriftWithTheSquareOfTheStep) {
 // ---------------------------------------------------------------------------------------------
 // Falling beam: 1 m x 20 mm x 20 mm, 40 bricks, hinged at one end, released from horizontal
 
-double pendulum_deviation(double young, const std::string& reference, BodyReference::Kind kind) {
+double pendulum_deviation(double young, const std::string& reference, BodyReference::Kind kind,
+                          bool stiffening = false) {
   FeModel model = deck("pend_c3d20r_mesh.inp.gz", "m-kg-s", {young, 0.3, 7850.0});
   PartOptions options;
   options.interfaces = {on_set("END_A", Vec3::Zero()), on_set("END_B", {1.0, 0.0, 0.0})};
@@ -288,6 +289,7 @@ double pendulum_deviation(double young, const std::string& reference, BodyRefere
       d.outputs.push_back(o);
     }
   }
+  d.simulation.geometric_stiffening = stiffening;
   d.simulation.step = 5e-4;
   d.simulation.duration = 1.0;
   d.simulation.output_interval = 0.01;
@@ -327,6 +329,14 @@ TEST(FallingBeam, SoftBeamShowsTheLimitOfLinearModes) {
     figure("soft beam, largest deviation [m]", d);
     EXPECT_LT(d, 8e-3);
     EXPECT_GT(d, 1e-3);
+  }
+}
+
+TEST(FallingBeam, SoftBeamWithGeometricStiffeningFollowsTheNonlinearRun) {
+  for (const auto kind : {BodyReference::Kind::node, BodyReference::Kind::mean_axis}) {
+    const double d = pendulum_deviation(2.1e9, "pendulum_soft.csv", kind, true);
+    figure("soft beam, stiffened, largest deviation [m]", d);
+    EXPECT_LT(d, 8e-4);
   }
 }
 

@@ -1,5 +1,5 @@
 // Geometric stiffening of beams: rotating cantilevers against Wright et al. (1982), Euler's load,
-// a spin-up against sixteen welded beams, and the energy of a free spin.
+// a spin-up against sixteen welded beams, energy and momenta of a free spin.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -10,10 +10,14 @@
 
 #include "figures.hpp"
 #include "floatframe/formulation/absolute.hpp"
+#include "floatframe/inertia/preprocessing.hpp"
+#include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/model_file/model_reader.hpp"
+#include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/small_motions.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
+#include "support/random_model.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -189,33 +193,37 @@ TEST(Stiffened, SpinUp) {
   }
 }
 
+/// A beam that spins freely and vibrates.
+ModelDescription free_beam(double step, Coordinates coordinates) {
+  ModelDescription d = test::description_of(
+      "gravity: [0, 0, 0]\n"
+      "points: {hub: [0, 0, 0], tip: [1, 0, 0]}\n"
+      "bodies:\n"
+      "  beam:\n"
+      "    flexible:\n"
+      "      material: {young: 7e7, poisson: 0.3, density: 1000}\n"
+      "      bars: {b: {from: hub, to: tip, elements: 12, reference: y,\n"
+      "                 section: {area: 1e-3, Iy: 1.4e-8, Iz: 1.4e-8, J: 2e-8}}}\n"
+      "      clamped: [hub]\n"
+      "      static_modes: [{point: tip, dofs: [y, z]}]\n"
+      "      mass_model: hermite\n"
+      "      section_inertia: true\n"
+      "    geometric_stiffening: true\n"
+      "joints: {hub: {type: free, child: beam, at: hub, velocity: [0.1, 0.2, 0, 0.3, 0.5, 4]}}\n"
+      "initial: {amplitudes: {beam: [0.03, 0.05]}}\n"
+      "simulation: {duration: 2}\n");
+  d.simulation.step = step;
+  d.simulation.coordinates = coordinates;
+  return d;
+}
+
 TEST(Stiffened, FreeSpinKeepsEnergy) {
-  // A beam that spins freely and vibrates: the energy left over falls with the square of the step.
-  for (const char* coordinates : {"relative", "absolute"}) {
-    SCOPED_TRACE(coordinates);
+  // The energy left over falls with the square of the step.
+  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+    SCOPED_TRACE(static_cast<int>(coordinates));
     const auto remainder = [&](double step) {
-      ModelDescription d = test::description_of(
-          "gravity: [0, 0, 0]\n"
-          "points: {hub: [0, 0, 0], tip: [1, 0, 0]}\n"
-          "bodies:\n"
-          "  beam:\n"
-          "    flexible:\n"
-          "      material: {young: 7e7, poisson: 0.3, density: 1000}\n"
-          "      bars: {b: {from: hub, to: tip, elements: 12, reference: y,\n"
-          "                 section: {area: 1e-3, Iy: 1.4e-8, Iz: 1.4e-8, J: 2e-8}}}\n"
-          "      clamped: [hub]\n"
-          "      static_modes: [{point: tip, dofs: [y, z]}]\n"
-          "      mass_model: hermite\n"
-          "      section_inertia: true\n"
-          "    geometric_stiffening: true\n"
-          "joints: {hub: {type: free, child: beam, at: hub, velocity: [0.1, 0.2, 0, 0.3, 0.5, "
-          "4]}}\n"
-          "initial: {amplitudes: {beam: [0.03, 0.05]}}\n"
-          "simulation: {duration: 2}\n");
-      d.simulation.step = step;
-      d.simulation.coordinates =
-          std::string(coordinates) == "relative" ? Coordinates::relative : Coordinates::absolute;
-      return std::abs(run(build_model(d)).summary.energy.largest_remainder);
+      const RunResult r = run(build_model(free_beam(step, coordinates)));
+      return std::abs(r.summary.energy.largest_remainder);
     };
     const double coarse = remainder(0.004), fine = remainder(0.002), finest = remainder(0.001);
     figure("energy left over [J]", finest);
@@ -224,11 +232,107 @@ TEST(Stiffened, FreeSpinKeepsEnergy) {
   }
 }
 
+/// Momentum and angular momentum about the world's origin of the one body, from its mass matrix.
+template <class F>
+Vec6 beam_momenta(F& f, const State& s) {
+  const Body& body = f.model().bodies[0];
+  const int nm = body.modes();
+  const PreprocessingData data(body.data->invariants);
+  StiffeningData stiffening(data, *body.data->second_order);
+  PreprocessingWorkspace work(nm);
+  MatX M(6 + nm, 6 + nm);
+  VecX Qv(6 + nm), y(nm), v(6 + nm);
+  for (int k = 0; k < nm; ++k) {
+    y[k] = f.amplitude(s.q, 0, k);
+    v[6 + k] = f.amplitude_rate(s.v, 0, k);
+  }
+  evaluate_at(f, s.t, s.q, s.v);
+  Vec3 r0;
+  if constexpr (std::is_same_v<F, RelativeFormulation>)
+    r0 = f.body_position(0);
+  else
+    r0 = s.q.template head<3>();
+  const Vec3 w = f.body_angular_velocity(0);
+  v.head<3>() = f.body_velocity(0) - w.cross(r0);
+  v.segment<3>(3) = w;
+  relative_stiffened(data, stiffening, r0, f.body_rotation(0), w, y.data(), v.data() + 6, work, M,
+                     Qv);
+  return (M * v).head<6>();
+}
+
+/// Largest drift over 2 s relative to the start, of the momentum and the angular momentum.
+template <class F>
+std::array<double, 2> drift(double step, Coordinates coordinates) {
+  const Model model = build_model(free_beam(step, coordinates));
+  RelativeFormulation tree(model, InertiaMethod::preprocessing);
+  F f(model, InertiaMethod::preprocessing);
+  StepOptions options;
+  options.tolerance = 1e-12;
+  options.penalty_mass = default_penalty_mass(model, coordinates);
+  State s;
+  const State start = relative_start(tree, Start::given);
+  if constexpr (std::is_same_v<F, RelativeFormulation>)
+    s = start;
+  else
+    f.start_from(tree, start.q, start.v, s.q, s.v);
+  start_accelerations(f, s, options.penalty_mass);
+  const Vec6 first = beam_momenta(f, s);
+  AugmentedLagrangian<F> integrator(f, options);
+  std::array<double, 2> worst{};
+  for (long k = 0, n = std::lround(2.0 / step); k < n; ++k) {
+    EXPECT_TRUE(integrator.step(s, step).accepted()) << "step " << k;
+    const Vec6 now = beam_momenta(f, s);
+    for (int part = 0; part < 2; ++part)
+      worst[part] = std::max(worst[part], (now - first).segment<3>(3 * part).norm() /
+                                              first.segment<3>(3 * part).norm());
+  }
+  return worst;
+}
+
+TEST(Stiffened, FreeSpinKeepsMomenta) {
+  const auto check = [](const auto& of_step) {
+    const std::array<double, 2> coarse = of_step(0.004), fine = of_step(0.002),
+                                finest = of_step(0.001);
+    for (int part = 0; part < 2; ++part) {
+      figure(part == 0 ? "drift of the momentum" : "drift of the angular momentum", finest[part]);
+      figure("order", std::log2(fine[part] / finest[part]));
+      // What is conserved to rounding has no order.
+      EXPECT_LT(fine[part], coarse[part] / 3.4 + 1e-11);
+      EXPECT_LT(finest[part], fine[part] / 3.4 + 1e-11);
+      EXPECT_LT(finest[part], 1e-4);
+    }
+  };
+  check([](double h) { return drift<RelativeFormulation>(h, Coordinates::relative); });
+  check([](double h) { return drift<AbsoluteFormulation>(h, Coordinates::absolute); });
+}
+
+TEST(Stiffened, SpinUpWithoutItFailsAndWarns) {
+  const RunResult r = run(build_model(spin_up(false)));
+  EXPECT_NE(r.summary.status, "completed");
+  bool warned = false;
+  for (const std::string& w : sentences(r.summary.warnings)) {
+    if (w.find("spins too fast for its stiffness") == std::string::npos) continue;
+    warned = true;
+    std::printf("[ figure ] %s\n", w.c_str());
+    EXPECT_NE(w.find("would raise its lowest stiffness by about"), std::string::npos) << w;
+  }
+  EXPECT_TRUE(warned);
+}
+
 TEST(Stiffened, WhatCannotBe) {
   ModelDescription d = spin_up(true);
   d.simulation.inertia = InertiaMethod::projection;
   EXPECT_EQ(error_of([&] { run(build_model(d)); }),
             "bodies.beam: geometric_stiffening needs inertia: preprocessing");
+
+  ModelDescription rigid = spin_up(true);
+  rigid.bodies[0].kind = RigidDescription{};
+  rigid.outputs.clear();
+  EXPECT_NE(error_of([&] { build_model(rigid); })
+                .find("bodies.beam.geometric_stiffening: found true on a rigid body, expected it "
+                      "on a flexible one"),
+            std::string::npos)
+      << error_of([&] { build_model(rigid); });
 }
 
 }  // namespace

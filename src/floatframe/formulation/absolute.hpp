@@ -183,7 +183,8 @@ class AbsoluteFormulation {
     int size() const noexcept { return 12 + nm + 3 * points; }
     int rows() const noexcept { return 6 + 3 * points; }
   };
-  struct MarkerData : LocalMarker {
+  /// A multiple of 256 bytes: found by an addition and a shift.
+  struct alignas(256) MarkerData : LocalMarker {
     MarkerState s;   ///< on the body, world axes
     int point = -1;  ///< first coordinate of its outer point, -1 if it has none
     Vec3 r_P, v_P;   ///< position and velocity of the outer point, world axes
@@ -215,7 +216,15 @@ class AbsoluteFormulation {
   void number_coordinates(InertiaMethod method);
   bool lacks_mass(int i);
   void make_factors();
-  // Step time.
+  // Step time. `stiffens`: of stiffens_.
+  template <bool stiffens>
+  void positions_of(const VecX& q) noexcept;
+  template <bool stiffens>
+  void velocities_of(const VecX& v) noexcept;
+  template <bool stiffens>
+  void settle_of(const VecX& q0, VecX& x) const noexcept;
+  template <bool stiffens>
+  void advance_of(VecX& x, const VecX& delta) const noexcept;
   const MarkerData& point(const BodyData& b, int p) const noexcept {
     return markers_[b.point_marker[p]];
   }

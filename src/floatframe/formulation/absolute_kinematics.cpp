@@ -5,6 +5,11 @@ namespace floatframe {
 
 void AbsoluteFormulation::positions(double t, const VecX& q) noexcept {
   time_ = t;
+  stiffens_ ? positions_of<true>(q) : positions_of<false>(q);
+}
+
+template <bool stiffens>
+void AbsoluteFormulation::positions_of(const VecX& q) noexcept {
   for (BodyData& b : bodies_) {
     b.p_WB = q.segment<3>(b.offset);
     for (int c = 0; c < 3; ++c) b.A.col(c) = q.segment<3>(b.offset + 3 + 3 * c);
@@ -18,7 +23,7 @@ void AbsoluteFormulation::positions(double t, const VecX& q) noexcept {
     }
     const BodyData& b = bodies_[m.body];
     if (m.local) {
-      m.deform(b.y);
+      m.deform<stiffens>(b.y);
       m.world_gradients(b.A);
     }
     m.s.r.noalias() = b.p_WB + b.A * m.p_B;
@@ -28,6 +33,11 @@ void AbsoluteFormulation::positions(double t, const VecX& q) noexcept {
 }
 
 void AbsoluteFormulation::velocities(const VecX& v) noexcept {
+  stiffens_ ? velocities_of<true>(v) : velocities_of<false>(v);
+}
+
+template <bool stiffens>
+void AbsoluteFormulation::velocities_of(const VecX& v) noexcept {
   VecX& phi = constraint_set_.values();
   for (BodyData& b : bodies_) {
     b.v_WB = v.segment<3>(b.offset);
@@ -55,7 +65,7 @@ void AbsoluteFormulation::velocities(const VecX& v) noexcept {
     s.v.noalias() = b.v_WB + b.Adot * m.p_B;
     s.w = b.w_WB;
     if (m.local) {
-      m.deform_rate(b.yd);
+      m.deform_rate<stiffens>(b.yd);
       s.v.noalias() += b.A * m.pdot_B;
       s.a_bias.noalias() = 2.0 * (b.Adot * m.pdot_B);
       s.a_bias.noalias() += b.A * m.pddot_B;

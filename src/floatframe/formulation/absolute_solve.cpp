@@ -160,6 +160,11 @@ void AbsoluteFormulation::balance(VecX& lambda, VecX& r) noexcept {
 
 /// The axes become orthonormal and the outer points lie on their bodies.
 void AbsoluteFormulation::settle(const VecX& q0, VecX& x) const noexcept {
+  stiffens_ ? settle_of<true>(q0, x) : settle_of<false>(q0, x);
+}
+
+template <bool stiffens>
+void AbsoluteFormulation::settle_of(const VecX& q0, VecX& x) const noexcept {
   for (const BodyData& b : bodies_) {
     Mat3 A, A0;
     for (int c = 0; c < 3; ++c) {
@@ -173,12 +178,17 @@ void AbsoluteFormulation::settle(const VecX& q0, VecX& x) const noexcept {
     const double *y = q0.data() + b.offset + 12, *dy = x.data() + b.offset + 12;
     for (int p = 0; p < b.points; ++p) {
       const int at = b.offset + 12 + b.nm + 3 * p;
-      x.segment<3>(at) = origin + A * point(b, p).position(y, dy) - q0.segment<3>(at);
+      x.segment<3>(at) = origin + A * point(b, p).position<stiffens>(y, dy) - q0.segment<3>(at);
     }
   }
 }
 
 void AbsoluteFormulation::advance(VecX& x, const VecX& delta) const noexcept {
+  stiffens_ ? advance_of<true>(x, delta) : advance_of<false>(x, delta);
+}
+
+template <bool stiffens>
+void AbsoluteFormulation::advance_of(VecX& x, const VecX& delta) const noexcept {
   for (const BodyData& b : bodies_) {
     Vec3 theta = Vec3::Zero();  // of (5): the stretch has none
     for (int c = 0; c < 3; ++c)
@@ -192,7 +202,8 @@ void AbsoluteFormulation::advance(VecX& x, const VecX& delta) const noexcept {
     const double* dy = delta.data() + b.offset + 12;
     for (int p = 0; p < b.points; ++p) {
       const MarkerData& m = point(b, p);
-      x.segment<3>(b.offset + 12 + b.nm + 3 * p) += origin + A * m.position(b.y.data(), dy) - m.r_P;
+      x.segment<3>(b.offset + 12 + b.nm + 3 * p) +=
+          origin + A * m.position<stiffens>(b.y.data(), dy) - m.r_P;
     }
   }
 }

@@ -11,6 +11,9 @@
 // With geometric stiffening (SecondOrderNode) X + e_j y^T h_j and X_theta + e_j y^T theta_j stand
 // for X and X_theta in rates and gradients, p_B and theta have half of these terms, and pddot_B
 // and the second derivative of theta e_j ydot^T h_j ydot and e_j ydot^T theta_j ydot.
+#include <memory>
+
+#include "floatframe/formulation/bent_columns.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/model.hpp"
 
@@ -20,6 +23,7 @@ struct LocalMarker {
   int body = -1;
   bool local = false;    ///< deforms with modes
   bool rotates = false;  ///< the node's rotation enters
+  bool turns = false;    ///< with `second`: theta enters
   // Body axes, from the body frame.
   Vec3 p_B = Vec3::Zero();                               ///< position [m]
   Vec3 pdot_B = Vec3::Zero(), pddot_B = Vec3::Zero();    ///< relative to the body [m/s, m/s2]
@@ -29,13 +33,10 @@ struct LocalMarker {
   Vec3 o_B = Vec3::Zero();                               ///< o, from the node [m]
   Mat3 H = Mat3::Identity();                             ///< at theta
   // Fixed.
-  Vec3 node_p = Vec3::Zero();               ///< p [m]
-  Pose X_NM;                                ///< p_NM, R_NM
-  Mat3X X, X_theta;                         ///< 3 x nm; with `second` at y
-  const SecondOrderNode* second = nullptr;  ///< of a body that stiffens; then `rotates` is set
-  const ModalNode* node = nullptr;          ///< with `second`
-  bool turns = false;                       ///< with `second`: theta enters
-  Mat3X HX;                                 ///< 3 x nm, H X_theta at theta
+  Vec3 node_p = Vec3::Zero();        ///< p [m]
+  Pose X_NM;                         ///< p_NM, R_NM
+  Mat3X X, X_theta;                  ///< 3 x nm; with `second` at y
+  std::unique_ptr<BentNode> second;  ///< of a node with h or theta on a body that stiffens
   /// World axes (`world_gradients`), 3 x nm: velocity and angular velocity per modal rate.
   Mat3X Jr, Jw;
 
@@ -45,7 +46,7 @@ struct LocalMarker {
     R_B = m.X_NM.R;
     if (m.body < 0) return;
     const FlexibleBody& data = *model.bodies[m.body].data;
-    X = X_theta = HX = Jr = Jw = Mat3X::Zero(3, data.modes());
+    X = X_theta = Jr = Jw = Mat3X::Zero(3, data.modes());
     if (m.node < 0) return;
     const ModalNode& node = data.nodes[m.node];
     node_p = node.p;
@@ -54,24 +55,33 @@ struct LocalMarker {
     X_theta = node.X_theta;
     rotates = m.rotates && !node.X_theta.isZero(0.0);
     local = !node.X.isZero(0.0) || rotates;
-    second = second_order_of(model, m);
-    if (!second) return;
-    this->node = &node;
-    turns = m.rotates;
-    if (!turns) X_theta.setZero();
-    local = rotates = true;
+    const SecondOrderNode* h = second_order_of(model, m);
+    if (!h) return;
+    BentNode bent{h, BentColumns(X, h->h), BentColumns(X_theta, h->theta)};
+    turns = m.rotates && bent.turn.bends();
+    if (!bent.place.bends() && !turns) return;
+    second = std::make_unique<BentNode>(std::move(bent));
+    rotates = rotates || turns;
+    local = true;
   }
 
-  /// Only for markers with `local`.
+  /// Only for markers with `local`. `stiffens`: there may be markers with `second`.
+  template <bool stiffens>
   void deform(const VecX& y) noexcept {
-    p_B.noalias() = X * y;
+    if (stiffens && second) {
+      p_B = second->place.bend(y.data(), X.data());
+    } else {
+      p_B.noalias() = X * y;
+    }
     p_B += node_p;
     if (rotates) {
-      theta.noalias() = X_theta * y;
-      if (second) bend(y);
+      if (stiffens && turns)
+        theta = second->turn.bend(y.data(), X_theta.data());
+      else
+        theta.noalias() = X_theta * y;
       const Mat3 e = rotation_exp(theta);
       H = rotation_tangent(theta);
-      HX.noalias() = H * X_theta;
+      Jw.noalias() = H * X_theta;
       o_B.noalias() = e * X_NM.p;
       p_B += o_B;
       R_B.noalias() = e * X_NM.R;
@@ -80,88 +90,67 @@ struct LocalMarker {
     }
   }
   /// p_B for other amplitudes, y + dy.
+  template <bool stiffens>
   Vec3 position(const double* y, const double* dy) const noexcept {
     Vec3 p = node_p, turn = Vec3::Zero();
-    if (second) return stiffened_position(y, dy);
+    if (stiffens && second) {
+      p += second->place.at(y, dy);
+      if (rotates) turn = second->turn.at(y, dy);
+      return p + (rotates ? Vec3(rotation_exp(turn) * X_NM.p) : X_NM.p);
+    }
     for (Eigen::Index k = 0; k < X.cols(); ++k) {
       p += (y[k] + dy[k]) * X.col(k);
       if (rotates) turn += (y[k] + dy[k]) * X_theta.col(k);
     }
     return p + (rotates ? Vec3(rotation_exp(turn) * X_NM.p) : X_NM.p);
   }
+  template <bool stiffens>
   void deform_rate(const VecX& yd) noexcept {
     pdot_B.noalias() = X * yd;
+    if (stiffens && second) pddot_B = second->place.quadratic(yd.data());
     if (!rotates) return;
     const Vec3 rate = X_theta * yd;
     zeta_B.noalias() = H * rate;
     zetadot_B = rotation_tangent_bias(theta, rate);
-    if (second && turns) zetadot_B += H * quadratic(second->theta, yd);
+    if (stiffens && turns) zetadot_B += H * second->turn.quadratic(yd.data());
     const Vec3 o_dot = zeta_B.cross(o_B);
     pdot_B += o_dot;
-    pddot_B = zetadot_B.cross(o_B) + zeta_B.cross(o_dot);
-    if (second) pddot_B += quadratic(second->h, yd);
+    if (stiffens && second)
+      pddot_B += zetadot_B.cross(o_B) + zeta_B.cross(o_dot);
+    else
+      pddot_B = zetadot_B.cross(o_B) + zeta_B.cross(o_dot);
   }
   /// out += weight times the derivative of Jr^T force + Jw^T torque, body axes, by h and theta.
   void add_stiffness(const Vec3& force, const Vec3& torque, double weight,
                      MatX& out) const noexcept {
-    const Vec3 moment = torque + o_B.cross(force);
-    for (int j = 0; j < 3; ++j) {
-      out += (weight * force[j]) * second->h[j];
-      if (turns) out += (weight * moment[j]) * second->theta[j];
-    }
+    add_weighted(second->h->h, weight * force, out);
+    if (turns) add_weighted(second->h->theta, weight * (torque + o_B.cross(force)), out);
   }
-  /// Jr, Jw for the body rotation A.
+  /// Jr, Jw for the body rotation A, once after `deform`.
   void world_gradients(const Mat3& A) noexcept {
     Jr.noalias() = A * X;
     if (!rotates) return;
-    Jw.noalias() = A * HX;
     const Vec3 o = A * o_B;
-    for (Eigen::Index k = 0; k < Jr.cols(); ++k) Jr.col(k) += Jw.col(k).cross(o);
+    for (Eigen::Index k = 0; k < Jr.cols(); ++k) {
+      const Vec3 turn = A * Jw.col(k);
+      Jw.col(k) = turn;
+      Jr.col(k) += turn.cross(o);
+    }
   }
 
  private:
+  static void add_weighted(const std::array<MatX, 3>& h, const Vec3& w, MatX& out) noexcept {
+    const double *h0 = h[0].data(), *h1 = h[1].data(), *h2 = h[2].data();
+    double* o = out.data();
+    const Eigen::Index n = out.size();
+    for (Eigen::Index k = 0; k < n; ++k) o[k] += w[0] * h0[k] + w[1] * h1[k] + w[2] * h2[k];
+  }
   /// The node of a marker on a body that stiffens; null if it has no second order.
   static const SecondOrderNode* second_order_of(const Model& model, const Marker& m) {
     if (!model.bodies[m.body].stiffens()) return nullptr;
     for (const SecondOrderNode& n : model.bodies[m.body].data->second_order->nodes)
       if (n.node == m.node) return &n;
     return nullptr;
-  }
-  static Vec3 quadratic(const std::array<MatX, 3>& h, const VecX& x) noexcept {
-    Vec3 q = Vec3::Zero();
-    for (int j = 0; j < 3; ++j)
-      for (Eigen::Index k = 0; k < x.size(); ++k) q[j] += x[k] * h[j].col(k).dot(x);
-    return q;
-  }
-  /// X, X_theta, p_B and theta at y.
-  void bend(const VecX& y) noexcept {
-    const Eigen::Index nm = y.size();
-    p_B = node_p;
-    theta.setZero();
-    for (Eigen::Index k = 0; k < nm; ++k) {
-      for (int j = 0; j < 3; ++j) {
-        X(j, k) = node->X(j, k) + second->h[j].col(k).dot(y);
-        if (turns) X_theta(j, k) = node->X_theta(j, k) + second->theta[j].col(k).dot(y);
-      }
-      p_B += (0.5 * y[k]) * (node->X.col(k) + X.col(k));
-      if (turns) theta += (0.5 * y[k]) * (node->X_theta.col(k) + X_theta.col(k));
-    }
-  }
-  Vec3 stiffened_position(const double* y, const double* dy) const noexcept {
-    Vec3 p = node_p, turn = Vec3::Zero();
-    for (Eigen::Index k = 0; k < X.cols(); ++k) {
-      const double yk = y[k] + dy[k];
-      p += yk * node->X.col(k);
-      if (turns) turn += yk * node->X_theta.col(k);
-      for (Eigen::Index l = 0; l < X.cols(); ++l) {
-        const double half = 0.5 * yk * (y[l] + dy[l]);
-        for (int j = 0; j < 3; ++j) {
-          p[j] += half * second->h[j](k, l);
-          if (turns) turn[j] += half * second->theta[j](k, l);
-        }
-      }
-    }
-    return p + (turns ? Vec3(rotation_exp(turn) * X_NM.p) : X_NM.p);
   }
 };
 

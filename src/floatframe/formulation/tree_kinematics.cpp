@@ -53,10 +53,11 @@ void TreeKinematics::place_ground_markers() noexcept {
     }
 }
 
+template <bool stiffens>
 void TreeKinematics::place_body(TreeBody& b) noexcept {
   const TreeMarker& F = markers_[b.frame_F];
   TreeMarker& child = markers_[b.frame_M];
-  if (child.local) child.deform(b.y);
+  if (child.local) child.deform<stiffens>(b.y);
   const Mat3 R_WM = F.s.R * b.motion.R_FM;
   const Vec3 p_OM = F.s.r + F.s.R * b.motion.p_FM;
   b.R_WB.noalias() = R_WM * child.R_B.transpose();
@@ -79,7 +80,8 @@ void TreeKinematics::place_body(TreeBody& b) noexcept {
     }
 }
 
-void TreeKinematics::positions(const VecX& q) noexcept {
+template <bool stiffens>
+void TreeKinematics::positions_of(const VecX& q) noexcept {
   for (const int i : order_) {
     TreeBody& b = bodies_[i];
     b.y = q.segment(b.iyq, b.nm);
@@ -90,17 +92,18 @@ void TreeKinematics::positions(const VecX& q) noexcept {
     TreeBody& b = bodies_[i];
     joint_motion(b.type, b.axes, q.data() + b.iq, b.motion);
     if (b.nj == 1) b.angle = b.reversed ? -q[b.iq] : q[b.iq];
-    place_body(b);
+    place_body<stiffens>(b);
     const UsedMarkers& used = used_markers_[i];
     for (const int u : stepping_ ? used.dynamic : used.all) {
       TreeMarker& m = markers_[u];
-      if (m.local) m.deform(b.y);
+      if (m.local) m.deform<stiffens>(b.y);
       marker_position(m);
     }
   }
   // The joint's bias needs velocities: `velocities` evaluates it from the H kept in b.motion.
 }
 
+template <bool stiffens>
 void TreeKinematics::find_twist(TreeBody& b, const VecX& v) noexcept {
   TreeMarker& child = markers_[b.frame_M];
   const TreeMarker& F = markers_[b.frame_F];
@@ -123,7 +126,7 @@ void TreeKinematics::find_twist(TreeBody& b, const VecX& v) noexcept {
   // The body frame seen from M, which may move with the body's own modes.
   Vec3 chi = Vec3::Zero(), chi_dot = Vec3::Zero(), zeta = Vec3::Zero(), zeta_dot = Vec3::Zero();
   if (child.local) {
-    child.deform_rate(b.yd);
+    child.deform_rate<stiffens>(b.yd);
     chi = b.R_WB * child.pdot_B;
     chi_dot = b.R_WB * child.pddot_B;
     zeta = b.R_WB * child.zeta_B;
@@ -139,19 +142,25 @@ void TreeKinematics::find_twist(TreeBody& b, const VecX& v) noexcept {
   marker_velocity(child);
 }
 
-void TreeKinematics::velocities(const VecX& v) noexcept {
+template <bool stiffens>
+void TreeKinematics::velocities_of(const VecX& v) noexcept {
   for (const int i : order_) {
     TreeBody& b = bodies_[i];
     b.yd = v.segment(b.iy, b.nm);
-    find_twist(b, v);
+    find_twist<stiffens>(b, v);
     const UsedMarkers& used = used_markers_[i];
     for (const int u : stepping_ ? used.dynamic : used.all) {
       TreeMarker& m = markers_[u];
-      if (m.local) m.deform_rate(b.yd);
+      if (m.local) m.deform_rate<stiffens>(b.yd);
       marker_velocity(m);
     }
   }
 }
+
+template void TreeKinematics::positions_of<false>(const VecX& q) noexcept;
+template void TreeKinematics::positions_of<true>(const VecX& q) noexcept;
+template void TreeKinematics::velocities_of<false>(const VecX& v) noexcept;
+template void TreeKinematics::velocities_of<true>(const VecX& v) noexcept;
 
 void TreeKinematics::accelerations(const VecX& a) noexcept {
   for (const int i : order_) {

@@ -87,7 +87,8 @@ struct TreeBody : TreeLink, TreePosition, TreeVelocity, TreeAcceleration {
   int moving() const noexcept { return moves_M ? nj + nm : nj; }
 };
 
-struct TreeMarker : LocalMarker {
+/// A multiple of 256 bytes: found by an addition and a shift.
+struct alignas(256) TreeMarker : LocalMarker {
   MarkerState s;  ///< r from O; world axes
 };
 
@@ -121,8 +122,12 @@ class TreeKinematics {
   // Step time: noexcept, free of allocation. Each needs those before it at the same state.
   /// While steps are made, markers that only outputs look at are left alone.
   void stepping(bool on) noexcept { stepping_ = on; }
-  void positions(const VecX& q) noexcept;
-  void velocities(const VecX& v) noexcept;
+  void positions(const VecX& q) noexcept {
+    stiffens_ ? positions_of<true>(q) : positions_of<false>(q);
+  }
+  void velocities(const VecX& v) noexcept {
+    stiffens_ ? velocities_of<true>(v) : velocities_of<false>(v);
+  }
   void accelerations(const VecX& a) noexcept;
   /// q = q0 (+) x: rotation vectors act on quaternions.
   void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept;
@@ -162,7 +167,13 @@ class TreeKinematics {
  private:
   void choose_origin(const VecX& q) noexcept;
   void place_ground_markers() noexcept;
+  template <bool stiffens>
+  void positions_of(const VecX& q) noexcept;
+  template <bool stiffens>
+  void velocities_of(const VecX& v) noexcept;
+  template <bool stiffens>
   void place_body(TreeBody& b) noexcept;
+  template <bool stiffens>
   void find_twist(TreeBody& b, const VecX& v) noexcept;
   void marker_position(TreeMarker& m) const noexcept;
   void marker_velocity(TreeMarker& m) const noexcept;
@@ -180,6 +191,7 @@ class TreeKinematics {
   };
   std::vector<UsedMarkers> used_markers_;
   bool stepping_ = false;
+  bool stiffens_ = false;  ///< a marker has displacements of second order
   int nq_ = 0, nv_ = 0;
   Vec3 p_WO_ = Vec3::Zero();
 };

@@ -34,8 +34,10 @@ TreeKinematics::TreeKinematics(const Model& model)
     b.y = b.yd = b.ydd = VecX::Zero(b.nm);
   }
   markers_.resize(model_.markers.size());
-  for (std::size_t i = 0; i < markers_.size(); ++i)
+  for (std::size_t i = 0; i < markers_.size(); ++i) {
     static_cast<LocalMarker&>(markers_[i]) = LocalMarker(model_, model_.markers[i]);
+    stiffens_ = stiffens_ || markers_[i].second;
+  }
 }
 
 bool TreeKinematics::moves_with_modes(int marker) const {

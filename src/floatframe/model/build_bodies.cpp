@@ -33,6 +33,11 @@ Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
 }  // namespace
 
 void ModelBuilder::stiffening(const BodyDescription& b, Body& body) {
+  if (b.geometric_stiffening.value_or(false) && std::holds_alternative<RigidDescription>(b.kind))
+    errors.add(b.origin.of("geometric_stiffening"),
+               "bodies." + b.name +
+                   ".geometric_stiffening: found true on a rigid body, expected it on a flexible "
+                   "one (or false)");
   body.geometric_stiffening =
       body.modes() > 0 && b.geometric_stiffening.value_or(d.simulation.geometric_stiffening);
   if (!body.geometric_stiffening || body.data->second_order) return;
