@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "floatframe/inertia/preprocessing.hpp"
+#include "floatframe/inertia/projection.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/random_body.hpp"
 #include "support/reference_json.hpp"
@@ -57,8 +58,27 @@ struct Points {
       }
     return s;
   }
-  /// Relative M and Qv of the points themselves; the modes against each other with X alone.
-  void relative(const BodyState& s, MatX& M, VecX& Qv) const {
+  ProjectionData projection() const {
+    ProjectionData d;
+    const auto n = static_cast<Eigen::Index>(mass.size());
+    d.p.resize(3, n);
+    d.X.resize(3 * n, nm);
+    d.h.resize(3 * n * nm, nm);
+    std::vector<Eigen::Triplet<double>> masses;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      d.p.col(k) = p[at];
+      d.X.middleRows(3 * k, 3) = X[at];
+      for (int j = 0; j < 3; ++j) d.h.middleRows(nm * (3 * k + j), nm) = h[at][j];
+      masses.emplace_back(k, k, mass[at]);
+    }
+    d.M_s.resize(n, n);
+    d.M_s.setFromTriplets(masses.begin(), masses.end());
+    return d;
+  }
+  /// Relative M and Qv of the points themselves; the modes against each other with X alone, or
+  /// (`whole`) as they are.
+  void relative(const BodyState& s, MatX& M, VecX& Qv, bool whole = false) const {
     M = MatX::Zero(6 + nm, 6 + nm);
     Qv = VecX::Zero(6 + nm);
     for (std::size_t k = 0; k < mass.size(); ++k) {
@@ -75,6 +95,7 @@ struct Points {
       const Vec3 bias = s.omega.cross(s.omega.cross(r) + 2.0 * rate) + s.A * own;
       M += mass[k] * B.transpose() * B;
       Qv -= mass[k] * B.transpose() * bias;
+      if (whole) continue;
       // Left out: what S_ij would be with h.
       M.bottomRightCorner(nm, nm) -=
           mass[k] * (moved.transpose() * moved - X[k].transpose() * X[k]);
@@ -124,6 +145,29 @@ TEST(Stiffening, PointMassesToFirstOrder) {
     EXPECT_GT(M2, 0.0);
     EXPECT_NEAR(std::log10(M1 / M2), 2.0, 0.1);
     EXPECT_NEAR(std::log10(Q1 / Q2), 2.0, 0.1);
+  }
+}
+
+TEST(Stiffening, ProjectionIsThePointMasses) {
+  for (const int nm : {1, 4, 7}) {
+    SCOPED_TRACE(nm);
+    const Points points(nm, 6);
+    const ProjectionData data = points.projection();
+    ProjectionWorkspace work(data, true);
+    Random random(2);
+    MatX Ma(12 + nm, 12 + nm), Mr(6 + nm, 6 + nm), expected;
+    VecX Qa(12 + nm), Qr(6 + nm), Q;
+    for (int i = 0; i < 5; ++i) {
+      const BodyState s = random_state(random, nm);
+      relative_projection(data, s.r0, s.A, s.omega, s.y.data(), s.ydot.data(), work, Mr, Qr);
+      points.relative(s, expected, Q, true);
+      EXPECT_LT(relative_error(Mr, expected), 1e-13);
+      EXPECT_LT(relative_error(Qr, Q), 1e-13);
+      absolute_projection(data, s.A, s.Adot, s.y.data(), s.ydot.data(), work, Ma, Qa);
+      const MatX T = absolute_from_relative(s);
+      EXPECT_LT(relative_error(Mr, T.transpose() * Ma * T), 1e-13);
+      EXPECT_LT(relative_error(Qr, T.transpose() * (Qa - Ma * absolute_bias(s))), 1e-13);
+    }
   }
 }
 

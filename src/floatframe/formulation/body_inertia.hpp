@@ -22,10 +22,12 @@ class BodyInertia {
     const std::string& name = of_model.name;
     if (body.modes() == 0) return;
     if (of_model.stiffens()) {
-      if (method == InertiaMethod::projection)
-        throw InputError("bodies." + name + ": geometric_stiffening needs inertia: preprocessing");
+      if (method == InertiaMethod::projection && body.projection && body.projection->h.size() == 0)
+        throw InputError("bodies." + name +
+                         ": geometric_stiffening of a part needs inertia: preprocessing");
       second_order_ = body.second_order.get();
-      stiffening_ = StiffeningData(data_, *second_order_);
+      if (method == InertiaMethod::preprocessing)
+        stiffening_ = StiffeningData(data_, *second_order_);
       special_ = true;
     }
     if (method == InertiaMethod::projection) {
@@ -36,7 +38,7 @@ class BodyInertia {
             "use mass_model isoparametric or six_dof with inertia: projection");
       projection_ = body.projection.get();
       special_ = true;
-      projection_work_ = ProjectionWorkspace(*projection_);
+      projection_work_ = ProjectionWorkspace(*projection_, of_model.stiffens());
     } else if (body.mass_model == MassModel::six_dof) {
       throw InputError(
           "bodies." + name +

@@ -92,10 +92,11 @@ InertiaTerms absolute_preprocessing(const FlexibleBody& body, const BodyMotion& 
 
 InertiaTerms relative_projection(const FlexibleBody& body, const BodyMotion& motion) {
   const BodyMotion m = complete(body, motion);
-  if (m.geometric_stiffening)
-    throw InputError("found geometric stiffening by projection, expected preprocessing");
   const ProjectionData& data = projection_data(body);
-  ProjectionWorkspace work(data);
+  if (m.geometric_stiffening)
+    require_size("nodal displacements of second order", data.h,
+                 3 * static_cast<Eigen::Index>(body.modes()) * data.nodes(), body.modes());
+  ProjectionWorkspace work(data, m.geometric_stiffening);
   InertiaTerms t = zero_terms(6 + body.modes());
   relative_projection(data, m.r0, m.A, m.omega, m.y.data(), m.ydot.data(), work, t.M, t.Qv);
   return t;
@@ -103,10 +104,11 @@ InertiaTerms relative_projection(const FlexibleBody& body, const BodyMotion& mot
 
 InertiaTerms absolute_projection(const FlexibleBody& body, const BodyMotion& motion) {
   const BodyMotion m = complete(body, motion);
-  if (m.geometric_stiffening)
-    throw InputError("found geometric stiffening by projection, expected preprocessing");
   const ProjectionData& data = projection_data(body);
-  ProjectionWorkspace work(data);
+  if (m.geometric_stiffening)
+    require_size("nodal displacements of second order", data.h,
+                 3 * static_cast<Eigen::Index>(body.modes()) * data.nodes(), body.modes());
+  ProjectionWorkspace work(data, m.geometric_stiffening);
   InertiaTerms t = zero_terms(12 + body.modes());
   absolute_projection(data, m.A, skew(m.omega) * m.A, m.y.data(), m.ydot.data(), work, t.M, t.Qv);
   return t;

@@ -16,7 +16,7 @@ struct BodyMotion {
   Mat3 A = Mat3::Identity();          ///< columns: axes of the body in the world
   Vec3 omega = Vec3::Zero();          ///< angular velocity, world [rad/s]
   VecX y, ydot;                       ///< modal amplitudes and their rates; empty: zero
-  bool geometric_stiffening = false;  ///< by preprocessing only
+  bool geometric_stiffening = false;  ///< the body must have the data
 };
 
 struct InertiaTerms {

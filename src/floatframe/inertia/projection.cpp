@@ -157,6 +157,26 @@ inline void rows_of_node(const Coordinates& coordinates, bool six, const double*
   }
 }
 
+/// X + e_j y^T h_j of a node into `moved`, its displacement of second order added to p; what modal
+/// rates accelerate by themselves, body axes.
+inline Vec3 stiffen(const double* X, const double* h, int nm, const double* y, const double* ydot,
+                    double* moved, Vec3& p) noexcept {
+  Vec3 own = Vec3::Zero();
+  for (int a = 0; a < nm; ++a) {
+    Vec3 more = Vec3::Zero(), rate = Vec3::Zero();
+    for (int b = 0; b < nm; ++b) {
+      const Vec3 h_ab(h[0], h[1], h[2]);
+      more += y[b] * h_ab;
+      rate += ydot[b] * h_ab;
+      h += 3;
+    }
+    for (int i = 0; i < 3; ++i) moved[3 * a + i] = X[3 * a + i] + more(i);
+    p += 0.5 * y[a] * more;
+    own += ydot[a] * rate;
+  }
+  return own;
+}
+
 /// upper += B^T M B, node by node.
 inline void add_products(const ProjectionData& data, int nq, int stride, ProjectionWorkspace& work,
                          double* upper) noexcept {
@@ -198,18 +218,26 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
   const int stride = padded(nq + 1);
   const bool six = data.six_dof();
   const int rows = six ? 6 : 3;
+  const bool stiffened = !work.h.empty();
 
   for (int k = 0; k < n; ++k) {
     const double* X = work.X.data() + static_cast<std::ptrdiff_t>(k) * rows * nm;
     double* B = work.B.data() + static_cast<std::ptrdiff_t>(k) * rows * stride;
     Vec3 p = data.p.col(k);
-    Vec3 pdot = Vec3::Zero();
-    for (int a = 0; a < nm; ++a) {
-      const Vec3 x(X[3 * a], X[3 * a + 1], X[3 * a + 2]);
-      p += y[a] * x;  // (5)
-      pdot += ydot[a] * x;
+    Vec3 pdot = Vec3::Zero(), own = Vec3::Zero();
+    for (int a = 0; a < nm; ++a) p += y[a] * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]);  // (5)
+    if (stiffened) {
+      own = stiffen(X, work.h.data() + static_cast<std::ptrdiff_t>(k) * 3 * nm * nm, nm, y, ydot,
+                    work.moved.data(), p);
+      if (six) std::copy_n(X + 3 * nm, 3 * nm, work.moved.data() + 3 * nm);
+      X = work.moved.data();
     }
+    for (int a = 0; a < nm; ++a) pdot += ydot[a] * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]);
     rows_of_node(coordinates, six, X, nm, p, pdot, ydot, stride, B);
+    if (!stiffened) continue;
+    const Vec3 bias =
+        six ? Vec3(coordinates.A.transpose() * (coordinates.A * own)) : Vec3(coordinates.A * own);
+    for (int i = 0; i < 3; ++i) B[i * stride + nq] += bias(i);
   }
 
   double* upper = work.upper.data();
@@ -224,7 +252,7 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
 
 }  // namespace
 
-ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data)
+ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data, bool stiffening)
     : modes(static_cast<int>(data.X.cols())), stride(padded(13 + modes)) {
   const std::size_t n = data.nodes();
   const std::size_t rows = data.six_dof() ? 6 : 3;
@@ -247,6 +275,13 @@ ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data)
       }
     }
   }
+  if (!stiffening) return;
+  moved.resize(rows * nm);
+  h.reserve(n * 3 * nm * nm);
+  for (Eigen::Index k = 0; k < data.nodes(); ++k)
+    for (int a = 0; a < modes; ++a)
+      for (int b = 0; b < modes; ++b)
+        for (int j = 0; j < 3; ++j) h.push_back(data.h(modes * (3 * k + j) + a, b));
 }
 
 void relative_projection(const ProjectionData& data, const Vec3& r0, const Mat3& A,

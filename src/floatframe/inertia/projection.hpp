@@ -13,6 +13,10 @@
 //                   constant M* of the beams. Its rotations do not represent the field of
 //                   centripetal accelerations exactly (theory, section 7).
 //
+// With geometric stiffening a node is at p + X y + 1/2 sum_j e_j y^T h_j y (body/second_order.hpp):
+// X + e_j y^T h_j takes the place of X, and A e_j ydot^T h_j ydot adds to Bdot qdot. Nothing is
+// left out: M is that of these displacements, its modal block included.
+//
 // (r1, r2, r3) is the deformed position of the node in body axes. The relative terms use the
 // material-point acceleration of s, as preprocessing.hpp. With nm = 0 the body is rigid. Cost is
 // linear in the number of nodes n: about 3 n nq^2 multiplications, nq = 6 + nm or 12 + nm. Step
@@ -31,10 +35,12 @@ struct ProjectionWorkspace {
   std::vector<double> MB;  ///< six rows of M* B
   std::vector<double> upper;  ///< nq rows of B^T M* [B, Bdot qdot]
   std::vector<double> X;      ///< per node 3 x nm column major (six_dof: then 3 x nm of rotations)
+  std::vector<double> h;      ///< per node, mode and mode 3 numbers; empty: no stiffening
+  std::vector<double> moved;  ///< X of a node with its h
 
   ProjectionWorkspace() = default;
-  /// Big enough for both coordinate sets.
-  explicit ProjectionWorkspace(const ProjectionData& data);
+  /// Big enough for both coordinate sets. `stiffening`: with the h of the data.
+  explicit ProjectionWorkspace(const ProjectionData& data, bool stiffening = false);
 };
 
 /// M is (6+nm)^2, both halves written; Qv is 6+nm.

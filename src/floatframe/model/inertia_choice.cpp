@@ -7,14 +7,16 @@ void check_inertia_method(const ModelDescription& description, InertiaMethod met
   for (const BodyDescription& b : description.bodies) {
     if (b.rigid) continue;
     const bool own = b.geometric_stiffening.has_value();
-    if (method == InertiaMethod::projection && !std::holds_alternative<RigidDescription>(b.kind) &&
-        b.geometric_stiffening.value_or(description.simulation.geometric_stiffening))
-      errors.add(own ? b.origin.of("geometric_stiffening")
-                     : description.simulation.origin.of("geometric_stiffening"),
-                 "bodies." + b.name +
-                     ".geometric_stiffening: found true with inertia terms by projection, expected "
-                     "preprocessing (or false)");
     const auto* part = std::get_if<FlexibleBody>(&b.kind);
+    if (method == InertiaMethod::projection && part && part->projection &&
+        part->projection->h.size() == 0 &&
+        b.geometric_stiffening.value_or(description.simulation.geometric_stiffening))
+      errors.add(
+          own ? b.origin.of("geometric_stiffening")
+              : description.simulation.origin.of("geometric_stiffening"),
+          "bodies." + b.name +
+              ".geometric_stiffening: found true of a part with inertia terms by projection, "
+              "expected preprocessing (or false)");
     if (part && part->modes() > 0 && !part->projection && method == InertiaMethod::projection)
       errors.add(b.origin.of(b.origin.keys.contains("part") ? "part" : "flexible"),
                  "bodies." + b.name +
