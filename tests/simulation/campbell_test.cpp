@@ -220,6 +220,21 @@ simulation: {step: 0.001, duration: 1}
   EXPECT_GT(onset, 1.2 * std::sqrt(k / 12.0));
 }
 
+// A disc in free space nutates at J_p / J_t times its spin, and has no critical speed.
+TEST(Campbell, FreeDiscNutates) {
+  const Model model = model_of(R"(
+gravity: [0, 0, 0]
+bodies: {disc: {position: [0, 0, 0], rigid: {mass: 1, inertia: [1, 1, 1.8]}}}
+joints: {motor: {type: free, child: disc, at: [0, 0, 0]}}
+simulation: {step: 0.001, duration: 1}
+)");
+  const CampbellDiagram d = campbell(model, {.joint = "motor", .from = 0, .to = 100, .step = 50});
+  ASSERT_EQ(d.lines.size(), 1u);
+  EXPECT_EQ(d.lines[0].kind, "forward");
+  EXPECT_NEAR(d.lines[0].points[2].frequency(), 180.0, 1e-6);
+  EXPECT_TRUE(d.critical.empty());
+}
+
 TEST(Campbell, RotorsThatAreNotSymmetric) {
   const Model model = model_of(rigid_rotor("[0.02, 0.024, 0.035]"));
   try {

@@ -145,7 +145,8 @@ void find_crossings(Follower& follower, const CampbellOptions& o, const Followed
       const double speed = zero_between(
           from, to, a, b, [&](double x) { return mode_at(x).frequency() - n * std::abs(x); });
       const CampbellPoint there = mode_at(speed);
-      d.critical.push_back({static_cast<int>(line), n, speed, there.frequency(), there.whirl});
+      if (there.frequency() > 0.0)  // not where a free rotor stands still
+        d.critical.push_back({static_cast<int>(line), n, speed, there.frequency(), there.whirl});
     }
     const double noise = 1e-10 * stiffest;
     const auto grows = [&](const CampbellPoint& c) {
