@@ -1,11 +1,41 @@
 #include "floatframe/simulation/start_up.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <type_traits>
 
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
+namespace {
+
+/// Markers on bodies that stiffen, at nodes that move but have no displacements of second order.
+void note_linear_markers(const Model& model, StartReport& report) {
+  std::vector<std::pair<int, int>> said;  // body, node
+  for (const Marker& m : model.markers) {
+    if (m.body < 0 || m.node < 0 || !model.bodies[m.body].stiffens()) continue;
+    const Body& body = model.bodies[m.body];
+    const ModalNode& node = body.data->nodes[m.node];
+    if (node.X.isZero(0.0) && node.X_theta.isZero(0.0)) continue;
+    const auto& known = body.data->second_order->nodes;
+    if (std::any_of(known.begin(), known.end(),
+                    [&](const SecondOrderNode& n) { return n.node == m.node; }))
+      continue;
+    if (std::find(said.begin(), said.end(), std::pair(m.body, m.node)) != said.end()) continue;
+    said.emplace_back(m.body, m.node);
+    report.notes.push_back(fmt::format(
+        "body '{}': geometric stiffening has no displacements of second order of {}: what acts "
+        "there does not stiffen the body",
+        body.name,
+        node.name.empty()
+            ? fmt::format("its node at [{:.4g}, {:.4g}, {:.4g}]", node.p[0], node.p[1], node.p[2])
+            : fmt::format("node '{}'", node.name)));
+  }
+}
+
+}  // namespace
 
 template <class F>
 StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o)
@@ -24,6 +54,7 @@ StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o
     f_.start_from(tree, start.q, start.v, state_.q, state_.v);
   }
   start_accelerations(f_, state_, step_options_.penalty_mass);
+  note_linear_markers(model(), report_);
   spring_angles_.assign(f_.spring_angles().begin(), f_.spring_angles().end());
 }
 
