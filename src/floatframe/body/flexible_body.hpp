@@ -47,6 +47,7 @@ struct ProjectionData {
 };
 
 struct BodyShape;
+struct BodyStress;
 
 struct FlexibleBody {
   InertiaInvariants invariants;
@@ -63,6 +64,8 @@ struct FlexibleBody {
 
   /// What it looks like; null: not known.
   std::shared_ptr<const BodyShape> shape = nullptr;
+  /// Its stress; null: not known.
+  std::shared_ptr<const BodyStress> stress = nullptr;
 
   int modes() const noexcept { return invariants.modes(); }
 };
