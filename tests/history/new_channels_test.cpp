@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "floatframe/history/recorded_motion.hpp"
 #include "history/recorded_run.hpp"
 #include "support/error_of.hpp"
 
@@ -153,6 +154,46 @@ TEST(NewChannelsOfSomeBodies, AreThoseOfTheseBodies) {
     EXPECT_EQ(error("  x: {joint_force: hinge, axis: x}\n"),
               history.name() +
                   ": output 'x': reactions need the states of all bodies, found those of some");
+  }
+}
+
+/// Outputs say the same of places, velocities, amplitudes and accelerations.
+TEST(RecordedMotion, IsThatOfMarkersAndOutputs) {
+  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+    const TemporaryFolder folder;
+    const Model model = model_of(std::string(recorded_machine) + R"(
+outputs:
+  p: {position: {body: stone}}
+  v: {velocity: {body: stone}}
+  a: {acceleration: {body: stone}}
+  y: {modal_amplitude: beam, mode: 2}
+  yd: {modal_rate: beam, mode: 2}
+  ydd: {modal_acceleration: beam, mode: 2}
+)");
+    SimulationDescription o = model.simulation;
+    o.coordinates = coordinates;
+    const RunResult whole = recorded_run(model, o, folder.file("states.ffr")).result;
+    const StateHistory history(folder.file("states.ffr"));
+    RecordedMotion motion(history, model, o);
+    ASSERT_EQ(motion.instants(), whole.table.rows());
+    for (const std::size_t k : {motion.instants() - 1, std::size_t{0}, std::size_t{77}}) {
+      const OutputView& view = motion.at(k);
+      EXPECT_EQ(view.time(), whole.table.at(k, 0));
+      const int beam = 2, stone = 4;
+      ASSERT_EQ(model.bodies[stone].name, "stone");
+      EXPECT_TRUE(motion.recorded(stone));
+      for (int i = 0; i < 3; ++i) {
+        const auto column = static_cast<std::size_t>(i);
+        EXPECT_NEAR(view.body_position(stone)[i], whole.table.at(k, 1 + column), 1e-12);
+        EXPECT_NEAR(view.body_velocity(stone)[i], whole.table.at(k, 4 + column), 1e-11);
+        EXPECT_NEAR(view.body_acceleration(stone)[i], whole.table.at(k, 7 + column), 1e-9);
+      }
+      EXPECT_EQ(view.amplitude(beam, 1), whole.table.at(k, 10));
+      EXPECT_EQ(view.amplitude_rate(beam, 1), whole.table.at(k, 11));
+      EXPECT_EQ(view.amplitude_acceleration(beam, 1), whole.table.at(k, 12));
+      EXPECT_EQ(motion.outputs().size(), 13u);
+    }
+    EXPECT_THROW(motion.at(motion.instants()), InputError);
   }
 }
 

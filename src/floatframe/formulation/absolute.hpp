@@ -121,6 +121,7 @@ class AbsoluteFormulation {
   const ForceState& force(int index) const noexcept { return force_set_.state(index); }
   void set_accelerations(const VecX& a) noexcept { a_ = a; }
   Vec3 marker_acceleration(int index) const noexcept;
+  Vec3 body_position(int i) const noexcept { return bodies_[i].p_WB; }
   const Mat3& body_rotation(int i) const noexcept { return bodies_[i].A; }
   Vec3 body_angular_velocity(int i) const noexcept { return bodies_[i].w_WB; }
   Vec3 body_velocity(int i) const noexcept { return bodies_[i].v_WB; }

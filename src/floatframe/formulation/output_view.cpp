@@ -36,6 +36,18 @@ Vec3 OutputView::acceleration(int marker) const noexcept {
   return from([&](const auto& f) -> Vec3 { return f.marker_acceleration(marker); });
 }
 
+Vec3 OutputView::body_position(int body) const noexcept {
+  return from([&](const auto& f) -> Vec3 { return f.body_position(body); });
+}
+
+Vec3 OutputView::body_velocity(int body) const noexcept {
+  return from([&](const auto& f) -> Vec3 { return f.body_velocity(body); });
+}
+
+Vec3 OutputView::body_acceleration(int body) const noexcept {
+  return from([&](const auto& f) -> Vec3 { return f.body_acceleration(body).linear; });
+}
+
 const Mat3& OutputView::body_rotation(int body) const noexcept {
   return from([&](const auto& f) -> const Mat3& { return f.body_rotation(body); });
 }

@@ -2,16 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
-
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/core/enum_index.hpp"
-#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/history/recorded_motion.hpp"
 #include "floatframe/model/model_hash.hpp"
 #include "floatframe/model/output_kind.hpp"
-#include "floatframe/model/validate.hpp"
-#include "floatframe/simulation/stepped_model.hpp"
 
 namespace floatframe {
 namespace {
@@ -67,94 +61,6 @@ class RecordedParts {
   const Model& model_;
 };
 
-template <class F>
-class ChannelSampler {
- public:
-  ChannelSampler(const StateHistory& history, const Model& model,
-                 const SimulationDescription& options)
-      : history_(history),
-        steps_(model, options, {.duration = options.duration}),
-        memory_(steps_.memory()),
-        row_(history.header().columns),
-        sample_(model.outputs.size() + 1) {
-    const HistoryHeader& h = history.header();
-    const F& f = steps_.formulation();
-    if (h.configurations != f.configurations() || h.velocities != f.velocities() ||
-        h.bodies.size() != model.bodies.size() || size_of("inputs") != f.inputs().size() ||
-        size_of("spring_angles") != f.spring_angles().size())
-      refuse(history, "its states are not of this model");
-    // `a` of a step begins from what the integrator left; without it, it is solved for.
-    if (!h.find("accelerations"))
-      solver_.emplace(steps_.model(), options.inertia, memory_.state,
-                      ReactionOptions{steps_.step_options().penalty_mass, steps_.grid().step(),
-                                      !steps_.start_report().redundant.empty()});
-  }
-
-  /// Time and all outputs at an instant.
-  const std::vector<double>& sample(std::size_t k) {
-    history_.instant(k, row_);
-    const HistoryHeader& h = history_.header();
-    State& s = memory_.state;
-    s.t = row_[0];
-    fill("q", h.q, s.q);
-    fill("v", h.v, s.v);
-    const std::span<const double> angles = group("spring_angles");
-    memory_.spring_angles.assign(angles.begin(), angles.end());
-    F& f = steps_.formulation();
-    f.set_inputs(group("inputs"));
-    if (solver_) {
-      s.a.setZero();
-      solver_->solve(s, f.inputs(), memory_.spring_angles);
-      s.a = solver_->accelerations();
-    } else {
-      fill("accelerations", h.v, s.a);
-    }
-    steps_.set_memory(memory_);
-    steps_.sample(sample_.data());
-    memory_.runner.outputs = steps_.memory().runner.outputs;  // turns that outputs count
-    return sample_;
-  }
-
- private:
-  std::size_t size_of(const char* name) const {
-    const HistoryGroup* g = history_.header().find(name);
-    return g ? g->count : 0;
-  }
-  std::span<const double> group(const char* name) const {
-    const HistoryGroup* g = history_.header().find(name);
-    return g ? std::span<const double>(row_).subspan(g->first, g->count)
-             : std::span<const double>();
-  }
-  void fill(const char* name, const std::vector<int>& places, VecX& x) const {
-    const std::span<const double> numbers = group(name);
-    for (std::size_t i = 0; i < places.size(); ++i) x[places[i]] = numbers[i];
-  }
-
-  const StateHistory& history_;
-  SteppedModel<F> steps_;
-  SteppedMemory memory_;
-  std::optional<ReactionSolver<F>> solver_;
-  std::vector<double> row_, sample_;
-};
-
-template <class F>
-ResultTable channels_of(const StateHistory& history, const Model& model,
-                        const SimulationDescription& options, std::size_t added) {
-  ChannelSampler<F> sampler(history, model, options);
-  ResultTable table;
-  table.columns.push_back({"time", "s"});
-  const std::size_t first = model.outputs.size() - added;
-  for (std::size_t k = first; k < model.outputs.size(); ++k)
-    table.columns.push_back({model.outputs[k].name, model.outputs[k].unit});
-  for (std::size_t k = 0; k < history.instants(); ++k) {
-    const std::vector<double>& row = sampler.sample(k);
-    table.data.push_back(row[0]);
-    table.data.insert(table.data.end(), row.begin() + 1 + static_cast<std::ptrdiff_t>(first),
-                      row.end());
-  }
-  return table;
-}
-
 }  // namespace
 
 void require_model(const StateHistory& history, const Model& model) {
@@ -166,15 +72,23 @@ void require_model(const StateHistory& history, const Model& model) {
 
 ResultTable new_channels(const StateHistory& history, const Model& model,
                          const SimulationDescription& options, std::size_t added) {
-  require_valid_run(options);
+  RecordedMotion motion(history, model, options);
   const RecordedParts recorded(history, model);
-  if (history.header().bodies.size() != model.bodies.size())
-    refuse(history, "its states are not of this model");
-  for (std::size_t k = model.outputs.size() - added; k < model.outputs.size(); ++k)
+  ResultTable table;
+  table.columns.push_back({"time", "s"});
+  const std::size_t first = model.outputs.size() - added;
+  for (std::size_t k = first; k < model.outputs.size(); ++k) {
     recorded.require(model.outputs[k]);
-  return options.coordinates == Coordinates::relative
-             ? channels_of<RelativeFormulation>(history, model, options, added)
-             : channels_of<AbsoluteFormulation>(history, model, options, added);
+    table.columns.push_back({model.outputs[k].name, model.outputs[k].unit});
+  }
+  for (std::size_t k = 0; k < motion.instants(); ++k) {
+    motion.at(k);
+    const std::vector<double>& row = motion.outputs();
+    table.data.push_back(row[0]);
+    table.data.insert(table.data.end(), row.begin() + 1 + static_cast<std::ptrdiff_t>(first),
+                      row.end());
+  }
+  return table;
 }
 
 }  // namespace floatframe

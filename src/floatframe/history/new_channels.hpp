@@ -1,10 +1,7 @@
 #pragma once
-// Outputs that a run did not have, from its states. The formulation of the run is brought to each
-// recorded instant - coordinates, velocities, accelerations of the integrator, turns of springs,
-// inputs - and sampled as the run samples it: the numbers are those of a run that had the outputs
-// from the start. Reactions and the accelerations that go with them are solved for. Where the file
-// holds no accelerations they are found so too, and differ from those of the run within its
-// tolerance.
+// Outputs that a run did not have, from its states: at each recorded instant they are sampled as
+// the run samples them (history/recorded_motion), so the numbers are those of a run that had the
+// outputs from the start. Reactions and the accelerations with them are solved for.
 #include "floatframe/history/state_history.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/simulation/result_table.hpp"

@@ -29,6 +29,10 @@ class OutputView {
   const MarkerState& marker(int marker) const noexcept;
   /// Of the marker's point [m/s2].
   Vec3 acceleration(int marker) const noexcept;
+  /// Of the origin of the body frame, world axes [m, m/s, m/s2].
+  Vec3 body_position(int body) const noexcept;
+  Vec3 body_velocity(int body) const noexcept;
+  Vec3 body_acceleration(int body) const noexcept;
   /// R_WB
   const Mat3& body_rotation(int body) const noexcept;
   /// w_WB, world axes [rad/s].

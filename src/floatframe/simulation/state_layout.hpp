@@ -2,7 +2,7 @@
 // The states of a run as rows of numbers, for who keeps them (history/states_file.hpp). A row is
 // one instant: the time, the coordinates q and velocities v of the formulation, its accelerations,
 // the angles that tell turns of joint springs, the inputs, and for those who have no formulation
-// the pose of each body. With them (`StateSampler`, history/new_channels.hpp) the formulation is
+// the pose of each body. With them (`StateSampler`, history/recorded_motion) the formulation is
 // where it was, to the bit.
 //
 // Accelerations are the integrator's: it leaves a step with them before velocities and positions

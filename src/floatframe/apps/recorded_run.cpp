@@ -1,0 +1,91 @@
+#include "floatframe/apps/recorded_run.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/history/new_channels.hpp"
+#include "floatframe/model_file/model_fingerprint.hpp"
+
+namespace floatframe {
+namespace {
+
+/// A run's folder stands for its states.
+std::string states_path(const std::string& given) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(given, ignored)
+             ? (std::filesystem::path(given) / "states.ffr").string()
+             : given;
+}
+
+/// Where the model file is: beside the result as it was when the run was made, or as it was given.
+std::string model_path(const std::string& given, const StateHistory& history) {
+  if (!given.empty()) return given;
+  const HistoryOrigin& origin = history.header().origin;
+  const auto beside =
+      (std::filesystem::path(history.name()).parent_path() / origin.from_here).lexically_normal();
+  std::error_code ignored;
+  if (!origin.from_here.empty() && std::filesystem::exists(beside, ignored)) return beside.string();
+  if (std::filesystem::exists(origin.model_file, ignored)) return origin.model_file;
+  throw InputError({history.name(), 0, 0},
+                   fmt::format("found no model file '{}' any more, expected its place with --model",
+                               origin.model_file));
+}
+
+void require_same_files(const StateHistory& history, const ModelFingerprint& used,
+                        const std::string& path) {
+  const HistoryOrigin& origin = history.header().origin;
+  const auto files = relative_to_model(path, used.files);
+  for (const auto& [file, hash] : origin.files) {
+    const auto now = files.find(file);
+    if (now == files.end() || now->second != hash)
+      throw InputError(
+          {history.name(), 0, 0},
+          fmt::format("the states are of a run that was made before '{}' was changed", file));
+  }
+}
+
+}  // namespace
+
+Option recorded_result_position(RecordedRunArguments& arguments) {
+  return file_position("RESULT", arguments.result, "states.ffr of a run, or its folder");
+}
+
+Option recorded_model_option(RecordedRunArguments& arguments) {
+  return text_option("--model", arguments.model, "FILE",
+                     "The model file, if it is not where it was");
+}
+
+RecordedRun load_recorded_run(const RecordedRunArguments& arguments) {
+  RecordedRun run{StateHistory(states_path(arguments.result)), {}, 0, {}};
+  for (const std::string& note : run.history.notes()) say(run.history.name() + ": " + note);
+  ModelArguments given;
+  given.path = model_path(arguments.model, run.history);
+  given.settings = run.history.header().origin.settings;
+  ModelFingerprint used;
+  run.description = read_model(given, false, &used);
+  require_same_files(run.history, used, given.path);
+  require_model(run.history, build_model(run.description));
+  run.inputs = files_of(used);
+  run.inputs.push_back(run.history.name());
+  if (arguments.outputs.empty()) return run;
+  const std::size_t before = run.description.outputs.size();
+  given.outputs = arguments.outputs;
+  run.description = read_model(given, true);
+  run.added = run.description.outputs.size() - before;
+  return run;
+}
+
+SimulationDescription recorded_options(const RecordedRun& run) {
+  const HistoryHeader& h = run.history.header();
+  SimulationDescription o = run.description.simulation;
+  o.coordinates = coordinates_from(h.coordinates);
+  o.inertia = inertia_from(h.inertia);
+  o.step = h.step;
+  o.duration = h.duration;
+  o.output_interval = h.output_interval;
+  return o;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,104 @@
+#include "floatframe/history/recorded_motion.hpp"
+
+#include <optional>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/model/validate.hpp"
+#include "floatframe/simulation/stepped_model.hpp"
+
+namespace floatframe {
+
+struct RecordedMotion::Replay {
+  virtual ~Replay() = default;
+  virtual const OutputView& at(std::size_t k, std::vector<double>& outputs) = 0;
+};
+
+namespace {
+
+[[noreturn]] void refuse_other_model(const StateHistory& history) {
+  throw InputError(SourceMark{history.name(), 0, 0}, "its states are not of this model");
+}
+
+}  // namespace
+
+template <class F>
+struct RecordedMotion::ReplayOf : Replay {
+  ReplayOf(const StateHistory& h, const Model& model, const SimulationDescription& options)
+      : history(h),
+        steps(model, options, {.duration = options.duration}),
+        memory(steps.memory()),
+        row(history.header().columns) {
+    const F& f = steps.formulation();
+    if (h.header().configurations != f.configurations() ||
+        h.header().velocities != f.velocities() || size_of("inputs") != f.inputs().size() ||
+        size_of("spring_angles") != f.spring_angles().size())
+      refuse_other_model(history);
+    // `a` of a step begins from what the integrator left; without it, it is solved for.
+    if (!h.header().find("accelerations"))
+      solver.emplace(steps.model(), options.inertia, memory.state,
+                     ReactionOptions{steps.step_options().penalty_mass, steps.grid().step(),
+                                     !steps.start_report().redundant.empty()});
+  }
+
+  const OutputView& at(std::size_t k, std::vector<double>& outputs) override {
+    history.instant(k, row);
+    const HistoryHeader& h = history.header();
+    State& s = memory.state;
+    s.t = row[0];
+    fill("q", h.q, s.q);
+    fill("v", h.v, s.v);
+    const std::span<const double> angles = group("spring_angles");
+    memory.spring_angles.assign(angles.begin(), angles.end());
+    F& f = steps.formulation();
+    f.set_inputs(group("inputs"));
+    if (solver) {
+      s.a.setZero();
+      solver->solve(s, f.inputs(), memory.spring_angles);
+      s.a = solver->accelerations();
+    } else {
+      fill("accelerations", h.v, s.a);
+    }
+    steps.set_memory(memory);
+    steps.sample(outputs.data());
+    memory.runner.outputs = steps.memory().runner.outputs;  // turns that outputs count
+    return view.emplace(f, s.t, s.q);
+  }
+
+  std::size_t size_of(const char* name) const {
+    const HistoryGroup* g = history.header().find(name);
+    return g ? g->count : 0;
+  }
+  std::span<const double> group(const char* name) const {
+    const HistoryGroup* g = history.header().find(name);
+    return g ? std::span<const double>(row).subspan(g->first, g->count) : std::span<const double>();
+  }
+  void fill(const char* name, const std::vector<int>& places, VecX& x) const {
+    const std::span<const double> numbers = group(name);
+    for (std::size_t i = 0; i < places.size(); ++i) x[places[i]] = numbers[i];
+  }
+
+  const StateHistory& history;
+  SteppedModel<F> steps;
+  SteppedMemory memory;
+  std::optional<ReactionSolver<F>> solver;
+  std::vector<double> row;
+  std::optional<OutputView> view;
+};
+
+RecordedMotion::RecordedMotion(const StateHistory& history, const Model& model,
+                               const SimulationDescription& options)
+    : history_(history), outputs_(model.outputs.size() + 1) {
+  require_valid_run(options);
+  if (history.header().bodies.size() != model.bodies.size()) refuse_other_model(history);
+  if (options.coordinates == Coordinates::relative)
+    replay_ = std::make_unique<ReplayOf<RelativeFormulation>>(history, model, options);
+  else
+    replay_ = std::make_unique<ReplayOf<AbsoluteFormulation>>(history, model, options);
+}
+
+RecordedMotion::~RecordedMotion() = default;
+
+const OutputView& RecordedMotion::at(std::size_t k) { return replay_->at(k, outputs_); }
+
+}  // namespace floatframe
