@@ -48,7 +48,7 @@ class SceneWriter {
     Json scene;
     scene["frames"] = frames(first);
     scene["origin"] = triple(frames_.origin);
-    scene["up"] = triple(up());
+    scene["up"] = triple(scene_up(model_));
     scene["bodies"] = std::move(bodies);
     scene["points"] = std::move(points_);
     scene["joints"] = std::move(joints_);
@@ -71,15 +71,6 @@ class SceneWriter {
     if (modes > 0)
       out["amplitudes"] =
           buffer_.add(std::span<const float>(as_floats(frames_.amplitudes)), {count, modes});
-    return out;
-  }
-
-  /// Against gravity, along an axis of the world.
-  Vec3 up() const {
-    Vec3 out = Vec3::UnitZ();
-    Eigen::Index k = 2;
-    if (model_.gravity.cwiseAbs().maxCoeff(&k) > 0.0)
-      out = Vec3::Unit(k) * (model_.gravity[k] > 0.0 ? -1.0 : 1.0);
     return out;
   }
 

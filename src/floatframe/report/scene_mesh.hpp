@@ -1,12 +1,12 @@
 #pragma once
-// The surface of a body as triangles, each vertex with its displacement per modal amplitude: that
-// of a part as it is, bars swept with their sections. A point of a section at r from the axis moves
-// by u + theta x r, u and theta those of the bar between two nodes.
+// The surface of a body (body/surface_mesh) as triangles, each vertex with its displacement per
+// modal amplitude, as pages hold it; and what stands for a body without.
 #include <cstdint>
 #include <vector>
 
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/body/flexible_body.hpp"
+#include "floatframe/model/model.hpp"
 
 namespace floatframe {
 
@@ -20,6 +20,9 @@ struct SceneMesh {
 
 /// Of a body with triangles or bars; empty without.
 SceneMesh scene_mesh(const FlexibleBody& body);
+
+/// Against gravity, along an axis of the world.
+Vec3 scene_up(const Model& model);
 
 /// A box with the mass and inertia of a body, or what bounds its points where it has no mass.
 struct SceneBox {
