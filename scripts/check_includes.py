@@ -41,11 +41,12 @@ ALLOWED = {
     "model_file": FE | {"body", "reduction", "model", "formats/geometry", "formats/sid", "parts", "yaml"},
     "history": DYNAMICS | {"simulation"},
     "report": DYNAMICS | {"simulation", "history"},
+    "export": DYNAMICS | {"history", "report", "formats/body_file"},
     "realtime": DYNAMICS | {"simulation"},
     "sweep": DYNAMICS | {"simulation", "yaml", "model_file", "history", "report"},
     "analyses": DYNAMICS | {"simulation", "report", "formats/body_file", "formats/matlab", "model_file"},
     "apps": DYNAMICS | FE | {"reduction", "formats/body_file", "formats/sid", "formats/text", "parts", "simulation", "realtime",
-                             "model_file", "history", "report", "analyses", "sweep"},
+                             "model_file", "history", "report", "export", "analyses", "sweep"},
 }
 
 # Rooms, and single files, that public headers may reach.

@@ -14,9 +14,13 @@ namespace {
 /// A run's folder stands for its states.
 std::string states_path(const std::string& given) {
   std::error_code ignored;
-  return std::filesystem::is_directory(given, ignored)
-             ? (std::filesystem::path(given) / "states.ffr").string()
-             : given;
+  if (!std::filesystem::is_directory(given, ignored)) return given;
+  const std::filesystem::path states = std::filesystem::path(given) / "states.ffr";
+  if (!std::filesystem::exists(states, ignored))
+    throw InputError(
+        {states.string(), 0, 0},
+        "found no states, expected those of a run that records them (--record states)");
+  return states.string();
 }
 
 /// Where the model file is: beside the result as it was when the run was made, or as it was given.

@@ -1,0 +1,52 @@
+#pragma once
+// What files for other programs show of a body: its surface (body/surface_mesh), the wheel of a
+// tyre, a box of the same mass and inertia where there is nothing else; and its named nodes as
+// points. Body frame, SI units.
+#include "floatframe/export/body_motion.hpp"
+
+namespace floatframe {
+
+struct BodyPicture {
+  /// Where the shape of a point comes from.
+  enum class Origin {
+    surface,  ///< of a part or of a geometry file
+    bars,     ///< swept with the sections of bars
+    box,      ///< of the mass and inertia of the body
+    wheel,    ///< of a tyre
+    node      ///< a named node
+  };
+
+  Mat3X points;                               ///< 3 x n [m]
+  MatX modes;                                 ///< 3n x nm [m per unit of amplitude], or empty
+  std::vector<std::array<int, 3>> triangles;  ///< points, outward normals
+  std::vector<std::array<int, 2>> lines;
+  std::vector<Origin> origins;  ///< of each point
+  /// Of each point its node: in the finite-element file, of bars and named nodes in
+  /// FlexibleBody::nodes; -1: none.
+  std::vector<int> nodes;
+  std::vector<std::string> names;  ///< of the named nodes, which are the last points
+  std::string color;               ///< "#rrggbb" or empty
+
+  struct Bent {
+    Eigen::Index point = 0;
+    const SecondOrderNode* node = nullptr;
+  };
+  std::vector<Bent> bent;  ///< points with a second order
+
+  Eigen::Index surface_points() const noexcept {
+    return points.cols() - static_cast<Eigen::Index>(names.size());
+  }
+};
+
+BodyPicture body_picture(const Model& model, int body);
+
+/// The same points, modes, faces, names and colour, to the bit.
+bool same_picture(const BodyPicture& a, const BodyPicture& b);
+
+/// 3 x n, body axes: u of all points [m] and du/dt [m/s].
+struct PictureMotion {
+  Mat3X u, rate;
+};
+void move_picture(const BodyPicture& picture, const BodyMotion& motion, PictureMotion& out);
+
+}  // namespace floatframe

@@ -1,0 +1,27 @@
+#pragma once
+// The deformation of a picture as a sum of fixed fields with weights of -1 to 1,
+//   u = sum_k weight_k field_k,
+// a field for each mode and, where bodies stiffen, for each product of two amplitudes. Fields that
+// move no point by more than `least_target` in the whole motion are left out.
+#include <string>
+#include <vector>
+
+#include "floatframe/export/body_picture.hpp"
+
+namespace floatframe {
+
+struct MorphTarget {
+  int a = 0, b = -1;   ///< weight = y_a / scale, or y_a y_b / scale
+  double scale = 1.0;  ///< largest of the motion
+  std::string name;
+  VecX field;  ///< 3 x points, one after the other [m]
+  double weight(const double* y) const noexcept { return (b < 0 ? y[a] : y[a] * y[b]) / scale; }
+};
+
+inline constexpr double least_target = 1e-8;  ///< [m]
+
+/// `amplitudes`: of all instants and of all bodies with this picture, one after the other.
+std::vector<MorphTarget> morph_targets(const BodyPicture& picture, const FlexibleBody& body,
+                                       const std::vector<const std::vector<double>*>& amplitudes);
+
+}  // namespace floatframe

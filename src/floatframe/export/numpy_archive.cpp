@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/export/body_motion.hpp"
+#include "floatframe/export/body_tables.hpp"
+#include "floatframe/formats/body_file/npy.hpp"
+#include "floatframe/formats/body_file/zip_store.hpp"
+
+namespace floatframe {
+namespace {
+
+class NumpyArchive : public ExportFile {
+ public:
+  NumpyArchive(const ExportBodies& bodies, std::string path)
+      : bodies_(bodies), path_(std::move(path)), tracks_(bodies.bodies.size()) {
+    for (std::size_t i = 0; i < tracks_.size(); ++i) tracks_[i].named = named_nodes(*body(i).data);
+  }
+
+  void add(const OutputView& view) override {
+    time_.push_back(view.time());
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      const BodyMotion m = body_motion(view, bodies_.bodies[i]);
+      Track& t = tracks_[i];
+      t.turn = continued_quaternion(m.R, t.turn);
+      keep(t.position, m.p);
+      for (const double x : {t.turn.w(), t.turn.x(), t.turn.y(), t.turn.z()})
+        t.rotation.push_back(x);
+      keep(t.velocity, m.v);
+      keep(t.angular_velocity, m.w);
+      keep(t.acceleration, m.a);
+      keep(t.angular_acceleration, m.alpha);
+      keep(t.amplitudes, m.y);
+      keep(t.rates, m.yd);
+      keep(t.amplitude_accelerations, m.ydd);
+      const Pose& design = body(i).X_WB;
+      for (const int n : t.named) {
+        const NodeMotion node = node_motion(body(i), n, m);
+        const Vec3& p = body(i).data->nodes[static_cast<std::size_t>(n)].p;
+        keep(t.node_positions, node.p);
+        keep(t.node_displacements, node.p - (design.p + design.R * p));
+        keep(t.node_deformations, node.deformation);
+        keep(t.node_velocities, node.v);
+      }
+    }
+  }
+
+  std::string finish() override {
+    const std::size_t instants = time_.size();
+    member("time", npy_bytes({{instants}, std::move(time_)}));
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) names.push_back(body(i).name);
+    member("bodies", npy_texts(names));
+    for (std::size_t i = 0; i < tracks_.size(); ++i) body_members(i, instants);
+    std::vector<ZipMember> members;
+    for (const auto& [name, content] : members_) members.push_back({name, content});
+    const std::string bytes = zip_archive(members);
+    write_file(path_, bytes);
+    return fmt::format("{}: {} instants, {} bodies, {} arrays", path_, instants, tracks_.size(),
+                       members.size());
+  }
+
+ private:
+  struct Track {
+    std::vector<int> named;
+    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+    std::vector<double> position, rotation, velocity, angular_velocity, acceleration,
+        angular_acceleration, amplitudes, rates, amplitude_accelerations, node_positions,
+        node_displacements, node_deformations, node_velocities;
+  };
+
+  const Body& body(std::size_t i) const {
+    return bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])];
+  }
+  static void keep(std::vector<double>& out, const Eigen::Ref<const VecX>& x) {
+    out.insert(out.end(), x.data(), x.data() + x.size());
+  }
+  void member(const std::string& name, std::string content) {
+    members_.emplace_back(name + ".npy", std::move(content));
+  }
+  void body_members(std::size_t i, std::size_t instants) {
+    Track& t = tracks_[i];
+    const std::string at = body(i).name + "/";
+    const auto add_array = [&](const char* name, std::vector<std::size_t> shape,
+                               std::vector<double>& values) {
+      shape.insert(shape.begin(), instants);
+      member(at + name, npy_bytes({std::move(shape), std::move(values)}));
+    };
+    add_array("position", {3}, t.position);
+    add_array("rotation", {4}, t.rotation);
+    add_array("velocity", {3}, t.velocity);
+    add_array("angular_velocity", {3}, t.angular_velocity);
+    add_array("acceleration", {3}, t.acceleration);
+    add_array("angular_acceleration", {3}, t.angular_acceleration);
+    const auto nm = static_cast<std::size_t>(body(i).modes());
+    if (nm > 0) {
+      std::vector<std::string> modes = body(i).data->mode_names;
+      for (std::size_t k = modes.size(); k < nm; ++k)
+        modes.push_back(fmt::format("mode {}", k + 1));
+      member(at + "modes", npy_texts(modes));
+      add_array("amplitudes", {nm}, t.amplitudes);
+      add_array("amplitude_rates", {nm}, t.rates);
+      add_array("amplitude_accelerations", {nm}, t.amplitude_accelerations);
+    }
+    if (t.named.empty()) return;
+    std::vector<std::string> names;
+    for (const int n : t.named)
+      names.push_back(body(i).data->nodes[static_cast<std::size_t>(n)].name);
+    member(at + "nodes", npy_texts(names));
+    add_array("node_positions", {t.named.size(), 3}, t.node_positions);
+    add_array("node_displacements", {t.named.size(), 3}, t.node_displacements);
+    add_array("node_deformations", {t.named.size(), 3}, t.node_deformations);
+    add_array("node_velocities", {t.named.size(), 3}, t.node_velocities);
+  }
+
+  ExportBodies bodies_;
+  std::string path_;
+  std::vector<Track> tracks_;
+  std::vector<double> time_;
+  std::vector<std::pair<std::string, std::string>> members_;
+};
+
+}  // namespace
+
+std::unique_ptr<ExportFile> numpy_archive(const ExportBodies& bodies, const std::string& path) {
+  return std::make_unique<NumpyArchive>(bodies, path);
+}
+
+}  // namespace floatframe

@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+"""floatframe export: what the files of other programs hold is what the solver says, and nothing is half written."""
+import csv
+import io
+import os
+import resource
+import signal
+import time
+import unittest
+
+from export_readers import Glb, node_points, read_npz, read_pvd, read_table, read_vtu
+from run_case import RunCase
+
+SHORT = ("--set", "duration=0.2", "--quiet", "--no-report")
+STIFF = "    geometric_stiffening: true\n"
+
+
+def distance(a, b):
+    return max(abs(x - y) for x, y in zip(a, b, strict=True))
+
+
+class Export(RunCase):
+    def run_model(self, *more, out="out"):
+        self.program("run", "m.yaml", "--out", out, *SHORT, *more)
+
+    def outputs(self, *channels, out="out"):
+        """Rows of numbers, time first."""
+        added = [word for channel in channels for word in ("--add", channel)]
+        table = list(csv.reader(io.StringIO(self.program("outputs", out, *added).stdout)))
+        return [[float(x) for x in row] for row in table[1:]]
+
+    def refused(self, sentence, *arguments, code=2):
+        said = self.program("export", *arguments, code=code).stderr
+        self.assertEqual(said.removeprefix("floatframe: "), sentence + "\n")
+
+    def test_every_file_says_what_the_solver_says(self):
+        (self.folder / "m.yaml").write_text((self.folder / "m.yaml").read_text().replace("joints:\n", STIFF + "joints:\n"))
+        for coordinates in ("relative", "absolute"):
+            self.run_model("--coordinates", coordinates)
+            said = self.program("export", "out", "--vtk", "vtk", "--glb", "m.glb", "--npz", "m.npz", "--csv", "m.csv").stderr
+            self.assertEqual(said.splitlines()[0], "vtk/motion.pvd: 201 instants, 4 bodies, 218 points")
+            rows = self.outputs("p: {position: {body: beam, node: tip}}", "v: {velocity: {body: beam, node: tip}}",
+                                "s: {position: slider}", "w: {angular_velocity: crank}", "a: {acceleration: slider}",
+                                "y1: {modal_amplitude: beam, mode: 1}", "yd4: {modal_rate: beam, mode: 4}",
+                                "ydd4: {modal_acceleration: beam, mode: 4}", "aa: {angular_acceleration: crank}",
+                                "q: {rotation: disc}")
+            self.assertEqual(len(rows), 201)
+            self.vtk_is(rows)
+            self.glb_is(rows)
+            self.npz_is(rows)
+            self.table_is(rows)
+
+    def vtk_is(self, rows):
+        index = read_pvd(self.folder / "vtk/motion.pvd")
+        self.assertEqual([t for t, _ in index], [row[0] for row in rows])
+        self.assertEqual(sorted(name for _, name in index),
+                         sorted(path.name for path in (self.folder / "vtk").glob("*.vtu")))
+        first = None
+        for row, (t, name) in list(zip(rows, index))[::20]:
+            grid = read_vtu(self.folder / "vtk" / name)
+            self.assertEqual(grid["time"], t)
+            self.assertEqual(grid["texts"]["body_names"], ["crank", "slider", "disc", "beam"])
+            tip = node_points(grid, "beam")["tip"]
+            self.assertLess(distance(grid["points"][tip], row[1:4]), 1e-12)
+            self.assertLess(distance(grid["point"]["velocity"][tip], row[4:7]), 1e-6)
+            # The design pose of the beam is straight along x: displacement = position - (0.6, 1, 0).
+            moved = [a - b for a, b in zip(row[1:4], (0.6, 1.0, 0.0))]
+            self.assertLess(distance(grid["point"]["displacement"][tip], moved), 1e-12)
+            first = first or grid
+            self.assertEqual(grid["cells"], first["cells"])
+            # The box of the slider about its centre of mass, where its frame is.
+            slider = [p for p, body in zip(grid["points"], grid["point"]["body"]) if body == 1]
+            self.assertEqual(len(slider), 8)
+            middle = [sum(p[c] for p in slider) / 8 for c in range(3)]
+            self.assertLess(distance(middle, row[7:10]), 1e-12)
+        # Sections stay about their nodes: the first ring of the beam, drawn as triangles of origin "bars".
+        kinds = {kind for kind, _ in first["cells"]}
+        self.assertEqual(kinds, {1, 5})
+        self.assertEqual(sorted(set(first["cell"]["drawn"])), [1, 2, 4])
+
+    def glb_is(self, rows):
+        scene = Glb(self.folder / "m.glb")
+        self.assertEqual(len(scene.times), 201)
+        for t, row in zip(scene.times, rows):
+            self.assertAlmostEqual(t, row[0], 6)
+        tip = scene.named("beam").index("tip")
+        worst = max(distance(scene.points("beam", k)[tip], rows[k][1:4]) for k in range(201))
+        self.assertLess(worst, 1e-6)
+        self.assertGreater(max(abs(row[13]) for row in rows), 0.0)
+        self.assertLessEqual(max(abs(x) for (_, path), track in scene.tracks.items() if path == "weights" for x in track), 1.0)
+        for (_, path), track in scene.tracks.items():
+            if path != "rotation":
+                continue
+            for q, following in zip(track, track[1:]):
+                self.assertAlmostEqual(sum(x * x for x in q), 1.0, 6)
+                self.assertGreater(sum(a * b for a, b in zip(q, following)), 0.0)
+        low = min(p[1] for p in scene.numbers(scene.primitive("disc", 4)["attributes"]["POSITION"]))
+        self.assertEqual(scene.json["accessors"][scene.primitive("disc", 4)["attributes"]["POSITION"]]["min"][1], low)
+        # No gravity in this model: z is up, and the node of the whole turns it to y.
+        self.assertLess(distance(scene.json["nodes"][0]["rotation"], (-0.5 ** 0.5, 0, 0, 0.5 ** 0.5)), 1e-12)
+
+    def npz_is(self, rows):
+        arrays = read_npz(self.folder / "m.npz")
+        self.assertEqual(list(arrays["time"].values), [row[0] for row in rows])
+        self.assertEqual(arrays["bodies"].values, ["crank", "slider", "disc", "beam"])
+        tip = arrays["beam/nodes"].values.index("tip")
+        for k, row in enumerate(rows):
+            self.assertLess(distance(arrays["beam/node_positions"].row(k, tip), row[1:4]), 1e-12)
+            self.assertLess(distance(arrays["beam/node_velocities"].row(k, tip), row[4:7]), 1e-11)
+            self.assertLess(distance(arrays["slider/position"].row(k), row[7:10]), 1e-12)
+            self.assertLess(distance(arrays["crank/angular_velocity"].row(k), row[10:13]), 1e-12)
+            self.assertLess(distance(arrays["slider/acceleration"].row(k), row[13:16]), 1e-8)
+            self.assertEqual(arrays["beam/amplitudes"].row(k)[0], row[16])
+            self.assertEqual(arrays["beam/amplitude_rates"].row(k)[3], row[17])
+            self.assertEqual(arrays["beam/amplitude_accelerations"].row(k)[3], row[18])
+            self.assertLess(distance(arrays["crank/angular_acceleration"].row(k), row[19:22]), 1e-9)
+            self.assertAlmostEqual(sum(x * x for x in arrays["disc/rotation"].row(k)), 1.0, 13)
+        self.assertEqual(arrays["beam/amplitudes"].shape, (201, 4))
+        try:
+            import numpy  # pylint: disable=import-outside-toplevel
+        except ImportError:
+            return
+        with numpy.load(self.folder / "m.npz") as loaded:
+            self.assertEqual(loaded["beam/node_positions"].shape, arrays["beam/node_positions"].shape)
+
+    def table_is(self, rows):
+        table = read_table(self.folder / "m.csv")
+        self.assertEqual(len(table), 201 * 6)
+        tips = [row for row in table if (row["body"], row["node"]) == ("beam", "tip")]
+        sliders = [row for row in table if (row["body"], row["node"]) == ("slider", "")]
+        for expected, tip, slider in zip(rows, tips, sliders, strict=True):
+            self.assertEqual(float(tip["time [s]"]), expected[0])
+            self.assertLess(distance([float(tip[c + " [m]"]) for c in "xyz"], expected[1:4]), 1e-12)
+            self.assertLess(distance([float(tip[f"v{c} [m/s]"]) for c in "xyz"], expected[4:7]), 1e-11)
+            self.assertLess(distance([float(slider[c + " [m]"]) for c in "xyz"], expected[7:10]), 1e-12)
+            self.assertAlmostEqual(sum(float(tip["q" + c]) ** 2 for c in "wxyz"), 1.0, 12)
+
+    def test_a_range_of_times_every_nth_and_chosen_bodies(self):
+        self.run_model()
+        some = ("--from", "0.05", "--to", "0.1", "--every", "7", "--body", "beam", "--body", "disc")
+        self.program("export", "out/states.ffr", "--npz", "m.npz", "--glb", "m.glb", "--vtk", "v", "--csv", "m.csv", *some)
+        times = list(read_npz(self.folder / "m.npz")["time"].values)
+        self.assertEqual([round(1000 * t) for t in times], [50, 57, 64, 71, 78, 85, 92, 99])
+        self.assertEqual(read_npz(self.folder / "m.npz")["bodies"].values, ["disc", "beam"])
+        scene = Glb(self.folder / "m.glb")
+        self.assertEqual(sorted(scene.nodes), ["beam", "disc"])
+        self.assertEqual(scene.times[0], 0.0)
+        self.assertEqual(scene.json["nodes"][0]["extras"]["first_time_s"], times[0])
+        self.assertEqual([t for t, _ in read_pvd(self.folder / "v/motion.pvd")], times)
+        self.assertEqual({row["body"] for row in read_table(self.folder / "m.csv")}, {"disc", "beam"})
+        grid = read_vtu(self.folder / "v/motion_000000.vtu")
+        self.assertEqual(set(grid["point"]["body"]), {2, 3})
+        # A shorter series leaves nothing of the longer one, and other files alone.
+        (self.folder / "v/notes_000009.vtu").write_text("mine")
+        self.program("export", "out", "--vtk", "v", "--every", "100")
+        self.assertEqual(sorted(path.name for path in (self.folder / "v").iterdir()),
+                         ["motion.pvd", "motion_000000.vtu", "motion_000001.vtu", "motion_000002.vtu", "notes_000009.vtu"])
+        # One instant is a picture without animation.
+        self.program("export", "out", "--glb", "one.glb", "--from", "0.1", "--to", "0.1")
+        self.assertNotIn("animations", Glb(self.folder / "one.glb").json)
+
+    def test_far_from_the_origin_floats_are_enough(self):
+        text = (self.folder / "m.yaml").read_text().replace("[0, 1, 0]", "[50000, 1, 0]").replace("[0.6, 1, 0]", "[50000.6, 1, 0]")
+        (self.folder / "m.yaml").write_text(text)
+        self.run_model()
+        self.program("export", "out", "--glb", "m.glb", "--body", "beam")
+        rows = self.outputs("p: {position: {body: beam, node: tip}}")
+        scene = Glb(self.folder / "m.glb")
+        tip = scene.named("beam").index("tip")
+        for k in (0, 100, 200):
+            self.assertLess(distance(scene.points("beam", k)[tip], rows[k][1:4]), 1e-6)
+
+    def test_what_cannot_be_exported_is_said_in_one_sentence(self):
+        self.run_model()
+        self.refused("found no file to write, expected --vtk, --glb, --npz or --csv", "out")
+        self.refused("--body: found 'baem', expected a body of the model, did you mean 'beam'?",
+                     "out", "--csv", "m.csv", "--body", "baem")
+        self.refused("out/states.ffr: found no recorded instant from 3 s on, expected some of the 201 from 0 to 0.2 s",
+                     "out", "--csv", "m.csv", "--from", "3")
+        self.refused("found --from 3 after --to 1, expected an earlier time", "out", "--csv", "m.csv", "--from", "3", "--to", "1")
+        self.refused("--from: found 'soon', expected a number [s]", "out", "--csv", "m.csv", "--from", "soon")
+        self.refused("the file 'no/m.glb' cannot be written: No such file or directory", "out", "--glb", "no/m.glb")
+        self.refused("the output folder 'm.yaml' cannot be written: Not a directory", "out", "--vtk", "m.yaml", code=1)
+        self.refused("--glb and --npz: found 'x' for both, expected two files", "out", "--glb", "x", "--npz", "x")
+        self.refused("--csv: found 'm.yaml', which this command reads; expected another file", "out", "--csv", "m.yaml")
+        self.run_model("--record", "none", out="none")
+        self.refused("none/states.ffr: found no states, expected those of a run that records them (--record states)",
+                     "none", "--csv", "m.csv")
+        (self.folder / "m.yaml").write_text((self.folder / "m.yaml").read_text().replace("mass: 2", "mass: 3"))
+        self.refused("out/states.ffr: the states are of a run that was made before 'm.yaml' was changed", "out", "--csv", "m.csv")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["m.yaml", "none", "out"])
+
+    def test_a_full_disk_leaves_no_file(self):
+        self.run_model()
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))
+        done = self.program("export", "out", "--glb", "m.glb", "--npz", "m.npz", code=1, preexec_fn=limit)
+        self.assertIn("cannot be written: File too large", done.stderr)
+        self.assertEqual([p.name for p in self.folder.iterdir() if ".part" in p.name], [])
+        self.assertFalse((self.folder / "m.npz").exists())
+
+    def test_an_interrupted_series_has_no_index_and_whole_files(self):
+        self.program("run", "m.yaml", "--out", "out", "--set", "duration=4", "--quiet", "--no-report")
+        self.program("export", "out", "--vtk", "v", "--every", "2000")
+        process = self.begin("export", "out", "--vtk", "v")
+        until = time.monotonic() + 60
+        while len(list((self.folder / "v").glob("*.vtu"))) < 20 and time.monotonic() < until:
+            time.sleep(0.002)
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        names = os.listdir(self.folder / "v")
+        self.assertNotIn("motion.pvd", names)
+        self.assertGreaterEqual(len(names), 20)
+        for name in names:
+            read_vtu(self.folder / "v" / name)
+
+
+if __name__ == "__main__":
+    unittest.main()
