@@ -243,36 +243,6 @@ TEST(Surfaces, LinesOfBeams) {
   EXPECT_EQ(s.lines, (std::vector<std::array<int, 2>>{{0, 1}, {1, 2}, {2, 3}}));
 }
 
-// Pure bending of a brick, u = (x z, 0, -x^2/2) / R with nu = 0: stress xx = E z / R. The quadratic
-// elements and hex8i hold it exactly.
-TEST(Surfaces, StressesOfBending) {
-  for (const char* name : {"beam_c3d20", "beam_c3d20r"}) {
-    FeModel model = read_fe_file(deck_folder + name + "_free.inp");
-    for (Material& m : model.materials) m.poisson = 0.0;
-    const double R = 2.0, E = model.materials[0].young;
-    MatX u(3 * model.nodes(), 2);
-    for (int k = 0; k < model.nodes(); ++k) {
-      const Vec3 p = model.positions[k];
-      u.block<3, 1>(3 * k, 0) << p(0) * p(2) / R, 0, -0.5 * p(0) * p(0) / R;
-      u.block<3, 1>(3 * k, 1) = Vec3(p(0), 0, 0);
-    }
-    const Surface s = outer_surface(model);
-    const MatX stress = surface_stresses(model, s, u);
-    ASSERT_EQ(stress.rows(), 6 * static_cast<Eigen::Index>(s.nodes.size()));
-    double bending = 0.0, rest = 0.0, tension = 0.0;
-    for (std::size_t i = 0; i < s.nodes.size(); ++i) {
-      const double z = model.positions[s.nodes[i]](2);
-      const Eigen::Index row = 6 * static_cast<Eigen::Index>(i);
-      bending = std::max(bending, std::abs(stress(row, 0) - E * z / R));
-      rest = std::max(rest, stress.block<5, 1>(row + 1, 0).cwiseAbs().maxCoeff());
-      tension = std::max(tension, std::abs(stress(row, 1) - E));
-    }
-    EXPECT_LT(bending, 1e-9 * E * 0.01 / R) << name;
-    EXPECT_LT(rest, 1e-9 * E * 0.01 / R) << name;
-    EXPECT_LT(tension, 1e-9 * E) << name;
-  }
-}
-
 // One brick, bent: hex8 answers with shear that is not there, hex8i and hex8r do not.
 TEST(Solids, BendingOfOneBrick) {
   const double expected = 1.0 / 12.0;  // E I / L for E = 1, L = 1, nu = 0: energy per angle^2 ...

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "floatframe/body/body_stress.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/formats/body_file/body_arrays.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
@@ -18,6 +19,35 @@
 
 namespace floatframe {
 namespace {
+
+void expect_equal_stress(const BodyStress* a, const BodyStress* b) {
+  ASSERT_EQ(a != nullptr, b != nullptr);
+  if (!a) return;
+  EXPECT_EQ(a->modes, b->modes);
+  EXPECT_EQ(a->loads, b->loads);
+  EXPECT_EQ(a->section_modes, b->section_modes);
+  EXPECT_EQ(a->section_loads, b->section_loads);
+  EXPECT_EQ(a->first_place, b->first_place);
+  ASSERT_EQ(a->groups.size(), b->groups.size());
+  for (std::size_t k = 0; k < a->groups.size(); ++k) {
+    EXPECT_EQ(a->groups[k].name, b->groups[k].name);
+    EXPECT_EQ(a->groups[k].young, b->groups[k].young);
+    EXPECT_EQ(a->groups[k].poisson, b->groups[k].poisson);
+  }
+  ASSERT_EQ(a->places.size(), b->places.size());
+  for (std::size_t k = 0; k < a->places.size(); ++k) {
+    const StressPlace &p = a->places[k], &q = b->places[k];
+    EXPECT_EQ(std::tie(p.layer, p.point, p.node, p.group, p.doubtful),
+              std::tie(q.layer, q.point, q.node, q.group, q.doubtful));
+    EXPECT_EQ(p.p, q.p);
+  }
+  ASSERT_EQ(a->sections.size(), b->sections.size());
+  for (std::size_t k = 0; k < a->sections.size(); ++k) {
+    const BeamSectionPlace &p = a->sections[k], &q = b->sections[k];
+    EXPECT_EQ(std::tie(p.element, p.node, p.end, p.name),
+              std::tie(q.element, q.node, q.end, q.name));
+  }
+}
 
 void expect_equal(const BodyFile& a, const BodyFile& b) {
   const InertiaInvariants &v = a.part.body.invariants, &w = b.part.body.invariants;
@@ -47,7 +77,7 @@ void expect_equal(const BodyFile& a, const BodyFile& b) {
   EXPECT_EQ(a.part.surface.lines, b.part.surface.lines);
   EXPECT_EQ(a.part.surface_positions, b.part.surface_positions);
   EXPECT_EQ(a.part.surface_modes, b.part.surface_modes);
-  EXPECT_EQ(a.part.surface_stress, b.part.surface_stress);
+  expect_equal_stress(a.part.body.stress.get(), b.part.body.stress.get());
   ASSERT_EQ(!a.part.body.projection, !b.part.body.projection);
   if (const auto p = a.part.body.projection) {
     const auto q = b.part.body.projection;
@@ -99,7 +129,6 @@ TEST(BodyFile, RigidPartWithoutSurface) {
   soft.part.surface = {};
   soft.part.surface_positions.resize(3, 0);
   soft.part.surface_modes.resize(0, 0);
-  soft.part.surface_stress.resize(0, 0);
   EXPECT_EQ(read_body_bytes(body_file_bytes(soft), "x").part.body.modes(), 5);
 }
 

@@ -39,7 +39,6 @@ inline BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
   part.surface.lines = {{0, 1}, {1, 2}};
   part.surface_positions = Mat3X::Random(3, 3);
   part.surface_modes = MatX::Random(9, part.body.modes());
-  part.surface_stress = MatX::Random(18, part.body.modes());
   auto second = std::make_shared<SecondOrder>(*part.body.second_order);
   std::erase_if(second->nodes,
                 [&](const SecondOrderNode& n) { return part.body.nodes[n.node].name.empty(); });

@@ -10,6 +10,7 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/free_structure.hpp"
+#include "support/arm_statics.hpp"
 #include "support/fe_parts.hpp"
 #include "support/reference_json.hpp"
 
@@ -170,45 +171,6 @@ TEST(Guyan, ConnectingRodAsShipped) {
   EXPECT_LT(distance(c.K, to_si(matrix("conrod_coarse_guyan_K.txt.gz"))), 1e-8);
   EXPECT_LT(distance(c.M, to_si(matrix("conrod_coarse_guyan_M.txt.gz"))), 1e-9);
 }
-
-/// Displacements of the spiders' references that CalculiX prints [mm, rad], bushings clamped: BALL,
-/// DAMP_F, DAMP_R, six each.
-struct StaticCase {
-  int interface, axis;
-  double load;  // SI
-  double expected[18];
-};
-const StaticCase static_cases[] = {
-    {2,
-     0,
-     1000.0,
-     {6.644588E-03, 1.703858E-04, 5.654863E-04, 8.127652E-07, 1.398914E-04, -2.020221E-05,
-      3.675677E-03, 4.493891E-04, -1.360713E-03, -1.168219E-05, 3.506994E-05, -7.939658E-06,
-      3.818492E-03, -1.675474E-04, 1.054909E-04, 4.370666E-06, 3.827745E-05, -7.561445E-06}},
-    {2,
-     1,
-     1000.0,
-     {1.703858E-04, 3.589983E-03, -5.068778E-02, -3.063008E-04, -7.912000E-07, 1.654314E-06,
-      1.113743E-04, 7.854938E-03, -1.128592E-02, -1.555171E-04, 4.848341E-07, -4.568842E-07,
-      6.522716E-05, 7.899797E-03, -1.128594E-02, -1.567241E-04, -6.903758E-07, 9.955150E-07}},
-    {2,
-     2,
-     1000.0,
-     {5.654863E-04, -5.068778E-02, 1.579248E+00, 7.241331E-03, 7.954190E-05, -8.627823E-07,
-      7.647656E-03, -2.415547E-01, 4.583592E-01, 5.368536E-03, 1.699777E-04, -1.720691E-05,
-      2.629170E-04, -2.440497E-01, 4.617375E-01, 5.424140E-03, 4.889423E-06, -1.254661E-05}},
-    {2,
-     3,
-     100.0,
-     {8.127652E-05, -3.063008E-02, 7.241331E-01, 4.400702E-03, 8.943421E-06, -1.076960E-06,
-      -2.856341E-04, -9.981324E-02, 1.612413E-01, 2.219240E-03, -6.566697E-06, -6.439705E-06,
-      4.337313E-04, -1.006245E-01, 1.612330E-01, 2.237421E-03, 9.459051E-06, -3.925544E-06}},
-    {-1,
-     2,
-     500.0,
-     {-6.276108E-04, -1.128593E-02, 4.600484E-01, 1.612372E-03, -8.943040E-05, -4.622365E-08,
-      6.584989E-03, -7.060127E-02, 1.919364E-01, 1.568479E-03, 1.475925E-04, -1.837311E-06,
-      -6.243793E-03, -7.095868E-02, 1.921110E-01, 1.576471E-03, -1.403737E-04, -1.725511E-06}}};
 
 TEST(ArmAgainstCalculix, GuyanStaticsAndConvergenceOfCraigBampton) {
   const Condensed c = condense("aarm_coarse", arm_bores());

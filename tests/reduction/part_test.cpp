@@ -294,7 +294,7 @@ TEST(PartHealth, MassPropertiesAndWarnings) {
   EXPECT_EQ(health.nodes, 118);
   EXPECT_EQ(health.modes, 14);
   EXPECT_EQ(stages, (std::vector<std::string>{"model", "assembly", "modes", "unit loads", "body",
-                                              "stress stiffness", "surface",
+                                              "surface", "stress", "stress stiffness",
                                               "free modes of the full model"}));
   ASSERT_FALSE(health.warnings.empty());
   EXPECT_EQ(health.warnings[0], "1 node is used by nothing: node 118");

@@ -1,13 +1,13 @@
 #pragma once
 // What a body knows of its stress. Linear in the modal amplitudes y and in what its own inertia and
-// its weight do beyond the modes (mode acceleration: the static answer to a load, of which the modes
-// carry only a part),
+// its weight do beyond the modes (mode acceleration: the static answer to a load, of which the
+// modes carry only a part),
 //   stress = modes y + loads c
-// with the load coefficients c of an instant, the density of force that acts on the undeformed body
-// and on its modes as they move:
-//   c[j]         = -(a_B - g)_j                      translations
-//   c[3 + 3i + j] = -A_ji, A = skew(alpha) + skew(w)^2   rotations: force -rho A_ji r_i along axis j
-//   c[12 + k]    = -d2 y_k / dt2                     modes
+// with the load coefficients c of an instant, the density of force that acts on the undeformed
+// body and on its modes as they move:
+//   c[j]          = -(a_B - g)_j
+//   c[3 + 3i + j] = -A_ji,  A = skew(alpha) + skew(w)^2: force -rho A_ji r_i along axis j
+//   c[12 + k]     = -d2 y_k / dt2
 // all in body axes: a_B acceleration of the origin of the body frame, w and alpha its angular
 // velocity and acceleration, g gravity. Left out: Coriolis forces of the modes, 2 w x X dy/dt, and
 // the deformation of the lever arms. Source: Dietz, Vibration and Fatigue Analysis of Vehicle
@@ -69,5 +69,13 @@ struct BodyStress {
   /// Of each section its first place; its others follow. Empty without beams.
   std::vector<int> first_place;
 };
+
+struct FlexibleBody;
+
+/// Of the mirrored body: s holds the signs of the coordinates.
+BodyStress mirrored(const BodyStress& stress, const Vec3& s);
+/// Of the body with the modes `keep` of `body`: the static answers of the others join the loads.
+BodyStress with_kept_modes(const BodyStress& stress, const FlexibleBody& body,
+                           const std::vector<int>& keep);
 
 }  // namespace floatframe

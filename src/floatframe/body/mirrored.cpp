@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "floatframe/body/body_shape.hpp"
+#include "floatframe/body/body_stress.hpp"
 #include "floatframe/core/diagnostics.hpp"
 
 namespace floatframe {
@@ -52,6 +53,7 @@ FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
     node.X_theta = axial.asDiagonal() * node.X_theta;
   }
   if (body.shape) out.shape = std::make_shared<const BodyShape>(mirrored_shape(*body.shape, s));
+  if (body.stress) out.stress = std::make_shared<const BodyStress>(mirrored(*body.stress, s));
   if (body.second_order)
     out.second_order = std::make_shared<const SecondOrder>(mirrored(*body.second_order, s));
   if (body.projection) {

@@ -1,6 +1,7 @@
 #include "floatframe/body/with_modes.hpp"
 
 #include "floatframe/body/body_shape.hpp"
+#include "floatframe/body/body_stress.hpp"
 
 namespace floatframe {
 namespace {
@@ -73,6 +74,8 @@ FlexibleBody with_modes(const FlexibleBody& body, const std::vector<int>& keep) 
     shape->modes = columns(shape->modes, keep);
     out.shape = shape;
   }
+  if (body.stress)
+    out.stress = std::make_shared<const BodyStress>(with_kept_modes(*body.stress, body, keep));
   if (keep.empty()) out.second_order = nullptr;
   if (out.second_order) out.second_order = kept(*out.second_order, keep);
   if (keep.empty()) {

@@ -50,6 +50,9 @@ struct ElementKernel {
   /// Null for beams and shells.
   void (*nodal_strains)(const ElementInput&, MatX&) = nullptr;
   void (*stressed_points)(const ElementInput&, std::vector<StressedPoint>&) = nullptr;
+  /// Shells: stresses (xx, yy, zz, xy, yz, zx) in body axes at the nodes, 12 rows per node: on the
+  /// side of the normal (top), then on the other (bottom), from the displacements of the nodes.
+  void (*layer_stresses)(const ElementInput&, MatX&) = nullptr;
   ElementShape shape = {};
 };
 

@@ -16,6 +16,9 @@ BeamSection BeamSection::hollow_round(double outer, double inner) {
   s.A = std::numbers::pi / 4.0 * (outer * outer - inner * inner);
   s.Iy = s.Iz = std::numbers::pi / 64.0 * (std::pow(outer, 4) - std::pow(inner, 4));
   s.J = 2.0 * s.Iy;
+  s.outline = BeamSection::Outline::round;
+  s.width = s.height = outer;
+  s.bore = inner;
   return s;
 }
 
@@ -27,6 +30,9 @@ BeamSection BeamSection::rectangle(double width, double height) {
   const double a = std::max(width, height), b = std::min(width, height);
   const double ratio = a > 0.0 ? b / a : 0.0;
   s.J = a * b * b * b * (1.0 / 3.0 - 0.21 * ratio * (1.0 - std::pow(ratio, 4) / 12.0));
+  s.outline = BeamSection::Outline::rectangle;
+  s.width = width;
+  s.height = height;
   return s;
 }
 

@@ -37,6 +37,12 @@ struct BeamSection {
   double Iz = 0.0;  ///< bending in the local xy plane [m4]
   double J = 0.0;   ///< torsion constant [m4]
 
+  /// Its shape, which decides where its stress is looked at; unknown if only constants are given.
+  enum class Outline { unknown, round, rectangle };
+  Outline outline = Outline::unknown;
+  double width = 0.0, height = 0.0;  ///< along local y and z [m]; round: the diameter
+  double bore = 0.0;                 ///< of a tube: inner diameter [m]
+
   static BeamSection solid_round(double diameter);
   static BeamSection hollow_round(double outer_diameter, double inner_diameter);
   /// width along local y, height along local z. J = a b^3 (1/3 - 0.21 b/a (1 - (b/a)^4/12)), a >=

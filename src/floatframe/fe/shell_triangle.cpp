@@ -60,6 +60,42 @@ Eigen::Matrix<double, 9, 3> lumping(const Plane& t, double h) {
   return 0.5 * h * L;
 }
 
+/// The higher-order membrane strains, which the drilling rotations turn on: at corner i 3/2 Te Q_i
+/// T of (u, v, rz), xx, yy and xy in the axes of the triangle; its energy counts beta_0 times. The
+/// mean of the two divisions of a rectangle then holds the stress of plane bending exactly.
+struct HigherStrains {
+  Mat39 T;  ///< deviation of the drilling rotations from the mean rotation of the sides
+  Mat3 Te;  ///< from natural strains along the sides 12, 23, 31
+  std::array<Mat3, 3> Q;  ///< natural strains at the corners
+  double beta_0;
+
+  HigherStrains(const Plane& t, double poisson)
+      : beta_0(std::max(0.5 * (1.0 - 4.0 * poisson * poisson), 0.01)) {
+    const double A = t.area;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      for (int row = 0; row < 3; ++row) {
+        T(row, 3 * i) = t.dx(k, j);
+        T(row, 3 * i + 1) = t.dy(k, j);
+        T(row, 3 * i + 2) = row == i ? 4.0 * A : 0.0;
+      }
+    }
+    T /= 4.0 * A;
+    const double l21 = t.square(1, 0), l32 = t.square(2, 1), l13 = t.square(0, 2);
+    Te << t.dy(1, 2) * t.dy(0, 2) * l21, t.dy(2, 0) * t.dy(1, 0) * l32,
+        t.dy(0, 1) * t.dy(2, 1) * l13, t.dx(1, 2) * t.dx(0, 2) * l21, t.dx(2, 0) * t.dx(1, 0) * l32,
+        t.dx(0, 1) * t.dx(2, 1) * l13, (t.dy(1, 2) * t.dx(2, 0) + t.dx(2, 1) * t.dy(0, 2)) * l21,
+        (t.dy(2, 0) * t.dx(0, 1) + t.dx(0, 2) * t.dy(1, 0)) * l32,
+        (t.dy(0, 1) * t.dx(1, 2) + t.dx(1, 0) * t.dy(2, 1)) * l13;
+    Te /= 4.0 * A * A;
+    Q[0] << 1, 2, 1, 0, 1, -1, -1, -1, -2;
+    Q[1] << -2, -1, -1, 1, 1, 2, -1, 0, 1;
+    Q[2] << 1, -1, 0, -1, -2, -1, 2, 1, 1;
+    const Vec3 sides(1.0 / l21, 1.0 / l32, 1.0 / l13);
+    for (Mat3& q : Q) q = (2.0 * A / 3.0) * sides.asDiagonal() * q;
+  }
+};
+
 /// Dofs (u, v, rz) per node: basic part (constant stress) + 3/4 beta_0 of the higher-order part.
 Mat9 membrane(const Plane& t, const Material& material, double h) {
   const Mat3 E = plane_stress(material);
@@ -67,39 +103,13 @@ Mat9 membrane(const Plane& t, const Material& material, double h) {
   const Eigen::Matrix<double, 9, 3> L = lumping(t, h);
   const Mat9 basic = L * E * L.transpose() / (A * h);
 
-  // Deviation of the drilling rotations from the mean rotation of the sides.
-  Mat39 T;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    for (int row = 0; row < 3; ++row) {
-      T(row, 3 * i) = t.dx(k, j);
-      T(row, 3 * i + 1) = t.dy(k, j);
-      T(row, 3 * i + 2) = row == i ? 4.0 * A : 0.0;
-    }
-  }
-  T /= 4.0 * A;
-  // Natural strains along the sides 12, 23, 31.
-  const double l21 = t.square(1, 0), l32 = t.square(2, 1), l13 = t.square(0, 2);
-  Mat3 Te;
-  Te << t.dy(1, 2) * t.dy(0, 2) * l21, t.dy(2, 0) * t.dy(1, 0) * l32, t.dy(0, 1) * t.dy(2, 1) * l13,
-      t.dx(1, 2) * t.dx(0, 2) * l21, t.dx(2, 0) * t.dx(1, 0) * l32, t.dx(0, 1) * t.dx(2, 1) * l13,
-      (t.dy(1, 2) * t.dx(2, 0) + t.dx(2, 1) * t.dy(0, 2)) * l21,
-      (t.dy(2, 0) * t.dx(0, 1) + t.dx(0, 2) * t.dy(1, 0)) * l32,
-      (t.dy(0, 1) * t.dx(1, 2) + t.dx(1, 0) * t.dy(2, 1)) * l13;
-  Te /= 4.0 * A * A;
-  const Mat3 E_natural = Te.transpose() * E * Te;
-  Mat3 Q1, Q2, Q3;
-  Q1 << 1, 2, 1, 0, 1, -1, -1, -1, -2;
-  Q2 << -2, -1, -1, 1, 1, 2, -1, 0, 1;
-  Q3 << 1, -1, 0, -1, -2, -1, 2, 1, 1;
-  const Vec3 sides(1.0 / l21, 1.0 / l32, 1.0 / l13);
-  for (Mat3* Q : {&Q1, &Q2, &Q3}) *Q = (2.0 * A / 3.0) * sides.asDiagonal() * *Q;
-  const Mat3 Q4 = 0.5 * (Q1 + Q2), Q5 = 0.5 * (Q2 + Q3), Q6 = 0.5 * (Q3 + Q1);
+  const HigherStrains higher(t, material.poisson);
+  const Mat3 E_natural = higher.Te.transpose() * E * higher.Te;
+  const Mat3 Q4 = 0.5 * (higher.Q[0] + higher.Q[1]), Q5 = 0.5 * (higher.Q[1] + higher.Q[2]),
+             Q6 = 0.5 * (higher.Q[2] + higher.Q[0]);
   const Mat3 K_theta = Q4.transpose() * E_natural * Q4 + Q5.transpose() * E_natural * Q5 +
                        Q6.transpose() * E_natural * Q6;
-  const double nu = material.poisson;
-  const double beta_0 = std::max(0.5 * (1.0 - 4.0 * nu * nu), 0.01);
-  return basic + (0.75 * beta_0 * h * A) * T.transpose() * K_theta * T;
+  return basic + (0.75 * higher.beta_0 * h * A) * higher.T.transpose() * K_theta * higher.T;
 }
 
 /// Curvatures at a point (xi, eta) of the triangle from (w, rx, ry) of the corners.
@@ -205,6 +215,43 @@ Eigen::Matrix<double, 3, 18> shell_triangle_membrane(const std::array<Vec3, 3>& 
     N.block<3, 3>(0, 6 * i + 3) = B.col(3 * i + 2) * R.col(2).transpose();
   }
   return N;
+}
+
+Eigen::Matrix<double, 6, 3> from_triangle_axes(const Mat3& R) {
+  constexpr int at[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+  Eigen::Matrix<double, 6, 3> turn;
+  for (int c = 0; c < 6; ++c) {
+    const int i = at[c][0], j = at[c][1];
+    turn.row(c) << R(i, 0) * R(j, 0), R(i, 1) * R(j, 1), R(i, 0) * R(j, 1) + R(i, 1) * R(j, 0);
+  }
+  return turn;
+}
+
+Eigen::Matrix<double, 12, 18> shell_triangle_stress(const std::array<Vec3, 3>& p,
+                                                    const Material& material, double h,
+                                                    int corner) {
+  const Mat3 R = triangle_axes(p);
+  const Plane t = flatten(p, R);
+  const Mat3 E = plane_stress(material);
+  const HigherStrains higher(t, material.poisson);
+  Mat39 in_plane = E * lumping(t, h).transpose() / (t.area * h);
+  in_plane += 1.5 * E * higher.Te * higher.Q[corner] * higher.T;
+  const Mat39 bending =
+      0.5 * h * E * curvatures(t, corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0);
+  const Eigen::Matrix<double, 6, 3> turn = from_triangle_axes(R);
+  Eigen::Matrix<double, 12, 18> out;
+  for (int i = 0; i < 3; ++i) {
+    // (u, v, rz) and (w, rx, ry) of the corner from its displacements in body axes.
+    const Mat3 u = in_plane.block<3, 2>(0, 3 * i) * R.leftCols<2>().transpose();
+    const Mat3 rz = in_plane.col(3 * i + 2) * R.col(2).transpose();
+    const Mat3 w = bending.col(3 * i) * R.col(2).transpose();
+    const Mat3 r = bending.block<3, 2>(0, 3 * i + 1) * R.leftCols<2>().transpose();
+    out.block<6, 3>(0, 6 * i) = turn * (u + w);
+    out.block<6, 3>(0, 6 * i + 3) = turn * (rz + r);
+    out.block<6, 3>(6, 6 * i) = turn * (u - w);
+    out.block<6, 3>(6, 6 * i + 3) = turn * (rz - r);
+  }
+  return out;
 }
 
 Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const Material& material, double h,

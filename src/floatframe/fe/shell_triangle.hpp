@@ -12,6 +12,8 @@ using Mat18 = Eigen::Matrix<double, 18, 18>;
 /// Columns: x along the side 1-2, y in the plane, z the normal.
 Mat3 triangle_axes(const std::array<Vec3, 3>& p);
 double triangle_area(const std::array<Vec3, 3>& p);
+/// Plane stress (xx, yy, xy) in the axes R of a triangle as (xx, yy, zz, xy, yz, zx) in body axes.
+Eigen::Matrix<double, 6, 3> from_triangle_axes(const Mat3& R);
 
 /// In body axes, (ux uy uz rx ry rz) per node.
 Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& material,
@@ -20,6 +22,10 @@ Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& mat
 /// of the corners in body axes.
 Eigen::Matrix<double, 3, 18> shell_triangle_membrane(const std::array<Vec3, 3>& p,
                                                      const Material& material, double thickness);
+/// Stresses in body axes at a corner, on the side of the normal and on the other one.
+Eigen::Matrix<double, 12, 18> shell_triangle_stress(const std::array<Vec3, 3>& p,
+                                                    const Material& material, double thickness,
+                                                    int corner);
 Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const Material& material, double thickness,
                           bool section_inertia);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The outer surface of a finite-element model, for pictures, and the stresses there.
+// The outer surface of a finite-element model.
 #include <array>
 #include <vector>
 
@@ -16,10 +16,5 @@ struct Surface {
 /// Faces that belong to one solid element only (quadratic faces are divided), shells, lines of
 /// beams.
 Surface outer_surface(const FeModel& model);
-
-/// Stresses (xx yy zz xy yz zx) [Pa] at the nodes of the surface for displacement fields given as
-/// columns (3 nodes() rows: translations of all nodes): 6 nodes.size() rows, averaged over the
-/// solid elements at a node; zero where there are none.
-MatX surface_stresses(const FeModel& model, const Surface& surface, const MatX& translations);
 
 }  // namespace floatframe

@@ -93,6 +93,7 @@ void to_si(FeModel& model, const UnitSystem& units) {
     s.Iy *= l4;
     s.Iz *= l4;
     s.J *= l4;
+    for (double* x : {&s.width, &s.height, &s.bore}) *x *= l;
   }
   for (ShellSection& s : model.shells) s.thickness *= l;
   for (PointMass& m : model.masses) {

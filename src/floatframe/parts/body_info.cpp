@@ -116,8 +116,7 @@ std::string body_info_text(const std::string& file, const BodyFile& content) {
   text += properties_text(body);
   text += fmt::format("  surface          {} points, {} triangles, {} lines{}\n",
                       content.part.surface.nodes.size(), content.part.surface.triangles.size(),
-                      content.part.surface.lines.size(),
-                      content.part.surface_stress.size() > 0 ? ", with stresses" : "");
+                      content.part.surface.lines.size(), body.stress ? ", with stresses" : "");
   text += fmt::format("  projection data  {}\n", body.projection ? "yes" : "no");
   text += stiffening_text(body);
   text += fmt::format("  made from        {} ({}) by Floatframe {}, {}\n", printable(from.source),

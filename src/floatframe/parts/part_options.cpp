@@ -136,8 +136,8 @@ std::vector<PartOption> list() {
       {"free_check", "no-free-check", "",
        "No free modes of the full model in the report (saves a factorisation)",
        O::Switch{&P::check_free_modes, false, true}},
-      {"stresses", "no-stress", "", "No stress modes in the body file",
-       O::Switch{&P::stresses, false, false}},
+      {"stresses", "no-stress", "", "No stress in the body file",
+       O::Switch{&P::stresses, false, true}},
       {"projection", "projection", "",
        "Nodes and mass matrix in the body file, for inertia terms by projection",
        O::Switch{&P::keep_projection, true, false}}};

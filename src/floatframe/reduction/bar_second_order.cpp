@@ -73,27 +73,6 @@ void unpack(const Row& row, Eigen::Ref<MatX> m) {
     for (Eigen::Index j = 0; j <= i; ++j) m(i, j) = m(j, i) = row(k++);
 }
 
-/// Clamped dofs, ascending; empty: not known.
-std::vector<int> held_dofs(const FeModel& model, const MatX& X, const ReductionOptions& options) {
-  std::set<int> held;
-  const auto hold = [&](int node, unsigned mask) {
-    for (int axis = 0; axis < 6; ++axis)
-      if (((mask >> axis) & 1u) != 0) held.insert(6 * node + axis);
-  };
-  if (options.analytic && !options.basis) {
-    hold(model.elements.front().nodes[0], all_dofs);
-  } else if (!options.clamped.empty()) {
-    for (const NodeDofs& c : options.clamped) {
-      const int node = c.node.empty() ? c.index : model.find_node(c.node);
-      if (node >= 0 && node < model.nodes()) hold(node, c.mask);
-    }
-  } else {
-    for (int k = 0; k < model.nodes() && held.empty(); ++k)
-      if (X.middleRows<6>(6 * k).isZero(0.0)) hold(k, all_dofs);
-  }
-  return {held.begin(), held.end()};
-}
-
 /// Displacements of second order of one pair of modes in each column, six rows per node.
 class FollowingFrame {
  public:
@@ -201,6 +180,26 @@ void add_inside(const ElementInput& in, const BentBeam& beam, bool section_inert
 }
 
 }  // namespace
+
+std::vector<int> held_dofs(const FeModel& model, const MatX& X, const ReductionOptions& options) {
+  std::set<int> held;
+  const auto hold = [&](int node, unsigned mask) {
+    for (int axis = 0; axis < 6; ++axis)
+      if (((mask >> axis) & 1u) != 0) held.insert(6 * node + axis);
+  };
+  if (options.analytic && !options.basis) {
+    hold(model.elements.front().nodes[0], all_dofs);
+  } else if (!options.clamped.empty()) {
+    for (const NodeDofs& c : options.clamped) {
+      const int node = c.node.empty() ? c.index : model.find_node(c.node);
+      if (node >= 0 && node < model.nodes()) hold(node, c.mask);
+    }
+  } else {
+    for (int k = 0; k < model.nodes() && held.empty(); ++k)
+      if (X.middleRows<6>(6 * k).isZero(0.0)) hold(k, all_dofs);
+  }
+  return {held.begin(), held.end()};
+}
 
 std::optional<BarSecondOrder> bar_second_order(const FeModel& model, const MatX& X,
                                                const ReductionOptions& options) {

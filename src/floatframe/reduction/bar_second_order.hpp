@@ -31,6 +31,9 @@ struct BarSecondOrder {
   MatX h, theta;
 };
 
+/// Rows that the body reference holds, ascending; empty: not known. X: six rows per node.
+std::vector<int> held_dofs(const FeModel& model, const MatX& X, const ReductionOptions& options);
+
 /// X: six rows per node. Nothing if an element is no 2-node beam, if it is not known what holds the
 /// body (a given basis without clamped nodes), or for frames of very many elements with loops.
 std::optional<BarSecondOrder> bar_second_order(const FeModel& model, const MatX& X,

@@ -20,6 +20,7 @@
 #include "floatframe/reduction/mode_basis.hpp"
 #include "floatframe/reduction/part_health.hpp"
 #include "floatframe/reduction/part_second_order.hpp"
+#include "floatframe/reduction/part_stress.hpp"
 #include "floatframe/reduction/rigid_check.hpp"
 #include "floatframe/reduction/static_check.hpp"
 
@@ -166,8 +167,7 @@ ModalNode interface_node(const FeModel& model, const FeSystem& system, const Int
   return node;
 }
 
-void add_surface(const FeModel& model, const FeSystem& system, const MatX& X,
-                 const PartOptions& options, ReducedPart& part) {
+void add_surface(const FeModel& model, const FeSystem& system, const MatX& X, ReducedPart& part) {
   part.surface = outer_surface(model);
   const auto n = static_cast<Eigen::Index>(part.surface.nodes.size());
   const MatX U = system.T * X;
@@ -178,7 +178,6 @@ void add_surface(const FeModel& model, const FeSystem& system, const MatX& X,
     part.surface_positions.col(k) = model.positions[node];
     part.surface_modes.middleRows<3>(3 * k) = U.middleRows<3>(3 * node);
   }
-  if (options.stresses) part.surface_stress = surface_stresses(model, part.surface, U);
 }
 
 /// What is written must be what can be read.
@@ -270,6 +269,28 @@ FlexibleBody body_of(const FeModel& model, const FeSystem& system, const PointMo
   return body;
 }
 
+/// In the mean-axis frame: those of the body that nothing holds.
+ElasticModes free_elastic_modes(const FeModel& model, const FeSystem& system,
+                                const ModeBasis& basis, const InertiaInvariants& raw) {
+  ElasticModes free = elastic_modes(basis.K, raw, momentum_of_modes(raw));
+  if (free.lambda.size() > 0 && !(free.stiffness > least_stiffness))
+    throw InputError(mechanism_text(model, system, basis.X * free.C.col(0)));
+  return free;
+}
+
+/// In the frame that is asked for.
+ElasticModes body_modes(const FeModel& model, const ModeBasis& basis, const InertiaInvariants& raw,
+                        const std::vector<InterfacePlace>& interfaces, const PartOptions& options) {
+  ElasticModes modes =
+      elastic_modes(basis.K, raw, reference_conditions(model, basis, raw, interfaces, options));
+  if (modes.mass < least_modal_mass)
+    throw InputError(
+        "a combination of the modes moves as a rigid body and has no inertia of its own; use fewer "
+        "modes or a finer mesh");
+  fix_signs(basis.X, modes.C);
+  return modes;
+}
+
 /// Modes of the free part, of the model itself beside those of the body if asked for. `structure`:
 /// if its factors are there already.
 void check_free_modes(const FeModel& model, const FeSystem& system, const MatX& R,
@@ -326,25 +347,16 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   stages.done("modes");
   MatX response = unit_response(model, system, points, R, basis, interfaces, markers, options,
                                 fixed, structure, elastic);
-  fixed.reset();  // the factors are the largest piece of memory
+  const bool stresses = options.stresses && !model.matrices;
+  if (!stresses) fixed.reset();  // the factors are the largest piece of memory
   stages.done("unit loads");
   check_stiffness_of(model, system, elastic.shapes);
   check_beams(model, system, basis, options.integration);
   normalise(system, part_size(model, system), basis);
 
   const InertiaInvariants raw = invariants_points(points.p, points.M_s, points.T * basis.X);
-  // Those of the mean-axis frame are those of the body that nothing holds.
-  const ElasticModes free = elastic_modes(basis.K, raw, momentum_of_modes(raw));
-  if (free.lambda.size() > 0 && !(free.stiffness > least_stiffness))
-    throw InputError(mechanism_text(model, system, basis.X * free.C.col(0)));
-  ElasticModes modes =
-      elastic_modes(basis.K, raw, reference_conditions(model, basis, raw, interfaces, options));
-  if (modes.mass < least_modal_mass) {
-    throw InputError(
-        "a combination of the modes moves as a rigid body and has no inertia of its own; use fewer "
-        "modes or a finer mesh");
-  }
-  fix_signs(basis.X, modes.C);
+  const ElasticModes free = free_elastic_modes(model, system, basis, raw);
+  const ElasticModes modes = body_modes(model, basis, raw, interfaces, options);
   health.modal_mass_condition = modes.condition;
   const MatX X = basis.X * modes.C;
   part.body = body_of(model, system, points, basis, raw, modes, X, interfaces, markers, options);
@@ -353,14 +365,21 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   health.rotary_inertia = points.p.cols() > model.nodes();
   check_body(part.body, *health.rotary_inertia);
   stages.done("body");
+  add_surface(model, system, X, part);
+  stages.done("surface");
+  if (stresses && X.cols() > 0) {
+    MatX loads =
+        body_load_response(model, system, X, fixed, structure, elastic, options.integration);
+    fixed.reset();
+    part.body.stress =
+        part_stress(model, system, part.surface.nodes, X, part.body.K, std::move(loads));
+    stages.done("stress");
+  }
   if (response.size() > 0 && X.cols() > 0) {
     part.body.second_order =
         part_second_order(model, system, X, response, part.body.nodes.size(), options.integration);
     stages.done("stress stiffness");
   }
-
-  add_surface(model, system, X, options, part);
-  stages.done("surface");
 
   for (const InterfacePlace& place : interfaces) health.interfaces.push_back(place.health);
   check_statics(interfaces, part.body, statics.stiffness, statics.flexibility, health);

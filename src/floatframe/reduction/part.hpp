@@ -62,7 +62,7 @@ struct PartOptions {
   double damping_ratio = 0.0;  ///< of every mode of the reduced (K, M_ff), fraction of critical
   /// Free modes of the full model for the report (a second factorisation).
   bool check_free_modes = true;
-  bool stresses = true;          ///< stress modes on the surface
+  bool stresses = true;          ///< FlexibleBody::stress
   bool keep_projection = false;  ///< ProjectionData for the projection method
   SparseSolver solver = SparseSolver::automatic;
   std::function<void(const std::string& stage, double seconds)> progress;  ///< after each stage
@@ -74,7 +74,6 @@ struct ReducedPart {
   Surface surface;
   Mat3X surface_positions;  ///< 3 x surface nodes [m]
   MatX surface_modes;       ///< 3 surface nodes x nm
-  MatX surface_stress;      ///< 6 surface nodes x nm [Pa]; empty if not asked for
 };
 
 /// `model` must be in SI units. Validates it.

@@ -8,6 +8,7 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/reduction/bar_second_order.hpp"
+#include "floatframe/reduction/bar_stress.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
 namespace floatframe {
@@ -118,6 +119,9 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
     if (projection) projection->h = std::move(field->h);
   }
   body.projection = projection;
+  if (model.dofs_per_node() == 6)
+    body.stress =
+        bar_stress(model, X, body.K, held_dofs(model, X, options), options.section_inertia);
   const int d = model.dofs_per_node();
   const Eigen::Index nm = X.cols();
   body.nodes.resize(model.nodes());

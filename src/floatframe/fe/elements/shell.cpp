@@ -101,14 +101,7 @@ void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points)
     const double area = triangle_area(p);
     const Mat3 R = triangle_axes(p);
     const auto N = shell_triangle_membrane(p, in.material, in.shell.thickness);
-    // Plane stress in body axes: sum of N_ab (e_a e_b^T), e the axes of the triangle.
-    constexpr int at[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
-    Eigen::Matrix<double, 6, 3> turn;
-    for (int c = 0; c < 6; ++c) {
-      const int i = at[c][0], j = at[c][1];
-      turn.row(c) << R(i, 0) * R(j, 0), R(i, 1) * R(j, 1), R(i, 0) * R(j, 1) + R(i, 1) * R(j, 0);
-    }
-    const Eigen::Matrix<double, 6, 18> stress = part.weight * area * turn * N;
+    const Eigen::Matrix<double, 6, 18> stress = part.weight * area * from_triangle_axes(R) * N;
     StressedPoint& point = points[q++];
     point.stress = MatX::Zero(6, 6 * nodes);
     point.gradient = MatX::Zero(9, 6 * nodes);
@@ -118,6 +111,32 @@ void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points)
       const Vec3 side = p[(a + 2) % 3] - p[(a + 1) % 3];
       const Vec3 g = R.col(2).cross(side) / (2.0 * area);
       for (int i = 0; i < 3; ++i) point.gradient.block<3, 1>(3 * i, to + i) = g;
+    }
+  }
+}
+
+/// At a corner of a quadrilateral: the mean of its two divisions, of which one has two triangles
+/// there.
+template <int nodes>
+void layer_stresses(const ElementInput& in, MatX& out) {
+  out = MatX::Zero(12 * nodes, 6 * nodes);
+  for (int a = 0; a < nodes; ++a) {
+    std::array<int, 2> count{};  // of the triangles of each division at this corner
+    const auto corner_of = [&](const Part& part) {
+      for (int i = 0; i < 3; ++i)
+        if (part.nodes[i] == a) return i;
+      return -1;
+    };
+    const std::span<const Part> all = parts<nodes>();
+    for (std::size_t k = 0; k < all.size(); ++k) count[k / 2] += corner_of(all[k]) >= 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const int corner = corner_of(all[k]);
+      if (corner < 0) continue;
+      const auto S =
+          shell_triangle_stress(corners(in, all[k]), in.material, in.shell.thickness, corner);
+      for (int i = 0; i < 3; ++i)
+        out.block<12, 6>(12 * a, 6 * all[k].nodes[i]) +=
+            (nodes == 3 ? 1.0 : 0.5) / count[k / 2] * S.middleCols<6>(6 * i);
     }
   }
 }
@@ -137,6 +156,7 @@ constexpr ElementKernel shell_kernel(std::span<const FaceNodes> faces) {
           .mass = &mass<count>,
           .scalar_mass = &scalar_mass<count>,
           .stressed_points = &stressed_points<count>,
+          .layer_stresses = &layer_stresses<count>,
           .shape = {.faces = faces}};
 }
 

@@ -13,6 +13,7 @@
 #include "floatframe/formats/body_file/body_numbers.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/formats/body_file/second_order_arrays.hpp"
+#include "floatframe/formats/body_file/stress_arrays.hpp"
 
 namespace floatframe {
 namespace {
@@ -134,12 +135,23 @@ class BodyReader {
       body().mass_model = static_cast<MassModel>(model - models.begin());
     if (const auto from = json.find("provenance"); from != json.end() && from->is_object())
       provenance(*from, text_of(json, "floatframe"));
+    if (const auto stress = json.find("stress"); stress != json.end() && stress->is_object())
+      header_.stress = {texts_of(*stress, "groups"), texts_of(*stress, "beams")};
     try {
       if (const auto health = json.find("health"); health != json.end())
         out_.part.health = health_from_json(health->dump());
     } catch (const InputError& damage) {
       error(std::string("health: ") + damage.what());
     }
+  }
+
+  /// What is not there has no name; names are for tables.
+  static std::vector<std::string> texts_of(const Json& object, const char* key) {
+    std::vector<std::string> out;
+    if (const auto list = object.find(key); list != object.end() && list->is_array())
+      for (const Json& text : *list)
+        out.push_back(text.is_string() ? printable(text.get<std::string>()) : std::string());
+    return out;
   }
 
   /// As in model files: no control characters, which a terminal would obey.
@@ -235,8 +247,8 @@ class BodyReader {
     // Without modes nothing can be missing; files of parts without modes were written empty once.
     part.surface_modes =
         nm > 0 ? arrays_.grouped("surface_modes", n, 3, nm) : MatX(MatX::Zero(3 * n, 0));
-    if (arrays_.has("surface_stress"))
-      part.surface_stress = arrays_.grouped("surface_stress", n, 6, nm);
+    body().stress =
+        read_stress(arrays_, nm, part.surface.nodes, part.surface_positions, header_.stress);
   }
 
   void projection() {

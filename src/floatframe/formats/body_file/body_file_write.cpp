@@ -11,6 +11,7 @@
 #include "floatframe/formats/body_file/body_file.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/formats/body_file/second_order_arrays.hpp"
+#include "floatframe/formats/body_file/stress_arrays.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -46,6 +47,13 @@ std::string header_of(const BodyFile& content) {
   }
   for (const auto& [key, value] : from.options) options.push_back({key, value});
   for (const auto& [file, hash] : from.files) files.push_back({{"file", file}, {"hash", hash}});
+  Json stress = nullptr;
+  if (body.stress && body.modes() > 0) {
+    Json groups = Json::array(), beams = Json::array();
+    for (const StressGroup& group : body.stress->groups) groups.push_back(group.name);
+    for (const BeamSectionPlace& section : body.stress->sections) beams.push_back(section.name);
+    stress = {{"groups", groups}, {"beams", beams}};
+  }
   const char* mass_models[] = {"isoparametric", "six_dof", "hermite"};
   const Json header = {{"format", "floatframe body"},
                        {"format_version", body_file_version},
@@ -54,6 +62,7 @@ std::string header_of(const BodyFile& content) {
                        {"mass_model", mass_models[index_of(body.mass_model)]},
                        {"modes", modes},
                        {"markers", markers},
+                       {"stress", stress},
                        {"provenance",
                         {{"source", from.source},
                          {"source_hash", from.source_hash},
@@ -154,7 +163,6 @@ std::string body_file_bytes(const BodyFile& content) {
   const Eigen::Index rows = 3 * static_cast<Eigen::Index>(surface.nodes.size());
   const bool given = part.surface_modes.rows() == rows && part.surface_modes.cols() == nm;
   add("surface_modes", grouped_array(given ? part.surface_modes : MatX(MatX::Zero(rows, nm)), 3));
-  if (part.surface_stress.size() > 0) add("surface_stress", grouped_array(part.surface_stress, 6));
   if (body.projection) {
     const ProjectionData& data = *body.projection;
     add("projection_p", array_of(data.p.transpose()));
@@ -167,6 +175,7 @@ std::string body_file_bytes(const BodyFile& content) {
     }
   }
   add_second_order(body, arrays);
+  add_stress(body, arrays);
   const std::string header = header_of(content);
   std::vector<ZipMember> members{{"header.json", header}};
   for (const auto& [name, bytes] : arrays) members.push_back({name + ".npy", bytes});

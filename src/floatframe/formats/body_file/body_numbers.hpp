@@ -8,6 +8,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/formats/body_file/body_arrays.hpp"
 #include "floatframe/formats/body_file/body_file.hpp"
+#include "floatframe/formats/body_file/stress_arrays.hpp"
 
 namespace floatframe {
 
@@ -15,6 +16,7 @@ namespace floatframe {
 struct BodyHeader {
   std::vector<double> frequencies;                    ///< of each mode [Hz]; -1: not given
   std::vector<std::vector<std::int64_t>> moves_with;  ///< surface points of each marker
+  StressNames stress;
 };
 
 /// `content`: complete, of sizes that fit. `name`: of the file.

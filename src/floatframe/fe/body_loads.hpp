@@ -1,0 +1,24 @@
+#pragma once
+// Loads of a body's own mass: densities rho e_j and rho r_i e_j, of which the inertia forces and
+// the weight of a rigid body are made, with the consistent masses of the elements. Column j:
+// rho e_j; column 3 + 3 i + j: rho r_i e_j, r from the origin of the body.
+#include "floatframe/fe/fe_model.hpp"
+#include "floatframe/fe/integration.hpp"
+#include "floatframe/fe/stress_stiffness.hpp"
+
+namespace floatframe {
+
+struct ElementInput;
+
+inline constexpr int linear_load_cases = 12;
+
+/// The fields e_j and r_i e_j at the nodes of an element, its degrees of freedom x 12: exact for
+/// beams (slopes of the axis) and solids; of shells and about a beam's axis half the curl.
+void linear_fields(const ElementInput& input, int nodes, int dofs_per_node, bool beam,
+                   MatX& fields);
+
+/// Forces and moments at all nodes, 3 nodes() x 12 each; point masses with them.
+NodalShapes linear_loads(const FeModel& model, bool section_inertia = true,
+                         Integration integration = Integration::exact);
+
+}  // namespace floatframe

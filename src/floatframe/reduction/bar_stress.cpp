@@ -1,0 +1,71 @@
+#include "floatframe/reduction/bar_stress.hpp"
+
+#include "floatframe/body/fe_stress.hpp"
+#include "floatframe/fe/body_loads.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/dense.hpp"
+#include "floatframe/reduction/fixed_interface.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Above this the places of a body would be more than the rest of it.
+constexpr std::size_t many_bars = 2000;
+
+NodalShapes shapes_of(const MatX& X, int nodes) {
+  NodalShapes out{MatX(3 * nodes, X.cols()), MatX(3 * nodes, X.cols())};
+  for (int k = 0; k < nodes; ++k) {
+    out.U.middleRows<3>(3 * k) = X.middleRows<3>(6 * k);
+    out.Theta.middleRows<3>(3 * k) = X.middleRows<3>(6 * k + 3);
+  }
+  return out;
+}
+
+/// All loads, six rows per node.
+MatX bar_loads(const FeModel& model, const MatX& X, bool section_inertia) {
+  MatX F(X.rows(), body_load_cases + X.cols());
+  const NodalShapes loads = linear_loads(model, section_inertia);
+  for (int k = 0; k < model.nodes(); ++k) {
+    F.block(6 * k, 0, 3, body_load_cases) = loads.U.middleRows<3>(3 * k);
+    F.block(6 * k + 3, 0, 3, body_load_cases) = loads.Theta.middleRows<3>(3 * k);
+  }
+  F.rightCols(X.cols()) = assemble_mass(model, section_inertia, 6) * X;
+  return F;
+}
+
+}  // namespace
+
+std::shared_ptr<const BodyStress> bar_stress(const FeModel& model, const MatX& X, const MatX& K_y,
+                                             const std::vector<int>& held, bool section_inertia) {
+  if (X.cols() == 0 || X.rows() != 6 * model.nodes() || model.elements.empty() ||
+      model.elements.size() > many_bars)
+    return nullptr;
+  for (const Element& e : model.elements)
+    if (!is_beam(e.type)) return nullptr;
+  const StressRecovery recovery(model, {}, section_inertia);
+  auto out = std::make_shared<BodyStress>(recovery.layout());
+  StressFields modes;
+  modes.displacements = shapes_of(X, model.nodes());
+  StressRecovery::Recovered found = recovery.recover(modes);
+  out->modes = std::move(found.places);
+  out->section_modes = std::move(found.sections);
+  if (held.empty()) return out;
+  const MatX F = bar_loads(model, X, section_inertia);
+  const SparseMatrix K = assemble_stiffness(model), no_mass(K.rows(), K.cols());
+  try {
+    const FixedInterface fixed(K, no_mass, {}, held, [](int) { return std::string(); });
+    const MatX r = fixed.inner_response(F) - X * ldlt_solve(K_y, X.transpose() * F);
+    StressFields loads;
+    loads.displacements = shapes_of(r, model.nodes());
+    loads.linear = body_load_cases;
+    loads.density = std::move(modes.displacements);
+    found = recovery.recover(loads);
+    out->loads = std::move(found.places);
+    out->section_loads = std::move(found.sections);
+  } catch (const InputError&) {
+    // The direct factors have no digits: the modes went another way (bar_chains.hpp).
+  }
+  return out;
+}
+
+}  // namespace floatframe

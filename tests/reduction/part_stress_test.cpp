@@ -1,0 +1,200 @@
+// Stress of reduced parts against direct solutions of the same finite elements.
+#include "floatframe/reduction/part_stress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "floatframe/body/fe_stress.hpp"
+#include "floatframe/body/with_modes.hpp"
+#include "floatframe/fe/body_loads.hpp"
+#include "floatframe/math/dense.hpp"
+#include "floatframe/reduction/part_places.hpp"
+#include "reduction/part_beam.hpp"
+#include "support/arm_statics.hpp"
+#include "support/stress_values.hpp"
+
+namespace floatframe::test {
+namespace {
+
+/// A part with its reduction, and all that a direct solution needs.
+struct Part {
+  FeModel model;
+  FeSystem system;
+  std::vector<InterfacePlace> interfaces;
+  ReducedPart reduced;
+  MatX X;  ///< modes, n x nm
+  MatX F;  ///< loads, n x (12 + nm)
+
+  Part(FeModel given, PartOptions options) : model(std::move(given)) {
+    options.keep_projection = true;
+    options.check_free_modes = false;
+    reduced = reduce_part(model, options);
+    validate(model);
+    interfaces = place_interfaces(model, options);
+    system = assemble(model);
+    find_rows(model, system, interfaces);
+    const MatX& U = reduced.body.projection->X;
+    X.resize(system.size(), reduced.body.modes());
+    for (int row = 0; row < system.size(); ++row) {
+      const Dof dof = system.dofs[row];
+      if (dof.axis < 3) {
+        X.row(row) = U.row(3 * dof.node + dof.axis);
+        continue;
+      }
+      for (std::size_t k = 0; k < interfaces.size(); ++k)
+        if (interfaces[k].node == dof.node)
+          X.row(row) = reduced.body.nodes[k].X_theta.row(dof.axis - 3);
+    }
+    F.resize(system.size(), body_load_cases + X.cols());
+    const NodalShapes loads = linear_loads(model);
+    F.leftCols<body_load_cases>() =
+        system.T.transpose() * loads.U + system.T_theta.transpose() * loads.Theta;
+    F.rightCols(X.cols()) = system.M * X;
+  }
+
+  const BodyStress& stress() const { return *reduced.body.stress; }
+
+  std::vector<int> rows_of(std::initializer_list<int> which) const {
+    std::vector<int> out;
+    for (const int k : which)
+      out.insert(out.end(), interfaces[k].rows.begin(), interfaces[k].rows.end());
+    return out;
+  }
+
+  /// Displacements under `f` with some rows held, and the forces with the reactions.
+  VecX solve(VecX& f, const std::vector<int>& held) const {
+    const SparseMatrix none(system.size(), system.size());
+    const FixedInterface full(system.K, none, {}, held, [](int) { return std::string(); });
+    const VecX u = full.inner_response(f);
+    f = system.K * u;
+    return u;
+  }
+
+  VecX stress_of(const VecX& u) const {
+    StressFields fields;
+    fields.displacements = {system.T * u, system.T_theta * u};
+    return StressRecovery(model, reduced.surface.nodes).recover(fields).places.col(0);
+  }
+};
+
+/// Places by von Mises, the largest first; those that are not doubtful.
+std::vector<int> hottest(const BodyStress& stress, const VecX& values) {
+  std::vector<int> order;
+  for (std::size_t k = 0; k < stress.places.size(); ++k)
+    if (!stress.places[k].doubtful) order.push_back(static_cast<int>(k));
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return values(a) > values(b); });
+  return order;
+}
+
+// Constraint modes answer forces at interfaces exactly, whatever else is among the modes.
+TEST(PartStress, FiveStaticCasesOfTheArm) {
+  PartOptions options;
+  options.interfaces = arm_bores();
+  options.modes = 6;
+  const Part arm(steel_part("aarm_coarse_mesh.inp.gz", "mm-t-s"), options);
+  const std::vector<int> bushings = arm.rows_of({0, 1});
+  for (const StaticCase& load : static_cases) {
+    VecX f = VecX::Zero(arm.system.size());
+    for (const int k : {2, 3, 4})
+      if (load.interface == k || (load.interface < 0 && k > 2))
+        f(arm.interfaces[k].rows[load.axis]) = load.load;
+    const VecX u = arm.solve(f, bushings);
+    for (int k = 2; k < 5; ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(1e3 * u(arm.interfaces[k].rows[axis]), load.expected[6 * (k - 2) + axis],
+                    1e-6 * std::abs(load.expected[6 * (k - 2) + axis]) + 2e-9);
+    const VecX y = ldlt_solve(arm.reduced.body.K, MatX(arm.X.transpose() * f)).col(0);
+    const VecX direct = von_mises_of(arm.stress_of(u));
+    const VecX modal = von_mises_of(arm.stress().modes * y);
+    const std::vector<int> order = hottest(arm.stress(), direct);
+    double worst = 0.0;
+    for (int i = 0; i < 20; ++i)
+      worst = std::max(worst, std::abs(modal(order[i]) / direct(order[i]) - 1.0));
+    std::printf("[ figure ] case %d %d: hottest %.4g MPa, modes at 20 places within %.1e\n",
+                load.interface, load.axis, 1e-6 * direct(order[0]), worst);
+    EXPECT_LT(worst, 1e-6);
+  }
+}
+
+/// Loads at all interfaces, of the body and of its modes, that balance at the first interface.
+void check_any_load(const Part& part, const MatX& R, double limit) {
+  std::srand(7);
+  const Eigen::Index nm = part.X.cols();
+  VecX c = VecX::Random(body_load_cases + nm);
+  c.tail(nm) *= 0.1;
+  VecX f = part.F * c;
+  const double size = f.norm();
+  for (std::size_t k = 1; k < part.interfaces.size(); ++k)
+    for (const int row : part.interfaces[k].rows) f(row) += 0.1 * size * VecX::Random(1)(0);
+  const VecX u = part.solve(f, part.rows_of({0}));
+  EXPECT_LT((R.transpose() * f).norm(), 1e-8 * size);  // with the reactions nothing is left
+  const VecX y = ldlt_solve(part.reduced.body.K, MatX(part.X.transpose() * f)).col(0);
+  const VecX direct = part.stress_of(u), modes = part.stress().modes * y;
+  const VecX all = modes + part.stress().loads * c;
+  std::printf("[ figure ] of %.3g: by modes alone %.1e, with loads %.1e\n",
+              direct.cwiseAbs().maxCoeff(),
+              (modes - direct).cwiseAbs().maxCoeff() / direct.cwiseAbs().maxCoeff(),
+              (all - direct).cwiseAbs().maxCoeff() / direct.cwiseAbs().maxCoeff());
+  EXPECT_LT((all - direct).cwiseAbs().maxCoeff(), limit * direct.cwiseAbs().maxCoeff());
+  EXPECT_GT((modes - direct).cwiseAbs().maxCoeff(), 1e-3 * direct.cwiseAbs().maxCoeff());
+
+  // Modes that are left out move to the loads.
+  std::vector<int> keep(static_cast<std::size_t>(nm));
+  std::iota(keep.begin(), keep.end(), 0);
+  keep.erase(keep.begin() + 1, keep.begin() + 3);
+  const FlexibleBody fewer = with_modes(part.reduced.body, keep);
+  const VecX y_k = ldlt_solve(fewer.K, MatX(part.X(Eigen::all, keep).transpose() * part.F * c));
+  const VecX y_0 = ldlt_solve(part.reduced.body.K, MatX(part.X.transpose() * part.F * c));
+  VecX c_k(body_load_cases + static_cast<Eigen::Index>(keep.size()));
+  c_k.head<body_load_cases>() = c.head<body_load_cases>();
+  VecX left = c;  // of the modes that stay
+  left.tail(nm).setZero();
+  for (std::size_t k = 0; k < keep.size(); ++k) {
+    c_k(body_load_cases + static_cast<Eigen::Index>(k)) = c(body_load_cases + keep[k]);
+    left(body_load_cases + keep[k]) = c(body_load_cases + keep[k]);
+  }
+  const VecX y_left = ldlt_solve(part.reduced.body.K, MatX(part.X.transpose() * part.F * left));
+  const VecX y_kept =
+      ldlt_solve(fewer.K, MatX(part.X(Eigen::all, keep).transpose() * part.F * left));
+  const VecX whole = part.stress().modes * y_left + part.stress().loads * left;
+  const VecX reduced = fewer.stress->modes * y_kept + fewer.stress->loads * c_k;
+  EXPECT_LT((whole - reduced).norm(), 1e-6 * whole.norm());
+}
+
+MatX rigid_rows(const Part& part) { return rigid_motions(part.model, part.system, Vec3::Zero()); }
+
+TEST(PartStress, LoadsOfTheBodyWithConstraintModes) {
+  const Part part(beam(), both_ends(5));
+  check_any_load(part, rigid_rows(part), 1e-7);
+}
+
+TEST(PartStress, LoadsOfTheBodyWithFreeModes) {
+  PartOptions options = both_ends(3);
+  options.method = ModeMethod::craig_chang;
+  const Part part(beam(), options);
+  check_any_load(part, rigid_rows(part), 1e-6);
+}
+
+TEST(PartStress, LoadsOfTheArm) {
+  PartOptions options;
+  options.interfaces = arm_bores();
+  options.modes = 4;
+  const Part arm(steel_part("aarm_coarse_mesh.inp.gz", "mm-t-s"), options);
+  check_any_load(arm, rigid_rows(arm), 1e-6);
+  std::size_t doubtful = 0;
+  for (const StressPlace& place : arm.stress().places) doubtful += place.doubtful;
+  EXPECT_GT(doubtful, 100u);
+  EXPECT_LT(doubtful, arm.stress().places.size() / 2);
+}
+
+TEST(PartStress, NotAskedFor) {
+  PartOptions options = both_ends(3);
+  options.stresses = false;
+  options.check_free_modes = false;
+  EXPECT_EQ(reduce_part(beam(), options).body.stress, nullptr);
+}
+
+}  // namespace
+}  // namespace floatframe::test
