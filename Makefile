@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer test-export demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -10,7 +10,8 @@ CTEST := ctest --output-on-failure --no-tests=error -j2
 help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
-	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, twenty kills of each kind"
+	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, twenty kills of each kind,"
+	@echo "                   the page in a browser, exported files in VTK and a glTF validator"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
 	@echo "make docs          reference of the C++ interface: build/docs/html/index.html"
 	@echo "make bench         timing of a chain of flexible links, the Iltis and single kernels"
@@ -41,6 +42,11 @@ test-all: test
 	FLOATFRAME_STAIRS=1 build/tests/simulation_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
 	$(MAKE) --no-print-directory test-viewer
+	$(MAKE) --no-print-directory test-export
+
+# Files for other programs, opened by VTK and by Khronos' validator of glTF.
+test-export:
+	@scripts/check_export.sh
 
 # The page of a run: its units in Node, then pages in a headless Chromium.
 test-viewer:

@@ -2,6 +2,7 @@
 """floatframe export: what the files of other programs hold is what the solver says, and nothing is half written."""
 import csv
 import io
+import math
 import os
 import resource
 import signal
@@ -12,6 +13,21 @@ from export_readers import Glb, node_points, read_npz, read_pvd, read_table, rea
 from run_case import RunCase
 
 SHORT = ("--set", "duration=0.2", "--quiet", "--no-report")
+ROD = """\
+floatframe: 1
+gravity: [0, 0, 0]
+points: {p: [0, 0, 0], tip: [0.6, 0, 0]}
+bodies:
+  rod:
+    flexible:
+      material: {young: 7e10, poisson: 0.3, density: 2700}
+      bars: {one: {from: p, to: tip, elements: 6, section: {rectangle: [0.02, 0.01]}}}
+      clamped: [p]
+      static_modes: [{point: tip, dofs: [y, z]}]
+joints:
+  drive: {type: revolute, child: rod, at: p, axis: z, motion: {polynomial: [0.3, 20]}}
+simulation: {step: 1.0e-3, duration: 0.05}
+"""
 STIFF = "    geometric_stiffening: true\n"
 
 
@@ -135,6 +151,38 @@ class Export(RunCase):
             self.assertLess(distance([float(slider[c + " [m]"]) for c in "xyz"], expected[7:10]), 1e-12)
             self.assertAlmostEqual(sum(float(tip["q" + c]) ** 2 for c in "wxyz"), 1.0, 12)
 
+    def test_stress_of_a_turning_rod(self):
+        """Without modes along the rod its stress is what turning does: rho w^2 (L^2 - x^2) / 2."""
+        (self.folder / "m.yaml").write_text(ROD)
+        self.program("run", "m.yaml", "--out", "out", "--quiet", "--no-report")
+        self.program("export", "out", "--npz", "m.npz", "--stress", "--vtk", "v")
+        self.program("export", "out", "--npz", "plain.npz")
+        self.assertFalse([name for name in read_npz(self.folder / "plain.npz") if "stress" in name])
+        arrays = read_npz(self.folder / "m.npz")
+        stress, places = arrays["rod/stress"], arrays["rod/stress_positions"]
+        instants, count, _ = stress.shape
+        self.assertEqual(places.shape, (count, 3))
+        self.assertEqual(set(arrays["rod/stress_layers"].values), {"section"})
+        largest = 0.5 * 2700 * 20 ** 2 * 0.6 ** 2
+        grid = read_vtu(self.folder / f"v/motion_{instants - 1:06}.vtu")
+        for k in range(count):
+            x = 0.1 * arrays["rod/stress_nodes"].values[k]
+            expected = 0.5 * 2700 * 20 ** 2 * (0.6 ** 2 - x ** 2)
+            for frame in (0, instants - 1):
+                self.assertLess(distance(stress.row(frame, k), (expected, 0, 0, 0, 0, 0)), 1e-6 * largest)
+        # The picture shows it in world axes: the rod has turned by 0.3 + 20 * 0.05.
+        axis = (math.cos(1.3), math.sin(1.3), 0)
+        world = [axis[i] * axis[j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))]
+        drawn = 0
+        for node, s, von_mises in zip(*(grid["point"][name] for name in ("node", "stress", "von_mises"))):
+            if math.isnan(von_mises):
+                continue  # a named node
+            drawn += 1
+            expected = 0.5 * 2700 * 20 ** 2 * (0.6 ** 2 - (0.1 * node) ** 2)
+            self.assertLess(abs(von_mises - expected), 1e-6 * largest)
+            self.assertLess(distance(s, [expected * w for w in world]), 1e-6 * largest)
+        self.assertEqual(drawn, len(grid["points"]) - 2)
+
     def test_a_range_of_times_every_nth_and_chosen_bodies(self):
         self.run_model()
         some = ("--from", "0.05", "--to", "0.1", "--every", "7", "--body", "beam", "--body", "disc")
@@ -173,6 +221,7 @@ class Export(RunCase):
     def test_what_cannot_be_exported_is_said_in_one_sentence(self):
         self.run_model()
         self.refused("found no file to write, expected --vtk, --glb, --npz or --csv", "out")
+        self.refused("found --stress without --npz, expected the file that is to hold it", "out", "--stress", "--csv", "m.csv")
         self.refused("--body: found 'baem', expected a body of the model, did you mean 'beam'?",
                      "out", "--csv", "m.csv", "--body", "baem")
         self.refused("out/states.ffr: found no recorded instant from 3 s on, expected some of the 201 from 0 to 0.2 s",

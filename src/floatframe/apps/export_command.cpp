@@ -18,6 +18,7 @@ namespace {
 struct ExportArguments {
   RecordedRunArguments run;
   std::string vtk, glb, npz, csv, from, to;
+  bool stress = false;
   ExportSelection selection;
 };
 
@@ -36,19 +37,23 @@ int export_motion(const ExportArguments& arguments) {
   if (arguments.vtk.empty() && arguments.glb.empty() && arguments.npz.empty() &&
       arguments.csv.empty())
     throw InputError("found no file to write, expected --vtk, --glb, --npz or --csv");
+  if (arguments.stress && arguments.npz.empty())
+    throw InputError("found --stress without --npz, expected the file that is to hold it");
   const ExportSelection selection = selection_of(arguments);
   const RecordedRun run = load_recorded_run(arguments.run);
   require_writable({{"--glb", arguments.glb}, {"--npz", arguments.npz}, {"--csv", arguments.csv}},
                    run.inputs);
   const Model model = build_model(run.description);
-  const ExportBodies bodies{&model, selected_bodies(run.history, model, selection)};
   const std::vector<std::size_t> instants = selected_instants(run.history, selection);
+  const ExportBodies bodies{&model, selected_bodies(run.history, model, selection),
+                            instants.size()};
   try {
     RecordedMotion motion(run.history, model, recorded_options(run));
     std::vector<std::unique_ptr<ExportFile>> files;
     if (!arguments.vtk.empty()) files.push_back(vtk_series(bodies, arguments.vtk));
     if (!arguments.glb.empty()) files.push_back(glb_scene(bodies, arguments.glb));
-    if (!arguments.npz.empty()) files.push_back(numpy_archive(bodies, arguments.npz));
+    if (!arguments.npz.empty())
+      files.push_back(numpy_archive(bodies, arguments.npz, arguments.stress));
     if (!arguments.csv.empty()) files.push_back(motion_table(bodies, arguments.csv));
     for (const std::size_t k : instants) {
       const OutputView& view = motion.at(k);
@@ -68,30 +73,32 @@ int export_motion(const ExportArguments& arguments) {
 
 Command export_command() {
   const auto a = std::make_shared<ExportArguments>();
-  return {.name = "export",
-          .help = "The motion of a run as files for ParaView, Blender, NumPy and spreadsheets",
-          .options = {recorded_result_position(a->run),
-                      text_option(
-                          "--vtk", a->vtk, "DIR",
-                          "Folder for a series of .vtu files and motion.pvd, which ParaView opens"),
-                      text_option("--glb", a->glb, "FILE",
-                                  "glTF 2.0 with animation, for Blender and viewers (.glb)"),
-                      text_option("--npz", a->npz, "FILE", "Arrays of NumPy (.npz)"),
-                      text_option("--csv", a->csv, "FILE",
-                                  "One table: a row for each instant, body and named node"),
-                      text_option("--from", a->from, "SECONDS",
-                                  "First instant [s]; default: the first"),
-                      text_option("--to", a->to, "SECONDS", "Last instant [s]; default: the last"),
-                      whole_option("--every", a->selection.every, 1, 1'000'000'000,
-                                   "Of the recorded instants every N-th"),
-                      repeated_option("--body", a->selection.bodies, "NAME",
-                                      "Only this body; may be repeated"),
-                      recorded_model_option(a->run)},
-          .footer =
-              "The model file and all that it refers to must be as they were in the run.\n"
-              "Exit codes: 0 done, 1 the model cannot be started or a file not be written, "
-              "2 bad input.",
-          .run = [a] { return export_motion(*a); }};
+  return {
+      .name = "export",
+      .help = "The motion of a run as files for ParaView, Blender, NumPy and spreadsheets",
+      .options =
+          {recorded_result_position(a->run),
+           text_option("--vtk", a->vtk, "DIR",
+                       "Folder for a series of .vtu files and motion.pvd, which ParaView opens"),
+           text_option("--glb", a->glb, "FILE",
+                       "glTF 2.0 with animation, for Blender and viewers (.glb)"),
+           text_option("--npz", a->npz, "FILE", "Arrays of NumPy (.npz)"),
+           flag("--stress", a->stress,
+                "In the .npz file also the stress of bodies that know it, at all its places"),
+           text_option("--csv", a->csv, "FILE",
+                       "One table: a row for each instant, body and named node"),
+           text_option("--from", a->from, "SECONDS", "First instant [s]; default: the first"),
+           text_option("--to", a->to, "SECONDS", "Last instant [s]; default: the last"),
+           whole_option("--every", a->selection.every, 1, 1'000'000'000,
+                        "Of the recorded instants every N-th"),
+           repeated_option("--body", a->selection.bodies, "NAME",
+                           "Only this body; may be repeated"),
+           recorded_model_option(a->run)},
+      .footer =
+          "The model file and all that it refers to must be as they were in the run.\n"
+          "Exit codes: 0 done, 1 the model cannot be started or a file not be written, "
+          "2 bad input.",
+      .run = [a] { return export_motion(*a); }};
 }
 
 }  // namespace floatframe

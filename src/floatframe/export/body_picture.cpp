@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "floatframe/body/body_shape.hpp"
-#include "floatframe/body/surface_mesh.hpp"
 #include "floatframe/report/scene_mesh.hpp"
 
 namespace floatframe {
@@ -54,6 +53,7 @@ class PictureBuilder {
     }
     picture_.triangles = mesh_.triangles;
     picture_.lines = mesh_.lines;
+    picture_.bar_ends = mesh_.bar_ends;
   }
 
   /// A cylinder, as wide as the wheels of cars: the model says nothing of it.

@@ -2,6 +2,7 @@
 // What files for other programs show of a body: its surface (body/surface_mesh), the wheel of a
 // tyre, a box of the same mass and inertia where there is nothing else; and its named nodes as
 // points. Body frame, SI units.
+#include "floatframe/body/surface_mesh.hpp"
 #include "floatframe/export/body_motion.hpp"
 
 namespace floatframe {
@@ -24,8 +25,9 @@ struct BodyPicture {
   /// Of each point its node: in the finite-element file, of bars and named nodes in
   /// FlexibleBody::nodes; -1: none.
   std::vector<int> nodes;
-  std::vector<std::string> names;  ///< of the named nodes, which are the last points
-  std::string color;               ///< "#rrggbb" or empty
+  std::vector<SurfaceMesh::BarEnd> bar_ends;  ///< of the first points, if they are of bars
+  std::vector<std::string> names;             ///< of the named nodes, which are the last points
+  std::string color;                          ///< "#rrggbb" or empty
 
   struct Bent {
     Eigen::Index point = 0;

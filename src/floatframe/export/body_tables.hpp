@@ -9,7 +9,10 @@ namespace floatframe {
 
 /// Members "time", "bodies" and for each body "NAME/position" and so on. Nothing is written before
 /// `finish`.
-std::unique_ptr<ExportFile> numpy_archive(const ExportBodies& bodies, const std::string& path);
+/// `stress`: also that of all places of bodies that know it. Throws InputError if the file would be
+/// larger than its format allows.
+std::unique_ptr<ExportFile> numpy_archive(const ExportBodies& bodies, const std::string& path,
+                                          bool stress);
 
 std::unique_ptr<ExportFile> motion_table(const ExportBodies& bodies, const std::string& path);
 

@@ -8,10 +8,11 @@
 
 namespace floatframe {
 
-/// What is exported: bodies of the model, ascending.
+/// What is exported: bodies of the model, ascending, at so many instants.
 struct ExportBodies {
   const Model* model = nullptr;
   std::vector<int> bodies;
+  std::size_t instants = 0;  ///< how many will be added
 };
 
 class ExportFile {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -113,9 +114,15 @@ class GlbScene : public ExportFile {
   /// A float's half digit is less than 4 um up to 128 m.
   void set_origin_of_scene() {
     constexpr double far = 100.0;  // [m]
-    if (tracks_.empty() || tracks_.front().places.empty()) return;
-    const Vec3 first = tracks_.front().places.front();
-    if (first.norm() > far) origin_ = (first / far).array().round().matrix() * far;
+    Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+    for (const Track& track : tracks_)
+      for (const Vec3& p : track.places) {
+        const bool first = &p == &tracks_.front().places.front();
+        low = first ? p : low.cwiseMin(p);
+        high = first ? p : high.cwiseMax(p);
+      }
+    if (std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()) > far)
+      origin_ = (0.5 * (low + high) / far).array().round().matrix() * far;
   }
 
   int material(const std::string& color) {

@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
 #include "floatframe/core/atomic_file.hpp"
-#include "floatframe/export/body_motion.hpp"
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/export/body_tables.hpp"
+#include "floatframe/export/stress_field.hpp"
 #include "floatframe/formats/body_file/npy.hpp"
 #include "floatframe/formats/body_file/zip_store.hpp"
 
@@ -11,9 +12,22 @@ namespace {
 
 class NumpyArchive : public ExportFile {
  public:
-  NumpyArchive(const ExportBodies& bodies, std::string path)
+  NumpyArchive(const ExportBodies& bodies, std::string path, bool stress)
       : bodies_(bodies), path_(std::move(path)), tracks_(bodies.bodies.size()) {
-    for (std::size_t i = 0; i < tracks_.size(); ++i) tracks_[i].named = named_nodes(*body(i).data);
+    double numbers = 0.0;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      tracks_[i].named = named_nodes(*body(i).data);
+      if (stress) tracks_[i].field = StressField({}, *body(i).data);
+      if (tracks_[i].field.known())
+        numbers += 6.0 * static_cast<double>(tracks_[i].field.stress().places.size());
+    }
+    // A zip archive of this kind has 4 GB at most; to be known before they are gathered.
+    const double size = 8.0 * numbers * static_cast<double>(bodies.instants);
+    if (size > 4e9)
+      throw InputError(
+          fmt::format("--npz: the stress of {} instants would take {:.1f} GB, expected "
+                      "4 GB at most: fewer instants (--every) or bodies (--body)",
+                      bodies.instants, 1e-9 * size));
   }
 
   void add(const OutputView& view) override {
@@ -32,6 +46,7 @@ class NumpyArchive : public ExportFile {
       keep(t.amplitudes, m.y);
       keep(t.rates, m.yd);
       keep(t.amplitude_accelerations, m.ydd);
+      if (t.field.known()) keep(t.stress, t.field.at(m, bodies_.model->gravity));
       const Pose& design = body(i).X_WB;
       for (const int n : t.named) {
         const NodeMotion node = node_motion(body(i), n, m);
@@ -65,7 +80,8 @@ class NumpyArchive : public ExportFile {
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
     std::vector<double> position, rotation, velocity, angular_velocity, acceleration,
         angular_acceleration, amplitudes, rates, amplitude_accelerations, node_positions,
-        node_displacements, node_deformations, node_velocities;
+        node_displacements, node_deformations, node_velocities, stress;
+    StressField field;
   };
 
   const Body& body(std::size_t i) const {
@@ -101,6 +117,7 @@ class NumpyArchive : public ExportFile {
       add_array("amplitude_rates", {nm}, t.rates);
       add_array("amplitude_accelerations", {nm}, t.amplitude_accelerations);
     }
+    if (t.field.known()) stress_members(i, instants);
     if (t.named.empty()) return;
     std::vector<std::string> names;
     for (const int n : t.named)
@@ -112,6 +129,27 @@ class NumpyArchive : public ExportFile {
     add_array("node_velocities", {t.named.size(), 3}, t.node_velocities);
   }
 
+  void stress_members(std::size_t i, std::size_t instants) {
+    Track& t = tracks_[i];
+    const std::string at = body(i).name + "/stress";
+    const std::vector<StressPlace>& places = t.field.stress().places;
+    member(at, npy_bytes({{instants, places.size(), 6}, std::move(t.stress)}));
+    std::vector<double> positions;
+    std::vector<std::int32_t> nodes, doubtful;
+    std::vector<std::string> layers;
+    for (const StressPlace& place : places) {
+      constexpr const char* words[] = {"solid", "top", "bottom", "section"};
+      positions.insert(positions.end(), place.p.begin(), place.p.end());
+      nodes.push_back(place.node);
+      doubtful.push_back(place.doubtful ? 1 : 0);
+      layers.emplace_back(words[static_cast<std::size_t>(place.layer)]);
+    }
+    member(at + "_positions", npy_bytes({{places.size(), 3}, std::move(positions)}));
+    member(at + "_nodes", npy_bytes({{places.size()}, std::move(nodes)}));
+    member(at + "_doubtful", npy_bytes({{places.size()}, std::move(doubtful)}));
+    member(at + "_layers", npy_texts(layers));
+  }
+
   ExportBodies bodies_;
   std::string path_;
   std::vector<Track> tracks_;
@@ -121,8 +159,9 @@ class NumpyArchive : public ExportFile {
 
 }  // namespace
 
-std::unique_ptr<ExportFile> numpy_archive(const ExportBodies& bodies, const std::string& path) {
-  return std::make_unique<NumpyArchive>(bodies, path);
+std::unique_ptr<ExportFile> numpy_archive(const ExportBodies& bodies, const std::string& path,
+                                          bool stress) {
+  return std::make_unique<NumpyArchive>(bodies, path, stress);
 }
 
 }  // namespace floatframe

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "floatframe/core/atomic_file.hpp"
-#include "floatframe/export/body_picture.hpp"
+#include "floatframe/export/stress_field.hpp"
 #include "floatframe/export/vtk_file.hpp"
 
 namespace floatframe {
@@ -37,6 +37,12 @@ class VtkSeries : public ExportFile {
       add_cells(pictures_.back());
       for (const std::string& name : pictures_.back().names) node_names.push_back(name);
     }
+    bool stressed = false;
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+      const Body& body = bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])];
+      fields_.emplace_back(pictures_[i], *body.data);
+      stressed = stressed || fields_.back().known();
+    }
     std::vector<std::string> body_names;
     for (const Body& b : bodies_.model->bodies) body_names.push_back(b.name);
     grid_.texts = {{"body_names", body_names}, {"node_names", node_names}};
@@ -49,13 +55,21 @@ class VtkSeries : public ExportFile {
         {"body", 1, std::move(point_body_)},
         {"node", 1, std::move(point_node_)},
     };
+    if (stressed) {
+      constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+      grid_.point_data.push_back({"stress", 6, std::vector<float>(6 * points, unknown)});
+      grid_.point_data.push_back({"von_mises", 1, std::vector<float>(points, unknown)});
+      grid_.point_data.push_back({"stress_doubtful", 1, std::vector<std::int32_t>(points)});
+    }
     grid_.cell_data = {{"body", 1, std::move(cell_body_)}, {"drawn", 1, std::move(cell_drawn_)}};
   }
 
   void add(const OutputView& view) override {
     std::size_t first = 0;
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
-      place(pictures_[i], bodies_.bodies[i], view, first);
+      const BodyMotion m = body_motion(view, bodies_.bodies[i]);
+      place(i, m, first);
+      if (fields_[i].known()) stress(i, m, first);
       first += static_cast<std::size_t>(pictures_[i].points.cols());
     }
     grid_.time = view.time();
@@ -107,9 +121,9 @@ class VtkSeries : public ExportFile {
     first_point_ += static_cast<std::size_t>(picture.points.cols());
   }
 
-  void place(const BodyPicture& picture, int body, const OutputView& view, std::size_t first) {
-    const BodyMotion m = body_motion(view, body);
-    const Pose& design = bodies_.model->bodies[static_cast<std::size_t>(body)].X_WB;
+  void place(std::size_t i, const BodyMotion& m, std::size_t first) {
+    const BodyPicture& picture = pictures_[i];
+    const Pose& design = bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])].X_WB;
     move_picture(picture, m, moved_);
     auto& displacement = std::get<std::vector<double>>(grid_.point_data[0].values);
     auto& deformation = std::get<std::vector<float>>(grid_.point_data[1].values);
@@ -121,18 +135,36 @@ class VtkSeries : public ExportFile {
       const Vec3 v = m.v + m.w.cross(arm) + m.R * moved_.rate.col(k);
       const std::size_t at = 3 * (first + static_cast<std::size_t>(k));
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto i = static_cast<Eigen::Index>(c);
-        grid_.points[at + c] = x[i];
-        displacement[at + c] = d[i];
-        deformation[at + c] = static_cast<float>(e[i]);
-        velocity[at + c] = static_cast<float>(v[i]);
+        const auto axis = static_cast<Eigen::Index>(c);
+        grid_.points[at + c] = x[axis];
+        displacement[at + c] = d[axis];
+        deformation[at + c] = static_cast<float>(e[axis]);
+        velocity[at + c] = static_cast<float>(v[axis]);
       }
+    }
+  }
+
+  void stress(std::size_t i, const BodyMotion& m, std::size_t first) {
+    fields_[i].at(m, bodies_.model->gravity);
+    auto& tensor = std::get<std::vector<float>>(grid_.point_data[5].values);
+    auto& von_mises = std::get<std::vector<float>>(grid_.point_data[6].values);
+    auto& doubtful = std::get<std::vector<std::int32_t>>(grid_.point_data[7].values);
+    StressField::Shown shown;
+    for (Eigen::Index k = 0; k < pictures_[i].points.cols(); ++k) {
+      if (!fields_[i].shown(k, shown)) continue;
+      const std::size_t at = first + static_cast<std::size_t>(k);
+      const Vec6 s = turned_stress(m.R, shown.stress);
+      for (std::size_t c = 0; c < 6; ++c)
+        tensor[6 * at + c] = static_cast<float>(s[static_cast<Eigen::Index>(c)]);
+      von_mises[at] = static_cast<float>(shown.von_mises);
+      doubtful[at] = shown.doubtful ? 1 : 0;
     }
   }
 
   ExportBodies bodies_;
   std::string folder_;
   std::vector<BodyPicture> pictures_;
+  std::vector<StressField> fields_;
   VtkGrid grid_;
   std::size_t first_point_ = 0;
   std::vector<std::int32_t> point_body_, point_node_, cell_body_, cell_drawn_;

@@ -1,0 +1,112 @@
+#include "floatframe/export/stress_field.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "floatframe/math/so3.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Places of each end of a bar: (element, end) -> first place, end of places.
+std::map<std::pair<int, int>, std::pair<int, int>> places_of_sections(const BodyStress& stress) {
+  std::map<std::pair<int, int>, std::pair<int, int>> out;
+  for (std::size_t s = 0; s < stress.first_place.size() && s < stress.sections.size(); ++s) {
+    const BeamSectionPlace& section = stress.sections[s];
+    int end = stress.first_place[s];
+    const int first = end, all = static_cast<int>(stress.places.size());
+    while (end < all &&
+           stress.places[static_cast<std::size_t>(end)].layer == StressPlace::Layer::section &&
+           (s + 1 == stress.first_place.size() || end < stress.first_place[s + 1]))
+      ++end;
+    out[{section.element, section.end}] = {first, end};
+  }
+  return out;
+}
+
+}  // namespace
+
+VecX stress_loads(const BodyMotion& motion, const Vec3& gravity) {
+  VecX c(body_load_cases + motion.ydd.size());
+  const Mat3 R_BW = motion.R.transpose();
+  const Vec3 w = R_BW * motion.w, alpha = R_BW * motion.alpha;
+  c.head<3>() = -(R_BW * (motion.a - gravity));
+  const Mat3 A = skew(alpha) + skew(w) * skew(w);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) c[3 + 3 * i + j] = -A(j, i);
+  c.tail(motion.ydd.size()) = -motion.ydd;
+  return c;
+}
+
+double von_mises_stress(const Vec6& s) noexcept {
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * s.tail<3>().squaredNorm());
+}
+
+Vec6 turned_stress(const Mat3& R, const Vec6& s) noexcept {
+  Mat3 S;
+  S << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  const Mat3 T = R * S * R.transpose();
+  return (Vec6() << T(0, 0), T(1, 1), T(2, 2), T(0, 1), T(1, 2), T(2, 0)).finished();
+}
+
+StressField::StressField(const BodyPicture& picture, const FlexibleBody& body)
+    : stress_(body.stress && !body.stress->places.empty() ? body.stress.get() : nullptr) {
+  if (stress_) add_places(picture);
+}
+
+void StressField::add_places(const BodyPicture& picture) {
+  const auto n = static_cast<std::size_t>(picture.points.cols());
+  std::vector<std::vector<int>> of_point(n);
+  for (std::size_t k = 0; k < stress_->places.size(); ++k) {
+    const int point = stress_->places[k].point;
+    if (point >= 0 && point < picture.surface_points())
+      of_point[static_cast<std::size_t>(point)].push_back(static_cast<int>(k));
+  }
+  // A swept section shows at each corner the nearest of its outer points.
+  const auto sections = places_of_sections(*stress_);
+  for (std::size_t v = 0; v < picture.bar_ends.size(); ++v) {
+    const auto found = sections.find({picture.bar_ends[v].bar, picture.bar_ends[v].end});
+    if (found == sections.end()) continue;
+    double least = std::numeric_limits<double>::infinity();
+    int nearest_place = -1;
+    for (int k = found->second.first; k < found->second.second; ++k) {
+      const Vec3& p = stress_->places[static_cast<std::size_t>(k)].p;
+      const double away = (p - picture.points.col(static_cast<Eigen::Index>(v))).squaredNorm();
+      if (away >= least) continue;
+      least = away;
+      nearest_place = k;
+    }
+    if (nearest_place >= 0) of_point[v].push_back(nearest_place);
+  }
+  first_.push_back(0);
+  for (const std::vector<int>& some : of_point) {
+    places_.insert(places_.end(), some.begin(), some.end());
+    first_.push_back(static_cast<int>(places_.size()));
+  }
+}
+
+const VecX& StressField::at(const BodyMotion& motion, const Vec3& gravity) {
+  values_.noalias() = stress_->modes * motion.y;
+  if (stress_->loads.size() > 0)
+    values_.noalias() += stress_->loads * stress_loads(motion, gravity);
+  return values_;
+}
+
+bool StressField::shown(Eigen::Index point, Shown& out) const noexcept {
+  if (!stress_) return false;
+  const auto at = static_cast<std::size_t>(point);
+  bool any = false;
+  for (int i = first_[at]; i < first_[at + 1]; ++i) {
+    const int k = places_[static_cast<std::size_t>(i)];
+    const Vec6 s = values_.segment<6>(6 * k);
+    const double von_mises = von_mises_stress(s);
+    if (any && !(von_mises > out.von_mises)) continue;
+    any = true;
+    out = {s, von_mises, stress_->places[static_cast<std::size_t>(k)].doubtful};
+  }
+  return any;
+}
+
+}  // namespace floatframe
