@@ -114,7 +114,8 @@ TEST(MorphTargets, AddUpToTheDeformation) {
       move_picture(picture, m, moved);
       VecX sum = VecX::Zero(3 * picture.points.cols());
       for (const MorphTarget& t : targets) {
-        EXPECT_LE(std::abs(t.weight(y.data())), 1.0 + 1e-15);
+        EXPECT_GE(t.weight(y.data()), 0.0);
+        EXPECT_LE(t.weight(y.data()), 1.0 + 1e-15);
         sum += t.weight(y.data()) * t.field;
       }
       const Eigen::Map<const VecX> u(moved.u.data(), moved.u.size());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "floatframe/core/atomic_file.hpp"
@@ -146,8 +147,16 @@ class GlbScene : public ExportFile {
   Vertices vertices(const Mesh& mesh, Eigen::Index first, Eigen::Index count) {
     const auto accessor = [&](const double* numbers) {
       std::vector<float> floats(static_cast<std::size_t>(3 * count));
-      for (std::size_t k = 0; k < floats.size(); ++k) floats[k] = static_cast<float>(numbers[k]);
-      return file_.floats(floats, "VEC3", true, gltf::vertices);
+      bool zero = true;
+      for (std::size_t k = 0; k < floats.size(); ++k) {
+        floats[k] = static_cast<float>(numbers[k]);
+        zero = zero && floats[k] == 0.0F;
+      }
+      if (!zero) return file_.floats(floats, "VEC3", true, gltf::vertices);
+      // Of targets that move named nodes only: once for each size.
+      const auto known = zeros_.find(count);
+      if (known != zeros_.end()) return known->second;
+      return zeros_[count] = file_.floats(floats, "VEC3", true, gltf::vertices);
     };
     Vertices out{SceneJson::object(), SceneJson::array()};
     out.attributes["POSITION"] = accessor(mesh.picture.points.data() + 3 * first);
@@ -246,6 +255,7 @@ class GlbScene : public ExportFile {
   Vec3 origin_ = Vec3::Zero();
   GlbFile file_;
   int times_accessor_ = -1;
+  std::map<Eigen::Index, int> zeros_;  ///< accessors
   SceneJson nodes_ = SceneJson::array(), mesh_list_ = SceneJson::array(),
             materials_ = SceneJson::array(), samplers_ = SceneJson::array(),
             channels_ = SceneJson::array();

@@ -1,8 +1,8 @@
 #pragma once
 // A motion as a glTF 2.0 scene in one file (.glb), y up: a node for each body with its translation
 // and rotation animated, its modes as morph targets with animated weights (docs/export.md). glTF
-// holds floats: a target is a mode times the largest amplitude of the motion, in metres, so that
-// weights are -1 to 1, and a scene far from the origin of the world has one of its own.
+// holds floats: a target is a mode times the largest amplitude of the motion, in metres
+// (morph_targets), and a scene far from the origin of the world has one of its own.
 //
 // What bends as y^T h y (geometric stiffening) is exact too: a target for each product of two
 // amplitudes that moves a point visibly.

@@ -27,21 +27,32 @@ std::vector<MorphTarget> morph_targets(const BodyPicture& picture, const Flexibl
   std::vector<MorphTarget> out;
   if (picture.modes.size() == 0) return out;
   const auto nm = static_cast<std::size_t>(body.modes());
-  const auto keep = [&](MorphTarget target) {
+  const auto keep_direction = [&](MorphTarget target, double sign) {
+    target.sign = sign;
     double largest = 0.0;
     for (const std::vector<double>* y : amplitudes)
       for (std::size_t k = 0; k + nm <= y->size(); k += nm)
-        largest = std::max(largest, std::abs(target.weight(y->data() + k)));
+        largest = std::max(largest, target.weight(y->data() + k));
     target.scale = largest;
-    target.field *= largest;
+    target.field *= sign * largest;
+    if (sign < 0.0) target.name += ", negative";
     if (largest_move(target.field) > least_target) out.push_back(std::move(target));
   };
+  const auto keep = [&](const MorphTarget& target) {
+    keep_direction(target, 1.0);
+    keep_direction(target, -1.0);
+  };
   const int modes = body.modes();
-  for (int a = 0; a < modes; ++a) keep({a, -1, 1.0, name_of_mode(body, a), picture.modes.col(a)});
+  for (int a = 0; a < modes; ++a)
+    keep({a, -1, 1.0, 1.0, name_of_mode(body, a), picture.modes.col(a)});
   if (picture.bent.empty()) return out;
   for (int a = 0; a < modes; ++a)
     for (int b = 0; b <= a; ++b) {
-      MorphTarget target{a, b, 1.0, name_of_mode(body, a) + " x " + name_of_mode(body, b),
+      MorphTarget target{a,
+                         b,
+                         1.0,
+                         1.0,
+                         name_of_mode(body, a) + " x " + name_of_mode(body, b),
                          VecX::Zero(picture.modes.rows())};
       for (const BodyPicture::Bent& bent : picture.bent)
         for (int j = 0; j < 3; ++j)

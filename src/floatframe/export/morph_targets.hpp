@@ -1,8 +1,11 @@
 #pragma once
-// The deformation of a picture as a sum of fixed fields with weights of -1 to 1,
+// The deformation of a picture as a sum of fixed fields with weights of 0 to 1,
 //   u = sum_k weight_k field_k,
-// a field for each mode and, where bodies stiffen, for each product of two amplitudes. Fields that
-// move no point by more than `least_target` in the whole motion are left out.
+// a field for each direction of each mode and, where bodies stiffen, of each product of two
+// amplitudes: Blender 4.2 cuts negative weights of animations off at zero. Between key frames the
+// sum is linear all the same. Fields that move no point by more than `least_target` in the whole
+// motion are left out.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -11,11 +14,14 @@
 namespace floatframe {
 
 struct MorphTarget {
-  int a = 0, b = -1;   ///< weight = y_a / scale, or y_a y_b / scale
-  double scale = 1.0;  ///< largest of the motion
+  int a = 0, b = -1;   ///< of y_a, or of y_a y_b
+  double sign = 1.0;   ///< 1 or -1: of the direction
+  double scale = 1.0;  ///< largest of the motion in this direction
   std::string name;
   VecX field;  ///< 3 x points, one after the other [m]
-  double weight(const double* y) const noexcept { return (b < 0 ? y[a] : y[a] * y[b]) / scale; }
+  double weight(const double* y) const noexcept {
+    return std::max(0.0, sign * (b < 0 ? y[a] : y[a] * y[b])) / scale;
+  }
 };
 
 inline constexpr double least_target = 1e-8;  ///< [m]
