@@ -9,7 +9,7 @@ import signal
 import time
 import unittest
 
-from export_readers import Glb, node_points, read_npz, read_pvd, read_table, read_vtu
+from export_readers import Glb, node_points, read_npz, read_pvd, read_table, read_vtu, rotated
 from run_case import RunCase
 
 SHORT = ("--set", "duration=0.2", "--quiet", "--no-report")
@@ -28,6 +28,46 @@ joints:
   drive: {type: revolute, child: rod, at: p, axis: z, motion: {polynomial: [0.3, 20]}}
 simulation: {step: 1.0e-3, duration: 0.05}
 """
+# A strip of two materials with a beam at its end, turning and hanging.
+STRIP = """\
+floatframe: 1
+gravity: [0, 0, -20]
+bodies:
+  strip:
+    part:
+      file: strip.inp
+      units: m-kg-s
+      interfaces: {ROOT: {set: ROOT}, TIP: {set: TIP}}
+      reference: {node: ROOT}
+      modes: 4
+joints:
+  drive: {type: revolute, child: strip, child_node: ROOT, at: [0, 0, 0], axis: z, motion: {polynomial: [0.3, 5]}}
+simulation: {step: 1.0e-3, duration: 0.02}
+"""
+
+
+def strip():
+    """8 x 2 four-node shells and a beam, as Abaqus writes them."""
+    number = lambda i, j: 1 + 3 * i + j
+    lines = ["*NODE,NSET=NALL"]
+    lines += [f"{number(i, j)}, {0.05 * i}, {0.025 * (j - 1)}, 0." for i in range(9) for j in range(3)]
+    lines.append("1000, 0.5, 0., 0.")
+    for half, first in (("LEFT", 0), ("RIGHT", 4)):
+        lines.append(f"*ELEMENT,TYPE=S4,ELSET={half}")
+        lines += [f"{1 + 2 * i + j}, {number(i, j)}, {number(i + 1, j)}, {number(i + 1, j + 1)}, {number(i, j + 1)}"
+                  for i in range(first, first + 4) for j in range(2)]
+    return "\n".join(lines + [
+        "*ELEMENT,TYPE=B31,ELSET=BAR", f"100, {number(8, 1)}, 1000", "*NSET,NSET=ROOT", " 1, 2, 3", "*NSET,NSET=TIP", " 1000",
+        "*MATERIAL,NAME=STEEL", "*ELASTIC", "2.1e11, 0.3", "*DENSITY", "7850.",
+        "*MATERIAL,NAME=ALU", "*ELASTIC", "7e10, 0.3", "*DENSITY", "2700.",
+        "*SHELL SECTION,ELSET=LEFT,MATERIAL=STEEL", "0.002", "*SHELL SECTION,ELSET=RIGHT,MATERIAL=ALU", "0.002",
+        "*BEAM SECTION,ELSET=BAR,MATERIAL=STEEL,SECTION=RECT", "0.01,0.006", "0.,1.,0."]) + "\n"
+
+
+def von_mises(s):
+    return math.sqrt(0.5 * ((s[0] - s[1]) ** 2 + (s[1] - s[2]) ** 2 + (s[2] - s[0]) ** 2) + 3 * (s[3] ** 2 + s[4] ** 2 + s[5] ** 2))
+
+
 STIFF = "    geometric_stiffening: true\n"
 
 
@@ -184,6 +224,38 @@ class Export(RunCase):
             self.assertLess(abs(von_mises - expected), 1e-6 * largest)
             self.assertLess(distance(s, [expected * w for w in world]), 1e-6 * largest)
         self.assertEqual(drawn, len(grid["points"]) - 2)
+
+    def test_stress_of_a_part_of_shells_and_beams(self):
+        """A node shows the worst of its places: sides of two materials, outer points of the section of a beam."""
+        (self.folder / "strip.inp").write_text(strip())
+        (self.folder / "m.yaml").write_text(STRIP)
+        self.program("run", "m.yaml", "--out", "out", "--quiet", "--no-report")
+        self.program("export", "out", "--npz", "m.npz", "--stress", "--vtk", "v", "--glb", "m.glb")
+        arrays = read_npz(self.folder / "m.npz")
+        layers = arrays["strip/stress_layers"].values
+        self.assertEqual({layer: layers.count(layer) for layer in layers}, {"top": 30, "bottom": 30, "section": 16})
+        nodes = arrays["strip/stress_nodes"].values
+        for frame in (0, 10, 20):
+            grid = read_vtu(self.folder / f"v/motion_{frame:06}.vtu")
+            x, y, z, w = (lambda q: (q[1], q[2], q[3], q[0]))(arrays["strip/rotation"].row(frame))
+            named = set(node_points(grid, "strip").values())
+            self.assertEqual(len(grid["points"]) - len(named), 28)
+            worst_layers = set()
+            for point in set(range(len(grid["points"]))) - named:
+                places = [k for k, node in enumerate(nodes) if node == grid["point"]["node"][point]]
+                worst = max(places, key=lambda k: von_mises(arrays["strip/stress"].row(frame, k)))
+                worst_layers.add(layers[worst])
+                s = arrays["strip/stress"].row(frame, worst)
+                self.assertLess(abs(grid["point"]["von_mises"][point] / von_mises(s) - 1), 1e-6)
+                # n . S n does not depend on the axes: n = R e_y.
+                n = rotated((x, y, z, w), (0.0, 1.0, 0.0))
+                t = grid["point"]["stress"][point]
+                normal = sum(n[i] * n[j] * t[c] * f for c, (i, j, f) in enumerate(
+                    ((0, 0, 1), (1, 1, 1), (2, 2, 1), (0, 1, 2), (1, 2, 2), (2, 0, 2))))
+                self.assertLess(abs(normal - s[1]), 1e-5 * von_mises(s))
+            self.assertLessEqual({"top", "section"}, worst_layers)
+        # glTF: triangles, the line of the beam and named nodes.
+        self.assertEqual([p["mode"] for p in Glb(self.folder / "m.glb").json["meshes"][0]["primitives"]], [4, 1, 0])
 
     def test_a_range_of_times_every_nth_and_chosen_bodies(self):
         self.run_model()

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "floatframe/math/so3.hpp"
 
@@ -63,6 +64,16 @@ void StressField::add_places(const BodyPicture& picture) {
     const int point = stress_->places[k].point;
     if (point >= 0 && point < picture.surface_points())
       of_point[static_cast<std::size_t>(point)].push_back(static_cast<int>(k));
+  }
+  // A beam of a part is drawn as a line: its ends show the outer points of its sections.
+  std::map<int, std::set<int>> line_ends;  // of each node
+  for (const auto& line : picture.lines)
+    for (const int p : line) line_ends[picture.nodes[static_cast<std::size_t>(p)]].insert(p);
+  for (std::size_t k = 0; k < stress_->places.size(); ++k) {
+    const StressPlace& place = stress_->places[k];
+    if (place.point >= 0 || !line_ends.contains(place.node)) continue;
+    for (const int p : line_ends[place.node])
+      of_point[static_cast<std::size_t>(p)].push_back(static_cast<int>(k));
   }
   // A swept section shows at each corner the nearest of its outer points.
   const auto sections = places_of_sections(*stress_);
