@@ -37,15 +37,16 @@ void expect_equal_stress(const BodyStress* a, const BodyStress* b) {
   ASSERT_EQ(a->places.size(), b->places.size());
   for (std::size_t k = 0; k < a->places.size(); ++k) {
     const StressPlace &p = a->places[k], &q = b->places[k];
-    EXPECT_EQ(std::tie(p.layer, p.point, p.node, p.group, p.doubtful),
-              std::tie(q.layer, q.point, q.node, q.group, q.doubtful));
+    EXPECT_EQ(std::tie(p.layer, p.point, p.node, p.number, p.group, p.doubtful),
+              std::tie(q.layer, q.point, q.node, q.number, q.group, q.doubtful));
     EXPECT_EQ(p.p, q.p);
   }
   ASSERT_EQ(a->sections.size(), b->sections.size());
   for (std::size_t k = 0; k < a->sections.size(); ++k) {
+    EXPECT_EQ(a->sections[k].p, b->sections[k].p);
     const BeamSectionPlace &p = a->sections[k], &q = b->sections[k];
-    EXPECT_EQ(std::tie(p.element, p.node, p.end, p.name),
-              std::tie(q.element, q.node, q.end, q.name));
+    EXPECT_EQ(std::tie(p.element, p.node, p.number, p.end, p.name),
+              std::tie(q.element, q.node, q.number, q.end, q.name));
   }
 }
 

@@ -11,7 +11,6 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/reduction/reduction.hpp"
-#include "support/stress_values.hpp"
 
 namespace floatframe::test {
 namespace {

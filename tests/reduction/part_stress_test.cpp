@@ -6,78 +6,21 @@
 #include <algorithm>
 #include <numeric>
 
-#include "floatframe/body/fe_stress.hpp"
 #include "floatframe/body/with_modes.hpp"
-#include "floatframe/fe/body_loads.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/reduction/part_places.hpp"
+#include "floatframe/model/gauge.hpp"
 #include "reduction/part_beam.hpp"
 #include "support/arm_statics.hpp"
-#include "support/stress_values.hpp"
+#include "support/stressed_part.hpp"
 
 namespace floatframe::test {
 namespace {
 
-/// A part with its reduction, and all that a direct solution needs.
-struct Part {
-  FeModel model;
-  FeSystem system;
-  std::vector<InterfacePlace> interfaces;
-  ReducedPart reduced;
-  MatX X;  ///< modes, n x nm
-  MatX F;  ///< loads, n x (12 + nm)
-
-  Part(FeModel given, PartOptions options) : model(std::move(given)) {
-    options.keep_projection = true;
-    options.check_free_modes = false;
-    reduced = reduce_part(model, options);
-    validate(model);
-    interfaces = place_interfaces(model, options);
-    system = assemble(model);
-    find_rows(model, system, interfaces);
-    const MatX& U = reduced.body.projection->X;
-    X.resize(system.size(), reduced.body.modes());
-    for (int row = 0; row < system.size(); ++row) {
-      const Dof dof = system.dofs[row];
-      if (dof.axis < 3) {
-        X.row(row) = U.row(3 * dof.node + dof.axis);
-        continue;
-      }
-      for (std::size_t k = 0; k < interfaces.size(); ++k)
-        if (interfaces[k].node == dof.node)
-          X.row(row) = reduced.body.nodes[k].X_theta.row(dof.axis - 3);
-    }
-    F.resize(system.size(), body_load_cases + X.cols());
-    const NodalShapes loads = linear_loads(model);
-    F.leftCols<body_load_cases>() =
-        system.T.transpose() * loads.U + system.T_theta.transpose() * loads.Theta;
-    F.rightCols(X.cols()) = system.M * X;
-  }
-
-  const BodyStress& stress() const { return *reduced.body.stress; }
-
-  std::vector<int> rows_of(std::initializer_list<int> which) const {
-    std::vector<int> out;
-    for (const int k : which)
-      out.insert(out.end(), interfaces[k].rows.begin(), interfaces[k].rows.end());
-    return out;
-  }
-
-  /// Displacements under `f` with some rows held, and the forces with the reactions.
-  VecX solve(VecX& f, const std::vector<int>& held) const {
-    const SparseMatrix none(system.size(), system.size());
-    const FixedInterface full(system.K, none, {}, held, [](int) { return std::string(); });
-    const VecX u = full.inner_response(f);
-    f = system.K * u;
-    return u;
-  }
-
-  VecX stress_of(const VecX& u) const {
-    StressFields fields;
-    fields.displacements = {system.T * u, system.T_theta * u};
-    return StressRecovery(model, reduced.surface.nodes).recover(fields).places.col(0);
-  }
-};
+VecX von_mises_of(const VecX& stress) {
+  VecX out(stress.size() / 6);
+  for (Eigen::Index k = 0; k < out.size(); ++k) out(k) = von_mises(stress.segment<6>(6 * k));
+  return out;
+}
 
 /// Places by von Mises, the largest first; those that are not doubtful.
 std::vector<int> hottest(const BodyStress& stress, const VecX& values) {
@@ -93,7 +36,7 @@ TEST(PartStress, FiveStaticCasesOfTheArm) {
   PartOptions options;
   options.interfaces = arm_bores();
   options.modes = 6;
-  const Part arm(steel_part("aarm_coarse_mesh.inp.gz", "mm-t-s"), options);
+  const StressedPart arm(steel_part("aarm_coarse_mesh.inp.gz", "mm-t-s"), options);
   const std::vector<int> bushings = arm.rows_of({0, 1});
   for (const StaticCase& load : static_cases) {
     VecX f = VecX::Zero(arm.system.size());
@@ -119,7 +62,7 @@ TEST(PartStress, FiveStaticCasesOfTheArm) {
 }
 
 /// Loads at all interfaces, of the body and of its modes, that balance at the first interface.
-void check_any_load(const Part& part, const MatX& R, double limit) {
+void check_any_load(const StressedPart& part, const MatX& R, double limit) {
   std::srand(7);
   const Eigen::Index nm = part.X.cols();
   VecX c = VecX::Random(body_load_cases + nm);
@@ -163,17 +106,19 @@ void check_any_load(const Part& part, const MatX& R, double limit) {
   EXPECT_LT((whole - reduced).norm(), 1e-6 * whole.norm());
 }
 
-MatX rigid_rows(const Part& part) { return rigid_motions(part.model, part.system, Vec3::Zero()); }
+MatX rigid_rows(const StressedPart& part) {
+  return rigid_motions(part.model, part.system, Vec3::Zero());
+}
 
 TEST(PartStress, LoadsOfTheBodyWithConstraintModes) {
-  const Part part(beam(), both_ends(5));
+  const StressedPart part(beam(), both_ends(5));
   check_any_load(part, rigid_rows(part), 1e-7);
 }
 
 TEST(PartStress, LoadsOfTheBodyWithFreeModes) {
   PartOptions options = both_ends(3);
   options.method = ModeMethod::craig_chang;
-  const Part part(beam(), options);
+  const StressedPart part(beam(), options);
   check_any_load(part, rigid_rows(part), 1e-6);
 }
 
@@ -181,7 +126,7 @@ TEST(PartStress, LoadsOfTheArm) {
   PartOptions options;
   options.interfaces = arm_bores();
   options.modes = 4;
-  const Part arm(steel_part("aarm_coarse_mesh.inp.gz", "mm-t-s"), options);
+  const StressedPart arm(steel_part("aarm_coarse_mesh.inp.gz", "mm-t-s"), options);
   check_any_load(arm, rigid_rows(arm), 1e-6);
   std::size_t doubtful = 0;
   for (const StressPlace& place : arm.stress().places) doubtful += place.doubtful;

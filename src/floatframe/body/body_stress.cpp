@@ -55,6 +55,7 @@ MatX kept_loads(const MatX& modes, const MatX& loads, const MatX& answers,
 BodyStress mirrored(const BodyStress& stress, const Vec3& s) {
   BodyStress out = stress;
   for (StressPlace& place : out.places) place.p = s.cwiseProduct(place.p);
+  for (BeamSectionPlace& section : out.sections) section.p = s.cwiseProduct(section.p);
   for (MatX* m : {&out.modes, &out.loads}) scale_rows(stress_signs(s), *m);
   for (MatX* m : {&out.section_modes, &out.section_loads}) scale_rows(section_signs(s.prod()), *m);
   for (MatX* m : {&out.loads, &out.section_loads}) scale_loads(s, *m);

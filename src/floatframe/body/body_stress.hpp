@@ -35,6 +35,7 @@ struct StressPlace {
   Layer layer = Layer::solid;
   int point = -1;  ///< of BodyShape::positions; -1: bars, which have none
   int node = -1;   ///< of the finite-element file, of bars of `FlexibleBody::nodes`; from 0
+  int number = 0;  ///< the node's in the finite-element file; 0: bars, whose nodes have none
   int group = 0;   ///< of BodyStress::groups
   /// Not to be trusted: held by a rigid spider, an edge of one, or a support (peak of the mesh).
   bool doubtful = false;
@@ -44,10 +45,12 @@ struct StressPlace {
 /// End of a beam element: section forces of its positive face, N, Vy, Vz [N], T, My, Mz [Nm], in
 /// the local axes of the beam.
 struct BeamSectionPlace {
-  int element = -1;  ///< of the finite-element model, of bars in the order of the model file
-  int node = -1;     ///< as in StressPlace
-  int end = 0;       ///< 0: first node, 1: second
-  std::string name;  ///< of the element, for tables
+  int element = -1;       ///< of the finite-element model, of bars in the order of the model file
+  int node = -1;          ///< as in StressPlace
+  int number = 0;         ///< as in StressPlace
+  int end = 0;            ///< 0: first node, 1: last; the sections of an element follow each other
+  Vec3 p = Vec3::Zero();  ///< [m]
+  std::string name;       ///< of the element, for tables
 };
 
 /// Elements of one material, and of one section, within which stress is averaged at a node.

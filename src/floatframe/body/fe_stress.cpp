@@ -81,6 +81,10 @@ StressRecovery::StressRecovery(const FeModel& model, const std::vector<int>& sur
     layout_.first_place.push_back(static_cast<int>(layout_.places.size()));
 }
 
+int StressRecovery::number_of(int node) const {
+  return model_.node_ids.empty() ? node + 1 : model_.node_ids[node];
+}
+
 int StressRecovery::group_of(const Element& element) {
   const ElementFamily family = element_kernel(element.type).family;
   const std::array<int, 3> key{element.material, static_cast<int>(family),
@@ -111,6 +115,7 @@ void StressRecovery::add_solid(int e, const std::vector<int>& point_of) {
       layout_.places.push_back({.layer = StressPlace::Layer::solid,
                                 .point = point,
                                 .node = element.nodes[a],
+                                .number = number_of(element.nodes[a]),
                                 .group = group,
                                 .p = model_.positions[element.nodes[a]]});
       elements_at_.push_back(0);
@@ -141,6 +146,7 @@ void StressRecovery::add_shell(int e, const std::vector<int>& point_of) {
             {.layer = side > 0.0 ? StressPlace::Layer::top : StressPlace::Layer::bottom,
              .point = point,
              .node = element.nodes[a],
+             .number = number_of(element.nodes[a]),
              .group = group,
              .p = model_.positions[element.nodes[a]] + side * half});
         elements_at_.push_back(0);
@@ -163,12 +169,14 @@ void StressRecovery::add_beam(int e) {
   first_section_[e] = static_cast<int>(layout_.sections.size());
   for (int end = 0; end < 2; ++end) {
     const int node = element.nodes[end == 0 ? 0 : nodes - 1];
-    layout_.sections.push_back({e, node, end, model_.element_label(e)});
+    layout_.sections.push_back(
+        {e, node, number_of(node), end, model_.positions[node], model_.element_label(e)});
     layout_.first_place.push_back(static_cast<int>(layout_.places.size()));
     const Mat3 T = end_axes(in, nodes, end);
     for (const SectionPoint& p : points) {
       layout_.places.push_back({.layer = StressPlace::Layer::section,
                                 .node = node,
+                                .number = number_of(node),
                                 .group = group,
                                 .p = model_.positions[node] + T * Vec3(0.0, p.y, p.z)});
       elements_at_.push_back(1);

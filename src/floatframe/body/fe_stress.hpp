@@ -43,6 +43,7 @@ class StressRecovery {
   struct Share {
     int local, place, other;  ///< other: of a shell the bottom, else -1
   };
+  int number_of(int node) const;
   int group_of(const Element& element);
   void add_shell(int e, const std::vector<int>& point_of);
   void add_solid(int e, const std::vector<int>& point_of);

@@ -1,4 +1,7 @@
 // Result columns: the markers, bodies, joints and forces they refer to, and their units.
+#include <algorithm>
+
+#include "floatframe/model/gauge.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -59,6 +62,9 @@ void ModelBuilder::outputs() {
         out.joint = joint_names.index(o.entity);
         built = out.joint >= 0;
         break;
+      case OutputOf::gauge:
+        built = gauge(o, out, who);
+        break;
       case OutputOf::reaction:
         built = reaction(o, out, who);
         break;
@@ -67,6 +73,37 @@ void ModelBuilder::outputs() {
     out.unit = kind.unit_of ? kind.unit_of(model, out) : kind.unit;
     model.outputs.push_back(std::move(out));
   }
+}
+
+bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::string& who) {
+  out.body = body_index(o.at.body);
+  const Body& body = model.bodies[out.body];
+  const Mat3 R_BW = body.X_WB.R.transpose();
+  const Vec3 point = R_BW * (o.at.point - body.X_WB.p);
+  const bool nearest = o.gauge.node == 0 && !o.at.node;
+  const GaugeChoice found =
+      find_place(*body.data, body.name, o.gauge, nearest ? &point : nullptr, o.at.node.value_or(""),
+                 R_BW * o.gauge.toward, o.type == OutputType::section_force);
+  if (!found.error.empty()) {
+    errors.add(o.origin.mark, who + "." + output_type_name(o.type) + ": " + found.error);
+    return false;
+  }
+  Gauge g;
+  g.body = out.body;
+  g.place = found.place;
+  g.section = found.section;
+  g.inertia_loads = o.gauge.inertia_loads;
+  if (o.type == OutputType::strain) g.direction = unit_vector(R_BW * o.gauge.direction);
+  // Components of one place share the gauge.
+  const auto same = std::find_if(model.gauges.begin(), model.gauges.end(), [&](const Gauge& other) {
+    return other.body == g.body && other.place == g.place && other.section == g.section &&
+           other.inertia_loads == g.inertia_loads && other.direction == g.direction;
+  });
+  out.gauge = static_cast<int>(same - model.gauges.begin());
+  if (same != model.gauges.end()) return true;
+  fill_rows(*body.data, g);
+  model.gauges.push_back(std::move(g));
+  return true;
 }
 
 bool ModelBuilder::reaction(const OutputDescription& o, Output& out, const std::string& who) {

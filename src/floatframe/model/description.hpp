@@ -280,6 +280,17 @@ struct RoadDescription {
 /// the body there.
 enum class OutputAxes { world, parent, child, place };
 
+/// Where a stress, a strain or a section force is taken: at a node of the body, by `at.node` of the
+/// output or by its number in the finite-element file, or at the place nearest to `at.point`.
+struct GaugeDescription {
+  int node = 0;                                              ///< number; 0: by name or point
+  enum class Layer { any, top, bottom } layer = Layer::any;  ///< of shells
+  /// Of several places at a node the one farthest in this direction, design configuration.
+  Vec3 toward = Vec3::Zero();
+  Vec3 direction = Vec3::Zero();  ///< of a strain, design configuration
+  bool inertia_loads = true;      ///< false: by the modes alone
+};
+
 struct OutputDescription {
   std::string name;  ///< column title without the unit
   OutputType type = OutputType::position;
@@ -290,6 +301,7 @@ struct OutputDescription {
   bool about = false;        ///< a reaction about the point `at`, else about that of joint or rod
   OutputAxes in = OutputAxes::world;  ///< of a reaction; of a place: `to`
   int component = 0;
+  GaugeDescription gauge;
   Origin origin;
 };
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "floatframe/model/description.hpp"
+#include "floatframe/model/gauge.hpp"
 
 namespace floatframe {
 
@@ -108,6 +109,7 @@ struct Output {
   int marker = -1, to = -1;  ///< of points; `to`: the second of two
   int body = -1, joint = -1, force = -1, rod = -1;
   int component = 0;
+  int gauge = -1;
 };
 
 /// What a constraint row comes from, for messages: "joint 'front_left.ball'".
@@ -127,6 +129,7 @@ struct Model {
   std::vector<Input> inputs;
   std::vector<Marker> markers;
   std::vector<Output> outputs;
+  std::vector<Gauge> gauges;
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;

@@ -43,6 +43,8 @@ struct ModelBuilder {
   void outputs();
   /// What a joint or rod transmits: false if something it refers to is missing.
   bool reaction(const OutputDescription& o, Output& out, const std::string& who);
+  /// Where stress is taken: false, and an error, if there is none.
+  bool gauge(const OutputDescription& o, Output& out, const std::string& who);
   /// Refuses bodies whose modes have no inertia of their own.
   void modal_masses();
   /// Lengths and masses that scale the equations; start values of the modes.

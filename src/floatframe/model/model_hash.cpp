@@ -88,9 +88,14 @@ class ModelHash {
     all(name, low, high, clamp);
   }
   void add(const Output& o) {
-    const auto& [name, unit, type, marker, to, body, joint, force, rod, component] = o;
+    const auto& [name, unit, type, marker, to, body, joint, force, rod, component, gauge] = o;
     all(name, type, marker, to, body, joint, force, component);
     if (rod >= 0) all(rod);
+    if (gauge >= 0) all(gauge);
+  }
+  void add(const Gauge& g) {
+    const auto& [body, place, section, inertia_loads, direction, modes, loads] = g;
+    all(body, place, section, inertia_loads, direction);
   }
   void add(const InertiaInvariants& v) {
     const auto& [m, m_u, P_u, S, Si, Sij] = v;
@@ -136,8 +141,9 @@ class ModelHash {
   }
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, rods, forces, roads, inputs, markers, outputs,
-                 amplitudes, amplitude_rates, mean_mass, simulation] = model;
+                 gauges, amplitudes, amplitude_rates, mean_mass, simulation] = model;
     all(gravity, bodies, joints, rods, forces, roads, inputs, markers, outputs, mean_mass);
+    for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)
       if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);
   }

@@ -26,7 +26,8 @@ enum class OutputOf {
   reaction,    ///< what a joint (`joint`) or a rod (`rod`) transmits, about the point of `marker`,
                ///< in the axes of `to`; -1: about its own point, in world axes
   rod,         ///< `rod`
-  motion       ///< a joint with a prescribed motion: `joint`
+  motion,      ///< a joint with a prescribed motion: `joint`
+  gauge        ///< a place of a flexible body where stress is known: `body`, `gauge`
 };
 
 /// What must be computed for a sample beside the motion.

@@ -30,7 +30,10 @@
   entry(modal_acceleration)       \
   entry(kinetic_energy)           \
   entry(potential_energy)         \
-  entry(elastic_energy)
+  entry(elastic_energy)           \
+  entry(stress)                   \
+  entry(strain)                   \
+  entry(section_force)
 // clang-format on
 
 namespace floatframe {

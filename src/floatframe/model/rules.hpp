@@ -12,6 +12,7 @@ inline constexpr const char* coordinates[] = {"relative", "absolute"};
 inline constexpr const char* inertia_methods[] = {"preprocessing", "projection"};
 inline constexpr const char* axes[] = {"x", "y", "z"};
 inline constexpr const char* reaction_axes[] = {"world", "parent", "child", "place"};
+inline constexpr const char* shell_layers[] = {"top", "bottom"};
 inline constexpr const char* angles[] = {"roll", "pitch", "yaw"};
 
 // Bodies.

@@ -51,6 +51,17 @@ void reaction(const OutputDescription& o, const Names& names, const Entity& enti
     entity.error("in", sentences::rod_has_no_axes());
 }
 
+void gauge(const OutputDescription& o, const Entity& entity) {
+  const std::string what = output_type_name(o.type);
+  if (o.gauge.node < 0)
+    entity.error(what, "found the node " + std::to_string(o.gauge.node) +
+                           ", expected the number of a node in its file, from 1");
+  if (!o.at.point.allFinite() || !o.gauge.toward.allFinite())
+    entity.error(what, "found a number that is not finite");
+  if (o.type == OutputType::strain)
+    entity.complain("direction", sentences::direction(o.gauge.direction));
+}
+
 void motion_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
                    const Entity& entity) {
   const char* const word = output_type_name(o.type);
@@ -76,6 +87,10 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
     case OutputOf::two_points:
       entity.place(what + ".from", o.at, names);
       entity.place(what + ".to", o.to, names);
+      break;
+    case OutputOf::gauge:
+      moving_body();
+      gauge(o, entity);
       break;
     case OutputOf::body:
     case OutputOf::mode:

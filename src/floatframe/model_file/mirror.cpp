@@ -52,6 +52,8 @@ void place(ForceDescription& f, const Placement& x) {
 void place(OutputDescription& o, const Placement& x) {
   place(o.at, x);
   place(o.to, x);
+  o.gauge.toward = x.P * o.gauge.toward;
+  o.gauge.direction = x.P * o.gauge.direction;
 }
 
 }  // namespace floatframe

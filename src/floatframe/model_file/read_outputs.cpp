@@ -1,6 +1,5 @@
-// Result columns and initial modal amplitudes.
+// Result columns.
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <span>
 
@@ -31,13 +30,7 @@ class OutputReader {
     for (const OutputType type : output_types)
       if (s->get(output_type_name(type))) ++found, o.type = type;
     if (found != 1) {
-      for (const OutputType type : output_types)
-        if (const char* key = output_kind(type).components.key) s->get(key);
-      for (const char* key : {"mode", "coordinate", "about", "in"}) s->get(key);
-      s->finish();
-      if (found == 0 && misspelt_quantity(*s)) return;  // that has been said
-      s->error("found " + std::to_string(found) + " quantities, expected one of " +
-               alternatives(output_words));
+      not_one_quantity(*s, found);
       return;
     }
     const OutputKind& kind = output_kind(o.type);
@@ -79,6 +72,9 @@ class OutputReader {
           components(name, *s, o);
         }
         break;
+      case OutputOf::gauge:
+        gauge(name, *s, what, o);
+        break;
       case OutputOf::reaction:
         reaction(name, *s, what, o);
         break;
@@ -110,6 +106,17 @@ class OutputReader {
     }
     if (!errors.take_of("columns", 1, limits::entities, o.origin.mark, "outputs")) return;
     model_.description.outputs.push_back(std::move(o));
+  }
+
+  void not_one_quantity(YamlSection& s, int found) {
+    for (const OutputType type : output_types)
+      if (const char* key = output_kind(type).components.key) s.get(key);
+    for (const char* key : {"mode", "coordinate", "about", "in", "direction", "inertia_loads"})
+      s.get(key);
+    s.finish();
+    if (found == 0 && misspelt_quantity(s)) return;  // that has been said
+    s.error("found " + std::to_string(found) + " quantities, expected one of " +
+            alternatives(output_words));
   }
 
   /// A key of an output is near to a quantity, and so its "unknown key" says what is wrong.
@@ -253,6 +260,76 @@ class OutputReader {
     return false;
   }
 
+  /// {body, node: name or number} or {body, at: point}, with `layer` and `toward` where there are
+  /// several places.
+  void gauge(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    const auto direction = o.type == OutputType::strain ? s.require("direction") : std::nullopt;
+    const auto loads = s.get("inertia_loads");
+    bool good = place_of_gauge(what, o);
+    if (direction) {
+      const auto d = read_direction(*direction);
+      good = d && good;
+      if (d) o.gauge.direction = *d;
+    } else if (o.type == OutputType::strain) {
+      good = false;
+    }
+    if (loads) {
+      const auto yes = loads->boolean();
+      good = yes && good;
+      o.gauge.inertia_loads = yes.value_or(true);
+    }
+    if (good)
+      components(name, s, o);
+    else if (const char* key = output_kind(o.type).components.key)
+      s.get(key);
+  }
+
+  bool place_of_gauge(const YamlValue& what, OutputDescription& o) {
+    auto place = what.section("a place, for example {body: arm, node: 1204}");
+    if (!place) return false;
+    const auto body = place->require("body");
+    const auto node = place->get("node"), at = place->get("at"), layer = place->get("layer"),
+               toward = place->get("toward");
+    place->finish();
+    const auto name = body ? moving_body(*body) : std::nullopt;
+    bool good = name.has_value();
+    if (name) o.at.body = *name;
+    if (node.has_value() == at.has_value()) {
+      place->error(node ? "found 'node' and 'at', expected one of the two"
+                        : "missing key 'node' or 'at'");
+      good = false;
+    } else if (at) {
+      const auto point = self_.read_point(*at);
+      good = point && good;
+      if (point) o.at.point = *point;
+    } else {
+      good = node_of_gauge(*node, o) && good;
+    }
+    if (layer) {
+      const auto word = layer->word(rules::shell_layers);
+      good = word && good;
+      if (word) o.gauge.layer = static_cast<GaugeDescription::Layer>(*word + 1);
+    }
+    if (toward) {
+      const auto d = read_direction(*toward);
+      good = d && good;
+      if (d) o.gauge.toward = *d;
+    }
+    return good;
+  }
+
+  /// A whole number is that of a node in the finite-element file.
+  static bool node_of_gauge(const YamlValue& value, OutputDescription& o) {
+    if (value.looks_like_number()) {
+      const auto number = value.integer(1, 2147483647, "the number of a node");
+      if (number) o.gauge.node = *number;
+      return number.has_value();
+    }
+    const auto name = value.text("the number or the name of a node");
+    if (name) o.at.node = *name;
+    return name.has_value();
+  }
+
   void mode(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
     const auto body = moving_body(what);
     const auto number = s.require("mode");
@@ -275,44 +352,7 @@ class OutputReader {
   ReadModel& model_;
 };
 
-void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValue& value,
-                     const char* key, std::map<std::string, VecX>& out) {
-  for (const auto& [name, v] : value.named("a map of bodies to lists of modal amplitudes", true)) {
-    const auto body = self.moving_body(name, v);
-    if (!body) continue;
-    const auto it = model.bodies.find(*body);
-    if (it == model.bodies.end() || !it->second.valid) continue;
-    if (!it->second.flexible) {
-      v.entity_error(sentences::rigid_body_has_no_modes(!it->second.named_nodes.empty()));
-      continue;
-    }
-    const int n = it->second.modes;
-    const std::size_t most = n < 0 ? 10000 : n;
-    const std::string what = "a list of " + std::to_string(n) + " amplitudes, one per mode";
-    const auto a = v.numbers(n < 0 ? 1 : most, most, any_number(""),
-                             n < 0 ? "a list of amplitudes" : what.c_str());
-    if (!a) continue;
-    out[*body] = Eigen::Map<const VecX>(a->data(), static_cast<Eigen::Index>(a->size()));
-    // With normal modes below a frequency their number is known only when the body is reduced.
-    model.description.bodies[it->second.index].origin.keys[key] = v.mark();
-  }
-}
-
 }  // namespace
-
-void read_initial(const ModelInstance& self, ReadModel& model) {
-  if (!self.root) return;
-  YamlSection root = *self.root;
-  const auto value = root.get("initial");
-  if (!value) return;
-  auto s = value->section("a map with amplitudes and amplitude_rates");
-  if (!s) return;
-  if (const auto v = s->get("amplitudes"))
-    read_amplitudes(self, model, *v, "initial.amplitudes", model.description.amplitudes);
-  if (const auto v = s->get("amplitude_rates"))
-    read_amplitudes(self, model, *v, "initial.amplitude_rates", model.description.amplitude_rates);
-  s->finish();
-}
 
 void read_outputs(const ModelInstance& self, ReadModel& model) {
   if (!self.root) return;

@@ -44,6 +44,8 @@ std::shared_ptr<const BodyStress> bar_stress(const FeModel& model, const MatX& X
     if (!is_beam(e.type)) return nullptr;
   const StressRecovery recovery(model, {}, section_inertia);
   auto out = std::make_shared<BodyStress>(recovery.layout());
+  for (StressPlace& place : out->places) place.number = 0;
+  for (BeamSectionPlace& section : out->sections) section.number = 0;
   StressFields modes;
   modes.displacements = shapes_of(X, model.nodes());
   StressRecovery::Recovered found = recovery.recover(modes);

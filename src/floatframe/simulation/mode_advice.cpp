@@ -111,6 +111,7 @@ Model with_modes(const Model& model, const std::vector<std::vector<int>>& keep) 
       full = some;
     }
   }
+  for (Gauge& gauge : out.gauges) fill_rows(*out.bodies[gauge.body].data, gauge);
   std::vector<Output> outputs;
   for (Output o : model.outputs) {
     if (output_kind(o.type).of == OutputOf::mode) {

@@ -21,18 +21,21 @@ std::shared_ptr<const BodyStress> surface_stress(ArrayReader& arrays, Eigen::Ind
   out->modes = arrays.grouped("surface_stress", n, 6, nm);
   out->groups.emplace_back();
   for (Eigen::Index k = 0; k < n; ++k)
-    out->places.push_back({.point = static_cast<int>(k), .node = nodes[k], .p = positions.col(k)});
+    out->places.push_back({.point = static_cast<int>(k),
+                           .node = nodes[k],
+                           .number = nodes[k] + 1,
+                           .p = positions.col(k)});
   return out;
 }
 
 void read_places(ArrayReader& arrays, Eigen::Index points, BodyStress& out) {
-  const std::vector<int> flat = arrays.integers("stress_places", 5, any_integer);
-  const auto n = static_cast<Eigen::Index>(flat.size() / 5);
+  const std::vector<int> flat = arrays.integers("stress_places", 6, any_integer);
+  const auto n = static_cast<Eigen::Index>(flat.size() / 6);
   const MatX p = arrays.matrix("stress_p", n, 3);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const int* row = flat.data() + 5 * k;
-    if (row[0] > points || row[2] >= layers || row[3] >= static_cast<int>(out.groups.size()) ||
-        row[4] > 1) {
+    const int* row = flat.data() + 6 * k;
+    if (row[0] > points || row[3] >= layers || row[4] >= static_cast<int>(out.groups.size()) ||
+        row[5] > 1) {
       arrays.error(
           "stress_places",
           fmt::format("place {} is not one: expected a point up to {}, a layer below {}, a "
@@ -40,31 +43,36 @@ void read_places(ArrayReader& arrays, Eigen::Index points, BodyStress& out) {
                       k + 1, points, layers, out.groups.size()));
       return;
     }
-    out.places.push_back({.layer = static_cast<StressPlace::Layer>(row[2]),
+    out.places.push_back({.layer = static_cast<StressPlace::Layer>(row[3]),
                           .point = row[0] - 1,
                           .node = row[1],
-                          .group = row[3],
-                          .doubtful = row[4] != 0,
+                          .number = row[2],
+                          .group = row[4],
+                          .doubtful = row[5] != 0,
                           .p = p.row(k).transpose()});
   }
 }
 
 void read_sections(ArrayReader& arrays, const StressNames& names, BodyStress& out) {
-  const std::vector<int> flat = arrays.integers("stress_sections", 4, any_integer);
+  const std::vector<int> flat = arrays.integers("stress_sections", 5, any_integer);
+  const MatX p = arrays.matrix("section_p", static_cast<Eigen::Index>(flat.size() / 5), 3);
   const auto places = static_cast<int>(out.places.size());
   int before = 0;
-  for (std::size_t k = 0; k < flat.size() / 4; ++k) {
-    const int* row = flat.data() + 4 * k;
-    if (row[2] > 1 || row[3] < before || row[3] > places) {
-      arrays.error("stress_sections",
-                   fmt::format("section {} is not one: expected the end 0 or 1 and first places "
-                               "that ascend up to {}",
-                               k + 1, places));
+  for (std::size_t k = 0; k < flat.size() / 5; ++k) {
+    const int* row = flat.data() + 5 * k;
+    if (row[3] != static_cast<int>(k % 2) || row[4] < before || row[4] > places) {
+      arrays.error(
+          "stress_sections",
+          fmt::format("section {} is not one: expected the ends 0 and 1 in turn and first places "
+                      "that ascend up to {}",
+                      k + 1, places));
       return;
     }
-    before = row[3];
-    out.sections.push_back({row[0], row[1], row[2], k < names.beams.size() ? names.beams[k] : ""});
-    out.first_place.push_back(row[3]);
+    before = row[4];
+    out.sections.push_back({row[0], row[1], row[2], row[3],
+                            p.row(static_cast<Eigen::Index>(k)).transpose(),
+                            k < names.beams.size() ? names.beams[k] : ""});
+    out.first_place.push_back(row[4]);
   }
   if (!out.sections.empty()) out.first_place.push_back(places);
 }
@@ -77,17 +85,22 @@ void add_stress(const FlexibleBody& body, NamedBytes& arrays) {
   const auto add = [&](const char* name, const NpyArray& array) {
     arrays.emplace_back(name, npy_bytes(array));
   };
-  std::vector<std::array<int, 5>> places;
-  std::vector<std::array<int, 4>> sections;
+  std::vector<std::array<int, 6>> places;
+  std::vector<std::array<int, 5>> sections;
   MatX p(static_cast<Eigen::Index>(s.places.size()), 3);
   for (const StressPlace& place : s.places) {
     p.row(static_cast<Eigen::Index>(places.size())) = place.p.transpose();
-    places.push_back({place.point + 1, place.node, static_cast<int>(index_of(place.layer)),
-                      place.group, place.doubtful ? 1 : 0});
+    places.push_back({place.point + 1, place.node, place.number,
+                      static_cast<int>(index_of(place.layer)), place.group,
+                      place.doubtful ? 1 : 0});
   }
-  for (std::size_t k = 0; k < s.sections.size(); ++k)
+  MatX section_p(static_cast<Eigen::Index>(s.sections.size()), 3);
+  for (std::size_t k = 0; k < s.sections.size(); ++k) {
+    const BeamSectionPlace& section = s.sections[k];
+    section_p.row(static_cast<Eigen::Index>(k)) = section.p.transpose();
     sections.push_back(
-        {s.sections[k].element, s.sections[k].node, s.sections[k].end, s.first_place[k]});
+        {section.element, section.node, section.number, section.end, s.first_place[k]});
+  }
   MatX groups(static_cast<Eigen::Index>(s.groups.size()), 2);
   for (Eigen::Index k = 0; k < groups.rows(); ++k)
     groups.row(k) << s.groups[k].young, s.groups[k].poisson;
@@ -98,6 +111,7 @@ void add_stress(const FlexibleBody& body, NamedBytes& arrays) {
   if (s.loads.size() > 0) add("stress_loads", grouped_array(s.loads, 6));
   if (s.sections.empty()) return;
   add("stress_sections", array_of(sections));
+  add("section_p", array_of(section_p));
   add("section_modes", grouped_array(s.section_modes, 6));
   if (s.section_loads.size() > 0) add("section_loads", grouped_array(s.section_loads, 6));
 }

@@ -1,11 +1,12 @@
 #pragma once
 // Stress of a body (body/body_stress.hpp) as members of a body file.
-//   stress_places     places x 5: point of the surface + 1 (0: none), node, layer (0 solid, 1 top,
-//                     2 bottom, 3 section), group, doubtful (0 or 1)
+//   stress_places     places x 6: point of the surface + 1 (0: none), node, its number in the file
+//                     (0: none), layer (0 solid, 1 top, 2 bottom, 3 section), group, doubtful
 //   stress_p          places x 3
 //   stress_modes      places x 6 x nm;  stress_loads: places x 6 x (12 + nm), or absent
 //   stress_groups     groups x 2: Young's modulus, Poisson's ratio
-//   stress_sections   sections x 4: element, node, end, first place; absent without beams
+//   stress_sections   sections x 5: element, node, number, end, first place; absent without beams
+//   section_p         sections x 3
 //   section_modes, section_loads  sections x 6 x nm, x (12 + nm)
 // Names of groups and beams are in the header. Files once had `surface_stress` of solids alone,
 // points x 6 x nm.

@@ -1,0 +1,49 @@
+#pragma once
+// Gauges: stress, strain and section forces at places of a body (body/body_stress.hpp) as outputs.
+// What an instant needs is gathered when the model is built; a value is
+//   rows = modes y + loads c
+// with the amplitudes y and the load coefficients c of the body. Strain along a unit direction d of
+// the body, as a strain gauge reads it:
+//   eps = d . ((1 + nu) s - nu tr(s) I) d / E
+#include "floatframe/body/body_stress.hpp"
+#include "floatframe/math/types.hpp"
+#include "floatframe/model/description.hpp"
+
+namespace floatframe {
+
+struct FlexibleBody;
+class OutputView;
+
+struct Gauge {
+  int body = -1;
+  int place = -1, section = -1;   ///< of BodyStress: one of the two
+  bool inertia_loads = true;      ///< false: by the modes alone
+  Vec3 direction = Vec3::Zero();  ///< of a strain, body axes; zero: stress
+  /// 6 x nm and 6 x (12 + nm) or empty; of a strain row 0.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> modes, loads;
+};
+
+/// Rows of the gauge's place on a body: once more when its modes change.
+void fill_rows(const FlexibleBody& body, Gauge& gauge);
+
+using BodyLoadCoefficients = Eigen::Matrix<double, body_load_cases, 1>;
+/// c of the whole body, without those of its modes.
+BodyLoadCoefficients body_load_coefficients(const OutputView& view, int body) noexcept;
+/// At an instant: xx yy zz xy yz zx, or N Vy Vz T My Mz, or the strain in row 0.
+Vec6 gauge_values(const OutputView& view, const Gauge& gauge) noexcept;
+
+double von_mises(const Vec6& stress) noexcept;
+/// Descending. Closed form (Smith 1961), also where values coincide.
+Vec3 principal_stresses(const Vec6& stress) noexcept;
+
+/// How a gauge finds its place, and where it is. Throws nothing; what is wrong is the sentence.
+struct GaugeChoice {
+  int place = -1, section = -1;
+  std::string error;
+};
+/// `point`: of `at`, in body axes; null: by `node_name` or the number of the description.
+GaugeChoice find_place(const FlexibleBody& body, const std::string& name,
+                       const GaugeDescription& gauge, const Vec3* point,
+                       const std::string& node_name, const Vec3& toward, bool section);
+
+}  // namespace floatframe

@@ -1,0 +1,19 @@
+// Strain along a direction at a place of a flexible body, as a strain gauge reads it
+// (model/gauge.hpp). Three of them at 0, 45 and 90 degrees are a rosette.
+#include "floatframe/model/gauge.hpp"
+#include "floatframe/model/output_kind.hpp"
+
+namespace floatframe {
+
+template <>
+double output_value_of<OutputType::strain>(const OutputView& view, const Output& output,
+                                           FollowedOutput&) noexcept {
+  return gauge_values(view, view.model().gauges[output.gauge])(0);
+}
+
+constinit const OutputKind strain_output = {
+    .about = "along `direction` at a place of a flexible body, as a strain gauge reads it",
+    .of = OutputOf::gauge,
+    .unit = "-"};
+
+}  // namespace floatframe

@@ -1,0 +1,197 @@
+// Gauges in runs: stress, strains and section forces against closed forms, in both formulations.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdio>
+
+#include "floatframe/analysis.hpp"
+#include "floatframe/formulation/absolute.hpp"
+#include "floatframe/formulation/relative.hpp"
+#include "floatframe/model/gauge.hpp"
+#include "floatframe/simulation/stepped_model.hpp"
+#include "support/allocation_counter.hpp"
+#include "support/error_of.hpp"
+#include "support/model_text.hpp"
+#include "support/random_body.hpp"
+
+namespace floatframe::test {
+namespace {
+
+ResultTable table_of(const std::string& text, Coordinates coordinates) {
+  ModelDescription d = description_of(text);
+  d.simulation.coordinates = coordinates;
+  const Model model = build_model(d);
+  const RunResult r = run(model, model.simulation);
+  EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
+  return r.table;
+}
+
+double entry(const ResultTable& t, std::size_t row, const std::string& name) {
+  for (std::size_t c = 0; c < t.columns.size(); ++c)
+    if (t.columns[c].name == name) return t.at(row, c);
+  ADD_FAILURE() << "no column " << name;
+  return 0.0;
+}
+
+constexpr Coordinates formulations[] = {Coordinates::relative, Coordinates::absolute};
+
+// A rod that turns about its end at W: stress rho W^2 (L^2 - x^2) / 2, whatever its modes.
+const char* const turning_rod = R"(
+gravity: [0, 0, 0]
+points: {hub: [0, 0, 0], tip: [0.8, 0, 0]}
+bodies:
+  rod:
+    flexible:
+      material: {young: 2e11, poisson: 0.3, density: 7850}
+      bars:
+        bar: {from: hub, to: tip, elements: 8, section: {round: 0.02}}
+      clamped: [hub]
+      static_modes: []
+      normal_modes: 4
+joints:
+  hub: {type: revolute, child: rod, at: hub, axis: z, motion: {polynomial: [0, 60]}}
+outputs:
+  root: {stress: {body: rod, node: hub, toward: y}, component: xx}
+  middle: {stress: {body: rod, at: [0.4, 0, 0], toward: z}, component: von_mises}
+  modes: {stress: {body: rod, node: hub, toward: y}, component: xx, inertia_loads: false}
+  force: {section_force: {body: rod, at: [0.4, 0, 0]}, component: N}
+  strain: {strain: {body: rod, node: hub, toward: y}, direction: x}
+simulation: {step: 1e-3, duration: 0.1, output_interval: 0.01}
+)";
+
+TEST(Gauges, TurningRod) {
+  for (const Coordinates coordinates : formulations) {
+    const ResultTable t = table_of(turning_rod, coordinates);
+    const double W = 60.0, L = 0.8, root = 0.5 * 7850.0 * W * W * L * L;
+    const std::size_t row = t.rows() - 1;
+    std::printf("[ figure ] turning rod, %s: root %.6f of rho W^2 L^2 / 2, by modes alone %.4f\n",
+                coordinates == Coordinates::relative ? "relative" : "absolute",
+                entry(t, row, "root") / root, entry(t, row, "modes") / root);
+    EXPECT_NEAR(entry(t, row, "root") / root, 1.0, 1e-2);
+    EXPECT_NEAR(entry(t, row, "middle") / (0.75 * root), 1.0, 1e-2);
+    EXPECT_NEAR(entry(t, row, "force") / (0.75 * root * 1e-4 * M_PI), 1.0, 1e-2);
+    EXPECT_NEAR(entry(t, row, "strain") / (root / 2e11), 1.0, 1e-2);
+    EXPECT_GT(std::abs(entry(t, row, "modes") / root - 1.0), 0.2);
+  }
+}
+
+// A cantilever in equilibrium under its weight and a force at its tip: beam theory.
+const char* const cantilever = R"(
+gravity: [0, 0, -9.81]
+points: {root: [0, 0, 0], tip: [1, 0, 0]}
+bodies:
+  beam:
+    flexible:
+      material: {young: 2e11, poisson: 0.3, density: 7850}
+      bars:
+        bar: {from: root, to: tip, elements: 10, section: {rectangle: [0.02, 0.04]}, reference: y}
+      clamped: [root]
+      static_modes: [tip]
+      normal_modes: 4
+      mass_model: hermite
+joints:
+  wall: {type: weld, parent: ground, child: beam, at: root}
+forces:
+  pull: {type: force, body: beam, at: tip, direction: [0, 0, -1], magnitude: 100}
+outputs:
+  top: {stress: {body: beam, node: root, toward: z}, component: xx}
+  signed: {stress: {body: beam, node: root, toward: -z}, component: signed_von_mises}
+  My: {section_force: {body: beam, node: root}, component: My}
+  Vz: {section_force: {body: beam, node: root}, component: Vz}
+simulation: {step: 1e-3, duration: 0.002, start: equilibrium}
+)";
+
+TEST(Gauges, CantileverInEquilibrium) {
+  for (const Coordinates coordinates : formulations) {
+    const ResultTable t = table_of(cantilever, coordinates);
+    const double q = 7850.0 * 8e-4 * 9.81, M = 100.0 + 0.5 * q, W = 0.02 * 0.04 * 0.04 / 6.0;
+    std::printf("[ figure ] cantilever: stress at the root %.7g MPa, beam theory %.7g MPa\n",
+                1e-6 * entry(t, 0, "top"), 1e-6 * M / W);
+    // Along local axes: z of the section is -z or z of the world, as the bar's reference says.
+    EXPECT_NEAR(std::abs(entry(t, 0, "top")) / (M / W), 1.0, 1e-3);
+    EXPECT_LT(entry(t, 0, "signed"), 0.0);
+    EXPECT_NEAR(std::abs(entry(t, 0, "My")) / M, 1.0, 1e-3);
+    EXPECT_NEAR(std::abs(entry(t, 0, "Vz")) / (100.0 + q), 1.0, 1e-3);
+  }
+}
+
+TEST(Gauges, PrincipalStressesAreEigenvalues) {
+  Random random(5);
+  const auto check = [](const Vec6& s) {
+    Mat3 S;
+    S << s(0), s(3), s(5), s(3), s(1), s(4), s(5), s(4), s(2);
+    const Vec3 expected = Eigen::SelfAdjointEigenSolver<Mat3>(S).eigenvalues().reverse();
+    EXPECT_LT((principal_stresses(s) - expected).norm(), 1e-7 * (S.norm() + 1e-300));
+    const Vec3 d = expected.array() - expected.mean();
+    EXPECT_NEAR(von_mises(s), std::sqrt(1.5 * d.squaredNorm()), 1e-7 * S.norm());
+  };
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 a = random.vec3(3e8), b = random.vec3(3e8);
+    check((Vec6() << a, b).finished());
+  }
+  check(Vec6::Zero());
+  check((Vec6() << 1, 1, 1, 0, 0, 0).finished());
+  check((Vec6() << 2, 1, 1, 0, 0, 0).finished());
+  check((Vec6() << 2, 2, 1, 0, 0, 0).finished());
+  check((Vec6() << 0, 0, 0, 5, 0, 0).finished());
+}
+
+template <class F>
+void check_allocations_of_gauges(Coordinates coordinates) {
+  const Model model = model_of(turning_rod);
+  SimulationDescription options = model.simulation;
+  options.coordinates = coordinates;
+  SteppedModel<F> steps(model, options, {.duration = 0.02});
+  std::vector<double> row(model.outputs.size() + 1);
+  ASSERT_TRUE(steps.advance());
+  double sum = 0.0;
+  const AllocationScope scope;
+  for (int k = 0; k < 10; ++k) {
+    const bool good = steps.advance();
+    steps.sample(row.data());
+    for (const double x : row) sum += x;
+    if (!good) break;
+  }
+  EXPECT_EQ(scope.count(), 0u);
+  EXPECT_GT(sum, 0.0);
+}
+
+TEST(Gauges, DoNotAllocate) {
+  check_allocations_of_gauges<RelativeFormulation>(Coordinates::relative);
+  check_allocations_of_gauges<AbsoluteFormulation>(Coordinates::absolute);
+}
+
+std::string with_output(const std::string& output) {
+  const std::string text = cantilever;
+  return text.substr(0, text.find("outputs:")) + "outputs:\n  a: " + output +
+         "\nsimulation: {step: 1e-3, duration: 0.002}\n";
+}
+
+TEST(Gauges, WhatCannotBe) {
+  const auto says = [](const std::string& output) {
+    return error_of([&] { build_model(description_of(with_output(output))); });
+  };
+  EXPECT_NE(says("{stress: {body: beam, node: root}}")
+                .find("has 8 places with stress at node "
+                      "'root'"),
+            std::string::npos)
+      << says("{stress: {body: beam, node: root}}");
+  EXPECT_NE(says("{stress: {body: beam, node: rot, toward: y}}").find("has no node 'rot'"),
+            std::string::npos);
+  EXPECT_NE(says("{stress: {body: beam, node: 7, toward: y}}").find("has no stress at node 7"),
+            std::string::npos);
+  EXPECT_NE(says("{stress: {body: beam, node: root, layer: top, toward: y}}")
+                .find("solids and beams have no layers"),
+            std::string::npos);
+  EXPECT_NE(says("{stress: {body: beam, at: [9, 0, 0]}}").find("m away"), std::string::npos);
+  EXPECT_NE(says("{strain: {body: beam, node: root, toward: y}}").find("direction"),
+            std::string::npos);
+  EXPECT_NE(says("{stress: {body: beam}}").find("missing key 'node' or 'at'"), std::string::npos);
+  EXPECT_NE(says("{section_force: {body: beam, node: 3}}").find("ends at node 3"),
+            std::string::npos);
+  EXPECT_NE(says("{stress: {body: ground, node: 3}}").find("ground"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace floatframe::test
