@@ -254,6 +254,18 @@ class Export(RunCase):
                     ((0, 0, 1), (1, 1, 1), (2, 2, 1), (0, 1, 2), (1, 2, 2), (2, 0, 2))))
                 self.assertLess(abs(normal - s[1]), 1e-5 * von_mises(s))
             self.assertLessEqual({"top", "section"}, worst_layers)
+        # The numbers are those of gauges in the model: six components, then five scalars.
+        numbers, chosen = arrays["strip/stress_numbers"].values, []
+        for number, layer in ((5, "top"), (5, "bottom"), (10, "top"), (26, "bottom"), (20, "top")):
+            chosen += [k for k in range(len(layers)) if (numbers[k], layers[k]) == (number, layer)][:1]
+        rows = self.outputs(*(f"g{k}: {{stress: {{body: strip, node: {numbers[k]}, layer: {layers[k]}}}}}" for k in chosen))
+        largest = max(abs(x) for row in rows for x in row[1:])
+        self.assertGreater(largest, 1e6)
+        for column, k in enumerate(chosen):
+            of_node = [i for i in range(len(layers)) if (numbers[i], layers[i]) == (numbers[k], layers[k])]
+            for frame, row in enumerate(rows):
+                gauge = row[1 + 11 * column:7 + 11 * column]
+                self.assertLess(min(distance(arrays["strip/stress"].row(frame, i), gauge) for i in of_node), 1e-9 * largest)
         # glTF: triangles, the line of the beam and named nodes.
         self.assertEqual([p["mode"] for p in Glb(self.folder / "m.glb").json["meshes"][0]["primitives"]], [4, 1, 0])
 

@@ -3,7 +3,8 @@
 Usage: outside_programs.py BINARY EXAMPLES TOOLS, in an interpreter that has the package vtk; TOOLS: a folder where npm has
 installed gltf-validator. Each example is run and exported; then
   - every .vtu that the .pvd names is opened by vtkXMLUnstructuredGridReader without a complaint; named nodes have the positions and
-    displacements of `floatframe outputs`, and stress is that of the .npz file, turned to the world by the quaternion there,
+    displacements of `floatframe outputs`; stress is that of the .npz file, turned to the world by the quaternion there, and at the
+    twenty hottest nodes of parts that of gauges in the model,
   - Khronos' validator finds neither an error nor a warning in the .glb; vtkGLTFReader, which knows nothing of us, plays its
     animation and morph targets: named nodes are at key frames where the solver has them, and so is the whole surface.
 A line of figures for each example; exit code 1 if one is beyond its limit.
@@ -23,8 +24,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 from export_readers import Glb, read_npz, read_pvd, rotated  # noqa: E402  pylint: disable=wrong-import-position
 
 BINARY, EXAMPLES, TOOLS = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
-LIMITS = {"vtu points [m]": 1e-6, "vtu displacement [m]": 1e-6, "vtu stress [of largest]": 1e-5, "glb nodes [m]": 1e-5,
-          "glb surface [m]": 1e-5}
+LIMITS = {"vtu points [m]": 1e-6, "vtu displacement [m]": 1e-6, "vtu stress [of largest]": 1e-5,
+          "vtu stress to gauges [of largest]": 1e-5, "glb nodes [m]": 1e-5, "glb surface [m]": 1e-5}
 # Every so many of the recorded instants.
 CASES = {"flexible_pendulum": 5, "slider_crank": 10, "rotor": 50, "quarter_car": 20, "spin_up": 5, "iltis": 4, "iltis_solid": 10}
 
@@ -120,6 +121,34 @@ def check_stress(grid, arrays, frame, worst):
             abs(scalar.GetTuple1(point) - von_mises(expected)) / largest)
 
 
+def check_gauges(folder, out, every, arrays, worst):
+    """The hottest nodes of parts in the middle of the motion: gauges of the model there, turned to the world."""
+    files = read_pvd(out / "motion.pvd")
+    middle = Grid(out / files[len(files) // 2][1])
+    number, scalar, body = (middle.data.GetArray(name) for name in ("node_number", "von_mises", "body"))
+    if number is None:
+        return
+    points = range(middle.grid.GetNumberOfPoints())
+    hottest = sorted((k for k in points if number.GetTuple1(k) > 0), key=scalar.GetTuple1)[-20:]
+    if not hottest:
+        return
+    channels = []
+    for k in hottest:
+        place = {"body": middle.bodies[int(body.GetTuple1(k))], "node": int(number.GetTuple1(k))}
+        channels += ["--add", f"g{k}: " + json.dumps({"stress": place})]  # six components, von Mises, four others
+    rows = list(csv.reader(io.StringIO(program("outputs", folder, *channels))))[1::every]
+    largest = scalar.GetTuple1(hottest[-1])
+    for frame in range(0, len(files), max(1, len(files) // 20)):
+        grid = Grid(out / files[frame][1])
+        for column, k in enumerate(hottest):
+            gauge = [float(x) for x in rows[frame][1 + 11 * column:8 + 11 * column]]
+            world = turned(arrays[grid.bodies[int(body.GetTuple1(k))] + "/rotation"].row(frame), gauge[:6])
+            worst["vtu stress to gauges [of largest]"] = max(
+                worst.get("vtu stress to gauges [of largest]", 0.0),
+                distance(grid.data.GetArray("stress").GetTuple(k), world) / largest,
+                abs(grid.data.GetArray("von_mises").GetTuple1(k) - gauge[6]) / largest)
+
+
 def check_vtk(folder, out, every, arrays, worst):
     files = read_pvd(out / "motion.pvd")
     first = Grid(out / files[0][1])
@@ -138,6 +167,7 @@ def check_vtk(folder, out, every, arrays, worst):
             worst["vtu displacement [m]"] = max(worst.get("vtu displacement [m]", 0.0), distance(found, change))
         if frame % max(1, len(files) // 5) == 0:
             check_stress(grid, arrays, frame, worst)
+    check_gauges(folder, out, every, arrays, worst)
     return len(files), positions
 
 

@@ -46,7 +46,7 @@ class NumpyArchive : public ExportFile {
       keep(t.amplitudes, m.y);
       keep(t.rates, m.yd);
       keep(t.amplitude_accelerations, m.ydd);
-      if (t.field.known()) keep(t.stress, t.field.at(m, bodies_.model->gravity));
+      if (t.field.known()) keep(t.stress, t.field.at(m.y, stress_loads(view, bodies_.bodies[i])));
       const Pose& design = body(i).X_WB;
       for (const int n : t.named) {
         const NodeMotion node = node_motion(body(i), n, m);
@@ -135,17 +135,19 @@ class NumpyArchive : public ExportFile {
     const std::vector<StressPlace>& places = t.field.stress().places;
     member(at, npy_bytes({{instants, places.size(), 6}, std::move(t.stress)}));
     std::vector<double> positions;
-    std::vector<std::int32_t> nodes, doubtful;
+    std::vector<std::int32_t> nodes, numbers, doubtful;
     std::vector<std::string> layers;
     for (const StressPlace& place : places) {
       constexpr const char* words[] = {"solid", "top", "bottom", "section"};
       positions.insert(positions.end(), place.p.begin(), place.p.end());
       nodes.push_back(place.node);
+      numbers.push_back(place.number);
       doubtful.push_back(place.doubtful ? 1 : 0);
       layers.emplace_back(words[static_cast<std::size_t>(place.layer)]);
     }
     member(at + "_positions", npy_bytes({{places.size(), 3}, std::move(positions)}));
     member(at + "_nodes", npy_bytes({{places.size()}, std::move(nodes)}));
+    member(at + "_numbers", npy_bytes({{places.size()}, std::move(numbers)}));
     member(at + "_doubtful", npy_bytes({{places.size()}, std::move(doubtful)}));
     member(at + "_layers", npy_texts(layers));
   }

@@ -1,11 +1,10 @@
 #include "floatframe/export/stress_field.hpp"
 
-#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
-#include "floatframe/math/so3.hpp"
+#include "floatframe/model/gauge.hpp"
 
 namespace floatframe {
 namespace {
@@ -28,21 +27,12 @@ std::map<std::pair<int, int>, std::pair<int, int>> places_of_sections(const Body
 
 }  // namespace
 
-VecX stress_loads(const BodyMotion& motion, const Vec3& gravity) {
-  VecX c(body_load_cases + motion.ydd.size());
-  const Mat3 R_BW = motion.R.transpose();
-  const Vec3 w = R_BW * motion.w, alpha = R_BW * motion.alpha;
-  c.head<3>() = -(R_BW * (motion.a - gravity));
-  const Mat3 A = skew(alpha) + skew(w) * skew(w);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) c[3 + 3 * i + j] = -A(j, i);
-  c.tail(motion.ydd.size()) = -motion.ydd;
+VecX stress_loads(const OutputView& view, int body) {
+  const int nm = view.model().bodies[static_cast<std::size_t>(body)].modes();
+  VecX c(body_load_cases + nm);
+  c.head<body_load_cases>() = body_load_coefficients(view, body);
+  for (int k = 0; k < nm; ++k) c[body_load_cases + k] = -view.amplitude_acceleration(body, k);
   return c;
-}
-
-double von_mises_stress(const Vec6& s) noexcept {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * s.tail<3>().squaredNorm());
 }
 
 Vec6 turned_stress(const Mat3& R, const Vec6& s) noexcept {
@@ -98,10 +88,9 @@ void StressField::add_places(const BodyPicture& picture) {
   }
 }
 
-const VecX& StressField::at(const BodyMotion& motion, const Vec3& gravity) {
-  values_.noalias() = stress_->modes * motion.y;
-  if (stress_->loads.size() > 0)
-    values_.noalias() += stress_->loads * stress_loads(motion, gravity);
+const VecX& StressField::at(const VecX& y, const VecX& c) {
+  values_.noalias() = stress_->modes * y;
+  if (stress_->loads.size() > 0) values_.noalias() += stress_->loads * c;
   return values_;
 }
 
@@ -112,10 +101,10 @@ bool StressField::shown(Eigen::Index point, Shown& out) const noexcept {
   for (int i = first_[at]; i < first_[at + 1]; ++i) {
     const int k = places_[static_cast<std::size_t>(i)];
     const Vec6 s = values_.segment<6>(6 * k);
-    const double von_mises = von_mises_stress(s);
-    if (any && !(von_mises > out.von_mises)) continue;
+    const double equivalent = von_mises(s);
+    if (any && !(equivalent > out.von_mises)) continue;
     any = true;
-    out = {s, von_mises, stress_->places[static_cast<std::size_t>(k)].doubtful};
+    out = {s, equivalent, &stress_->places[static_cast<std::size_t>(k)]};
   }
   return any;
 }

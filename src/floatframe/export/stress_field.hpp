@@ -1,6 +1,6 @@
 #pragma once
 // Stress at the points of a picture at an instant, from what the body knows of it (BodyStress):
-//   stress = modes y + loads c,   c of the motion of the body (body_stress.hpp).
+//   stress = modes y + loads c,   c of the motion of the body (body_stress.hpp), as gauges see it.
 // A point may have several places - top and bottom of a shell, two materials, outer points of a
 // section: it shows the one with the largest von Mises stress at this instant.
 #include "floatframe/body/body_stress.hpp"
@@ -8,12 +8,10 @@
 
 namespace floatframe {
 
-/// c, 12 + nm. `gravity`: world axes [m/s2].
-VecX stress_loads(const BodyMotion& motion, const Vec3& gravity);
+/// c, 12 + nm.
+VecX stress_loads(const OutputView& view, int body);
 
-/// Of xx yy zz xy yz zx.
-double von_mises_stress(const Vec6& stress) noexcept;
-/// In world axes. R: R_WB.
+/// xx yy zz xy yz zx in world axes. R: R_WB.
 Vec6 turned_stress(const Mat3& R, const Vec6& stress) noexcept;
 
 class StressField {
@@ -25,14 +23,14 @@ class StressField {
   bool known() const noexcept { return stress_ != nullptr; }
   const BodyStress& stress() const noexcept { return *stress_; }
   /// All places, 6 after the other, body axes [Pa].
-  const VecX& at(const BodyMotion& motion, const Vec3& gravity);
+  const VecX& at(const VecX& y, const VecX& c);
 
-  /// Of a point of the picture after `at`; null: not known there.
   struct Shown {
     Vec6 stress;
     double von_mises = 0.0;
-    bool doubtful = false;
+    const StressPlace* place = nullptr;
   };
+  /// Of a point of the picture after `at`; false: not known there.
   bool shown(Eigen::Index point, Shown& out) const noexcept;
 
  private:

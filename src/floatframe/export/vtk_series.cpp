@@ -60,6 +60,7 @@ class VtkSeries : public ExportFile {
       grid_.point_data.push_back({"stress", 6, std::vector<float>(6 * points, unknown)});
       grid_.point_data.push_back({"von_mises", 1, std::vector<float>(points, unknown)});
       grid_.point_data.push_back({"stress_doubtful", 1, std::vector<std::int32_t>(points)});
+      grid_.point_data.push_back({"node_number", 1, std::vector<std::int32_t>(points)});
     }
     grid_.cell_data = {{"body", 1, std::move(cell_body_)}, {"drawn", 1, std::move(cell_drawn_)}};
   }
@@ -69,7 +70,10 @@ class VtkSeries : public ExportFile {
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
       const BodyMotion m = body_motion(view, bodies_.bodies[i]);
       place(i, m, first);
-      if (fields_[i].known()) stress(i, m, first);
+      if (fields_[i].known()) {
+        fields_[i].at(m.y, stress_loads(view, bodies_.bodies[i]));
+        stress(i, m, first);
+      }
       first += static_cast<std::size_t>(pictures_[i].points.cols());
     }
     grid_.time = view.time();
@@ -145,10 +149,10 @@ class VtkSeries : public ExportFile {
   }
 
   void stress(std::size_t i, const BodyMotion& m, std::size_t first) {
-    fields_[i].at(m, bodies_.model->gravity);
     auto& tensor = std::get<std::vector<float>>(grid_.point_data[5].values);
     auto& von_mises = std::get<std::vector<float>>(grid_.point_data[6].values);
     auto& doubtful = std::get<std::vector<std::int32_t>>(grid_.point_data[7].values);
+    auto& number = std::get<std::vector<std::int32_t>>(grid_.point_data[8].values);
     StressField::Shown shown;
     for (Eigen::Index k = 0; k < pictures_[i].points.cols(); ++k) {
       if (!fields_[i].shown(k, shown)) continue;
@@ -157,7 +161,8 @@ class VtkSeries : public ExportFile {
       for (std::size_t c = 0; c < 6; ++c)
         tensor[6 * at + c] = static_cast<float>(s[static_cast<Eigen::Index>(c)]);
       von_mises[at] = static_cast<float>(shown.von_mises);
-      doubtful[at] = shown.doubtful ? 1 : 0;
+      doubtful[at] = shown.place->doubtful ? 1 : 0;
+      number[at] = shown.place->number;
     }
   }
 
