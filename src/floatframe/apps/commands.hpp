@@ -17,6 +17,7 @@ Command info_command();
 Command compare_command();
 Command outputs_command();
 Command export_command();
+Command stress_command();
 Command rainflow_command();
 
 inline std::vector<Command> all_commands() {
@@ -24,7 +25,7 @@ inline std::vector<Command> all_commands() {
   for (Command& analysis : analysis_commands()) commands.push_back(std::move(analysis));
   for (const auto make :
        {realtime_command, bench_command, sweep_command, reduce_command, info_command,
-        compare_command, outputs_command, export_command, rainflow_command})
+        compare_command, outputs_command, export_command, stress_command, rainflow_command})
     commands.push_back(make());
   return commands;
 }

@@ -1,12 +1,10 @@
 // floatframe export: the motion of a run as files of other programs.
-#include <cmath>
-
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/recorded_run.hpp"
+#include "floatframe/apps/selection_arguments.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/export/body_tables.hpp"
-#include "floatframe/export/export_selection.hpp"
 #include "floatframe/export/glb_scene.hpp"
 #include "floatframe/export/vtk_series.hpp"
 #include "floatframe/history/recorded_motion.hpp"
@@ -17,21 +15,10 @@ namespace {
 
 struct ExportArguments {
   RecordedRunArguments run;
-  std::string vtk, glb, npz, csv, from, to;
+  std::string vtk, glb, npz, csv;
   bool stress = false;
-  ExportSelection selection;
+  SelectionArguments selection;
 };
-
-ExportSelection selection_of(const ExportArguments& arguments) {
-  ExportSelection selection = arguments.selection;
-  const NumberRule any = any_number("s");
-  if (!arguments.from.empty()) selection.from = option_number("--from", arguments.from, any);
-  if (!arguments.to.empty()) selection.to = option_number("--to", arguments.to, any);
-  if (selection.from > selection.to)
-    throw InputError("found --from " + arguments.from + " after --to " + arguments.to +
-                     ", expected an earlier time");
-  return selection;
-}
 
 int export_motion(const ExportArguments& arguments) {
   if (arguments.vtk.empty() && arguments.glb.empty() && arguments.npz.empty() &&
@@ -39,7 +26,7 @@ int export_motion(const ExportArguments& arguments) {
     throw InputError("found no file to write, expected --vtk, --glb, --npz or --csv");
   if (arguments.stress && arguments.npz.empty())
     throw InputError("found --stress without --npz, expected the file that is to hold it");
-  const ExportSelection selection = selection_of(arguments);
+  const ExportSelection selection = arguments.selection.selection();
   const RecordedRun run = load_recorded_run(arguments.run);
   require_writable({{"--glb", arguments.glb}, {"--npz", arguments.npz}, {"--csv", arguments.csv}},
                    run.inputs);
@@ -76,24 +63,21 @@ Command export_command() {
   return {
       .name = "export",
       .help = "The motion of a run as files for ParaView, Blender, NumPy and spreadsheets",
-      .options =
-          {recorded_result_position(a->run),
-           text_option("--vtk", a->vtk, "DIR",
-                       "Folder for a series of .vtu files and motion.pvd, which ParaView opens"),
-           text_option("--glb", a->glb, "FILE",
-                       "glTF 2.0 with animation, for Blender and viewers (.glb)"),
-           text_option("--npz", a->npz, "FILE", "Arrays of NumPy (.npz)"),
-           flag("--stress", a->stress,
-                "In the .npz file also the stress of bodies that know it, at all its places"),
-           text_option("--csv", a->csv, "FILE",
-                       "One table: a row for each instant, body and named node"),
-           text_option("--from", a->from, "SECONDS", "First instant [s]; default: the first"),
-           text_option("--to", a->to, "SECONDS", "Last instant [s]; default: the last"),
-           whole_option("--every", a->selection.every, 1, 1'000'000'000,
-                        "Of the recorded instants every N-th"),
-           repeated_option("--body", a->selection.bodies, "NAME",
-                           "Only this body; may be repeated"),
-           recorded_model_option(a->run)},
+      .options = joined(
+          joined(
+              {recorded_result_position(a->run),
+               text_option("--vtk", a->vtk, "DIR",
+                           "Folder for a series of .vtu files and motion.pvd, which ParaView "
+                           "opens"),
+               text_option("--glb", a->glb, "FILE",
+                           "glTF 2.0 with animation, for Blender and viewers (.glb)"),
+               text_option("--npz", a->npz, "FILE", "Arrays of NumPy (.npz)"),
+               flag("--stress", a->stress,
+                    "In the .npz file also the stress of bodies that know it, at all its places"),
+               text_option("--csv", a->csv, "FILE",
+                           "One table: a row for each instant, body and named node")},
+              a->selection.table()),
+          {recorded_model_option(a->run)}),
       .footer =
           "The model file and all that it refers to must be as they were in the run.\n"
           "Exit codes: 0 done, 1 the model cannot be started or a file not be written, "

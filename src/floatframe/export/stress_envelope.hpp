@@ -1,0 +1,46 @@
+#pragma once
+// The largest von Mises stress that each place of a body (body_stress.hpp) has had over a run, when
+// it had it, and the whole stress of that instant; of beams the smallest and the largest section
+// forces. Instants are gathered and done together: of all of them at once
+//   stress = modes Y + loads C,   a column of Y and C for each instant,
+// are two products of matrices, many places times many instants.
+#include <vector>
+
+#include "floatframe/body/body_stress.hpp"
+#include "floatframe/export/body_motion.hpp"
+
+namespace floatframe {
+
+struct StressEnvelope {
+  // Of each place.
+  VecX von_mises;  ///< [Pa]
+  VecX time;       ///< [s] the first at which it was so large
+  Mat6X stress;    ///< xx yy zz xy yz zx then, body axes [Pa]
+
+  // Of each section of beams: N Vy Vz [N], T My Mz [Nm].
+  Mat6X least, least_time, largest, largest_time;
+};
+
+class StressEnvelopeOf {
+ public:
+  /// `stress` must outlive this. `modes`: of the body.
+  StressEnvelopeOf(const BodyStress& stress, int modes);
+  /// The body at the next instant; `gravity` in world axes [m/s2].
+  void add(double time, const BodyMotion& motion, const Vec3& gravity);
+  /// Of all instants so far.
+  const StressEnvelope& result();
+
+ private:
+  void flush();
+  void flush_places(Eigen::Index instants);
+  void flush_sections(Eigen::Index instants);
+
+  const BodyStress& stress_;
+  MatX Y_, C_;  ///< amplitudes and load coefficients of the instants gathered, one per column
+  std::vector<double> times_;
+  MatX values_;
+  VecX squares_;  ///< of the von Mises stresses so far
+  StressEnvelope envelope_;
+};
+
+}  // namespace floatframe
