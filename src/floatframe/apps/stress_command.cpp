@@ -6,6 +6,7 @@
 #include "floatframe/apps/selection_arguments.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/export/stress_field.hpp"
 #include "floatframe/export/stress_report.hpp"
 #include "floatframe/history/recorded_motion.hpp"
 #include "floatframe/simulation/run_error.hpp"
@@ -64,8 +65,10 @@ void replay(const RecordedRun& run, const ExportSelection& selection, StressRepo
     const OutputView& view = motion.at(k);
     if (report.instants++ == 0) report.from = view.time();
     report.to = view.time();
-    for (std::size_t i = 0; i < envelopes.size(); ++i)
-      envelopes[i].add(view.time(), body_motion(view, report.bodies[i].body), model.gravity);
+    for (std::size_t i = 0; i < envelopes.size(); ++i) {
+      const int b = report.bodies[i].body;
+      envelopes[i].add(view.time(), body_motion(view, b).y, stress_loads(view, b));
+    }
   }
   for (std::size_t i = 0; i < envelopes.size(); ++i)
     report.bodies[i].envelope = envelopes[i].result();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/body/flexible_body.hpp"
 #include "floatframe/export/stress_envelope.hpp"
 
 namespace floatframe {

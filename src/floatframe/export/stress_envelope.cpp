@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "floatframe/export/stress_field.hpp"
-
 namespace floatframe {
 namespace {
 
@@ -38,10 +36,10 @@ StressEnvelopeOf::StressEnvelopeOf(const BodyStress& stress, int modes)
   envelope_.least_time = envelope_.largest_time = Mat6X::Zero(6, sections);
 }
 
-void StressEnvelopeOf::add(double time, const BodyMotion& motion, const Vec3& gravity) {
+void StressEnvelopeOf::add(double time, const VecX& y, const VecX& c) {
   const auto column = static_cast<Eigen::Index>(times_.size());
-  Y_.col(column) = motion.y;
-  C_.col(column) = stress_loads(motion, gravity);
+  Y_.col(column) = y;
+  C_.col(column) = c;
   times_.push_back(time);
   if (column + 1 == instants_at_once) flush();
 }

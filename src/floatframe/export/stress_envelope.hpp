@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "floatframe/body/body_stress.hpp"
-#include "floatframe/export/body_motion.hpp"
 
 namespace floatframe {
 
@@ -25,8 +24,8 @@ class StressEnvelopeOf {
  public:
   /// `stress` must outlive this. `modes`: of the body.
   StressEnvelopeOf(const BodyStress& stress, int modes);
-  /// The body at the next instant; `gravity` in world axes [m/s2].
-  void add(double time, const BodyMotion& motion, const Vec3& gravity);
+  /// The next instant: amplitudes (nm) and load coefficients (12 + nm) of the body.
+  void add(double time, const VecX& y, const VecX& c);
   /// Of all instants so far.
   const StressEnvelope& result();
 
