@@ -308,6 +308,7 @@ class Export(RunCase):
         self.run_model()
         self.refused("found no file to write, expected --vtk, --glb, --npz or --csv", "out")
         self.refused("found --stress without --npz, expected the file that is to hold it", "out", "--stress", "--csv", "m.csv")
+        self.refused("--stress: none of the bodies knows its stress", "out", "--stress", "--npz", "m.npz", "--body", "disc")
         self.refused("--body: found 'baem', expected a body of the model, did you mean 'beam'?",
                      "out", "--csv", "m.csv", "--body", "baem")
         self.refused("out/states.ffr: found no recorded instant from 3 s on, expected some of the 201 from 0 to 0.2 s",

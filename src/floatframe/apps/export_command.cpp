@@ -1,5 +1,6 @@
 // floatframe export: the motion of a run as files of other programs.
 #include "floatframe/apps/commands.hpp"
+#include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/apps/recorded_run.hpp"
 #include "floatframe/apps/selection_arguments.hpp"
 #include "floatframe/core/atomic_file.hpp"
@@ -42,10 +43,13 @@ int export_motion(const ExportArguments& arguments) {
     if (!arguments.npz.empty())
       files.push_back(numpy_archive(bodies, arguments.npz, arguments.stress));
     if (!arguments.csv.empty()) files.push_back(motion_table(bodies, arguments.csv));
-    for (const std::size_t k : instants) {
-      const OutputView& view = motion.at(k);
+    ProgressBar bar(true, static_cast<double>(instants.size()), "instants");
+    for (std::size_t i = 0; i < instants.size(); ++i) {
+      const OutputView& view = motion.at(instants[i]);
       for (const auto& file : files) file->add(view);
+      bar.show(static_cast<double>(i + 1) / static_cast<double>(instants.size()));
     }
+    bar.clear();
     for (const auto& file : files) {
       say_line(file->finish());  // the file itself may be standard output
     }

@@ -114,7 +114,7 @@ void check_writable(const std::string& path) {
   if (failed != 0) throw OutputError(cannot("the file", path, failed));
 }
 
-void write_file(const std::string& path, std::string_view content) {
+void write_file(const std::string& path, std::string_view content, Flush flush) {
   if (place_of(path) == Place::special) {  // a slow reader can be interrupted
     const int error = write_to(path, 0, content, false);
     if (error != 0) throw OutputError(cannot("the file", path, error));
@@ -122,12 +122,19 @@ void write_file(const std::string& path, std::string_view content) {
   }
   const SignalHold hold;
   const std::string temporary = temporary_name(path);
-  int error = write_to(temporary, O_CREAT | O_TRUNC, content, true);
+  int error = write_to(temporary, O_CREAT | O_TRUNC, content, flush == Flush::now);
   if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
     throw OutputError(cannot("the file", path, error));
   }
+}
+
+void flush_files(const std::string& folder) {
+  const int place = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int error = place < 0 || ::syncfs(place) != 0 ? errno : 0;
+  if (place >= 0) ::close(place);
+  if (error != 0) throw OutputError(cannot("the output folder", folder, error));
 }
 
 void remove_file(const std::string& path) {

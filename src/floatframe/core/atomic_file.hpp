@@ -17,10 +17,19 @@ void make_output_folder(const std::string& path);
 /// pipe is refused, as are sockets, block devices and folders. Throws OutputError.
 void check_writable(const std::string& path);
 
+/// When what was written must be on the disk, so that a power failure leaves no empty file.
+enum class Flush {
+  now,
+  later  ///< by `flush_files`: of many files that count only when a last one names them
+};
+
 /// Replaces the file at `path` by `content` in one stroke. A terminal, a null device and a pipe
 /// without a name (/dev/stdout) are written to directly; what check_writable refuses is refused.
 /// Throws OutputError.
-void write_file(const std::string& path, std::string_view content);
+void write_file(const std::string& path, std::string_view content, Flush flush = Flush::now);
+
+/// Waits until the files of this folder are on the disk. Throws OutputError.
+void flush_files(const std::string& folder);
 
 /// Removes the file if it is there.
 void remove_file(const std::string& path);

@@ -78,7 +78,7 @@ class VtkSeries : public ExportFile {
     }
     grid_.time = view.time();
     const std::string name = file_of_series(files_.size());
-    write_file(path(name), vtu_bytes(grid_));
+    write_file(path(name), vtu_bytes(grid_), Flush::later);
     files_.emplace_back(view.time(), name);
   }
 
@@ -92,6 +92,7 @@ class VtkSeries : public ExportFile {
       if (is_file_of_series(name) && !written.contains(name)) old.push_back(name);
     }
     for (const std::string& name : old) remove_file(path(name));
+    flush_files(folder_);
     const std::string pvd = path(std::string(series_name) + ".pvd");
     write_file(pvd, pvd_text(files_));
     return fmt::format("{}: {} instants, {} bodies, {} points", pvd, files_.size(),
