@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import pathlib
 import unittest
 
 from export_readers import read_npz
@@ -91,6 +92,28 @@ class Stress(RunCase):
             self.assertEqual(float(row["largest"]), arrays["beam/section_largest"].row(k // 6)[k % 6])
             self.assertEqual(float(row["smallest"]), arrays["beam/section_least"].row(k // 6)[k % 6])
             self.assertLessEqual(float(row["smallest"]), float(row["largest"]))
+
+    def test_mirrored_parts_of_a_symmetric_vehicle(self):
+        """Left and right of the Iltis on stairs across its whole width: equal stress, mirrored section forces."""
+        model = str(pathlib.Path(__file__).resolve().parents[2] / "examples/iltis/iltis.yaml")
+        self.program("run", model, "--out", "iltis", "--set", "duration=4.4", "--quiet", "--no-report")
+        self.program("stress", "iltis", "--out", "made")
+        arrays = read_npz(self.folder / "made/envelope.npz")
+        self.assertEqual(len(arrays["bodies"].values), 12)
+        for left in arrays["bodies"].values:
+            if "left" not in left:
+                continue
+            right = left.replace("left", "right")
+            a, b = (list(arrays[side + "/von_mises"].values) for side in (left, right))
+            self.assertGreater(max(a), 1e6)
+            self.assertLess(max(abs(x - y) for x, y in zip(a, b, strict=True)), 1e-6 * max(a))
+            most, least, other, fewest = (arrays[f"{side}/section_{name}"] for side in (left, right) for name in ("largest", "least"))
+            # Local axes are mirrored and made right-handed by turning z back.
+            for c, sign in enumerate((1, 1, -1, -1, -1, 1)):
+                scale = max(abs(most.row(k)[c]) for k in range(most.shape[0])) + 1
+                for k in range(most.shape[0]):
+                    expected = other.row(k)[c] if sign > 0 else -fewest.row(k)[c]
+                    self.assertLess(abs(most.row(k)[c] - expected), 1e-6 * scale)
 
     def test_a_part_of_the_run(self):
         whole = self.stress()["bodies"][0]["hot_spots"][0]
