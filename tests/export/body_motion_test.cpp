@@ -65,7 +65,7 @@ TEST_P(ExportedNodes, MoveAsMarkersDo) {
       const Marker& m = model.markers[marker];
       if (m.node < 0 || !m.X_NM.p.isZero(0.0)) continue;
       const Body& body = model.bodies[m.body];
-      const BodyMotion of_body = body_motion(view, m.body);
+      const BodyInstant of_body = body_motion(view, m.body);
       const NodeMotion found = node_motion(body, m.node, of_body);
       EXPECT_LT((found.p - view.place(marker)).norm(), 1e-13);
       EXPECT_LT((found.v - view.marker(marker).v).norm(), 1e-12);
@@ -97,7 +97,7 @@ TEST(MorphTargets, AddUpToTheDeformation) {
     const BodyPicture picture = body_picture(model, 1);
     ASSERT_EQ(picture.names, (std::vector<std::string>{"p", "corner", "tip"}));
     const int nm = body.modes();
-    BodyMotion m;
+    BodyInstant m;
     std::vector<double> amplitudes;
     std::vector<VecX> instants;
     for (int k = 0; k < 5; ++k) {

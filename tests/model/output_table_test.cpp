@@ -18,13 +18,16 @@ std::string of(OutputOf what) {
                                       "force element",
                                       "joint or `{rod: name}`",
                                       "rod",
-                                      "joint with a motion"};
+                                      "joint with a motion",
+                                      "[gauge](#gauges)"};
+  static_assert(std::size(words) == index_of(OutputOf::gauge) + 1);
   return words[index_of(what)];
 }
 
 std::string component(OutputType type, const OutputKind& kind) {
   if (kind.of == OutputOf::joint) return "`coordinate`: 1, 2, ... (needed if there are several)";
   if (kind.of == OutputOf::mode) return "`mode`: 1, 2, ... (required)";
+  if (type == OutputType::strain) return "`direction` (required)";
   if (!kind.components.key) return "";
   std::string words;
   for (const char* word : kind.components.words)

@@ -5,8 +5,8 @@
 
 namespace floatframe {
 
-BodyMotion body_motion(const OutputView& view, int body) {
-  BodyMotion m;
+BodyInstant body_motion(const OutputView& view, int body) {
+  BodyInstant m;
   m.p = view.body_position(body);
   m.v = view.body_velocity(body);
   m.a = view.body_acceleration(body);
@@ -25,7 +25,7 @@ BodyMotion body_motion(const OutputView& view, int body) {
   return m;
 }
 
-NodeMotion node_motion(const Body& body, int node, const BodyMotion& motion) {
+NodeMotion node_motion(const Body& body, int node, const BodyInstant& motion) {
   const ModalNode& n = body.data->nodes[static_cast<std::size_t>(node)];
   Vec3 u = n.X * motion.y, ud = n.X * motion.yd;
   Vec3 theta = n.X_theta * motion.y, thetad = n.X_theta * motion.yd;

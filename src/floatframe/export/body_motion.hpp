@@ -9,13 +9,13 @@
 
 namespace floatframe {
 
-struct BodyMotion {
+struct BodyInstant {
   Vec3 p, v, a;     ///< of the origin of the body frame, world axes [m, m/s, m/s2]
   Mat3 R;           ///< R_WB
   Vec3 w, alpha;    ///< world axes [rad/s, rad/s2]
   VecX y, yd, ydd;  ///< amplitudes, rates, accelerations
 };
-BodyMotion body_motion(const OutputView& view, int body);
+BodyInstant body_motion(const OutputView& view, int body);
 
 struct NodeMotion {
   Vec3 p, v;         ///< world axes [m, m/s]
@@ -24,7 +24,7 @@ struct NodeMotion {
   Vec3 deformation;  ///< R u, world axes [m]
 };
 /// `node`: of FlexibleBody::nodes.
-NodeMotion node_motion(const Body& body, int node, const BodyMotion& motion);
+NodeMotion node_motion(const Body& body, int node, const BodyInstant& motion);
 
 /// Nodes that the model names, of FlexibleBody::nodes.
 std::vector<int> named_nodes(const FlexibleBody& body);

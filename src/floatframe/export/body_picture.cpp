@@ -156,7 +156,7 @@ bool same_picture(const BodyPicture& a, const BodyPicture& b) {
          a.points == b.points && a.modes == b.modes;
 }
 
-void move_picture(const BodyPicture& picture, const BodyMotion& motion, PictureMotion& out) {
+void move_picture(const BodyPicture& picture, const BodyInstant& motion, PictureMotion& out) {
   const Eigen::Index n = picture.points.cols();
   out.u.setZero(3, n);
   out.rate.setZero(3, n);

@@ -49,6 +49,6 @@ bool same_picture(const BodyPicture& a, const BodyPicture& b);
 struct PictureMotion {
   Mat3X u, rate;
 };
-void move_picture(const BodyPicture& picture, const BodyMotion& motion, PictureMotion& out);
+void move_picture(const BodyPicture& picture, const BodyInstant& motion, PictureMotion& out);
 
 }  // namespace floatframe

@@ -57,7 +57,7 @@ class GlbScene : public ExportFile {
     if (!times_.empty() && !(time > times_.back())) return;
     times_.push_back(time);
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      const BodyMotion m = body_motion(view, bodies_.bodies[i]);
+      const BodyInstant m = body_motion(view, bodies_.bodies[i]);
       Track& track = tracks_[i];
       track.places.push_back(m.p);
       track.turns.push_back(continued_quaternion(

@@ -29,7 +29,7 @@ class MotionTable : public ExportFile {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       Lines& l = lines_[i];
       const Body& body = bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])];
-      const BodyMotion m = body_motion(view, bodies_.bodies[i]);
+      const BodyInstant m = body_motion(view, bodies_.bodies[i]);
       row(view.time(), l.body, "", {m.p, m.v, m.R, m.w, Vec3::Zero()}, l.turns[0]);
       for (std::size_t k = 0; k < l.named.size(); ++k)
         row(view.time(), l.body, l.names[k], node_motion(body, l.named[k], m), l.turns[k + 1]);

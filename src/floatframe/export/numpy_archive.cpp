@@ -35,7 +35,7 @@ class NumpyArchive : public ExportFile {
   void add(const OutputView& view) override {
     time_.push_back(view.time());
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      const BodyMotion m = body_motion(view, bodies_.bodies[i]);
+      const BodyInstant m = body_motion(view, bodies_.bodies[i]);
       Track& t = tracks_[i];
       t.turn = continued_quaternion(m.R, t.turn);
       keep(t.position, m.p);

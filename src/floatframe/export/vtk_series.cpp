@@ -68,7 +68,7 @@ class VtkSeries : public ExportFile {
   void add(const OutputView& view) override {
     std::size_t first = 0;
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
-      const BodyMotion m = body_motion(view, bodies_.bodies[i]);
+      const BodyInstant m = body_motion(view, bodies_.bodies[i]);
       place(i, m, first);
       if (fields_[i].known()) {
         fields_[i].at(m.y, stress_loads(view, bodies_.bodies[i]));
@@ -126,7 +126,7 @@ class VtkSeries : public ExportFile {
     first_point_ += static_cast<std::size_t>(picture.points.cols());
   }
 
-  void place(std::size_t i, const BodyMotion& m, std::size_t first) {
+  void place(std::size_t i, const BodyInstant& m, std::size_t first) {
     const BodyPicture& picture = pictures_[i];
     const Pose& design = bodies_.model->bodies[static_cast<std::size_t>(bodies_.bodies[i])].X_WB;
     move_picture(picture, m, moved_);
@@ -149,7 +149,7 @@ class VtkSeries : public ExportFile {
     }
   }
 
-  void stress(std::size_t i, const BodyMotion& m, std::size_t first) {
+  void stress(std::size_t i, const BodyInstant& m, std::size_t first) {
     auto& tensor = std::get<std::vector<float>>(grid_.point_data[5].values);
     auto& von_mises = std::get<std::vector<float>>(grid_.point_data[6].values);
     auto& doubtful = std::get<std::vector<std::int32_t>>(grid_.point_data[7].values);
