@@ -8,9 +8,11 @@
 
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/gauge.hpp"
 #include "floatframe/report/check_page.hpp"
 #include "floatframe/report/scene_json.hpp"
 #include "floatframe/report/scene_mesh.hpp"
+#include "floatframe/report/scene_stress.hpp"
 #include "history/recorded_run.hpp"
 #include "support/error_of.hpp"
 
@@ -53,6 +55,7 @@ struct Drawn {
   Model model;
   ResultTable table;
   PageBuffer buffer;
+  SceneFrames frames;
   Json scene;
 };
 
@@ -64,7 +67,61 @@ void draw(const std::string& text, Drawn& out,
   const TemporaryFolder folder;
   const Recorded r = recorded_run(out.model, o, folder.file("x.ffr"));
   out.table = r.result.table;
-  out.scene = scene_json(out.model, scene_frames(out.model, StateHistory(r.path)), out.buffer);
+  out.frames = scene_frames(out.model, StateHistory(r.path));
+  out.scene = scene_json(out.model, out.frames, out.buffer);
+}
+
+// Halves of the stress per amplitude, and the largest over the frames, of a swept bar.
+TEST(Scene, StressOfVerticesIsThatOfTheirPlaces) {
+  Drawn d;
+  draw(recorded_machine, d);
+  int bodies = 0;
+  const SceneFrames& frames = d.frames;
+  std::size_t first = 0, columns = 0;
+  for (const Body& b : d.model.bodies) columns += static_cast<std::size_t>(b.modes());
+  for (std::size_t b = 0; b < d.model.bodies.size(); ++b) {
+    const FlexibleBody& data = *d.model.bodies[b].data;
+    const auto nm = static_cast<std::size_t>(data.modes());
+    const Json& stress = d.scene["bodies"][b]["stress"];
+    EXPECT_EQ(stress.is_null(), nm == 0);
+    if (nm == 0) continue;
+    ++bodies;
+    const auto halves = numbers_of<std::uint16_t>(d.buffer, stress["modes"], "f16");
+    const auto envelope = numbers_of<float>(d.buffer, stress["envelope"], "f32");
+    const auto when = numbers_of<float>(d.buffer, stress["when"], "f32");
+    const SceneStress expected = scene_stress(data);
+    ASSERT_EQ(expected.places.size(), envelope.size());
+    ASSERT_EQ(halves.size(), 6 * nm * envelope.size());
+    const double factor = stress["factor"].get<double>();
+    for (std::size_t v = 0; v < envelope.size(); v += 7) {
+      ASSERT_GE(expected.places[v], 0);
+      const Eigen::Index row = 6 * static_cast<Eigen::Index>(expected.places[v]);
+      double largest = 0.0, at = 0.0;
+      for (std::size_t f = 0; f < frames.time.size(); ++f) {
+        Vec6 s = Vec6::Zero();
+        for (std::size_t m = 0; m < nm; ++m)
+          s += data.stress->modes.block<6, 1>(row, static_cast<Eigen::Index>(m)) *
+               frames.amplitudes[f * columns + first + m];
+        if (von_mises(s) > largest) at = frames.time[f];
+        largest = std::max(largest, von_mises(s));
+      }
+      EXPECT_NEAR(envelope[v], largest, 1e-6 * largest);
+      EXPECT_NEAR(when[v], at, 1e-6 * (1.0 + at));
+      for (std::size_t m = 0; m < nm; ++m)
+        for (std::size_t c = 0; c < 6; ++c)
+          EXPECT_NEAR(
+              factor * from_half(halves[6 * (v * nm + m) + c]),
+              data.stress->modes(row + static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(m)),
+              1e-3 * data.stress->modes.cwiseAbs().maxCoeff());
+      // The place is of the section the vertex belongs to: not further than its size away.
+      const Vec3 p(
+          numbers_of<float>(d.buffer, d.scene["bodies"][b]["shape"]["vertices"], "f32")[3 * v], 0.0,
+          0.0);
+      EXPECT_NEAR(p(0), data.stress->places[expected.places[v]].p(0), 0.05);
+    }
+    first += nm;
+  }
+  EXPECT_GT(bodies, 0);
 }
 
 TEST(Scene, GeometryOfAFileIsDrawnInThePlaceOfTheBox) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "floatframe/body/body_shape.hpp"
+#include "floatframe/body/body_stress.hpp"
 
 namespace floatframe {
 namespace {
@@ -35,6 +36,9 @@ bool look_alike(const FlexibleBody& a, const FlexibleBody& b) {
   if (&a == &b) return true;
   if (a.modes() != b.modes() || (a.shape == nullptr) != (b.shape == nullptr)) return false;
   if (a.shape && a.shape != b.shape && !same_shape(*a.shape, *b.shape)) return false;
+  if ((a.stress == nullptr) != (b.stress == nullptr)) return false;
+  if (a.stress && a.stress != b.stress && !same_matrix(a.stress->modes, b.stress->modes))
+    return false;
   return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same_node);
 }
 

@@ -16,6 +16,7 @@
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/model/road.hpp"
 #include "floatframe/report/scene_mesh.hpp"
+#include "floatframe/report/scene_stress.hpp"
 
 namespace floatframe {
 namespace {
@@ -188,6 +189,7 @@ class SceneWriter {
     if (mine.json.is_null()) mine.bound = b.length;
     for (const Vec3& p : places_[index]) mine.bound = std::max(mine.bound, p.norm());
     out["shape"] = mine.json;
+    out["stress"] = stress(data, mine, first);
     out["bound"] = mine.bound;
     out["size"] = b.length;
     if (!frames_.known.empty() && !frames_.known[index]) out["recorded"] = false;
@@ -233,7 +235,34 @@ class SceneWriter {
   struct Shape {
     Json json;
     double bound = 0.0;
+    SceneStress stress;
+    Json stress_json;  ///< without the envelope, which is of one body
   };
+
+  /// Of bodies that look alike the same stress per amplitude, each with its own envelope.
+  Json stress(const FlexibleBody& data, const Shape& shape, std::size_t first) {
+    Json out = shape.stress_json;
+    if (out.is_null() || frames_.time.size() < 2 || !data.stress) return out;
+    std::size_t columns = 0;
+    for (const Body& b : model_.bodies) columns += static_cast<std::size_t>(b.modes());
+    const VertexEnvelope envelope = vertex_envelope(data, shape.stress, frames_, first, columns);
+    out["envelope"] =
+        buffer_.add(std::span<const float>(envelope.largest), {envelope.largest.size()});
+    out["when"] = buffer_.add(std::span<const float>(envelope.when), {envelope.when.size()});
+    return out;
+  }
+
+  void add_stress(const FlexibleBody& data, Shape& shape) {
+    shape.stress = scene_stress(data);
+    if (shape.stress.empty()) return;
+    const std::size_t vertices = shape.stress.places.size();
+    shape.stress_json = {
+        {"factor", shape.stress.factor},
+        {"modes", buffer_.add_half(shape.stress.modes,
+                                   {vertices, static_cast<std::size_t>(data.modes()), 6})},
+        {"doubtful", buffer_.add(std::span<const std::uint32_t>(shape.stress.doubtful),
+                                 {shape.stress.doubtful.size()})}};
+  }
 
   /// The views of bodies that are alike are the same.
   Shape shape(const FlexibleBody& data) {
@@ -260,16 +289,19 @@ class SceneWriter {
       j["nodes"] = buffer_.add(std::span<const std::uint32_t>(mesh.nodes), {vertices});
     j["generated"] = mesh.generated;
     if (!data.shape->color.empty()) j["color"] = data.shape->color;
+    add_stress(data, out);
     return out;
   }
 
   static Shape box(const FlexibleBody& data, const std::vector<Vec3>& places) {
     const SceneBox box = scene_box(data, places);
-    return {{{"kind", "box"},
-             {"size", triple(box.size)},
-             {"position", triple(box.position)},
-             {"quaternion", quaternion_json(box.axes)}},
-            box.position.norm() + 0.5 * box.size.norm()};
+    Shape out;
+    out.json = {{"kind", "box"},
+                {"size", triple(box.size)},
+                {"position", triple(box.position)},
+                {"quaternion", quaternion_json(box.axes)}};
+    out.bound = box.position.norm() + 0.5 * box.size.norm();
+    return out;
   }
 
   // -- roads, as far as wheels come

@@ -62,6 +62,18 @@ export interface FieldJson {
   history?: View | null;
 }
 
+/** Stress of the vertices of a mesh: `factor` [Pa] times halves. */
+export interface StressJson {
+  factor: number;
+  /** xx, yy, zz, xy, yz, zx per amplitude: f16 [V, m, 6]. */
+  modes: View;
+  /** Vertices that are not to be trusted: u16 or u32. */
+  doubtful?: View | null;
+  /** Largest von Mises stress over the run: f32 [V] [Pa], and when: f32 [V] [s]. */
+  envelope?: View | null;
+  when?: View | null;
+}
+
 export interface MeshJson {
   kind: 'mesh';
   vertices: View;
@@ -94,6 +106,7 @@ export interface BodyJson {
   bound?: number | null;
   size?: number | null;
   fields?: FieldJson[] | null;
+  stress?: StressJson | null;
   /** False: its states were not recorded. */
   recorded?: boolean | null;
   spiders?: { point: number; vertices: View }[] | null;

@@ -2,11 +2,27 @@
 
 import { PageBuffer, PageError } from './buffer';
 import { readVibrations, type VibrationData } from './vibrations';
-import type { BodyJson, FieldJson, ForceJson, JointJson, MeshJson, PageKind, PointJson, Quadruple, SceneJson, Triple } from './page';
+import type { BodyJson, FieldJson, ForceJson, JointJson, MeshJson, PageKind, PointJson, Quadruple, SceneJson, StressJson, Triple } from './page';
+import type { Quantity } from '../motion/stress';
+
+/** Stress of the vertices of a mesh. */
+export interface StressData {
+  /** MPa of one unit of `modes`. */
+  factor: number;
+  /** Half floats [V, m, 6]: xx, yy, zz, xy, yz, zx. */
+  modes: Uint16Array;
+  /** 1 where the stress is not to be trusted. */
+  doubtful: Uint8Array | null;
+  /** Largest von Mises stress over the run [MPa], and when [s]. */
+  envelope: Float32Array | null;
+  when: Float32Array | null;
+}
 
 export interface FieldData {
   name: string;
   unit: string;
+  /** Of a stress, in place of the others: what of it; `envelope`: its largest value over the run. */
+  stress?: { data: StressData; quantity: Quantity | 'envelope' } | null;
   modes: Uint16Array | null;
   base: Uint16Array | null;
   history: Uint16Array | null;
@@ -23,6 +39,7 @@ export interface MeshData {
   /** "#rrggbb" that the model file gives. */
   colour: string | null;
   fields: FieldData[];
+  stress: StressData | null;
 }
 
 export interface SolidData {
@@ -112,6 +129,32 @@ function readField(json: FieldJson, buffer: PageBuffer, vertices: number, modes:
   };
 }
 
+function readStress(json: StressJson, buffer: PageBuffer, vertices: number, modes: number, body: string): StressData {
+  const what = `${body}, stress`;
+  if (typeof json.factor !== 'number' || !Number.isFinite(json.factor)) throw new PageError(`${what}: its factor is no number.`);
+  let doubtful: Uint8Array | null = null;
+  if (json.doubtful) {
+    doubtful = new Uint8Array(vertices);
+    for (const v of buffer.read(json.doubtful, what, ['u16', 'u32'], [null])) if (v < vertices) doubtful[v] = 1;
+  }
+  const envelope = json.envelope ? (buffer.read(json.envelope, what, ['f32'], [vertices]) as Float32Array).map((pascal) => 1e-6 * pascal) : null;
+  return {
+    factor: 1e-6 * json.factor,
+    modes: buffer.read(json.modes, what, ['f16'], [vertices, modes, 6]) as Uint16Array,
+    doubtful,
+    envelope,
+    when: envelope && json.when ? (buffer.read(json.when, what, ['f32'], [vertices]) as Float32Array) : null,
+  };
+}
+
+/** What a surface can be coloured by. */
+function stressFields(data: StressData): FieldData[] {
+  const field = (name: string, quantity: Quantity | 'envelope'): FieldData => ({ name, unit: 'MPa', stress: { data, quantity }, modes: null, base: null, history: null });
+  const fields = [field('Von Mises stress', 'von_mises'), field('Principal stress 1', 'principal_1'), field('Principal stress 3', 'principal_3')];
+  if (data.envelope) fields.push(field('Von Mises stress, largest of the run', 'envelope'));
+  return fields;
+}
+
 function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: number, buffer: PageBuffer, report: Report): MeshData {
   const what = `Body "${body.name}"`;
   const vertices = buffer.read(json.vertices, `${what}, vertices`, ['f32'], [null, 3]) as Float32Array;
@@ -140,6 +183,7 @@ function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: num
     generated: json.generated === true,
     colour: typeof json.color === 'string' && /^#[0-9a-f]{6}$/i.test(json.color) ? json.color : null,
     fields: [],
+    stress: null,
   };
   if (json.displacements && modeCount > 0) {
     mesh.modes = optional(() => buffer.read(json.displacements!, `${what}, displacements`, ['f16'], [count, modeCount, 3]) as Uint16Array, 'The body is shown undeformed.');
@@ -147,6 +191,10 @@ function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: num
   for (const field of body.fields ?? []) {
     const read = optional(() => readField(field, buffer, count, modeCount, frames, body.name), 'The field is left out.');
     if (read) mesh.fields.push(read);
+  }
+  if (body.stress && modeCount > 0) {
+    mesh.stress = optional(() => readStress(body.stress!, buffer, count, modeCount, what), 'Its stress is left out.');
+    if (mesh.stress) mesh.fields.push(...stressFields(mesh.stress));
   }
   return mesh;
 }

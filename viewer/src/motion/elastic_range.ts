@@ -3,6 +3,7 @@
 import type { BodyData, FieldData, SceneData } from '../data/scene_data';
 import { halfTable } from '../data/half';
 import { elastic } from './motion';
+import { quantityOf, stressAt, vonMises } from './stress';
 
 const SAMPLED_VERTICES = 48;
 const SAMPLED_FRAMES = 400;
@@ -99,6 +100,10 @@ export function largestOfModes(body: BodyData): Float32Array {
 /** Value of a field at a vertex and a frame (fields of modes: with the amplitudes at `at`). */
 export function fieldValue(body: BodyData, field: FieldData, vertex: number, amplitudes: ArrayLike<number>, at: number, frame: number): number {
   const half = halfTable();
+  if (field.stress) {
+    const { data, quantity } = field.stress;
+    return quantity === 'envelope' ? data.envelope![vertex] : quantityOf(quantity, stressAt(body, data, vertex, amplitudes, at));
+  }
   if (field.history) return half[field.history[frame * (body.mesh!.vertices.length / 3) + vertex]];
   let value = field.base ? half[field.base[vertex]] : 0;
   if (!field.modes) return value;
@@ -117,7 +122,27 @@ export function fieldRange(scene: SceneData, body: BodyData, field: FieldData): 
     if (value < min) min = value;
     if (value > max) max = value;
   };
-  if (field.history) {
+  if (field.stress) {
+    const { data, quantity } = field.stress;
+    const trusted = (v: number): boolean => !data.doubtful?.[v];
+    if (quantity === 'envelope') {
+      for (let v = 0; v < count; ++v) if (trusted(v)) take(data.envelope![v]);
+      return min <= max ? [0, max] : null;
+    }
+    const most = largestAmplitudes(scene, body);
+    const bounds = new Float32Array(count);
+    const one = new Float64Array(body.modeCount);
+    for (let j = 0; j < body.modeCount; ++j) {
+      one.fill(0);
+      one[j] = most[j];
+      for (let v = 0; v < count; ++v) if (trusted(v)) bounds[v] += vonMises(stressAt(body, data, v, one, 0));
+    }
+    const looked = scene.amplitudes ? frames(scene) : [];
+    const few = candidates(bounds, SAMPLED_VERTICES);
+    for (const f of looked) for (const v of few) if (trusted(v)) take(fieldValue(body, field, v, scene.amplitudes!, f * scene.amplitudeCount + body.firstMode, f));
+    if (min > max) return null;
+    return quantity === 'von_mises' ? [0, max] : [min, max];
+  } else if (field.history) {
     for (const bits of field.history) take(half[bits]);
   } else if (field.modes) {
     const most = largestAmplitudes(scene, body);

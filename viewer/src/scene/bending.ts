@@ -53,6 +53,22 @@ function halfTexture(values: Uint16Array, parts: 1 | 3): DataTexture {
   return texture(data, width, height, RGBAFormat);
 }
 
+/** Half floats in pairs of texels, six numbers given for each pair. */
+function tensorTexture(values: Uint16Array): DataTexture {
+  const texels = values.length / 3;
+  const width = Math.min(WIDTH, Math.max(1, texels));
+  const data = new Uint16Array(4 * width * Math.max(1, Math.ceil(texels / WIDTH)));
+  for (let i = 0; i < texels; ++i) data.set(values.subarray(3 * i, 3 * i + 3), 4 * i);
+  return texture(data, width, data.length / (4 * width), RGBAFormat);
+}
+
+function floatTexture(values: Float32Array): DataTexture {
+  const width = Math.min(WIDTH, Math.max(1, values.length));
+  const data = new Float32Array(width * Math.max(1, Math.ceil(values.length / WIDTH)));
+  data.set(values);
+  return texture(data, width, data.length / width, RedFormat);
+}
+
 export class Amplitudes {
   readonly texture: DataTexture;
   private readonly data: Float32Array;
@@ -96,6 +112,7 @@ uniform int firstMode;
 uniform int vertexCount;
 uniform int scalarKind;
 uniform vec2 fieldFrame;
+uniform float fieldFactor;
 uniform float deformation;
 uniform int stillMode;
 uniform mat4 away;
@@ -107,6 +124,21 @@ float amplitudeAt(int i) {
 }
 float amplitude(int j) { return amplitudeAt(firstMode + j); }
 ivec2 texel(int i) { return ivec2(i & ${WIDTH - 1}, i >> ${WIDTH_BITS}); }
+// Of xx, yy, zz and xy, yz, zx; motion/stress.ts has the same.
+float vonMises(vec3 n, vec3 t) {
+  vec3 d = n - n.yzx;
+  return sqrt(0.5 * dot(d, d) + 3.0 * dot(t, t));
+}
+float principal(vec3 n, vec3 t, float turn) {
+  float mean = (n.x + n.y + n.z) / 3.0;
+  vec3 d = n - mean;
+  float p = sqrt((dot(d, d) + 2.0 * dot(t, t)) / 6.0);
+  if (!(p > 0.0)) return mean;
+  d /= p;
+  vec3 e = t / p;
+  float determinant = d.x * (d.y * d.z - e.y * e.y) - e.x * (e.x * d.z - e.y * e.z) + e.z * (e.x * e.y - d.y * e.z);
+  return mean + 2.0 * p * cos(acos(clamp(0.5 * determinant, -1.0, 1.0)) / 3.0 + turn);
+}
 `;
 
 const VERTEX_BEGIN = `
@@ -131,6 +163,15 @@ vec3 transformed = position;
     vec3 still = position;
     for (int j = 0; j < modeCount; ++j) still += amplitudeAt(stillMode + j) * texelFetch(modeTexture, texel(first + j), 0).xyz;
     scalarValue = length((away * vec4(transformed, 1.0)).xyz - still) / max(swing, 1e-30);
+  } else if (scalarKind >= 5 && scalarKind <= 7) {
+    vec3 n = vec3(0.0), t = vec3(0.0);
+    for (int j = 0; j < modeCount; ++j) {
+      n += amplitude(j) * texelFetch(fieldTexture, texel(2 * (first + j)), 0).xyz;
+      t += amplitude(j) * texelFetch(fieldTexture, texel(2 * (first + j) + 1), 0).xyz;
+    }
+    scalarValue = fieldFactor * (scalarKind == 5 ? vonMises(n, t) : principal(n, t, scalarKind == 6 ? 0.0 : 2.0943951023931953));
+  } else if (scalarKind == 8) {
+    scalarValue = texelFetch(fieldTexture, texel(vertex), 0).r;
   }
 }
 `;
@@ -175,6 +216,7 @@ export class Bending {
   readonly stillLines: LineBasicMaterial | null = null;
   private readonly fields = new Map<FieldData, Texture>();
   private readonly bases = new Map<FieldData, Texture>();
+  private readonly stresses = new Map<Uint16Array | Float32Array, Texture>();
 
   /** `still`: where the amplitudes at rest begin, of a model that swings. */
   constructor(body: BodyData, mesh: MeshData, shared: SharedUniforms, colour: string, still: number | null) {
@@ -189,6 +231,7 @@ export class Bending {
       scalarKind: { value: 0 },
       scalarRange: { value: [0, 1] },
       fieldFrame: { value: [0, 0] },
+      fieldFactor: { value: 1 },
       deformation: shared.deformation,
       colourMap: shared.colourMap,
       stillMode: { value: (still ?? 0) + body.firstMode },
@@ -214,7 +257,15 @@ export class Bending {
     this.uniforms.scalarRange.value = range;
     if (field === undefined) this.uniforms.scalarKind.value = 0;
     else if (field === null) this.uniforms.scalarKind.value = this.displacement;
-    else {
+    else if (field.stress) {
+      const { data, quantity } = field.stress;
+      // The tensor is one texture for all that is made of it.
+      const key = quantity === 'envelope' ? data.envelope! : data.modes;
+      if (!this.stresses.has(key)) this.stresses.set(key, quantity === 'envelope' ? floatTexture(data.envelope!) : tensorTexture(data.modes));
+      this.uniforms.fieldTexture.value = this.stresses.get(key)!;
+      this.uniforms.fieldFactor.value = data.factor;
+      this.uniforms.scalarKind.value = { von_mises: 5, principal_1: 6, principal_3: 7, envelope: 8 }[quantity];
+    } else {
       if (!this.fields.has(field)) {
         this.fields.set(field, halfTexture((field.modes ?? field.history)!, 1));
         this.bases.set(field, field.base ? halfTexture(field.base, 1) : halfTexture(new Uint16Array(this.uniforms.vertexCount.value), 1));

@@ -2,6 +2,7 @@
 
 import type { SceneData } from '../data/scene_data';
 import { fieldRange, largestDisplacement } from '../motion/elastic_range';
+import { largestStressOfModes } from '../motion/stress';
 import type { MapName } from '../scene/palette';
 import type { ColourChoice } from '../scene/stage';
 
@@ -16,6 +17,7 @@ export class Colours {
   readonly scalars: Scalar[] = [];
   map: MapName = 'viridis';
   private readonly scene: SceneData;
+  private readonly modes = new Map<number, Float64Array>();
   private readonly ranges = new Map<string | null, [number, number]>();
   /** Largest displacement of each body. */
   readonly largest: Float64Array;
@@ -45,7 +47,21 @@ export class Colours {
     this.ranges.set(field, range);
   }
 
-  private range(field: string | null): [number, number] {
+  /** Of the mode that swings: a stress is shown in parts of its largest. */
+  setMode(body: number, mode: number, amplitude: number): void {
+    const stress = this.scene.bodies[body].mesh?.stress;
+    if (!stress) return;
+    if (!this.modes.has(body)) this.modes.set(body, largestStressOfModes(this.scene.bodies[body], stress));
+    const most = Math.max(1e-30, amplitude * this.modes.get(body)![mode]);
+    for (const { name, stress: of } of this.scene.bodies[body].mesh!.fields) if (of) this.ranges.set(name, of.quantity === 'von_mises' ? [0, most] : [-most, most]);
+  }
+
+  /** A stress of a mode has no size of its own. */
+  isStress(field: string | null | undefined): boolean {
+    return this.scene.bodies.some((body) => body.mesh?.fields.some((candidate) => candidate.name === field && candidate.stress));
+  }
+
+  range(field: string | null): [number, number] {
     const known = this.ranges.get(field);
     if (known) return known;
     let low = Infinity;

@@ -20,6 +20,9 @@ export class Display {
   private follow: HTMLSelectElement | null = null;
   readonly slider: HTMLInputElement;
   private readonly sliderText = h('output', {});
+  private readonly low = h('input', { type: 'number', step: 'any', class: 'field', 'aria-label': 'Lower end of the scale' });
+  private readonly high = h('input', { type: 'number', step: 'any', class: 'field', 'aria-label': 'Upper end of the scale' });
+  private readonly limits = h('div', { class: 'row limits', hidden: true }, this.low, h('span', {}, 'to'), this.high);
 
   constructor(stage: Stage, colours: Colours, legend: Legend) {
     this.stage = stage;
@@ -56,7 +59,8 @@ export class Display {
   apply(): void {
     const choice = this.colours.choice(this.field);
     this.stage.setColour(choice);
-    this.legend.show(choice, this.colours.unit(this.field), this.relative && this.field === null);
+    this.legend.show(choice, this.colours.unit(this.field), this.relative && (this.field === null || this.colours.isStress(this.field)));
+    this.showLimits();
   }
 
   setFollow(body: number): void {
@@ -81,7 +85,24 @@ export class Display {
       this.colours.map = map.value as MapName;
       this.apply();
     });
-    this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Colour'), h('div', { class: 'row' }, select, map)));
+    this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Colour'), h('div', { class: 'row' }, select, map), this.relative ? null : this.limits));
+    for (const [k, input] of [this.low, this.high].entries()) {
+      input.addEventListener('change', () => {
+        const range = this.colours.choice(this.field).range.slice() as [number, number];
+        range[k] = Number(input.value);
+        if (input.value !== '' && Number.isFinite(range[k]) && range[0] < range[1]) this.colours.setRange(this.field!, range);
+        this.apply();
+      });
+    }
+  }
+
+  /** Limits of the scale can be typed, of what has a scale in its own unit. */
+  private showLimits(): void {
+    this.limits.hidden = typeof this.field !== 'string';
+    if (this.limits.hidden) return;
+    const [low, high] = this.colours.choice(this.field).range;
+    this.low.value = String(Number(low.toPrecision(4)));
+    this.high.value = String(Number(high.toPrecision(4)));
   }
 
   private addFollow(scene: SceneData): void {

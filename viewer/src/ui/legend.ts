@@ -29,11 +29,12 @@ export class Legend {
       factor = length.factor;
       name = length.name;
     }
-    const what = choice.field === null ? (relative ? 'Displacement of the mode, relative' : 'Elastic displacement') : choice.field;
+    const signed = relative && low < 0;
+    const what = choice.field !== null && relative ? `${choice.field} of the mode, relative` : choice.field === null ? (relative ? 'Displacement of the mode, relative' : 'Elastic displacement') : choice.field;
     this.text = name ? `${what} [${name}]` : what;
     this.title.textContent = this.text;
     this.bar.style.background = mapCss(choice.map);
-    const values = relative ? [0, 0.5, 1] : [low, (low + high) / 2, high].map((v) => v * factor);
+    const values = relative ? (signed ? [-1, 0, 1] : [0, 0.5, 1]) : [low, (low + high) / 2, high].map((v) => v * factor);
     this.map = choice.map;
     this.values = values.map((v) => formatNumber(v, 3));
     this.ticks.replaceChildren(...this.values.map((text) => h('span', {}, text)));

@@ -17,6 +17,8 @@ export class ModeList {
   private readonly player: Player;
   private readonly rows: { element: HTMLElement; body: number; mode: number; amplitude: number }[] = [];
   chosen = 0;
+  /** Told which mode of which body swings, and its amplitude. */
+  onChoice: (body: number, mode: number, amplitude: number) => void = () => {};
 
   constructor(stage: Stage, player: Player) {
     this.stage = stage;
@@ -59,6 +61,8 @@ export class ModeList {
   choose(row: number): void {
     this.chosen = row;
     this.rows.forEach(({ element }, k) => element.setAttribute('aria-pressed', String(k === row)));
+    const { body, mode, amplitude } = this.rows[row];
+    this.onChoice(body, mode, amplitude);
     this.stage.go(this.player.time);
   }
 

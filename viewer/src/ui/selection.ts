@@ -5,6 +5,7 @@ import { formatLength, formatNumber, lengthUnit } from '../data/format';
 import type { BodyData, SceneData } from '../data/scene_data';
 import { rangeOf } from '../data/series';
 import { elastic, Motion } from '../motion/motion';
+import { stressAt, vonMises } from '../motion/stress';
 import type { Stage } from '../scene/stage';
 import { h } from './dom';
 import type { Hub } from './hub';
@@ -81,6 +82,12 @@ export class Selection {
       const part = body.size > 0 ? `, ${formatNumber((100 * this.largest[index]) / body.size, 2)} % of its size` : '';
       rows.push(row('largest displacement', `${formatLength(this.largest[index])}${part}`));
     }
+    const stress = vertex !== null ? body.mesh?.stress : null;
+    if (stress?.envelope && vertex !== null) {
+      const when = stress.when ? ` at ${formatNumber(stress.when[vertex], 4)} s` : '';
+      rows.push(row('largest von Mises stress', `${formatNumber(stress.envelope[vertex], 4)} MPa${when}`));
+    }
+    if (stress?.doubtful?.[vertex!]) rows.push(row('stress', 'not to be trusted: next to a rigid spider'));
     this.element.append(h('h3', {}, title), h('table', { class: 'pairs' }, h('tbody', {}, ...rows)));
     this.addHistory(body, vertex);
     if (body.modeCount > 0) this.element.append(this.modesOf(body));
@@ -106,6 +113,11 @@ export class Selection {
     if (displacement) {
       const unit = lengthUnit(displacement.reduce((a, b) => Math.max(a, b), 0));
       add('Elastic displacement', unit.name, [channel('displacement', 'magnitude', unit.name, scene.time, displacement.map((v) => v * unit.factor))]);
+    }
+    const stress = vertex !== null ? body.mesh?.stress : null;
+    if (stress && scene.amplitudes) {
+      const values = Float64Array.from(scene.time, (_, f) => vonMises(stressAt(body, stress, vertex!, scene.amplitudes!, f * scene.amplitudeCount + body.firstMode)));
+      add('Von Mises stress', 'MPa', [channel('von Mises stress', 'von Mises', 'MPa', scene.time, values)]);
     }
     // Each axis its own picture where the ranges differ much.
     const spans = position.map((p) => (rangeOf(p) ?? { min: 0, max: 0 })).map((r) => r.max - r.min);

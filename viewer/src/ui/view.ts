@@ -67,6 +67,13 @@ export class ViewSection {
     this.stage.setTheme(isDark());
     onTheme((dark) => this.stage.setTheme(dark));
     this.display = new Display(this.stage, colours, this.legend);
+    if (this.modes instanceof ModeList) {
+      this.modes.onChoice = (body, mode, amplitude) => {
+        colours.setMode(body, mode, amplitude);
+        this.display.apply();
+      };
+      this.modes.choose(this.modes.chosen);
+    }
     this.bodies = new BodyList(this.stage, (body) => this.choose(body, null, true));
     for (const body of scene.bodies) if (!body.recorded) this.bodies.set(body.index, false);
     this.selection = new Selection(this.stage, hub, colours.largest);

@@ -99,7 +99,16 @@ export function armMesh(): ReturnType<typeof tubeMesh> {
   return tubeMesh(ARM, 0.035, 20, 24);
 }
 
-export function vehicle(options: { hostile?: boolean; frames?: number } = {}): { page: PageJson; writer: BufferWriter } {
+/** Pa of one unit of the stress that is written. */
+export const STRESS_UNIT = 2e6;
+
+/** Units of stress of mode j at a place of an arm, amplitude one. */
+export function stressOf(x: number, y: number, z: number, j: number): number[] {
+  const bending = (1 - x / ARM) * 900 * (j + 1) * z * 30;
+  return [bending, 0.2 * bending, 0, 400 * y * (j + 2), 0, 100 * z];
+}
+
+export function vehicle(options: { hostile?: boolean; frames?: number; uniform?: number[] } = {}): { page: PageJson; writer: BufferWriter } {
   const writer = new BufferWriter();
   const frames = options.frames ?? FRAMES;
   const time = Array.from({ length: frames }, (_, k) => k * STEP);
@@ -129,6 +138,10 @@ export function vehicle(options: { hostile?: boolean; frames?: number } = {}): {
   const shapes = displacements(mesh, ARM, MODES);
   const tip = Array.from({ length: MODES }, (_, j) => modeShape(j, ARM, ARM, 0, 0));
   const strain = Array.from({ length: count }, (_, v) => Array.from({ length: MODES }, (_, j) => (1 - mesh.vertices[3 * v] / ARM) * 2100 * (j + 1) * mesh.vertices[3 * v + 2] * 30)).flat();
+  // A bar that bends and twists: xx and xy of each mode.
+  const tensor = Array.from({ length: count }, (_, v) =>
+    Array.from({ length: MODES }, (_, j) => options.uniform ? options.uniform.map((s) => (j === 0 ? s : 0)) : stressOf(mesh.vertices[3 * v], mesh.vertices[3 * v + 1], mesh.vertices[3 * v + 2], j)).flat(),
+  ).flat();
   names.forEach((name, k) => {
     bodies.push({
       name: `${name}_arm`,
@@ -143,6 +156,13 @@ export function vehicle(options: { hostile?: boolean; frames?: number } = {}): {
         nodes: writer.view('u32', Array.from({ length: count }, (_, v) => 1001 + v)),
       },
       fields: [{ name: 'Axial stress', unit: 'MPa', modes: writer.view('f16', strain, [count, MODES]) }],
+      stress: {
+        factor: STRESS_UNIT,
+        modes: writer.view('f16', tensor, [count, MODES, 6]),
+        doubtful: writer.view('u32', [0, 1]),
+        envelope: writer.view('f32', Array.from({ length: count }, (_, v) => 1e6 * (v + 1)), [count]),
+        when: writer.view('f32', Array.from({ length: count }, (_, v) => 0.01 * v), [count]),
+      },
       bound: ARM,
       size: ARM,
     });

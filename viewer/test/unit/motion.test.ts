@@ -2,13 +2,14 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { PageBuffer } from '../../src/data/buffer';
 import { readScene, type SceneData } from '../../src/data/scene_data';
-import { largestDisplacement, largestOfModes } from '../../src/motion/elastic_range';
+import { fieldRange, largestDisplacement, largestOfModes } from '../../src/motion/elastic_range';
 import { elastic, Motion } from '../../src/motion/motion';
 import { Player } from '../../src/motion/player';
 import { rotate, slerp } from '../../src/motion/rotation';
+import { principals, stressAt, vonMises } from '../../src/motion/stress';
 import { buildSurface } from '../../src/scene/surface';
 import { beamMesh, modeShape } from '../pages/shapes';
-import { ARM, armMesh, motionAt, STEP, vehicle } from '../pages/vehicle';
+import { ARM, armMesh, motionAt, STEP, STRESS_UNIT, stressOf, vehicle } from '../pages/vehicle';
 
 function scene(frames?: number): SceneData {
   const { page, writer } = vehicle({ frames });
@@ -87,7 +88,7 @@ test('surfaces: sharp edges are doubled, round ones are not', () => {
     if (!place.has(key)) place.set(key, vertices.push(...p) / 3 - 1);
     return place.get(key)!;
   });
-  const mesh = { vertices: Float32Array.from(vertices), triangles: Uint32Array.from(index), normals: null, modes: null, nodes: null, generated: false, colour: null, fields: [] };
+  const mesh = { vertices: Float32Array.from(vertices), triangles: Uint32Array.from(index), normals: null, modes: null, nodes: null, generated: false, colour: null, fields: [], stress: null };
   const surface = buildSurface(mesh);
   assert.equal(vertices.length / 3, 26);
   assert.equal(surface.geometry.getAttribute('position').count, 6 * 9);
@@ -139,4 +140,49 @@ test('the player: steps, ends, loop and speeds', () => {
   assert.equal(player.speed, 0.01);
   player.set(NaN);
   assert.equal(player.time, 0.5);
+});
+
+test('stress: principal values solve the characteristic equation, von Mises follows from them', () => {
+  let seed = 1;
+  const random = (): number => ((seed = (16807 * seed) % 2147483647) / 2147483647) * 2 - 1;
+  const cases = [...Array.from({ length: 100 }, () => Array.from({ length: 6 }, () => 300 * random())), [0, 0, 0, 0, 0, 0], [1, 1, 1, 0, 0, 0], [2, 1, 1, 0, 0, 0], [0, 0, 0, 5, 0, 0], [7, 7, -3, 0, 0, 0]];
+  for (const [xx, yy, zz, xy, yz, zx] of cases) {
+    const s = [xx, yy, zz, xy, yz, zx];
+    const size = Math.max(1e-30, Math.hypot(...s));
+    const [first, third] = principals(s);
+    const second = xx + yy + zz - first - third;
+    assert.ok(first >= second - 1e-6 * size && second >= third - 1e-6 * size);
+    const squares = xx * xx + yy * yy + zz * zz + 2 * (xy * xy + yz * yz + zx * zx);
+    assert.ok(Math.abs(first * first + second * second + third * third - squares) <= 1e-6 * size * size);
+    const determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
+    assert.ok(Math.abs(first * second * third - determinant) <= 1e-6 * size ** 3);
+    const expected = Math.sqrt(0.5 * ((first - second) ** 2 + (second - third) ** 2 + (third - first) ** 2));
+    assert.ok(Math.abs(vonMises(s) - expected) <= 1e-6 * size);
+  }
+});
+
+test('stress: of a vertex in MPa, and its range over the run without doubtful vertices', () => {
+  const data = scene();
+  const body = data.bodies.find((candidate) => candidate.mesh?.stress)!;
+  const stress = body.mesh!.stress!;
+  const mesh = armMesh();
+  const frame = Math.floor(data.time.length / 2);
+  const at = frame * data.amplitudeCount + body.firstMode;
+  for (const v of [5, 40, mesh.vertices.length / 3 - 1]) {
+    const expected = [0, 0, 0, 0, 0, 0];
+    for (let j = 0; j < body.modeCount; ++j) {
+      stressOf(mesh.vertices[3 * v], mesh.vertices[3 * v + 1], mesh.vertices[3 * v + 2], j).forEach((s, c) => (expected[c] += 1e-6 * STRESS_UNIT * s * data.amplitudes![at + j]));
+    }
+    const found = stressAt(body, stress, v, data.amplitudes!, at);
+    found.forEach((s, c) => assert.ok(Math.abs(s - expected[c]) < 2e-3 * Math.hypot(...expected) + 1e-9));
+  }
+  // Against all vertices and frames.
+  const field = body.mesh!.fields.find((candidate) => candidate.stress?.quantity === 'von_mises')!;
+  const range = fieldRange(data, body, field)!;
+  let largest = 0;
+  for (let f = 0; f < data.time.length; ++f) for (let v = 2; v < mesh.vertices.length / 3; ++v) largest = Math.max(largest, vonMises(stressAt(body, stress, v, data.amplitudes!, f * data.amplitudeCount + body.firstMode)));
+  assert.equal(range[0], 0);
+  assert.ok(Math.abs(range[1] - largest) <= 0.02 * largest, `${range[1]} of ${largest}`);
+  const envelope = body.mesh!.fields.find((candidate) => candidate.stress?.quantity === 'envelope')!;
+  assert.deepEqual(fieldRange(data, body, envelope), [0, mesh.vertices.length / 3]);
 });

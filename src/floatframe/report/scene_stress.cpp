@@ -1,0 +1,125 @@
+#include "floatframe/report/scene_stress.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "floatframe/body/body_stress.hpp"
+#include "floatframe/body/surface_mesh.hpp"
+#include "floatframe/model/gauge.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Frames that are multiplied at once.
+constexpr Eigen::Index block_of_frames = 64;
+
+/// Places that may show at each vertex.
+std::vector<std::vector<int>> places_at(const BodyStress& stress, const SurfaceMesh& mesh) {
+  std::vector<std::vector<int>> out(static_cast<std::size_t>(mesh.positions.cols()));
+  if (mesh.bar_ends.empty()) {
+    for (std::size_t k = 0; k < stress.places.size(); ++k) {
+      const int point = stress.places[k].point;
+      if (point >= 0 && point < static_cast<int>(out.size()))
+        out[point].push_back(static_cast<int>(k));
+    }
+    return out;
+  }
+  // Of a swept section the nearest outer point of that end.
+  for (std::size_t v = 0; v < mesh.bar_ends.size(); ++v) {
+    const std::size_t section = 2 * static_cast<std::size_t>(mesh.bar_ends[v].bar) +
+                                static_cast<std::size_t>(mesh.bar_ends[v].end);
+    if (section + 1 >= stress.first_place.size()) continue;
+    double least = std::numeric_limits<double>::infinity();
+    int nearest = -1;
+    for (int k = stress.first_place[section]; k < stress.first_place[section + 1]; ++k) {
+      const double away =
+          (stress.places[k].p - mesh.positions.col(static_cast<Eigen::Index>(v))).squaredNorm();
+      if (away < least) nearest = k;
+      least = std::min(least, away);
+    }
+    if (nearest >= 0) out[v].push_back(nearest);
+  }
+  return out;
+}
+
+/// Sum of the von Mises stresses of the modes, each of unit strain energy.
+double load_of(const BodyStress& stress, const VecX& unit, int place) {
+  double sum = 0.0;
+  for (Eigen::Index m = 0; m < stress.modes.cols(); ++m)
+    sum += unit[m] * von_mises(stress.modes.block<6, 1>(6 * static_cast<Eigen::Index>(place), m));
+  return sum;
+}
+
+}  // namespace
+
+SceneStress scene_stress(const FlexibleBody& body) {
+  SceneStress out;
+  if (!body.stress || body.modes() == 0 || body.stress->places.empty()) return out;
+  const BodyStress& stress = *body.stress;
+  const SurfaceMesh mesh = surface_mesh(body);
+  const auto vertices = static_cast<std::size_t>(mesh.positions.cols());
+  const auto nm = static_cast<std::size_t>(body.modes());
+  if (vertices == 0 || 6 * vertices * nm > most_numbers_of_stress) return out;
+  const VecX unit =
+      body.K.diagonal().unaryExpr([](double k) { return k > 0.0 ? 1.0 / std::sqrt(k) : 0.0; });
+  std::size_t known = 0;
+  for (const std::vector<int>& here : places_at(stress, mesh)) {
+    int shown = -1;
+    double most = -1.0;
+    for (const int place : here) {
+      const double load = here.size() > 1 ? load_of(stress, unit, place) : 0.0;
+      if (load > most) shown = place;
+      most = std::max(most, load);
+    }
+    if (shown >= 0) ++known;
+    if (shown < 0 || stress.places[shown].doubtful)
+      out.doubtful.push_back(static_cast<std::uint32_t>(out.places.size()));
+    out.places.push_back(shown);
+  }
+  if (known == 0) return {};
+  // Halves go from 6e-5 to 6e4: the largest stays well below.
+  const double largest = stress.modes.cwiseAbs().maxCoeff();
+  out.factor = largest > 0.0 ? largest / 1e4 : 1.0;
+  out.modes.assign(6 * vertices * nm, 0.0F);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (out.places[v] < 0) continue;
+    const Eigen::Index row = 6 * static_cast<Eigen::Index>(out.places[v]);
+    for (std::size_t m = 0; m < nm; ++m)
+      for (std::size_t c = 0; c < 6; ++c)
+        out.modes[6 * (v * nm + m) + c] = static_cast<float>(
+            stress.modes(row + static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(m)) /
+            out.factor);
+  }
+  return out;
+}
+
+VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stress,
+                               const SceneFrames& frames, std::size_t first, std::size_t columns) {
+  const std::size_t vertices = stress.places.size();
+  const auto nm = static_cast<Eigen::Index>(body.modes());
+  const auto count = static_cast<Eigen::Index>(frames.time.size());
+  VertexEnvelope out{std::vector<float>(vertices, 0.0F), std::vector<float>(vertices, 0.0F)};
+  for (Eigen::Index from = 0; from < count; from += block_of_frames) {
+    const Eigen::Index n = std::min(block_of_frames, count - from);
+    MatX y(nm, n);
+    for (Eigen::Index f = 0; f < n; ++f)
+      for (Eigen::Index m = 0; m < nm; ++m)
+        y(m, f) = frames.amplitudes[static_cast<std::size_t>(from + f) * columns + first +
+                                    static_cast<std::size_t>(m)];
+    const MatX values = body.stress->modes * y;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      if (stress.places[v] < 0) continue;
+      for (Eigen::Index f = 0; f < n; ++f) {
+        const auto s = static_cast<float>(
+            von_mises(values.block<6, 1>(6 * static_cast<Eigen::Index>(stress.places[v]), f)));
+        if (!(s > out.largest[v])) continue;
+        out.largest[v] = s;
+        out.when[v] = static_cast<float>(frames.time[static_cast<std::size_t>(from + f)]);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace floatframe
