@@ -137,7 +137,7 @@ export function fieldRange(scene: SceneData, body: BodyData, field: FieldData): 
       one[j] = most[j];
       for (let v = 0; v < count; ++v) if (trusted(v)) bounds[v] += vonMises(stressAt(body, data, v, one, 0));
     }
-    const looked = scene.amplitudes ? frames(scene) : [];
+    const looked = scene.amplitudes ? boldestFrames(scene, body) : [];
     const few = candidates(bounds, SAMPLED_VERTICES);
     for (const f of looked) for (const v of few) if (trusted(v)) take(fieldValue(body, field, v, scene.amplitudes!, f * scene.amplitudeCount + body.firstMode, f));
     if (min > max) return null;

@@ -28,7 +28,7 @@ export class Colours {
     const swings = scene.vibrations.length > 0;
     const flexible = scene.bodies.filter((body) => body.mesh?.modes);
     if (swings ? scene.bodies.some((body) => body.mesh) : flexible.length > 0) this.scalars.push({ field: null, label: swings ? 'Displacement' : 'Elastic displacement', unit: 'm' });
-    for (const body of scene.bodies) {
+    for (const body of swings ? [] : scene.bodies) {
       for (const field of body.mesh?.fields ?? []) {
         if (!this.scalars.some((scalar) => scalar.field === field.name)) this.scalars.push({ field: field.name, label: field.name, unit: field.unit });
       }
