@@ -34,6 +34,8 @@ floatframe: 1
 gravity: [0, 0, -20]
 bodies:
   strip:
+    position: [1, 2, 3]
+    orientation: [0, 0, 0.7]
     part:
       file: strip.inp
       units: m-kg-s
@@ -41,7 +43,7 @@ bodies:
       reference: {node: ROOT}
       modes: 4
 joints:
-  drive: {type: revolute, child: strip, child_node: ROOT, at: [0, 0, 0], axis: z, motion: {polynomial: [0.3, 5]}}
+  drive: {type: revolute, child: strip, child_node: ROOT, at: [1, 2, 3], axis: z, motion: {polynomial: [0.3, 5]}}
 simulation: {step: 1.0e-3, duration: 0.02}
 """
 
@@ -254,6 +256,15 @@ class Export(RunCase):
                     ((0, 0, 1), (1, 1, 1), (2, 2, 1), (0, 1, 2), (1, 2, 2), (2, 0, 2))))
                 self.assertLess(abs(normal - s[1]), 1e-5 * von_mises(s))
             self.assertLessEqual({"top", "section"}, worst_layers)
+        # Displacement is from the design, which is turned.
+        design = (1 + 0.5 * math.cos(0.7), 2 + 0.5 * math.sin(0.7), 3)
+        tips = [row[1:] for row in self.outputs("tip: {position: {body: strip, node: TIP}}")]
+        tip = arrays["strip/nodes"].values.index("TIP")
+        for frame in (0, 20):
+            moved = [a - b for a, b in zip(tips[frame], design)]
+            self.assertLess(distance(arrays["strip/node_displacements"].row(frame, tip), moved), 1e-12)
+            grid = read_vtu(self.folder / f"v/motion_{frame:06}.vtu")
+            self.assertLess(distance(grid["point"]["displacement"][node_points(grid, "strip")["TIP"]], moved), 1e-12)
         # The numbers are those of gauges in the model: six components, then five scalars.
         numbers, chosen = arrays["strip/stress_numbers"].values, []
         for number, layer in ((5, "top"), (5, "bottom"), (10, "top"), (26, "bottom"), (20, "top")):
