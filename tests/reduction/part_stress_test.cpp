@@ -11,6 +11,7 @@
 #include "floatframe/model/gauge.hpp"
 #include "reduction/part_beam.hpp"
 #include "support/arm_statics.hpp"
+#include "support/quadratic_mesh.hpp"
 #include "support/stressed_part.hpp"
 
 namespace floatframe::test {
@@ -132,6 +133,52 @@ TEST(PartStress, LoadsOfTheArm) {
   for (const StressPlace& place : arm.stress().places) doubtful += place.doubtful;
   EXPECT_GT(doubtful, 100u);
   EXPECT_LT(doubtful, arm.stress().places.size() / 2);
+}
+
+/// A brick beam 0.6 m x 30 x 30 mm of quadratic elements that follows its end A.
+ReducedPart held_beam(bool tets) {
+  const FeModel bricks = brick_beam(20, 2, 2, 0.6, 0.03);
+  PartOptions options;
+  options.interfaces = {bore("A"), bore("B")};
+  options.modes = 5;
+  options.check_free_modes = false;
+  options.reference = {BodyReference::Kind::node, "A"};
+  return reduce_part(tets ? tets_of(bricks, true) : hex20_of(bricks), options);
+}
+
+// Away from the ends: M z / I under a force at the tip, rho W^2 (L^2 - x^2) / 2 of a beam that
+// turns about its root.
+TEST(PartStress, BeamsOfSolids) {
+  for (const bool tets : {true, false}) {
+    const ReducedPart part = held_beam(tets);
+    const FlexibleBody& body = part.body;
+    const BodyStress& stress = *body.stress;
+    const double L = 0.6, a = 0.03, I = a * a * a * a / 12.0, W = 150.0;
+    const Vec3 force(0.0, 0.0, 200.0);
+    const VecX y = ldlt_solve(body.K, MatX(body.nodes[1].X.transpose() * force)).col(0);
+    VecX c = VecX::Zero(body_load_cases + body.modes());
+    c(3) = c(7) = W * W;  // -skew(w)^2 about z
+    VecX f = body.invariants.Si[0].row(0).transpose() * c(3);
+    f += body.invariants.Si[1].row(1).transpose() * c(7);
+    const VecX turning = ldlt_solve(body.K, MatX(f)).col(0);
+    const VecX bent = stress.modes * y, spun = stress.modes * turning + stress.loads * c;
+    const double root = 200.0 * L * 0.5 * a / I, pull = 0.5 * 7850.0 * W * W * L * L;
+    double bending = 0.0, tension = 0.0;
+    for (const StressPlace& place : stress.places) {
+      const double x = place.p(0), z = place.p(2) - 0.5 * a;
+      if (x < 0.25 * L || x > 0.75 * L) continue;
+      const Eigen::Index row = 6 * (&place - stress.places.data());
+      bending = std::max(bending, std::abs(bent(row) - 200.0 * (x - L) * z / I) / root);
+      // The axis turns at its foot in the middle of the end: the rest of the section is carried.
+      tension =
+          std::max(tension, std::abs(spun(row) - 0.5 * 7850.0 * W * W * (L * L - x * x)) / pull);
+    }
+    std::printf(
+        "[ figure ] %s beam: bending within %.1e of that at the root, tension within %.1e\n",
+        tets ? "tet10" : "hex20", bending, tension);
+    EXPECT_LT(bending, 0.02);
+    EXPECT_LT(tension, 0.01);
+  }
 }
 
 TEST(PartStress, NotAskedFor) {

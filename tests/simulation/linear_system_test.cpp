@@ -87,6 +87,25 @@ simulation: {step: 0.001, duration: 1}
   EXPECT_THROW(linear_system(model, {.coordinates = Coordinates::absolute}), RunError);
 }
 
+// A governor: a bob on a driven hub, steady at cos(angle) = g / (L W^2), swings at W sin(angle). No
+// force has a corner, and no note says so.
+TEST(LinearSystem, GovernorHasNoCorners) {
+  const Model model = model_of(R"(
+bodies:
+  hub: {rigid: {mass: 2, centre_of_mass: [0, 0, 1], inertia: [0.01, 0.01, 0.02]}}
+  bob: {rigid: {mass: 0.7, centre_of_mass: [0, 0, 0.6]}}
+joints:
+  spin: {type: revolute, child: hub, at: [0, 0, 1], axis: z, motion: {polynomial: [0, 9]}}
+  p: {type: revolute, parent: hub, child: bob, at: [0, 0, 1], axis: y, position: "${-acos(9.81/(0.4*81))}"}
+simulation: {step: 0.001, duration: 1}
+)");
+  const LinearSystem system = linear_system(model);
+  EXPECT_TRUE(system.notes.empty()) << system.notes.front();
+  const double c = 9.81 / (0.4 * 81.0);
+  EXPECT_NEAR(2.0 * std::numbers::pi * linear_modes(system).back().frequency(),
+              9.0 * std::sqrt(1.0 - c * c), 1e-6);
+}
+
 // The same without the drive: the arm's angle follows its momentum. With L the momentum and the
 // bead at rho in steady turning W, small radial motions have w^2 = k/m - W^2 + 4 W^2 m rho^2 / I.
 TEST(LinearSystem, FreelyTurningArm) {

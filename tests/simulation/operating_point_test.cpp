@@ -70,5 +70,13 @@ TEST(OperatingPoint, BadPlaces) {
             std::string::npos);
 }
 
+TEST(OperatingPoint, TimesThatNoRunReaches) {
+  const Model model = model_of(hung);
+  for (const char* at : {"1e7", "1e12", "1e99"})
+    EXPECT_NE(error_of([&] { at_operating_point(model, at); }).find("takes more than 1e+09 steps"),
+              std::string::npos)
+        << at;
+}
+
 }  // namespace
 }  // namespace floatframe::test

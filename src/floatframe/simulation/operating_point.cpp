@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "floatframe/core/json_text.hpp"
+#include "floatframe/model/rules.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -31,6 +32,10 @@ SystemState state_after(const Model& model, double time) {
         fmt::format("--at: expected a time of at least {:g} s, at which the model starts, found "
                     "{:g}",
                     begin, time));
+  if (time - begin > rules::most_steps * size)
+    throw InputError(
+        fmt::format("--at {:g}: a run to that time takes more than {:g} steps of {:g} s", time,
+                    rules::most_steps, size));
   // Whole steps from the start, so that the run is that of `floatframe run`; then the rest.
   const double steps = std::floor((time - begin) / size * (1.0 + 1e-12) + 1e-9);
   for (double k = 0.0; k < steps; k += 1.0)

@@ -44,7 +44,7 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
   d.columns.resize(middle.size(), n);
   for (Eigen::Index j = 0; j < n; ++j) {
     VecX slope[2];
-    double bend[2];
+    double bend[2], rounding = 0.0;
     for (int k = 0; k < 2; ++k) {
       const double h = k == 0 ? steps[j] : 0.5 * steps[j];
       x[j] = h;
@@ -54,12 +54,15 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
       slope[k] = (ahead - behind) / (2.0 * h);
       const VecX second = (ahead - middle + (behind - middle)) / h;
       bend[k] = watched > 0 ? second.head(watched).cwiseAbs().maxCoeff() : 0.0;
+      // What is zero but for its last digits has no corner.
+      if (watched > 0) rounding = 1e-11 * middle.head(watched).cwiseAbs().maxCoeff() / h;
     }
     x[j] = 0.0;
     d.columns.col(j) = (4.0 * slope[1] - slope[0]) / 3.0;
     constexpr double smooth = 0.75, seen = 1e-4;  // smooth: a half; a corner: one
     const double size = watched > 0 ? slope[1].head(watched).cwiseAbs().maxCoeff() : 0.0;
-    if (bend[1] > smooth * bend[0] && bend[1] > seen * size) d.kinks.push_back(static_cast<int>(j));
+    if (bend[1] > smooth * bend[0] && bend[1] > seen * size && bend[1] > rounding)
+      d.kinks.push_back(static_cast<int>(j));
   }
   return d;
 }
