@@ -157,9 +157,8 @@ TEST(PartStress, BeamsOfSolids) {
     const Vec3 force(0.0, 0.0, 200.0);
     const VecX y = ldlt_solve(body.K, MatX(body.nodes[1].X.transpose() * force)).col(0);
     VecX c = VecX::Zero(body_load_cases + body.modes());
-    c(3) = c(7) = W * W;  // -skew(w)^2 about z
-    VecX f = body.invariants.Si[0].row(0).transpose() * c(3);
-    f += body.invariants.Si[1].row(1).transpose() * c(7);
+    c(3) = W * W;  // of -skew(w)^2 what pulls along the axis
+    const VecX f = body.invariants.Si[0].row(0).transpose() * c(3);
     const VecX turning = ldlt_solve(body.K, MatX(f)).col(0);
     const VecX bent = stress.modes * y, spun = stress.modes * turning + stress.loads * c;
     const double root = 200.0 * L * 0.5 * a / I, pull = 0.5 * 7850.0 * W * W * L * L;
@@ -169,7 +168,6 @@ TEST(PartStress, BeamsOfSolids) {
       if (x < 0.25 * L || x > 0.75 * L) continue;
       const Eigen::Index row = 6 * (&place - stress.places.data());
       bending = std::max(bending, std::abs(bent(row) - 200.0 * (x - L) * z / I) / root);
-      // The axis turns at its foot in the middle of the end: the rest of the section is carried.
       tension =
           std::max(tension, std::abs(spun(row) - 0.5 * 7850.0 * W * W * (L * L - x * x)) / pull);
     }

@@ -11,7 +11,9 @@
 // Differences over steps h and h/2 on both sides, extrapolated: the error falls with h^4. A force
 // whose slope jumps within the steps shows in second differences that fall with h instead of h^2.
 // Dense, allocates: load time only.
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "floatframe/formulation/equations_of_motion.hpp"
@@ -41,10 +43,11 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
   VecX x = VecX::Zero(n);
   const VecX middle = g(x);
   PreciseDifferences d;
+  std::vector<double> bends;  // of the kinks
   d.columns.resize(middle.size(), n);
   for (Eigen::Index j = 0; j < n; ++j) {
     VecX slope[2];
-    double bend[2], rounding = 0.0;
+    double bend[2];
     for (int k = 0; k < 2; ++k) {
       const double h = k == 0 ? steps[j] : 0.5 * steps[j];
       x[j] = h;
@@ -54,16 +57,21 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
       slope[k] = (ahead - behind) / (2.0 * h);
       const VecX second = (ahead - middle + (behind - middle)) / h;
       bend[k] = watched > 0 ? second.head(watched).cwiseAbs().maxCoeff() : 0.0;
-      // What is zero but for its last digits has no corner.
-      if (watched > 0) rounding = 1e-11 * middle.head(watched).cwiseAbs().maxCoeff() / h;
     }
     x[j] = 0.0;
     d.columns.col(j) = (4.0 * slope[1] - slope[0]) / 3.0;
     constexpr double smooth = 0.75, seen = 1e-4;  // smooth: a half; a corner: one
     const double size = watched > 0 ? slope[1].head(watched).cwiseAbs().maxCoeff() : 0.0;
-    if (bend[1] > smooth * bend[0] && bend[1] > seen * size && bend[1] > rounding)
+    if (bend[1] > smooth * bend[0] && bend[1] > seen * size) {
       d.kinks.push_back(static_cast<int>(j));
+      bends.push_back(bend[1]);
+    }
   }
+  // What is zero but for the last digits of forces that balance has no corner.
+  const double least =
+      watched > 0 && n > 0 ? 1e-10 * d.columns.topRows(watched).cwiseAbs().maxCoeff() : 0.0;
+  for (std::size_t k = d.kinks.size(); k-- > 0;)
+    if (!(bends[k] > least)) d.kinks.erase(d.kinks.begin() + static_cast<std::ptrdiff_t>(k));
   return d;
 }
 
