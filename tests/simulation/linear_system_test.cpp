@@ -96,7 +96,8 @@ bodies:
   bob: {rigid: {mass: 0.7, centre_of_mass: [0, 0, 0.6]}}
 joints:
   spin: {type: revolute, child: hub, at: [0, 0, 1], axis: z, motion: {polynomial: [0, 9]}}
-  p: {type: revolute, parent: hub, child: bob, at: [0, 0, 1], axis: y, position: "${-acos(9.81/(0.4*81))}"}
+  p: {type: revolute, parent: hub, child: bob, at: [0, 0, 1], axis: y,
+      position: "${-acos(9.81/(0.4*81))}"}
 simulation: {step: 0.001, duration: 1}
 )");
   const LinearSystem system = linear_system(model);
