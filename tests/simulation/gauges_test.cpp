@@ -193,5 +193,104 @@ TEST(Gauges, WhatCannotBe) {
   EXPECT_NE(says("{stress: {body: ground, node: 3}}").find("ground"), std::string::npos);
 }
 
+// Two bars in a line and one that leaves them at `mid`.
+const char* const frame = R"(
+gravity: [0, 0, -9.81]
+points: {root: [0, 0, 0], mid: [0.4, 0, 0], tip: [0.8, 0, 0], side: [0.4, 0.3, 0]}
+bodies:
+  beam:
+    flexible:
+      material: {young: 2e11, poisson: 0.3, density: 7850}
+      bars:
+        one: {from: root, to: mid, elements: 2, section: {rectangle: [0.02, 0.04]}, reference: y}
+        two: {from: mid, to: tip, elements: 2, section: {rectangle: [0.02, 0.04]}, reference: y}
+        arm: {from: mid, to: side, elements: 2, section: {rectangle: [0.02, 0.04]}, reference: x}
+      clamped: [root]
+      static_modes: [tip, side]
+joints:
+  wall: {type: weld, parent: ground, child: beam, at: root}
+outputs:
+  a: PLACE
+simulation: {step: 1e-3, duration: 0.002, start: equilibrium}
+)";
+
+std::string frame_with(const std::string& output) {
+  std::string text = frame;
+  return text.replace(text.find("PLACE"), 5, output);
+}
+
+/// What a description does not tell apart is asked for, never chosen by rounding.
+TEST(Gauges, DoubtfulPlacesAreAskedFor) {
+  const auto says = [](const std::string& output) {
+    return error_of([&] { build_model(description_of(frame_with(output))); });
+  };
+  const auto is_asked = [&](const std::string& output, const std::string& sentence) {
+    const std::string said = says(output);
+    EXPECT_NE(said.find(sentence), std::string::npos) << output << ": " << said;
+  };
+  // On the axis of a bar: four places at the edges of the flat sides are equally near.
+  is_asked("{stress: {body: beam, at: [0.2, 0, 0]}}", "at that point");
+  is_asked("{stress: {body: beam, at: [0.2, 0, 0], material: STEEL}}", "in the material 'STEEL'");
+  is_asked("{section_force: {body: beam, node: mid}}", "3 beam elements of body 'beam' meet");
+  is_asked("{section_force: {body: beam, node: mid, toward: z}}", "expected 'toward'");
+  is_asked("{section_force: {body: beam, at: [3, 0, 0]}}", "m away");
+  EXPECT_EQ(
+      model_of(frame_with("{section_force: {body: beam, node: mid, toward: y}}")).gauges.size(),
+      1u);
+  // Two elements of a straight bar: no question.
+  EXPECT_EQ(model_of(frame_with("{section_force: {body: beam, at: [0.2, 0, 0]}}")).gauges.size(),
+            1u);
+}
+
+/// Towards a flat side the middle of its edge, not one of its corners.
+TEST(Gauges, TowardIsTheMiddleOfAnEdge) {
+  const Model model = model_of(frame_with("{stress: {body: beam, node: root, toward: z}}"));
+  ASSERT_EQ(model.gauges.size(), 1u);
+  const StressPlace& place = model.bodies[0].data->stress->places[model.gauges[0].place];
+  const Vec3 p = model.bodies[0].X_WB * place.p;
+  EXPECT_LT((p - Vec3(0.0, 0.0, p.z())).norm(), 1e-12);
+  EXPECT_GT(p.z(), 0.009);
+}
+
+/// Node 7: solids of two materials. Node 8: both sides of a shell. At the same points.
+TEST(Gauges, MaterialsAndLayersOfANode) {
+  auto stress = std::make_shared<BodyStress>();
+  stress->groups = {{"STEEL", 2e11, 0.3}, {"SOFT", 1e10, 0.3}};
+  const auto add = [&](StressPlace::Layer layer, int number, int group, const Vec3& p) {
+    stress->places.push_back(
+        {.layer = layer, .node = number - 1, .number = number, .group = group, .p = p});
+  };
+  add(StressPlace::Layer::solid, 7, 0, Vec3::Zero());
+  add(StressPlace::Layer::solid, 7, 1, Vec3::Zero());
+  add(StressPlace::Layer::top, 8, 0, Vec3(1.0, 0.0, 0.01));
+  add(StressPlace::Layer::bottom, 8, 0, Vec3(1.0, 0.0, -0.01));
+  FlexibleBody body = *model_of(turning_rod).bodies[0].data;
+  body.stress = stress;
+  GaugeDescription gauge;
+  const Vec3 up = Vec3::UnitZ(), none = Vec3::Zero(), middle = Vec3::UnitX();
+  const auto found = [&](int node, const Vec3& toward, const Vec3* point = nullptr) {
+    gauge.node = node;
+    gauge.toward = toward;
+    return find_place(body, "part", gauge, point, "", toward, false);
+  };
+  EXPECT_EQ(found(7, none).error,
+            "body 'part' has 2 places with stress at node 7 (solid of STEEL, solid of SOFT), "
+            "expected 'material', the name of the one that is meant");
+  EXPECT_EQ(found(7, up).place, -1);  // no direction tells them apart
+  EXPECT_EQ(found(0, none, &none).place, -1);
+  EXPECT_NE(found(8, none).error.find("(top of STEEL, bottom of STEEL), expected 'toward'"),
+            std::string::npos);
+  EXPECT_EQ(found(0, none, &middle).place, -1);  // between the two sides
+  EXPECT_EQ(found(8, up).place, 2);
+  EXPECT_EQ(found(0, -up, &middle).place, 3);
+  gauge.layer = GaugeDescription::Layer::bottom;
+  EXPECT_EQ(found(0, none, &middle).place, 3);
+  gauge.layer = GaugeDescription::Layer::any;
+  gauge.material = "SOFT";
+  EXPECT_EQ(found(7, none).place, 1);
+  EXPECT_EQ(found(0, none, &none).place, 1);
+  EXPECT_NE(found(8, none).error.find("in the material 'SOFT'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace floatframe::test

@@ -285,6 +285,7 @@ enum class OutputAxes { world, parent, child, place };
 struct GaugeDescription {
   int node = 0;                                              ///< number; 0: by name or point
   enum class Layer { any, top, bottom } layer = Layer::any;  ///< of shells
+  std::string material;  ///< of those that meet at a node, its name; empty: any
   /// Of several places at a node the one farthest in this direction, design configuration.
   Vec3 toward = Vec3::Zero();
   Vec3 direction = Vec3::Zero();  ///< of a strain, design configuration

@@ -16,6 +16,8 @@ namespace {
 
 /// A gauge that is asked for at a point must be this near to a place, as a part of the body's size.
 constexpr double near_enough = 0.05;
+/// Places and directions that differ by less than this, as a part of the size, are alike.
+constexpr double tie = 1e-6;
 
 /// eps = row . stress
 Eigen::RowVector<double, 6> strain_row(const Vec3& d, const StressGroup& group) {
@@ -46,23 +48,35 @@ struct Candidate {
   Vec3 p;
 };
 
-Vec3 centre_of(const std::vector<StressPlace>& places) {
+template <class Place>
+Vec3 centre_of(const std::vector<Place>& places) {
   Vec3 sum = Vec3::Zero();
-  for (const StressPlace& place : places) sum += place.p;
+  for (const Place& place : places) sum += place.p;
   return places.empty() ? sum : Vec3(sum / static_cast<double>(places.size()));
 }
 
-double size_of(const std::vector<StressPlace>& places) {
+template <class Place>
+double size_of(const std::vector<Place>& places) {
   const Vec3 centre = centre_of(places);
   double out = 0.0;
-  for (const StressPlace& place : places) out = std::max(out, 2.0 * (place.p - centre).norm());
+  for (const Place& place : places) out = std::max(out, 2.0 * (place.p - centre).norm());
   return out;
 }
 
-bool of_layer(const StressPlace& place, GaugeDescription::Layer layer) {
+template <class Place>
+std::string too_far(const std::string& body, const std::vector<Place>& places, double nearest) {
+  if (nearest <= near_enough * size_of(places)) return "";
+  return fmt::format("the nearest place of body '{}' with stress is {:.3g} m away", body, nearest);
+}
+
+/// Of the layer and the material that the gauge asks for, if it does.
+bool is_asked_for(const BodyStress& stress, const StressPlace& place,
+                  const GaugeDescription& gauge) {
   using L = GaugeDescription::Layer;
-  return layer == L::any || (layer == L::top && place.layer == StressPlace::Layer::top) ||
-         (layer == L::bottom && place.layer == StressPlace::Layer::bottom);
+  if (!gauge.material.empty() && stress.groups[place.group].name != gauge.material) return false;
+  return gauge.layer == L::any ||
+         (gauge.layer == L::top && place.layer == StressPlace::Layer::top) ||
+         (gauge.layer == L::bottom && place.layer == StressPlace::Layer::bottom);
 }
 
 std::string node_text(const GaugeDescription& gauge, const std::string& node_name) {
@@ -70,66 +84,113 @@ std::string node_text(const GaugeDescription& gauge, const std::string& node_nam
                            : fmt::format("node '{}'", node_name);
 }
 
-/// The one farthest along `toward`.
+/// The one farthest along `toward`; of several (the edge of a section) the one in their middle.
 int farthest(const std::vector<Candidate>& all, const Vec3& toward) {
-  const auto it = std::max_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-    return a.p.dot(toward) < b.p.dot(toward);
-  });
-  return it->index;
+  const Vec3 d = toward.normalized(), centre = centre_of(all);
+  double most = -std::numeric_limits<double>::infinity(), aside = 0.0;
+  for (const Candidate& c : all) most = std::max(most, d.dot(c.p - centre));
+  int out = -1;
+  for (const Candidate& c : all) {
+    const Vec3 arm = c.p - centre;
+    if (d.dot(arm) < most - tie * size_of(all)) continue;
+    const double off = (arm - d * d.dot(arm)).norm();
+    if (out >= 0 && off >= aside - tie * size_of(all)) continue;
+    out = c.index;
+    aside = off;
+  }
+  return out;
+}
+
+/// Places at the node, or at the node that is nearest to the point.
+std::vector<Candidate> candidates(const BodyStress& stress, const GaugeDescription& gauge,
+                                  const Vec3* point, bool by_name, int node_index,
+                                  double& nearest) {
+  nearest = std::numeric_limits<double>::infinity();
+  int node_there = -1;
+  for (const StressPlace& place : stress.places) {
+    if (!point || !is_asked_for(stress, place, gauge)) continue;
+    const double distance = (place.p - *point).norm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    node_there = place.node;
+  }
+  // Without a direction that tells which, the nearest place; equally near ones are no answer.
+  const double within = gauge.toward.isZero(0.0) ? nearest + tie * size_of(stress.places)
+                                                 : std::numeric_limits<double>::infinity();
+  std::vector<Candidate> all;
+  for (std::size_t k = 0; k < stress.places.size(); ++k) {
+    const StressPlace& place = stress.places[k];
+    if (!is_asked_for(stress, place, gauge)) continue;
+    const bool here = point     ? place.node == node_there && (place.p - *point).norm() <= within
+                      : by_name ? place.node == node_index
+                                : place.number == gauge.node;
+    if (here) all.push_back({static_cast<int>(k), place.p});
+  }
+  return all;
 }
 
 GaugeChoice choose_place(const BodyStress& stress, const std::string& body,
                          const GaugeDescription& gauge, const Vec3* point, const std::string& node,
                          int node_index, const Vec3& toward) {
   GaugeChoice out;
-  std::vector<Candidate> all;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < stress.places.size(); ++k) {
-    const StressPlace& place = stress.places[k];
-    if (!of_layer(place, gauge.layer)) continue;
-    const auto index = static_cast<int>(k);
-    if (point) {
-      const double distance = (place.p - *point).norm();
-      if (distance < nearest) all = {{index, place.p}};
-      nearest = std::min(nearest, distance);
-    } else if (node.empty() ? place.number == gauge.node : place.node == node_index) {
-      all.push_back({index, place.p});
-    }
-  }
-  if (point && !all.empty() && !toward.isZero(0.0)) {
-    // The node that is nearest, and of its places the one farthest along `toward`.
-    const int node_there = stress.places[all.front().index].node;
-    all.clear();
-    for (std::size_t k = 0; k < stress.places.size(); ++k)
-      if (stress.places[k].node == node_there && of_layer(stress.places[k], gauge.layer))
-        all.push_back({static_cast<int>(k), stress.places[k].p});
-  }
+  double nearest = 0.0;
+  const std::vector<Candidate> all =
+      candidates(stress, gauge, point, !node.empty(), node_index, nearest);
+  const std::string where = point ? "that point" : node_text(gauge, node);
   if (all.empty()) {
     const bool layered = gauge.layer != GaugeDescription::Layer::any;
     out.error =
-        fmt::format("body '{}' has no stress at {}{}, expected a node of its surface{}", body,
-                    point ? "that point" : node_text(gauge, node), layered ? " in that layer" : "",
+        fmt::format("body '{}' has no stress at {}{}{}, expected a node of its surface{}", body,
+                    where, layered ? " in that layer" : "",
+                    gauge.material.empty() ? "" : " in the material '" + gauge.material + "'",
                     layered ? "; solids and beams have no layers" : "");
-  } else if (point && nearest > near_enough * size_of(stress.places)) {
-    out.error =
-        fmt::format("the nearest place of body '{}' with stress is {:.3g} m away", body, nearest);
-  } else if (all.size() > 1 && toward.isZero(0.0)) {
-    std::string list;
-    for (const Candidate& c : all) {
-      const StressPlace& place = stress.places[c.index];
-      const std::string& material = stress.groups[place.group].name;
-      if (list.size() < 100)
-        list += fmt::format("{}{}{}", list.empty() ? "" : ", ", layer_word(place.layer),
-                            material.empty() ? "" : " of " + material);
-    }
-    out.error = fmt::format(
-        "body '{}' has {} places with stress at {} ({}), expected 'toward', a direction that tells "
-        "which",
-        body, all.size(), node_text(gauge, node), list);
-  } else {
-    out.place = all.size() == 1 ? all.front().index : farthest(all, toward);
+    return out;
   }
+  if (point) out.error = too_far(body, stress.places, nearest);
+  if (!out.error.empty()) return out;
+  const int chosen = toward.isZero(0.0) ? all.front().index : farthest(all, toward);
+  const StressPlace& place = stress.places[chosen];
+  // Neither a direction nor, where elements of one material meet, anything else tells them apart.
+  bool materials = false, apart = false;
+  for (const Candidate& c : all) {
+    const bool there = (c.p - place.p).norm() <= tie * size_of(stress.places);
+    materials = materials || (there && stress.places[c.index].group != place.group);
+    apart = apart || !there;
+  }
+  if (!materials && !(apart && toward.isZero(0.0))) {
+    out.place = chosen;
+    return out;
+  }
+  std::string list;
+  for (const Candidate& c : all) {
+    const StressPlace& other = stress.places[c.index];
+    const std::string& material = stress.groups[other.group].name;
+    const std::string one = layer_word(other.layer) + (material.empty() ? "" : " of " + material);
+    if (list.size() < 100 && list.find(one) == std::string::npos)
+      list += (list.empty() ? "" : ", ") + one;
+  }
+  out.error = fmt::format("body '{}' has {} places with stress at {} ({}), expected {}", body,
+                          all.size(), where, list,
+                          materials ? "'material', the name of the one that is meant"
+                                    : "'toward', a direction that tells which");
   return out;
+}
+
+/// Of elements that leave a node in these unit directions the one that lies along `toward`; without
+/// it one of a straight beam. -1: that does not tell which.
+int element_along(const std::vector<Candidate>& all, const Vec3& toward) {
+  if (toward.isZero(0.0)) {
+    for (const Candidate& c : all)
+      if (c.p.cross(all.front().p).norm() > tie) return -1;
+    return all.size() > 2 ? -1 : all.front().index;
+  }
+  const Vec3 d = toward.normalized();
+  const auto best = std::max_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+    return a.p.dot(d) < b.p.dot(d);
+  });
+  for (const Candidate& c : all)
+    if (c.index != best->index && c.p.dot(d) > best->p.dot(d) - tie) return -1;
+  return best->index;
 }
 
 GaugeChoice choose_section(const BodyStress& stress, const std::string& body,
@@ -141,22 +202,29 @@ GaugeChoice choose_section(const BodyStress& stress, const std::string& body,
   if (point)
     for (const BeamSectionPlace& section : stress.sections)
       nearest = std::min(nearest, (section.p - *point).norm());
+  const double within = nearest + tie * size_of(stress.sections);
   for (std::size_t k = 0; k < stress.sections.size(); ++k) {
     const BeamSectionPlace& section = stress.sections[k];
-    const bool here = point          ? (section.p - *point).norm() <= nearest * (1.0 + 1e-9)
+    const bool here = point          ? (section.p - *point).norm() <= within
                       : node.empty() ? section.number == gauge.node
                                      : section.node == node_index;
     if (!here) continue;
-    // The other end of the element tells the two sides of a node apart.
+    // The other end of the element tells the elements at a node apart.
     const BeamSectionPlace& other = stress.sections[section.end == 0 ? k + 1 : k - 1];
-    all.push_back({static_cast<int>(k), other.p});
+    all.push_back({static_cast<int>(k), (other.p - section.p).normalized()});
   }
   if (stress.sections.empty())
     out.error = fmt::format("body '{}' has no beams, and so no section forces", body);
   else if (all.empty())
     out.error = fmt::format("no beam of body '{}' ends at {}", body, node_text(gauge, node));
-  else
-    out.section = toward.isZero(0.0) ? all.front().index : farthest(all, toward);
+  else if (point)
+    out.error = too_far(body, stress.sections, nearest);
+  if (!out.error.empty()) return out;
+  out.section = element_along(all, toward);
+  if (out.section < 0)
+    out.error = fmt::format(
+        "{} beam elements of body '{}' meet at {}, expected 'toward', a direction that tells which",
+        all.size(), body, point ? "that point" : node_text(gauge, node));
   return out;
 }
 

@@ -260,19 +260,14 @@ class OutputReader {
     return false;
   }
 
-  /// {body, node: name or number} or {body, at: point}, with `layer` and `toward` where there are
-  /// several places.
+  /// {body, node: name or number} or {body, at: point}, with `layer`, `material` and `toward` where
+  /// there are several places.
   void gauge(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
     const auto direction = o.type == OutputType::strain ? s.require("direction") : std::nullopt;
     const auto loads = s.get("inertia_loads");
     bool good = place_of_gauge(what, o);
-    if (direction) {
-      const auto d = read_direction(*direction);
-      good = d && good;
-      if (d) o.gauge.direction = *d;
-    } else if (o.type == OutputType::strain) {
-      good = false;
-    }
+    good = direction_of(direction, o.gauge.direction) && good;
+    if (o.type == OutputType::strain && !direction) good = false;
     if (loads) {
       const auto yes = loads->boolean();
       good = yes && good;
@@ -289,7 +284,7 @@ class OutputReader {
     if (!place) return false;
     const auto body = place->require("body");
     const auto node = place->get("node"), at = place->get("at"), layer = place->get("layer"),
-               toward = place->get("toward");
+               toward = place->get("toward"), material = place->get("material");
     place->finish();
     const auto name = body ? moving_body(*body) : std::nullopt;
     bool good = name.has_value();
@@ -310,12 +305,18 @@ class OutputReader {
       good = word && good;
       if (word) o.gauge.layer = static_cast<GaugeDescription::Layer>(*word + 1);
     }
-    if (toward) {
-      const auto d = read_direction(*toward);
-      good = d && good;
-      if (d) o.gauge.toward = *d;
+    if (material) {
+      const auto word = material->text("the name of a material");
+      good = word && good;
+      o.gauge.material = word.value_or("");
     }
-    return good;
+    return direction_of(toward, o.gauge.toward) && good;
+  }
+
+  static bool direction_of(const std::optional<YamlValue>& value, Vec3& out) {
+    const auto d = value ? read_direction(*value) : std::nullopt;
+    if (d) out = *d;
+    return d || !value;
   }
 
   /// A whole number is that of a node in the finite-element file.
