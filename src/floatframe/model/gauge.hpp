@@ -1,5 +1,5 @@
 #pragma once
-// Gauges: stress, strain and section forces at places of a body (body/body_stress.hpp) as outputs.
+// Gauges: stress, strain and section forces at places of a body (BodyStress) as outputs.
 // What an instant needs is gathered when the model is built; a value is
 //   rows = modes y + loads c
 // with the amplitudes y and the load coefficients c of the body. Strain along a unit direction d of
