@@ -73,6 +73,12 @@ class Rainflow(unittest.TestCase):
             found = rainflow(*arguments)
             self.assertEqual(found.returncode, 2, arguments)
             self.assertIn(sentence, found.stderr)
+        for value in ("nan", "inf"):
+            (self.folder / "odd.csv").write_text(f"time [s],a [Pa]\n0,1\n1,{value}\n2,3\n")
+            found = rainflow(self.folder / "odd.csv", "--out", self.folder / "none")
+            self.assertEqual(found.returncode, 2)
+            self.assertIn(f"odd.csv:3: channel 'a': found {value} at 1 s, expected a finite number", found.stderr)
+            self.assertFalse((self.folder / "none").exists())
         (self.folder / "empty.csv").write_text("time [s],a [m]\n")
         self.assertIn("found no rows", rainflow(self.folder / "empty.csv").stderr)
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -146,8 +147,14 @@ int rainflow_of(const RainflowArguments& a) {
   std::vector<double> time;
   while (reader.next()) {
     time.push_back(reader.time());
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      channels[k].values.push_back(reader.row()[columns[k]]);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const double value = reader.row()[columns[k]];
+      if (!std::isfinite(value))
+        throw InputError({file, static_cast<int>(reader.rows()) + 1, 0},
+                         fmt::format("channel '{}': found {} at {} s, expected a finite number",
+                                     channels[k].column.name, value, reader.time()));
+      channels[k].values.push_back(value);
+    }
   }
   if (time.empty()) throw InputError({file, 0, 0}, "found no rows, expected a history to count");
   TextTable table({"channel", "unit", "cycles", "largest range", "equivalent range"});
