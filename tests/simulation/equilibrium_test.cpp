@@ -7,6 +7,7 @@
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "simulation/iltis.hpp"
+#include "support/model_text.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -62,6 +63,49 @@ TEST(Equilibrium, OfTooManyCoordinatesIsRefused) {
   EXPECT_EQ(run_error_of(model),
             "the static equilibrium of the model 'stones' is not computed: found 10002 coordinates "
             "and 0 constraints, expected at most 10000 together");
+}
+
+/// Displacement of the node of the first force.
+Vec3 tip_of(const Model& model, const StaticsResult& s) {
+  const FlexibleBody& body = *model.bodies[0].data;
+  return body.nodes.at(model.markers.at(model.forces[0].b).node).X * s.bodies[0].amplitudes;
+}
+
+// Balance is measured against the forces that act: without weight, rounding of the elastic forces
+// is all that is left of loads of any size.
+TEST(Equilibrium, LoadsWithoutWeight) {
+  const double bending = 2e11 * std::pow(0.02, 4) / 12.0;  // E I [N m2]
+  for (const double load : {1e-3, 1.0, 37.0}) {
+    ModelDescription d = description_of(R"(
+gravity: [0, 0, 0]
+points: {hub: [0, 0, 0], tip: [0.8, 0, 0]}
+bodies:
+  rod:
+    flexible:
+      material: {young: 2e11, poisson: 0.3, density: 7850}
+      bars:
+        bar: {from: hub, to: tip, elements: 8, section: {rectangle: [0.02, 0.02]}, reference: y}
+      clamped: [hub]
+      static_modes: [tip]
+      normal_modes: 6
+joints:
+  hub: {type: weld, child: rod, at: hub}
+forces:
+  across: {type: force, body: rod, node: tip, direction: [0, 0.6, 0.8], magnitude: )" +
+                                        std::to_string(load) + R"(}
+  twist: {type: torque, body: rod, node: tip, direction: x, magnitude: )" +
+                                        std::to_string(0.37 * load) + R"(}
+)");
+    const Model model = build_model(d);
+    const StaticsResult s = statics(model);
+    EXPECT_LT(s.iterations, 12) << load;
+    EXPECT_LT(s.residual, 1e-11 * load) << load;
+    const double sag = load * std::pow(0.8, 3) / (3.0 * bending), across = tip_of(model, s).norm();
+    const double second_order = 1e-9 + std::pow(sag / 0.8, 2);  // the ends turn, and their loads
+    EXPECT_NEAR(across, sag, second_order * sag) << load;
+    const double torque = load * std::hypot(0.8, 0.37);
+    EXPECT_NEAR(joint_of(s, "hub").torque.norm(), torque, second_order * torque) << load;
+  }
 }
 
 }  // namespace

@@ -174,7 +174,8 @@ Analysis campbell_analysis() {
                     {"--svg", "Write the diagram as a picture"}},
           .footer =
               "The joint is revolute, cylindrical or free. Frequencies are those in axes that do "
-              "not turn; the rotor must be\nsymmetric about its axis: docs/vibrations.md.\n"
+              "not turn; where its angle\nmatters the rotor must be symmetric about its axis: "
+              "docs/vibrations.md.\n"
               "Exit codes: 0 done, 1 no steady state or a rotor that is not symmetric, 2 bad "
               "input.",
           .run = [a](const Model& model) { return report_campbell(model, *a); }};

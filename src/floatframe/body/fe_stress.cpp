@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/fe/body_loads.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/section_points.hpp"
 
@@ -13,17 +12,6 @@ namespace {
 
 /// Shells that turn by more at a node are an edge, where a mean would say nothing.
 const double least_cosine = std::cos(20.0 * std::numbers::pi / 180.0);
-
-/// Displacements of the nodes of an element, one row a degree of freedom.
-void take_nodes(const Element& e, const ElementKernel& kernel, const NodalShapes& shapes, MatX& q) {
-  const int d = kernel.dofs_per_node;
-  q.resize(d * kernel.nodes, shapes.U.cols());
-  for (int k = 0; k < kernel.nodes; ++k) {
-    const Eigen::Index row = 3 * static_cast<Eigen::Index>(e.nodes[k]);
-    q.middleRows<3>(d * k) = shapes.U.middleRows<3>(row);
-    if (d == 6) q.middleRows<3>(6 * k + 3) = shapes.Theta.middleRows<3>(row);
-  }
-}
 
 Vec3 shell_normal(const ElementInput& in, int nodes) {
   const Vec3 first = in.p[nodes == 3 ? 1 : 2] - in.p[0];
@@ -54,9 +42,9 @@ Eigen::Matrix<double, 6, 3> from_beam_axes(const Mat3& T) {
 }  // namespace
 
 StressRecovery::StressRecovery(const FeModel& model, const std::vector<int>& surface,
-                               bool section_inertia)
+                               ElementMass mass)
     : model_(model),
-      section_inertia_(section_inertia),
+      mass_(mass),
       shares_(model.elements.size()),
       first_section_(model.elements.size(), -1),
       sides_(surface.size()),
@@ -189,7 +177,7 @@ void StressRecovery::recover_surface(int e, const StressFields& fields, MatX& su
   const ElementKernel& kernel = element_kernel(element.type);
   const ElementInput in = gather(model_, element);
   MatX B, q;
-  take_nodes(element, kernel, fields.displacements, q);
+  element_displacements(element, kernel, fields.displacements, q);
   const auto add = [&](int place, const Eigen::Matrix<double, 6, Eigen::Dynamic>& S) {
     // Fields as rows, so that what belongs to a place lies together.
     sum.middleCols<6>(6 * static_cast<Eigen::Index>(place)).noalias() +=
@@ -213,17 +201,17 @@ void StressRecovery::recover_beam(int e, const StressFields& fields, Recovered& 
   const ElementKernel& kernel = element_kernel(element.type);
   const ElementInput in = gather(model_, element);
   MatX K, M, q, a;
-  take_nodes(element, kernel, fields.displacements, q);
+  element_displacements(element, kernel, fields.displacements, q);
   kernel.stiffness(in, K);
   MatX f = K * q;
   if (fields.linear > 0 || fields.density.U.cols() > 0) {
-    kernel.mass(in, section_inertia_, M);
+    element_mass(kernel, in, mass_, M);
     if (fields.linear > 0) {
       linear_fields(in, kernel.nodes, 6, true, a);
       f.leftCols(fields.linear) -= M * a;
     }
     if (fields.density.U.cols() > 0) {
-      take_nodes(element, kernel, fields.density, a);
+      element_displacements(element, kernel, fields.density, a);
       f.middleCols(fields.linear, a.cols()) -= M * a;
     }
   }

@@ -5,11 +5,12 @@
 // Solids: strains where they are best, carried to the nodes (ElementKernel::nodal_strains). Shells:
 // both sides at the corners (layer_stresses). Both are averaged over the elements at a node that
 // are of one material (shells: of one section too, and whose normals differ by less than 20
-// degrees; a side stays a side however the elements are numbered). Beams: section forces of the
-// ends, f_e = K_e u_e - M_e a_e with a_e the field that loads the element inside: exact for the
-// loads of fe/body_loads.hpp, not those of the middle of the element. Body frame, SI units. Load
-// time.
+// degrees; at a node the normals tell the sides, whatever way round its elements are numbered).
+// Beams: section forces of the ends, f_e = K_e u_e - M_e a_e with a_e the field that loads the
+// element inside: exact for the loads of fe/body_loads.hpp, not those of the middle of the element.
+// Body frame, SI units. Load time.
 #include "floatframe/body/body_stress.hpp"
+#include "floatframe/fe/body_loads.hpp"
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/fe/stress_stiffness.hpp"
 
@@ -28,7 +29,7 @@ class StressRecovery {
  public:
   /// `surface`: nodes whose solids and shells are looked at; a place's `point` is an index there.
   StressRecovery(const FeModel& model, const std::vector<int>& surface,
-                 bool section_inertia = true);
+                 ElementMass mass = ElementMass::section_inertia);
 
   /// Groups, places and sections; no matrices.
   const BodyStress& layout() const noexcept { return layout_; }
@@ -52,7 +53,7 @@ class StressRecovery {
   void recover_beam(int e, const StressFields& fields, Recovered& out) const;
 
   const FeModel& model_;
-  bool section_inertia_;
+  ElementMass mass_;
   BodyStress layout_;
   std::vector<int> elements_at_;                ///< of each place
   std::vector<std::vector<Share>> shares_;      ///< of each element

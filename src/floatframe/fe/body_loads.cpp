@@ -42,7 +42,20 @@ void linear_fields(const ElementInput& input, int nodes, int dofs_per_node, bool
   }
 }
 
-NodalShapes linear_loads(const FeModel& model, bool section_inertia, Integration integration) {
+void element_mass(const ElementKernel& kernel, const ElementInput& input, ElementMass mass,
+                  MatX& M) {
+  if (mass != ElementMass::linear)
+    return kernel.mass(input, mass == ElementMass::section_inertia, M);
+  MatX scalar;
+  kernel.scalar_mass(input, scalar);
+  const int d = kernel.dofs_per_node;
+  M = MatX::Zero(d * kernel.nodes, d * kernel.nodes);
+  for (int a = 0; a < kernel.nodes; ++a)
+    for (int b = 0; b < kernel.nodes; ++b)
+      M.block<3, 3>(d * a, d * b) = scalar(a, b) * Mat3::Identity();
+}
+
+NodalShapes linear_loads(const FeModel& model, ElementMass mass, Integration integration) {
   NodalShapes out;
   out.U = MatX::Zero(3 * model.nodes(), linear_load_cases);
   out.Theta = MatX::Zero(3 * model.nodes(), linear_load_cases);
@@ -52,7 +65,7 @@ NodalShapes linear_loads(const FeModel& model, bool section_inertia, Integration
     const ElementInput input = gather(model, e, integration);
     const int d = kernel.dofs_per_node;
     linear_fields(input, kernel.nodes, d, kernel.family == ElementFamily::beam, fields);
-    kernel.mass(input, section_inertia, M);
+    element_mass(kernel, input, mass, M);
     const MatX f = M * fields;
     for (int a = 0; a < kernel.nodes; ++a) {
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(e.nodes[a]);

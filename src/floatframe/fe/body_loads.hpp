@@ -9,6 +9,7 @@
 namespace floatframe {
 
 struct ElementInput;
+struct ElementKernel;
 
 inline constexpr int linear_load_cases = 12;
 
@@ -17,8 +18,17 @@ inline constexpr int linear_load_cases = 12;
 void linear_fields(const ElementInput& input, int nodes, int dofs_per_node, bool beam,
                    MatX& fields);
 
+/// Where the mass of an element is felt.
+enum class ElementMass {
+  linear,          ///< of displacements that are linear between the nodes: forces alone
+  consistent,      ///< of the shape functions
+  section_inertia  ///< with the rotary and torsional inertia of beam sections
+};
+void element_mass(const ElementKernel& kernel, const ElementInput& input, ElementMass mass,
+                  MatX& M);
+
 /// Forces and moments at all nodes, 3 nodes() x 12 each; point masses with them.
-NodalShapes linear_loads(const FeModel& model, bool section_inertia = true,
+NodalShapes linear_loads(const FeModel& model, ElementMass mass = ElementMass::section_inertia,
                          Integration integration = Integration::exact);
 
 }  // namespace floatframe

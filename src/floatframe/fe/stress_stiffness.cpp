@@ -8,17 +8,6 @@ namespace {
 /// Points whose products are gathered for one dense product.
 constexpr Eigen::Index batch = 48;
 
-/// Displacements of the nodes of an element.
-void take(const Element& e, const ElementKernel& kernel, const NodalShapes& shapes, MatX& q) {
-  const int d = kernel.dofs_per_node;
-  q.resize(d * kernel.nodes, shapes.U.cols());
-  for (int k = 0; k < kernel.nodes; ++k) {
-    const Eigen::Index row = 3 * static_cast<Eigen::Index>(e.nodes[k]);
-    q.middleRows<3>(d * k) = shapes.U.middleRows<3>(row);
-    if (d == 6) q.middleRows<3>(6 * k + 3) = shapes.Theta.middleRows<3>(row);
-  }
-}
-
 /// Products of the gradients g (rows 3 i + j: du_i/dx_j, one column a mode) of all pairs of modes,
 /// six columns (xx, yy, zz, xy, yz, zx).
 void products(const MatX& g, Eigen::Ref<MatX> P) {
@@ -41,6 +30,17 @@ void products(const MatX& g, Eigen::Ref<MatX> P) {
 
 }  // namespace
 
+void element_displacements(const Element& e, const ElementKernel& kernel, const NodalShapes& shapes,
+                           MatX& q) {
+  const int d = kernel.dofs_per_node;
+  q.resize(d * kernel.nodes, shapes.U.cols());
+  for (int k = 0; k < kernel.nodes; ++k) {
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(e.nodes[k]);
+    q.middleRows<3>(d * k) = shapes.U.middleRows<3>(row);
+    if (d == 6) q.middleRows<3>(6 * k + 3) = shapes.Theta.middleRows<3>(row);
+  }
+}
+
 MatX stress_stiffness(const FeModel& model, const NodalShapes& modes, const NodalShapes& cases,
                       Integration integration) {
   const Eigen::Index nm = modes.U.cols(), pairs = nm * (nm + 1) / 2, nc = cases.U.cols();
@@ -55,8 +55,8 @@ MatX stress_stiffness(const FeModel& model, const NodalShapes& modes, const Noda
   for (const Element& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     kernel.stressed_points(gather(model, e, integration), points);
-    take(e, kernel, modes, q);
-    take(e, kernel, cases, w);
+    element_displacements(e, kernel, modes, q);
+    element_displacements(e, kernel, cases, w);
     for (const StressedPoint& point : points) {
       g.noalias() = point.gradient * q;
       products(g, P.middleCols(6 * filled, 6));

@@ -19,6 +19,11 @@ struct NodalShapes {
   MatX U, Theta;
 };
 
+struct ElementKernel;
+/// Of the nodes of an element, one row a degree of freedom.
+void element_displacements(const Element& e, const ElementKernel& kernel, const NodalShapes& shapes,
+                           MatX& q);
+
 /// One column a case: the lower half of X^T K_sigma X, row by row. Models given by matrices have no
 /// elements and none.
 MatX stress_stiffness(const FeModel& model, const NodalShapes& modes, const NodalShapes& cases,

@@ -3,12 +3,14 @@
 // by its body reference, less what the modes have of it,
 //   r = w - X K_y^-1 X^T f,   w = K^-1 f at all degrees of freedom but the held ones
 // adds its section forces to those of the modes: as in reduction/part_stress.hpp. Forces at
-// interfaces are answered by the constraint modes exactly.
+// interfaces are answered by the constraint modes exactly. Loads are those of the mass model: of
+// isoparametric masses nodes alone are loaded.
 #include <memory>
 #include <vector>
 
 #include "floatframe/body/body_stress.hpp"
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/reduction/reduction_options.hpp"
 
 namespace floatframe {
 
@@ -16,6 +18,7 @@ namespace floatframe {
 /// not known, and without loads. Null for models that have elements other than beams, and for
 /// frames of very many elements.
 std::shared_ptr<const BodyStress> bar_stress(const FeModel& model, const MatX& X, const MatX& K_y,
-                                             const std::vector<int>& held, bool section_inertia);
+                                             const std::vector<int>& held,
+                                             const ReductionOptions& options);
 
 }  // namespace floatframe

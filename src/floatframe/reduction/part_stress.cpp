@@ -38,7 +38,7 @@ MatX body_load_response(const FeModel& model, const FeSystem& system, const MatX
                         Integration integration) {
   MatX F(system.size(), body_load_cases + X.cols());
   {
-    const NodalShapes loads = linear_loads(model, true, integration);
+    const NodalShapes loads = linear_loads(model, ElementMass::section_inertia, integration);
     F.leftCols<body_load_cases>() = system.T.transpose() * loads.U;
     F.leftCols<body_load_cases>() += system.T_theta.transpose() * loads.Theta;
   }

@@ -120,8 +120,7 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
   }
   body.projection = projection;
   if (model.dofs_per_node() == 6)
-    body.stress =
-        bar_stress(model, X, body.K, held_dofs(model, X, options), options.section_inertia);
+    body.stress = bar_stress(model, X, body.K, held_dofs(model, X, options), options);
   const int d = model.dofs_per_node();
   const Eigen::Index nm = X.cols();
   body.nodes.resize(model.nodes());

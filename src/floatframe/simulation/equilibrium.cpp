@@ -16,7 +16,10 @@ namespace {
 /// Residual, tangent and constraints of the statics at q.
 class Statics {
  public:
-  explicit Statics(RelativeFormulation& f) : f_(f) { at_.v = VecX::Zero(f.velocities()); }
+  explicit Statics(RelativeFormulation& f)
+      : f_(f), own_weight_(std::max(1e-6, f.total_mass() * f.model().gravity.norm())) {
+    at_.v = VecX::Zero(f.velocities());
+  }
 
   VecX evaluate(const VecX& q, const VecX& lambda) {
     return residual_at(f_, 0.0, q, at_.v, lambda);
@@ -34,10 +37,13 @@ class Statics {
       lambda = LeastNorm(J.transpose()).solve(VecX(-r));
       r = evaluate(q, lambda);
     }
+    weight = acting();
     at_.q = q;
     at_.lambda = lambda;
     K = stiffness_matrix(f_, at_);
   }
+  /// What is out of balance or open where `linearise` was.
+  double size() const { return largest(r) + 1e3 * weight * largest(phi); }
   /// Solves (mu M + K) dx + J^T dlambda = -r, J dx = -phi; at most 0.2 in any coordinate. False if
   /// the solution is not finite.
   bool step(double mu, VecX& dx, VecX& dlambda) const {
@@ -68,9 +74,21 @@ class Statics {
 
   VecX r, phi;
   MatX J, K;
+  double weight = 0.0;  ///< the largest force that acts there, what balance is measured against [N]
 
  private:
+  /// Of the weight and the forces where `f` is.
+  double acting() const {
+    double most = own_weight_;
+    for (std::size_t k = 0; k < f_.model().forces.size(); ++k) {
+      const WrenchRow& w = f_.force(static_cast<int>(k)).wrench;
+      most = std::max({most, w.Fb.norm(), w.Tb.norm()});
+    }
+    return most;
+  }
+
   RelativeFormulation& f_;
+  double own_weight_;
   State at_;  ///< at rest
   MatX mass_;
 };
@@ -79,33 +97,34 @@ class Statics {
 struct Best {
   VecX q, lambda;
   double size = std::numeric_limits<double>::infinity();
+  double weight = 0.0;
   int stalled = 0;
-  void offer(const VecX& at, const VecX& multipliers, double its_size) {
-    if (its_size < size) {
+  void offer(const VecX& at, const VecX& multipliers, const Statics& there) {
+    if (there.size() < size) {
       q = at;
       lambda = multipliers;
-      size = its_size;
+      size = there.size();
+      weight = there.weight;
       stalled = 0;
     } else {
       ++stalled;
     }
   }
-  bool done(double weight) const {
-    return size < 1e-12 * weight || (size < 1e-9 * weight && stalled > 3);
-  }
+  bool done() const { return size < 1e-12 * weight || (size < 1e-9 * weight && stalled > 3); }
+  bool accepted() const { return size < 1e-7 * weight; }
 };
 
 /// Pseudo-transient Newton: quick where the start is near, and finds equilibria of any kind.
-void approach(RelativeFormulation& f, Statics& statics, double weight, VecX q, VecX lambda,
-              int& iterations, Best& best) {
+void approach(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int& iterations,
+              Best& best) {
   double mu = 1.0;  // [1/s2]: (mu M + K) x = -r
   double previous = std::numeric_limits<double>::infinity();
   VecX dx, dlambda, q1 = q;
   for (int k = 0; k < 200; ++k, ++iterations) {
     statics.linearise(q, lambda, k == 0);
-    const double size = largest(statics.r) + 1e3 * weight * largest(statics.phi);
-    best.offer(q, lambda, size);
-    if (best.done(weight)) return;
+    const double size = statics.size();
+    best.offer(q, lambda, statics);
+    if (best.done()) return;
     if (std::isfinite(previous))
       mu = size < previous ? std::max(mu * 0.1, 1e-2) : std::min(mu * 10.0, 1e6);
     previous = size;
@@ -119,8 +138,8 @@ void approach(RelativeFormulation& f, Statics& statics, double weight, VecX q, V
 /// Downhill, for starts far from equilibrium, where the residual must grow before it vanishes: a
 /// step is taken if the forces did work along it, (g(q) + g(q + dx)).dx < 0 with g the residual
 /// without multipliers; otherwise mu grows until the step follows -M^-1 g.
-void descend(RelativeFormulation& f, Statics& statics, double weight, VecX q, VecX lambda,
-             int& iterations, Best& best) {
+void descend(RelativeFormulation& f, Statics& statics, VecX q, VecX lambda, int& iterations,
+             Best& best) {
   const VecX none = VecX::Zero(lambda.size());
   double mu = 1.0;
   VecX dx, dlambda, q1 = q, g;
@@ -130,20 +149,20 @@ void descend(RelativeFormulation& f, Statics& statics, double weight, VecX q, Ve
     if (moved) {
       statics.linearise(q, lambda, first);
       first = false;
-      size = largest(statics.r) + 1e3 * weight * largest(statics.phi);
-      best.offer(q, lambda, size);
-      if (best.done(weight)) return;
+      size = statics.size();
+      best.offer(q, lambda, statics);
+      if (best.done()) return;
       g = statics.evaluate(q, none);
     }
     if (!statics.step(mu, dx, dlambda)) return;
     f.retract(q, dx, q1);
     const VecX r1 = statics.evaluate(q1, lambda + dlambda);
-    const double size1 = largest(r1) + 1e3 * weight * largest(f.constraint_values());
+    const double size1 = largest(r1) + 1e3 * statics.weight * largest(f.constraint_values());
     const VecX g1 = statics.evaluate(q1, none);
     const double start = g.dot(dx), work = 0.5 * (start + g1.dot(dx));
     // Closing constraints and the last digits do not follow the work.
     const bool downhill = start < 0.0 && work < 0.0;
-    const bool closer = size1 < 0.5 * size && size1 < 1e-3 * weight;
+    const bool closer = size1 < 0.5 * size && size1 < 1e-3 * statics.weight;
     moved = downhill || closer;
     if (moved) {
       q = q1;
@@ -187,23 +206,20 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   Equilibrium e;
   e.lambda = VecX::Zero(f.constraints());
   const VecX start_q = q;
-  const double weight = std::max(1e-6, f.total_mass() * f.model().gravity.norm());
-  constexpr double accepted = 1e-7;
   Statics statics(f);
   check_magnitudes(statics.evaluate(q, e.lambda), [&](int i) { return f.coordinate_owner(i); });
   statics.find_mass(q, e.lambda);
   Best best{q, e.lambda};
-  approach(f, statics, weight, q, e.lambda, e.iterations, best);
-  if (!(best.size < accepted * weight))
-    descend(f, statics, weight, q, e.lambda, e.iterations, best);
+  approach(f, statics, q, e.lambda, e.iterations, best);
+  if (!best.accepted()) descend(f, statics, q, e.lambda, e.iterations, best);
   q = best.q;
   e.lambda = best.lambda;
   const auto evaluate = [&](const VecX& at) { return statics.evaluate(at, e.lambda); };
   e.residual = largest(evaluate(q));
-  keep_neutral_positions(f, start_q, q, e.residual, weight, evaluate);
+  keep_neutral_positions(f, start_q, q, e.residual, best.weight, evaluate);
   const VecX r = evaluate(q);
   e.residual = largest(r);
-  if (!(best.size < accepted * weight)) {
+  if (!best.accepted()) {
     Eigen::Index worst = 0;
     if (r.size() == 0) throw RunError("no static equilibrium found: nothing can move");
     r.cwiseAbs().maxCoeff(&worst);

@@ -17,7 +17,7 @@ export class ModeList {
   private readonly player: Player;
   private readonly rows: { element: HTMLElement; body: number; mode: number; amplitude: number }[] = [];
   chosen = 0;
-  /** Told which mode of which body swings, and its amplitude. */
+  /** Called with the body, the mode that swings and its amplitude. */
   onChoice: (body: number, mode: number, amplitude: number) => void = () => {};
 
   constructor(stage: Stage, player: Player) {
