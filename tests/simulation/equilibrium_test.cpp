@@ -66,7 +66,7 @@ TEST(Equilibrium, OfTooManyCoordinatesIsRefused) {
 }
 
 /// Displacement of the node of the first force.
-Vec3 tip_of(const Model& model, const StaticsResult& s) {
+Vec3 loaded_tip(const Model& model, const StaticsResult& s) {
   const FlexibleBody& body = *model.bodies[0].data;
   return body.nodes.at(model.markers.at(model.forces[0].b).node).X * s.bodies[0].amplitudes;
 }
@@ -100,7 +100,8 @@ forces:
     const StaticsResult s = statics(model);
     EXPECT_LT(s.iterations, 12) << load;
     EXPECT_LT(s.residual, 1e-11 * load) << load;
-    const double sag = load * std::pow(0.8, 3) / (3.0 * bending), across = tip_of(model, s).norm();
+    const double sag = load * std::pow(0.8, 3) / (3.0 * bending),
+                 across = loaded_tip(model, s).norm();
     const double second_order = 1e-9 + std::pow(sag / 0.8, 2);  // the ends turn, and their loads
     EXPECT_NEAR(across, sag, second_order * sag) << load;
     const double torque = load * std::hypot(0.8, 0.37);
