@@ -37,8 +37,8 @@ Eigenpairs finish(const VecX& mu, const MatX& shapes, double sigma, int count) {
 
 using Solve = std::function<MatX(const MatX&)>;
 
-/// y = a A^-1 x. Scaled so that the largest eigenvalue of A^-1 M is about one: Spectra compares
-/// with fixed bounds.
+/// y = a A^-1 x, without its part along known modes. Scaled so that the largest eigenvalue of
+/// A^-1 M is about one: Spectra compares with fixed bounds.
 class ShiftInvert {
  public:
   using Scalar = double;
@@ -47,9 +47,12 @@ class ShiftInvert {
   Eigen::Index cols() const { return n_; }
   void set_shift(double) const {}
   void perform_op(const double* x, double* y) const {
-    Eigen::Map<VecX>(y, n_) = scale * solve_(Eigen::Map<const VecX>(x, n_));
+    Eigen::Map<VecX> out(y, n_);
+    out = scale * solve_(Eigen::Map<const VecX>(x, n_));
+    if (known.cols() > 0) out -= known * (M_known.transpose() * out);
   }
   double scale = 1.0;
+  MatX known, M_known;  ///< x^T M x = 1
 
  private:
   const Solve& solve_;
@@ -81,6 +84,52 @@ VecX fixed_start(Eigen::Index n) {
   return x;
 }
 
+using Lanczos =
+    Spectra::SymGEigsShiftSolver<ShiftInvert, MassProduct, Spectra::GEigsMode::ShiftInvert>;
+
+/// One block step of inverse iteration from X and a Rayleigh-Ritz projection.
+Eigenpairs refined(const Solve& solve, double sigma, const SparseMatrix& M, const MatX& X,
+                   int count) {
+  // A Y = M X, so Y^T A Y = Y^T M X: a product with K would lose the digits of the low modes.
+  const MatX MX = M * X;
+  MatX Y = solve(MX);
+  MatX Ar = Y.transpose() * MX;
+  MatX Mr = Y.transpose() * (M * Y);
+  Ar = 0.5 * (Ar + Ar.transpose()).eval();
+  Mr = 0.5 * (Mr + Mr.transpose()).eval();
+  VecX mu;
+  MatX z;
+  solve_dense(Mr, Ar, mu, z);
+  Y = Y * z;
+  return finish(mu, Y, sigma, count);
+}
+
+/// A Krylov space has one vector of each eigenvalue; those of symmetric parts that are equal to
+/// others come in by rounding alone, or do not. The mode with the largest mu of what is left beside
+/// the modes found, if it belongs among them; else no column.
+MatX missed(ShiftInvert& inverse, MassProduct& mass, const SparseMatrix& M, double sigma,
+            const Eigenpairs& found, VecX x) {
+  const Eigen::Index n = M.rows(), ncv = std::min<Eigen::Index>(n - found.shapes.cols(), 16);
+  if (ncv < 3) return MatX(n, 0);
+  inverse.known = found.shapes;
+  inverse.M_known = M * found.shapes;
+  x -= inverse.known * (inverse.M_known.transpose() * x);
+  Lanczos solver(inverse, mass, 1, ncv, 0.0);
+  solver.init(x.data());
+  solver.compute(Spectra::SortRule::LargestMagn, 40, 1e-6, Spectra::SortRule::SmallestAlge);
+  MatX one = solver.eigenvectors();
+  if (one.cols() == 0) return one;
+  one -= inverse.known * (inverse.M_known.transpose() * one);
+  const VecX Mx = M * one.col(0);
+  const double size = one.col(0).dot(Mx);
+  if (!(size > 0.0)) return MatX(n, 0);
+  VecX y(n);  // mu = x^T M A^-1 M x / x^T M x
+  inverse.perform_op(Mx.data(), y.data());
+  const double mu = Mx.dot(y) / (inverse.scale * size);
+  const double least = 1.0 / (found.lambda(found.lambda.size() - 1) - sigma);
+  return mu > (1.0 + 1e-6) * least ? one : MatX(n, 0);
+}
+
 Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int count) {
   const Eigen::Index n = M.rows();
   ShiftInvert inverse(solve, n);
@@ -98,25 +147,20 @@ Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int 
     x = y / after;
   }
   const Eigen::Index ncv = std::min<Eigen::Index>(n, std::max(2 * count + 8, 24));
-  Spectra::SymGEigsShiftSolver<ShiftInvert, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(
-      inverse, mass, count, ncv, 0.0);
+  Lanczos solver(inverse, mass, count, ncv, 0.0);
   solver.init(x.data());
   solver.compute(Spectra::SortRule::LargestMagn, 300, 1e-11, Spectra::SortRule::SmallestAlge);
-  const MatX found = solver.eigenvectors();
+  MatX found = solver.eigenvectors();
   if (found.cols() == 0) return {VecX(), MatX::Zero(n, 0)};
-
-  // A Y = M X, so Y^T A Y = Y^T M X: a product with K would lose the digits of the low modes.
-  const MatX MX = M * found;
-  MatX Y = solve(MX);
-  MatX Ar = Y.transpose() * MX;
-  MatX Mr = Y.transpose() * (M * Y);
-  Ar = 0.5 * (Ar + Ar.transpose()).eval();
-  Mr = 0.5 * (Mr + Mr.transpose()).eval();
-  VecX mu;
-  MatX z;
-  solve_dense(Mr, Ar, mu, z);
-  Y = Y * z;
-  return finish(mu, Y, sigma, count);
+  Eigenpairs modes = refined(solve, sigma, M, found, count);
+  for (int k = 0; k < count && modes.lambda.size() > 0; ++k) {
+    const MatX one = missed(inverse, mass, M, sigma, modes, fixed_start(n));
+    if (one.cols() == 0) break;
+    found.resize(n, modes.shapes.cols() + 1);
+    found << modes.shapes, one;
+    modes = refined(solve, sigma, M, found, count);
+  }
+  return modes;
 }
 
 }  // namespace
