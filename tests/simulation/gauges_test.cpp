@@ -8,7 +8,7 @@
 #include "floatframe/analysis.hpp"
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/formulation/relative.hpp"
-#include "floatframe/model/gauge.hpp"
+#include "floatframe/model/gauge_place.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/error_of.hpp"
@@ -232,14 +232,46 @@ TEST(Gauges, DoubtfulPlacesAreAskedFor) {
   is_asked("{stress: {body: beam, at: [0.2, 0, 0]}}", "at that point");
   is_asked("{stress: {body: beam, at: [0.2, 0, 0], material: STEEL}}", "in the material 'STEEL'");
   is_asked("{section_force: {body: beam, node: mid}}", "3 beam elements of body 'beam' meet");
-  is_asked("{section_force: {body: beam, node: mid, toward: z}}", "expected 'toward'");
+  is_asked("{section_force: {body: beam, node: mid, along: z}}", "expected 'along'");
   is_asked("{section_force: {body: beam, at: [3, 0, 0]}}", "m away");
   EXPECT_EQ(
-      model_of(frame_with("{section_force: {body: beam, node: mid, toward: y}}")).gauges.size(),
-      1u);
+      model_of(frame_with("{section_force: {body: beam, node: mid, along: y}}")).gauges.size(), 1u);
   // Two elements of a straight bar: no question.
   EXPECT_EQ(model_of(frame_with("{section_force: {body: beam, at: [0.2, 0, 0]}}")).gauges.size(),
             1u);
+}
+
+/// Three bars meet at `mid`, all with outer points above it: a gauge there says along which bar.
+TEST(Gauges, ABarIsChosenByItsDirection) {
+  const auto on = [](const std::string& along) {
+    const Model model =
+        model_of(frame_with("{stress: {body: beam, node: mid, toward: z" + along + "}}"));
+    const BodyStress& stress = *model.bodies[0].data->stress;
+    const int place = model.gauges.at(0).place;
+    int k = 0;
+    while (stress.first_place[k + 1] <= place) ++k;
+    return stress.sections[k].name;
+  };
+  EXPECT_NE(error_of([&] {
+              on("");
+            }).find("3 beam elements of body 'beam' meet at node 'mid', expected 'along'"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { on(", along: z"); }).find("expected 'along'"), std::string::npos);
+  EXPECT_EQ(on(", along: -x"), "bar 'one', element 2");
+  EXPECT_EQ(on(", along: x"), "bar 'two', element 1");
+  EXPECT_EQ(on(", along: [-0.1, 1, 0]"), "bar 'arm', element 1");
+}
+
+TEST(Gauges, OfASectionGivenByConstants) {
+  std::string text = turning_rod;
+  const std::string round = "{round: 0.02}";
+  text.replace(text.find(round), round.size(), "{area: 3e-4, Iy: 8e-9, Iz: 8e-9, J: 1.6e-8}");
+  const std::string said = error_of([&] { build_model(description_of(text)); });
+  EXPECT_NE(
+      said.find("outputs.root.stress: the beam of body 'rod' at node 'hub' has a section given "
+                "by constants: it has section forces (section_force) and no stress"),
+      std::string::npos)
+      << said;
 }
 
 /// Towards a flat side the middle of its edge, not one of its corners.
@@ -271,7 +303,7 @@ TEST(Gauges, MaterialsAndLayersOfANode) {
   const auto found = [&](int node, const Vec3& toward, const Vec3* point = nullptr) {
     gauge.node = node;
     gauge.toward = toward;
-    return find_place(body, "part", gauge, point, "", toward, false);
+    return find_place(body, "part", gauge, point, "", false);
   };
   EXPECT_EQ(found(7, none).error,
             "body 'part' has 2 places with stress at node 7 (solid of STEEL, solid of SOFT), "

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "floatframe/model/gauge.hpp"
+#include "floatframe/model/gauge_place.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/model/sentences.hpp"
@@ -81,9 +82,10 @@ bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::str
   const Mat3 R_BW = body.X_WB.R.transpose();
   const Vec3 point = R_BW * (o.at.point - body.X_WB.p);
   const bool nearest = o.gauge.node == 0 && !o.at.node;
-  const GaugeChoice found =
-      find_place(*body.data, body.name, o.gauge, nearest ? &point : nullptr, o.at.node.value_or(""),
-                 R_BW * o.gauge.toward, o.type == OutputType::section_force);
+  GaugeDescription turned = o.gauge;
+  for (Vec3* d : {&turned.toward, &turned.along, &turned.direction}) *d = R_BW * *d;
+  const GaugeChoice found = find_place(*body.data, body.name, turned, nearest ? &point : nullptr,
+                                       o.at.node.value_or(""), o.type == OutputType::section_force);
   if (!found.error.empty()) {
     errors.add(o.origin.mark, who + "." + output_type_name(o.type) + ": " + found.error);
     return false;
@@ -93,7 +95,7 @@ bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::str
   g.place = found.place;
   g.section = found.section;
   g.inertia_loads = o.gauge.inertia_loads;
-  if (o.type == OutputType::strain) g.direction = unit_vector(R_BW * o.gauge.direction);
+  if (o.type == OutputType::strain) g.direction = unit_vector(turned.direction);
   // Components of one place share the gauge.
   const auto same = std::find_if(model.gauges.begin(), model.gauges.end(), [&](const Gauge& other) {
     return other.body == g.body && other.place == g.place && other.section == g.section &&

@@ -288,6 +288,8 @@ struct GaugeDescription {
   std::string material;  ///< of those that meet at a node, its name; empty: any
   /// Of several places at a node the one farthest in this direction, design configuration.
   Vec3 toward = Vec3::Zero();
+  /// Of several beam elements at a node the one that lies in this direction from there.
+  Vec3 along = Vec3::Zero();
   Vec3 direction = Vec3::Zero();  ///< of a strain, design configuration
   bool inertia_loads = true;      ///< false: by the modes alone
 };

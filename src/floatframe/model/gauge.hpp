@@ -36,14 +36,4 @@ double von_mises(const Vec6& stress) noexcept;
 /// Descending. Closed form (Smith 1961), also where values coincide.
 Vec3 principal_stresses(const Vec6& stress) noexcept;
 
-/// How a gauge finds its place, and where it is. Throws nothing; what is wrong is the sentence.
-struct GaugeChoice {
-  int place = -1, section = -1;
-  std::string error;
-};
-/// `point`: of `at`, in body axes; null: by `node_name` or the number of the description.
-GaugeChoice find_place(const FlexibleBody& body, const std::string& name,
-                       const GaugeDescription& gauge, const Vec3* point,
-                       const std::string& node_name, const Vec3& toward, bool section);
-
 }  // namespace floatframe

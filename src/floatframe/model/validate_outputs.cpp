@@ -56,7 +56,7 @@ void gauge(const OutputDescription& o, const Entity& entity) {
   if (o.gauge.node < 0)
     entity.error(what, "found the node " + std::to_string(o.gauge.node) +
                            ", expected the number of a node in its file, from 1");
-  if (!o.at.point.allFinite() || !o.gauge.toward.allFinite())
+  if (!o.at.point.allFinite() || !o.gauge.toward.allFinite() || !o.gauge.along.allFinite())
     entity.error(what, "found a number that is not finite");
   if (o.type == OutputType::strain)
     entity.complain("direction", sentences::direction(o.gauge.direction));

@@ -53,6 +53,7 @@ void place(OutputDescription& o, const Placement& x) {
   place(o.at, x);
   place(o.to, x);
   o.gauge.toward = x.P * o.gauge.toward;
+  o.gauge.along = x.P * o.gauge.along;
   o.gauge.direction = x.P * o.gauge.direction;
 }
 

@@ -260,8 +260,8 @@ class OutputReader {
     return false;
   }
 
-  /// {body, node: name or number} or {body, at: point}, with `layer`, `material` and `toward` where
-  /// there are several places.
+  /// {body, node: name or number} or {body, at: point}, with `layer`, `material`, `toward` and
+  /// `along` where there are several places.
   void gauge(const std::string& name, YamlSection& s, const YamlValue& what, OutputDescription& o) {
     const auto direction = o.type == OutputType::strain ? s.require("direction") : std::nullopt;
     const auto loads = s.get("inertia_loads");
@@ -284,7 +284,8 @@ class OutputReader {
     if (!place) return false;
     const auto body = place->require("body");
     const auto node = place->get("node"), at = place->get("at"), layer = place->get("layer"),
-               toward = place->get("toward"), material = place->get("material");
+               toward = place->get("toward"), along = place->get("along"),
+               material = place->get("material");
     place->finish();
     const auto name = body ? moving_body(*body) : std::nullopt;
     bool good = name.has_value();
@@ -310,6 +311,7 @@ class OutputReader {
       good = word && good;
       o.gauge.material = word.value_or("");
     }
+    good = direction_of(along, o.gauge.along) && good;
     return direction_of(toward, o.gauge.toward) && good;
   }
 
