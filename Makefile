@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer test-export demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer test-export test-python demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -11,7 +11,8 @@ help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
 	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, twenty kills of each kind,"
-	@echo "                   the page in a browser, exported files in VTK and a glTF validator"
+	@echo "                   the page in a browser, exported files in VTK and a glTF validator, the Python package"
+	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
 	@echo "make docs          reference of the C++ interface: build/docs/html/index.html"
 	@echo "make bench         timing of a chain of flexible links, the Iltis and single kernels"
@@ -43,10 +44,17 @@ test-all: test
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
+	$(MAKE) --no-print-directory test-python
 
 # Files for other programs, opened by VTK and by Khronos' validator of glTF.
 test-export:
 	@scripts/check_export.sh
+
+# The Python package in the build folder, in an environment of its own from PyPI.
+test-python: build
+	python=$$(scripts/python_environment.sh) && cmake -S . -B build -DFLOATFRAME_PYTHON=ON -DPython_EXECUTABLE=$$python \
+	  && cmake --build build --parallel $(JOBS) --target floatframe_python floatframe_program \
+	  && PYTHONPATH=build/python $$python -B -m pytest -q
 
 # The page of a run: its units in Node, then pages in a headless Chromium.
 test-viewer:

@@ -93,6 +93,14 @@ def errors_outside(root):
                     yield f"{path}:{number}: '{folder}' must not use {header}; it may use {allowed}"
 
 
+def errors_of_python(root):
+    """The Python package is a program like any other: it sees the public headers."""
+    for path in sorted((root.parent.parent / "python" / "src").glob("*.[ch]pp")):
+        for number, header in included(path):
+            if "/" in header:
+                yield f"{path}:{number}: the Python package must not use {header}; it may use the public headers, <floatframe/NAME.hpp>"
+
+
 def public_errors(root):
     reached = {path.name: path.name for path in sorted(root.glob("*.hpp"))}  # file: the public header it is reached from
     waiting = list(reached)
@@ -115,6 +123,7 @@ def public_errors(root):
 def errors(root):
     yield from public_errors(root)
     yield from errors_outside(root)
+    yield from errors_of_python(root)
     for path in sorted(root.rglob("*")):
         if path.suffix not in (".hpp", ".cpp", ".h", ".inl") or path.parent == root:
             continue

@@ -8,7 +8,7 @@ if ! command -v clang-format >/dev/null; then
   echo "clang-format is not installed (package clang-format)" >&2
   exit 2
 fi
-mapfile -t files < <(find src tests bench -name '*.hpp' -o -name '*.cpp' | sort)
+mapfile -t files < <(find src tests bench python -name '*.hpp' -o -name '*.cpp' | sort)
 if [[ "${1:-}" == "--check" ]]; then
   clang-format --dry-run --Werror "${files[@]}"
 else

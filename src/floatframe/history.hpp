@@ -4,4 +4,5 @@
 #include "floatframe/history/new_channels.hpp"
 #include "floatframe/history/state_history.hpp"
 #include "floatframe/report/results_csv.hpp"
+#include "floatframe/report/summary_json.hpp"
 #include "floatframe/simulation/result_table.hpp"

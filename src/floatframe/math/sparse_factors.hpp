@@ -38,7 +38,4 @@ class SparseFactors {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Is the MUMPS module there?
-bool mumps_available();
-
 }  // namespace floatframe

@@ -1,0 +1,65 @@
+"""What Floatframe raises. All are `floatframe.Error`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+
+class ErrorEntry(NamedTuple):
+    """One error of an input: a sentence, and where it was found."""
+
+    file: str
+    """Model file, or a file that it refers to; empty where there is none."""
+    line: int
+    """From 1; 0: not known."""
+    column: int
+    """From 1; 0: not known."""
+    message: str
+
+    def __str__(self) -> str:
+        place = ":".join(str(part) for part in self[:3] if part)
+        return f"{place}: {self.message}" if place else self.message
+
+
+class Error(Exception):
+    """Of any kind."""
+
+
+class InputError(Error, ValueError):
+    """What was given is not valid: every error of it, with its place, in `errors`."""
+
+    errors: list[ErrorEntry]
+
+    def __init__(self, errors: Sequence[ErrorEntry] | str) -> None:
+        if isinstance(errors, str):
+            errors = [ErrorEntry("", 0, 0, errors)]
+        super().__init__(list(errors))
+        self.errors = list(errors)
+
+    def __str__(self) -> str:
+        return "\n".join(str(error) for error in self.errors)
+
+
+class RunError(Error, RuntimeError):
+    """What was asked for cannot be started, in one sentence."""
+
+
+class OutputError(Error):
+    """A file cannot be written."""
+
+
+class StepError(Error, RuntimeError):
+    """A step of a simulation failed; `status`, `where` and `time` [s] say how, where and when."""
+
+    def __init__(self, message: str, status: str = "", where: str = "", time: float = 0.0) -> None:
+        super().__init__(message, status, where, time)
+        self.status = status
+        self.where = where
+        self.time = time
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+__all__: list[Any] = ["Error", "ErrorEntry", "InputError", "OutputError", "RunError", "StepError"]

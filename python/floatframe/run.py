@@ -1,0 +1,95 @@
+"""Runs of models and their results."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .errors import InputError
+from .model import Model
+
+if TYPE_CHECKING:
+    import pandas
+
+Array = npt.NDArray[np.float64]
+Coordinates = Literal["relative", "absolute"]
+Inertia = Literal["preprocessing", "projection"]
+
+
+class Result(Mapping[str, Array]):
+    """What is left of a run: samples of its outputs and a summary.
+
+    `res["chassis.z"]` is the array of an output, shape (samples,), unit `res.units["chassis.z"]`. Arrays share the memory of
+    the result and keep it alive.
+    """
+
+    def __init__(self, core: _core.RunResult, model: Model) -> None:
+        self._core = core
+        self.model = model
+        columns = core.columns
+        self.units: dict[str, str] = dict(columns)
+        """Units by the names of columns; "time" is the first."""
+        self.table: Array = core.table
+        """All samples, shape (samples, columns): time, then the outputs in their order."""
+        self._column = {name: k for k, (name, _) in enumerate(columns)}
+        self.summary: dict[str, Any] = json.loads(core.summary_json)
+        """What `summary.json` of the command line says: status, steps, iterations, energies, violations, warnings."""
+
+    @property
+    def time(self) -> Array:
+        """Instants of the samples [s], shape (samples,)."""
+        return self.table[:, 0]
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self._column:
+            raise KeyError(f"found no output '{name}', expected one of {', '.join(self._column)}")
+        return self.table[:, self._column[name]]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._column)
+
+    def __len__(self) -> int:
+        return len(self._column)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table of pandas with the time as its index, in memory of its own."""
+        import pandas
+
+        names = list(self._column)
+        index = pandas.Index(self.time.copy(), name="time")
+        return pandas.DataFrame(self.table[:, 1:].copy(), columns=names[1:], index=index)
+
+    def to_csv(self) -> str:
+        """What `results.csv` of the command line holds: every number reads back to the same bits."""
+        return self._core.results_csv
+
+    def __repr__(self) -> str:
+        return f"<floatframe.Result of '{self.model.name}': {len(self.table)} samples, {self.summary['status']}>"
+
+
+def run(
+    model: Model,
+    *,
+    step: float | None = None,
+    duration: float | None = None,
+    coordinates: Coordinates | None = None,
+    inertia: Inertia | None = None,
+    progress: bool | Callable[[float], object] = False,
+) -> Result:
+    """Runs a model; what is not given is as the model says. The result of a run that fails holds all up to there, and
+    `res.summary["status"]` says so.
+
+    step, duration: [s]. coordinates: "relative" or "absolute". inertia: "preprocessing" or "projection". progress: True
+    for a bar, or a function of the fraction done (0..1), called at most 20 times a second.
+
+    Other threads of Python go on meanwhile, and Ctrl-C ends it. Raises InputError for what is not valid, RunError where
+    the start cannot be found.
+    """
+    if not isinstance(model, Model):
+        raise InputError(f"found {type(model).__name__}, expected a floatframe.Model")
+    return Result(_core.run(model.core, step, duration, coordinates, inertia, progress or None), model)

@@ -1,0 +1,49 @@
+#pragma once
+// What the sources of the module share. Each binds one subject: `bind_<subject>`.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/complex.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/vector.h>
+
+#include <floatframe/floatframe.hpp>
+
+namespace nb = nanobind;
+
+namespace floatframe::python {
+
+void bind_errors(nb::module_& m);
+void bind_version(nb::module_& m);
+void bind_model(nb::module_& m);
+void bind_run(nb::module_& m);
+
+/// A copy as a numpy array of its own.
+nb::object array_of(const VecX& v);
+nb::object array_of(const MatX& a);
+nb::object array_of(const std::vector<double>& v);
+nb::object array_of(const Eigen::VectorXcd& v);
+nb::object array_of(const Eigen::MatrixXcd& a);
+
+/// The argument `name`, one of `words`. Throws ValueError with what was found and expected.
+template <class T>
+T word_of(const char* name, const std::string& found,
+          std::initializer_list<std::pair<const char*, T>> words) {
+  std::string expected;
+  for (const auto& [word, value] : words) {
+    if (found == word) return value;
+    expected += (expected.empty() ? "'" : ", '") + std::string(word) + "'";
+  }
+  throw nb::value_error(
+      (std::string(name) + ": found '" + found + "', expected one of " + expected).c_str());
+}
+
+/// `run` in a thread of its own; this one, of Python, looks for signals meanwhile (Ctrl-C) and
+/// calls `watch` with the lock held. What either throws ends both: `stop` is set and waited for.
+void interruptible(std::atomic<bool>& stop, const std::function<void()>& run,
+                   const std::function<void()>& watch);
+
+}  // namespace floatframe::python

@@ -1,0 +1,44 @@
+// Exceptions: those of C++ become those of floatframe.errors, with every error of an input and its
+// place.
+#include <exception>
+
+#include "bindings.hpp"
+
+namespace floatframe::python {
+namespace {
+
+nb::object class_named(const char* name) {
+  return nb::module_::import_("floatframe.errors").attr(name);
+}
+
+nb::object entries_of(const InputError& error) {
+  const nb::object entry = class_named("ErrorEntry");
+  nb::list list;
+  for (const ErrorEntry& e : error.errors())
+    list.append(entry(e.mark.file, e.mark.line, e.mark.column, e.message));
+  return list;
+}
+
+void raise(const char* name, const nb::object& argument) {
+  const nb::object type = class_named(name);
+  const nb::object error = type(argument);
+  PyErr_SetObject(type.ptr(), error.ptr());
+}
+
+void translate(const std::exception_ptr& p, void*) {
+  try {
+    std::rethrow_exception(p);
+  } catch (const InputError& error) {
+    raise("InputError", entries_of(error));
+  } catch (const RunError& error) {
+    raise("RunError", nb::cast(std::string(error.what())));
+  } catch (const OutputError& error) {
+    raise("OutputError", nb::cast(std::string(error.what())));
+  }
+}
+
+}  // namespace
+
+void bind_errors(nb::module_&) { nb::register_exception_translator(translate); }
+
+}  // namespace floatframe::python

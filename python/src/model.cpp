@@ -1,0 +1,51 @@
+// Model files and built models.
+
+#include "bindings.hpp"
+
+namespace floatframe::python {
+namespace {
+
+std::vector<ParameterOverride> overrides(
+    const std::vector<std::pair<std::string, std::string>>& parameters) {
+  std::vector<ParameterOverride> list;
+  for (const auto& [name, value] : parameters) list.push_back({name, value});
+  return list;
+}
+
+template <class Items>
+std::vector<std::string> names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+std::vector<std::pair<std::string, std::string>> units_of(const Model& model) {
+  std::vector<std::pair<std::string, std::string>> units;
+  for (const Output& o : model.outputs) units.emplace_back(o.name, o.unit);
+  return units;
+}
+
+}  // namespace
+
+void bind_model(nb::module_& m) {
+  nb::class_<Model>(m, "Model")
+      .def_ro("name", &Model::name)
+      .def_prop_ro("bodies", [](const Model& model) { return names_of(model.bodies); })
+      .def_prop_ro("joints", [](const Model& model) { return names_of(model.joints); })
+      .def_prop_ro("forces", [](const Model& model) { return names_of(model.forces); })
+      .def_prop_ro("inputs", [](const Model& model) { return names_of(model.inputs); })
+      .def_prop_ro("outputs", [](const Model& model) { return names_of(model.outputs); })
+      .def_prop_ro("output_units", units_of)
+      .def_prop_ro("step", [](const Model& model) { return model.simulation.step; })
+      .def_prop_ro("duration", [](const Model& model) { return model.simulation.duration; });
+  m.def(
+      "load_model",
+      [](const std::string& path, const std::vector<std::pair<std::string, std::string>>& given) {
+        const std::vector<ParameterOverride> parameters = overrides(given);
+        nb::gil_scoped_release released;
+        return load_model(path, parameters);
+      },
+      nb::arg("path"), nb::arg("parameters"));
+}
+
+}  // namespace floatframe::python
