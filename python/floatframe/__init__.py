@@ -8,21 +8,28 @@ SI units, angles in radians, z up unless the model says otherwise, quaternions (
 >>> res["chassis.z"], res.time
 """
 
-from ._core import __version__
+from ._core import SimulationState, State, StepReport, __version__
 from .build import build_info, example, program
 from .errors import Error, ErrorEntry, InputError, OutputError, RunError, StepError
 from .model import Model
+from .options import Options
 from .run import Result, run
+from .simulation import Simulation
 
 __all__ = [
     "Error",
     "ErrorEntry",
     "InputError",
     "Model",
+    "Options",
     "OutputError",
     "Result",
     "RunError",
+    "Simulation",
+    "SimulationState",
+    "State",
     "StepError",
+    "StepReport",
     "__version__",
     "build_info",
     "example",

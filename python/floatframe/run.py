@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Literal
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from .errors import InputError
 from .model import Model
+from .progress import Bar
+from .options import Array, Options, as_dict
 
 if TYPE_CHECKING:
     import pandas
-
-Array = npt.NDArray[np.float64]
-Coordinates = Literal["relative", "absolute"]
-Inertia = Literal["preprocessing", "projection"]
+    from typing_extensions import Unpack
 
 
 class Result(Mapping[str, Array]):
@@ -68,6 +64,11 @@ class Result(Mapping[str, Array]):
         """What `results.csv` of the command line holds: every number reads back to the same bits."""
         return self._core.results_csv
 
+    @property
+    def state(self) -> _core.State | None:
+        """Where the run came to, for another one to start from: `ff.run(model, start=res.state)`."""
+        return self._core.state
+
     def __repr__(self) -> str:
         return f"<floatframe.Result of '{self.model.name}': {len(self.table)} samples, {self.summary['status']}>"
 
@@ -75,21 +76,20 @@ class Result(Mapping[str, Array]):
 def run(
     model: Model,
     *,
-    step: float | None = None,
     duration: float | None = None,
-    coordinates: Coordinates | None = None,
-    inertia: Inertia | None = None,
     progress: bool | Callable[[float], object] = False,
+    **options: Unpack[Options],
 ) -> Result:
     """Runs a model; what is not given is as the model says. The result of a run that fails holds all up to there, and
     `res.summary["status"]` says so.
 
-    step, duration: [s]. coordinates: "relative" or "absolute". inertia: "preprocessing" or "projection". progress: True
-    for a bar, or a function of the fraction done (0..1), called at most 20 times a second.
+    duration: [s]. progress: True for a bar (of tqdm, if there is one), or a function of the fraction done (0..1), called at
+    most 20 times a second. All other options are those of `Options`: step [s], coordinates, inertia, start, tolerance, ...
 
     Other threads of Python go on meanwhile, and Ctrl-C ends it. Raises InputError for what is not valid, RunError where
     the start cannot be found.
     """
     if not isinstance(model, Model):
         raise InputError(f"found {type(model).__name__}, expected a floatframe.Model")
-    return Result(_core.run(model.core, step, duration, coordinates, inertia, progress or None), model)
+    with Bar(progress) as bar:
+        return Result(_core.run(model.core, duration, bar.show, as_dict(options)), model)

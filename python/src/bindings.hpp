@@ -19,7 +19,9 @@ namespace floatframe::python {
 void bind_errors(nb::module_& m);
 void bind_version(nb::module_& m);
 void bind_model(nb::module_& m);
+void bind_states(nb::module_& m);
 void bind_run(nb::module_& m);
+void bind_simulation(nb::module_& m);
 
 /// A copy as a numpy array of its own.
 nb::object array_of(const VecX& v);
@@ -40,6 +42,11 @@ T word_of(const char* name, const std::string& found,
   throw nb::value_error(
       (std::string(name) + ": found '" + found + "', expected one of " + expected).c_str());
 }
+
+Coordinates coordinates_of(const std::string& word);
+InertiaMethod inertia_of(const std::string& word);
+/// Of keyword arguments; None is as if it was not given. Throws TypeError for other names and types.
+SimulationOptions options_of(const nb::dict& given);
 
 /// `run` in a thread of its own; this one, of Python, looks for signals meanwhile (Ctrl-C) and
 /// calls `watch` with the lock held. What either throws ends both: `stop` is set and waited for.

@@ -9,5 +9,7 @@ NB_MODULE(_core, m) {
   bind_errors(m);
   bind_version(m);
   bind_model(m);
+  bind_states(m);
   bind_run(m);
+  bind_simulation(m);
 }

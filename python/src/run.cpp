@@ -6,37 +6,13 @@
 namespace floatframe::python {
 namespace {
 
-SimulationDescription with_options(const Model& model, std::optional<double> step,
-                                   std::optional<double> duration,
-                                   const std::optional<std::string>& coordinates,
-                                   const std::optional<std::string>& inertia) {
-  SimulationDescription s = model.simulation;
-  if (step) {
-    s.step = *step;
-    s.given_by("", "step");
-  }
+std::shared_ptr<RunResult> run_model(const Model& model, std::optional<double> duration,
+                                     const nb::object& progress, const nb::dict& given) {
+  SimulationDescription simulation = described(model, options_of(given));
   if (duration) {
-    s.duration = *duration;
-    s.given_by("", "duration");
+    simulation.duration = *duration;
+    simulation.given_by("", "duration");
   }
-  if (coordinates)
-    s.coordinates = word_of<Coordinates>(
-        "coordinates", *coordinates,
-        {{"relative", Coordinates::relative}, {"absolute", Coordinates::absolute}});
-  if (inertia)
-    s.inertia = word_of<InertiaMethod>("inertia", *inertia,
-                                       {{"preprocessing", InertiaMethod::preprocessing},
-                                        {"projection", InertiaMethod::projection}});
-  return s;
-}
-
-std::shared_ptr<RunResult> run_model(const Model& model, std::optional<double> step,
-                                     std::optional<double> duration,
-                                     const std::optional<std::string>& coordinates,
-                                     const std::optional<std::string>& inertia,
-                                     const nb::object& progress) {
-  const SimulationDescription simulation =
-      with_options(model, step, duration, coordinates, inertia);
   std::atomic<bool> stop{false};
   std::atomic<double> fraction{0.0};
   RunOptions options;
@@ -77,10 +53,12 @@ void bind_run(nb::module_& m) {
           "table", [](const std::shared_ptr<RunResult>& r) { return table_of(r); },
           nb::rv_policy::reference)
       .def_prop_ro("columns", columns_of)
+      .def_prop_ro("state",
+                   [](const RunResult& r) { return r.state ? nb::cast(*r.state) : nb::none(); })
       .def_prop_ro("summary_json", [](const RunResult& r) { return summary_json(r.summary); })
       .def_prop_ro("results_csv", [](const RunResult& r) { return results_csv(r.table); });
-  m.def("run", run_model, nb::arg("model"), nb::arg("step").none(), nb::arg("duration").none(),
-        nb::arg("coordinates").none(), nb::arg("inertia").none(), nb::arg("progress").none());
+  m.def("run", run_model, nb::arg("model"), nb::arg("duration").none(), nb::arg("progress").none(),
+        nb::arg("options"));
 }
 
 }  // namespace floatframe::python

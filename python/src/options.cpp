@@ -1,0 +1,110 @@
+// Options of simulations and analyses by their names: keyword arguments of Python.
+#include <cmath>
+
+#include "bindings.hpp"
+
+namespace floatframe::python {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const nb::handle value, const char* expected) {
+  const std::string found = nb::cast<std::string>(nb::repr(nb::type_name(value.type())));
+  throw nb::type_error((name + ": found " + found + ", expected " + expected).c_str());
+}
+
+double number(const std::string& name, const nb::handle value) {
+  double x = 0.0;
+  if (PyBool_Check(value.ptr()) || !nb::try_cast(value, x)) refuse(name, value, "a number");
+  return x;
+}
+
+int whole(const std::string& name, const nb::handle value) {
+  int n = 0;
+  if (PyBool_Check(value.ptr()) || !nb::try_cast(value, n)) refuse(name, value, "a whole number");
+  return n;
+}
+
+bool flag(const std::string& name, const nb::handle value) {
+  if (!PyBool_Check(value.ptr())) refuse(name, value, "True or False");
+  return value.ptr() == Py_True;
+}
+
+std::string text(const std::string& name, const nb::handle value) {
+  std::string s;
+  if (!nb::try_cast(value, s)) refuse(name, value, "a word");
+  return s;
+}
+
+void set_start(SimulationOptions& o, const std::string& name, const nb::handle value) {
+  if (nb::isinstance<SystemState>(value)) {
+    o.start = Start::state;
+    o.state = std::make_shared<const SystemState>(nb::cast<const SystemState&>(value));
+    return;
+  }
+  if (!nb::isinstance<nb::str>(value))
+    refuse(name, value, "'given', 'equilibrium' or a floatframe.State");
+  o.start = word_of<Start>("start", text(name, value),
+                           {{"given", Start::given}, {"equilibrium", Start::equilibrium}});
+}
+
+using Setter = void (*)(SimulationOptions&, const std::string&, nb::handle);
+
+template <std::optional<double> SimulationOptions::*member>
+void set_number(SimulationOptions& o, const std::string& name, const nb::handle value) {
+  o.*member = number(name, value);
+}
+
+const std::vector<std::pair<std::string, Setter>>& setters() {
+  using O = SimulationOptions;
+  static const std::vector<std::pair<std::string, Setter>> list{
+      {"step", set_number<&O::step>},
+      {"coordinates", [](O& o, const std::string& n,
+                         nb::handle v) { o.coordinates = coordinates_of(text(n, v)); }},
+      {"inertia",
+       [](O& o, const std::string& n, nb::handle v) { o.inertia = inertia_of(text(n, v)); }},
+      {"start", set_start},
+      {"tolerance", set_number<&O::tolerance>},
+      {"spectral_radius", set_number<&O::spectral_radius>},
+      {"max_iterations",
+       [](O& o, const std::string& n, nb::handle v) { o.max_iterations = whole(n, v); }},
+      {"min_step", set_number<&O::min_step>},
+      {"penalty", set_number<&O::penalty>},
+      {"position_tolerance", set_number<&O::position_tolerance>},
+      {"velocity_tolerance", set_number<&O::velocity_tolerance>},
+      {"locate_edges",
+       [](O& o, const std::string& n, nb::handle v) { o.locate_edges = flag(n, v); }}};
+  return list;
+}
+
+}  // namespace
+
+Coordinates coordinates_of(const std::string& word) {
+  return word_of<Coordinates>(
+      "coordinates", word,
+      {{"relative", Coordinates::relative}, {"absolute", Coordinates::absolute}});
+}
+
+InertiaMethod inertia_of(const std::string& word) {
+  return word_of<InertiaMethod>(
+      "inertia", word,
+      {{"preprocessing", InertiaMethod::preprocessing}, {"projection", InertiaMethod::projection}});
+}
+
+SimulationOptions options_of(const nb::dict& given) {
+  SimulationOptions options;
+  for (const auto& [key, value] : given) {
+    const std::string name = nb::cast<std::string>(key);
+    if (value.is_none()) continue;  // as the model says
+    const auto& list = setters();
+    const auto it =
+        std::find_if(list.begin(), list.end(), [&](const auto& s) { return s.first == name; });
+    if (it == list.end()) {
+      std::string known;
+      for (const auto& [word, set] : list) known += (known.empty() ? "" : ", ") + word;
+      throw nb::type_error(("found the option '" + name + "', expected one of " + known).c_str());
+    }
+    it->second(options, name, value);
+  }
+  return options;
+}
+
+}  // namespace floatframe::python

@@ -1,0 +1,270 @@
+// Simulations that Python steps. A simulation belongs to one thread at a time: while it steps,
+// without the lock of the interpreter, calls from other threads and from its own callbacks are
+// refused.
+#include <thread>
+#include <unordered_map>
+
+#include "bindings.hpp"
+
+namespace floatframe::python {
+namespace {
+
+using Numbers = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
+
+/// A force law: the value of an input as a function of the time and of some outputs.
+struct Law {
+  std::ptrdiff_t input = 0;
+  std::vector<std::size_t> outputs;
+  nb::object function;
+};
+
+struct Stepper {
+  Stepper(const Model& model, const SimulationOptions& options) : simulation(model, options) {
+    const auto number = [](std::vector<std::string>&& names, auto& index) {
+      for (std::size_t k = 0; k < names.size(); ++k) index.emplace(names[k], k);
+      return std::move(names);
+    };
+    input_names = number(simulation.input_names(), input_index);
+    output_names = number(simulation.output_names(), output_index);
+  }
+
+  Simulation simulation;
+  std::vector<std::string> input_names, output_names;
+  std::unordered_map<std::string, std::size_t> input_index, output_index;
+  std::atomic<bool> busy{false};
+  std::thread::id worker;
+  nb::object on_step;
+  std::vector<Law> laws;
+  nb::object seen, changed;  ///< arrays that on_step gets: outputs and inputs
+  double *seen_numbers = nullptr, *changed_numbers = nullptr;
+  std::exception_ptr failed;
+
+  /// Throws where the simulation is at work.
+  Simulation& idle() {
+    if (!busy) return simulation;
+    throw std::runtime_error(worker == std::this_thread::get_id()
+                                 ? "the simulation was called by its own callback, which may use "
+                                   "its arguments only"
+                                 : "the simulation is stepping in another thread; it belongs to "
+                                   "one thread at a time");
+  }
+};
+
+std::size_t index_in(const std::unordered_map<std::string, std::size_t>& index,
+                     const std::vector<std::string>& names, const char* what,
+                     const std::string& name) {
+  if (const auto it = index.find(name); it != index.end()) return it->second;
+  std::string known;
+  for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
+  throw nb::key_error(("found no " + std::string(what) + " '" + name + "', expected one of " +
+                       (known.empty() ? "none" : known))
+                          .c_str());
+}
+
+std::size_t input_of(const Stepper& s, const std::string& name) {
+  return index_in(s.input_index, s.input_names, "input", name);
+}
+std::size_t output_of(const Stepper& s, const std::string& name) {
+  return index_in(s.output_index, s.output_names, "output", name);
+}
+
+/// An array that Python owns, and its numbers.
+double* numbers_of(const nb::object& array) { return nb::cast<Numbers>(array).data(); }
+
+void call_on_step(const Stepper& s, double time, std::span<const double> outputs,
+                  std::span<double> inputs) {
+  std::copy(outputs.begin(), outputs.end(), s.seen_numbers);
+  std::copy(inputs.begin(), inputs.end(), s.changed_numbers);
+  s.on_step(time, s.seen, s.changed);
+  std::copy_n(s.changed_numbers, inputs.size(), inputs.begin());
+}
+
+void call_law(const Stepper& s, const Law& law, double time, std::span<const double> outputs,
+              std::span<double> inputs) {
+  nb::list arguments;
+  arguments.append(time);
+  for (const std::size_t k : law.outputs) arguments.append(outputs[k]);
+  const nb::object value = law.function(*arguments);
+  double x = 0.0;
+  if (!nb::try_cast(value, x))
+    throw nb::type_error(
+        ("the law of the input '" + s.input_names[static_cast<std::size_t>(law.input)] + "' gave " +
+         nb::cast<std::string>(nb::type_name(value.type())) + ", expected a number")
+            .c_str());
+  inputs[static_cast<std::size_t>(law.input)] = x;
+}
+
+/// What the library calls before each step while there are callbacks.
+void set_callback(Stepper& s) {
+  if (!s.on_step.is_valid() && s.laws.empty()) {
+    s.simulation.on_force({});
+    return;
+  }
+  s.simulation.on_force(
+      [&s](double time, std::span<const double> outputs, std::span<double> inputs) {
+        nb::gil_scoped_acquire lock;
+        try {
+          if (s.on_step.is_valid()) call_on_step(s, time, outputs, inputs);
+          for (const Law& law : s.laws) call_law(s, law, time, outputs, inputs);
+        } catch (...) {
+          s.failed = std::current_exception();
+          throw;
+        }
+      });
+}
+
+void on_step(Stepper& s, const nb::object& function) {
+  s.idle();
+  if (!function.is_none() && !PyCallable_Check(function.ptr()))
+    throw nb::type_error("on_step: expected a function of (time, outputs, inputs), or None");
+  s.on_step = function.is_none() ? nb::object() : function;
+  s.seen = array_of(std::vector<double>(s.output_names.size()));
+  s.changed = array_of(std::vector<double>(s.input_names.size()));
+  s.seen_numbers = numbers_of(s.seen);
+  s.changed_numbers = numbers_of(s.changed);
+  set_callback(s);
+}
+
+void add_law(Stepper& s, const std::string& input, const nb::object& function,
+             const std::vector<std::string>& of) {
+  s.idle();
+  Law law{static_cast<std::ptrdiff_t>(input_of(s, input)), {}, function};
+  for (const std::string& name : of) law.outputs.push_back(output_of(s, name));
+  if (!function.is_none() && !PyCallable_Check(function.ptr()))
+    throw nb::type_error("law: expected a function of (time, *outputs), or None");
+  std::erase_if(s.laws, [&](const Law& l) { return l.input == law.input; });
+  if (!function.is_none()) s.laws.push_back(std::move(law));
+  set_callback(s);
+}
+
+/// What a step reports, with words of its own.
+struct Report {
+  StepReport step;
+  std::string where;
+};
+
+Report step(Stepper& s, std::optional<double> size) {
+  s.idle();
+  s.failed = nullptr;
+  s.worker = std::this_thread::get_id();
+  s.busy = true;
+  StepReport report;
+  {
+    nb::gil_scoped_release released;
+    report = size ? s.simulation.step(*size) : s.simulation.step();
+  }
+  s.busy = false;
+  if (report) return {report, ""};
+  if (s.failed) std::rethrow_exception(std::exchange(s.failed, nullptr));
+  const nb::object type = nb::module_::import_("floatframe.errors").attr("StepError");
+  const nb::object error = type(s.simulation.failure(), step_status_name(report.status),
+                                std::string(report.where), report.time);
+  PyErr_SetObject(type.ptr(), error.ptr());
+  throw nb::python_error();
+}
+
+// Cycles of callbacks that hold their simulation are seen by Python's collector.
+int traverse(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (!nb::inst_ready(self)) return 0;
+  const Stepper* s = nb::inst_ptr<Stepper>(self);
+  Py_VISIT(s->on_step.ptr());
+  for (const Law& law : s->laws) Py_VISIT(law.function.ptr());
+  return 0;
+}
+int clear(PyObject* self) {
+  Stepper* s = nb::inst_ptr<Stepper>(self);
+  s->simulation.on_force({});
+  s->on_step.reset();
+  s->laws.clear();
+  return 0;
+}
+PyType_Slot slots[] = {{Py_tp_traverse, reinterpret_cast<void*>(traverse)},
+                       {Py_tp_clear, reinterpret_cast<void*>(clear)},
+                       {0, nullptr}};
+
+nb::dict counters(Stepper& s) {
+  const StepCounters c = s.idle().counters();
+  nb::dict d;
+  d["steps"] = c.steps;
+  d["substeps"] = c.substeps;
+  d["iterations"] = c.iterations;
+  d["factorizations"] = c.factorizations;
+  d["edges"] = c.edges;
+  d["edges_passed"] = c.edges_passed;
+  d["max_position_violation"] = c.max_position_violation;
+  d["max_velocity_violation"] = c.max_velocity_violation;
+  return d;
+}
+
+std::vector<double> copied(std::span<const double> numbers) {
+  return {numbers.begin(), numbers.end()};
+}
+
+void bind_reports(nb::module_& m) {
+  nb::class_<Report>(m, "StepReport", "What a step cost and how well it meets the constraints.")
+      .def_prop_ro(
+          "time", [](const Report& r) { return r.step.time; }, "End of the step [s].")
+      .def_prop_ro(
+          "iterations", [](const Report& r) { return r.step.iterations; }, "Newton iterations.")
+      .def_prop_ro("factorizations", [](const Report& r) { return r.step.factorizations; })
+      .def_prop_ro(
+          "substeps", [](const Report& r) { return r.step.substeps; },
+          "That it was divided into; 0: made in one.")
+      .def_prop_ro(
+          "position_violation", [](const Report& r) { return r.step.position_violation; }, "[m]")
+      .def_prop_ro(
+          "velocity_violation", [](const Report& r) { return r.step.velocity_violation; }, "[m/s]");
+}
+
+}  // namespace
+
+void bind_simulation(nb::module_& m) {
+  bind_reports(m);
+  nb::class_<Stepper>(m, "Simulation", nb::type_slots(slots))
+      .def(
+          "__init__",
+          [](Stepper* self, const Model& model, const nb::dict& given) {
+            const SimulationOptions options = options_of(given);
+            nb::gil_scoped_release released;
+            new (self) Stepper(model, options);
+          },
+          nb::arg("model"), nb::arg("options"))
+      .def("step", step, nb::arg("size") = nb::none(),
+           "One step of the size of the options, or of `size` [s]. Raises StepError if it fails: "
+           "time and outputs stay "
+           "those of the last good step, and further steps fail until `restore`. What a callback "
+           "raises comes through.")
+      .def_prop_ro("time", [](Stepper& s) { return s.idle().time(); })
+      .def_prop_ro("step_size", [](Stepper& s) { return s.simulation.options().step; })
+      .def_prop_ro("counters", counters)
+      .def_prop_ro("notes", [](Stepper& s) { return s.simulation.start_report().notes; })
+      .def_ro("input_names", &Stepper::input_names)
+      .def_ro("output_names", &Stepper::output_names)
+      .def("input",
+           [](Stepper& s, const std::string& n) { return s.idle().inputs()[input_of(s, n)]; })
+      .def("set_input",
+           [](Stepper& s, const std::string& n, double value) {
+             s.idle().set_input(static_cast<std::ptrdiff_t>(input_of(s, n)), value);
+           })
+      .def("output",
+           [](Stepper& s, const std::string& n) { return s.idle().outputs()[output_of(s, n)]; })
+      .def("inputs_array", [](Stepper& s) { return array_of(copied(s.idle().inputs())); })
+      .def("outputs_array", [](Stepper& s) { return array_of(copied(s.idle().outputs())); })
+      .def("on_step", on_step, nb::arg("function").none())
+      .def("law", add_law, nb::arg("input"), nb::arg("function").none(), nb::arg("of"))
+      .def(
+          "save", [](Stepper& s) { return s.idle().save(); },
+          "All that decides the next steps; may be pickled.")
+      .def(
+          "restore", [](Stepper& s, const SimulationState& state) { s.idle().restore(state); },
+          nb::arg("state"),
+          "Back, or on, to a state of this simulation or of another one of the same model and "
+          "options: the same steps "
+          "follow, bit for bit. Raises InputError, and changes nothing, for any other state.")
+      .def(
+          "state", [](Stepper& s) { return s.idle().state(); },
+          "Where the model is, by the names of joints and bodies.");
+}
+
+}  // namespace floatframe::python
