@@ -81,6 +81,10 @@ class Rainflow(unittest.TestCase):
             self.assertFalse((self.folder / "none").exists())
         (self.folder / "empty.csv").write_text("time [s],a [m]\n")
         self.assertIn("found no rows", rainflow(self.folder / "empty.csv").stderr)
+        (self.folder / "clock.csv").write_text("time [s]\n0\n1\n")
+        found = rainflow(self.folder / "clock.csv")
+        self.assertEqual(found.returncode, 2)
+        self.assertIn("clock.csv:1: found no channel beside the time", found.stderr)
 
 
 if __name__ == "__main__":

@@ -42,6 +42,10 @@ class Stress(RunCase):
         spot = beam["hot_spots"][0]
         self.assertEqual(spot["node"], "#1")  # of a rod that swings x (1 - x)^2 is largest near a third
         self.assertFalse(spot["doubtful"])
+        # A row of the table is where a gauge can be.
+        toward = [b - a for a, b in zip((0.25, 0, 0), spot["position_m"])]
+        time, values = self.gauge(f"{{stress: {{body: beam, node: '#1', toward: {toward}}}, component: von_mises}}")
+        self.assertAlmostEqual(max(values) / spot["von_mises_Pa"], 1, 12)
         self.assertAlmostEqual(max(map(abs, spot["principal_Pa"])) / spot["von_mises_Pa"], 1, 2)
         # The end at p is that of one element: eight points of its outline, a gauge for each.
         arrays = read_npz(self.folder / "made/envelope.npz")

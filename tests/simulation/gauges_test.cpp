@@ -262,6 +262,18 @@ TEST(Gauges, ABarIsChosenByItsDirection) {
   EXPECT_EQ(on(", along: [-0.1, 1, 0]"), "bar 'arm', element 1");
 }
 
+/// All six components of a place that is not there: one sentence.
+TEST(Gauges, AWrongPlaceIsSaidOnce) {
+  try {
+    build_model(description_of(frame_with("{stress: {body: beam, node: nowhere}}")));
+    ADD_FAILURE() << "was built";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.errors().size(), 1u) << error.what();
+    EXPECT_NE(error.errors()[0].message.find("body 'beam' has no node 'nowhere'"),
+              std::string::npos);
+  }
+}
+
 TEST(Gauges, OfASectionGivenByConstants) {
   std::string text = turning_rod;
   const std::string round = "{round: 0.02}";

@@ -112,6 +112,20 @@ void require_writable(const std::vector<OutputFile>& outputs,
   }
 }
 
+void require_folder(const std::string& path) {
+  try {
+    make_output_folder(path);
+  } catch (const OutputError& error) {
+    throw InputError(error.what());
+  }
+}
+
+std::string results_file(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return path;
+  return (std::filesystem::path(path) / "results.csv").string();
+}
+
 std::vector<std::string> files_of(const ModelFingerprint& used) {
   std::vector<std::string> files;
   for (const auto& [file, hash] : used.files) files.push_back(file);

@@ -60,6 +60,10 @@ void set_clock(SimulationDescription& simulation, const std::string& step,
 /// another output. Paths may be empty. Throws InputError.
 void require_writable(const std::vector<OutputFile>& outputs,
                       const std::vector<std::string>& inputs = {});
+/// Makes a folder for files that are to be written. Throws InputError.
+void require_folder(const std::string& path);
+/// A folder stands for the results.csv in it.
+std::string results_file(const std::string& path);
 /// The names of all files that were read.
 std::vector<std::string> files_of(const ModelFingerprint& used);
 

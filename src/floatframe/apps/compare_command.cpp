@@ -20,13 +20,6 @@ struct CompareArguments {
   bool overlap = false, json = false;
 };
 
-/// A folder stands for the results in it.
-std::string results_file(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(path, ignored)) return path;
-  return (std::filesystem::path(path) / "results.csv").string();
-}
-
 std::optional<ComparisonTolerance> tolerance_of(const CompareArguments& a) {
   if (a.tolerance.empty() && a.absolute.empty()) return std::nullopt;
   ComparisonTolerance t;

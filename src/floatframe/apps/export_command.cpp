@@ -31,6 +31,7 @@ int export_motion(const ExportArguments& arguments) {
   const RecordedRun run = load_recorded_run(arguments.run);
   require_writable({{"--glb", arguments.glb}, {"--npz", arguments.npz}, {"--csv", arguments.csv}},
                    run.inputs);
+  if (!arguments.vtk.empty()) require_folder(arguments.vtk);
   const Model model = build_model(run.description);
   const std::vector<std::size_t> instants = selected_instants(run.history, selection);
   const ExportBodies bodies{&model, selected_bodies(run.history, model, selection),

@@ -21,6 +21,8 @@ int outputs(const OutputsArguments& arguments) {
   const RecordedRun run = load_recorded_run(arguments.run);
   require_writable({{"--out", arguments.out}}, run.inputs);
   const Model model = build_model(run.description);
+  for (const std::string& note : doubtful_gauges(model, model.outputs.size() - run.added))
+    say("note: " + note);
   ResultTable table;
   try {
     table = new_channels(run.history, model, recorded_options(run), run.added);

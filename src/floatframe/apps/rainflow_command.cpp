@@ -32,12 +32,6 @@ struct CountedChannel {
   std::vector<RainflowCycle> cycles;
 };
 
-std::string results_of(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(path, ignored)) return path;
-  return (std::filesystem::path(path) / "results.csv").string();
-}
-
 /// Indices of the columns that are asked for; all but the time if none is.
 std::vector<std::size_t> chosen(const ResultsReader& reader,
                                 const std::vector<std::string>& channels) {
@@ -120,7 +114,7 @@ std::vector<std::string> file_names(const std::vector<CountedChannel>& channels)
 
 void write_files(const RainflowArguments& a, const std::vector<CountedChannel>& channels,
                  const std::vector<double>& time) {
-  make_output_folder(a.out);
+  require_folder(a.out);
   const std::filesystem::path folder = a.out;
   const std::vector<std::string> names = file_names(channels);
   std::string equivalent =
@@ -139,9 +133,11 @@ void write_files(const RainflowArguments& a, const std::vector<CountedChannel>& 
 }
 
 int rainflow_of(const RainflowArguments& a) {
-  const std::string file = results_of(a.result);
+  const std::string file = results_file(a.result);
   ResultsReader reader(file);
   std::vector<CountedChannel> channels;
+  if (reader.columns().size() < 2)
+    throw InputError({file, 1, 0}, "found no channel beside the time, expected one to count");
   const std::vector<std::size_t> columns = chosen(reader, a.channels);
   for (const std::size_t k : columns) channels.push_back({reader.columns()[k], {}, {}});
   std::vector<double> time;

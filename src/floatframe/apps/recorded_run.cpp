@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "floatframe/apps/run_files.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/history/new_channels.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
@@ -41,8 +42,11 @@ void require_same_files(const StateHistory& history, const ModelFingerprint& use
                         const std::string& path) {
   const HistoryOrigin& origin = history.header().origin;
   const auto files = relative_to_model(path, used.files);
+  // The model file itself may have another name by now.
+  const std::string before = std::filesystem::path(origin.model_file).filename().string();
+  const std::string after = std::filesystem::path(path).filename().string();
   for (const auto& [file, hash] : origin.files) {
-    const auto now = files.find(file);
+    const auto now = files.find(file == before ? after : file);
     if (now == files.end() || now->second != hash)
       throw InputError(
           {history.name(), 0, 0},
@@ -72,7 +76,10 @@ RecordedRun load_recorded_run(const RecordedRunArguments& arguments) {
   require_same_files(run.history, used, given.path);
   require_model(run.history, build_model(run.description));
   run.inputs = files_of(used);
-  run.inputs.push_back(run.history.name());
+  // What the run wrote itself is no place for something else.
+  const RunPaths own(std::filesystem::path(run.history.name()).parent_path().string());
+  for (const std::string& file : {run.history.name(), own.results, own.report, own.summary})
+    if (std::error_code ignored; std::filesystem::exists(file, ignored)) run.inputs.push_back(file);
   if (arguments.outputs.empty()) return run;
   const std::size_t before = run.description.outputs.size();
   given.outputs = arguments.outputs;

@@ -49,11 +49,7 @@ RunPaths make_paths(const RunArguments& arguments, const std::string& model_name
   const std::filesystem::path folder =
       arguments.out.empty() ? std::filesystem::path("out") / file_name_from(model_name)
                             : std::filesystem::path(arguments.out);
-  try {
-    make_output_folder(folder.string());
-  } catch (const OutputError& error) {
-    throw InputError(error.what());
-  }
+  require_folder(folder.string());
   return RunPaths(folder.string());
 }
 

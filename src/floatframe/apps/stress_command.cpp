@@ -45,11 +45,15 @@ StressReport bodies_of(const RecordedRun& run, const Model& model,
       report.without.push_back(body.name);
     }
   }
-  if (report.bodies.empty())
-    throw InputError({run.history.name(), 0, 0},
-                     "found no body that knows its stress, expected a flexible body of bars, or a "
-                     "part reduced with stresses");
-  return report;
+  if (!report.bodies.empty()) return report;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (knows_stress(model.bodies[b]) && run.history.header().bodies[b].pose < 0)
+      throw InputError({run.history.name(), 0, 0},
+                       "found no states of a body that knows its stress, those of '" +
+                           model.bodies[b].name + "' were not recorded (record)");
+  throw InputError({run.history.name(), 0, 0},
+                   "found no body that knows its stress, expected a flexible body of bars, or a "
+                   "part reduced with stresses");
 }
 
 void replay(const RecordedRun& run, const ExportSelection& selection, StressReport& report) {
@@ -81,7 +85,7 @@ int stress(const StressArguments& arguments) {
   StressReport report = bodies_of(run, model, selection);
   const std::filesystem::path out = arguments.out;
   if (!arguments.out.empty()) {
-    make_output_folder(arguments.out);
+    require_folder(arguments.out);
     require_writable({{"--out", (out / "envelope.npz").string()},
                       {"--out", (out / "hot_spots.csv").string()},
                       {"--out", (out / "section_forces.csv").string()}},

@@ -87,6 +87,11 @@ bool ModelBuilder::gauge(const OutputDescription& o, Output& out, const std::str
   const GaugeChoice found = find_place(*body.data, body.name, turned, nearest ? &point : nullptr,
                                        o.at.node.value_or(""), o.type == OutputType::section_force);
   if (!found.error.empty()) {
+    // Each component is an output of its own; what is wrong with their place is said once.
+    const SourceMark& mark = o.origin.mark;
+    const std::string place = mark.file + ":" + std::to_string(mark.line) + ":" +
+                              std::to_string(mark.column) + ": " + found.error;
+    if (mark.line > 0 && !wrong_gauges.insert(place).second) return false;
     errors.add(o.origin.mark, who + "." + output_type_name(o.type) + ": " + found.error);
     return false;
   }

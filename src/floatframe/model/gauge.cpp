@@ -1,5 +1,7 @@
 #include "floatframe/model/gauge.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -67,6 +69,24 @@ Vec6 gauge_values(const OutputView& view, const Gauge& gauge) noexcept {
   for (int k = 0; k < body_load_cases; ++k) out += gauge.loads.col(k) * c(k);
   for (int k = 0; k < nm; ++k)
     out -= gauge.loads.col(body_load_cases + k) * view.amplitude_acceleration(gauge.body, k);
+  return out;
+}
+
+std::vector<std::string> doubtful_gauges(const Model& model, std::size_t first_output) {
+  std::vector<std::string> out;
+  for (std::size_t g = 0; g < model.gauges.size(); ++g) {
+    const Gauge& gauge = model.gauges[g];
+    const Body& body = model.bodies[gauge.body];
+    if (gauge.place < 0 || !body.data->stress->places[gauge.place].doubtful) continue;
+    const auto output = std::find_if(
+        model.outputs.begin() + static_cast<std::ptrdiff_t>(first_output), model.outputs.end(),
+        [&](const Output& o) { return o.gauge == static_cast<int>(g); });
+    if (output == model.outputs.end()) continue;
+    out.push_back(
+        fmt::format("output '{}': body '{}' is held by a rigid spider there or next to it, stress "
+                    "at that place is not to be trusted",
+                    output->name, body.name));
+  }
   return out;
 }
 

@@ -5,6 +5,9 @@
 // with the amplitudes y and the load coefficients c of the body. Strain along a unit direction d of
 // the body, as a strain gauge reads it:
 //   eps = d . ((1 + nu) s - nu tr(s) I) d / E
+#include <string>
+#include <vector>
+
 #include "floatframe/body/body_stress.hpp"
 #include "floatframe/math/types.hpp"
 #include "floatframe/model/description.hpp"
@@ -12,6 +15,7 @@
 namespace floatframe {
 
 struct FlexibleBody;
+struct Model;
 class OutputView;
 
 struct Gauge {
@@ -31,6 +35,10 @@ using BodyLoadCoefficients = Eigen::Matrix<double, body_load_cases, 1>;
 BodyLoadCoefficients body_load_coefficients(const OutputView& view, int body) noexcept;
 /// At an instant: xx yy zz xy yz zx, or N Vy Vz T My Mz, or the strain in row 0.
 Vec6 gauge_values(const OutputView& view, const Gauge& gauge) noexcept;
+
+/// Sentences on outputs, from the one given on, whose gauge is where the model of the part is
+/// stiffer than the part.
+std::vector<std::string> doubtful_gauges(const Model& model, std::size_t first_output = 0);
 
 double von_mises(const Vec6& stress) noexcept;
 /// Descending. Closed form (Smith 1961), also where values coincide.

@@ -295,8 +295,11 @@ GaugeChoice find_place(const FlexibleBody& body, const std::string& name,
                               "given by matrices, or its file has none")};
   int node_index = -1;
   if (!node_name.empty()) {
-    const auto it = std::find_if(body.nodes.begin(), body.nodes.end(),
-                                 [&](const ModalNode& n) { return n.name == node_name; });
+    // Nodes of bars that have no name are called by their place in the list, as tables call them.
+    const auto it = std::find_if(body.nodes.begin(), body.nodes.end(), [&](const ModalNode& n) {
+      return n.name.empty() ? node_name == fmt::format("#{}", &n - body.nodes.data())
+                            : n.name == node_name;
+    });
     // Nodes of bars are those of the body; a part's interfaces are not on its surface.
     const bool bars = !body.stress->places.empty() ? body.stress->places.front().number == 0
                                                    : !body.stress->sections.empty() &&

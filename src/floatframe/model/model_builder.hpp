@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 
 #include "floatframe/model/model.hpp"
@@ -23,6 +24,7 @@ struct ModelBuilder {
   std::map<std::array<double, 15>, int> marker_places;
   Model model;
   ErrorList errors;
+  std::set<std::string> wrong_gauges;  ///< places and what is wrong with them
 
   explicit ModelBuilder(const ModelDescription& description)
       : d(description),

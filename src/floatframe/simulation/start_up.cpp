@@ -35,23 +35,6 @@ void note_linear_markers(const Model& model, StartReport& report) {
   }
 }
 
-/// Gauges where the model of the part is stiffer than the part.
-void note_doubtful_gauges(const Model& model, StartReport& report) {
-  for (std::size_t g = 0; g < model.gauges.size(); ++g) {
-    const Gauge& gauge = model.gauges[g];
-    if (gauge.place < 0 || !model.bodies[gauge.body].data->stress->places[gauge.place].doubtful)
-      continue;
-    const auto output =
-        std::find_if(model.outputs.begin(), model.outputs.end(),
-                     [&](const Output& o) { return o.gauge == static_cast<int>(g); });
-    if (output == model.outputs.end()) continue;
-    report.notes.push_back(
-        fmt::format("output '{}': body '{}' is held by a rigid spider there or next to it, stress "
-                    "at that place is not to be trusted",
-                    output->name, model.bodies[gauge.body].name));
-  }
-}
-
 }  // namespace
 
 template <class F>
@@ -72,7 +55,7 @@ StartedModel<F>::StartedModel(const Model& given, const SimulationDescription& o
   }
   start_accelerations(f_, state_, step_options_.penalty_mass);
   note_linear_markers(model(), report_);
-  note_doubtful_gauges(model(), report_);
+  for (std::string& note : doubtful_gauges(model())) add_note(std::move(note));
   spring_angles_.assign(f_.spring_angles().begin(), f_.spring_angles().end());
 }
 
