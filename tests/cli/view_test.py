@@ -44,6 +44,25 @@ simulation: {step: 0.01, duration: 0.1}
 """
 
 
+# A rod without modes along it, turning: its stress rho w^2 (L^2 - x^2) / 2 is its own inertia's.
+TURNING = """
+floatframe: 1
+name: turning
+gravity: [0, 0, 0]
+points: {p: [0, 0, 0], tip: [0.6, 0, 0]}
+bodies:
+  rod:
+    flexible:
+      material: {young: 7e10, poisson: 0.3, density: 2700}
+      bars: {one: {from: p, to: tip, elements: 6, section: {rectangle: [0.02, 0.01]}}}
+      clamped: [p]
+      static_modes: [{point: tip, dofs: [y, z]}]
+joints:
+  drive: {type: revolute, child: rod, at: p, axis: z, motion: {polynomial: [0.3, 20]}}
+simulation: {step: 1.0e-3, duration: 0.05, output_interval: 0.01}
+"""
+
+
 # A box that nothing holds.
 FREE = """
 floatframe: 1
@@ -87,9 +106,9 @@ class View(RunCase):
         pose = numbers(data, scene["frames"]["pose"])
         rows = (self.folder / "out/results.csv").read_text().splitlines()[1:]
         point = next(p for p in scene["points"] if p["name"] == "tip")
-        y = numbers(data, scene["frames"]["amplitudes"])
+        y, columns = numbers(data, scene["frames"]["amplitudes"]), scene["frames"]["amplitudes"]["shape"][1]
         for frame in (0, 77, 200):
-            local = [point["p"][c] + sum(point["modes"][m][c] * y[4 * frame + m] for m in range(4)) for c in range(3)]
+            local = [point["p"][c] + sum(point["modes"][m][c] * y[columns * frame + m] for m in range(4)) for c in range(3)]
             x0, y0, z0, x, y1, z, w = pose[7 * (4 * frame + 3):7 * (4 * frame + 4)]
             v = (x, y1, z)
             t = [2 * c for c in cross(v, local)]
@@ -252,6 +271,32 @@ class View(RunCase):
         self.assertEqual(body["modes"]["count"], body["shape"]["displacements"]["shape"][1])
         self.assertEqual([p["name"] for p in page["scene"]["points"]], ["BALL", "BUSH_F"])
         self.assertEqual(len(body["spiders"]), 2)
+
+
+    def test_stress_by_inertia_is_in_the_page(self):
+        (self.folder / "m.yaml").write_text(TURNING)
+        self.program("run", "m.yaml", "--out", "out", "--quiet")
+        path = self.folder / "out/report.html"
+        page = page_of(path)
+        if page is None:
+            self.skipTest("built without the viewer")
+        data, (body,) = buffer_of(path, page), page["scene"]["bodies"]
+        stress, largest = body["stress"], 0.5 * 2700 * 20 ** 2 * 0.6 ** 2
+        vertices = numbers(data, body["shape"]["vertices"])
+        envelope = numbers(data, stress["envelope"])
+        for v, found in enumerate(envelope):
+            self.assertLess(abs(found - 0.5 * 2700 * 20 ** 2 * (0.36 - vertices[3 * v] ** 2)), 1e-6 * largest)
+        # And blended as the viewer does it, at each frame.
+        rows = page["scene"]["frames"]["amplitudes"]
+        amplitudes, (frames, columns) = numbers(data, rows), rows["shape"]
+        count = body["modes"]["count"]
+        tables = ((numbers(data, stress["modes"]), body["modes"]["first"], count), (numbers(data, stress["loads"]), stress["first_load"], 12))
+        self.assertEqual(columns, count + 12)
+        for frame in range(frames):
+            for v in range(0, len(envelope), 7):
+                xx = stress["factor"] * sum(table[6 * (v * n + k)] * amplitudes[frame * columns + first + k]
+                                            for table, first, n in tables for k in range(n))
+                self.assertLess(abs(xx - envelope[v]), 1e-3 * largest)
 
 
 if __name__ == "__main__":

@@ -155,6 +155,7 @@ RunFiles::Options run_file_options(const RunArguments& arguments, const ModelFin
                                    const RunPaths& paths) {
   RunFiles::Options o;
   o.model = &model;
+  o.simulation = &description.simulation;
   if (description.simulation.record.states != RecordDescription::States::none)
     o.history = [&](const StateLayout& layout) {
       return history_content(model, description.simulation, layout,

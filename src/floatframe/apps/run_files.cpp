@@ -16,6 +16,7 @@
 #include "floatframe/report/results_reader.hpp"
 #include "floatframe/report/run_page.hpp"
 #include "floatframe/report/scene_json.hpp"
+#include "floatframe/report/scene_loads.hpp"
 #include "floatframe/report/summary_json.hpp"
 #include "floatframe/simulation/state_layout.hpp"
 
@@ -149,7 +150,10 @@ void RunFiles::write_report(Report& report) const {
   auto page = run_page(report, curves, buffer);
   if (states_ && options_.model) {
     const StateHistory states(paths_.states);
-    page["scene"] = scene_json(*options_.model, scene_frames(*options_.model, states), buffer);
+    SceneFrames frames = scene_frames(*options_.model, states);
+    if (options_.simulation)
+      add_load_coefficients(*options_.model, states, *options_.simulation, frames);
+    page["scene"] = scene_json(*options_.model, frames, buffer);
     add_trust_curves(states, page["trust"], buffer);
   } else if (options_.model && report.result.table.columns.empty()) {  // it could not start
     page["scene"] =

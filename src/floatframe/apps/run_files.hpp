@@ -32,7 +32,8 @@ class RunFiles {
     RunSummary summary;  ///< of what was asked for, with its duration
     /// What is written before the states, which are kept if it is there.
     std::function<HistoryContent(const StateLayout&)> history;
-    const Model* model = nullptr;  ///< what the view of the report shows
+    const Model* model = nullptr;                       ///< what the view of the report shows
+    const SimulationDescription* simulation = nullptr;  ///< how it runs
   };
 
   /// Takes the folder for itself. Throws InputError if another run has it, if there is nothing to

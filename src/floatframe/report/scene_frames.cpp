@@ -57,7 +57,8 @@ SceneFrames scene_frames(const Model& model, const StateHistory& history) {
   out.poses.resize(7 * count * h.bodies.size());
   std::vector<double> row(h.columns);
   for (std::size_t f = 0; f < count; ++f) {
-    history.instant(count == 1 ? 0 : f * (instants - 1) / (count - 1), row);
+    out.instants.push_back(count == 1 ? 0 : f * (instants - 1) / (count - 1));
+    history.instant(out.instants.back(), row);
     out.time.push_back(row[0]);
     for (std::size_t b = 0; b < h.bodies.size(); ++b) {
       double* pose = out.pose(f, b);

@@ -15,7 +15,12 @@ struct SceneFrames {
   std::vector<double> amplitudes;  ///< frames x modes of all bodies
   Vec3 origin = Vec3::Zero();      ///< what positions are measured from, so that floats are enough
   std::vector<char> known;         ///< bodies that were recorded; others stay where they begin
+  std::vector<std::size_t> instants;  ///< of the states that the frames are
+  /// What the stress of bodies has beside their amplitudes (scene_loads.hpp): frames x columns.
+  std::vector<double> loads;
+  std::vector<int> first_load;  ///< column of each body; -1: none. Empty: of no body
 
+  std::size_t load_columns() const { return time.empty() ? 0 : loads.size() / time.size(); }
   double* pose(std::size_t frame, std::size_t body) {
     return poses.data() + 7 * (frame * known.size() + body);
   }

@@ -16,7 +16,7 @@
 #include "floatframe/body/surface_points.hpp"
 #include "floatframe/model/road.hpp"
 #include "floatframe/report/scene_mesh.hpp"
-#include "floatframe/report/scene_stress.hpp"
+#include "floatframe/report/scene_stress_json.hpp"
 
 namespace floatframe {
 namespace {
@@ -35,7 +35,11 @@ std::vector<float> as_floats(const std::vector<double>& x) { return {x.begin(), 
 class SceneWriter {
  public:
   SceneWriter(const Model& model, const SceneFrames& frames, PageBuffer& buffer)
-      : model_(model), frames_(frames), buffer_(buffer), places_(model.bodies.size()) {}
+      : model_(model),
+        frames_(frames),
+        buffer_(buffer),
+        stress_(model, frames, buffer),
+        places_(model.bodies.size()) {}
 
   Json write() {
     connections();
@@ -69,9 +73,15 @@ class SceneWriter {
     out["pose"] = buffer_.add(std::span<const float>(as_floats(frames_.poses)),
                               {count, model_.bodies.size(), 7});
     out["amplitudes"] = nullptr;
-    if (modes > 0)
-      out["amplitudes"] =
-          buffer_.add(std::span<const float>(as_floats(frames_.amplitudes)), {count, modes});
+    if (modes == 0) return out;
+    // Behind the amplitudes the load coefficients that are shown.
+    std::vector<float> rows;
+    for (std::size_t f = 0; f < count; ++f) {
+      for (std::size_t m = 0; m < modes; ++m)
+        rows.push_back(static_cast<float>(frames_.amplitudes[f * modes + m]));
+      stress_.append_loads(f, rows);
+    }
+    out["amplitudes"] = buffer_.add(std::span<const float>(rows), {count, rows.size() / count});
     return out;
   }
 
@@ -189,7 +199,7 @@ class SceneWriter {
     if (mine.json.is_null()) mine.bound = b.length;
     for (const Vec3& p : places_[index]) mine.bound = std::max(mine.bound, p.norm());
     out["shape"] = mine.json;
-    out["stress"] = stress(data, mine, first);
+    out["stress"] = stress_.of(data, known->second.stress, first, index);
     out["bound"] = mine.bound;
     out["size"] = b.length;
     if (!frames_.known.empty() && !frames_.known[index]) out["recorded"] = false;
@@ -235,34 +245,8 @@ class SceneWriter {
   struct Shape {
     Json json;
     double bound = 0.0;
-    SceneStress stress;
-    Json stress_json;  ///< without the envelope, which is of one body
+    SceneStressWriter::Shape stress;
   };
-
-  /// Of bodies that look alike the same stress per amplitude, each with its own envelope.
-  Json stress(const FlexibleBody& data, const Shape& shape, std::size_t first) {
-    Json out = shape.stress_json;
-    if (out.is_null() || frames_.time.size() < 2 || !data.stress) return out;
-    std::size_t columns = 0;
-    for (const Body& b : model_.bodies) columns += static_cast<std::size_t>(b.modes());
-    const VertexEnvelope envelope = vertex_envelope(data, shape.stress, frames_, first, columns);
-    out["envelope"] =
-        buffer_.add(std::span<const float>(envelope.largest), {envelope.largest.size()});
-    out["when"] = buffer_.add(std::span<const float>(envelope.when), {envelope.when.size()});
-    return out;
-  }
-
-  void add_stress(const FlexibleBody& data, Shape& shape) {
-    shape.stress = scene_stress(data);
-    if (shape.stress.empty()) return;
-    const std::size_t vertices = shape.stress.places.size();
-    shape.stress_json = {
-        {"factor", shape.stress.factor},
-        {"modes", buffer_.add_half(shape.stress.modes,
-                                   {vertices, static_cast<std::size_t>(data.modes()), 6})},
-        {"doubtful", buffer_.add(std::span<const std::uint32_t>(shape.stress.doubtful),
-                                 {shape.stress.doubtful.size()})}};
-  }
 
   /// The views of bodies that are alike are the same.
   Shape shape(const FlexibleBody& data) {
@@ -289,7 +273,7 @@ class SceneWriter {
       j["nodes"] = buffer_.add(std::span<const std::uint32_t>(mesh.nodes), {vertices});
     j["generated"] = mesh.generated;
     if (!data.shape->color.empty()) j["color"] = data.shape->color;
-    add_stress(data, out);
+    out.stress = stress_.shape(data);
     return out;
   }
 
@@ -349,6 +333,7 @@ class SceneWriter {
   const Model& model_;
   const SceneFrames& frames_;
   PageBuffer& buffer_;
+  SceneStressWriter stress_;
   std::vector<std::vector<Vec3>> places_;  ///< points on each body
   std::map<int, int> point_of_;            ///< of markers
   std::set<std::pair<int, int>> held_;     ///< bodies and their nodes that have a point

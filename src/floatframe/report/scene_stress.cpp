@@ -94,8 +94,24 @@ SceneStress scene_stress(const FlexibleBody& body) {
   return out;
 }
 
+SceneLoads scene_loads(const FlexibleBody& body, const SceneStress& stress) {
+  SceneLoads out;
+  const auto loads = body.stress->loads.leftCols<body_load_cases>();
+  const double largest = loads.cwiseAbs().maxCoeff();
+  out.factor = largest > 0.0 ? largest / 1e4 : 1.0;
+  for (const int place : stress.places)
+    for (Eigen::Index k = 0; k < body_load_cases; ++k)
+      for (Eigen::Index c = 0; c < 6; ++c)
+        out.loads.push_back(
+            place < 0 ? 0.0F
+                      : static_cast<float>(loads(6 * static_cast<Eigen::Index>(place) + c, k) /
+                                           out.factor));
+  return out;
+}
+
 VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stress,
-                               const SceneFrames& frames, std::size_t first, std::size_t columns) {
+                               const SceneFrames& frames, std::size_t first, std::size_t columns,
+                               int first_load) {
   const std::size_t vertices = stress.places.size();
   const auto nm = static_cast<Eigen::Index>(body.modes());
   const auto count = static_cast<Eigen::Index>(frames.time.size());
@@ -107,7 +123,15 @@ VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stre
       for (Eigen::Index m = 0; m < nm; ++m)
         y(m, f) = frames.amplitudes[static_cast<std::size_t>(from + f) * columns + first +
                                     static_cast<std::size_t>(m)];
-    const MatX values = body.stress->modes * y;
+    MatX values = body.stress->modes * y;
+    if (first_load >= 0) {
+      MatX c(body_load_cases, n);
+      for (Eigen::Index f = 0; f < n; ++f)
+        c.col(f) = Eigen::Map<const Eigen::Vector<double, body_load_cases>>(
+            frames.loads.data() + static_cast<std::size_t>(from + f) * frames.load_columns() +
+            static_cast<std::size_t>(first_load));
+      values.noalias() += body.stress->loads.leftCols<body_load_cases>() * c;
+    }
     for (std::size_t v = 0; v < vertices; ++v) {
       if (stress.places[v] < 0) continue;
       for (Eigen::Index f = 0; f < n; ++f) {

@@ -1,9 +1,8 @@
 #pragma once
 // Stress of what a page draws: of each vertex the stress of one place per modal amplitude, and the
 // largest von Mises stress over the frames. A vertex at which several places meet - sides of a
-// shell, materials, points of a section - shows the one that its modes load most. By the modes
-// alone: what the own inertia of a body adds (body_stress.hpp) is left to gauges and
-// `floatframe stress`.
+// shell, materials, points of a section - shows the one that its modes load most. Where the frames
+// have load coefficients (scene_loads.hpp) and these matter, their stress is a part of it.
 #include <nlohmann/json_fwd.hpp>
 
 #include "floatframe/body/flexible_body.hpp"
@@ -25,11 +24,21 @@ struct SceneStress {
 };
 SceneStress scene_stress(const FlexibleBody& body);
 
-/// Of the vertices [Pa], and when [s]. `first`: column of the amplitudes of the body.
+/// Stress per vertex and load coefficient, and what one unit of it is [Pa].
+struct SceneLoads {
+  double factor = 1.0;
+  std::vector<float> loads;  ///< vertices x 12 x 6
+};
+SceneLoads scene_loads(const FlexibleBody& body, const SceneStress& stress);
+
+/// Of the vertices [Pa], and when [s].
 struct VertexEnvelope {
   std::vector<float> largest, when;
 };
+/// `first`, `columns`: of the amplitudes of the body and of all bodies; `first_load`: column of its
+/// load coefficients, -1: by the amplitudes alone.
 VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stress,
-                               const SceneFrames& frames, std::size_t first, std::size_t columns);
+                               const SceneFrames& frames, std::size_t first, std::size_t columns,
+                               int first_load);
 
 }  // namespace floatframe

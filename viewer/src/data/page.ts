@@ -67,6 +67,9 @@ export interface StressJson {
   factor: number;
   /** xx, yy, zz, xy, yz, zx per amplitude: f16 [V, m, 6]. */
   modes: View;
+  /** Of the load coefficients, which stand behind the amplitudes from `first_load` on: f16 [V, n, 6]. */
+  loads?: View | null;
+  first_load?: number;
   /** Vertices that are not to be trusted: u16 or u32. */
   doubtful?: View | null;
   /** Largest von Mises stress over the run: f32 [V] [Pa], and when: f32 [V] [s]. */

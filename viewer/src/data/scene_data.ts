@@ -9,8 +9,11 @@ import type { Quantity } from '../motion/stress';
 export interface StressData {
   /** MPa of one unit of `modes`. */
   factor: number;
-  /** Half floats [V, m, 6]: xx, yy, zz, xy, yz, zx. */
+  /** Half floats [V, m + n, 6]: xx, yy, zz, xy, yz, zx of the modes of the body, then of its loads. */
   modes: Uint16Array;
+  /** How many loads there are, and where their coefficients stand in the rows of amplitudes. */
+  loadCount: number;
+  firstLoad: number;
   /** 1 where the stress is not to be trusted. */
   doubtful: Uint8Array | null;
   /** Largest von Mises stress over the run [MPa], and when [s]. */
@@ -129,7 +132,18 @@ function readField(json: FieldJson, buffer: PageBuffer, vertices: number, modes:
   };
 }
 
-function readStress(json: StressJson, buffer: PageBuffer, vertices: number, modes: number, body: string): StressData {
+/** Two tables of tensors side by side: those of each vertex follow each other. */
+function besides(a: Uint16Array, b: Uint16Array, vertices: number): Uint16Array {
+  const result = new Uint16Array(a.length + b.length);
+  const [m, n] = [a.length / vertices, b.length / vertices];
+  for (let v = 0; v < vertices; ++v) {
+    result.set(a.subarray(v * m, (v + 1) * m), v * (m + n));
+    result.set(b.subarray(v * n, (v + 1) * n), v * (m + n) + m);
+  }
+  return result;
+}
+
+function readStress(json: StressJson, buffer: PageBuffer, vertices: number, modes: number, amplitudeCount: number, body: string): StressData {
   const what = `${body}, stress`;
   if (typeof json.factor !== 'number' || !Number.isFinite(json.factor)) throw new PageError(`${what}: its factor is no number.`);
   let doubtful: Uint8Array | null = null;
@@ -138,9 +152,16 @@ function readStress(json: StressJson, buffer: PageBuffer, vertices: number, mode
     for (const v of buffer.read(json.doubtful, what, ['u16', 'u32'], [null])) if (v < vertices) doubtful[v] = 1;
   }
   const envelope = json.envelope ? (buffer.read(json.envelope, what, ['f32'], [vertices]) as Float32Array).map((pascal) => 1e-6 * pascal) : null;
+  const ofModes = buffer.read(json.modes, what, ['f16'], [vertices, modes, 6]) as Uint16Array;
+  const ofLoads = json.loads ? (buffer.read(json.loads, `${what}, loads`, ['f16'], [vertices, null, 6]) as Uint16Array) : null;
+  const loadCount = ofLoads ? ofLoads.length / (6 * vertices) : 0;
+  const firstLoad = json.first_load ?? 0;
+  if (!(Number.isInteger(firstLoad) && firstLoad >= 0 && firstLoad + loadCount <= amplitudeCount)) throw new PageError(`${what}: its loads are not among the amplitudes.`);
   return {
     factor: 1e-6 * json.factor,
-    modes: buffer.read(json.modes, what, ['f16'], [vertices, modes, 6]) as Uint16Array,
+    modes: ofLoads ? besides(ofModes, ofLoads, vertices) : ofModes,
+    loadCount,
+    firstLoad,
     doubtful,
     envelope,
     when: envelope && json.when ? (buffer.read(json.when, what, ['f32'], [vertices]) as Float32Array) : null,
@@ -155,7 +176,7 @@ function stressFields(data: StressData): FieldData[] {
   return fields;
 }
 
-function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: number, buffer: PageBuffer, report: Report): MeshData {
+function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: number, amplitudeCount: number, buffer: PageBuffer, report: Report): MeshData {
   const what = `Body "${body.name}"`;
   const vertices = buffer.read(json.vertices, `${what}, vertices`, ['f32'], [null, 3]) as Float32Array;
   const triangles = buffer.read(json.triangles, `${what}, triangles`, ['u16', 'u32'], [null, 3]) as Uint16Array | Uint32Array;
@@ -193,7 +214,7 @@ function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: num
     if (read) mesh.fields.push(read);
   }
   if (body.stress && modeCount > 0) {
-    mesh.stress = optional(() => readStress(body.stress!, buffer, count, modeCount, what), 'Its stress is left out.');
+    mesh.stress = optional(() => readStress(body.stress!, buffer, count, modeCount, amplitudeCount, what), 'Its stress is left out.');
     if (mesh.stress) mesh.fields.push(...stressFields(mesh.stress));
   }
   return mesh;
@@ -232,7 +253,7 @@ function readBody(json: BodyJson, index: number, frames: number, amplitudeCount:
     const shape = json.shape;
     if (shape?.kind === 'mesh') {
       const modeCount = modes?.count ?? 0;
-      body.mesh = readMesh(shape, { ...json, name }, modeCount, frames, buffer, report);
+      body.mesh = readMesh(shape, { ...json, name }, modeCount, frames, amplitudeCount, buffer, report);
       if (body.modeCount === 0) body.mesh.modes = null;
       const vertexCount = body.mesh.vertices.length / 3;
       for (const spider of json.spiders ?? []) {

@@ -97,12 +97,12 @@ export function largestOfModes(body: BodyData): Float32Array {
   return result;
 }
 
-/** Value of a field at a vertex and a frame (fields of modes: with the amplitudes at `at`). */
-export function fieldValue(body: BodyData, field: FieldData, vertex: number, amplitudes: ArrayLike<number>, at: number, frame: number): number {
+/** Value of a field at a vertex and a frame (fields of modes: with the amplitudes at `at`, in the row that begins at `row`). */
+export function fieldValue(body: BodyData, field: FieldData, vertex: number, amplitudes: ArrayLike<number>, at: number, row: number, frame: number): number {
   const half = halfTable();
   if (field.stress) {
     const { data, quantity } = field.stress;
-    return quantity === 'envelope' ? data.envelope![vertex] : quantityOf(quantity, stressAt(body, data, vertex, amplitudes, at));
+    return quantity === 'envelope' ? data.envelope![vertex] : quantityOf(quantity, stressAt(body, data, vertex, amplitudes, at, row));
   }
   if (field.history) return half[field.history[frame * (body.mesh!.vertices.length / 3) + vertex]];
   let value = field.base ? half[field.base[vertex]] : 0;
@@ -135,11 +135,18 @@ export function fieldRange(scene: SceneData, body: BodyData, field: FieldData): 
     for (let j = 0; j < body.modeCount; ++j) {
       one.fill(0);
       one[j] = most[j];
-      for (let v = 0; v < count; ++v) if (trusted(v)) bounds[v] += vonMises(stressAt(body, data, v, one, 0));
+      for (let v = 0; v < count; ++v) if (trusted(v)) bounds[v] += vonMises(stressAt(body, data, v, one, 0, null));
+    }
+    for (let j = 0; j < data.loadCount; ++j) {
+      const row = new Float64Array(data.firstLoad + data.loadCount);
+      for (let f = 0; f < scene.time.length; ++f) row[data.firstLoad + j] = Math.max(row[data.firstLoad + j], Math.abs(scene.amplitudes?.[f * scene.amplitudeCount + data.firstLoad + j] ?? 0));
+      for (let v = 0; v < count; ++v) if (trusted(v)) bounds[v] += vonMises(stressAt(body, data, v, row, body.firstMode, 0));
     }
     const looked = scene.amplitudes ? boldestFrames(scene, body) : [];
     const few = candidates(bounds, SAMPLED_VERTICES);
-    for (const f of looked) for (const v of few) if (trusted(v)) take(fieldValue(body, field, v, scene.amplitudes!, f * scene.amplitudeCount + body.firstMode, f));
+    // Loads have their largest in frames of their own.
+    if (data.loadCount > 0 && scene.amplitudes) looked.push(...frames(scene));
+    for (const f of looked) for (const v of few) if (trusted(v)) take(fieldValue(body, field, v, scene.amplitudes!, f * scene.amplitudeCount + body.firstMode, f * scene.amplitudeCount, f));
     if (min > max) return null;
     return quantity === 'von_mises' ? [0, max] : [min, max];
   } else if (field.history) {
@@ -154,7 +161,7 @@ export function fieldRange(scene: SceneData, body: BodyData, field: FieldData): 
     }
     const amplitudes = scene.amplitudes ?? new Float32Array(scene.amplitudeCount);
     for (const v of candidates(bounds, SAMPLED_VERTICES)) {
-      for (const f of scene.amplitudes ? frames(scene) : [0]) take(fieldValue(body, field, v, amplitudes, f * scene.amplitudeCount + body.firstMode, f));
+      for (const f of scene.amplitudes ? frames(scene) : [0]) take(fieldValue(body, field, v, amplitudes, f * scene.amplitudeCount + body.firstMode, f * scene.amplitudeCount, f));
     }
     if (field.base) for (let v = 0; v < count; ++v) take(half[field.base[v]]);
   }

@@ -8,13 +8,14 @@ export type Stress = [number, number, number, number, number, number];
 
 export type Quantity = 'von_mises' | 'principal_1' | 'principal_3';
 
-/** MPa, with the amplitudes of the body from `at` on. */
-export function stressAt(body: BodyData, stress: StressData, vertex: number, amplitudes: ArrayLike<number>, at: number): Stress {
+/** MPa, with the amplitudes of the body from `at` on; those of its loads are in the row of all amplitudes that begins at `row`, null: without them. */
+export function stressAt(body: BodyData, stress: StressData, vertex: number, amplitudes: ArrayLike<number>, at: number, row: number | null): Stress {
   const half = halfTable();
   const result: Stress = [0, 0, 0, 0, 0, 0];
-  const first = 6 * vertex * body.modeCount;
-  for (let j = 0; j < body.modeCount; ++j) {
-    const q = stress.factor * amplitudes[at + j];
+  const first = 6 * vertex * (body.modeCount + stress.loadCount);
+  const count = body.modeCount + (row === null ? 0 : stress.loadCount);
+  for (let j = 0; j < count; ++j) {
+    const q = stress.factor * amplitudes[j < body.modeCount ? at + j : row! + stress.firstLoad + j - body.modeCount];
     for (let c = 0; c < 6; ++c) result[c] += q * half[stress.modes[first + 6 * j + c]];
   }
   return result;
@@ -45,11 +46,11 @@ export function quantityOf(quantity: Quantity, s: ArrayLike<number>): number {
 export function largestStressOfModes(body: BodyData, stress: StressData): Float64Array {
   const result = new Float64Array(body.modeCount);
   const amplitudes = new Float64Array(body.modeCount);
-  const vertices = stress.modes.length / (6 * Math.max(1, body.modeCount));
+  const vertices = stress.modes.length / (6 * Math.max(1, body.modeCount + stress.loadCount));
   for (let j = 0; j < body.modeCount; ++j) {
     amplitudes.fill(0);
     amplitudes[j] = 1;
-    for (let v = 0; v < vertices; ++v) if (!stress.doubtful?.[v]) result[j] = Math.max(result[j], vonMises(stressAt(body, stress, v, amplitudes, 0)));
+    for (let v = 0; v < vertices; ++v) if (!stress.doubtful?.[v]) result[j] = Math.max(result[j], vonMises(stressAt(body, stress, v, amplitudes, 0, null)));
   }
   return result;
 }

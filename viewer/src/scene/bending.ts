@@ -25,6 +25,7 @@ import { STILL_COLOUR } from './palette';
 const WIDTH_BITS = 12;
 const WIDTH = 1 << WIDTH_BITS;
 const AMPLITUDE_BITS = 8;
+const HALF_ONE = 0x3c00;
 
 function texture(data: Uint16Array | Float32Array, width: number, height: number, format: typeof RGBAFormat | typeof RedFormat): DataTexture {
   const result = new DataTexture(data as never, width, height, format, data instanceof Float32Array ? FloatType : HalfFloatType);
@@ -109,6 +110,8 @@ uniform highp sampler2D fieldTexture;
 uniform highp sampler2D fieldBase;
 uniform int modeCount;
 uniform int firstMode;
+uniform int loadCount;
+uniform int firstLoad;
 uniform int vertexCount;
 uniform int scalarKind;
 uniform vec2 fieldFrame;
@@ -119,6 +122,7 @@ uniform mat4 away;
 uniform float swing;
 varying vec3 restPlace;
 varying float scalarValue;
+varying float doubt;
 float amplitudeAt(int i) {
   return texelFetch(amplitudeTexture, ivec2(i & ${(1 << AMPLITUDE_BITS) - 1}, i >> ${AMPLITUDE_BITS}), 0).r;
 }
@@ -151,6 +155,7 @@ vec3 transformed = position;
   transformed += deformation * bent;
   restPlace = (modelViewMatrix * vec4(position, 1.0)).xyz;
   scalarValue = length(bent);
+  doubt = scalarKind >= 5 ? texelFetch(fieldBase, texel(vertex), 0).r : 0.0;
   if (scalarKind == 2) {
     scalarValue = texelFetch(fieldBase, texel(vertex), 0).r;
     for (int j = 0; j < modeCount; ++j) scalarValue += amplitude(j) * texelFetch(fieldTexture, texel(first + j), 0).r;
@@ -165,9 +170,11 @@ vec3 transformed = position;
     scalarValue = length((away * vec4(transformed, 1.0)).xyz - still) / max(swing, 1e-30);
   } else if (scalarKind >= 5 && scalarKind <= 7) {
     vec3 n = vec3(0.0), t = vec3(0.0);
-    for (int j = 0; j < modeCount; ++j) {
-      n += amplitude(j) * texelFetch(fieldTexture, texel(2 * (first + j)), 0).xyz;
-      t += amplitude(j) * texelFetch(fieldTexture, texel(2 * (first + j) + 1), 0).xyz;
+    int tensor = 2 * vertex * (modeCount + loadCount);
+    for (int j = 0; j < modeCount + loadCount; ++j, tensor += 2) {
+      float q = j < modeCount ? amplitude(j) : amplitudeAt(firstLoad + j - modeCount);
+      n += q * texelFetch(fieldTexture, texel(tensor), 0).xyz;
+      t += q * texelFetch(fieldTexture, texel(tensor + 1), 0).xyz;
     }
     scalarValue = fieldFactor * (scalarKind == 5 ? vonMises(n, t) : principal(n, t, scalarKind == 6 ? 0.0 : 2.0943951023931953));
   } else if (scalarKind == 8) {
@@ -179,6 +186,7 @@ vec3 transformed = position;
 const FRAGMENT_DECLARATIONS = `
 varying vec3 restPlace;
 varying float scalarValue;
+varying float doubt;
 uniform int scalarKind;
 uniform vec2 scalarRange;
 uniform sampler2D colourMap;
@@ -187,7 +195,7 @@ uniform sampler2D colourMap;
 const FRAGMENT_COLOUR = `
 if (scalarKind > 0) {
   float part = clamp((scalarValue - scalarRange.x) / max(scalarRange.y - scalarRange.x, 1e-30), 0.0, 1.0);
-  diffuseColor.rgb = texture2D(colourMap, vec2((part * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+  diffuseColor.rgb = mix(texture2D(colourMap, vec2((part * 255.0 + 0.5) / 256.0, 0.5)).rgb, vec3(0.5), doubt);
 }
 `;
 
@@ -216,6 +224,7 @@ export class Bending {
   readonly stillLines: LineBasicMaterial | null = null;
   private readonly fields = new Map<FieldData, Texture>();
   private readonly bases = new Map<FieldData, Texture>();
+  private doubts: Texture | null = null;
   private readonly stresses = new Map<Uint16Array | Float32Array, Texture>();
 
   /** `still`: where the amplitudes at rest begin, of a model that swings. */
@@ -227,6 +236,8 @@ export class Bending {
       fieldBase: { value: none },
       modeCount: { value: mesh.modes ? body.modeCount : 0 },
       firstMode: { value: body.firstMode },
+      loadCount: { value: mesh.stress?.loadCount ?? 0 },
+      firstLoad: { value: mesh.stress?.firstLoad ?? 0 },
       vertexCount: { value: mesh.vertices.length / 3 },
       scalarKind: { value: 0 },
       scalarRange: { value: [0, 1] },
@@ -263,6 +274,9 @@ export class Bending {
       const key = quantity === 'envelope' ? data.envelope! : data.modes;
       if (!this.stresses.has(key)) this.stresses.set(key, quantity === 'envelope' ? floatTexture(data.envelope!) : tensorTexture(data.modes));
       this.uniforms.fieldTexture.value = this.stresses.get(key)!;
+      // Grey where it is not to be trusted.
+      this.doubts ??= halfTexture(Uint16Array.from(data.doubtful ?? new Uint8Array(this.uniforms.vertexCount.value), (flag) => (flag ? HALF_ONE : 0)), 1);
+      this.uniforms.fieldBase.value = this.doubts;
       this.uniforms.fieldFactor.value = data.factor;
       this.uniforms.scalarKind.value = { von_mises: 5, principal_1: 6, principal_3: 7, envelope: 8 }[quantity];
     } else {

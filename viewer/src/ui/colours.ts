@@ -61,6 +61,12 @@ export class Colours {
     return this.scene.bodies.some((body) => body.mesh?.fields.some((candidate) => candidate.name === field && candidate.stress));
   }
 
+  /** What the colours of a field do not say themselves. */
+  note(field: string | null | undefined): string {
+    const grey = this.isStress(field) && this.scene.bodies.some((body) => body.mesh?.stress?.doubtful?.some((flag) => flag === 1));
+    return grey ? 'grey: next to a rigid spider, not to be trusted' : '';
+  }
+
   range(field: string | null): [number, number] {
     const known = this.ranges.get(field);
     if (known) return known;

@@ -59,7 +59,7 @@ export class Display {
   apply(): void {
     const choice = this.colours.choice(this.field);
     this.stage.setColour(choice);
-    this.legend.show(choice, this.colours.unit(this.field), this.relative && (this.field === null || this.colours.isStress(this.field)));
+    this.legend.show(choice, this.colours.unit(this.field), this.relative && (this.field === null || this.colours.isStress(this.field)), this.colours.note(this.field));
     this.showLimits();
   }
 

@@ -116,7 +116,7 @@ export class Selection {
     }
     const stress = vertex !== null ? body.mesh?.stress : null;
     if (stress && scene.amplitudes) {
-      const values = Float64Array.from(scene.time, (_, f) => vonMises(stressAt(body, stress, vertex!, scene.amplitudes!, f * scene.amplitudeCount + body.firstMode)));
+      const values = Float64Array.from(scene.time, (_, f) => vonMises(stressAt(body, stress, vertex!, scene.amplitudes!, f * scene.amplitudeCount + body.firstMode, f * scene.amplitudeCount)));
       add('Von Mises stress', 'MPa', [channel('von Mises stress', 'von Mises', 'MPa', scene.time, values)]);
     }
     // Each axis its own picture where the ranges differ much.

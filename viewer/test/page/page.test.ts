@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import type { Browser, Page } from 'playwright-core';
 import { check, compare, damaged, large, reduce } from '../pages/others';
-import { armMesh, ARM, CHANNEL, motionAt, ORIGIN, RADIUS, road, STRESS_UNIT, vehicle } from '../pages/vehicle';
+import { armMesh, ARM, CHANNEL, loadAt, motionAt, ORIGIN, RADIUS, road, STRESS_UNIT, vehicle } from '../pages/vehicle';
 import { modeShape } from '../pages/shapes';
 import { fillTemplate } from '../pages/writer';
 import { principals, vonMises } from '../../src/motion/stress';
@@ -176,11 +176,12 @@ test('geometry of files, read by the program: STL, OBJ and GLB in the place of b
 });
 
 test('stress: the shader draws what the formulas say, the scale is fixed and can be typed, a picked node shows its largest', async () => {
-  // The same stress everywhere on an arm, in its first mode alone.
+  // The same stress everywhere on an arm, in its first mode and of its inertia.
   const uniform = [300, -120, 50, 200, -90, 60];
-  const { page, errors } = await open(browser, path('stress', vehicle({ uniform })));
+  const load = [-40, 260, 110, -70, 30, 180];
+  const { page, errors } = await open(browser, path('stress', vehicle({ uniform, load })));
   await at(page, 1.6);
-  const stress = uniform.map((s) => 1e-6 * STRESS_UNIT * s * motionAt(1.6).amplitudes[0]);
+  const stress = uniform.map((s, c) => 1e-6 * STRESS_UNIT * (s * motionAt(1.6).amplitudes[0] + load[c] * loadAt(1.6)));
   await page.getByRole('tab', { name: 'Bodies' }).click();
   await page.getByRole('button', { name: 'Show only front_left_arm' }).click();
   await page.getByRole('button', { name: 'Fit' }).click();

@@ -108,13 +108,18 @@ export function stressOf(x: number, y: number, z: number, j: number): number[] {
   return [bending, 0.2 * bending, 0, 400 * y * (j + 2), 0, 100 * z];
 }
 
-export function vehicle(options: { hostile?: boolean; frames?: number; uniform?: number[] } = {}): { page: PageJson; writer: BufferWriter } {
+/** What of the arms' own inertia stands behind the amplitudes: one coefficient for all of them. */
+export function loadAt(t: number): number {
+  return 0.02 * Math.cos(3 * t) - 0.03;
+}
+
+export function vehicle(options: { hostile?: boolean; frames?: number; uniform?: number[]; load?: number[] } = {}): { page: PageJson; writer: BufferWriter } {
   const writer = new BufferWriter();
   const frames = options.frames ?? FRAMES;
   const time = Array.from({ length: frames }, (_, k) => k * STEP);
   const instants = time.map(motionAt);
   const pose = instants.flatMap((i) => i.bodies.flatMap((b) => [...b.position, ...b.quaternion]));
-  const amplitudes = instants.flatMap((i) => i.amplitudes);
+  const amplitudes = instants.flatMap((i, k) => (options.load ? [...i.amplitudes, loadAt(time[k])] : i.amplitudes));
   const names = ['front_left', 'front_right', 'rear_left', 'rear_right'];
   const evil = options.hostile ? '<img src=x onerror="window.hacked=1"></script><b>' : '';
   const bodies: BodyJson[] = [];
@@ -159,6 +164,7 @@ export function vehicle(options: { hostile?: boolean; frames?: number; uniform?:
       stress: {
         factor: STRESS_UNIT,
         modes: writer.view('f16', tensor, [count, MODES, 6]),
+        ...(options.load ? { loads: writer.view('f16', Array.from({ length: count }, () => options.load!).flat(), [count, 1, 6]), first_load: 4 * MODES } : {}),
         doubtful: writer.view('u32', [0, 1]),
         envelope: writer.view('f32', Array.from({ length: count }, (_, v) => 1e6 * (v + 1)), [count]),
         when: writer.view('f32', Array.from({ length: count }, (_, v) => 0.01 * v), [count]),
@@ -259,7 +265,7 @@ export function vehicle(options: { hostile?: boolean; frames?: number; uniform?:
       step_times: { median: 0.086, percent_99: 0.17, edges: Array.from({ length: 41 }, (_, k) => 0.06 + 0.004 * k), counts: Array.from({ length: 40 }, (_, k) => Math.round(70 * Math.exp(-(((k - 6) / 4) ** 2)) + (k > 8 ? 6 * Math.exp(-(k - 8) / 9) : 0))) },
     },
     scene: {
-      frames: { time: writer.view('f64', time), pose: writer.view('f32', pose, [frames, bodies.length, 7]), amplitudes: writer.view('f32', amplitudes, [frames, 4 * MODES]) },
+      frames: { time: writer.view('f64', time), pose: writer.view('f32', pose, [frames, bodies.length, 7]), amplitudes: writer.view('f32', amplitudes, [frames, amplitudes.length / frames]) },
       origin: ORIGIN,
       up: [0, 0, 1],
       bodies,
