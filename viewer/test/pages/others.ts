@@ -45,6 +45,11 @@ export function reduce(): { page: PageJson; writer: BufferWriter } {
     },
     bound: length,
     size: length,
+    // The same everywhere, of each mode another size.
+    stress: {
+      factor: 1e6,
+      modes: writer.view('f16', Array.from({ length: count }, () => frequencies.map((_, j) => [100, -40, 20, 60, -30, 20].map((value) => (j + 1) * value))).flat(2), [count, modes, 6]),
+    },
     spiders: [
       { point: 0, vertices: writer.view('u32', near(0)) },
       { point: 1, vertices: writer.view('u32', near(length)) },
