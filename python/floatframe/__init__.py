@@ -9,6 +9,21 @@ SI units, angles in radians, z up unless the model says otherwise, quaternions (
 """
 
 from ._core import SimulationState, State, StepReport, __version__
+from .analyses import (
+    advise,
+    campbell,
+    check,
+    frequency_response,
+    linear_inputs,
+    linear_model,
+    linear_system,
+    linearize,
+    mass_properties,
+    model_order,
+    modes,
+    road_response,
+    statics,
+)
 from .build import build_info, example, program
 from .errors import Error, ErrorEntry, InputError, OutputError, RunError, StepError
 from .model import Model
@@ -31,8 +46,21 @@ __all__ = [
     "StepError",
     "StepReport",
     "__version__",
+    "advise",
     "build_info",
+    "campbell",
+    "check",
     "example",
+    "frequency_response",
+    "linear_inputs",
+    "linear_model",
+    "linear_system",
+    "linearize",
+    "mass_properties",
+    "model_order",
+    "modes",
     "program",
+    "road_response",
     "run",
+    "statics",
 ]

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+import os
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from .errors import InputError
-from .model import Model
+from .model import Model, built
 from .progress import Bar
 from .options import Array, Options, as_dict
 
@@ -24,9 +26,11 @@ class Result(Mapping[str, Array]):
     the result and keep it alive.
     """
 
-    def __init__(self, core: _core.RunResult, model: Model) -> None:
+    def __init__(self, core: _core.Run, model: _core.Model, name: str) -> None:
         self._core = core
-        self.model = model
+        self._model = model
+        self.name = name
+        """Of the model."""
         columns = core.columns
         self.units: dict[str, str] = dict(columns)
         """Units by the names of columns; "time" is the first."""
@@ -64,13 +68,34 @@ class Result(Mapping[str, Array]):
         """What `results.csv` of the command line holds: every number reads back to the same bits."""
         return self._core.results_csv
 
+    def save(self, folder: str | os.PathLike[str]) -> str:
+        """Writes results.csv, states.ffr, report.html and summary.json into a folder, as `floatframe run --out` does; all
+        commands that read results read these. Returns the folder."""
+        self._core.save(self._model, os.fspath(folder))
+        return os.fspath(folder)
+
+    def plot(self, names: Sequence[str] | str | None = None, *, axes: Any = None) -> Any:
+        """Curves of outputs over the time by matplotlib, one picture for each unit; returns its axes, shape (units,). names:
+        None for all. axes: of a figure of the caller, as many as there are units, or one for all."""
+        from .plotting import plot
+
+        return plot(self, names, axes)
+
+    def view(self, height: int = 640) -> Any:
+        """The report of the run with its 3-D view, within a notebook; height [px]. Elsewhere `save` writes the same page."""
+        from .notebook import Page
+
+        with tempfile.TemporaryDirectory() as folder:
+            self.save(folder)
+            return Page(Path(folder, "report.html").read_text(encoding="utf-8"), height)
+
     @property
     def state(self) -> _core.State | None:
         """Where the run came to, for another one to start from: `ff.run(model, start=res.state)`."""
         return self._core.state
 
     def __repr__(self) -> str:
-        return f"<floatframe.Result of '{self.model.name}': {len(self.table)} samples, {self.summary['status']}>"
+        return f"<floatframe.Result of '{self.name}': {len(self.table)} samples, {self.summary['status']}>"
 
 
 def run(
@@ -89,7 +114,7 @@ def run(
     Other threads of Python go on meanwhile, and Ctrl-C ends it. Raises InputError for what is not valid, RunError where
     the start cannot be found.
     """
-    if not isinstance(model, Model):
-        raise InputError(f"found {type(model).__name__}, expected a floatframe.Model")
+    core = built(model)
     with Bar(progress) as bar:
-        return Result(_core.run(model.core, duration, bar.show, as_dict(options)), model)
+        settings = [f"{name}={value}" for name, value in model.parameters.items()]
+        return Result(_core.run(core, duration, bar.show, as_dict(options), model.file, settings), core, model.name)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from . import _core
 from .errors import InputError
-from .model import Model
+from .model import Model, built
 from .options import Array, Options, as_dict
 
 if TYPE_CHECKING:
@@ -91,9 +91,7 @@ class Simulation(_core.Simulation):
     """
 
     def __init__(self, model: Model, **options: Unpack[Options]) -> None:
-        if not isinstance(model, Model):
-            raise InputError(f"found {type(model).__name__}, expected a floatframe.Model")
-        super().__init__(model.core, as_dict(options))
+        super().__init__(built(model), as_dict(options))
         self._model = model
 
     @property

@@ -2,6 +2,7 @@
 // What the sources of the module share. Each binds one subject: `bind_<subject>`.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/complex.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -22,6 +23,8 @@ void bind_model(nb::module_& m);
 void bind_states(nb::module_& m);
 void bind_run(nb::module_& m);
 void bind_simulation(nb::module_& m);
+void bind_analyses(nb::module_& m);
+void bind_linear(nb::module_& m);
 
 /// A copy as a numpy array of its own.
 nb::object array_of(const VecX& v);
@@ -45,7 +48,7 @@ T word_of(const char* name, const std::string& found,
 
 Coordinates coordinates_of(const std::string& word);
 InertiaMethod inertia_of(const std::string& word);
-/// Of keyword arguments; None is as if it was not given. Throws TypeError for other names and types.
+/// Of keyword arguments; None is as if it was not given. Throws TypeError for other names, types.
 SimulationOptions options_of(const nb::dict& given);
 
 /// `run` in a thread of its own; this one, of Python, looks for signals meanwhile (Ctrl-C) and

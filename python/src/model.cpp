@@ -39,6 +39,15 @@ void bind_model(nb::module_& m) {
       .def_prop_ro("step", [](const Model& model) { return model.simulation.step; })
       .def_prop_ro("duration", [](const Model& model) { return model.simulation.duration; });
   m.def(
+      "read_model",
+      [](const std::string& text, const std::string& path,
+         const std::vector<std::pair<std::string, std::string>>& given) {
+        const std::vector<ParameterOverride> parameters = overrides(given);
+        nb::gil_scoped_release released;
+        return build_model(read_description(text, path, parameters));
+      },
+      nb::arg("text"), nb::arg("path"), nb::arg("parameters"));
+  m.def(
       "load_model",
       [](const std::string& path, const std::vector<std::pair<std::string, std::string>>& given) {
         const std::vector<ParameterOverride> parameters = overrides(given);

@@ -12,4 +12,6 @@ NB_MODULE(_core, m) {
   bind_states(m);
   bind_run(m);
   bind_simulation(m);
+  bind_analyses(m);
+  bind_linear(m);
 }

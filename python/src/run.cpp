@@ -6,8 +6,10 @@
 namespace floatframe::python {
 namespace {
 
-std::shared_ptr<RunResult> run_model(const Model& model, std::optional<double> duration,
-                                     const nb::object& progress, const nb::dict& given) {
+std::shared_ptr<KeptRun> run_model(const Model& model, std::optional<double> duration,
+                                   const nb::object& progress, const nb::dict& given,
+                                   const std::string& model_file,
+                                   const std::vector<std::string>& settings) {
   SimulationDescription simulation = described(model, options_of(given));
   if (duration) {
     simulation.duration = *duration;
@@ -19,46 +21,54 @@ std::shared_ptr<RunResult> run_model(const Model& model, std::optional<double> d
   options.keep_state = true;
   options.stop = &stop;
   options.progress = [&fraction](double f) { fraction = f; };
-  auto result = std::make_shared<RunResult>();
+  auto result = std::make_shared<KeptRun>();
   interruptible(
-      stop, [&] { *result = run(model, simulation, options); },
+      stop, [&] { *result = run_and_keep(model, simulation, options); },
       [&] {
         if (!progress.is_none()) progress(fraction.load());
       });
   if (!progress.is_none()) progress(1.0);
+  result->model_file = model_file;
+  result->settings = settings;
   return result;
 }
 
 using Table = nb::ndarray<nb::numpy, double, nb::ndim<2>>;
 
 /// The table of a result, with its memory.
-Table table_of(const std::shared_ptr<RunResult>& result) {
-  ResultTable& table = result->table;
-  nb::capsule owner(new std::shared_ptr<RunResult>(result),
-                    [](void* p) noexcept { delete static_cast<std::shared_ptr<RunResult>*>(p); });
+Table table_of(const std::shared_ptr<KeptRun>& result) {
+  ResultTable& table = result->result.table;
+  nb::capsule owner(new std::shared_ptr<KeptRun>(result),
+                    [](void* p) noexcept { delete static_cast<std::shared_ptr<KeptRun>*>(p); });
   return Table(table.data.data(), {table.rows(), table.columns.size()}, owner);
 }
 
-std::vector<std::pair<std::string, std::string>> columns_of(const RunResult& result) {
+std::vector<std::pair<std::string, std::string>> columns_of(const KeptRun& kept) {
   std::vector<std::pair<std::string, std::string>> columns;
-  for (const Column& c : result.table.columns) columns.emplace_back(c.name, c.unit);
+  for (const Column& c : kept.result.table.columns) columns.emplace_back(c.name, c.unit);
   return columns;
 }
 
 }  // namespace
 
 void bind_run(nb::module_& m) {
-  nb::class_<RunResult>(m, "RunResult")
+  nb::class_<KeptRun>(m, "Run")
       .def_prop_ro(
-          "table", [](const std::shared_ptr<RunResult>& r) { return table_of(r); },
+          "table", [](const std::shared_ptr<KeptRun>& r) { return table_of(r); },
           nb::rv_policy::reference)
       .def_prop_ro("columns", columns_of)
       .def_prop_ro("state",
-                   [](const RunResult& r) { return r.state ? nb::cast(*r.state) : nb::none(); })
-      .def_prop_ro("summary_json", [](const RunResult& r) { return summary_json(r.summary); })
-      .def_prop_ro("results_csv", [](const RunResult& r) { return results_csv(r.table); });
+                   [](const KeptRun& r) -> std::optional<SystemState> {
+                     if (!r.result.state) return std::nullopt;
+                     return *r.result.state;
+                   })
+      .def_prop_ro("summary_json", [](const KeptRun& r) { return summary_json(r.result.summary); })
+      .def_prop_ro("results_csv", [](const KeptRun& r) { return results_csv(r.result.table); })
+      .def("save", [](const KeptRun& r, const Model& model, const std::string& folder) {
+        save_run(model, r, folder);
+      });
   m.def("run", run_model, nb::arg("model"), nb::arg("duration").none(), nb::arg("progress").none(),
-        nb::arg("options"));
+        nb::arg("options"), nb::arg("model_file"), nb::arg("settings"));
 }
 
 }  // namespace floatframe::python

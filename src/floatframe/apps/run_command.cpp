@@ -17,6 +17,7 @@
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/state_json.hpp"
 #include "floatframe/report/notes_text.hpp"
+#include "floatframe/report/run_facts.hpp"
 #include "floatframe/report/run_page.hpp"
 #include "floatframe/simulation/range_warnings.hpp"
 #include "floatframe/simulation/simulation.hpp"
@@ -51,55 +52,6 @@ RunPaths make_paths(const RunArguments& arguments, const std::string& model_name
                             : std::filesystem::path(arguments.out);
   require_folder(folder.string());
   return RunPaths(folder.string());
-}
-
-/// Facts and tables of the model.
-void describe_model(const Model& model, Report& report) {
-  FactTable facts{"Model", {}};
-  report.tables = body_tables(model);
-  try {
-    const ModelCounts c = check(model);
-    const auto coordinates = [](const CoordinateCounts& k) {
-      return fmt::format("{} rigid + {} elastic = {}, {}", k.rigid, k.elastic, k.total,
-                         plural(k.constraints, "constraint"));
-    };
-    facts.rows = {{"bodies", fmt::format("{}, {} flexible", c.bodies, c.flexible_bodies)},
-                  {"joints", fmt::format("{}, {} cut", c.joints, c.cut_joints)},
-                  {"relative coordinates", coordinates(c.relative)},
-                  {"absolute coordinates", coordinates(c.absolute)},
-                  {"degrees of freedom", std::to_string(c.degrees_of_freedom)}};
-    for (PageTable& t : coordinate_tables(model, c)) report.tables.push_back(std::move(t));
-  } catch (const RunError& error) {
-    facts.rows = {{"coordinates", fmt::format("not counted: {}", error.what())}};
-  }
-  report.facts.push_back(std::move(facts));
-}
-
-std::string start_text(const SimulationDescription& s) {
-  if (s.start == Start::given) return "as given";
-  const std::string from =
-      s.start == Start::equilibrium
-          ? std::string("static equilibrium")
-          : fmt::format("state at {:g} s from {}", s.state->time, s.state->file);
-  return from + (s.offset.empty() ? "" : ", with offsets");
-}
-
-FactTable setting_facts(const RunArguments& arguments, const SimulationDescription& s) {
-  FactTable facts{"Settings",
-                  {{"model file", arguments.model.path},
-                   {"coordinates", word(s.coordinates)},
-                   {"inertia terms", word(s.inertia)},
-                   {"step", fmt::format("{:g} s", s.step)},
-                   {"duration asked", fmt::format("{:g} s", s.duration)},
-                   {"start", start_text(s)},
-                   {"spectral radius at infinity", fmt::format("{:g}", s.spectral_radius)},
-                   {"Newton tolerance", fmt::format("{:g}", s.tolerance)},
-                   {"Newton iterations at most", std::to_string(s.max_iterations)}}};
-  if (s.locate_edges) facts.rows.push_back({"edges", "located within the steps"});
-  for (const std::string& setting : arguments.model.settings) {
-    facts.rows.push_back({"parameter set", setting});
-  }
-  return facts;
 }
 
 std::string edges_text(const RunSummary& s) {
@@ -256,7 +208,8 @@ int run_model(const RunArguments& arguments) {
     report.result.summary = failed_summary(description.name, description.simulation, error.what());
   }
   report.subjects = channel_subjects(model);
-  report.facts.push_back(setting_facts(arguments, description.simulation));
+  report.facts.push_back(
+      setting_facts(arguments.model.path, arguments.model.settings, description.simulation));
   report.software = build_description();
   report.processor = processor_name();
   report.spectral_radius = description.simulation.spectral_radius;

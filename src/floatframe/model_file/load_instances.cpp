@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/model_file/instance_parameters.hpp"
 
@@ -222,12 +223,21 @@ const YamlDocument* ModelFiles::load(const std::string& file, const SourceMark& 
     if (name == file) return document.get();
   std::string text;
   if (!read_text_file(file, text, errors_, where, subject)) return nullptr;
+  return parse(file, text);
+}
+
+const YamlDocument* ModelFiles::parse(const std::string& file, const std::string& text) {
   const std::size_t before = errors_.size();
   auto document = std::make_unique<YamlDocument>(parse_yaml(file, text, errors_));
   // Nothing was understood: no second error about missing keys.
   if (errors_.size() > before && document->root.line == 0) document.reset();
   documents_.emplace_back(file, std::move(document));
   return documents_.back().second.get();
+}
+
+void ModelFiles::give(const std::string& file, const std::string& text) {
+  note_file_read(file, content_hash(text));
+  parse(file, text);
 }
 
 std::size_t ModelFiles::order(const std::string& file) const {

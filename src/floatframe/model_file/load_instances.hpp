@@ -14,6 +14,8 @@ namespace floatframe {
 class ModelFiles {
  public:
   explicit ModelFiles(ReadErrors& errors) : errors_(errors) {}
+  /// Read instead of a file.
+  void give(const std::string& file, const std::string& text);
   /// nullptr and an error if the file cannot be read. `where`, `subject`: the place that names the
   /// file.
   const YamlDocument* load(const std::string& file, const SourceMark& where,
@@ -22,6 +24,8 @@ class ModelFiles {
   std::size_t order(const std::string& file) const;
 
  private:
+  const YamlDocument* parse(const std::string& file, const std::string& text);
+
   ReadErrors& errors_;
   std::vector<std::pair<std::string, std::unique_ptr<YamlDocument>>> documents_;
 };

@@ -11,6 +11,13 @@ ModelDescription load_description(const std::string& path,
   return read_model(path, parameters);
 }
 
+ModelDescription read_description(const std::string& text, const std::string& path,
+                                  const std::vector<ParameterOverride>& parameters) {
+  ReadOptions options;
+  options.text = &text;
+  return read_model(path, parameters, nullptr, options);
+}
+
 Model load_model(const std::string& path, const std::vector<ParameterOverride>& parameters) {
   return build_model(load_description(path, parameters));
 }

@@ -13,7 +13,12 @@ namespace floatframe {
 ModelDescription load_description(const std::string& path,
                                   const std::vector<ParameterOverride>& parameters = {});
 
-/// The same, built.
+/// The same of the text of a model file. `path` stands for it in messages, and files that it names
+/// are relative to the folder of `path`.
+ModelDescription read_description(const std::string& text, const std::string& path,
+                                  const std::vector<ParameterOverride>& parameters = {});
+
+/// As `load_description`, built.
 Model load_model(const std::string& path, const std::vector<ParameterOverride>& parameters = {});
 
 }  // namespace floatframe

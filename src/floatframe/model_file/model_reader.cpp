@@ -83,6 +83,7 @@ ModelDescription read_model(const std::string& path,
   if (used) record.emplace(used->files);
   ReadErrors errors;
   ModelFiles files(errors);
+  if (options.text) files.give(path, *options.text);
   ReadModel model;
   model.options = options;
   const auto root = load_instances(path, overrides, files, errors);

@@ -21,6 +21,9 @@ struct ReadOptions {
   /// Further outputs, as a model file writes them: "tip: {position: {body: arm, node: BALL}}". They
   /// come last.
   std::vector<std::string> outputs = {};
+  /// Read instead of the file, whose name stands for it in messages and says where the files are
+  /// that it names.
+  const std::string* text = nullptr;
 };
 
 /// Throws InputError with every error found (file:line:column: sentence). `path` may hold subsystem

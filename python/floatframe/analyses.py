@@ -1,0 +1,131 @@
+"""One call, one result: counts, equilibrium, mass, linear systems, modes, responses, rotors, advice.
+
+Results are plain objects; their arrays share the memory of the result, cannot be written to, and keep it alive. Options are
+those of `Options`. All raise InputError for what is not valid and RunError where a start or a result cannot be found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .model import Model, built
+from .options import Array, Coordinates, Inertia, Options, as_dict
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+
+def check(model: Model) -> _core.ModelCounts:
+    """Bodies, joints, coordinates and constraints of both formulations, degrees of freedom."""
+    return _core.check(built(model))
+
+
+def statics(model: Model) -> _core.StaticsResult:
+    """The static equilibrium: forces, reactions, places; `state` of it starts runs."""
+    return _core.statics(built(model))
+
+
+def mass_properties(model: Model, **options: Unpack[Options]) -> _core.ModelMass:
+    """Mass [kg], centre of mass [m] and inertia [kg m2] of the whole model and of its bodies, where it starts."""
+    return _core.mass_properties(built(model), as_dict(options))
+
+
+def linearize(model: Model, **options: Unpack[Options]) -> _core.Linearization:
+    """M, C, K, J of the motion near the start, in the coordinates of the options."""
+    return _core.linearize(built(model), as_dict(options))
+
+
+def linear_system(model: Model, **options: Unpack[Options]) -> _core.LinearSystem:
+    """zdot = A z near the start, also where it moves, with as many z as there are degrees of freedom."""
+    return _core.linear_system(built(model), as_dict(options))
+
+
+def modes(model: Model, **options: Unpack[Options]) -> list[_core.Mode]:
+    """Vibrations near the start, ascending by |eigenvalue|, pairs once."""
+    return _core.modes(built(model), as_dict(options))
+
+
+def linear_inputs(model: Model) -> list[str]:
+    """What `linear_model` can be driven by: inputs, prescribed motions, roads."""
+    return _core.linear_inputs(built(model))
+
+
+def linear_model(
+    model: Model, inputs: Sequence[str] = (), outputs: Sequence[str] = (), **options: Unpack[Options]
+) -> _core.LinearModel:
+    """The linear system between inputs and outputs (none named: all). `state_space()` gives A, B, C, D, `response` the
+    frequency response."""
+    return _core.linear_model(built(model), list(inputs), list(outputs), as_dict(options))
+
+
+def frequency_response(
+    model: Model, frequencies: npt.ArrayLike, inputs: Sequence[str] = (), outputs: Sequence[str] = (), **options: Unpack[Options]
+) -> npt.NDArray[np.complex128]:
+    """G at frequencies [Hz] of shape (n,): complex, shape (n, outputs, inputs)."""
+    return linear_model(model, inputs, outputs, **options).response(numbers(frequencies))
+
+
+def road_response(
+    model: Model,
+    outputs: Sequence[str],
+    frequencies: npt.ArrayLike,
+    *,
+    speed: float,
+    roughness: float = 256e-6,
+    waviness: float = 2.0,
+    band: tuple[float, float] = (0.1, 50.0),
+    **options: Unpack[Options],
+) -> _core.RoadResponse:
+    """Spectral densities of outputs at frequencies [Hz], and effective values in the band [Hz], on a random road at a speed
+    [m/s]. roughness: G0 at 0.1 cycles/m [m3] (class C)."""
+    return _core.road_response(
+        built(model), list(outputs), numbers(frequencies), speed, roughness, waviness, band, as_dict(options)
+    )
+
+
+def campbell(
+    model: Model,
+    joint: str,
+    from_: float,
+    to: float,
+    step: float,
+    *,
+    axis: Sequence[float] = (0.0, 0.0, 1.0),
+    orders: Sequence[float] = (1.0,),
+    modes: int = 12,
+) -> _core.CampbellDiagram:
+    """Vibrations over the speed of a rotor [rad/s] that turns in `joint`; critical speeds of the orders; onset of
+    instability. axis: of a free joint, shape (3,)."""
+    x, y, z = (float(c) for c in axis)
+    return _core.campbell(built(model), joint, from_, to, step, (x, y, z), [float(n) for n in orders], modes)
+
+
+def advise(
+    model: Model,
+    *,
+    drop_share: float = 1e-3,
+    static_ratio: float = 0.05,
+    tolerance: float = 0.01,
+    repeat: int = 1,
+    step: float | None = None,
+    coordinates: Coordinates | None = None,
+    inertia: Inertia | None = None,
+) -> _core.ModeAdviceReport:
+    """Which modes the model could do without, verified by runs. tolerance: of the range of every output."""
+    options = {"step": step, "coordinates": coordinates, "inertia": inertia}
+    return _core.advise(built(model), options, drop_share, static_ratio, tolerance, repeat)
+
+
+def model_order(model: Model, below: float, tolerance: float = 0.01) -> _core.ModelOrder:
+    """How many modes of each body the vibrations below a frequency [Hz] need, verified; tolerance: of frequencies."""
+    return _core.model_order(built(model), below, tolerance)
+
+
+def numbers(values: npt.ArrayLike) -> Array:
+    """Numbers as a contiguous array of one dimension."""
+    return np.ascontiguousarray(np.atleast_1d(np.asarray(values, dtype=np.float64)))

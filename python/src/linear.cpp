@@ -1,0 +1,207 @@
+// Models as linear systems: matrices, modes, responses.
+#include <array>
+
+#include "results.hpp"
+
+namespace floatframe::python {
+namespace {
+
+void bind_linearization(nb::module_& m) {
+  nb::class_<Linearization> c(m, "Linearization",
+                              "M xddot + C xdot + K x + J^T dlambda = -r, J x = 0, near a state.");
+  array(c, "M", &Linearization::M, "Mass, shape (nv, nv).");
+  array(c, "C", &Linearization::C, "Damping and gyroscopic terms, shape (nv, nv).");
+  array(c, "K", &Linearization::K, "Stiffness, shape (nv, nv).");
+  array(c, "J", &Linearization::J, "Constraint Jacobian, shape (nc, nv).");
+  array(c, "r", &Linearization::r, "Unbalanced forces, shape (nv,).");
+  value(c, "coordinates", &Linearization::coordinates, "nv words: \"joint 'crank'\".");
+  value(c, "constraints", &Linearization::constraints, "nc words: \"joint 'guide'\".");
+  value(c, "state", &Linearization::state, "Where.");
+  value(c, "start", &Linearization::start, "What became of the start values.");
+  m.def("linearize", [](const Model& model, const nb::dict& given) {
+    const SimulationOptions options = options_of(given);
+    nb::gil_scoped_release released;
+    return linearize(model, options);
+  });
+}
+
+void bind_system(nb::module_& m) {
+  nb::class_<LinearSystem> c(m, "LinearSystem", "zdot = A z, as many z as there are freedoms.");
+  array(c, "A", &LinearSystem::A, "Shape (nz, nz) [1/s].");
+  array(c, "x_of", &LinearSystem::x_of, "Increments of the coordinates of z, shape (nv, nz).");
+  array(c, "v_of", &LinearSystem::v_of, "Their velocities, shape (nv, nz).");
+  array(c, "a_of", &LinearSystem::a_of, "Their accelerations, shape (nv, nz).");
+  value(c, "states", &LinearSystem::states, "nz words: \"rate of joint 'crank'\".");
+  value(c, "degrees", &LinearSystem::degrees, "Of freedom.");
+  value(c, "massless", &LinearSystem::massless, "Of these.");
+  value(c, "notes", &LinearSystem::notes, "Where it holds less than one might think.");
+  m.def("linear_system", [](const Model& model, const nb::dict& given) {
+    const SimulationOptions options = options_of(given);
+    nb::gil_scoped_release released;
+    return linear_system(model, options);
+  });
+}
+
+/// A mode with those who take part in it.
+struct Mode {
+  LinearMode mode;
+  ModeParts parts;
+  std::vector<std::string> bodies, forces;
+};
+
+nb::dict shares(const std::vector<std::string>& names, const std::vector<double>& parts) {
+  nb::dict d;
+  for (std::size_t k = 0; k < std::min(names.size(), parts.size()); ++k)
+    d[names[k].c_str()] = parts[k];
+  return d;
+}
+
+std::vector<Mode> modes_of(const Model& model, const nb::dict& given) {
+  const SimulationOptions options = options_of(given);
+  nb::gil_scoped_release released;
+  const LinearSystem system = linear_system(model, options);
+  std::vector<std::string> bodies, forces;
+  for (const Body& b : model.bodies) bodies.push_back(b.name);
+  for (const Force& f : model.forces) forces.push_back(f.name);
+  std::vector<Mode> modes;
+  for (LinearMode& mode : linear_modes(system)) {
+    ModeParts parts = mode_parts(model, system, mode);
+    modes.push_back({std::move(mode), std::move(parts), bodies, forces});
+  }
+  return modes;
+}
+
+void bind_modes(nb::module_& m) {
+  nb::class_<Mode>(m, "Mode", "One motion e^(eigenvalue t) of a linear system.")
+      .def_prop_ro(
+          "eigenvalue", [](const Mode& x) { return x.mode.lambda; },
+          "[1/s]; of a pair the one with Im > 0.")
+      .def_prop_ro(
+          "frequency", [](const Mode& x) { return x.mode.frequency(); }, "Undamped [Hz].")
+      .def_prop_ro(
+          "damped", [](const Mode& x) { return x.mode.damped(); }, "Damped frequency [Hz].")
+      .def_prop_ro(
+          "damping", [](const Mode& x) { return x.mode.damping(); }, "Ratio; 1: critical.")
+      .def_prop_ro(
+          "z", [](const Mode& x) -> const Eigen::VectorXcd& { return x.mode.z; },
+          nb::rv_policy::reference_internal, "In the states of the system, |z| = 1, shape (nz,).")
+      .def_prop_ro(
+          "kinetic", [](const Mode& x) { return shares(x.bodies, x.parts.kinetic); },
+          "Share of each body in the kinetic energy.")
+      .def_prop_ro(
+          "bending", [](const Mode& x) { return shares(x.bodies, x.parts.bending); },
+          "Share of each body in the potential energy.")
+      .def_prop_ro(
+          "springs", [](const Mode& x) { return shares(x.forces, x.parts.springs); },
+          "Share of each force element in the potential energy.")
+      .def("__repr__", [](const Mode& x) {
+        return "<floatframe.Mode " + std::to_string(x.mode.damped()) + " Hz, damping " +
+               std::to_string(x.mode.damping()) + ">";
+      });
+  m.def("modes", modes_of);
+}
+
+std::vector<std::string> names_of(const std::vector<LinearInput>& inputs) {
+  std::vector<std::string> names;
+  for (const LinearInput& i : inputs) names.push_back(i.name);
+  return names;
+}
+std::vector<std::string> names_of(const std::vector<Column>& columns) {
+  std::vector<std::string> names;
+  for (const Column& c : columns) names.push_back(c.name);
+  return names;
+}
+
+using Frequencies = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+std::vector<double> finite(const Frequencies& given) {
+  std::vector<double> list(given.data(), given.data() + given.size());
+  for (const double f : list)
+    if (!std::isfinite(f)) throw InputError("frequencies: found a number that is not finite");
+  return list;
+}
+
+/// G at each frequency, shape (frequencies, outputs, inputs).
+nb::object response(const LinearModel& linear, const Frequencies& given) {
+  const std::vector<double> frequencies = finite(given);
+  const std::size_t ny = linear.outputs.size(), nu = linear.inputs.size();
+  auto kept = std::make_unique<std::complex<double>[]>(frequencies.size() * ny * nu);
+  std::complex<double>* g = kept.get();
+  {
+    nb::gil_scoped_release released;
+    const FrequencyResponse of(linear);
+    for (std::size_t k = 0; k < frequencies.size(); ++k) {
+      const Eigen::MatrixXcd at = of.at_frequency(frequencies[k]);
+      for (std::size_t i = 0; i < ny; ++i)
+        for (std::size_t j = 0; j < nu; ++j)
+          g[(k * ny + i) * nu + j] = at(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+  nb::capsule owner(g, [](void* p) noexcept { delete[] static_cast<std::complex<double>*>(p); });
+  kept.release();
+  return nb::cast(nb::ndarray<nb::numpy, std::complex<double>, nb::ndim<3>>(
+      g, {frequencies.size(), ny, nu}, owner));
+}
+
+void bind_ports(nb::module_& m) {
+  nb::class_<StateSpace> space(m, "StateSpace", "zdot = A z + B u, y = C z + D u, in changes.");
+  array(space, "A", &StateSpace::A, "Shape (nz, nz).");
+  array(space, "B", &StateSpace::B, "Shape (nz, inputs).");
+  array(space, "C", &StateSpace::C, "Shape (outputs, nz).");
+  array(space, "D", &StateSpace::D, "Shape (outputs, inputs).");
+  value(space, "states", &StateSpace::states, "nz words.");
+  space.def_prop_ro("inputs", [](const StateSpace& s) { return names_of(s.inputs); });
+  space.def_prop_ro("outputs", [](const StateSpace& s) { return names_of(s.outputs); });
+  nb::class_<LinearModel> c(m, "LinearModel", "A linear system between inputs and outputs.");
+  value(c, "system", &LinearModel::system, "");
+  c.def_prop_ro("inputs", [](const LinearModel& l) { return names_of(l.inputs); });
+  c.def_prop_ro("outputs", [](const LinearModel& l) { return names_of(l.outputs); });
+  value(c, "time", &LinearModel::time, "Where it was linearised [s].");
+  array(c, "input_values", &LinearModel::input_values, "There, shape (inputs,).");
+  array(c, "output_values", &LinearModel::output_values, "There, shape (outputs,).");
+  c.def("state_space", &state_space, "A, B, C, D; inputs that enter by derivatives as states.");
+  c.def("response", response, nb::arg("frequencies"),
+        "G at frequencies [Hz] of shape (n,), shape (n, outputs, inputs), complex.");
+  m.def("linear_inputs", [](const Model& model) { return names_of(linear_inputs(model)); });
+  m.def("linear_model", [](const Model& model, const std::vector<std::string>& inputs,
+                           const std::vector<std::string>& outputs, const nb::dict& given) {
+    const SimulationOptions options = options_of(given);
+    nb::gil_scoped_release released;
+    return linear_model(model, {inputs, outputs}, options);
+  });
+}
+
+void bind_road(nb::module_& m) {
+  nb::class_<OutputSpectrum> spectrum(m, "OutputSpectrum", "An output on a random road.");
+  spectrum.def_prop_ro("name", [](const OutputSpectrum& s) { return s.output.name; });
+  spectrum.def_prop_ro("unit", [](const OutputSpectrum& s) { return s.output.unit; });
+  numbers(spectrum, "density", &OutputSpectrum::density, "One-sided [unit^2/Hz].");
+  value(spectrum, "rms", &OutputSpectrum::rms, "In the band, about the mean.");
+  nb::class_<RoadResponse> c(m, "RoadResponse", "What a random road does to a model.");
+  numbers(c, "frequencies", &RoadResponse::frequencies, "[Hz]");
+  value(c, "outputs", &RoadResponse::outputs, "");
+  value(c, "road", &RoadResponse::road, "Effective height in the band [m].");
+  value(c, "notes", &RoadResponse::notes, "");
+  m.def("road_response",
+        [](const Model& model, const std::vector<std::string>& outputs, const Frequencies& given,
+           double speed, double roughness, double waviness, const std::array<double, 2>& band,
+           const nb::dict& options_given) {
+          const std::vector<double> frequencies = finite(given);
+          const SimulationOptions options = options_of(options_given);
+          nb::gil_scoped_release released;
+          return road_response(model, outputs, frequencies,
+                               {roughness, waviness, speed, band[0], band[1]}, options);
+        });
+}
+
+}  // namespace
+
+void bind_linear(nb::module_& m) {
+  bind_linearization(m);
+  bind_system(m);
+  bind_modes(m);
+  bind_ports(m);
+  bind_road(m);
+}
+
+}  // namespace floatframe::python
