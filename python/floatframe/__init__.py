@@ -8,7 +8,7 @@ SI units, angles in radians, z up unless the model says otherwise, quaternions (
 >>> res["chassis.z"], res.time
 """
 
-from ._core import SimulationState, State, StepReport, __version__
+from ._core import SimulationState, State, StepReport, version
 from .analyses import (
     advise,
     campbell,
@@ -30,6 +30,9 @@ from .model import Model
 from .options import Options
 from .run import Result, run
 from .simulation import Simulation
+from .study import sweep
+
+__version__ = version()
 
 __all__ = [
     "Error",
@@ -63,4 +66,6 @@ __all__ = [
     "road_response",
     "run",
     "statics",
+    "sweep",
+    "version",
 ]

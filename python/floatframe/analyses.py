@@ -117,7 +117,7 @@ def advise(
     inertia: Inertia | None = None,
 ) -> _core.ModeAdviceReport:
     """Which modes the model could do without, verified by runs. tolerance: of the range of every output."""
-    options = {"step": step, "coordinates": coordinates, "inertia": inertia}
+    options: dict[str, object] = {"step": step, "coordinates": coordinates, "inertia": inertia}
     return _core.advise(built(model), options, drop_share, static_ratio, tolerance, repeat)
 
 

@@ -113,7 +113,7 @@ class Simulation(_core.Simulation):
         """`function(time, outputs, inputs)` is called at the beginning of every step: time [s], outputs at this time, shape
         (outputs,), and inputs, shape (inputs,), which it may change in place. They are held during the step. None removes
         it. Price: about a microsecond a step, and what the function does."""
-        super().on_step(function)
+        self.set_on_step(function)
 
     def law(self, input: str, function: Callable[..., float] | None, of: Sequence[str] = ()) -> None:
         """A force law: the input is set to `function(time, *values)` at the beginning of every step, with the values of the
@@ -122,7 +122,7 @@ class Simulation(_core.Simulation):
         Price: as that of `on_step`."""
         if isinstance(of, str):
             of = [of]
-        super().law(input, function, list(of))
+        self.set_law(input, function, list(of))
 
     def __repr__(self) -> str:
         return f"<floatframe.Simulation of '{self._model.name}' at {self.time:g} s>"

@@ -86,7 +86,7 @@ void bind_mass(nb::module_& m) {
   array(c, "principal_axes", &ModelMass::principal_axes, "One per column, shape (3, 3).");
   value(c, "bodies", &ModelMass::bodies, "In the order of the model.");
   value(c, "start", &ModelMass::start, "");
-  m.def("mass_properties", [](const Model& model, const nb::dict& given) {
+  m.def("mass_properties", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
     nb::gil_scoped_release released;
     return mass_properties(model, options);
@@ -133,7 +133,7 @@ void bind_advice(nb::module_& m) {
   value(c, "trials", &ModeAdviceReport::trials, "Reduced models that were run.");
   value(c, "differences", &ModeAdviceReport::differences, "The largest first.");
   value(c, "refused_by", &ModeAdviceReport::refused_by, "");
-  m.def("advise", [](const Model& model, const nb::dict& given, double drop_share,
+  m.def("advise", [](const Model& model, const Keywords& given, double drop_share,
                      double static_ratio, double tolerance, int repeat) {
     const SimulationDescription simulation = described(model, options_of(given));
     nb::gil_scoped_release released;
@@ -171,7 +171,7 @@ CampbellDiagram campbell_of(const Model& model, const std::string& joint, double
 }
 
 /// lambda of a line over the speeds.
-nb::object eigenvalues(const CampbellLine& line) {
+ComplexArray eigenvalues(const CampbellLine& line) {
   Eigen::VectorXcd values(static_cast<Eigen::Index>(line.points.size()));
   for (std::size_t k = 0; k < line.points.size(); ++k)
     values[static_cast<Eigen::Index>(k)] = line.points[k].lambda;

@@ -34,10 +34,10 @@ nb::object vector(const Vector& v) {
 
 }  // namespace
 
-nb::object array_of(const VecX& v) { return vector(v); }
-nb::object array_of(const MatX& a) { return matrix(a); }
-nb::object array_of(const std::vector<double>& v) { return vector(v); }
-nb::object array_of(const Eigen::VectorXcd& v) { return vector(v); }
-nb::object array_of(const Eigen::MatrixXcd& a) { return matrix(a); }
+RealArray array_of(const VecX& v) { return nb::borrow<RealArray>(vector(v)); }
+RealArray array_of(const MatX& a) { return nb::borrow<RealArray>(matrix(a)); }
+RealArray array_of(const std::vector<double>& v) { return nb::borrow<RealArray>(vector(v)); }
+ComplexArray array_of(const Eigen::VectorXcd& v) { return nb::borrow<ComplexArray>(vector(v)); }
+ComplexArray array_of(const Eigen::MatrixXcd& a) { return nb::borrow<ComplexArray>(matrix(a)); }
 
 }  // namespace floatframe::python

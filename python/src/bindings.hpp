@@ -26,12 +26,25 @@ void bind_simulation(nb::module_& m);
 void bind_analyses(nb::module_& m);
 void bind_linear(nb::module_& m);
 
+inline bool is_array(PyObject* object) { return nb::ndarray_check(nb::handle(object)); }
+/// Objects by what stubs are to call them.
+struct RealArray : nb::object {
+  NB_OBJECT_DEFAULT(RealArray, nb::object, "numpy.typing.NDArray[numpy.float64]", is_array)
+};
+struct ComplexArray : nb::object {
+  NB_OBJECT_DEFAULT(ComplexArray, nb::object, "numpy.typing.NDArray[numpy.complex128]", is_array)
+};
+using Keywords = nb::typed<nb::dict, nb::str, nb::object>;
+using Numbers = nb::typed<nb::dict, nb::str, double>;
+using Arrays = nb::typed<nb::dict, nb::str, RealArray>;
+using ArraysByName = nb::typed<nb::dict, nb::str, Arrays>;
+
 /// A copy as a numpy array of its own.
-nb::object array_of(const VecX& v);
-nb::object array_of(const MatX& a);
-nb::object array_of(const std::vector<double>& v);
-nb::object array_of(const Eigen::VectorXcd& v);
-nb::object array_of(const Eigen::MatrixXcd& a);
+RealArray array_of(const VecX& v);
+RealArray array_of(const MatX& a);
+RealArray array_of(const std::vector<double>& v);
+ComplexArray array_of(const Eigen::VectorXcd& v);
+ComplexArray array_of(const Eigen::MatrixXcd& a);
 
 /// The argument `name`, one of `words`. Throws ValueError with what was found and expected.
 template <class T>
@@ -49,7 +62,7 @@ T word_of(const char* name, const std::string& found,
 Coordinates coordinates_of(const std::string& word);
 InertiaMethod inertia_of(const std::string& word);
 /// Of keyword arguments; None is as if it was not given. Throws TypeError for other names, types.
-SimulationOptions options_of(const nb::dict& given);
+SimulationOptions options_of(const Keywords& given);
 
 /// `run` in a thread of its own; this one, of Python, looks for signals meanwhile (Ctrl-C) and
 /// calls `watch` with the lock held. What either throws ends both: `stop` is set and waited for.

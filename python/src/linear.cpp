@@ -18,7 +18,7 @@ void bind_linearization(nb::module_& m) {
   value(c, "constraints", &Linearization::constraints, "nc words: \"joint 'guide'\".");
   value(c, "state", &Linearization::state, "Where.");
   value(c, "start", &Linearization::start, "What became of the start values.");
-  m.def("linearize", [](const Model& model, const nb::dict& given) {
+  m.def("linearize", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
     nb::gil_scoped_release released;
     return linearize(model, options);
@@ -35,7 +35,7 @@ void bind_system(nb::module_& m) {
   value(c, "degrees", &LinearSystem::degrees, "Of freedom.");
   value(c, "massless", &LinearSystem::massless, "Of these.");
   value(c, "notes", &LinearSystem::notes, "Where it holds less than one might think.");
-  m.def("linear_system", [](const Model& model, const nb::dict& given) {
+  m.def("linear_system", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
     nb::gil_scoped_release released;
     return linear_system(model, options);
@@ -49,14 +49,14 @@ struct Mode {
   std::vector<std::string> bodies, forces;
 };
 
-nb::dict shares(const std::vector<std::string>& names, const std::vector<double>& parts) {
+Numbers shares(const std::vector<std::string>& names, const std::vector<double>& parts) {
   nb::dict d;
   for (std::size_t k = 0; k < std::min(names.size(), parts.size()); ++k)
     d[names[k].c_str()] = parts[k];
   return d;
 }
 
-std::vector<Mode> modes_of(const Model& model, const nb::dict& given) {
+std::vector<Mode> modes_of(const Model& model, const Keywords& given) {
   const SimulationOptions options = options_of(given);
   nb::gil_scoped_release released;
   const LinearSystem system = linear_system(model, options);
@@ -122,7 +122,7 @@ std::vector<double> finite(const Frequencies& given) {
 }
 
 /// G at each frequency, shape (frequencies, outputs, inputs).
-nb::object response(const LinearModel& linear, const Frequencies& given) {
+ComplexArray response(const LinearModel& linear, const Frequencies& given) {
   const std::vector<double> frequencies = finite(given);
   const std::size_t ny = linear.outputs.size(), nu = linear.inputs.size();
   auto kept = std::make_unique<std::complex<double>[]>(frequencies.size() * ny * nu);
@@ -139,8 +139,9 @@ nb::object response(const LinearModel& linear, const Frequencies& given) {
   }
   nb::capsule owner(g, [](void* p) noexcept { delete[] static_cast<std::complex<double>*>(p); });
   kept.release();
-  return nb::cast(nb::ndarray<nb::numpy, std::complex<double>, nb::ndim<3>>(
-      g, {frequencies.size(), ny, nu}, owner));
+  return nb::borrow<ComplexArray>(
+      nb::cast(nb::ndarray<nb::numpy, std::complex<double>, nb::ndim<3>>(
+          g, {frequencies.size(), ny, nu}, owner)));
 }
 
 void bind_ports(nb::module_& m) {
@@ -164,7 +165,7 @@ void bind_ports(nb::module_& m) {
         "G at frequencies [Hz] of shape (n,), shape (n, outputs, inputs), complex.");
   m.def("linear_inputs", [](const Model& model) { return names_of(linear_inputs(model)); });
   m.def("linear_model", [](const Model& model, const std::vector<std::string>& inputs,
-                           const std::vector<std::string>& outputs, const nb::dict& given) {
+                           const std::vector<std::string>& outputs, const Keywords& given) {
     const SimulationOptions options = options_of(given);
     nb::gil_scoped_release released;
     return linear_model(model, {inputs, outputs}, options);
@@ -185,7 +186,7 @@ void bind_road(nb::module_& m) {
   m.def("road_response",
         [](const Model& model, const std::vector<std::string>& outputs, const Frequencies& given,
            double speed, double roughness, double waviness, const std::array<double, 2>& band,
-           const nb::dict& options_given) {
+           const Keywords& options_given) {
           const std::vector<double> frequencies = finite(given);
           const SimulationOptions options = options_of(options_given);
           nb::gil_scoped_release released;

@@ -89,7 +89,7 @@ InertiaMethod inertia_of(const std::string& word) {
       {{"preprocessing", InertiaMethod::preprocessing}, {"projection", InertiaMethod::projection}});
 }
 
-SimulationOptions options_of(const nb::dict& given) {
+SimulationOptions options_of(const Keywords& given) {
   SimulationOptions options;
   for (const auto& [key, value] : given) {
     const std::string name = nb::cast<std::string>(key);

@@ -1,6 +1,6 @@
 #pragma once
-// Members of plain structs as attributes: matrices and vectors as arrays that look at the struct and
-// keep it alive.
+// Members of plain structs as attributes: matrices and vectors as arrays that look at the struct
+// and keep it alive.
 #include <nanobind/eigen/dense.h>
 
 #include "bindings.hpp"

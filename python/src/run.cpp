@@ -7,7 +7,7 @@ namespace floatframe::python {
 namespace {
 
 std::shared_ptr<KeptRun> run_model(const Model& model, std::optional<double> duration,
-                                   const nb::object& progress, const nb::dict& given,
+                                   const nb::object& progress, const Keywords& given,
                                    const std::string& model_file,
                                    const std::vector<std::string>& settings) {
   SimulationDescription simulation = described(model, options_of(given));

@@ -9,7 +9,7 @@
 namespace floatframe::python {
 namespace {
 
-using Numbers = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
+using Line = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
 
 /// A force law: the value of an input as a function of the time and of some outputs.
 struct Law {
@@ -69,7 +69,7 @@ std::size_t output_of(const Stepper& s, const std::string& name) {
 }
 
 /// An array that Python owns, and its numbers.
-double* numbers_of(const nb::object& array) { return nb::cast<Numbers>(array).data(); }
+double* numbers_of(const nb::object& array) { return nb::cast<Line>(array).data(); }
 
 void call_on_step(const Stepper& s, double time, std::span<const double> outputs,
                   std::span<double> inputs) {
@@ -183,7 +183,7 @@ PyType_Slot slots[] = {{Py_tp_traverse, reinterpret_cast<void*>(traverse)},
                        {Py_tp_clear, reinterpret_cast<void*>(clear)},
                        {0, nullptr}};
 
-nb::dict counters(Stepper& s) {
+Numbers counters(Stepper& s) {
   const StepCounters c = s.idle().counters();
   nb::dict d;
   d["steps"] = c.steps;
@@ -224,7 +224,7 @@ void bind_simulation(nb::module_& m) {
   nb::class_<Stepper>(m, "Simulation", nb::type_slots(slots))
       .def(
           "__init__",
-          [](Stepper* self, const Model& model, const nb::dict& given) {
+          [](Stepper* self, const Model& model, const Keywords& given) {
             const SimulationOptions options = options_of(given);
             nb::gil_scoped_release released;
             new (self) Stepper(model, options);
@@ -251,8 +251,8 @@ void bind_simulation(nb::module_& m) {
            [](Stepper& s, const std::string& n) { return s.idle().outputs()[output_of(s, n)]; })
       .def("inputs_array", [](Stepper& s) { return array_of(copied(s.idle().inputs())); })
       .def("outputs_array", [](Stepper& s) { return array_of(copied(s.idle().outputs())); })
-      .def("on_step", on_step, nb::arg("function").none())
-      .def("law", add_law, nb::arg("input"), nb::arg("function").none(), nb::arg("of"))
+      .def("set_on_step", on_step, nb::arg("function").none())
+      .def("set_law", add_law, nb::arg("input"), nb::arg("function").none(), nb::arg("of"))
       .def(
           "save", [](Stepper& s) { return s.idle().save(); },
           "All that decides the next steps; may be pickled.")

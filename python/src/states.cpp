@@ -15,9 +15,9 @@ SimulationState from_bytes(const nb::bytes& bytes) {
       {reinterpret_cast<const std::byte*>(bytes.c_str()), bytes.size()});
 }
 
-nb::object array3(const Vec3& v) { return array_of(VecX(v)); }
+RealArray array3(const Vec3& v) { return array_of(VecX(v)); }
 
-nb::dict body(const SystemState::Body& b) {
+Arrays body(const SystemState::Body& b) {
   nb::dict d;
   d["position"] = array3(b.position);
   d["orientation"] = array_of(VecX(b.orientation));
@@ -28,13 +28,13 @@ nb::dict body(const SystemState::Body& b) {
   return d;
 }
 
-nb::dict bodies(const SystemState& s) {
+ArraysByName bodies(const SystemState& s) {
   nb::dict d;
   for (const auto& b : s.bodies) d[b.name.c_str()] = body(b);
   return d;
 }
 
-nb::dict joints(const SystemState& s) {
+ArraysByName joints(const SystemState& s) {
   nb::dict d;
   for (const auto& j : s.joints) {
     nb::dict values;

@@ -4,8 +4,8 @@
 namespace floatframe::python {
 
 void bind_version(nb::module_& m) {
-  m.attr("__version__") = version();
-  m.def("build_info", [] {
+  m.def("version", &version);
+  m.def("build_info", []() -> Keywords {
     nb::dict info;
     info["version"] = version();
     info["build"] = build_description();

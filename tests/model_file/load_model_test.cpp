@@ -25,6 +25,14 @@ TEST(LoadModel, TakesParametersAndBuilds) {
   EXPECT_EQ(load_description(path, {{"mass", "5"}}).bodies.size(), 1u);
 }
 
+TEST(LoadModel, ReadsATextInPlaceOfAFile) {
+  const ModelDescription d = read_description(text, "/nowhere/<text>", {{"mass", "5"}});
+  EXPECT_EQ(build_model(d).bodies.at(0).data->invariants.m, 5.0);
+  const std::string message =
+      error_of([&] { read_description("floatframe: 1\nbodies:\n  a: {colour: red}\n", "<text>"); });
+  EXPECT_NE(message.find("<text>:3:7: bodies.a"), std::string::npos) << message;
+}
+
 TEST(LoadModel, NamesAnUnknownParameter) {
   const TemporaryFolder folder;
   const std::string path = folder.write("ball.yaml", text);

@@ -1,0 +1,152 @@
+"""Parameter studies, by the engine of `floatframe sweep`."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import signal
+import subprocess
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .build import program
+from .errors import ErrorEntry, InputError, RunError
+from .model import Model, built, parameter_text
+
+if TYPE_CHECKING:
+    import pandas
+
+
+def sweep(
+    model: Model,
+    *,
+    processes: int | None = None,
+    measure: Sequence[str] = (),
+    runs: Iterable[Mapping[str, Any]] | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    fresh: bool = False,
+    step: float | None = None,
+    duration: float | None = None,
+    coordinates: str | None = None,
+    inertia: str | None = None,
+    case_timeout: float | None = None,
+    progress: bool = False,
+    vary: Mapping[str, Iterable[Any]] | None = None,
+    **variations: Iterable[Any],
+) -> pandas.DataFrame:
+    """Runs a model with all combinations of values of parameters or of options of its simulation; the last one named changes
+    fastest. A table of pandas, one row for each run: values, "status", and figures of outputs such as "tip.x max [m]".
+
+    >>> ff.sweep(model, speed=np.linspace(3, 8, 11), processes=4)
+
+    vary: the same as a map, for names that Python does not take ("simulation.step"). runs: instead of all combinations, one
+    map of values for each run. measure: outputs in the table, "tip.x" or "tip.x:max"; none: all. processes: runs at a time,
+    each in a process of its own; None: as many as there are processors. folder: where sweep.csv and its journal stay, and
+    from where a study that was interrupted goes on; None: nothing stays. case_timeout [s]: a run that takes longer has
+    failed. A run that fails or crashes is a row whose "status" and "message" say so. Raises InputError for what is not valid.
+    """
+    built(model)  # says what is wrong with it
+    with tempfile.TemporaryDirectory() as scratch:
+        out = os.fspath(folder) if folder is not None else os.path.join(scratch, "study")
+        arguments = [program(), "sweep", _model_file(model, out if folder is not None else scratch), "--out", out]
+        arguments += _values({**(vary or {}), **variations}, runs, scratch)
+        for name, text in model.parameters.items():
+            arguments += ["--set", f"{name}={text}"]
+        for name, value in (("threads", processes), ("step", step), ("duration", duration), ("coordinates", coordinates),
+                            ("inertia", inertia), ("case-timeout", case_timeout)):
+            if value is not None:
+                arguments += [f"--{name}", parameter_text(value)]
+        for figure in [measure] if isinstance(measure, str) else measure:
+            arguments += ["--measure", str(figure)]
+        arguments += ["--fresh"] if fresh else []
+        _run(arguments if progress else [*arguments, "--quiet"], progress)
+        return _table(Path(out, "sweep.csv"))
+
+
+def _model_file(model: Model, folder: str) -> str:
+    """A model that is not from a file is written into one; files that it names are found from its own folder."""
+    if not model.file.endswith("<model>"):
+        return model.file
+    os.makedirs(folder, exist_ok=True)
+    path = Path(folder, "model.yaml")
+    path.write_text(model.to_yaml(), encoding="utf-8")
+    return str(path)
+
+
+def _values(vary: Mapping[str, Iterable[Any]], runs: Iterable[Mapping[str, Any]] | None, scratch: str) -> list[str]:
+    if runs is None:
+        if not vary:
+            raise InputError("found nothing to vary, expected values of a parameter: sweep(model, speed=[3, 4, 5])")
+        # A table of all combinations holds any text; the last changes fastest.
+        rows: list[dict[str, Any]] = [{}]
+        for name, values in vary.items():
+            if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
+                raise InputError(f"{name}: found {values!r}, expected a list of values")
+            taken = list(values)
+            if not taken:
+                raise InputError(f"{name}: found no values")
+            rows = [{**row, name: value} for row in rows for value in taken]
+    elif vary:
+        raise InputError("found variations and runs, expected one of them")
+    else:
+        rows = [dict(row) for row in runs]
+    if not rows or any(list(row) != list(rows[0]) for row in rows) or not rows[0]:
+        raise InputError("runs: expected at least one map of values, all with the same names")
+    path = Path(scratch, "runs.csv")
+    lines = [list(rows[0])] + [[parameter_text(value) for value in row.values()] for row in rows]
+    path.write_text("".join(",".join(_field(text) for text in line) + "\n" for line in lines), encoding="utf-8")
+    return ["--table", str(path)]
+
+
+def _field(text: str) -> str:
+    if any(c in text for c in "\n\r\0"):
+        raise InputError(f"found the value {text!r}, expected one line of text")
+    return '"' + text.replace('"', '""') + '"' if any(c in text for c in ',"') else text
+
+
+def _run(arguments: Sequence[str], progress: bool) -> None:
+    errors = None if progress else subprocess.PIPE
+    process = subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=errors, text=True, start_new_session=True)
+    try:
+        _, text = process.communicate()
+    except BaseException:
+        process.send_signal(signal.SIGINT)  # it cancels its runs and keeps its journal
+        process.wait()
+        raise
+    if process.returncode == 2:
+        raise InputError([_entry(line) for line in (text or "the study was refused").strip().splitlines()])
+    if process.returncode not in (0, 1):
+        raise RunError(f"the study ended with exit code {process.returncode}: {(text or '').strip()}")
+
+
+def _entry(line: str) -> ErrorEntry:
+    line = line.removeprefix("floatframe: ")
+    if place := re.match(r"(.+?):(\d+):(\d+): (.*)", line):
+        return ErrorEntry(place[1], int(place[2]), int(place[3]), place[4])
+    return ErrorEntry("", 0, 0, line)
+
+
+def _table(path: Path) -> pandas.DataFrame:
+    import pandas
+
+    if not path.is_file():
+        raise RunError("the study was interrupted: there is no table")
+    table = pandas.read_csv(path, index_col="run", dtype=str, keep_default_na=False)
+    table.index = table.index.astype(int)
+    for name in table.columns:
+        if name not in ("status", "message"):
+            table[name] = _numbers(list(table[name]))
+    return table
+
+
+def _numbers(texts: list[str]) -> list[Any]:
+    """A column as numbers if it holds nothing else; every number is read back to its bits."""
+    for kind in (int, float):
+        try:
+            return [kind(text) if text else math.nan for text in texts]
+        except ValueError:
+            pass
+    return list(texts)

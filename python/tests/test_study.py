@@ -1,0 +1,57 @@
+"""Studies: the table of `floatframe sweep`."""
+
+import subprocess
+
+import floatframe as ff
+import numpy as np
+import pytest
+
+
+def test_the_table_is_that_of_the_command_line(tmp_path):
+    path = ff.example("active_damper")
+    subprocess.run([ff.program(), "sweep", path, "--vary", "simulation.step=0.001,0.002", "--duration", "0.2", "--quiet", "--out", tmp_path / "a",
+                    "--measure", "chassis.az:max"], check=True)
+    table = ff.sweep(ff.Model.load(path), vary={"simulation.step": [0.001, np.float64(0.002)]}, duration=0.2, processes=2, folder=tmp_path / "b",
+                     measure=["chassis.az:max"])
+    header, *rows = (line.split(",") for line in (tmp_path / "a/sweep.csv").read_text().splitlines())
+    assert ["run", *table.columns] == header
+    for row, expected in zip(table.itertuples(), rows):
+        assert [float(x) for x in (*row[:2], *row[5:])] == [float(x) for x in (*expected[:2], *expected[5:])]  # every bit
+    assert (tmp_path / "a/sweep.csv").read_bytes() == (tmp_path / "b/sweep.csv").read_bytes()
+    run = ff.run(ff.Model.load(path), step=0.002, duration=0.2)
+    assert table["chassis.az max [m/s2]"][2] == run["chassis.az"].max()
+
+
+def model():
+    m = ff.Model.from_dict({
+        "parameters": {"m": 1, "word": "a, \"b\""}, "points": {"hinge": [0, 0, 0], "end": [1, 0, 0]},
+        "bodies": {"arm": {"rigid": {"mass": "${m}", "centre_of_mass": [0.5, 0, 0], "inertia": [0, 0.1, 0.1]}}},
+        "joints": {"hinge": {"type": "revolute", "parent": "ground", "child": "arm", "at": "hinge", "axis": "y"}},
+        "outputs": {"end.z": {"position": {"body": "arm", "at": "end"}, "axis": "z"}},
+        "simulation": {"step": 1e-3, "duration": 0.1}})
+    return m
+
+
+def test_a_model_that_was_filled_in():
+    table = ff.sweep(model(), m=[1, 2], vary={"simulation.duration": [0.1, 0.2]}, processes=2)
+    assert list(table["m"]) == [1, 2, 1, 2] and list(table["simulation.duration"]) == [0.1, 0.1, 0.2, 0.2]
+    assert list(table["status"]) == ["completed"] * 4 and list(table["message"]) == [""] * 4
+
+
+def test_errors_of_values():
+    with pytest.raises(ff.InputError, match="mass: found .* = -1, expected a number >= 0") as caught:
+        ff.sweep(model(), m=[1, -1])
+    assert caught.value.errors[0].line > 0
+
+
+def test_runs_one_by_one():
+    table = ff.sweep(model(), runs=[{"m": 1, "simulation.step": 1e-3}, {"m": 3, "simulation.step": 2e-3}], measure="end.z")
+    assert list(table["m"]) == [1, 3] and table.filter(like="end.z").shape[1] == 6
+
+
+@pytest.mark.parametrize("options", [{}, {"m": []}, {"m": 3}, {"m": "abc"}, {"nowhere": [1]}, {"m": [object()]}, {"m": ["a\nb"]}, {"m": [1], "runs": []},
+                                     {"runs": []}, {"runs": [{}]}, {"runs": [{"m": 1}, {"k": 2}]}, {"m": [1], "measure": ["x:y"]},
+                                     {"m": [1], "processes": -1}, {"m": [1], "processes": "x"}, {"m": [1], "step": -1}])
+def test_what_is_not_valid(options):
+    with pytest.raises(ff.InputError, match="found|expected|nowhere"):
+        ff.sweep(model(), **options)

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Makes a wheel that holds everything: module, program, both copies of the library, MUMPS, and what these need of other
+libraries, with their licences. Run by an interpreter that has the packages of scripts/python_environment.sh.
+
+Usage: make_wheel.py [--folder dist]
+"""
+import argparse
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# The oldest system it runs on: glibc of Debian 12.
+PLATFORM = "manylinux_2_36_x86_64"
+LIBRARY = re.compile(r"libfloatframe\.so\.[0-9.]+$")
+COPY = "floatframe/lib/glibc-hwcaps/x86-64-v3/"
+
+
+def run(*arguments, **options):
+    return subprocess.run([str(a) for a in arguments], check=True, text=True, **options)
+
+
+def wheels(folder):
+    return sorted(pathlib.Path(folder).glob("floatframe-*.whl"))
+
+
+def bundled(wheel):
+    """Name in the wheel and plain name of each library of others: libfmt-1a2b3c4d.so.9.1.0, libfmt.so.9.1.0."""
+    with zipfile.ZipFile(wheel) as archive:
+        for name in sorted(archive.namelist()):
+            if name.startswith("floatframe.libs/") and not name.endswith("/"):
+                yield name, re.sub(r"-[0-9a-f]{8}(?=\.so)", "", pathlib.PurePath(name).name)
+
+
+def package_of(library):
+    """Debian's package of a library, and where its licence is."""
+    for line in run("ldconfig", "-p", capture_output=True).stdout.splitlines():
+        path = pathlib.Path(line.rpartition("=> ")[2])
+        if "=> " in line and library in (path.name, path.resolve().name):
+            for candidate in (path.resolve(), path):
+                found = subprocess.run(["dpkg", "-S", f"*/{candidate.name}"], capture_output=True, text=True)
+                if found.returncode == 0:
+                    package = found.stdout.split(":")[0]
+                    licence = pathlib.Path("/usr/share/doc", package, "copyright")
+                    if licence.is_file():
+                        return package, licence
+    raise SystemExit(f"the licence of {library} was not found")
+
+
+def add_licences(wheel):
+    """Of bundled libraries, into the dist-info; and a list of them."""
+    with tempfile.TemporaryDirectory() as scratch:
+        run(sys.executable, "-m", "wheel", "unpack", wheel, "--dest", scratch, stdout=subprocess.DEVNULL)
+        tree = next(pathlib.Path(scratch).iterdir())
+        licences = next(tree.glob("*.dist-info")) / "licenses" / "bundled"
+        licences.mkdir(parents=True)
+        lines = ["Libraries of others in this wheel, each with the licence of its Debian package beside this file.", ""]
+        for name, library in bundled(wheel):
+            package, licence = package_of(library)
+            shutil.copy(licence.resolve(), licences / f"{package}.txt")
+            lines.append(f"{name}: {package}.txt")
+        (licences / "LIBRARIES.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        wheel.unlink()
+        run(sys.executable, "-m", "wheel", "pack", tree, "--dest-dir", wheel.parent, stdout=subprocess.DEVNULL)
+
+
+def errors_of(wheel):
+    """What a wheel must hold, by sentences about what it does not."""
+    with zipfile.ZipFile(wheel) as archive:
+        names = archive.namelist()
+    for folder in ("floatframe/lib/", COPY):
+        if not any(name.startswith(folder) and LIBRARY.fullmatch(name[len(folder):]) for name in names):
+            yield f"{folder} has no library by its own name"
+    if any(name.startswith("floatframe.libs/libfloatframe") for name in names):
+        yield "the library was moved away from its copy for x86-64-v3"
+    for name in ("floatframe/bin/floatframe", "floatframe/_core.pyi", "floatframe/py.typed", "floatframe/examples/iltis/iltis.yaml"):
+        if name not in names:
+            yield f"{name} is missing"
+    told = run(sys.executable, "-m", "auditwheel", "show", wheel, capture_output=True).stdout
+    if PLATFORM not in told:
+        yield f"auditwheel does not call it {PLATFORM}:\n{told}"
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--folder", default="dist", type=pathlib.Path)
+    folder = ROOT / arguments.parse_args().folder
+    with tempfile.TemporaryDirectory() as raw:
+        run(sys.executable, "-m", "pip", "wheel", ROOT, "--quiet", "--no-deps", "--no-build-isolation", "--wheel-dir", raw)
+        for old in wheels(folder):
+            old.unlink()
+        run(sys.executable, "-m", "auditwheel", "repair", "--plat", PLATFORM, "--exclude", "libfloatframe.so.*",
+            "--wheel-dir", folder, *wheels(raw))
+    add_licences(wheels(folder)[0])
+    wheel = wheels(folder)[0]
+    found = list(errors_of(wheel))
+    for error in found:
+        print(f"{wheel.name}: {error}", file=sys.stderr)
+    print(f"{wheel}: {wheel.stat().st_size / 1e6:.1f} MB, of others: {', '.join(plain for _, plain in bundled(wheel))}")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
