@@ -7,6 +7,9 @@ fall, and a new file moves them; so no two sources of a room may have one. Funct
 whatever their arguments: of two overloads the wrong one could be called. The same alias of a type may be written again.
 Elements are compiled one by one.
 
+And that a type in a named namespace of the library is defined once: of two that differ the linker would take the functions
+of one for both.
+
 Usage: check_names.py [root of the project]
 Exit code 1 and one line for each name that is taken (file:line: sentence).
 """
@@ -37,6 +40,7 @@ class Source:
         self.tokens = tokens_of(text)
         self.at = 0
         self.names = {}  # name with its namespaces -> line of the first declaration, of an alias also its text
+        self.types = {}  # the same of types that are defined in named namespaces
         self.namespaces([], False)
         self.left_at = self.tokens[self.at][1] if self.at < len(self.tokens) else None  # a brace too many
 
@@ -141,6 +145,8 @@ class Source:
         own = words and (unnamed or static) and not (specialised or is_operator or macro or words[-1][2])
         if own:
             self.add(path, words[-1][0], words[-1][1])
+        if kind and words and not (unnamed or specialised or words[-1][2]) and self.token() in ("{", ":"):
+            self.types.setdefault("::".join(path + [words[-1][0]]), words[-1][1])
         self.finish(kind, path if own else None)
 
     def finish(self, kind, path):
@@ -179,12 +185,22 @@ def errors(root):
                                "sources of a room are compiled as one")
 
 
+def types_defined_twice(root):
+    taken = {}
+    for path in sorted((root / "src/floatframe").rglob("*.[ch]pp")):
+        name = path.relative_to(root).as_posix()
+        for entity, line in Source(path.read_text(encoding="utf-8")).types.items():
+            where = taken.setdefault(entity, f"{name}:{line}")
+            if not where.startswith(f"{name}:"):
+                yield f"{name}:{line}: '{entity}' is also defined in {where}; expected one definition of a type"
+
+
 def main():
     root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent
     if not any((root / rooms).is_dir() for rooms in ROOMS):
         print(f"{root} has none of the folders {', '.join(ROOMS)}", file=sys.stderr)
         return 1
-    found = list(errors(root))
+    found = [*errors(root), *types_defined_twice(root)]
     for error in found:
         print(error, file=sys.stderr)
     return 1 if found else 0
