@@ -54,6 +54,7 @@ SceneFrames scene_frames(const Model& model, const StateHistory& history) {
   const std::size_t most = std::max<std::size_t>(
       2, most_numbers_of_frames / std::max<std::size_t>(1, 7 * h.bodies.size() + modes));
   const std::size_t count = std::min({instants, most, most_frames});
+  out.whole = count == instants;
   out.poses.resize(7 * count * h.bodies.size());
   std::vector<double> row(h.columns);
   for (std::size_t f = 0; f < count; ++f) {

@@ -16,6 +16,7 @@ struct SceneFrames {
   Vec3 origin = Vec3::Zero();      ///< what positions are measured from, so that floats are enough
   std::vector<char> known;         ///< bodies that were recorded; others stay where they begin
   std::vector<std::size_t> instants;  ///< of the states that the frames are
+  bool whole = true;                  ///< false: more instants were recorded than there are frames
   /// What the stress of bodies has beside their amplitudes (scene_loads.hpp): frames x columns.
   std::vector<double> loads;
   std::vector<int> first_load;  ///< column of each body; -1: none. Empty: of no body

@@ -200,6 +200,8 @@ class SceneWriter {
     for (const Vec3& p : places_[index]) mine.bound = std::max(mine.bound, p.norm());
     out["shape"] = mine.json;
     out["stress"] = stress_.of(data, known->second.stress, first, index);
+    if (const std::size_t numbers = known->second.stress.stress.left_out; numbers > 0)
+      out["stress_left_out"] = numbers;
     out["bound"] = mine.bound;
     out["size"] = b.length;
     if (!frames_.known.empty() && !frames_.known[index]) out["recorded"] = false;

@@ -60,11 +60,14 @@ SceneStress scene_stress(const FlexibleBody& body) {
   const SurfaceMesh mesh = surface_mesh(body);
   const auto vertices = static_cast<std::size_t>(mesh.positions.cols());
   const auto nm = static_cast<std::size_t>(body.modes());
-  if (vertices == 0 || 6 * vertices * nm > most_numbers_of_stress) return out;
+  if (6 * vertices * nm > most_numbers_of_stress) out.left_out = 6 * vertices * nm;
+  if (vertices == 0 || out.left_out > 0) return out;
   const VecX unit =
       body.K.diagonal().unaryExpr([](double k) { return k > 0.0 ? 1.0 / std::sqrt(k) : 0.0; });
   std::size_t known = 0;
-  for (const std::vector<int>& here : places_at(stress, mesh)) {
+  out.all_places = places_at(stress, mesh);
+  for (const std::vector<int>& here : out.all_places) {
+    if (here.size() > 1) out.several = true;
     int shown = -1;
     double most = -1.0;
     for (const int place : here) {
@@ -132,16 +135,15 @@ VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stre
             static_cast<std::size_t>(first_load));
       values.noalias() += body.stress->loads.leftCols<body_load_cases>() * c;
     }
-    for (std::size_t v = 0; v < vertices; ++v) {
-      if (stress.places[v] < 0) continue;
-      for (Eigen::Index f = 0; f < n; ++f) {
-        const auto s = static_cast<float>(
-            von_mises(values.block<6, 1>(6 * static_cast<Eigen::Index>(stress.places[v]), f)));
-        if (!(s > out.largest[v])) continue;
-        out.largest[v] = s;
-        out.when[v] = static_cast<float>(frames.time[static_cast<std::size_t>(from + f)]);
-      }
-    }
+    for (std::size_t v = 0; v < vertices; ++v)
+      for (const int place : stress.all_places[v])
+        for (Eigen::Index f = 0; f < n; ++f) {
+          const auto s = static_cast<float>(
+              von_mises(values.block<6, 1>(6 * static_cast<Eigen::Index>(place), f)));
+          if (!(s > out.largest[v])) continue;
+          out.largest[v] = s;
+          out.when[v] = static_cast<float>(frames.time[static_cast<std::size_t>(from + f)]);
+        }
   }
   return out;
 }

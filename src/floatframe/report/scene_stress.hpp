@@ -1,8 +1,8 @@
 #pragma once
 // Stress of what a page draws: of each vertex the stress of one place per modal amplitude, and the
 // largest von Mises stress over the frames. A vertex at which several places meet - sides of a
-// shell, materials, points of a section - shows the one that its modes load most. Where the frames
-// have load coefficients (scene_loads.hpp) and these matter, their stress is a part of it.
+// shell, materials - shows the one that its modes load most; its largest is that of all. Where the
+// frames have load coefficients (scene_loads.hpp) and these matter, their stress is a part of it.
 #include <nlohmann/json_fwd.hpp>
 
 #include "floatframe/body/flexible_body.hpp"
@@ -16,9 +16,12 @@ inline constexpr std::size_t most_numbers_of_stress = 12'000'000;
 
 /// Per vertex and mode; none if the body knows no stress or has too much of it.
 struct SceneStress {
-  std::vector<int> places;   ///< of each vertex; -1: none
-  double factor = 1.0;       ///< [Pa] of one unit in `modes`
-  std::vector<float> modes;  ///< vertices x modes x 6: xx yy zz xy yz zx
+  std::vector<int> places;                   ///< of each vertex the one that is shown; -1: none
+  std::vector<std::vector<int>> all_places;  ///< of each vertex
+  bool several = false;                      ///< some vertex has more than one
+  std::size_t left_out = 0;                  ///< numbers that it has, if they are too many
+  double factor = 1.0;                       ///< [Pa] of one unit in `modes`
+  std::vector<float> modes;                  ///< vertices x modes x 6: xx yy zz xy yz zx
   std::vector<std::uint32_t> doubtful;
   bool empty() const noexcept { return modes.empty(); }
 };

@@ -24,6 +24,7 @@ SceneStressWriter::Shape SceneStressWriter::shape(const FlexibleBody& data) {
   if (out.stress.empty()) return out;
   out.json = {
       {"factor", out.stress.factor},
+      {"several", out.stress.several},
       {"modes", buffer_.add_half(out.stress.modes, {out.stress.places.size(),
                                                     static_cast<std::size_t>(data.modes()), 6})},
       {"doubtful", buffer_.add(std::span<const std::uint32_t>(out.stress.doubtful),
@@ -53,6 +54,7 @@ SceneStressWriter::Json SceneStressWriter::of(const FlexibleBody& data, Shape& s
   }
   out["envelope"] =
       buffer_.add(std::span<const float>(envelope.largest), {envelope.largest.size()});
+  out["all_instants"] = frames_.whole;
   out["when"] = buffer_.add(std::span<const float>(envelope.when), {envelope.when.size()});
   return out;
 }

@@ -75,6 +75,10 @@ export interface StressJson {
   /** Largest von Mises stress over the run: f32 [V] [Pa], and when: f32 [V] [s]. */
   envelope?: View | null;
   when?: View | null;
+  /** True: of all recorded instants, which the frames are. */
+  all_instants?: boolean | null;
+  /** True: several places meet at some vertices (sides of shells, materials). */
+  several?: boolean | null;
 }
 
 export interface MeshJson {
@@ -110,6 +114,8 @@ export interface BodyJson {
   size?: number | null;
   fields?: FieldJson[] | null;
   stress?: StressJson | null;
+  /** Numbers that its stress has, too many for the page. */
+  stress_left_out?: number | null;
   /** False: its states were not recorded. */
   recorded?: boolean | null;
   spiders?: { point: number; vertices: View }[] | null;

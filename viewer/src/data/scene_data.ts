@@ -19,6 +19,10 @@ export interface StressData {
   /** Largest von Mises stress over the run [MPa], and when [s]. */
   envelope: Float32Array | null;
   when: Float32Array | null;
+  /** The envelope is of all recorded instants, which the frames are. */
+  allInstants: boolean;
+  /** Several places meet at some vertices. */
+  several: boolean;
 }
 
 export interface FieldData {
@@ -66,6 +70,8 @@ export interface BodyData {
   bound: number;
   size: number;
   recorded: boolean;
+  /** Millions of numbers that its stress has, if they are left out. */
+  stressLeftOut: number | null;
   spiders: { point: number; vertices: Uint32Array }[];
 }
 
@@ -165,6 +171,8 @@ function readStress(json: StressJson, buffer: PageBuffer, vertices: number, mode
     doubtful,
     envelope,
     when: envelope && json.when ? (buffer.read(json.when, what, ['f32'], [vertices]) as Float32Array) : null,
+    allInstants: json.all_instants === true,
+    several: json.several === true,
   };
 }
 
@@ -236,6 +244,7 @@ function readBody(json: BodyJson, index: number, frames: number, amplitudeCount:
     bound: typeof json.bound === 'number' && json.bound > 0 ? json.bound : 0,
     size: typeof json.size === 'number' && json.size > 0 ? json.size : 0,
     recorded: json.recorded !== false,
+    stressLeftOut: typeof json.stress_left_out === 'number' ? 1e-6 * json.stress_left_out : null,
     spiders: [],
   };
   const modes = json.modes;

@@ -61,10 +61,22 @@ export class Colours {
     return this.scene.bodies.some((body) => body.mesh?.fields.some((candidate) => candidate.name === field && candidate.stress));
   }
 
-  /** What the colours of a field do not say themselves. */
+  /** What the colours of a stress do not say themselves. */
   note(field: string | null | undefined): string {
-    const grey = this.isStress(field) && this.scene.bodies.some((body) => body.mesh?.stress?.doubtful?.some((flag) => flag === 1));
-    return grey ? 'grey: next to a rigid spider, not to be trusted' : '';
+    const shown = this.scene.bodies.flatMap((body) => (body.mesh?.fields ?? []).filter((candidate) => candidate.name === field && candidate.stress).map((candidate) => candidate.stress!));
+    const sentences: string[] = [];
+    if (shown.some(({ data }) => data.doubtful?.includes(1))) sentences.push('Grey: next to a rigid spider, not to be trusted.');
+    const envelope = shown.length > 0 && shown[0].quantity === 'envelope';
+    if (shown.some(({ data }) => data.several)) sentences.push(`Of sides and materials that meet at a place, the ${envelope ? 'largest' : 'one that the modes load most'}.`);
+    if (envelope && !shown.every(({ data }) => data.allInstants)) sentences.push('Of the instants shown; more were recorded.');
+    return sentences.join(' ');
+  }
+
+  /** Bodies whose stress is not in the page. */
+  leftOut(): string {
+    const without = this.scene.bodies.filter((body) => body.stressLeftOut !== null);
+    if (without.length === 0) return '';
+    return `Stress is left out for its size: ${without.map((body) => `${body.name} (${body.stressLeftOut!.toPrecision(3)} million numbers)`).join(', ')}. floatframe stress and the exported files have it.`;
   }
 
   range(field: string | null): [number, number] {

@@ -86,6 +86,8 @@ export class Display {
       this.apply();
     });
     this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Colour'), h('div', { class: 'row' }, select, map), this.relative ? null : this.limits));
+    const leftOut = this.colours.leftOut();
+    if (leftOut) this.element.append(h('p', { class: 'hint' }, leftOut));
     for (const [k, input] of [this.low, this.high].entries()) {
       input.addEventListener('change', () => {
         const range = this.colours.choice(this.field).range.slice() as [number, number];

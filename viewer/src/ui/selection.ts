@@ -87,6 +87,7 @@ export class Selection {
       const when = stress.when ? ` at ${formatNumber(stress.when[vertex], 4)} s` : '';
       rows.push(row('largest von Mises stress', `${formatNumber(stress.envelope[vertex], 4)} MPa${when}`));
     }
+    if (body.stressLeftOut !== null) rows.push(row('stress', 'left out of the page for its size'));
     if (stress?.doubtful?.[vertex!]) rows.push(row('stress', 'not to be trusted: next to a rigid spider'));
     this.element.append(h('h3', {}, title), h('table', { class: 'pairs' }, h('tbody', {}, ...rows)));
     this.addHistory(body, vertex);
