@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer test-export test-python wheel demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer test-export test-python wheel test-wheel demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -46,6 +46,7 @@ test-all: test
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
 	$(MAKE) --no-print-directory test-python
+	$(MAKE) --no-print-directory test-wheel
 
 # Files for other programs, opened by VTK and by Khronos' validator of glTF.
 test-export:
@@ -61,6 +62,10 @@ test-python: build
 # A wheel with all that it needs, in dist: build, libraries of others beside it, their licences, and a look at the result.
 wheel: install-packages
 	python=$$(scripts/python_environment.sh) && $$python -B scripts/make_wheel.py
+
+# The wheel in a fresh environment.
+test-wheel: wheel
+	python3 -B scripts/check_wheel.py dist/floatframe-*.whl
 
 # The page of a run: its units in Node, then pages in a headless Chromium.
 test-viewer:

@@ -218,6 +218,7 @@ def test_bad_options(model, options):
         ff.Simulation(model, **options)
 
 
+@pytest.mark.filterwarnings("ignore:nanobind")
 def test_what_is_no_simulation(sim):
     with pytest.raises(TypeError, match="save"):
         pickle.dumps(sim)
