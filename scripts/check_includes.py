@@ -32,7 +32,7 @@ ALLOWED = {
     "formats/body_file": {"core", "math", "body", "reduction"},
     "formats/geometry": {"core", "math", "formats/text"},
     "formats/matlab": {"core", "math"},
-    "parts": FE | {"body", "reduction", "formats", "formats/body_file"},
+    "parts": FE | {"body", "reduction", "formats", "formats/body_file", "formats/sid", "formats/text"},
     "model": FE | {"body", "reduction", "inertia"},
     "formulation": {"core", "math", "body", "inertia", "model"},
     "integrator": {"core", "math", "body", "inertia", "model", "formulation"},
@@ -50,7 +50,8 @@ ALLOWED = {
 }
 
 # Rooms, and single files, that public headers may reach.
-PUBLIC = {"core", "math", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "parts", "model", "model_file",
+PUBLIC = {"core", "math", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "model",
+          "model_file",
           "formulation/counts.hpp", "simulation", "history", "report", "analyses", "realtime", "sweep"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
 # Programs and modules beside the library see one header of it each.

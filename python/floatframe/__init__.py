@@ -24,10 +24,16 @@ from .analyses import (
     road_response,
     statics,
 )
+from .bodies import Body, Invariants, Node, Projection
 from .build import build_info, example, program
 from .errors import Error, ErrorEntry, InputError, OutputError, RunError, StepError
+from .health import Report
+from .meshes import BeamSection, Material, Mesh
 from .model import Model
 from .options import Options
+from .parts import FileInfo, Part, info, read_body, reduce
+from .places import Place, cylinder, nearest, node, nodes, plane, sphere
+from .places import set_ as set  # not in __all__: a star would hide that of Python
 from .run import Result, run
 from .simulation import Simulation
 from .study import sweep
@@ -35,12 +41,23 @@ from .study import sweep
 __version__ = version()
 
 __all__ = [
+    "BeamSection",
+    "Body",
     "Error",
     "ErrorEntry",
+    "FileInfo",
     "InputError",
+    "Invariants",
+    "Material",
+    "Mesh",
     "Model",
+    "Node",
     "Options",
     "OutputError",
+    "Part",
+    "Place",
+    "Projection",
+    "Report",
     "Result",
     "RunError",
     "Simulation",
@@ -53,8 +70,10 @@ __all__ = [
     "build_info",
     "campbell",
     "check",
+    "cylinder",
     "example",
     "frequency_response",
+    "info",
     "linear_inputs",
     "linear_model",
     "linear_system",
@@ -62,9 +81,16 @@ __all__ = [
     "mass_properties",
     "model_order",
     "modes",
+    "nearest",
+    "node",
+    "nodes",
+    "plane",
     "program",
+    "read_body",
+    "reduce",
     "road_response",
     "run",
+    "sphere",
     "statics",
     "sweep",
     "version",

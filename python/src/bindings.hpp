@@ -25,6 +25,9 @@ void bind_run(nb::module_& m);
 void bind_simulation(nb::module_& m);
 void bind_analyses(nb::module_& m);
 void bind_linear(nb::module_& m);
+void bind_body(nb::module_& m);
+void bind_mesh(nb::module_& m);
+void bind_part(nb::module_& m);
 
 inline bool is_array(PyObject* object) { return nb::ndarray_check(nb::handle(object)); }
 /// Objects by what stubs are to call them.

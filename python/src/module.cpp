@@ -14,4 +14,7 @@ NB_MODULE(_core, m) {
   bind_simulation(m);
   bind_analyses(m);
   bind_linear(m);
+  bind_body(m);
+  bind_mesh(m);
+  bind_part(m);
 }

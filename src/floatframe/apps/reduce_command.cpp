@@ -9,7 +9,7 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/formats/body_file/health_text.hpp"
 #include "floatframe/formats/sid/sid_file.hpp"
-#include "floatframe/parts/fe_info.hpp"
+#include "floatframe/parts/file_info.hpp"
 #include "floatframe/report/check_page.hpp"
 #include "floatframe/report/page_writer.hpp"
 
@@ -24,17 +24,10 @@ struct ReduceArguments {
 
 /// Nothing in most files says which units they are in; the material may give a hint.
 [[noreturn]] void units_are_missing(const PartJob& job) {
-  std::vector<std::string> likely;
-  try {
-    likely = likely_units(read_fe_file(job.file, job.read, job.format));
-  } catch (const InputError&) {  // its errors are reported when the units are known
-  }
-  throw InputError(fmt::format(
-      "--units is missing: the file does not state its units; known are {}, or any "
-      "<length>-<mass>-<time>{}",
-      fmt::join(unit_system_names(), ", "),
-      likely.empty() ? ""
-                     : fmt::format(" (the material looks like {})", fmt::join(likely, " or "))));
+  throw InputError(
+      fmt::format("--units is missing: the file does not state its units; known are {}, or any "
+                  "<length>-<mass>-<time>{}",
+                  fmt::join(unit_system_names(), ", "), hint_of_units(job)));
 }
 
 PartJob job_of(const ReduceArguments& a) {

@@ -76,16 +76,27 @@ std::vector<std::pair<std::string, std::string>> option_list(const PartJob& job)
 }
 
 BodyFile reduce_part_file(const PartJob& job) {
-  const UnitSystem units = unit_system(job.units);
+  unit_system(job.units);
   const auto start = std::chrono::steady_clock::now();
   FeModel model = read_fe_file(job.file, job.read, job.format);
+  const auto files = files_of(job, model);
+  ContentHash hash;
+  for (const auto& [name, content] : files) hash.add(name).add(content);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  if (job.options.progress) job.options.progress("read", seconds.count());
+  BodyFile out = reduce_part_model(std::move(model), job);
+  out.provenance.files = files;
+  out.provenance.source_hash = hash.text();
+  auto& stages = out.part.health.seconds;
+  stages.insert(stages.begin(), {"read", seconds.count()});
+  return out;
+}
+
+BodyFile reduce_part_model(FeModel model, const PartJob& job) {
+  const UnitSystem units = unit_system(job.units);
   BodyFile out;
   Provenance& from = out.provenance;
   from.source = job.file.string();
-  from.files = files_of(job, model);
-  ContentHash hash;
-  for (const auto& [name, content] : from.files) hash.add(name).add(content);
-  from.source_hash = hash.text();
   from.units = units.name;
   from.options = option_list(job);
   from.date = date_now();
@@ -95,11 +106,7 @@ BodyFile reduce_part_file(const PartJob& job) {
   PartOptions options = job.options;
   for (InterfaceDescription& i : options.interfaces) scale(i.choice, i.at, units.length);
   for (MarkerDescription& m : options.markers) scale(m.choice, m.at, units.length);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  if (options.progress) options.progress("read", seconds.count());
   out.part = reduce_part(std::move(model), options);
-  auto& stages = out.part.health.seconds;
-  stages.insert(stages.begin(), {"read", seconds.count()});
   return out;
 }
 

@@ -165,25 +165,10 @@ class PlaceArgument {
   std::vector<std::string> known_;
 };
 
-/// "all", or pieces like xyz, rz, joined by +.
 unsigned dofs_mask(const PlaceArgument& argument, const std::string& text) {
-  if (text == "all") return 63u;
-  unsigned mask = 0;
-  for (std::string piece : split(text, '+')) {
-    const unsigned shift = !piece.empty() && piece[0] == 'r' ? 3u : 0u;
-    if (shift > 0) piece.erase(0, 1);
-    bool good = !piece.empty();
-    for (const char c : piece) {
-      good = good && c >= 'x' && c <= 'z';
-      if (good) mask |= 1u << (static_cast<unsigned>(c - 'x') + shift);
-    }
-    if (!good)
-      argument.fail(
-          fmt::format("dofs: found '{}', expected all, or directions such as xyz, x+z or "
-                      "xyz+rz",
-                      text));
-  }
-  return mask;
+  if (const auto mask = dofs_of(text)) return *mask;
+  argument.fail(fmt::format(
+      "dofs: found '{}', expected all, or directions such as xyz, x+z or xyz+rz", text));
 }
 
 /// "xyz", "x+rz", "all"
@@ -224,6 +209,21 @@ std::string place_text(const NodeChoice& c, const std::optional<Vec3>& at) {
 }
 
 }  // namespace
+
+std::optional<unsigned> dofs_of(const std::string& text) {
+  if (text == "all") return 63u;
+  unsigned mask = 0;
+  for (std::string piece : split(text, '+')) {
+    const unsigned shift = !piece.empty() && piece[0] == 'r' ? 3u : 0u;
+    if (shift > 0) piece.erase(0, 1);
+    if (piece.empty()) return std::nullopt;
+    for (const char c : piece) {
+      if (c < 'x' || c > 'z') return std::nullopt;
+      mask |= 1u << (static_cast<unsigned>(c - 'x') + shift);
+    }
+  }
+  return mask;
+}
 
 std::string interface_text(const InterfaceDescription& i) {
   return fmt::format("{}={}{}{}", i.name, place_text(i.choice, i.at),

@@ -4,6 +4,7 @@
 //   NAME=WAY:VALUE[,KEY=VALUE ...]     BALL=set:BALL   EYE=cylinder:0,0,0,axis=z,radius=12,at=0,0,5
 // A piece between commas without '=' belongs to the value before it, so vectors need no brackets
 // and nothing needs quotes in a shell. Lengths are in the units of the file.
+#include <optional>
 #include <string>
 
 #include "floatframe/parts/part_job.hpp"
@@ -14,6 +15,10 @@ namespace floatframe {
 inline constexpr const char* tie_words[] = {"rigid", "mean"};
 /// Body references but `node`: the words of BodyReference::Kind.
 inline constexpr const char* reference_words[] = {"mean_axis", "buckens"};
+
+/// Directions "all", or pieces such as xyz, x+z or xyz+rz, as a mask: bit 0..5 = ux..rz; nothing if
+/// the text is something else.
+std::optional<unsigned> dofs_of(const std::string& text);
 
 std::string interface_text(const InterfaceDescription& interface);
 std::string marker_text(const MarkerDescription& marker);

@@ -1,6 +1,6 @@
 #pragma once
-// The summary of a run for other programs: JSON as in json_values.hpp. The words are those of the
-// command line.
+// The summary of a run for other programs: JSON, numbers that are not finite
+// as null. The words are those of the command line.
 #include <string>
 
 #include "floatframe/simulation/results.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // SID_FEM: the Standard Input Data of flexible bodies (Wallrapp 1993; Schwertassek and Wallrapp
-// 1999), text. sid_content.hpp derives its blocks from the inertia integrals.
+// 1999), text. Its blocks follow from the inertia integrals.
 //
 // What the classical file determines, and what not: mass matrix at zero deformation and its first
 // derivative in the modal amplitudes are in it completely, so m, m_u, P_u, S, S^i, the modal mass
@@ -8,10 +8,9 @@
 // of S^ij (three symmetric sums S^ij + S^ji, and how Me divides into S^11, S^22, S^33) decides the
 // inertia tensor at second order of the amplitudes and softening by spin. It is in the file only if
 // Oe has first-order terms and these are those of inertia alone (Oe m1 of the first three columns
-// then sums to -2 Me; geometric stiffening breaks that: sid_second_order.hpp). `write_sid` writes
-// them. If they are missing, S^11, S^22, S^33 are each taken as Me / 3 and the symmetric sums as
-// zero, which keeps the mass matrix positive and the trace of the inertia tensor exact; a note says
-// so.
+// then sums to -2 Me; geometric stiffening breaks that). `write_sid` writes them. If they
+// are missing, S^11, S^22, S^33 are each taken as Me / 3 and the symmetric sums as zero, which
+// keeps the mass matrix positive and the trace of the inertia tensor exact; a note says so.
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -1,0 +1,326 @@
+"""Parts: finite-element files and meshes, reduced to flexible bodies, with a report on their health."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .arrays import Array, number
+from .bodies import Body, Invariants
+from .errors import InputError, OutputError
+from .health import Report
+from .meshes import AnyMesh, BeamSection, Material, fe_model, is_mesh
+from .places import Place
+
+if TYPE_CHECKING:
+    import pyvista
+
+Path = str | os.PathLike[str]
+Progress = bool | Callable[[str, float], object]
+Places = Mapping[str, Place]
+
+
+class Part:
+    """A reduced part: the flexible body, its surface with its modes, and the report. It never changes.
+
+    Arrays look at the memory of the part, keep it alive and cannot be written to. SI units, part coordinates, which are the
+    body frame. Parts are copied (nothing is: they never change), and pickled as body files.
+    """
+
+    __slots__ = ("_held", "__weakref__")
+    _held: _core.Part
+
+    def __init__(self) -> None:
+        raise TypeError("parts are made by floatframe.reduce and floatframe.read_body")
+
+    @classmethod
+    def _of(cls, core: _core.Part) -> Part:
+        self = cls.__new__(cls)
+        self._held = core
+        return self
+
+    @property
+    def body(self) -> Body:
+        """Integrals, modal stiffness, interfaces and markers, inertia terms."""
+        return Body._of(_core.part_body(self._held), self)
+
+    @property
+    def invariants(self) -> Invariants:
+        """The 16 inertia integrals of the body."""
+        return self.body.invariants
+
+    @property
+    def frequencies(self) -> Array:
+        """Of each mode alone, shape (modes,) [Hz]. Those of the free part are in `report.free_frequencies`."""
+        return self.body.frequencies
+
+    @property
+    def report(self) -> Report:
+        """Masses, frequencies, interfaces, warnings."""
+        return Report(self._held.report_text, self._held.report_json)
+
+    @property
+    def nodes(self) -> Array:
+        """Nodes of the outer surface, shape (points, 3) [m]."""
+        return self._held.nodes
+
+    @property
+    def node_indices(self) -> npt.NDArray[np.int32]:
+        """Of each point its node in the file or mesh, from 0, shape (points,)."""
+        return self._held.node_indices
+
+    @property
+    def mode_shapes(self) -> Array:
+        """Displacements of `nodes` per modal amplitude, shape (points, 3, modes)."""
+        return self._held.mode_shapes
+
+    @property
+    def triangles(self) -> npt.NDArray[np.int32]:
+        """Of the surface: indices into `nodes`, normals to the outside, shape (triangles, 3)."""
+        return self._held.triangles
+
+    @property
+    def lines(self) -> npt.NDArray[np.int32]:
+        """Of beams: indices into `nodes`, shape (lines, 2)."""
+        return self._held.lines
+
+    @property
+    def provenance(self) -> dict[str, Any]:
+        """Where it comes from: source, units, options as on the command line, date, version."""
+        return self._held.provenance
+
+    def save(self, path: Path) -> None:
+        """Writes a body file (.ffb), which model files take. Raises OutputError."""
+        self._held.save(_path("path", path))
+
+    def save_sid(self, path: Path) -> None:
+        """Writes Standard Input Data (SID_FEM) for other programs. Raises OutputError."""
+        _write(_path("path", path), self._held.sid_text())
+
+    def to_pyvista(self, mode: int | None = None, scale: float | None = None) -> pyvista.PolyData:
+        """The surface, deformed by a mode (from 0), for pictures; needs pyvista. scale: modal amplitude; without it the largest
+        displacement is a tenth of the part. Point data "displacement" [m] is that of the picture."""
+        import pyvista
+
+        points = np.array(self.nodes)
+        shift = np.zeros_like(points)
+        if mode is not None:
+            modes = self.body.modes
+            if isinstance(mode, bool) or not isinstance(mode, (int, np.integer)) or not 0 <= mode < modes:
+                raise InputError(f"mode: found {mode!r}, expected 0 to {modes - 1}")
+            shape = self.mode_shapes[:, :, mode]
+            if scale is None:
+                largest = np.linalg.norm(shape, axis=1).max(initial=0.0)
+                scale = 0.1 * np.ptp(points, axis=0).max() / largest if largest > 0.0 else 0.0
+            shift = number("scale", scale) * shape
+        grid = pyvista.PolyData()
+        grid.points = points + shift
+        if len(self.triangles):
+            grid.faces = np.column_stack([np.full(len(self.triangles), 3), self.triangles]).ravel()
+        if len(self.lines):
+            grid.lines = np.column_stack([np.full(len(self.lines), 2), self.lines]).ravel()
+        grid.point_data["displacement"] = shift
+        return grid
+
+    def __copy__(self) -> Part:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Part:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _part_of_bytes, (self._held.to_bytes(),)
+
+    def __repr__(self) -> str:
+        mass = self.invariants.m
+        return f"<floatframe.Part of '{self.provenance['source']}': {mass:.6g} kg, {self.body.modes} modes>"
+
+
+def _part_of_bytes(content: bytes) -> Part:
+    return Part._of(_core.read_body_bytes(content, "pickled part"))
+
+
+class FileInfo(dict[str, Any]):
+    """What is in a file; `print(info)` is what `floatframe info` prints."""
+
+    def __init__(self, text: str, content: dict[str, Any]) -> None:
+        super().__init__(content)
+        self._text = text
+
+    def __str__(self) -> str:
+        return self._text
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return FileInfo, (self._text, dict(self))
+
+
+def reduce(
+    source: Path | AnyMesh,
+    *,
+    units: str | None = None,
+    interfaces: Places | None = None,
+    markers: Places | None = None,
+    method: Literal["craig_bampton", "free_free", "craig_chang"] | None = None,
+    modes: int | None = None,
+    fmax: float | None = None,
+    effective_mass: float | None = None,
+    reference: str | None = None,
+    material: Material | None = None,
+    integration: Literal["exact", "ccx"] | None = None,
+    damping: float | None = None,
+    solver: Literal["auto", "mumps", "eigen"] | None = None,
+    free_check: bool | None = None,
+    stresses: bool | None = None,
+    projection: bool | None = None,
+    format: str | None = None,
+    dialect: Literal["abaqus", "calculix"] | None = None,
+    nodes: Path | None = None,
+    mass: Path | None = None,
+    dofs: Path | None = None,
+    thickness: float | None = None,
+    section: BeamSection | None = None,
+    progress: Progress = False,
+) -> Part:
+    """Reduces a finite-element part to a flexible body, as `floatframe reduce` does; docs/parts.md explains its options.
+
+    source: a file (Abaqus or CalculiX, Nastran, Gmsh, matrices), or a mesh: `floatframe.Mesh`, `meshio.Mesh`,
+    `pyvista.UnstructuredGrid`, which need `material`, and `thickness` or `section` where surfaces are shells or lines are
+    beams. units: "mm-t-s", "m-kg-s", ...: required for files; of meshes SI if it is not given. interfaces: where the part is
+    held or driven; markers: where loads act or outputs are taken; lengths in the units of the part.
+
+    modes: number of normal modes (20 if nothing selects them); fmax: all below this frequency [Hz]; effective_mass: until
+    this fraction is reached. reference: "mean_axis", "buckens" or "node:NAME" of an interface. damping: fraction of critical.
+    free_check=False: no free modes of the full model in the report (saves a factorisation). stresses=False: no stress.
+    projection=True: nodes and mass matrix are kept for the projection method.
+
+    progress: True prints a line for each stage, or a function of the stage and its duration [s]. Other threads of Python go on
+    meanwhile; Ctrl-C ends it when the stage that runs is done. Raises InputError.
+    """
+    mesh = is_mesh(source)
+    options: dict[str, Any] = {
+        "units": units if units is not None or not mesh else "m-kg-s",
+        "method": method,
+        "modes": _plain(modes),
+        "fmax": _plain(fmax),
+        "effective_mass": _plain(effective_mass),
+        "reference": reference,
+        "integration": integration,
+        "damping": _plain(damping),
+        "solver": solver,
+        "free_check": free_check,
+        "stresses": stresses,
+        "projection": projection,
+        "format": format,
+        "dialect": dialect,
+        "nodes": None if nodes is None else _path("nodes", nodes),
+        "mass": None if mass is None else _path("mass", mass),
+        "dofs": None if dofs is None else _path("dofs", dofs),
+    }
+    for name in ("units", "method", "reference", "integration", "solver", "format", "dialect"):
+        if options[name] is not None and not isinstance(options[name], str):
+            raise InputError(f"{name}: found {options[name]!r}, expected a text")
+    chosen: dict[str, object] = {}
+    for key, places in (("interfaces", interfaces), ("markers", markers)):
+        if places is not None:
+            options[key] = _places(key, places, mesh, chosen)
+    tell = _print_stage if progress is True else progress or None
+    if tell is not None and not callable(tell):
+        raise InputError(f"progress: found {progress!r}, expected True, False or a function")
+    if mesh:
+        for name in ("format", "dialect", "nodes", "mass", "dofs"):
+            if options[name] is not None:
+                raise InputError(f"{name} says how files are read: found it for a mesh")
+        model = fe_model(source, material, thickness, section, chosen)
+        return Part._of(_core.reduce_mesh(model, type(source).__name__, options, tell))
+    if thickness is not None or section is not None:
+        raise InputError("thickness and section belong to meshes: found them for a file, which has its own")
+    if material is not None:
+        if not isinstance(material, Material):
+            raise InputError(f"material: found {material!r}, expected floatframe.Material(young, poisson, density)")
+        options["material"] = ",".join(repr(x) for x in material.checked())
+    return Part._of(_core.reduce_file(_path("source", source), options, tell))
+
+
+def read_body(path: Path) -> Part:
+    """The part in a body file (.ffb). Raises InputError with every error of the file."""
+    return Part._of(_core.read_body(_path("path", path)))
+
+
+def info(path: Path, *, format: str | None = None, material: Material | None = None) -> FileInfo:
+    """What is in a finite-element file, a body file or a SID_FEM file: what `floatframe info` prints, as a dict of its JSON."""
+    if format is not None and not isinstance(format, str):
+        raise InputError(f"format: found {format!r}, expected a text")
+    options: dict[str, Any] = {"format": format}
+    if material is not None:
+        options["material"] = ",".join(repr(x) for x in material.checked())
+    text, content = _core.file_info(_path("path", path), options)
+    return FileInfo(text, json.loads(content))
+
+
+def _plain(value: Any) -> Any:
+    """Numbers of numpy as those of Python; the C++ library judges them."""
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _path(name: str, value: object) -> str:
+    try:
+        path = os.fspath(value)  # type: ignore[call-overload]
+    except TypeError:
+        raise InputError(f"{name}: found {type(value).__name__}, expected the path of a file") from None
+    if not isinstance(path, str) or not path or "\0" in path:
+        raise InputError(f"{name}: found {path!r}, expected the path of a file")
+    return path
+
+
+def _places(key: str, places: object, mesh: bool, chosen: dict[str, object]) -> dict[str, Any]:
+    """Places by their names for the C++ library. Those that are indices of nodes of a mesh become sets, in `chosen`."""
+    if not isinstance(places, Mapping):
+        raise InputError(f"{key}: found {type(places).__name__}, expected a dict of names and places")
+    out = {}
+    for name, place in places.items():
+        if not isinstance(name, str) or not name:
+            raise InputError(f"{key}: found the name {name!r}, expected a text")
+        label = f"{key} '{name}'"
+        if not isinstance(place, Place):
+            raise InputError(f"{label}: found {place!r}, expected floatframe.set(...), cylinder(...), ...")
+        d = place.as_dict(label, key == "interfaces")
+        if place.way in ("nodes", "node") and (mesh or place.way == "nodes"):
+            if not mesh:
+                raise InputError(f"{label}: floatframe.nodes belongs to meshes; for files there is floatframe.set")
+            which = d["values"][place.way]
+            chosen[label] = which if place.way == "nodes" else [which]
+            d = replace(place, way="set", values={"set": label}).as_dict(label, key == "interfaces")
+        out[name] = d
+    return out
+
+
+def _print_stage(stage: str, seconds: float) -> None:
+    print(f"{seconds:8.2f} s  {stage}", file=sys.stderr)
+
+
+def _write(path: str, text: str) -> None:
+    """At once or not at all."""
+    folder = os.path.dirname(os.path.abspath(path))
+    try:
+        handle, temporary = tempfile.mkstemp(dir=folder, prefix=".floatframe-")
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8") as file:
+                file.write(text)
+            os.chmod(temporary, 0o644)
+            os.replace(temporary, path)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
+            raise
+    except OSError as error:
+        raise OutputError(f"{path}: cannot write: {error.strerror}") from None
