@@ -92,6 +92,8 @@ _MESHIO_OTHERS = {"vertex": 0, "line3": 1, "triangle6": 2, "triangle7": 2, "quad
 _VTK = {3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hexahedron", 13: "wedge"}
 _VTK |= {24: "tetra10", 25: "hexahedron20", 26: "wedge15"}
 _VTK_OTHERS = {1: "vertex", 21: "line3", 22: "triangle6", 23: "quad8", 28: "quad9", 34: "triangle7"}
+# A brick along the axes, in the order of its coordinates.
+_VOXEL, _VOXEL_CORNERS = 11, (0, 1, 3, 2, 4, 5, 7, 6)
 # A wedge of VTK looks the other way than everyone else's; writers disagree, so each is turned as it lies.
 _MIRRORED = {"wedge6": (0, 2, 1, 3, 5, 4), "wedge15": (0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13)}
 
@@ -148,6 +150,9 @@ def _of_mesh(mesh: Mesh) -> list[_Cells]:
 def _of_pyvista(mesh: Any, points: Array) -> list[_Cells]:
     out = []
     for kind, nodes in mesh.cells_dict.items():
+        if int(kind) == _VOXEL:
+            out.append(_of_meshio_name("hexahedron", nodes[:, _VOXEL_CORNERS]))
+            continue
         name = _VTK.get(int(kind)) or _VTK_OTHERS.get(int(kind))
         if name is None:
             raise InputError(f"cells: found the VTK type {int(kind)}, expected one of {', '.join(_VTK.values())}")

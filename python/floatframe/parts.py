@@ -248,6 +248,9 @@ def reduce(
         if not isinstance(material, Material):
             raise InputError(f"material: found {material!r}, expected floatframe.Material(young, poisson, density)")
         options["material"] = ",".join(repr(x) for x in material.checked())
+    if not isinstance(source, (str, os.PathLike)):
+        found = type(source).__name__
+        raise InputError(f"source: found {found}, expected a file, floatframe.Mesh, meshio.Mesh or pyvista.UnstructuredGrid")
     return Part._of(_core.reduce_file(_path("source", source), options, tell))
 
 
