@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer test-export test-python wheel test-wheel demo docs bench bench-record bench-compare asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer test-export test-python wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -19,6 +19,7 @@ help:
 	@echo "make bench         timing of a chain of flexible links, the Iltis and single kernels"
 	@echo "make bench-record  all benchmarks, recorded in bench/history; docs/performance.md anew"
 	@echo "make bench-compare measures and prints ratios to the newest recorded run"
+	@echo "make race          the same chains in other programs, from PyPI: checked, timed, docs/performance.md anew"
 	@echo "make asan          build and test with address and undefined-behaviour sanitizers"
 	@echo "make fuzz          clang's libFuzzer on each reader of files, FUZZ_SECONDS=600 each"
 	@echo "make dev           debug build with assertions: build-dev/floatframe"
@@ -99,6 +100,10 @@ bench-record: build
 
 bench-compare: build
 	bench/history.py compare run
+
+# Makes its own environment from PyPI in build/race-environment.
+race: build
+	python3 -B bench/peers/race.py
 
 asan: install-packages
 	cmake --preset asan

@@ -14,6 +14,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import history  # noqa: E402
 import paper_figures  # noqa: E402
+import race_table  # noqa: E402
 import svg_chart  # noqa: E402
 
 PAGE = history.ROOT / "docs" / "performance.md"
@@ -279,6 +280,7 @@ BLOCKS = {
     "modes": lambda run: sweep_table(run, "modes", ["modes"]),
     "bodies": lambda run: sweep_table(run, "bodies", ["links"]),
     "iltis": iltis, "preprocessing": preprocessing, "instructions": instructions, "kernels": kernels,
+    "race": race_table.block,  # from its own record: bench/peers/record.json
 }
 
 
