@@ -5,6 +5,7 @@ import copy
 import gc
 import json
 import pickle
+import weakref
 from pathlib import Path
 
 import floatframe as ff
@@ -96,6 +97,10 @@ def test_from_elements(name):
 
 @pytest.fixture
 def body():
+    return tetrahedra()
+
+
+def tetrahedra():
     file = json.loads((DATA / "tet4.json").read_text())
     projection = ff.Projection(file["nodes"], shapes(file), file["M_scalar_isoparametric"])
     return ff.Body(projection.invariants(), K=file["K_modal"], projection=projection)
@@ -117,14 +122,17 @@ def test_a_rigid_body_is_that_of_the_formulas():
     assert body.modes == 0 and body.K.shape == (0, 0) and body.invariants.S.shape == (3, 0)
 
 
-def test_views_share_memory_and_outlive_their_owners(body):
+def test_views_share_memory_and_outlive_their_owners():
+    body = tetrahedra()
     v = body.invariants
     assert np.shares_memory(v.S, v.S) and np.shares_memory(v.Sij[0][1], body.invariants.Sij[0][1])
     kept = [v.S, v.Sij[1][2], v.m_u, v.P_u, body.K, body.projection.p, body.projection.X, *body.projection.mass_rows]
     before = [a.copy() for a in kept]
+    gone = weakref.ref(body)
     del v, body
     gc.collect()
-    [np.random.default_rng(0).random((200, 200)) for _ in range(50)]  # memory that is free is written over
+    assert gone() is None
+    _ = [np.full(a.size, 7, dtype=a.dtype) for a in before for _ in range(20)]  # memory that is free is written over
     assert all(np.array_equal(a, b) for a, b in zip(kept, before, strict=True))
     for a in kept:
         with pytest.raises(ValueError, match="read-only"):
