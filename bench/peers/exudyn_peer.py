@@ -1,4 +1,4 @@
-"""Exudyn: flexible chains (floating frame, Hurty-Craig-Bampton modes of the mesh of models.py).
+"""Exudyn: flexible chains (floating frame, Hurty-Craig-Bampton modes of the mesh of models.py) and rigid ones.
 
 The plane of motion is x-y here, so that the hinges are about z; y stands for z of models.py.
 """
@@ -98,3 +98,31 @@ class FlexibleChain:
         if record is None:
             return seconds, None
         return seconds, self.mbs.GetSensorStoredData(self.tip)[:, :3]
+
+
+class RigidChain:
+    """The rigid chain as a kinematic tree in joint coordinates."""
+
+    def __init__(self, links):
+        self.system = exu.SystemContainer()
+        self.mbs = mbs = self.system.AddSystem()
+        node = mbs.AddNode(item.NodeGenericODE2(referenceCoordinates=[0.0] * links, initialCoordinates=[0.0] * links,
+                                                initialCoordinates_t=[0.0] * links, numberOfODE2Coordinates=links))
+        tree = mbs.AddObject(item.ObjectKinematicTree(
+            nodeNumber=node, gravity=[0, -models.GRAVITY, 0], jointTypes=[exu.JointType.RevoluteZ] * links,
+            linkParents=list(range(-1, links - 1)), jointTransformations=exu.Matrix3DList([np.eye(3)] * links),
+            jointOffsets=exu.Vector3DList([[models.LENGTH if i else 0.0, 0, 0] for i in range(links)]),
+            linkInertiasCOM=exu.Matrix3DList([np.diag(models.LINK_INERTIA)] * links),
+            linkCOMs=exu.Vector3DList([[models.LENGTH / 2, 0, 0]] * links), linkMasses=[models.MASS] * links))
+        self.tip = mbs.AddSensor(item.SensorKinematicTree(objectNumber=tree, linkNumber=links - 1, storeInternal=True,
+                                                          localPosition=[models.LENGTH, 0, 0],
+                                                          outputVariableType=exu.OutputVariableType.Position))
+        mbs.Assemble()
+
+    def run(self, record=None, step=1e-3, duration=1.0, integrator="RK44"):
+        s = FlexibleChain.settings(None, step, duration, record=record)
+        s.timeIntegration.explicitIntegration.useLieGroupIntegration = False
+        before = time.process_time()
+        self.mbs.SolveDynamic(s, solverType=getattr(exu.DynamicSolverType, integrator), updateInitialValues=False)
+        seconds = time.process_time() - before
+        return seconds, (self.mbs.GetSensorStoredData(self.tip)[:, :3] if record else None)

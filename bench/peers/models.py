@@ -138,3 +138,15 @@ def chain_yaml(links, flexible):
     lines += ["outputs:", f"  tip: {{position: {{body: link_{links}, {place}}}}}",
               "simulation: {step: '${step}', duration: '${duration}', tolerance: '${tolerance}'}"]
     return "\n".join(lines).replace("'${", "${").replace("}'", "}") + "\n"
+
+
+def chain_mjcf(links, step):
+    """The rigid chain for MuJoCo: joint coordinates, no contacts, no damping."""
+    body = ""
+    for i in reversed(range(links)):
+        inertia = " ".join(repr(x) for x in LINK_INERTIA)
+        site = f'<site name="tip" pos="{LENGTH} 0 0"/>' if i == links - 1 else ""
+        body = (f'<body pos="{LENGTH if i else 0} 0 0"><joint type="hinge" axis="0 1 0"/>'
+                f'<inertial pos="{LENGTH / 2} 0 0" mass="{MASS!r}" diaginertia="{inertia}"/>{site}{body}</body>')
+    return (f'<mujoco><option gravity="0 0 -{GRAVITY}" timestep="{step!r}" integrator="RK4">'
+            f'<flag contact="disable" constraint="disable"/></option><worldbody>{body}</worldbody></mujoco>')

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """The race: the same chains in Floatframe and in other programs, checked first, then timed.
 
-usage: bench/peers/race.py [--program FILE] [--rounds N] [--links LIST] [--no-write]
+usage: bench/peers/race.py [--program FILE] [--rounds N] [--links LIST] [--rigid LIST] [--no-write]
 
 Makes its own environment from requirements.txt (build/race-environment), runs everything on one thread, checks that the
 programs agree before it compares times, writes bench/peers/record.json and fills the table of docs/performance.md.
-With --no-write nothing is kept: the table is only printed. --links 1,4: only these flexible chains.
+With --no-write nothing is kept: the table is only printed. --links 1,4 --rigid 4: only these chains.
 """
 import argparse
 import datetime
@@ -23,11 +23,12 @@ ENVIRONMENT = ROOT / "build" / "race-environment"
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 FLEXIBLE = (1, 4, 16)
+RIGID = (4, 16, 64)
 # Two codes with the same mesh, modes and gravity converge to the same motion; allowed [m], of a path of metres.
 AGREE = {1: 1e-5, 4: 1e-5, 16: 2e-5}
 AGREE_CHECK = 1e-6   # one link against the integration of pendulum_check.py [m]
 SLACK = 1.1          # equal error: at most this times that of Floatframe at 1 ms
-REFERENCE_STEP = {"floatframe": 1e-5, "exudyn": 1e-4}
+REFERENCE_STEP = {"floatframe": 2e-5, "exudyn": 1e-4}
 SAMPLES = 0.01       # [s] errors are the largest distance of the tip at these times in the first second
 
 
@@ -69,6 +70,14 @@ def least(runners, rounds):
             if k:
                 times[i].append(seconds)
     return [min(t) for t in times]
+
+
+def finish(rows, rounds):
+    """Times all rows; ratios to the first."""
+    for row, seconds in zip(rows, least([row.pop("run") for row in rows], rounds)):
+        row.update(cpu_s=seconds, us_per_step=1e6 * seconds * row["step_s"])
+    for row in rows:
+        row["ratio"] = row["cpu_s"] / rows[0]["cpu_s"]
 
 
 def flexible_chain(links, program, rounds):
@@ -118,10 +127,7 @@ def flexible_chain(links, program, rounds):
                    f"{o['tolerance']:.0e}, {'sparse' if o.get('sparse') else 'dense'} solver")
         rows.append({"code": f"Exudyn {exudyn_peer.VERSION}", "setting": setting, "step_s": o["step"], "error_m": error,
                      "run": lambda o=o: peer.run(duration=1.0, **o)[0]})
-    for row, seconds in zip(rows, least([row.pop("run") for row in rows], rounds)):
-        row.update(cpu_s=seconds, us_per_step=1e6 * seconds * row["step_s"], ratio=seconds)
-    for row in rows:
-        row["ratio"] = row["cpu_s"] / rows[0]["cpu_s"]
+    finish(rows, rounds)
     return {"model": f"flexible chain, N = {links}", "kind": "flexible", "apart_m": apart, "allowed_m": AGREE[links],
             "apart_bar_m": distance(exact["bar"], exact["brick"]),
             "apart_timed_m": distance(exact["brick"], exact["exudyn"]), "rows": rows}
@@ -132,6 +138,7 @@ def main():
     parser.add_argument("--program", default=str(ROOT / "build" / "floatframe"))
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--links", default=",".join(map(str, FLEXIBLE)))
+    parser.add_argument("--rigid", default=",".join(map(str, RIGID)))
     parser.add_argument("--no-write", action="store_true")
     arguments = parser.parse_args()
     program = pathlib.Path(arguments.program).resolve()
@@ -148,6 +155,9 @@ def main():
               "versions": {name: importlib.metadata.version(name) for name in packages}, "models": []}
     for links in (int(n) for n in arguments.links.split(",") if n):
         record["models"].append(flexible_chain(links, program, arguments.rounds))
+    import race_rigid
+    for links in (int(n) for n in arguments.rigid.split(",") if n):
+        record["models"].append(race_rigid.rigid_chain(links, program, arguments.rounds))
     sys.path.insert(0, str(HERE.parent))
     import race_table
     print(race_table.text(record))

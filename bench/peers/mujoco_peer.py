@@ -1,0 +1,32 @@
+"""MuJoCo: rigid chains. Steps are made by `mj_step(model, data, n)`: the loop over the steps is in C."""
+import time
+
+import mujoco
+import numpy as np
+
+import models
+
+VERSION = mujoco.__version__
+INTEGRATORS = {"Euler": mujoco.mjtIntegrator.mjINT_EULER, "RK4": mujoco.mjtIntegrator.mjINT_RK4}
+
+
+class RigidChain:
+    def __init__(self, links):
+        self.model = mujoco.MjModel.from_xml_string(models.chain_mjcf(links, 1e-3))
+        self.data = mujoco.MjData(self.model)
+
+    def run(self, record=None, step=1e-3, duration=1.0, integrator="RK4"):
+        """Processor seconds of all steps, and with `record` [s] the tip (time, x, z) at that period."""
+        self.model.opt.timestep, self.model.opt.integrator = step, INTEGRATORS[integrator]
+        mujoco.mj_resetData(self.model, self.data)
+        if record is None:
+            before = time.process_time()
+            mujoco.mj_step(self.model, self.data, round(duration / step))
+            return time.process_time() - before, None
+        rows = []
+        for k in range(round(duration / record) + 1):
+            if k:
+                mujoco.mj_step(self.model, self.data, round(record / step))
+            mujoco.mj_kinematics(self.model, self.data)
+            rows.append([k * record, *self.data.site_xpos[0][[0, 2]]])
+        return None, np.array(rows)

@@ -1,0 +1,71 @@
+"""The rigid models of the race: the same in all programs, in coordinates of joints."""
+import sys
+
+import race
+
+AGREE = 1e-7                             # [m] between any two converged motions of the first second
+STEPS = (1e-3, 2e-3, 5e-3, 1e-2)         # tried for every peer; all divide the 10 ms of the comparison
+REFERENCE = {"step": 1e-4}
+
+
+def peers(links):
+    """(name, model, settings to try besides the step)"""
+    import exudyn_peer
+    import mujoco_peer
+    import pinocchio_peer
+    return [(f"MuJoCo {mujoco_peer.VERSION}", mujoco_peer.RigidChain(links),
+             [{"integrator": "Euler"}, {"integrator": "RK4"}]),
+            (f"Pinocchio {pinocchio_peer.VERSION}", pinocchio_peer.RigidChain(links), [{}]),
+            (f"Exudyn {exudyn_peer.VERSION}", exudyn_peer.RigidChain(links),
+             [{"integrator": "ExplicitEuler"}, {"integrator": "RK44"}])]
+
+
+def setting(name, options):
+    if name.startswith("Pinocchio"):
+        return "Runge-Kutta 4, its four calls of `aba` a step only"
+    words = {"Euler": "semi-implicit Euler", "RK4": "Runge-Kutta 4", "ExplicitEuler": "explicit Euler",
+             "RK44": "kinematic tree, Runge-Kutta 4"}
+    return words[options["integrator"]]
+
+
+def cheapest(name, chain, options, exact, wanted):
+    """The options with the least time whose error is at most `wanted`, their error, or None."""
+    found = []
+    for o in options:
+        for step in STEPS:
+            o = {**o, "step": step}
+            try:
+                error = race.distance(chain.run(record=race.SAMPLES, **o)[1], exact)
+                seconds = min(chain.run(**o)[0] for _ in range(2))
+            except Exception as problem:  # not a candidate: it did not get to the end
+                print(f"  {name} {o}: {str(problem)[:80]}", file=sys.stderr)
+                continue
+            if error <= wanted:
+                found.append((seconds, error, o))
+    return min(found, key=lambda f: f[0], default=None)
+
+
+def rigid_chain(links, program, rounds):
+    import floatframe_peer
+    import models
+    print(f"rigid chain of {links} ...", file=sys.stderr, flush=True)
+    own = floatframe_peer.Chain(program, race.WORK, f"rigid_{links}", models.chain_yaml(links, None))
+    exact = own.run(record=race.SAMPLES, step=race.REFERENCE_STEP["floatframe"])[1][:, [0, 1, 3]]
+    rows = [{"code": "Floatframe", "setting": "relative coordinates, generalised alpha; tolerance 1e-9", "step_s": 1e-3,
+             "error_m": race.distance(own.run(record=race.SAMPLES)[1][:, [0, 1, 3]], exact), "run": lambda: own.run()[0]}]
+    apart = 0.0
+    for name, chain, options in peers(links):
+        reference = chain.run(record=race.SAMPLES, **options[-1], **REFERENCE)[1]
+        apart = max(apart, race.distance(reference, exact))
+        if apart > AGREE:
+            sys.exit(f"race.py: rigid chain of {links}: {name} is {apart:.1e} m from Floatframe, allowed {AGREE:.1e}")
+        best = cheapest(name, chain, options, exact, race.SLACK * rows[0]["error_m"])
+        if best:
+            rows.append({"code": name, "setting": setting(name, best[2]), "step_s": best[2]["step"], "error_m": best[1],
+                         "run": lambda chain=chain, o=best[2]: chain.run(**o)[0]})
+        same = {**options[-1], "step": 1e-3}
+        rows.append({"code": name, "setting": setting(name, same) + ", at 1 ms", "step_s": 1e-3,
+                     "error_m": race.distance(chain.run(record=race.SAMPLES, **same)[1], exact),
+                     "run": lambda chain=chain, o=same: chain.run(**o)[0]})
+    race.finish(rows, rounds)
+    return {"model": f"rigid chain, N = {links}", "kind": "rigid", "apart_m": apart, "allowed_m": AGREE, "rows": rows}
