@@ -150,3 +150,74 @@ def chain_mjcf(links, step):
                 f'<inertial pos="{LENGTH / 2} 0 0" mass="{MASS!r}" diaginertia="{inertia}"/>{site}{body}</body>')
     return (f'<mujoco><option gravity="0 0 -{GRAVITY}" timestep="{step!r}" integrator="RK4">'
             f'<flag contact="disable" constraint="disable"/></option><worldbody>{body}</worldbody></mujoco>')
+
+
+# Vehicle on a rig: a chassis, four arms on hinges along x, four wheels on axles along y. Each wheel is held by three springs
+# with dampers to the ground in the place of a tyre: below, to the side, ahead (1 m, free length as drawn).
+CORNERS_OF_CAR = {"fl": (1.2, 1), "fr": (1.2, -1), "rl": (-1.2, 1), "rr": (-1.2, -1)}    # x [m], side
+CHASSIS = {"mass": 1200.0, "height": 0.6, "inertia": (200.0, 1500.0, 1600.0)}
+ARM = {"mass": 12.0, "inner": 0.3, "outer": 0.75, "height": 0.5, "inertia": (0.25, 0.05, 0.28)}
+WHEEL = {"mass": 20.0, "inertia": (0.6, 1.1, 0.6), "spin": 10.0}
+STRUT = {"stiffness": 6e4, "damping": 2000.0, "free": 0.615, "y": 0.5, "z": 1.0}         # wheel centre to chassis
+HOLD = {"below": (1.5e5, 500.0, 0.5217), "side": (5e4, 500.0, 1.0), "ahead": (5e4, 500.0, 1.0)}
+PUSH = (1.0, 0.0, 0.0, 0.3, 0.2, 0.1)            # velocity and angular velocity of the chassis at the start
+
+
+def anchors(x, side):
+    """Ground points of the springs of one wheel."""
+    y, z = side * ARM["outer"], ARM["height"]
+    return {"below": (x, y, 0.0), "side": (x, y + side, z), "ahead": (x + 1.0, y, z)}
+
+
+def vehicle_yaml():
+    def rigid(part, *centre):
+        return f"{{rigid: {{mass: {part['mass']}, centre_of_mass: {list(centre)}, inertia: {list(part['inertia'])}}}}}"
+
+    def spring(start, end, stiffness, damping, free):
+        return (f"{{type: spring_damper, from: {{body: {start[0]}, at: {list(start[1])}}}, to: {{body: {end[0]}, "
+                f"at: {list(end[1])}}}, spring: {{linear: {{stiffness: {stiffness:.1f}, free: {free}}}}}, damper: {damping}}}")
+
+    z, h = ARM["height"], CHASSIS["height"]
+    bodies, joints, forces = [f"  chassis: {rigid(CHASSIS, 0, 0, h)}"], [
+        f"  chassis: {{type: free, child: chassis, at: [0, 0, {h}], velocity: {list(PUSH)}}}"], []
+    for name, (x, side) in CORNERS_OF_CAR.items():
+        hub = (x, side * ARM["outer"], z)
+        bodies += [f"  arm_{name}: {rigid(ARM, x, side * (ARM['inner'] + ARM['outer']) / 2, z)}",
+                   f"  wheel_{name}: {rigid(WHEEL, *hub)}"]
+        joints += [f"  hinge_{name}: {{type: revolute, parent: chassis, child: arm_{name}, "
+                   f"at: [{x}, {side * ARM['inner']}, {z}], axis: x}}",
+                   f"  axle_{name}: {{type: revolute, parent: arm_{name}, child: wheel_{name}, at: {list(hub)}, axis: y, "
+                   f"velocity: {WHEEL['spin']}}}"]
+        forces.append(f"  strut_{name}: " + spring((f"arm_{name}", hub), ("chassis", (x, side * STRUT["y"], STRUT["z"])),
+                                                   STRUT["stiffness"], STRUT["damping"], STRUT["free"]))
+        forces += [f"  {way}_{name}: " + spring((f"wheel_{name}", hub), ("ground", anchors(x, side)[way]), *law)
+                   for way, law in HOLD.items()]
+    return "\n".join(["floatframe: 1", f"gravity: [0, 0, -{GRAVITY}]",
+                      "parameters: {step: 0.001, duration: 1, tolerance: 1e-9}", "bodies:", *bodies, "joints:", *joints,
+                      "forces:", *forces, "outputs:", f"  chassis: {{position: {{body: chassis, at: [0, 0, {h}]}}}}",
+                      "simulation: {step: ${step}, duration: ${duration}, tolerance: ${tolerance}}"]) + "\n"
+
+
+def vehicle_mjcf():
+    def inertial(part, y=0.0):
+        return f'<inertial pos="0 {y!r} 0" mass="{part["mass"]!r}" diaginertia="{" ".join(map(repr, part["inertia"]))}"/>'
+
+    def spring(a, b, stiffness, damping, free):
+        return (f'<spatial stiffness="{stiffness!r}" damping="{damping!r}" springlength="{free!r}"><site site="{a}"/>'
+                f'<site site="{b}"/></spatial>')
+
+    ground, bodies, springs, h = "", "", "", CHASSIS["height"]
+    for name, (x, side) in CORNERS_OF_CAR.items():
+        reach = side * (ARM["outer"] - ARM["inner"])
+        for way, (px, py, pz) in anchors(x, side).items():
+            ground += f'<site name="{way}_{name}" pos="{px!r} {py!r} {pz!r}"/>'
+            springs += spring(f"wheel_{name}", f"{way}_{name}", *HOLD[way])
+        springs += spring(f"arm_{name}", f"strut_{name}", STRUT["stiffness"], STRUT["damping"], STRUT["free"])
+        bodies += (f'<site name="strut_{name}" pos="{x!r} {side * STRUT["y"]!r} {STRUT["z"] - h!r}"/>'
+                   f'<body pos="{x!r} {side * ARM["inner"]!r} {ARM["height"] - h!r}"><joint type="hinge" axis="1 0 0"/>'
+                   f'{inertial(ARM, reach / 2)}<site name="arm_{name}" pos="0 {reach!r} 0"/><body pos="0 {reach!r} 0">'
+                   f'<joint name="axle_{name}" type="hinge" axis="0 1 0"/>{inertial(WHEEL)}<site name="wheel_{name}"/>'
+                   f'</body></body>')
+    return (f'<mujoco><option gravity="0 0 -{GRAVITY}"><flag contact="disable" constraint="disable"/></option><worldbody>'
+            f'{ground}<body pos="0 0 {h!r}"><freejoint/>{inertial(CHASSIS)}<site name="tip"/>{bodies}</body></worldbody>'
+            f'<tendon>{springs}</tendon></mujoco>')

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The race: the same chains in Floatframe and in other programs, checked first, then timed.
 
-usage: bench/peers/race.py [--program FILE] [--rounds N] [--links LIST] [--rigid LIST] [--no-write]
+usage: bench/peers/race.py [--program FILE] [--rounds N] [--links LIST] [--rigid LIST] [--no-vehicle] [--no-write]
 
 Makes its own environment from requirements.txt (build/race-environment), runs everything on one thread, checks that the
 programs agree before it compares times, writes bench/peers/record.json and fills the table of docs/performance.md.
@@ -139,6 +139,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--links", default=",".join(map(str, FLEXIBLE)))
     parser.add_argument("--rigid", default=",".join(map(str, RIGID)))
+    parser.add_argument("--no-vehicle", action="store_true")
     parser.add_argument("--no-write", action="store_true")
     arguments = parser.parse_args()
     program = pathlib.Path(arguments.program).resolve()
@@ -158,6 +159,8 @@ def main():
     import race_rigid
     for links in (int(n) for n in arguments.rigid.split(",") if n):
         record["models"].append(race_rigid.rigid_chain(links, program, arguments.rounds))
+    if not arguments.no_vehicle:
+        record["models"].append(race_rigid.vehicle(program, arguments.rounds))
     sys.path.insert(0, str(HERE.parent))
     import race_table
     print(race_table.text(record))

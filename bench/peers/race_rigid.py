@@ -23,7 +23,7 @@ def peers(links):
 def setting(name, options):
     if name.startswith("Pinocchio"):
         return "Runge-Kutta 4, its four calls of `aba` a step only"
-    words = {"Euler": "semi-implicit Euler", "RK4": "Runge-Kutta 4", "ExplicitEuler": "explicit Euler",
+    words = {"implicit": "implicitfast", "Euler": "semi-implicit Euler", "RK4": "Runge-Kutta 4", "ExplicitEuler": "explicit Euler",
              "RK44": "kinematic tree, Runge-Kutta 4"}
     return words[options["integrator"]]
 
@@ -46,19 +46,32 @@ def cheapest(name, chain, options, exact, wanted):
 
 
 def rigid_chain(links, program, rounds):
-    import floatframe_peer
     import models
-    print(f"rigid chain of {links} ...", file=sys.stderr, flush=True)
-    own = floatframe_peer.Chain(program, race.WORK, f"rigid_{links}", models.chain_yaml(links, None))
+    return compare(f"rigid chain, N = {links}", f"rigid_{links}", models.chain_yaml(links, None), peers(links), program, rounds)
+
+
+def vehicle(program, rounds):
+    import models
+    import mujoco_peer
+    racers = [(f"MuJoCo {mujoco_peer.VERSION}", mujoco_peer.Vehicle(),
+               [{"integrator": "implicit"}, {"integrator": "RK4"}])]
+    return compare("rigid vehicle", "vehicle", models.vehicle_yaml(), racers, program, rounds)
+
+
+def compare(title, name, text, racers, program, rounds):
+    """One model: all motions against that of Floatframe, then the times; the last of a racer's settings is its most exact."""
+    import floatframe_peer
+    print(f"{title} ...", file=sys.stderr, flush=True)
+    own = floatframe_peer.Chain(program, race.WORK, name, text)
     exact = own.run(record=race.SAMPLES, step=race.REFERENCE_STEP["floatframe"])[1][:, [0, 1, 3]]
     rows = [{"code": "Floatframe", "setting": "relative coordinates, generalised alpha; tolerance 1e-9", "step_s": 1e-3,
              "error_m": race.distance(own.run(record=race.SAMPLES)[1][:, [0, 1, 3]], exact), "run": lambda: own.run()[0]}]
     apart = 0.0
-    for name, chain, options in peers(links):
+    for name, chain, options in racers:
         reference = chain.run(record=race.SAMPLES, **options[-1], **REFERENCE)[1]
         apart = max(apart, race.distance(reference, exact))
         if apart > AGREE:
-            sys.exit(f"race.py: rigid chain of {links}: {name} is {apart:.1e} m from Floatframe, allowed {AGREE:.1e}")
+            sys.exit(f"race.py: {title}: {name} is {apart:.1e} m from Floatframe, allowed {AGREE:.1e}")
         best = cheapest(name, chain, options, exact, race.SLACK * rows[0]["error_m"])
         if best:
             rows.append({"code": name, "setting": setting(name, best[2]), "step_s": best[2]["step"], "error_m": best[1],
@@ -68,4 +81,4 @@ def rigid_chain(links, program, rounds):
                      "error_m": race.distance(chain.run(record=race.SAMPLES, **same)[1], exact),
                      "run": lambda chain=chain, o=same: chain.run(**o)[0]})
     race.finish(rows, rounds)
-    return {"model": f"rigid chain, N = {links}", "kind": "rigid", "apart_m": apart, "allowed_m": AGREE, "rows": rows}
+    return {"model": title, "kind": "rigid", "apart_m": apart, "allowed_m": AGREE, "rows": rows}
