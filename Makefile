@@ -47,7 +47,6 @@ test-all: test
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
 	$(MAKE) --no-print-directory test-python
-	$(MAKE) --no-print-directory test-wheel
 
 # Files for other programs, opened by VTK and by Khronos' validator of glTF.
 test-export:
