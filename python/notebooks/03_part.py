@@ -31,7 +31,7 @@ points, cells = box((40, 4, 2), (L, b, h))
 mesh = ff.Mesh(points, [("hex8i", cells)])
 ends = {"ROOT": ff.plane([0, 0, 0], "x"), "TIP": ff.plane([L, 0, 0], "x")}
 part = ff.reduce(mesh, material=ff.Material(E, nu, rho), interfaces=ends, modes=6, reference="node:ROOT")
-part
+part.report
 
 # %% [markdown]
 # The reduced body by itself: K y = X_tipᵀ F gives the deflection, K x = ω² M x the frequencies of the clamped bar.
