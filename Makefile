@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer test-export test-python wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer test-export python test-python wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -11,9 +11,9 @@ help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
 	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, twenty kills of each kind,"
-	@echo "                   the page in a browser, exported files in VTK and a glTF validator, the Python package"
+	@echo "                   the page in a browser, exported files in VTK and a glTF validator, the Python package and its wheel"
 	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
-	@echo "make wheel         the Python package with all that it needs, in dist"
+	@echo "make wheel         the Python package with all that it needs, in dist; make test-wheel tries it in a fresh environment"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
 	@echo "make docs          reference of the C++ interface: build/docs/html/index.html"
 	@echo "make bench         timing of a chain of flexible links, the Iltis and single kernels"
@@ -47,20 +47,24 @@ test-all: test
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
 	$(MAKE) --no-print-directory test-python
+	$(MAKE) --no-print-directory test-wheel
 
 # Files for other programs, opened by VTK and by Khronos' validator of glTF.
 test-export:
 	@scripts/check_export.sh
 
-# The Python package in the build folder, in an environment of its own from PyPI.
-test-python: build
+# The Python package in the build folder, for an environment of its own from PyPI.
+python: build
 	python=$$(scripts/python_environment.sh) && cmake -S . -B build -DFLOATFRAME_PYTHON=ON -DPython_EXECUTABLE=$$python \
-	  && cmake --build build --parallel $(JOBS) --target floatframe_python floatframe_python_stub floatframe_program \
-	  && PYTHONPATH=build/python $$python -B -m pytest -q \
+	  && cmake --build build --parallel $(JOBS) --target floatframe_python floatframe_python_stub floatframe_program
+
+test-python: python
+	python=$$(scripts/python_environment.sh) && PYTHONPATH=build/python $$python -B -m pytest -q \
 	  && MYPYPATH=build/python $$python -m mypy -p floatframe
 
-# A wheel with all that it needs, in dist: build, libraries of others beside it, their licences, and a look at the result.
-wheel: install-packages
+# A wheel with all that it needs, in dist: what is built, libraries of others beside it, their licences, and a look at the
+# result.
+wheel: python
 	python=$$(scripts/python_environment.sh) && $$python -B scripts/make_wheel.py
 
 # The wheel in a fresh environment.

