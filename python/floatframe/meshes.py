@@ -51,8 +51,8 @@ class Mesh:
     """Points, shape (nodes, 3); cells: pairs of an element type and indices of points from 0, shape (cells, nodes of the
     type), corners first as VTK and Abaqus have them; node sets by their names, indices or masks.
 
-    Types: tet4, tet10, hex8, hex8i, hex8r, hex20, hex20r, wedge6, wedge15 (solids), tri3, quad4 (shells: with `thickness`),
-    beam2, beam3 (with `section`).
+    Types: tet4, tet10, hex8, hex8i, hex8r, hex20, hex20r, wedge6, wedge15, pyramid5, pyramid13 (solids), tri3, quad4, tri6,
+    quad8 (shells: with `thickness`), beam2, beam3 (with `section`).
     """
 
     points: npt.ArrayLike
@@ -66,6 +66,8 @@ _ELEMENTS = {
     "beam3": (3, 1),
     "tri3": (3, 2),
     "quad4": (4, 2),
+    "tri6": (6, 2),
+    "quad8": (8, 2),
     "tet4": (4, 3),
     "tet10": (10, 3),
     "hex8": (8, 3),
@@ -75,23 +77,29 @@ _ELEMENTS = {
     "hex20r": (20, 3),
     "wedge6": (6, 3),
     "wedge15": (15, 3),
+    "pyramid5": (5, 3),
+    "pyramid13": (13, 3),
 }
 _MESHIO = {
     "line": "beam2",
     "triangle": "tri3",
     "quad": "quad4",
+    "triangle6": "tri6",
+    "quad8": "quad8",
     "tetra": "tet4",
     "tetra10": "tet10",
     "hexahedron": "hex8",
     "hexahedron20": "hex20",
     "wedge": "wedge6",
     "wedge15": "wedge15",
+    "pyramid": "pyramid5",
+    "pyramid13": "pyramid13",
 }
 # Cells that bound others and may carry names: their dimension. Nothing is made of them.
-_MESHIO_OTHERS = {"vertex": 0, "line3": 1, "triangle6": 2, "triangle7": 2, "quad8": 2, "quad9": 2}
+_MESHIO_OTHERS = {"vertex": 0, "line3": 1, "triangle7": 2, "quad9": 2}
 _VTK = {3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hexahedron", 13: "wedge"}
-_VTK |= {24: "tetra10", 25: "hexahedron20", 26: "wedge15"}
-_VTK_OTHERS = {1: "vertex", 21: "line3", 22: "triangle6", 23: "quad8", 28: "quad9", 34: "triangle7"}
+_VTK |= {14: "pyramid", 22: "triangle6", 23: "quad8", 24: "tetra10", 25: "hexahedron20", 26: "wedge15", 27: "pyramid13"}
+_VTK_OTHERS = {1: "vertex", 21: "line3", 28: "quad9", 34: "triangle7"}
 # A brick along the axes, in the order of its coordinates.
 _VOXEL, _VOXEL_CORNERS = 11, (0, 1, 3, 2, 4, 5, 7, 6)
 # A wedge of VTK looks the other way than everyone else's; writers disagree, so each is turned as it lies.

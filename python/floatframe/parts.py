@@ -184,6 +184,9 @@ def reduce(
     projection: bool | None = None,
     format: str | None = None,
     dialect: Literal["abaqus", "calculix"] | None = None,
+    beam_shear: Literal["by_format", "none"] | None = None,
+    shell_shear: Literal["by_format", "none", "all"] | None = None,
+    mass_form: Literal["by_format", "consistent", "lumped"] | None = None,
     nodes: Path | None = None,
     mass: Path | None = None,
     dofs: Path | None = None,
@@ -201,6 +204,7 @@ def reduce(
     modes: number of normal modes (20 if nothing selects them); fmax: all below this frequency [Hz]; effective_mass: until
     this fraction is reached. reference: "mean_axis", "buckens" or "node:NAME" of an interface. damping: fraction of critical.
     free_check=False: no free modes of the full model in the report (saves a factorisation). stresses=False: no stress.
+    beam_shear, shell_shear: shear deformation of beams and shells of a file; mass_form: consistent or lumped mass.
     projection=True: nodes and mass matrix are kept for the projection method.
 
     progress: True prints a line for each stage, or a function of the stage and its duration [s]. Other threads of Python go on
@@ -222,11 +226,15 @@ def reduce(
         "projection": projection,
         "format": format,
         "dialect": dialect,
+        "beam_shear": beam_shear,
+        "shell_shear": shell_shear,
+        "mass_form": mass_form,
         "nodes": None if nodes is None else _path("nodes", nodes),
         "mass": None if mass is None else _path("mass", mass),
         "dofs": None if dofs is None else _path("dofs", dofs),
     }
-    for name in ("units", "method", "reference", "integration", "solver", "format", "dialect"):
+    words = ("units", "method", "reference", "integration", "solver", "format", "dialect", "beam_shear", "shell_shear")
+    for name in (*words, "mass_form"):
         if options[name] is not None and not isinstance(options[name], str):
             raise InputError(f"{name}: found {options[name]!r}, expected a text")
     chosen: dict[str, object] = {}
@@ -237,7 +245,7 @@ def reduce(
     if tell is not None and not callable(tell):
         raise InputError(f"progress: found {progress!r}, expected True, False or a function")
     if mesh:
-        for name in ("format", "dialect", "nodes", "mass", "dofs"):
+        for name in ("format", "dialect", "beam_shear", "shell_shear", "mass_form", "nodes", "mass", "dofs"):
             if options[name] is not None:
                 raise InputError(f"{name} says how files are read: found it for a mesh")
         model = fe_model(source, material, thickness, section, chosen)

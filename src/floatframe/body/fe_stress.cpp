@@ -14,8 +14,9 @@ namespace {
 const double least_cosine = std::cos(20.0 * std::numbers::pi / 180.0);
 
 Vec3 shell_normal(const ElementInput& in, int nodes) {
-  const Vec3 first = in.p[nodes == 3 ? 1 : 2] - in.p[0];
-  return first.cross(in.p[nodes - 1] - in.p[nodes == 3 ? 0 : 1]).normalized();
+  const bool triangle = nodes % 3 == 0;
+  const Vec3 first = in.p[triangle ? 1 : 2] - in.p[0];
+  return first.cross(in.p[triangle ? 2 : 3] - in.p[triangle ? 0 : 1]).normalized();
 }
 
 /// Axes at one end of a beam.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/lumped_mass.hpp"
 
 namespace floatframe {
 namespace {
@@ -45,9 +45,9 @@ void linear_fields(const ElementInput& input, int nodes, int dofs_per_node, bool
 void element_mass(const ElementKernel& kernel, const ElementInput& input, ElementMass mass,
                   MatX& M) {
   if (mass != ElementMass::linear)
-    return kernel.mass(input, mass == ElementMass::section_inertia, M);
+    return mass_matrix(kernel, input, mass == ElementMass::section_inertia, M);
   MatX scalar;
-  kernel.scalar_mass(input, scalar);
+  scalar_mass_matrix(kernel, input, scalar);
   const int d = kernel.dofs_per_node;
   M = MatX::Zero(d * kernel.nodes, d * kernel.nodes);
   for (int a = 0; a < kernel.nodes; ++a)

@@ -19,6 +19,7 @@ struct ElementInput {
   ShellSection shell;
   Vec3 reference = Vec3::UnitZ();
   Integration integration = Integration::exact;
+  MassForm mass_form = MassForm::consistent;
 };
 
 /// Where the stress of a load works on strains of second order, 1/2 grad u^T grad u: its share of

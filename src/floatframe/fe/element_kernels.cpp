@@ -34,6 +34,7 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
   if (kernel.family == ElementFamily::beam) input.section = model.sections[section];
   if (kernel.family == ElementFamily::shell) input.shell = model.shells[section];
   input.reference = element.reference;
+  input.mass_form = element.mass_form;
   return input;
 }
 

@@ -8,10 +8,12 @@
 
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)                                                          \
-  entry(beam2)    /* 2-node Euler-Bernoulli beam */                                         \
+  entry(beam2)    /* 2-node beam, exact for loads at its ends; with shear if its section has */ \
   entry(beam3)    /* 3-node Timoshenko beam: end, middle, end */                            \
   entry(tri3)     /* 3-node flat shell */                                                   \
   entry(quad4)    /* 4-node flat shell */                                                   \
+  entry(tri6)     /* 6-node shell, divided into four of 3 nodes; edges 12 23 31 */          \
+  entry(quad8)    /* 8-node shell, divided into triangles; edges 12 23 34 41 */             \
   entry(tet4)     /* linear tetrahedron */                                                  \
   entry(tet10)    /* quadratic tetrahedron; edges 12 23 13 14 24 34 */                      \
   entry(hex8)     /* trilinear brick, full integration */                                   \
@@ -20,7 +22,9 @@
   entry(hex20)    /* quadratic brick, 3 x 3 x 3 points; edges as in the file */             \
   entry(hex20r)   /* the same, stiffness with 2 x 2 x 2 points */                           \
   entry(wedge6)   /* linear wedge */                                                        \
-  entry(wedge15)  /* quadratic wedge; edges 12 23 31 45 56 64 14 25 36 */
+  entry(wedge15)  /* quadratic wedge; edges 12 23 31 45 56 64 14 25 36 */                   \
+  entry(pyramid5) /* linear pyramid, base and apex */                                       \
+  entry(pyramid13) /* quadratic pyramid; edges 12 23 34 41 15 25 35 45 */
 // clang-format on
 
 namespace floatframe {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/lumped_mass.hpp"
 
 namespace floatframe {
 
@@ -100,7 +100,7 @@ SparseMatrix assemble_mass(const FeModel& model, bool section_inertia, int d) {
   MatX matrix;
   for (const Element& element : model.elements) {
     const ElementKernel& kernel = element_kernel(element.type);
-    kernel.mass(gather(model, element), section_inertia, matrix);
+    mass_matrix(kernel, gather(model, element), section_inertia, matrix);
     scatter(element, kernel, d, matrix, triplets);
   }
   for (const PointMass& p : model.masses) {
@@ -122,7 +122,7 @@ SparseRows assemble_scalar_mass(const FeModel& model) {
   MatX matrix;
   for (const Element& element : model.elements) {
     const ElementKernel& kernel = element_kernel(element.type);
-    kernel.scalar_mass(gather(model, element), matrix);
+    scalar_mass_matrix(kernel, gather(model, element), matrix);
     for (int i = 0; i < kernel.nodes; ++i) {
       for (int j = 0; j < kernel.nodes; ++j) {
         triplets.emplace_back(element.nodes[i], element.nodes[j], matrix(i, j));

@@ -14,6 +14,8 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_list.hpp"
+#include "floatframe/fe/home_program.hpp"
+#include "floatframe/fe/mass_form.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -43,6 +45,11 @@ struct BeamSection {
   double width = 0.0, height = 0.0;  ///< along local y and z [m]; round: the diameter
   double bore = 0.0;                 ///< of a tube: inner diameter [m]
 
+  /// Shear areas of a 2-node beam: the shear forces are Vy = G shear_y gamma_xy, Vz = G shear_z
+  /// gamma_xz. 0: no shear deformation (Euler-Bernoulli).
+  double shear_y = 0.0, shear_z = 0.0;  ///< [m2]
+  bool has_shear() const noexcept { return shear_y > 0.0 || shear_z > 0.0; }
+
   static BeamSection solid_round(double diameter);
   static BeamSection hollow_round(double outer_diameter, double inner_diameter);
   /// width along local y, height along local z. J = a b^3 (1/3 - 0.21 b/a (1 - (b/a)^4/12)), a >=
@@ -60,7 +67,8 @@ struct Element {
   ElementType type = ElementType::beam2;
   std::array<int, 20> nodes{};  ///< only the first ones are used, as the type needs
   int material = 0;
-  int section = 0;                 ///< beams: in FeModel::sections; shells: in FeModel::shells
+  int section = 0;  ///< beams: in FeModel::sections; shells: in FeModel::shells
+  MassForm mass_form = MassForm::consistent;
   Vec3 reference = Vec3::UnitZ();  ///< beams: local y lies in the plane of the axis and this vector
   std::string name;                ///< for messages; empty: by its number
   int id = 0;                      ///< the number in the user's file; 0: none
@@ -70,6 +78,9 @@ struct Element {
 /// Homogeneous shell about its middle surface.
 struct ShellSection {
   double thickness = 0.0;  ///< [m]
+  /// Transverse shear force over a width = G shear gamma, 5/6 of the thickness of a homogeneous
+  /// shell; 0: no shear deformation (thin).
+  double shear = 0.0;  ///< [m]
 };
 
 struct PointMass {
@@ -153,8 +164,9 @@ struct FeModel {
   std::vector<LinearEquation> equations;
   std::vector<Support> supports;
   std::optional<FeMatrices> matrices;  ///< if there, `elements` is empty
-  std::vector<std::string> files;      ///< paths as the user would write them
-  std::vector<std::string> notes;      ///< one sentence each, with file:line: what was passed over
+  HomeProgram home = HomeProgram::unknown;
+  std::vector<std::string> files;  ///< paths as the user would write them
+  std::vector<std::string> notes;  ///< one sentence each, with file:line: what was passed over
 
   int nodes() const noexcept { return static_cast<int>(positions.size()); }
   bool has_beams() const noexcept;
@@ -176,7 +188,7 @@ void validate(const FeModel& model);
 
 /// Stiffness, (dofs_per_node n)^2.
 SparseMatrix assemble_stiffness(const FeModel& model);
-/// Consistent mass, (dofs_per_node n)^2. With `section_inertia` beams have rotary and torsional
+/// Mass, (dofs_per_node n)^2. With `section_inertia` beams have rotary and torsional
 /// inertia of the section.
 SparseMatrix assemble_mass(const FeModel& model, bool section_inertia, int dofs_per_node);
 /// Scalar mass matrix of linear (isoparametric) elements, n x n.                          (65)

@@ -1,7 +1,7 @@
 #include "floatframe/fe/full_system.hpp"
 
 #include "floatframe/fe/block_assembly.hpp"
-#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/lumped_mass.hpp"
 
 namespace floatframe {
 namespace {
@@ -53,10 +53,10 @@ SparseMatrix full_mass(const FeModel& model, const DofTable& table, Integration 
     const ElementKernel& kernel = element_kernel(e.type);
     const ElementInput input = gather(model, e, integration);
     if (kernel.dofs_per_node == 3) {
-      kernel.scalar_mass(input, matrix);
+      scalar_mass_matrix(kernel, input, matrix);
       assembly.add_scalar(e.nodes.data(), kernel.nodes, matrix);
     } else {
-      kernel.mass(input, true, matrix);
+      mass_matrix(kernel, input, true, matrix);
       assembly.add(e.nodes.data(), kernel.nodes, kernel.dofs_per_node, matrix);
     }
   }

@@ -3,8 +3,12 @@
 // patches: K = L E L^T / (A h) + 3/4 beta_0 A h T^T K_theta T with plane stress E, alpha = 3/2 in L
 // and beta_0 = max((1 - 4 nu^2)/2, 0.01), the values of that paper; 0.01 keeps the drilling
 // stiffness positive as nu nears 1/2. Plate: discrete Kirchhoff triangle of Batoz, Bathe and Ho
-// (1980); no transverse shear strain. Mass: linear displacements, rotary inertia of the thickness,
-// none about the normal.
+// (1980); with transverse shear the discrete Kirchhoff-Mindlin triangle of Katili (1993), which
+// becomes the former as the thickness falls: the rotation along side k exceeds the linear one by
+// 4 xi (1 - xi) D_k, with the length l and phi_k = 12 D/(G s l^2), D = E h^3/(12 (1 - nu^2)),
+//   D_k = -(3/2 (w_j - w_i)/l + 3/4 (beta_i + beta_j))/(1 + phi_k),  gamma_k = -2/3 phi_k D_k
+// constant shear strains gamma_k of the sides, at a corner those of its two sides, linear between.
+// Mass: linear displacements, rotary inertia of the thickness, none about the normal.
 #include "floatframe/fe/shell_triangle.hpp"
 
 #include <algorithm>
@@ -153,14 +157,82 @@ Mat39 curvatures(const Plane& t, double xi, double eta) {
   return B;
 }
 
+/// The sides of a plate with transverse shear; side k lies between corners k + 1 and k + 2.
+struct ShearSides {
+  std::array<Vec2, 3> along;  ///< unit vectors
+  Vec3 phi;
+  Mat39 D;  ///< D_k of a plate without shear, from (w, rx, ry) of the corners
+
+  ShearSides(const Plane& t, const Material& material, const ShellSection& section)
+      : D(Mat39::Zero()) {
+    const double h = section.thickness, nu = material.poisson;
+    const double bending = material.young * h * h * h / (12.0 * (1.0 - nu * nu));
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      const double l = std::sqrt(t.square(i, j));
+      const Vec2 s(t.dx(j, i) / l, t.dy(j, i) / l);
+      along[k] = s;
+      phi(k) = 12.0 * bending / (material.shear() * section.shear * l * l);
+      D(k, 3 * i) = 1.5 / l;
+      D(k, 3 * j) = -1.5 / l;
+      for (const int end : {i, j}) D.row(k).segment<2>(3 * end + 1) << 0.75 * s(1), -0.75 * s(0);
+    }
+  }
+
+  /// What the curvatures of a plate without shear have too much.
+  Mat39 relieved(const Plane& t, double xi, double eta) const {
+    const double L1 = 1.0 - xi - eta;
+    const Vec2 side[3] = {Vec2(4.0 * eta, 4.0 * xi), Vec2(-4.0 * eta, 4.0 * (L1 - eta)),
+                          Vec2(4.0 * (L1 - xi), -4.0 * xi)};
+    Mat39 B = Mat39::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const Vec2 g = Vec2(t.dy(2, 0) * side[k](0) + t.dy(0, 1) * side[k](1),
+                          t.dx(0, 2) * side[k](0) + t.dx(1, 0) * side[k](1)) /
+                     (2.0 * t.area);
+      const Vec2& s = along[k];
+      const Vec3 curvature(g(0) * s(0), g(1) * s(1), g(1) * s(0) + g(0) * s(1));
+      B += phi(k) / (1.0 + phi(k)) * curvature * D.row(k);
+    }
+    return B;
+  }
+
+  /// Shear strains (xz, yz) at a corner.
+  Eigen::Matrix<double, 2, 9> at_corner(int corner) const {
+    Eigen::Matrix2d directions;
+    Eigen::Matrix<double, 2, 9> of_sides;
+    for (int i = 0; i < 2; ++i) {
+      const int k = (corner + 1 + i) % 3;
+      directions.row(i) = along[k].transpose();
+      of_sides.row(i) = -2.0 / 3.0 * phi(k) / (1.0 + phi(k)) * D.row(k);
+    }
+    const double det = directions(0, 0) * directions(1, 1) - directions(0, 1) * directions(1, 0);
+    Eigen::Matrix2d inverse;
+    inverse << directions(1, 1), -directions(0, 1), -directions(1, 0), directions(0, 0);
+    return inverse / det * of_sides;
+  }
+};
+
 /// Dofs (w, rx, ry) per node; the curvatures are linear, so the middles of the sides are exact.
-Mat9 plate(const Plane& t, const Material& material, double h) {
+Mat9 plate(const Plane& t, const Material& material, const ShellSection& section) {
+  const double h = section.thickness;
   const Mat3 D = plane_stress(material) * (h * h * h / 12.0);
   const Vec2 middle[3] = {Vec2(0.5, 0.0), Vec2(0.5, 0.5), Vec2(0.0, 0.5)};
   Mat9 K = Mat9::Zero();
-  for (const Vec2& m : middle) {
-    const Mat39 B = curvatures(t, m(0), m(1));
-    K += (t.area / 3.0) * B.transpose() * D * B;
+  if (!(section.shear > 0.0)) {
+    for (const Vec2& m : middle) {
+      const Mat39 B = curvatures(t, m(0), m(1));
+      K += (t.area / 3.0) * B.transpose() * D * B;
+    }
+    return K;
+  }
+  const ShearSides sides(t, material, section);
+  for (int k = 0; k < 3; ++k) {
+    const Vec2& m = middle[k];
+    const Mat39 B = curvatures(t, m(0), m(1)) - sides.relieved(t, m(0), m(1));
+    // Between corners k and k + 1.
+    const Eigen::Matrix<double, 2, 9> S = 0.5 * (sides.at_corner(k) + sides.at_corner((k + 1) % 3));
+    K += (t.area / 3.0) *
+         (B.transpose() * D * B + material.shear() * section.shear * S.transpose() * S);
   }
   return K;
 }
@@ -188,10 +260,12 @@ double triangle_area(const std::array<Vec3, 3>& p) {
   return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
 }
 
-Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& material, double h) {
+Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& material,
+                               const ShellSection& section) {
   const Mat3 R = triangle_axes(p);
   const Plane t = flatten(p, R);
-  const Mat9 in_plane = membrane(t, material, h), bending = plate(t, material, h);
+  const Mat9 in_plane = membrane(t, material, section.thickness),
+             bending = plate(t, material, section);
   constexpr int u[9] = {0, 1, 5, 6, 7, 11, 12, 13, 17}, w[9] = {2, 3, 4, 8, 9, 10, 14, 15, 16};
   Mat18 K = Mat18::Zero();
   for (int i = 0; i < 9; ++i) {
@@ -228,16 +302,19 @@ Eigen::Matrix<double, 6, 3> from_triangle_axes(const Mat3& R) {
 }
 
 Eigen::Matrix<double, 12, 18> shell_triangle_stress(const std::array<Vec3, 3>& p,
-                                                    const Material& material, double h,
-                                                    int corner) {
+                                                    const Material& material,
+                                                    const ShellSection& section, int corner) {
+  const double h = section.thickness;
   const Mat3 R = triangle_axes(p);
   const Plane t = flatten(p, R);
   const Mat3 E = plane_stress(material);
   const HigherStrains higher(t, material.poisson);
   Mat39 in_plane = E * lumping(t, h).transpose() / (t.area * h);
   in_plane += 1.5 * E * higher.Te * higher.Q[corner] * higher.T;
-  const Mat39 bending =
-      0.5 * h * E * curvatures(t, corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0);
+  const double xi = corner == 1 ? 1.0 : 0.0, eta = corner == 2 ? 1.0 : 0.0;
+  Mat39 bending = 0.5 * h * E * curvatures(t, xi, eta);
+  if (section.shear > 0.0)
+    bending -= 0.5 * h * E * ShearSides(t, material, section).relieved(t, xi, eta);
   const Eigen::Matrix<double, 6, 3> turn = from_triangle_axes(R);
   Eigen::Matrix<double, 12, 18> out;
   for (int i = 0; i < 3; ++i) {

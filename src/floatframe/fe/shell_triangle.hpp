@@ -1,6 +1,6 @@
 #pragma once
-// Flat thin shell triangle, 18 dofs: membrane with drilling rotations, Kirchhoff plate. Building
-// block of tri3 and quad4.
+// Flat shell triangle, 18 dofs: membrane with drilling rotations, plate with transverse shear if
+// the section has it, else of Kirchhoff. Building block of all shells.
 #include <array>
 
 #include "floatframe/fe/element_kernel.hpp"
@@ -17,15 +17,15 @@ Eigen::Matrix<double, 6, 3> from_triangle_axes(const Mat3& R);
 
 /// In body axes, (ux uy uz rx ry rz) per node.
 Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& material,
-                               double thickness);
+                               const ShellSection& section);
 /// Mean membrane forces per length (xx, yy, xy) in the axes of the triangle from the displacements
 /// of the corners in body axes.
 Eigen::Matrix<double, 3, 18> shell_triangle_membrane(const std::array<Vec3, 3>& p,
                                                      const Material& material, double thickness);
 /// Stresses in body axes at a corner, on the side of the normal and on the other one.
 Eigen::Matrix<double, 12, 18> shell_triangle_stress(const std::array<Vec3, 3>& p,
-                                                    const Material& material, double thickness,
-                                                    int corner);
+                                                    const Material& material,
+                                                    const ShellSection& section, int corner);
 Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const Material& material, double thickness,
                           bool section_inertia);
 

@@ -52,4 +52,18 @@ inline constexpr double wedge_regular_corner = 0.5 * std::numbers::sqrt3;
 inline constexpr ElementShape wedge6{wedge6_faces, wedge_neighbours, wedge_regular_corner};
 inline constexpr ElementShape wedge15{wedge15_faces, wedge_neighbours, wedge_regular_corner};
 
+// Pyramids; of the four edges at the apex three are looked at.
+inline constexpr std::array<Edge, 8> pyramid_edges{
+    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
+inline constexpr std::array<Corners, 5> pyramid_corners{
+    {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}};
+inline constexpr Neighbours pyramid_neighbours[] = {
+    {1, 3, 4}, {2, 0, 4}, {3, 1, 4}, {0, 2, 4}, {2, 1, 0}};
+inline constexpr auto pyramid5_faces = linear(pyramid_corners);
+inline constexpr auto pyramid13_faces = quadratic(pyramid_corners, pyramid_edges, 5);
+inline constexpr double pyramid_regular_corner = 0.5 * std::numbers::sqrt2;
+inline constexpr ElementShape pyramid5{pyramid5_faces, pyramid_neighbours, pyramid_regular_corner};
+inline constexpr ElementShape pyramid13{pyramid13_faces, pyramid_neighbours,
+                                        pyramid_regular_corner};
+
 }  // namespace floatframe::shape

@@ -89,13 +89,16 @@ void to_si(FeModel& model, const UnitSystem& units) {
     m.density *= units.density();
   }
   for (BeamSection& s : model.sections) {
-    s.A *= l2;
+    for (double* x : {&s.A, &s.shear_y, &s.shear_z}) *x *= l2;
     s.Iy *= l4;
     s.Iz *= l4;
     s.J *= l4;
     for (double* x : {&s.width, &s.height, &s.bore}) *x *= l;
   }
-  for (ShellSection& s : model.shells) s.thickness *= l;
+  for (ShellSection& s : model.shells) {
+    s.thickness *= l;
+    s.shear *= l;
+  }
   for (PointMass& m : model.masses) {
     m.mass *= units.mass;
     m.J *= units.mass * l2;

@@ -7,6 +7,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
+#include "floatframe/formats/home_notes.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 #include "floatframe/formats/matrices/read_matrices.hpp"
 #include "floatframe/formats/nastran/read_nastran.hpp"
@@ -103,6 +104,19 @@ const FeFormat& recognised(const std::filesystem::path& file) {
                                known_formats()));
 }
 
+void choose(const FeReadOptions& options, FeModel& model) {
+  if (options.beam_shear == BeamShear::none)
+    for (BeamSection& s : model.sections) s.shear_y = s.shear_z = 0.0;
+  if (options.shell_shear != ShellShear::by_format)
+    for (ShellSection& s : model.shells)
+      s.shear = options.shell_shear == ShellShear::all ? 5.0 / 6.0 * s.thickness : 0.0;
+  if (options.mass_form != MassChoice::by_format)
+    for (Element& e : model.elements)
+      e.mass_form =
+          options.mass_form == MassChoice::lumped ? MassForm::lumped : MassForm::consistent;
+  if (std::string note = home_note(model); !note.empty()) model.notes.push_back(std::move(note));
+}
+
 }  // namespace
 
 std::span<const FeFormat> fe_formats() { return formats(); }
@@ -129,6 +143,7 @@ FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& opt
                                  word(options.dialect), chosen.name));
   }
   FeModel model = chosen.read(file, options);
+  choose(options, model);
   if (model.notes.size() > most_notes) {
     const std::size_t more = model.notes.size() - most_notes;
     model.notes.resize(most_notes);

@@ -21,6 +21,22 @@ enum class DeckDialect {
   calculix
 };
 
+/// Shear deformation of 2-node beams.
+enum class BeamShear {
+  by_format,  ///< as the file and its program have it
+  none        ///< Euler-Bernoulli
+};
+
+/// Transverse shear of shells.
+enum class ShellShear {
+  by_format,  ///< as the file and its program have it
+  none,       ///< thin
+  all         ///< 5/6 of the thickness
+};
+
+/// Mass of the elements: as the program of the file has it, or one form for all.
+enum class MassChoice { by_format, consistent, lumped };
+
 struct FeReadOptions {
   /// Formats without material (Gmsh): the material of all elements, in the units of the file.
   std::optional<Material> material;
@@ -29,6 +45,9 @@ struct FeReadOptions {
   /// Matrix formats: the mass matrix and the dof map, if they cannot be found beside the stiffness.
   std::filesystem::path mass, dofs;
   DeckDialect dialect = DeckDialect::by_content;
+  BeamShear beam_shear = BeamShear::by_format;
+  ShellShear shell_shear = ShellShear::by_format;
+  MassChoice mass_form = MassChoice::by_format;
 };
 
 /// On the command line and in model files: "abaqus", "calculix".

@@ -32,6 +32,18 @@ O::Word dialect() {
           static_cast<int>(DeckDialect::by_content)};
 }
 
+/// An enumerator in a member of what is read; the first one is not shown.
+template <auto member>
+O::Word reading_word(std::vector<const char*> words) {
+  return {std::move(words), 0,
+          [](const PartJob& job) { return static_cast<int>(job.read.*member); },
+          [](PartJob& job, int k) {
+            auto& value = job.read.*member;
+            value = static_cast<std::remove_reference_t<decltype(value)>>(k);
+          },
+          0};
+}
+
 Special units() {
   return {Special::What::units, [](const PartJob& job) { return Texts{job.units}; },
           [](PartJob& job, const std::string& text) {
@@ -104,6 +116,16 @@ std::vector<PartOption> list() {
       {"format", "format", "NAME", "Format of the file; default: by its content", format(), true},
       {"dialect", "dialect", "WORD",
        "Dialect of the deck: abaqus or calculix; default: by its content", dialect(), true},
+      {"beam_shear", "beam-shear", "WORD",
+       "Shear deformation of 2-node beams: by_format (default) or none",
+       reading_word<&R::beam_shear>({"by_format", "none"}), true},
+      {"shell_shear", "shell-shear", "WORD",
+       "Transverse shear of shells: by_format (default), none or all",
+       reading_word<&R::shell_shear>({"by_format", "none", "all"}), true},
+      {"mass_form", "mass-form", "WORD",
+       "Mass of the elements: by_format (default, as the program of the file), consistent or "
+       "lumped",
+       reading_word<&R::mass_form>({"by_format", "consistent", "lumped"}), true},
       {"material", "material", "E,NU,RHO",
        "young,poisson,density in the units of the file, if it has none", material(), true},
       {"nodes", "nodes", "FILE", "File with the nodes of matrices", O::File{&R::nodes}, true},
@@ -147,7 +169,8 @@ std::vector<PartOption> list() {
 [[maybe_unused]] void every_member_has_an_entry(const PartJob& job) {
   // The content of the file is part of every key.
   [[maybe_unused]] const auto& [file, format, units, read, options] = job;
-  [[maybe_unused]] const auto& [material, nodes, mass, dofs, dialect] = read;
+  [[maybe_unused]] const auto& [material, nodes, mass, dofs, dialect, beam_shear, shell_shear,
+                                mass_form] = read;
   // `progress` decides nothing.
   [[maybe_unused]] const auto& [interfaces, markers, method, modes, max_frequency, effective_mass,
                                 reference, integration, damping_ratio, check_free_modes, stresses,

@@ -1,4 +1,6 @@
 // Mode set -> flexible body: inertia integrals, projection data, modal damping.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "floatframe/body/fe_invariants.hpp"
@@ -85,6 +87,14 @@ std::shared_ptr<ProjectionData> projection_data(const FeModel& model, const MatX
 
 FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
   validate(model);
+  for (const Element& e : model.elements) {
+    const bool shear = e.type == ElementType::beam2 && model.sections[e.section].has_shear();
+    if (shear || e.mass_form != MassForm::consistent)
+      throw InputError(
+          fmt::format("{} has {}, which bodies of bars do not have: reduce it as a part",
+                      model.element_label(static_cast<int>(&e - model.elements.data())),
+                      shear ? "a shear area" : "lumped mass"));
+  }
   if (options.mass_model == MassModel::isoparametric) {
     for (const PointMass& p : model.masses) {
       if (p.J.cwiseAbs().maxCoeff() > 0.0) {

@@ -1,16 +1,21 @@
-// 2-node Euler-Bernoulli beam in space, straight, of one section: linear axial and torsion, cubic
-// Hermite bending in two planes, no shear deformation. Local axes T = [x y z] (beam_axes), degrees
-// of freedom (u v w rx ry rz) at each end with rz = v', ry = -w'. With s = x/L and the shape
-// functions N of the end values:
+// 2-node beam in space, straight, of one section: linear axial and torsion, bending in two planes
+// as a beam without distributed load bends, of Timoshenko's theory with the shear area As of the
+// plane, of Euler's and Bernoulli's if As = 0. Local axes T = [x y z] (beam_axes), degrees of
+// freedom (u v w rx ry rz) at each end; without shear rz = v', ry = -w'. With s = x/L,
+// phi = 12 EI/(G As L^2) (0 without shear) and the shape functions of the end values:
 //   axial, torsion  N = (1 - s, s):  K = EA/L [1 -1; -1 1] of u, GJ/L [1 -1; -1 1] of rx
-//   bending         N = (1 - 3 s^2 + 2 s^3, L (s - 2 s^2 + s^3), 3 s^2 - 2 s^3, L (s^3 - s^2)) of
-//                   (v, v') at both ends:  K = EI int N'' N''^T dx, EIz in xy, EIy in xz
-//   mass            rho A int N N^T dx of u, v, w; with section inertia also rho I int N' N'^T dx
+//   bending         of (v, rz) at both ends, over 1 + phi:
+//                   N = (1 - 3 s^2 + 2 s^3 + phi (1 - s),  L (s - 2 s^2 + s^3 + phi/2 (s - s^2)),
+//                        3 s^2 - 2 s^3 + phi s,            L (s^3 - s^2 - phi/2 (s - s^2)))
+//                   T = (6/L (s^2 - s), 1 - 4 s + 3 s^2 + phi (1 - s),
+//                        6/L (s - s^2), 3 s^2 - 2 s + phi s)  the rotation of the section
+//                   K = int EI T' T'^T + G As (N' - T) (N' - T)^T dx, EIz in xy, EIy in xz
+//   mass            rho A int N N^T dx of u, v, w; with section inertia also rho I int T T^T dx
 //                   of v, w and rho (Iy + Iz) int N N^T dx of rx
 //   scalar mass     rho A L/6 [2 1; 1 2]
 // K and M turn into body axes by T on each group of three. Loads at the ends are answered exactly.
-// Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), consistent mass with rotary
-// and torsional inertia.
+// Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), stiffness with shear,
+// consistent mass with rotary and torsional inertia.
 #include <cmath>
 
 #include "floatframe/fe/element_kernel.hpp"
@@ -59,28 +64,72 @@ std::string error(const ElementInput& in) {
     return "has a reference vector parallel to its axis";
   }
   const BeamSection& s = in.section;
+  if (!(s.shear_y >= 0.0 && s.shear_z >= 0.0 && std::isfinite(s.shear_y + s.shear_z))) {
+    return "has a shear area that is negative or no number";
+  }
   if (!(s.A > 0.0) || !(s.Iy > 0.0) || !(s.Iz > 0.0) || !(s.J > 0.0)) {
     return "has a section whose A, Iy, Iz and J are not all positive";
   }
   return {};
 }
 
+/// phi of a plane.
+double shear_ratio(const ElementInput& in, double L, bool xz_plane) {
+  const BeamSection& s = in.section;
+  const double area = xz_plane ? s.shear_z : s.shear_y;
+  return area > 0.0 ? 12.0 * in.material.young * (xz_plane ? s.Iy : s.Iz) /
+                          (in.material.shear() * area * L * L)
+                    : 0.0;
+}
+
+/// Over EI.
+Eigen::Matrix4d bending_stiffness(double L, double phi) {
+  const double near = (4 + phi) * L * L, far = (2 - phi) * L * L;
+  Eigen::Matrix4d b;
+  b << 12, 6 * L, -12, 6 * L,    //
+      6 * L, near, -6 * L, far,  //
+      -12, -6 * L, 12, -6 * L,   //
+      6 * L, far, -6 * L, near;
+  return b / (L * L * L * (1 + phi));
+}
+
+/// int N N^T ds, times 420.
+Eigen::Matrix4d translation_mass(double L, double phi) {
+  const double p2 = phi * phi;
+  const double a = 156 + 294 * phi + 140 * p2, b = (22 + 38.5 * phi + 17.5 * p2) * L,
+               c = 54 + 126 * phi + 70 * p2, d = (13 + 31.5 * phi + 17.5 * p2) * L,
+               e = (4 + 7 * phi + 3.5 * p2) * L * L, f = (3 + 7 * phi + 3.5 * p2) * L * L;
+  Eigen::Matrix4d t;
+  t << a, b, c, -d,  //
+      b, e, d, -f,   //
+      c, d, a, -b,   //
+      -d, -f, -b, e;
+  return t / ((1 + phi) * (1 + phi));
+}
+
+/// L^2 int T T^T ds, times 30.
+Eigen::Matrix4d rotation_mass(double L, double phi) {
+  const double p2 = phi * phi;
+  const double b = (3 - 15 * phi) * L, e = (4 + 5 * phi + 10 * p2) * L * L,
+               f = (1 + 5 * phi - 5 * p2) * L * L;
+  Eigen::Matrix4d r;
+  r << 36, b, -36, b,   //
+      b, e, -b, -f,     //
+      -36, -b, 36, -b,  //
+      b, -f, -b, e;
+  return r / ((1 + phi) * (1 + phi));
+}
+
 void stiffness(const ElementInput& in, MatX& out) {
   const double L = (in.p[1] - in.p[0]).norm();
   const double E = in.material.young;
-  Eigen::Matrix4d b;
-  b << 12, 6 * L, -12, 6 * L,               //
-      6 * L, 4 * L * L, -6 * L, 2 * L * L,  //
-      -12, -6 * L, 12, -6 * L,              //
-      6 * L, 2 * L * L, -6 * L, 4 * L * L;
-  b /= L * L * L;
   Mat12 k = Mat12::Zero();
   const double axial = E * in.section.A / L;
   const double torsion = in.material.shear() * in.section.J / L;
   add_linear(0, axial, -axial, k);
   add_linear(3, torsion, -torsion, k);
-  add_bending(E * in.section.Iz * b, false, k);
-  add_bending(E * in.section.Iy * b, true, k);
+  add_bending(E * in.section.Iz * bending_stiffness(L, shear_ratio(in, L, false)), false, k);
+  add_bending(E * in.section.Iy * bending_stiffness(L, shear_ratio(in, L, true)), true, k);
   to_body_axes(beam_axes(in), k, out);
 }
 
@@ -88,25 +137,15 @@ void mass(const ElementInput& in, bool section_inertia, MatX& out) {
   const double L = (in.p[1] - in.p[0]).norm();
   const double rho = in.material.density;
   const double line = rho * in.section.A * L;
-  Eigen::Matrix4d t;
-  t << 156, 22 * L, 54, -13 * L,              //
-      22 * L, 4 * L * L, 13 * L, -3 * L * L,  //
-      54, 13 * L, 156, -22 * L,               //
-      -13 * L, -3 * L * L, -22 * L, 4 * L * L;
-  t *= line / 420.0;
+  const double phi_y = shear_ratio(in, L, false), phi_z = shear_ratio(in, L, true);
   Mat12 m = Mat12::Zero();
   add_linear(0, line / 3.0, line / 6.0, m);
-  add_bending(t, false, m);
-  add_bending(t, true, m);
+  add_bending(line / 420.0 * translation_mass(L, phi_y), false, m);
+  add_bending(line / 420.0 * translation_mass(L, phi_z), true, m);
   if (section_inertia) {
-    Eigen::Matrix4d r;
-    r << 36, 3 * L, -36, 3 * L,            //
-        3 * L, 4 * L * L, -3 * L, -L * L,  //
-        -36, -3 * L, 36, -3 * L,           //
-        3 * L, -L * L, -3 * L, 4 * L * L;
-    r *= rho / (30.0 * L);
-    add_bending(in.section.Iz * r, false, m);
-    add_bending(in.section.Iy * r, true, m);
+    const double f = rho / (30.0 * L);
+    add_bending(in.section.Iz * (f * rotation_mass(L, phi_y)), false, m);
+    add_bending(in.section.Iy * (f * rotation_mass(L, phi_z)), true, m);
     const double polar = rho * (in.section.Iy + in.section.Iz) * L;
     add_linear(3, polar / 3.0, polar / 6.0, m);
   }
@@ -128,20 +167,29 @@ void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points)
   Vec6 along;
   along << t.cwiseAbs2(), t(0) * t(1), t(1) * t(2), t(2) * t(0);
   points.resize(3);
+  const double phi[2] = {shear_ratio(in, L, false), shear_ratio(in, L, true)};
   for (int q = 0; q < 3; ++q) {
     const double s = rule.u(q), s2 = s * s, dx = rule.weight(q) * L;
-    const double d[4] = {(-6 * s + 6 * s2) / L, 1 - 4 * s + 3 * s2, (6 * s - 6 * s2) / L,
-                         3 * s2 - 2 * s};
+    double d[4][2];  // N' of v and w
+    for (int k = 0; k < 2; ++k) {
+      const double f = 1 / (1 + phi[k]), half = 0.5 * phi[k] * (1 - 2 * s);
+      d[0][k] = f * (6 * s2 - 6 * s - phi[k]) / L;
+      d[1][k] = f * (1 - 4 * s + 3 * s2 + half);
+      d[2][k] = -d[0][k];
+      d[3][k] = f * (3 * s2 - 2 * s - half);
+    }
     StressedPoint& point = points[q];
     point.stress = MatX::Zero(6, 12);
     point.gradient = MatX::Zero(9, 12);
     for (int end = 0; end < 2; ++end) {
       const double side = (end == 0 ? -1.0 : 1.0) * in.material.young * in.section.A / L * dx;
       point.stress.middleCols<3>(6 * end) = side * along * t.transpose();
-      // v' and w' across the axis: from the displacements, and from rz = v', ry = -w'.
-      const Mat3 across = d[2 * end] * (Mat3::Identity() - t * t.transpose());
+      // v' and w' across the axis: from the displacements, and from rz, ry.
+      const double *u = d[2 * end], *r = d[2 * end + 1];
+      const Mat3 across =
+          u[0] * T.col(1) * T.col(1).transpose() + u[1] * T.col(2) * T.col(2).transpose();
       const Mat3 turned =
-          d[2 * end + 1] * (T.col(1) * T.col(2).transpose() - T.col(2) * T.col(1).transpose());
+          r[0] * T.col(1) * T.col(2).transpose() - r[1] * T.col(2) * T.col(1).transpose();
       for (int i = 0; i < 3; ++i) {
         point.gradient.block<3, 3>(3 * i, 6 * end) = t * across.row(i);
         point.gradient.block<3, 3>(3 * i, 6 * end + 3) = t * turned.row(i);

@@ -1,25 +1,71 @@
-// Flat thin shells with six dofs per node: tri3 is one triangle (shell_triangle.hpp), quad4 the
-// mean of its two divisions into triangles (each with half its matrices), which also serves
-// quadrilaterals that are not flat. Scalar mass: of displacements that are linear in each triangle.
+// Shells with six dofs per node, made of flat triangles (shell_triangle.hpp): tri3 is one, quad4
+// the mean of its two divisions into triangles (each with half its matrices), which also serves
+// quadrilaterals that are not flat. tri6 is four triangles: three at the corners and one between
+// the middles of the edges; quad8 four quad4 that meet in its middle, -1/4 of the corners and 1/2
+// of the middles of the edges, a node that carries no load and is condensed (its mass moves with
+// the same weights). They bend and stretch as a mesh twice as fine as their corners does, with all
+// their nodes on the surface: constant strain and curvature are exact whatever their shape, errors
+// fall with the square of the size. Scalar mass: of displacements that are linear in each triangle.
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/fe/shell_triangle.hpp"
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 namespace {
 
+/// A triangle; of those of a cell with two divisions each counts half.
 struct Part {
   std::array<int, 3> nodes;
   double weight;
+  int cell, division;
 };
-constexpr Part triangle[] = {{{0, 1, 2}, 1.0}};
+constexpr Part triangle[] = {{{0, 1, 2}, 1.0, 0, 0}};
 constexpr Part quadrilateral[] = {
-    {{0, 1, 2}, 0.5}, {{0, 2, 3}, 0.5}, {{0, 1, 3}, 0.5}, {{1, 2, 3}, 0.5}};
+    {{0, 1, 2}, 0.5, 0, 0}, {{0, 2, 3}, 0.5, 0, 0}, {{0, 1, 3}, 0.5, 0, 1}, {{1, 2, 3}, 0.5, 0, 1}};
+constexpr Part triangle6[] = {
+    {{0, 3, 5}, 1.0, 0, 0}, {{3, 1, 4}, 1.0, 1, 0}, {{5, 4, 2}, 1.0, 2, 0}, {{3, 4, 5}, 1.0, 3, 0}};
+/// Both divisions of the four cells round the middle, node 8.
+constexpr std::array<Part, 16> quadrilaterals() {
+  constexpr std::array<std::array<int, 4>, 4> cells{
+      {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}}};
+  std::array<Part, 16> all{};
+  for (std::size_t c = 0; c < 4; ++c)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& n = quadrilateral[k].nodes;
+      all[4 * c + k] = {{cells[c][n[0]], cells[c][n[1]], cells[c][n[2]]},
+                        0.5,
+                        static_cast<int>(c),
+                        quadrilateral[k].division};
+    }
+  return all;
+}
+constexpr std::array<Part, 16> quadrilateral8 = quadrilaterals();
+constexpr int most_cells = 4;
 
 template <int nodes>
 std::span<const Part> parts() {
   if constexpr (nodes == 3) return triangle;
+  if constexpr (nodes == 6) return triangle6;
+  if constexpr (nodes == 8) return quadrilateral8;
   return quadrilateral;
+}
+
+/// With the node in the middle of quad8.
+template <int nodes>
+constexpr int all_nodes = nodes == 8 ? 9 : nodes;
+
+/// Shares of the nodes in the middle.
+constexpr double middle_share(int node) { return node < 4 ? -0.25 : 0.5; }
+
+template <int nodes>
+ElementInput complete(ElementInput in) {
+  if constexpr (nodes == 8) {
+    in.p[8].setZero();
+    for (int a = 0; a < 8; ++a) in.p[8] += middle_share(a) * in.p[a];
+  }
+  return in;
 }
 
 std::array<Vec3, 3> corners(const ElementInput& in, const Part& part) {
@@ -29,20 +75,26 @@ std::array<Vec3, 3> corners(const ElementInput& in, const Part& part) {
 }
 
 template <int nodes>
-std::string error(const ElementInput& in) {
+std::string error(const ElementInput& given) {
+  const ElementInput in = complete<nodes>(given);
   if (!(in.shell.thickness > 0.0) || !std::isfinite(in.shell.thickness)) {
     return "has a thickness that is not positive";
   }
+  if (!(in.shell.shear >= 0.0) || !std::isfinite(in.shell.shear)) {
+    return "has a shear stiffness that is negative or no number";
+  }
   double size = 0.0;
   for (std::size_t a = 1; a < nodes; ++a) size = std::max(size, (in.p[a] - in.p[0]).norm());
-  const Vec3 n =
-      (in.p[nodes == 3 ? 1 : 2] - in.p[0]).cross(in.p[nodes - 1] - in.p[nodes == 3 ? 0 : 1]);
+  constexpr bool triangular = nodes % 3 == 0;
+  const Vec3 n = (in.p[triangular ? 1 : 2] - in.p[0])
+                     .cross(in.p[triangular ? 2 : 3] - in.p[triangular ? 0 : 1]);
   for (const Part& part : parts<nodes>()) {
     const std::array<Vec3, 3> p = corners(in, part);
     const double twice = (p[1] - p[0]).cross(p[2] - p[0]).dot(n.normalized());
     // Thinner than 1e-9 of its size it is flat to the digits of its coordinates.
     if (!(twice > 1e-9 * size * size)) {
-      return nodes == 3 ? "is flat (its corners lie on a line)"
+      if (nodes > 4) return "is folded, or its nodes are in the wrong order";
+      return triangular ? "is flat (its corners lie on a line)"
                         : "is not convex, or its corners are in the wrong order";
     }
   }
@@ -58,26 +110,65 @@ void for_blocks(const Part& part, const Add& add) {
   }
 }
 
+/// Of all nodes.
 template <int nodes>
-void stiffness(const ElementInput& in, MatX& out) {
-  out = MatX::Zero(6 * nodes, 6 * nodes);
+MatX whole_stiffness(const ElementInput& in) {
+  MatX out = MatX::Zero(6 * all_nodes<nodes>, 6 * all_nodes<nodes>);
   for (const Part& part : parts<nodes>()) {
-    const Mat18 K = shell_triangle_stiffness(corners(in, part), in.material, in.shell.thickness);
+    const Mat18 K = shell_triangle_stiffness(corners(in, part), in.material, in.shell);
     for_blocks<nodes>(part, [&](int a, int b, int i, int j) {
       out.block<6, 6>(6 * a, 6 * b) += part.weight * K.block<6, 6>(6 * i, 6 * j);
     });
   }
+  return out;
+}
+
+/// Displacements of the nodes of quad8 and its middle: it follows without load.
+MatX motion(const MatX& K) {
+  MatX G = MatX::Identity(54, 48);
+  G.bottomRows<6>() = -ldlt_solve(K.block<6, 6>(48, 48), K.block<6, 48>(48, 0));
+  return G;
+}
+
+/// Of an element without a middle empty.
+template <int nodes>
+MatX following(const ElementInput& in) {
+  if constexpr (nodes == 8) return motion(whole_stiffness<8>(in));
+  return {};
+}
+
+/// From all nodes to those of the element.
+void condense(const MatX& G, MatX& matrix) {
+  if (G.size() > 0) matrix = (matrix * G).eval();
 }
 
 template <int nodes>
-void mass(const ElementInput& in, bool section_inertia, MatX& out) {
-  out = MatX::Zero(6 * nodes, 6 * nodes);
+void stiffness(const ElementInput& given, MatX& out) {
+  const ElementInput in = complete<nodes>(given);
+  out = whole_stiffness<nodes>(in);
+  if constexpr (nodes == 8) {
+    const MatX G = motion(out);
+    const MatX KG = out * G;
+    out = KG.topRows<48>();
+    out = (0.5 * (out + out.transpose())).eval();
+  }
+}
+
+template <int nodes>
+void mass(const ElementInput& given, bool section_inertia, MatX& out) {
+  const ElementInput in = complete<nodes>(given);
+  out = MatX::Zero(6 * all_nodes<nodes>, 6 * all_nodes<nodes>);
   for (const Part& part : parts<nodes>()) {
     const Mat18 M =
         shell_triangle_mass(corners(in, part), in.material, in.shell.thickness, section_inertia);
     for_blocks<nodes>(part, [&](int a, int b, int i, int j) {
       out.block<6, 6>(6 * a, 6 * b) += part.weight * M.block<6, 6>(6 * i, 6 * j);
     });
+  }
+  if constexpr (nodes == 8) {
+    MatX G = MatX::Identity(54, 48);
+    for (int a = 0; a < 8; ++a) G.block<6, 6>(48, 6 * a).diagonal().setConstant(middle_share(a));
+    out = (G.transpose() * out * G).eval();
   }
 }
 
@@ -93,8 +184,10 @@ void scalar_mass(const ElementInput& in, MatX& out) {
 
 /// One in each triangle: displacements that are linear in it, the mean membrane forces.
 template <int nodes>
-void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
+void stressed_points(const ElementInput& given, std::vector<StressedPoint>& points) {
+  const ElementInput in = complete<nodes>(given);
   points.resize(parts<nodes>().size());
+  const MatX G = following<nodes>(in);
   std::size_t q = 0;
   for (const Part& part : parts<nodes>()) {
     const std::array<Vec3, 3> p = corners(in, part);
@@ -103,8 +196,8 @@ void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points)
     const auto N = shell_triangle_membrane(p, in.material, in.shell.thickness);
     const Eigen::Matrix<double, 6, 18> stress = part.weight * area * from_triangle_axes(R) * N;
     StressedPoint& point = points[q++];
-    point.stress = MatX::Zero(6, 6 * nodes);
-    point.gradient = MatX::Zero(9, 6 * nodes);
+    point.stress = MatX::Zero(6, 6 * all_nodes<nodes>);
+    point.gradient = MatX::Zero(9, 6 * all_nodes<nodes>);
     for (int a = 0; a < 3; ++a) {
       const int to = 6 * part.nodes[a];
       point.stress.middleCols<6>(to) = stress.middleCols<6>(6 * a);
@@ -112,39 +205,49 @@ void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points)
       const Vec3 g = R.col(2).cross(side) / (2.0 * area);
       for (int i = 0; i < 3; ++i) point.gradient.block<3, 1>(3 * i, to + i) = g;
     }
+    condense(G, point.stress);
+    condense(G, point.gradient);
   }
 }
 
-/// At a corner of a quadrilateral: the mean of its two divisions, of which one has two triangles
-/// there.
+/// At a node: the mean of the cells there; of a quadrilateral the mean of its two divisions, of
+/// which one has two triangles there.
 template <int nodes>
-void layer_stresses(const ElementInput& in, MatX& out) {
-  out = MatX::Zero(12 * nodes, 6 * nodes);
+void layer_stresses(const ElementInput& given, MatX& out) {
+  const ElementInput in = complete<nodes>(given);
+  out = MatX::Zero(12 * nodes, 6 * all_nodes<nodes>);
   for (int a = 0; a < nodes; ++a) {
-    std::array<int, 2> count{};  // of the triangles of each division at this corner
+    std::array<std::array<int, 2>, most_cells> count{};  // of the triangles of each division here
     const auto corner_of = [&](const Part& part) {
       for (int i = 0; i < 3; ++i)
         if (part.nodes[i] == a) return i;
       return -1;
     };
     const std::span<const Part> all = parts<nodes>();
-    for (std::size_t k = 0; k < all.size(); ++k) count[k / 2] += corner_of(all[k]) >= 0;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const int corner = corner_of(all[k]);
+    for (const Part& part : all) count[part.cell][part.division] += corner_of(part) >= 0;
+    const auto cells =
+        std::count_if(count.begin(), count.end(), [](const auto& c) { return c[0] + c[1] > 0; });
+    for (const Part& part : all) {
+      const int corner = corner_of(part);
       if (corner < 0) continue;
-      const auto S =
-          shell_triangle_stress(corners(in, all[k]), in.material, in.shell.thickness, corner);
+      const auto S = shell_triangle_stress(corners(in, part), in.material, in.shell, corner);
+      const double share =
+          part.weight / count[part.cell][part.division] / static_cast<double>(cells);
       for (int i = 0; i < 3; ++i)
-        out.block<12, 6>(12 * a, 6 * all[k].nodes[i]) +=
-            (nodes == 3 ? 1.0 : 0.5) / count[k / 2] * S.middleCols<6>(6 * i);
+        out.block<12, 6>(12 * a, 6 * part.nodes[i]) += share * S.middleCols<6>(6 * i);
     }
   }
+  condense(following<nodes>(in), out);
 }
 
 constexpr std::array<shape::Corners, 2> tri_corners{{{0, 1, 2, -1}, {0, 2, 1, -1}}};
 constexpr std::array<shape::Corners, 2> quad_corners{{{0, 1, 2, 3}, {0, 3, 2, 1}}};
+constexpr std::array<shape::Edge, 3> tri_edges{{{0, 1}, {1, 2}, {2, 0}}};
+constexpr std::array<shape::Edge, 4> quad_edges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
 constexpr auto tri_faces = shape::linear(tri_corners);
 constexpr auto quad_faces = shape::linear(quad_corners);
+constexpr auto tri6_faces = shape::quadratic(tri_corners, tri_edges, 3);
+constexpr auto quad8_faces = shape::quadratic(quad_corners, quad_edges, 4);
 
 template <int count>
 constexpr ElementKernel shell_kernel(std::span<const FaceNodes> faces) {
@@ -164,5 +267,7 @@ constexpr ElementKernel shell_kernel(std::span<const FaceNodes> faces) {
 
 constinit const ElementKernel tri3_kernel = shell_kernel<3>(tri_faces);
 constinit const ElementKernel quad4_kernel = shell_kernel<4>(quad_faces);
+constinit const ElementKernel tri6_kernel = shell_kernel<6>(tri6_faces);
+constinit const ElementKernel quad8_kernel = shell_kernel<8>(quad8_faces);
 
 }  // namespace floatframe

@@ -50,6 +50,11 @@ void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);
 /// With `only_nodes` element sets become node sets.
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
+// abaqus_home.cpp
+/// Of a 2-node beam: its shear area over the area of the section.
+double abaqus_shear_factor(std::string_view shape) noexcept;
+/// Mass and shear of the elements as the program of the deck has them.
+void as_in_home_program(AbaqusBuild& build);
 // abaqus_build_constraints.cpp
 void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes);
 

@@ -164,10 +164,12 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
       p.section = static_cast<int>(model.sections.size());
       check_form(build, section);
       model.sections.push_back(section.round > 0.0 ? round_section(build, section) : section.beam);
+      BeamSection& beam = model.sections.back();
+      beam.shear_y = beam.shear_z = abaqus_shear_factor(section.shape) * beam.A;
       p.reference = build.content.placement.R * section.n1;
     } else if (section.family == Family::shell) {
       p.section = static_cast<int>(model.shells.size());
-      model.shells.push_back({section.thickness});
+      model.shells.push_back({section.thickness, 5.0 / 6.0 * section.thickness});
     }
     list.push_back(p);
   }

@@ -12,7 +12,11 @@ using Family = AbaqusType::Family;
 constexpr const char* hybrid = "without its pressure field";
 constexpr const char* full =
     "with full integration as in CalculiX (Abaqus takes the change of volume at the centre)";
-constexpr const char* no_shear = "as an Euler-Bernoulli beam, without shear deformation";
+constexpr const char* exact =
+    "as a Timoshenko beam that is exact for loads at its ends, with the shear factors of Abaqus";
+
+constexpr const char* triangles =
+    "as flat triangles between all their nodes, twice as fine as their corners";
 
 constexpr AbaqusType solid(const char* name, int nodes, ElementType type,
                            const char* remark = nullptr) {
@@ -38,6 +42,8 @@ constexpr std::array types_of_abaqus{
     solid("C3D10I", 10, ElementType::tet10, "as C3D10"),
     solid("C3D10M", 10, ElementType::tet10, "as C3D10, without the modified formulation"),
     solid("C3D10T", 10, ElementType::tet10, "as C3D10"),
+    solid("C3D5", 5, ElementType::pyramid5),
+    solid("C3D5H", 5, ElementType::pyramid5, hybrid),
     solid("C3D6", 6, ElementType::wedge6),
     solid("C3D15", 15, ElementType::wedge15),
     solid("C3D8", 8, ElementType::hex8, full),
@@ -54,18 +60,18 @@ constexpr std::array types_of_abaqus{
     shell("S4", 4, ElementType::quad4),
     shell("S4R", 4, ElementType::quad4, "as S4"),
     shell("S4R5", 4, ElementType::quad4, "as S4"),
-    beam("B31", 2, ElementType::beam2, no_shear),
-    beam("B31R", 2, ElementType::beam2, no_shear),
-    beam("B31H", 2, ElementType::beam2, no_shear),
+    shell("S6", 6, ElementType::tri6, triangles),
+    shell("STRI65", 6, ElementType::tri6, triangles),
+    shell("S8", 8, ElementType::quad8, triangles),
+    shell("S8R", 8, ElementType::quad8, triangles),
+    shell("S8R5", 8, ElementType::quad8, triangles),
+    beam("B31", 2, ElementType::beam2, exact),
+    beam("B31R", 2, ElementType::beam2, exact),
+    beam("B31H", 2, ElementType::beam2, exact),
     beam("B33", 2, ElementType::beam2),
     beam("B32", 3, ElementType::beam3),
     beam("B32R", 3, ElementType::beam3),
     beam("B32H", 3, ElementType::beam3),
-    skin("S6", 6),
-    skin("STRI65", 6),
-    skin("S8", 8),
-    skin("S8R", 8),
-    skin("S8R5", 8),
     skin("CPS3", 3),
     skin("CPS4", 4),
     skin("CPS4R", 4),

@@ -194,6 +194,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   build.model.notes = content.notes;
   build_abaqus_nodes(build);
   if (!only_nodes) build_abaqus_elements(build, options);
+  if (!only_nodes) as_in_home_program(build);
   build_abaqus_sets(build, only_nodes);
   build_abaqus_constraints(build, only_nodes);
   source.throw_if_any();

@@ -183,11 +183,8 @@ class GmshModel {
     switch (type) {
       case 12:
       case 13:
-        return "; save the mesh with Mesh.SecondOrderIncomplete = 1";
-      case 7:
       case 14:
-      case 19:
-        return "; mesh the volumes with tetrahedra or hexahedra only";
+        return "; save the mesh with Mesh.SecondOrderIncomplete = 1";
       default:
         return "; use elements of first or second order (Mesh.ElementOrder)";
     }

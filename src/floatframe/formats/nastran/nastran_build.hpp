@@ -44,6 +44,8 @@ struct NastranBuild {
 // nastran_build.cpp
 void build_nastran_nodes(NastranBuild& build);
 // nastran_build_elements.cpp
+/// Lumped or consistent.
+void nastran_mass_forms(NastranBuild& build);
 void build_nastran_elements(NastranBuild& build, const FeReadOptions& options);
 // nastran_build_constraints.cpp
 void build_nastran_constraints(NastranBuild& build);

@@ -96,8 +96,8 @@ class ElementBuilder {
       const NastranProperty* p = property(e, {"PSHELL"});
       if (p == nullptr) return;
       if (e.other) {
-        b_.source.error(e.at, fmt::format("{}: this kind of shell is not supported (CTRIA3 and "
-                                          "CQUAD4 are)",
+        b_.source.error(e.at, fmt::format("{}: only a part of its mid-side nodes is given; all "
+                                          "or none must be",
                                           label(e)));
         return;
       }
@@ -108,7 +108,6 @@ class ElementBuilder {
       const NastranProperty* p =
           bar ? property(e, {"PBAR", "PBARL"}) : property(e, {"PBEAM", "PBEAML"});
       if (p == nullptr || !orientation(e, result)) return;
-      if (!bar && beams_++ == 0) first_beam_ = e.at;
       result.material = material(*p, p->nonstructural / std::max(p->section.A, 1e-300));
       result.section = section(e.property, *p);
     } else {
@@ -149,8 +148,9 @@ class ElementBuilder {
         {"A", p.section.A}, {"I1", p.section.Iz}, {"I2", p.section.Iy}, {"J", p.section.J}};
     for (const auto& [name, value] : values) must_be_positive(p, id, name, value);
     b_.model.sections.push_back(p.section);
-    b_.model.sections.back().J *= own_shear(p.material);
-    if (p.shear_factors && shears_++ == 0) first_shear_ = p.at;
+    BeamSection& own = b_.model.sections.back();
+    const double ratio = own_shear(p.material);
+    for (double* x : {&own.J, &own.shear_y, &own.shear_z}) *x *= ratio;
     return it->second;
   }
 
@@ -160,8 +160,8 @@ class ElementBuilder {
           p.at, fmt::format("{} {}: {} is {:g}, expected more than 0", p.card, id, what, value));
   }
 
-  /// G of a material over that of its E and NU: bars twist by the G of the card, whatever E and NU
-  /// are, and nothing else of a bar without shear deformation depends on it.
+  /// G of a material over that of its E and NU: bars twist and shear by the G of the card, whatever
+  /// E and NU are, and nothing else of a bar depends on it.
   double own_shear(int id) {
     const auto it = c_.materials.find(id);
     if (it == c_.materials.end()) return 1.0;
@@ -179,7 +179,7 @@ class ElementBuilder {
     const auto [it, fresh] = shells_.try_emplace(id, static_cast<int>(b_.model.shells.size()));
     if (fresh) {
       must_be_positive(p, id, "the thickness", p.thickness);
-      b_.model.shells.push_back({p.thickness});
+      b_.model.shells.push_back({p.thickness, p.shell_shear});
     }
     return it->second;
   }
@@ -295,23 +295,14 @@ class ElementBuilder {
     if (!mesh_only_ && options_.material) {
       b_.note({0, 1}, "the file has materials of its own; the one given is not used");
     }
-    if (beams_ > 0) {
-      b_.note(first_beam_,
-              fmt::format("{} CBEAM elements are read without shear deformation", beams_));
-    }
-    if (shears_ > 0) {
-      b_.note(first_shear_, fmt::format("{} PBAR have shear factors (K1, K2): their bars are read "
-                                        "without shear deformation",
-                                        shears_));
-    }
   }
 
   NastranBuild& b_;
   const NastranContent& c_;
   const FeReadOptions& options_;
   bool mesh_only_ = false;
-  int skins_ = 0, beams_ = 0, shears_ = 0;
-  FeSource first_skin_, first_beam_, first_shear_;
+  int skins_ = 0;
+  FeSource first_skin_;
   std::set<int> missing_, inconsistent_, checked_;
   std::map<std::string, std::set<int>> members_;
   std::map<int, int> sections_, shells_;

@@ -52,6 +52,7 @@ class ContentReader {
         {"GRID", read_nastran_grid},      {"GRDSET", read_nastran_grid_default},
         {"CORD2R", read_nastran_system},  {"CORD2C", read_nastran_system},
         {"CORD2S", read_nastran_system},  {"CTETRA", read_nastran_solid},
+        {"CPYRAM", read_nastran_solid},   {"CPYRA", read_nastran_solid},
         {"CHEXA", read_nastran_solid},    {"CPENTA", read_nastran_solid},
         {"CTRIA3", read_nastran_surface}, {"CQUAD4", read_nastran_surface},
         {"CTRIA6", read_nastran_surface}, {"CQUAD8", read_nastran_surface},
@@ -130,6 +131,10 @@ class ContentReader {
         break;
       case NastranParameter::stiffness_factor:
         c_.stiffness_factor *= factor(f, name);
+        break;
+      case NastranParameter::coupled_mass:
+        c_.coupled_mass = same_word(f.text(1), "YES") || same_word(f.text(1), "ON") ||
+                          parse_real(f.text(1)).value_or(0.0) > 0.0;
         break;
       case NastranParameter::harmless:
         pass("PARAM", f.at());

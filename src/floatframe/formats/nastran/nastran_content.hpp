@@ -34,7 +34,7 @@ struct NastranElement {
   std::array<int, 20> nodes{};  ///< in the order of ElementType
   int count = 0;
   bool surface = false;             ///< a triangle or quadrilateral
-  bool other = false;               ///< surface that no shell element can be: only a skin
+  bool other = false;               ///< surface with a part of its mid-side nodes: only a skin
   Vec3 orientation = Vec3::Zero();  ///< bars: in the system of the first node's cd
   int orientation_node = 0;         ///< bars: or a node
   FeSource at;
@@ -51,9 +51,9 @@ struct NastranProperty {
   int material = 0;
   bool full_integration = false;  ///< PSOLID: of CHEXA with 8 nodes
   double thickness = 0.0;         ///< PSHELL
+  double shell_shear = 0.0;       ///< PSHELL with MID3
   BeamSection section;            ///< PBAR, PBARL, PBEAM, PBEAML
   double nonstructural = 0.0;     ///< mass over length or area
-  bool shear_factors = false;     ///< PBAR: K1 or K2 make it flexible in shear
   FeSource at;
 };
 
@@ -118,6 +118,7 @@ struct NastranContent {
   NastranControl control;
   double mass_factor = 1.0;       ///< PARAM,WTMASS times PARAM,CM1
   double stiffness_factor = 1.0;  ///< PARAM,CK1
+  bool coupled_mass = false;      ///< PARAM,COUPMASS
   std::map<int, std::string> property_names, material_names, set_names;
   std::vector<std::string> notes;
 };
@@ -130,8 +131,9 @@ NastranContent read_nastran_content(TextSource& source, bool has_control, bool o
 enum class NastranParameter {
   unknown,
   harmless,
-  mass_factor,      ///< WTMASS, CM1
-  stiffness_factor  ///< CK1
+  mass_factor,       ///< WTMASS, CM1
+  stiffness_factor,  ///< CK1
+  coupled_mass       ///< COUPMASS
 };
 NastranParameter nastran_parameter(const std::string& name);
 
@@ -157,6 +159,9 @@ void read_nastran_spc(NastranFields&, NastranContent&);
 void read_nastran_spc1(NastranFields&, NastranContent&);
 /// Says that a number is in the file twice.
 void nastran_twice(NastranFields& card, const FeSource& first);
+// nastran_home.cpp
+/// Shear areas of a named section by its dimensions.
+void nastran_shear_of_shape(std::string_view type, const double* d, BeamSection& section) noexcept;
 /// PSOLID, PSHELL, PBAR, PBARL, PBEAM, PBEAML; false if the card is none of them.
 bool read_nastran_property(NastranFields& card, NastranProperty& property);
 

@@ -52,9 +52,17 @@ void read_nastran_system(NastranFields& f, NastranContent& c) {
 }
 
 void read_nastran_solid(NastranFields& f, NastranContent& c) {
-  const bool tetra = f.name() == "CTETRA", hexa = f.name() == "CHEXA";
-  NastranElement e = element(f, tetra ? "CTETRA" : hexa ? "CHEXA" : "CPENTA");
-  const std::size_t corners = tetra ? 4 : hexa ? 8 : 6, all = tetra ? 10 : hexa ? 20 : 15;
+  const bool tetra = f.name() == "CTETRA", hexa = f.name() == "CHEXA",
+             pyramid = f.name().starts_with("CPYRA");
+  NastranElement e = element(f, tetra ? "CTETRA" : hexa ? "CHEXA" : pyramid ? "CPYRAM" : "CPENTA");
+  const std::size_t corners = tetra     ? 4
+                              : hexa    ? 8
+                              : pyramid ? 5
+                                        : 6,
+                    all = tetra     ? 10
+                          : hexa    ? 20
+                          : pyramid ? 13
+                                    : 15;
   std::size_t given = 0;
   for (std::size_t k = corners; k < all; ++k) given += f.blank(2 + k) ? 0 : 1;
   if (given > 0 && given < all - corners) {
@@ -71,12 +79,13 @@ void read_nastran_solid(NastranFields& f, NastranContent& c) {
     // Nastran: bottom edges, vertical edges, top edges; here the vertical ones come last.
     std::size_t to = k;
     if (hexa && k >= 12) to = k < 16 ? k + 4 : k - 4;
-    if (!tetra && !hexa && k >= 9) to = k < 12 ? k + 3 : k - 3;
+    if (!tetra && !hexa && !pyramid && k >= 9) to = k < 12 ? k + 3 : k - 3;
     e.nodes[to] = f.label(2 + k, "a node");
   }
-  e.type = tetra  ? (given > 0 ? ElementType::tet10 : ElementType::tet4)
-           : hexa ? (given > 0 ? ElementType::hex20 : ElementType::hex8)
-                  : (given > 0 ? ElementType::wedge15 : ElementType::wedge6);
+  e.type = tetra     ? (given > 0 ? ElementType::tet10 : ElementType::tet4)
+           : hexa    ? (given > 0 ? ElementType::hex20 : ElementType::hex8)
+           : pyramid ? (given > 0 ? ElementType::pyramid13 : ElementType::pyramid5)
+                     : (given > 0 ? ElementType::wedge15 : ElementType::wedge6);
   c.elements.push_back(e);
 }
 
@@ -87,16 +96,21 @@ void read_nastran_surface(NastranFields& f, NastranContent& c) {
   const bool triangle = f.name().starts_with("CTRIA");
   const std::size_t corners = triangle ? 3 : 4;
   e.surface = true;
-  e.other = f.name() != "CTRIA3" && f.name() != "CQUAD4";
-  e.type = triangle ? ElementType::tri3 : ElementType::quad4;
   const bool midside = f.name() == "CTRIA6" || f.name() == "CQUAD8";
   const std::size_t all = midside ? 2 * corners : corners;
   for (std::size_t k = 0; k < all; ++k) {
     if (k >= corners && f.blank(2 + k)) continue;
     e.nodes[e.count++] = f.label(2 + k, "a node");
   }
+  const std::size_t given = e.count - corners;
+  e.other = midside && given > 0 && given < corners;
+  if (midside && given == corners) {
+    e.type = triangle ? ElementType::tri6 : ElementType::quad8;
+  } else {
+    e.type = triangle ? ElementType::tri3 : ElementType::quad4;
+  }
   if (!e.other) {
-    f.must_be_zero(3 + corners, "the offset ZOFFS");
+    f.must_be_zero(!midside ? 3 + corners : triangle ? 9 : 15, "the offset ZOFFS");
     for (std::size_t k = 10; k < 10 + corners; ++k) {
       if (!f.blank(k)) {
         f.error("thicknesses of the corners are not supported; give one with PSHELL");

@@ -8,7 +8,7 @@ namespace floatframe {
 namespace {
 
 /// Parameters that change neither stiffness nor mass: results, methods of solution, checks,
-/// damping, loads, and factors of matrices that are refused (CK2 of K2GG, CM2 of M2GG). COUPMASS,
+/// damping, loads, and factors of matrices that are refused (CK2 of K2GG, CM2 of M2GG).
 /// K6ROT and SNORM are of elements that have a counterpart of their own here.
 const char* const harmless_names =
     "ACEXTMTD ACEXTSET ACLN ACOUT ACOWEAK ACSYM ADJMETH ADMPOST ADPCON ADSTAT AESDISC AESMAXIT "
@@ -16,7 +16,7 @@ const char* const harmless_names =
     "AMLSMEM AMLSUCON ARF ARS ASCOUP ASING AUNITS AUTOADJ AUTOGOUT AUTOMSET AUTOQSET AUTOSPC "
     "AUTOSPCR AUTOSPRT BAILOUT BEIGRED BIGER BIGER1 BIGER2 BUCKLE CASIEMA CASPIV CB1 CB2 CDIF "
     "CDITER CDPCH CDPRT CFDIAGP CFRANDEL CHECKEL CHECKMAT CHECKOUT CHKMASS CK2 CK3 CLOSE CM2 "
-    "CONFAC COSUBCYC COSUBMAX COUPMASS CP1 CP2 CQC CSTEVAL CURV CURVPLOT CWDIAGP CWELD CWLDIGNR "
+    "CONFAC COSUBCYC COSUBMAX CP1 CP2 CQC CSTEVAL CURV CURVPLOT CWDIAGP CWELD CWLDIGNR "
     "CWRANDEL DBALL DBCCONV DBCDIAG DBCOVWRT DBDICT DBDN DBDRPRJ DBDRNL DBEXT DBRCV DBUP DDRMM "
     "DESPCH DESPCH1 DFREQ DIAGPRT DIROUT DISIFMCK DOPT DPEPS DPHFLG DSNOKD DSZERO DUPTOL DV3PASS "
     "DYNSPCF EFFMAS EIGD ENFMETH ENFMOTN EPPRT EPSILONT EPZERO ERROR ESLFSAV ESLFOUT ESLMOVE EST "
@@ -63,6 +63,7 @@ NastranParameter nastran_parameter(const std::string& name) {
     return set;
   }();
   if (name == "WTMASS" || name == "CM1") return NastranParameter::mass_factor;
+  if (name == "COUPMASS") return NastranParameter::coupled_mass;
   if (name == "CK1") return NastranParameter::stiffness_factor;
   const bool printed = name.starts_with("USETSTR") || name.starts_with("PRT");
   return printed || names.contains(name) ? NastranParameter::harmless : NastranParameter::unknown;

@@ -42,6 +42,7 @@ void pshell(NastranFields& f, NastranProperty& p) {
       f.error(fmt::format("TS/T is {}, expected 0.833333: only homogeneous shells are supported",
                           shown(f.text(6))));
     }
+    p.shell_shear = 5.0 / 6.0 * p.thickness;
   }
   p.nonstructural = f.real(7, "the nonstructural mass", 0.0);
   if (!f.blank(10)) f.error("MID4 is given: only homogeneous shells are supported");
@@ -57,13 +58,21 @@ BeamSection section(double A, double I1, double I2, double J) {
   return s;
 }
 
+/// K1 and K2 at a place; 0 is no shear deformation.
+void shear_factors(NastranFields& f, std::size_t at, double otherwise, BeamSection& s) {
+  const double k1 = f.real(at, "K1", otherwise), k2 = f.real(at + 1, "K2", otherwise);
+  if (k1 < 0.0 || k2 < 0.0) f.error("a shear factor (K1, K2) is negative");
+  s.shear_y = k1 * s.A;
+  s.shear_z = k2 * s.A;
+}
+
 void pbar(NastranFields& f, NastranProperty& p) {
   p.material = f.label(1, "the material");
   p.section =
       section(f.real(2, "A", 0.0), f.real(3, "I1", 0.0), f.real(4, "I2", 0.0), f.real(5, "J", 0.0));
   p.nonstructural = f.real(6, "the nonstructural mass", 0.0);
   f.must_be_zero(18, "I12");
-  p.shear_factors = f.real(16, "K1", 0.0) != 0.0 || f.real(17, "K2", 0.0) != 0.0;
+  shear_factors(f, 16, 0.0, p.section);
 }
 
 /// The sections of PBARL and PBEAML that a beam without warping has, by the dimensions of Nastran.
@@ -110,6 +119,7 @@ void named_section(NastranFields& f, NastranProperty& p) {
                         (h * w * w * w - hi * wi * wi * wi) / 12.0,
                         2.0 * tw * th * (w - tw) * (w - tw) * (h - th) * (h - th) / denominator);
   }
+  nastran_shear_of_shape(type, d, p.section);
 }
 
 /// End A; stations must repeat it.
@@ -138,6 +148,7 @@ void pbeam(NastranFields& f, NastranProperty& p) {
     }
     i += same_word(f.text(i), "YES") ? 16 : 8;
   }
+  shear_factors(f, i, 1.0, p.section);
   // K1 K2 S1 S2 NSI(A) NSI(B) CW(A) CW(B), then offsets of mass and neutral axis.
   f.must_be_zero(i + 4, "the nonstructural inertia NSI");
   f.must_be_zero(i + 6, "the warping coefficient CW");

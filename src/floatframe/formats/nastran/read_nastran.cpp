@@ -38,6 +38,7 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
   source.throw_if_any();
   if (part == NastranPart::all) {
     build_nastran_elements(build, options);
+    nastran_mass_forms(build);
     build_nastran_constraints(build);
   } else {
     for (const NastranGrid& g : content.grids) {
