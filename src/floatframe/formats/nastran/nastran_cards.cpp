@@ -26,9 +26,14 @@ constexpr const char* one_model =
     "{} begins the bulk data of a superelement or of another model, which is not read: write one "
     "model with one BEGIN BULK";
 
-/// Continuation marks are compared without the sign that begins them.
-std::string_view without_sign(std::string_view mark) {
-  return !mark.empty() && (mark[0] == '+' || mark[0] == '*') ? mark.substr(1) : mark;
+/// Continuation marks are compared without the sign that begins them, or without the first
+/// character whatever it is: the column of the sign does not count.
+bool same_mark(std::string_view a, std::string_view b) {
+  const auto without_sign = [](std::string_view mark) {
+    return !mark.empty() && (mark[0] == '+' || mark[0] == '*') ? mark.substr(1) : mark;
+  };
+  const std::string_view x = without_sign(a), y = without_sign(b);
+  return x.empty() || y.empty() || same_word(x, y) || same_word(a.substr(1), b.substr(1));
 }
 
 bool is_continuation(std::string_view name) {
@@ -138,12 +143,13 @@ void NastranCards::comment(std::string_view text) {
 void NastranCards::split(std::string_view text, Line& line) {
   line.data.clear();
   line.mark = {};
-  if (text.find(',') != std::string_view::npos) {
+  if (text.find(',') < 72) {  // of a comment in the tenth field a comma may be
     std::vector<std::string_view> fields;
     split_commas(text, fields);
     line.name = fields[0];
     line.large = line.name.ends_with('*') || line.name.starts_with('*');
     const std::size_t width = line.large ? 4 : 8;
+    while (fields.size() > width + 2 && fields.back().empty()) fields.pop_back();
     if (fields.size() > width + 2) {
       source_.error(fmt::format("the line has {} fields; a line in free field has at most {}",
                                 fields.size(), width + 2));
@@ -239,8 +245,7 @@ bool NastranCards::next(NastranCard& card) {
       source_.put_back();
       break;
     }
-    const std::string_view expected = without_sign(mark), found = without_sign(line.name);
-    if (!expected.empty() && !found.empty() && expected != found) {
+    if (!same_mark(mark, line.name)) {
       source_.error(
           fmt::format("the continuation {} does not follow the card with this mark; the "
                       "card before ({} in line {}) has {}",

@@ -79,8 +79,9 @@ class ContentReader {
       if (!fresh && id > 0) nastran_twice(f, it->second.at);
       return;
     }
-    const bool units = name == "DTI" && same_word(f.text(0), "UNITS");
-    if (!units && !is_harmless_nastran_card(name)) {
+    // Matrices and nonstructural mass that the case control would select (finish refuses that).
+    const bool selected_only = name == "DMIG" || name == "DMIAX" || name.starts_with("NSM");
+    if (!(selected_only && c_.control.there) && !is_harmless_nastran_card(name)) {
       unknown_[name].add(f.at());
       if (unknown_.size() > TextSource::most_errors) finish();  // throws
       return;
@@ -181,11 +182,14 @@ class ContentReader {
       }
     }
     for (const auto& [name, passed] : unknown_) {
-      source_.error(
-          passed.at,
-          fmt::format(
-              "{} is not read and may change stiffness or mass{}", name.substr(0, 40),
-              passed.number > 1 ? fmt::format(" ({} cards in the file)", passed.number) : ""));
+      const std::string number =
+          passed.number > 1 ? fmt::format(" ({} cards in the file)", passed.number) : "";
+      const char* why = why_nastran_card_is_refused(name);
+      source_.error(passed.at,
+                    why == nullptr
+                        ? fmt::format("{} is not read and may change stiffness or mass{}",
+                                      name.substr(0, 40), number)
+                        : fmt::format("{} is not read{}: {}", name, number, why));
     }
     for (const auto& [name, factor] : factors_) {
       const double value = factor.value;

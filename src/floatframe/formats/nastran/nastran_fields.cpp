@@ -52,7 +52,7 @@ Vec3 NastranFields::vector(std::size_t i, const char* what) {
 unsigned NastranFields::components(std::size_t i, const char* what) {
   unsigned mask = 0;
   for (const char c : card_.field(i)) {
-    if (c == '0') continue;
+    if (c == '0' || c == ' ') continue;
     const unsigned bit = c >= '1' && c <= '6' ? 1u << (c - '1') : 0u;
     if (bit == 0 || (mask & bit) != 0) {
       error_in(i, fmt::format("{} are {}, expected some of the digits 1 to 6", what,

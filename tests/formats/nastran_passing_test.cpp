@@ -1,0 +1,172 @@
+// Cards and forms of cards that change nothing of a part are passed over, whatever program wrote
+// them; those that cannot be read say why.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/formats/nastran/read_nastran.hpp"
+#include "support/error_of.hpp"
+
+namespace floatframe::test {
+namespace {
+
+FeModel passing_deck(const std::string& text) {
+  TextSource source(text, "arm.bdf");
+  return read_nastran(source, has_begin_bulk(text), {});
+}
+
+std::string passing_error(const std::string& text) {
+  return test::error_of([&] { passing_deck(text); });
+}
+
+const std::string tetra =
+    "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"  // 1 to 4
+    "CTETRA,1,1,1,2,3,4\nPSOLID,1,1\nMAT1,1,2.+11,,.25,8000.\n";                // 5 to 7
+
+TEST(NastranPassing, HarmlessCards) {
+  for (const char* card : {"DEBUG,192,2",
+                           "CAERO1,1,1",
+                           "SPLINE1,1",
+                           "AEROS,,,1.,1.",
+                           "AELIST,1,2",
+                           "AECOMP,A,AELIST",
+                           "MKAERO1,.5",
+                           "CHBDYG,1,,AREA4",
+                           "CONV,1,2",
+                           "QBDY1,1,2.,3",
+                           "RADBC,1,1.,,2",
+                           "RADLST,1,2",
+                           "MATT4,1,2",
+                           "MAT4,1,2.",
+                           "TABLED1,5",
+                           "TABDMP1,5",
+                           "RANDPS,1,1,1",
+                           "DESVAR,1,A,1.",
+                           "DVPREL1,1,PSOLID",
+                           "TOPVAR,1,A,PSOLID",
+                           "DRESP1,1,W,WEIGHT",
+                           "DSCREEN,STRESS",
+                           "DOPTPRM,DESMAX,3",
+                           "BSURF,1,1",
+                           "BCBODY,1",
+                           "BCRPARA,1",
+                           "BCTPARM,1",
+                           "ECHOOFF",
+                           "PLOTEL,1,1,2",
+                           "SPOINT,77",
+                           "EPOINT,78",
+                           "NLPARM,1",
+                           "TSTEPNL,1,10,.1",
+                           "EIGRL,1,,,10",
+                           "RFORCE,1,1",
+                           "PLOAD4,1,1,1.",
+                           "ROTORG,1,1,2",
+                           "BOLT,1,1",
+                           "CBARAO,1,FR",
+                           "CVISC,8,8,1,2",
+                           "PGAP,1",
+                           "PELAST,1,2",
+                           "DTI,SPECSEL,1,2",
+                           "DMI,W2GJ,0,2",
+                           "USETADD,1,2",
+                           "MATS1,1,,PLASTIC",
+                           "MATHP,9,1.",
+                           "TEMPD,1,20.",
+                           "CORD3G,9,E321,1,2,3",
+                           "NLSTEP,1",
+                           "echoon",
+                           "SET2,1,2"}) {
+    EXPECT_EQ(passing_error(tetra + card + "\n"), "no error") << card;
+  }
+  for (const char* name : {"SOLLIB", "SPARSTOR", "EQCHECK", "RCONDK", "PRTSTIFF", "GRIDSEQ"}) {
+    EXPECT_EQ(passing_error(tetra + "PARAM," + name + ",1\n"), "no error") << name;
+  }
+}
+
+TEST(NastranPassing, SentencesOfWhatIsRefused) {
+  const std::pair<const char*, const char*> refused[] = {
+      {"CBEND", "curved beams are not supported; divide the arc into CBAR elements"},
+      {"CBEAM3", "beams of three nodes are not supported; divide them into CBAR elements"},
+      {"RSPLINE", "interpolation along a spline is not supported; use RBE3 or MPC"},
+      {"RSSCON", "connections of shells to solids are not supported; use RBE3 or MPC"},
+      {"RTRPLT", "rigid triangles are not supported; use RBE2"},
+      {"CGAP", "gaps are not linear; replace those that are closed with CELAS2 or RBE2"},
+      {"GENEL", "general elements are not supported"},
+      {"CFAST", "fasteners are not supported; replace them with RBE3 and CBUSH"},
+      {"CWELD", "welds are not supported; replace them with RBE3 and CBUSH"},
+      {"CSEAM", "seam welds are not supported; replace them with RBE3 and CBUSH"},
+      {"CONM1", "a mass matrix of six rows is not supported; give CONM2"},
+      {"CMASS2", "masses of single directions are not supported; give CONM2"},
+      {"PBMSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBEAM"},
+      {"PBRSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBAR"},
+      {"TF", "transfer functions add stiffness and mass; take them out"},
+      {"CHACAB", "acoustic elements are not supported"},
+      {"CAABSF", "acoustic elements are not supported"},
+      {"CFLUID3", "acoustic elements are not supported"},
+      {"BGSET", "glued surfaces are not supported; tie them with RBE3 or MPC"},
+      {"SESET", "superelements are not supported; write one model without them"},
+      {"SECONCT", "superelements are not supported; write one model without them"},
+      {"CSUPER", "superelements are not supported; write one model without them"},
+      {"EXTRN", "superelements are not supported; write one model without them"},
+      {"CYJOIN", "cyclic symmetry is not supported; write the whole part"},
+      {"CCONEAX", "axisymmetric elements are not supported"},
+      {"CTRIAX6", "axisymmetric elements are not supported"},
+      {"CPLSTN4", "elements of plane stress and strain are not supported"},
+      {"BCONP", "contact is not linear; tie what touches with RBE2 or MPC, or take it out"},
+      {"BCTSET", "contact is not linear; tie what touches with RBE2 or MPC, or take it out"},
+      {"BCTABLE", "contact is not linear; tie what touches with RBE2 or MPC, or take it out"}};
+  for (const auto& [card, why] : refused) {
+    EXPECT_EQ(passing_error(tetra + card + ",9,9,1,2\n"),
+              std::string("arm.bdf:8: ") + card + " is not read: " + why);
+  }
+  EXPECT_EQ(passing_error(tetra + "CGAP,9\nCGAP,10\n"),
+            "arm.bdf:8: CGAP is not read (2 cards in the file): gaps are not linear; replace those "
+            "that are closed with CELAS2 or RBE2");
+}
+
+// Matrices and nonstructural mass count only where the case control selects them.
+TEST(NastranPassing, WhatIsNotSelected) {
+  const std::string cards = "NSM1,3,PSOLID,.2,1\nDMIG,K1,1,1,1.\n";
+  EXPECT_EQ(passing_error("SOL 101\nCEND\nBEGIN BULK\n" + tetra + cards), "no error");
+  EXPECT_EQ(passing_error(tetra + cards),
+            "arm.bdf:9: DMIG is not read and may change stiffness or mass\n"
+            "arm.bdf:8: NSM1 is not read and may change stiffness or mass");
+  EXPECT_EQ(
+      passing_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards),
+      "arm.bdf:2: the case control has NSM = 3, which adds stiffness or mass and is not read");
+}
+
+TEST(NastranPassing, FormsOfCards) {
+  const FeModel plain = passing_deck(tetra + "SPC1,1,123,1\n");
+  const std::string spc[] = {"SPC1    1       1 2 3   1\n",  // blanks between components
+                             "spc1,1,321,1\nenddata\nwhatever\n",
+                             "SPC1,1,1 23,1,,,,,,,,\n",  // more commas than fields
+                             "SPC1\t1\t123\t1\n",
+                             "SPC1    1       123     1" + std::string(47, ' ') + "a, b\n"};
+  for (const std::string& card : spc) {
+    const FeModel model = passing_deck(tetra + card);
+    ASSERT_EQ(model.supports.size(), 1u) << card;
+    EXPECT_EQ(model.supports[0].mask, plain.supports[0].mask) << card;
+    EXPECT_EQ(model.supports[0].node, plain.supports[0].node) << card;
+  }
+}
+
+TEST(NastranPassing, MarksWhoseFirstCharacterDiffers) {
+  const auto conm = [](const std::string& mark, const std::string& follows) {
+    return passing_error(tetra + "RBE2,7,1,123,2\nCONM2   9       1               1.      " +
+                         std::string(32, ' ') + mark + "\n" + follows + "1.\n");
+  };
+  EXPECT_EQ(conm("+C1     ", "+C1     "), "no error");
+  EXPECT_EQ(conm(" C1     ", "+C1     "), "no error");
+  EXPECT_EQ(conm("AC1     ", "+C1     "), "no error");
+  EXPECT_EQ(conm("+C1     ", "+c1     "), "no error");
+  EXPECT_EQ(conm("+C1     ", "        "), "no error");
+  EXPECT_EQ(conm("+C1     ", "+D1     "),
+            "arm.bdf:10: the continuation '+D1' does not follow the card with this mark; the card "
+            "before (CONM2 in line 9) has '+C1'");
+}
+
+}  // namespace
+}  // namespace floatframe::test
