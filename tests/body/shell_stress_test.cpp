@@ -6,6 +6,7 @@
 
 #include "floatframe/body/fe_stress.hpp"
 #include "floatframe/fe/surface.hpp"
+#include "support/midside_sheets.hpp"
 #include "support/shell_sheets.hpp"
 
 namespace floatframe::test {
@@ -68,6 +69,35 @@ TEST(ShellStress, PlateInBending) {
       }
       EXPECT_NEAR(sides(0, 0), -sides(6, 0), 1e-6 * std::abs(sides(0, 0)));
     }
+}
+
+// The same of shells with nodes on their edges, a quarter with n x n nodes between.
+TEST(ShellStress, PlateOfMidsideShells) {
+  const double a = 2.0, t = 0.01, q = 1000.0;
+  const Material material{2e11, 0.3, 1.0};
+  const int n = 16;
+  for (const ElementType type : {ElementType::tri6, ElementType::quad8}) {
+    const MidsideSheet s = midside_sheet(
+        type, n / 2, n / 2, [&](double x, double y) { return Vec3(0.5 * a * x, 0.5 * a * y, 0.0); },
+        material, t);
+    std::vector<Held> held;
+    for (const auto& [place, node] : s.node) {
+      if (place.first == 0) held.push_back({node, 1u | 16u | 32u});
+      if (place.second == 0) held.push_back({node, 2u | 8u | 32u});
+      if (place.first == n || place.second == n) held.push_back({node, 63u});
+    }
+    const FeSystem system = assemble(s.model);
+    VecX up = VecX::Zero(system.size());
+    for (int k = 0; k < s.model.nodes(); ++k) up(6 * k + 2) = q / t;
+    const MatX sides = sides_of(s.model, solve(s.model, held, system.M * up));
+    const double unit = 6.0 * q * a * a / (t * t);
+    const double middle = sides(12 * s.node.at({0, 0}), 0) / unit;
+    const double edge = sides(12 * s.node.at({n, 0}), 0) / unit;
+    std::printf("[ figure ] plate, %s, clamped: middle %.5f, edge %.5f (times 6 q a^2 / t^2)\n",
+                element_type_name(type), middle, edge);
+    EXPECT_NEAR(middle / 0.0231, 1.0, 0.02);
+    EXPECT_NEAR(edge / -0.0513, 1.0, 0.02);
+  }
 }
 
 // Scordelis-Lo roof as in tests/fe/shells_test.cpp: across the span the membrane stresses sum up to

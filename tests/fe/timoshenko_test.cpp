@@ -53,6 +53,33 @@ TEST(Timoshenko, CantileverIsExact) {
   }
 }
 
+// The element of linear shapes with one point and the slenderness compensation of Abaqus, from its
+// strains: kappa = (ry_2 - ry_1)/L, gamma = (v_2 - v_1)/L - (rz_1 + rz_2)/2.
+TEST(Timoshenko, LinearShapesAsAbaqusHasThem) {
+  for (const double L : {0.02, 0.3, 5.0}) {
+    FeModel model = stubby(1, L);
+    BeamSection& s = model.sections[0];
+    s.slenderness = 0.25;
+    MatX K;
+    element_kernel(ElementType::beam2).stiffness(gather(model, model.elements[0]), K);
+    for (const bool z : {false, true}) {
+      const double E = 2e11, I = z ? s.Iy : s.Iz, sign = z ? -1.0 : 1.0;
+      const double S = model.materials[0].shear() * (z ? s.shear_z : s.shear_y) /
+                       (1 + 0.25 * L * L * s.A / (12 * I));
+      const int dofs[4] = {z ? 2 : 1, z ? 4 : 5, z ? 8 : 7, z ? 10 : 11};
+      const Eigen::RowVector4d kappa(0, -sign / L, 0, sign / L);
+      const Eigen::RowVector4d gamma(-1 / L, -sign / 2, 1 / L, -sign / 2);
+      const Eigen::Matrix4d expected =
+          L * (E * I * kappa.transpose() * kappa + S * gamma.transpose() * gamma);
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+          EXPECT_NEAR(K(dofs[i], dofs[j]), expected(i, j),
+                      1e-12 * std::abs(expected(1, 1)) / std::min(1.0, L * L))
+              << L << " " << i << " " << j;
+    }
+  }
+}
+
 /// Lowest root of rho^2 I A/(G As) w^4 - (rho A + rho I k^2 + rho A E I k^2/(G As)) w^2 + E I k^4.
 double analytic(const Material& m, double A, double I, double As, double k) {
   const double GA = m.shear() * As, rho = m.density, EI = m.young * I;

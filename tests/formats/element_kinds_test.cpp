@@ -80,6 +80,9 @@ TEST(ElementKinds, ShearFactorsOfAbaqus) {
     EXPECT_DOUBLE_EQ(section_of(b31, 0).shear_y, factor * section_of(b31, 0).A) << shape;
     EXPECT_EQ(section_of(b31, 0).shear_z, section_of(b31, 0).shear_y);
     EXPECT_FALSE(section_of(b33, 0).has_shear());
+    EXPECT_EQ(section_of(b33, 0).slenderness, 0.0);
+    // CIRC, PIPE and BOX of B31 are of Abaqus alone.
+    EXPECT_EQ(section_of(b31, 0).slenderness, shape[0] == 'R' ? 0.0 : 0.25) << shape;
     EXPECT_EQ(b33.elements[0].mass_form, MassForm::consistent);
   }
 }

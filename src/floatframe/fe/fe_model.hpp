@@ -48,6 +48,9 @@ struct BeamSection {
   /// Shear areas of a 2-node beam: the shear forces are Vy = G shear_y gamma_xy, Vz = G shear_z
   /// gamma_xz. 0: no shear deformation (Euler-Bernoulli).
   double shear_y = 0.0, shear_z = 0.0;  ///< [m2]
+  /// Above 0: the element of linear shapes and one point with a shear stiffness softened by
+  /// 1 + slenderness L^2 A/(12 I), as Abaqus has it (0.25), in place of the exact one.
+  double slenderness = 0.0;
   bool has_shear() const noexcept { return shear_y > 0.0 || shear_z > 0.0; }
 
   static BeamSection solid_round(double diameter);

@@ -8,7 +8,8 @@ namespace {
 bool has_mid_nodes(const ElementKernel& kernel) noexcept {
   if (kernel.family == ElementFamily::beam) return kernel.nodes > 2;
   if (kernel.family == ElementFamily::shell) return kernel.nodes > 4;
-  return static_cast<std::size_t>(kernel.nodes) > kernel.shape.neighbours.size();
+  const std::size_t corners = kernel.shape.neighbours.size();
+  return corners > 0 && static_cast<std::size_t>(kernel.nodes) > corners;
 }
 
 VecX masses_at_nodes(const ElementKernel& kernel, const ElementInput& in) {

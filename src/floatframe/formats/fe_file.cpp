@@ -106,7 +106,7 @@ const FeFormat& recognised(const std::filesystem::path& file) {
 
 void choose(const FeReadOptions& options, FeModel& model) {
   if (options.beam_shear == BeamShear::none)
-    for (BeamSection& s : model.sections) s.shear_y = s.shear_z = 0.0;
+    for (BeamSection& s : model.sections) s.shear_y = s.shear_z = s.slenderness = 0.0;
   if (options.shell_shear != ShellShear::by_format)
     for (ShellSection& s : model.shells)
       s.shear = options.shell_shear == ShellShear::all ? 5.0 / 6.0 * s.thickness : 0.0;

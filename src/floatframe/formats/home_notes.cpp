@@ -5,7 +5,7 @@
 #include <array>
 #include <map>
 
-#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/lumped_mass.hpp"
 
 namespace floatframe {
 namespace {
@@ -32,7 +32,7 @@ constexpr std::array differences{
     Difference{H::abaqus, T::quad4, own_shells},
     Difference{H::abaqus, T::tri6, own_mid_shells},
     Difference{H::abaqus, T::quad8, own_mid_shells},
-    Difference{H::abaqus, T::beam2, "exact here for loads at its ends, linear shapes there"},
+    Difference{H::abaqus, T::beam2, "stiffness as there, rotary inertia lumped in our own way"},
     Difference{H::abaqus, T::beam3, "shear area 5/6 of the section here"},
     Difference{H::calculix, T::hex8i, own_modes},
     Difference{H::calculix, T::hex8r, own_hourglass},
@@ -60,7 +60,12 @@ struct Counts {
 
 std::string mass_sentence(const FeModel& model, const std::map<ElementType, Counts>& counts) {
   int all = 0, lumped = 0;
-  for (const auto& [type, n] : counts) all += n.all, lumped += n.lumped;
+  bool first_order = false;
+  for (const auto& [type, n] : counts) {
+    all += n.all;
+    lumped += n.lumped;
+    first_order = first_order || !quadratic(type);
+  }
   const std::string share =
       lumped == all ? "of all elements" : fmt::format("of {} of {} elements", lumped, all);
   switch (model.home) {
@@ -82,6 +87,7 @@ std::string mass_sentence(const FeModel& model, const std::map<ElementType, Coun
                               "all mass is consistent, as in CalculiX, which integrates it "
                               "with fewer points (--integration ccx)");
     case HomeProgram::abaqus_or_calculix:
+      if (lumped == 0 && !first_order) return "all mass is consistent, as in CalculiX and Abaqus";
       return lumped > 0 ? fmt::format("the mass {} is lumped", share)
                         : std::string(
                               "all mass is consistent, as in CalculiX; Abaqus lumps that of "

@@ -92,8 +92,9 @@ class Key {
     all(young, poisson, density);
   }
   void add(const BeamSection& s) {
-    const auto& [A, Iy, Iz, J, outline, width, height, bore, shear_y, shear_z] = s;
-    all(A, Iy, Iz, J, static_cast<double>(outline), width, height, bore, shear_y, shear_z);
+    const auto& [A, Iy, Iz, J, outline, width, height, bore, shear_y, shear_z, slenderness] = s;
+    all(A, Iy, Iz, J, static_cast<double>(outline), width, height, bore, shear_y, shear_z,
+        slenderness);
   }
   void add(const Bar& b) {
     const auto& [name, from, to, from_bar, from_fraction, elements, section, reference] = b;

@@ -25,7 +25,8 @@ bool continues(const FeModel& model, const Element& a, const Element& b) {
   const BeamSection &s = x.section, &t = y.section;
   return a.nodes[1] == b.nodes[0] && a.material == b.material && a.reference == b.reference &&
          s.A == t.A && s.Iy == t.Iy && s.Iz == t.Iz && s.J == t.J && s.shear_y == t.shear_y &&
-         s.shear_z == t.shear_z && (dx - dy).norm() <= 1e-6 * dx.norm();
+         s.shear_z == t.shear_z && s.slenderness == t.slenderness &&
+         (dx - dy).norm() <= 1e-6 * dx.norm();
 }
 
 /// Rows of equal elements in a line; a node of the `special` ends one.

@@ -13,6 +13,9 @@
 //   mass            rho A int N N^T dx of u, v, w; with section inertia also rho I int T T^T dx
 //                   of v, w and rho (Iy + Iz) int N N^T dx of rx
 //   scalar mass     rho A L/6 [2 1; 1 2]
+// An element of linear shapes integrated at its middle, K = L (EI kappa^2 + S gamma^2), is the same
+// with 1/S = 1/(G As) + L^2/(12 EI); so Abaqus's, 1/S = (1 + c L^2 A/(12 I))/(G As) with its
+// slenderness compensation c, has phi = 12 EI/(G As L^2) + c E A/(G As) - 1 > -1.
 // K and M turn into body axes by T on each group of three. Loads at the ends are answered exactly.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), stiffness with shear,
 // consistent mass with rotary and torsional inertia.
@@ -64,6 +67,9 @@ std::string error(const ElementInput& in) {
     return "has a reference vector parallel to its axis";
   }
   const BeamSection& s = in.section;
+  if (!(s.slenderness >= 0.0) || !std::isfinite(s.slenderness)) {
+    return "has a slenderness compensation that is negative or no number";
+  }
   if (!(s.shear_y >= 0.0 && s.shear_z >= 0.0 && std::isfinite(s.shear_y + s.shear_z))) {
     return "has a shear area that is negative or no number";
   }
@@ -77,9 +83,10 @@ std::string error(const ElementInput& in) {
 double shear_ratio(const ElementInput& in, double L, bool xz_plane) {
   const BeamSection& s = in.section;
   const double area = xz_plane ? s.shear_z : s.shear_y;
-  return area > 0.0 ? 12.0 * in.material.young * (xz_plane ? s.Iy : s.Iz) /
-                          (in.material.shear() * area * L * L)
-                    : 0.0;
+  if (!(area > 0.0)) return 0.0;
+  const double ratio = in.material.young / (in.material.shear() * area);
+  const double exact = 12.0 * (xz_plane ? s.Iy : s.Iz) / (L * L) * ratio;
+  return s.slenderness > 0.0 ? exact + s.slenderness * s.A * ratio - 1.0 : exact;
 }
 
 /// Over EI.

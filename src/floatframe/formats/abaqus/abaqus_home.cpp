@@ -13,6 +13,9 @@
 namespace floatframe {
 namespace {
 
+/// The default of its slenderness compensation.
+constexpr double slenderness_of_abaqus = 0.25;
+
 HomeProgram home_of(const AbaqusBuild& build) {
   const DialectClues& clues = build.clues;
   if (build.content.dialect == DeckDialect::abaqus) return HomeProgram::abaqus;
@@ -39,7 +42,7 @@ int without_shear(std::vector<Section>& sections, int section, std::map<int, int
     if constexpr (std::is_same_v<Section, ShellSection>) {
       copy.shear = 0.0;
     } else {
-      copy.shear_y = copy.shear_z = 0.0;
+      copy.shear_y = copy.shear_z = copy.slenderness = 0.0;
     }
     sections.push_back(copy);
   }
@@ -65,6 +68,9 @@ void as_in_home_program(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   if (c.sections.empty() || build.source.errors() > 0) return;
   model.home = home_of(build);
+  if (model.home == HomeProgram::abaqus)
+    for (BeamSection& s : model.sections)
+      if (s.has_shear()) s.slenderness = slenderness_of_abaqus;
   std::map<int, int> beams, shells;  // section: its copy without shear
   for (std::size_t e = 0; e < c.elements.size(); ++e) {
     const int index = build.element_index[e];

@@ -12,8 +12,7 @@ using Family = AbaqusType::Family;
 constexpr const char* hybrid = "without its pressure field";
 constexpr const char* full =
     "with full integration as in CalculiX (Abaqus takes the change of volume at the centre)";
-constexpr const char* exact =
-    "as a Timoshenko beam that is exact for loads at its ends, with the shear factors of Abaqus";
+constexpr const char* with_shear = "as Timoshenko beams with the shear factors of Abaqus";
 
 constexpr const char* triangles =
     "as flat triangles between all their nodes, twice as fine as their corners";
@@ -65,9 +64,9 @@ constexpr std::array types_of_abaqus{
     shell("S8", 8, ElementType::quad8, triangles),
     shell("S8R", 8, ElementType::quad8, triangles),
     shell("S8R5", 8, ElementType::quad8, triangles),
-    beam("B31", 2, ElementType::beam2, exact),
-    beam("B31R", 2, ElementType::beam2, exact),
-    beam("B31H", 2, ElementType::beam2, exact),
+    beam("B31", 2, ElementType::beam2, with_shear),
+    beam("B31R", 2, ElementType::beam2, with_shear),
+    beam("B31H", 2, ElementType::beam2, with_shear),
     beam("B33", 2, ElementType::beam2),
     beam("B32", 3, ElementType::beam3),
     beam("B32R", 3, ElementType::beam3),
