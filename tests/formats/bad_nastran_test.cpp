@@ -50,7 +50,7 @@ TEST(BadNastran, Decks) {
        "arm.bdf:6: CTETRA 1: 2 of its 6 mid-side nodes are given; all or none must be"},
       {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,x",
        "arm.bdf:6: CTETRA 1: a node is 'x', expected a whole number from 1"},
-      {"CTETRA,1,1", "CBEND,1,1", "arm.bdf:6: CBEND is not read and may change stiffness or mass"},
+      {"CTETRA,1,1", "CHEXX,1,1", "arm.bdf:6: CHEXX is not read and may change stiffness or mass"},
       {"CTETRA,1,1", "CTETRA,2,1",
        "arm.bdf:7: CBAR 2: this element number is in the file twice, first in line 6"},
       {"CTETRA,1,1", "CTETRA,1,2", "arm.bdf:6: CTETRA 1: property 2 is a PBAR, expected a PSOLID"},
