@@ -102,7 +102,7 @@ const Case decks[] = {
     {"section_of_missing_set", "13: *SOLID SECTION, ELSET=BODDY, MATERIAL=STEEL",
      "bad.inp:13: element set 'BODDY' does not exist, did you mean 'BODY'?"},
     {"orientation", "13: *SOLID SECTION, ELSET=BODY, MATERIAL=STEEL, ORIENTATION=OR1",
-     "bad.inp:13: *SOLID SECTION has the parameter 'ORIENTATION', which is not supported"},
+     "bad.inp:13: *SOLID SECTION names the orientation 'OR1', which does not exist"},
     {"utf16", "=\xff\xfe*\x01N\x01",
      "bad.inp: the file is text of 16 bits per character (UTF-16); save it as ASCII or UTF-8"},
     {"control_bytes", "=*NODE\n\x01\x02\x03\x04\x05\x06\n",

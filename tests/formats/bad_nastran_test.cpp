@@ -91,7 +91,7 @@ TEST(BadNastran, Decks) {
       {"MAT1,1,2.+11,,.3,8000.", "MAT1,3,2.+11,,.3,8000.",
        "arm.bdf:8: PSOLID: material 1 is not in the file"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT9,1,2.+11,,.3,8000.",
-       "arm.bdf:8: PSOLID: material 1 is a MAT9, only MAT1 is read"},
+       "arm.bdf:10: MAT9 1: G22 is 0, expected more than 0"},
       {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,CHAN\n,.1,.1,.1,.1",
        "arm.bdf:9: PBARL 2: the section 'CHAN' is not read (ROD, TUBE, TUBE2, BAR and BOX are); "
        "give A, I1, I2 and J with PBAR"},

@@ -55,8 +55,8 @@ struct BeamSectionPlace {
 
 /// Elements of one material, and of one section, within which stress is averaged at a node.
 struct StressGroup {
-  std::string name;  ///< of the material, if it has one
-  double young = 0.0, poisson = 0.0;
+  std::string name;                   ///< of the material, if it has one
+  double young = 0.0, poisson = 0.0;  ///< 0: not isotropic, strain is not known
 };
 
 struct BodyStress {

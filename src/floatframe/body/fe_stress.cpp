@@ -83,8 +83,10 @@ int StressRecovery::group_of(const Element& element) {
   group_keys_.push_back(key);
   const Material& m = model_.materials[element.material];
   const auto named = static_cast<std::size_t>(element.material) < model_.material_names.size();
-  layout_.groups.push_back(
-      {named ? model_.material_names[element.material] : std::string(), m.young, m.poisson});
+  const bool isotropic =
+      family == ElementFamily::shell ? is_plain(model_.shells[element.section], m) : !m.elasticity;
+  layout_.groups.push_back({named ? model_.material_names[element.material] : std::string(),
+                            isotropic ? m.young : 0.0, isotropic ? m.poisson : 0.0});
   return static_cast<int>(group_keys_.size()) - 1;
 }
 
@@ -129,7 +131,8 @@ void StressRecovery::add_shell(int e, const std::vector<int>& point_of) {
     if (it == known.end()) {
       const int place = static_cast<int>(layout_.places.size());
       it = known.insert(known.end(), {group, {place, normal}});
-      const Vec3 half = 0.5 * model_.shells[element.section].thickness * normal;
+      const ShellSection& section = model_.shells[element.section];
+      const Vec3 half = 0.5 * section.thickness * normal, middle = section.offset * normal;
       for (const double side : {1.0, -1.0}) {
         layout_.places.push_back(
             {.layer = side > 0.0 ? StressPlace::Layer::top : StressPlace::Layer::bottom,
@@ -137,7 +140,7 @@ void StressRecovery::add_shell(int e, const std::vector<int>& point_of) {
              .node = element.nodes[a],
              .number = number_of(element.nodes[a]),
              .group = group,
-             .p = model_.positions[element.nodes[a]] + side * half});
+             .p = model_.positions[element.nodes[a]] + middle + side * half});
         elements_at_.push_back(0);
       }
     }
@@ -191,9 +194,9 @@ void StressRecovery::recover_surface(int e, const StressFields& fields, MatX& su
       add(s.other, B.middleRows<6>(12 * s.local + 6));
     }
   } else {
-    const Mat6 D = elasticity_matrix(in.material);
     kernel.nodal_strains(in, B);
-    for (const Share& s : shares_[e]) add(s.place, D * B.middleRows<6>(6 * s.local));
+    for (const Share& s : shares_[e])
+      add(s.place, elasticity_at(in, in.p[s.local]) * B.middleRows<6>(6 * s.local));
   }
 }
 

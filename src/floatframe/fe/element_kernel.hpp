@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/fe/elasticity.hpp"
 #include "floatframe/fe/element_shape.hpp"
 #include "floatframe/fe/fe_system.hpp"
+#include "floatframe/fe/shell_layers.hpp"
 
 namespace floatframe {
 
@@ -20,6 +22,8 @@ struct ElementInput {
   Vec3 reference = Vec3::UnitZ();
   Integration integration = Integration::exact;
   MassForm mass_form = MassForm::consistent;
+  std::optional<Orientation> orientation = {};  ///< solids: axes of the material; none: the body's
+  std::optional<ShellLayers> layers = {};       ///< shells that are not of one isotropic material
 };
 
 /// Where the stress of a load works on strains of second order, 1/2 grad u^T grad u: its share of
@@ -73,8 +77,8 @@ ElementInput gather(const FeModel& model, const Element& element,
 /// reference), z.
 Mat3 beam_axes(const ElementInput& input);
 
-/// Isotropic elasticity matrix for the strains (xx, yy, zz, xy, yz, zx) with engineering shear.
-Mat6 elasticity_matrix(const Material& material);
+/// Elasticity matrix of a solid at a place, in body axes.
+Mat6 elasticity_at(const ElementInput& in, const Vec3& p);
 
 #define FLOATFRAME_KERNEL(name) extern const ElementKernel name##_kernel;
 FLOATFRAME_ELEMENTS(FLOATFRAME_KERNEL)

@@ -32,22 +32,26 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
   input.material = model.materials[element.material];
   const std::size_t section = element.section;
   if (kernel.family == ElementFamily::beam) input.section = model.sections[section];
-  if (kernel.family == ElementFamily::shell) input.shell = model.shells[section];
   input.reference = element.reference;
   input.mass_form = element.mass_form;
+  const Orientation* const orientation =
+      element.orientation < 0 ? nullptr : &model.orientations[element.orientation];
+  if (kernel.family == ElementFamily::solid && orientation) input.orientation = *orientation;
+  if (kernel.family == ElementFamily::shell) {
+    input.shell = model.shells[section];
+    if (!is_plain(input.shell, input.material)) {
+      input.layers = shell_layers(input.shell, input.material, model.materials);
+      input.layers->axis = first_axis({input.p.data(), static_cast<std::size_t>(kernel.nodes)},
+                                      orientation, element.angle);
+    }
+  }
   return input;
 }
 
-Mat6 elasticity_matrix(const Material& material) {
-  const double nu = material.poisson;
-  const double c = material.young / ((1.0 + nu) * (1.0 - 2.0 * nu));
-  Mat6 D = Mat6::Zero();
-  D.topLeftCorner<3, 3>().setConstant(c * nu);
-  for (int i = 0; i < 3; ++i) {
-    D(i, i) = c * (1.0 - nu);
-    D(3 + i, 3 + i) = material.shear();
-  }
-  return D;
+Mat6 elasticity_at(const ElementInput& in, const Vec3& p) {
+  const Mat6 D = elasticity_matrix(in.material);
+  if (!in.material.elasticity || !in.orientation) return D;
+  return turned_elasticity(D, in.orientation->at(p));
 }
 
 }  // namespace floatframe

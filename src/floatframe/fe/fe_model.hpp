@@ -23,12 +23,29 @@ namespace floatframe {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Linear elastic, isotropic.
+/// Linear elastic: isotropic, or with an elasticity matrix in axes of its own (fe/elasticity.hpp).
 struct Material {
-  double young = 0.0;    ///< E [Pa]
-  double poisson = 0.0;  ///< [-], between -1 and 0.5
+  double young = 0.0;    ///< E [Pa]; of one with a matrix: along its axis 1, to be shown
+  double poisson = 0.0;  ///< [-], between -1 and 0.5; with a matrix: nu_12, to be shown
   double density = 0.0;  ///< [kg/m3]
+  /// Stress from strain (xx, yy, zz, xy, yz, zx; engineering shear) in the axes of the material
+  /// [Pa].
+  std::optional<Mat6> elasticity = {};
+  /// The matrix is one of plane stress, for shells: its row and column zz are zero.
+  bool plane = false;
   double shear() const noexcept { return young / (2.0 * (1.0 + poisson)); }
+};
+
+/// Axes of materials: fixed, or those of a cylinder (radial, around, along) or of a sphere (radial,
+/// along the meridian, around) at each place.
+struct Orientation {
+  enum class Kind { rectangular, cylindrical, spherical };
+  Kind kind = Kind::rectangular;
+  Mat3 axes = Mat3::Identity();  ///< columns in body axes; column 3 along the cylinder
+  Vec3 origin = Vec3::Zero();    ///< [m]
+  Mat3 turn = Mat3::Identity();  ///< of the axes at a place, about one of themselves
+  /// Columns are the material axes at a place.
+  Mat3 at(const Vec3& p) const;
 };
 
 /// Section of a beam about its centroid, in the beam's local axes: Iy = int z^2 dA, Iz = int y^2
@@ -73,17 +90,38 @@ struct Element {
   int section = 0;  ///< beams: in FeModel::sections; shells: in FeModel::shells
   MassForm mass_form = MassForm::consistent;
   Vec3 reference = Vec3::UnitZ();  ///< beams: local y lies in the plane of the axis and this vector
-  std::string name;                ///< for messages; empty: by its number
-  int id = 0;                      ///< the number in the user's file; 0: none
+  /// In FeModel::orientations; -1: solids have the body's axes, shells the first axis of their
+  /// material along the side 1-2. Of an orientation a shell takes the first axis, projected.
+  int orientation = -1;
+  double angle = 0.0;  ///< shells: turns that axis about the normal [rad]
+  std::string name;    ///< for messages; empty: by its number
+  int id = 0;          ///< the number in the user's file; 0: none
   FeSource source;
 };
 
-/// Homogeneous shell about its middle surface.
-struct ShellSection {
+/// A layer of a shell.
+struct ShellPly {
+  int material = 0;
   double thickness = 0.0;  ///< [m]
+  double angle = 0.0;      ///< of its axis 1 from that of the element, about the normal [rad]
+};
+
+/// Through the thickness of a shell: one material, or plies (fe/shell_layers.hpp).
+struct ShellSection {
+  double thickness = 0.0;  ///< [m], of all plies
   /// Transverse shear force over a width = G shear gamma, 5/6 of the thickness of a homogeneous
-  /// shell; 0: no shear deformation (thin).
-  double shear = 0.0;  ///< [m]
+  /// shell; 0: no shear deformation (thin). Of plies G is their mean.
+  double shear = 0.0;                ///< [m]
+  double offset = 0.0;               ///< of its middle from the nodes, along the normal [m]
+  double mass = 0.0;                 ///< besides that of the materials, in the middle [kg/m2]
+  std::vector<ShellPly> plies = {};  ///< from the bottom; empty: one of the element's material
+  bool smeared = false;              ///< plies in no order: no coupling, D = A t^2/12
+  /// Without plies: the material of bending (-1: the element's), bending stiffness over that of the
+  /// thickness, and Q_c of the coupling of bending and membrane [Pa] (Nastran: MID2, 12I/T^3,
+  /// MID4).
+  int bending = -1;
+  double bending_factor = 1.0;
+  Mat3 coupling = Mat3::Zero();
 };
 
 struct PointMass {
@@ -152,6 +190,7 @@ struct FeModel {
   std::vector<Material> materials;
   std::vector<BeamSection> sections;
   std::vector<ShellSection> shells;
+  std::vector<Orientation> orientations;
   std::vector<Element> elements;
   std::vector<PointMass> masses;
 

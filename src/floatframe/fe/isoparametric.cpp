@@ -20,6 +20,20 @@ bool positive(const SampledRule& rule, const Positions& P, double limit) {
   return true;
 }
 
+/// int B^T D B dV, with the axes of the material at each point.
+void anisotropic_stiffness(const SampledRule& rule, const ElementInput& in, const Positions& P,
+                           MatX& out) {
+  out = MatX::Zero(P.size(), P.size());
+  for (int q = 0; q < rule.size(); ++q) {
+    double detJ = 0.0;
+    const Strain B = strain_matrix(gradients(rule, q, P, detJ));
+    const Mat6 D = rule.weight(q) * detJ * elasticity_at(in, P * rule.N.col(q));
+    const Strain DB = D * B;
+    out.noalias() += B.transpose() * DB;
+  }
+  out = (0.5 * (out + out.transpose())).eval();
+}
+
 }  // namespace
 
 Positions positions(const ElementInput& in, int nodes) {
@@ -101,6 +115,7 @@ void stiffness(const IsoparametricElement& element, const ElementInput& in, MatX
   const SampledRule& rule = select(element.stiffness, in);
   const int n = element.nodes, nq = rule.size();
   const Positions P = positions(in, n);
+  if (in.material.elasticity) return anisotropic_stiffness(rule, in, P, out);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 60, 27> g(3 * n, nq),
       weighted(3 * n, nq);
   for (int q = 0; q < nq; ++q) {
@@ -159,12 +174,12 @@ void nodal_strains(const IsoparametricElement& element, const ElementInput& in, 
 void stressed_points(const IsoparametricElement& element, const ElementInput& in,
                      std::vector<StressedPoint>& points) {
   const Positions P = positions(in, element.nodes);
-  const Mat6 D = elasticity_matrix(in.material);
   points.resize(element.stress.size());
   for (int q = 0; q < element.stress.size(); ++q) {
     double detJ = 0.0;
     const Gradients g = gradients(element.stress, q, P, detJ);
-    const Mat6 weighted = element.stress.weight(q) * detJ * D;
+    const Mat6 weighted =
+        element.stress.weight(q) * detJ * elasticity_at(in, P * element.stress.N.col(q));
     points[q].stress.noalias() = weighted * strain_matrix(g);
     set_gradient(g, points[q].gradient);
   }

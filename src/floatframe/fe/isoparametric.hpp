@@ -1,7 +1,8 @@
 #pragma once
 // What the isoparametric solid elements share. Displacement u = sum_a N_a(xi) u_a, geometry with
 // the same functions; H = int g g^T dV of the stacked gradients g_a = dN_a/dx gives
-//   K_ab = lambda H_ab + mu (H_ab^T + tr(H_ab) I),   M_ab = int rho N_a N_b dV I.
+//   K_ab = lambda H_ab + mu (H_ab^T + tr(H_ab) I),   M_ab = int rho N_a N_b dV I;
+// of a material that is not isotropic K = int B^T D B dV, with its axes at each point.
 #include <array>
 #include <string>
 

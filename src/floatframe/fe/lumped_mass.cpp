@@ -34,12 +34,6 @@ std::vector<Mat3> rotary(const ElementKernel& kernel, const ElementInput& in) {
       const Mat3 T = beam_axes(here);
       J[a] = T * (I / s.A).asDiagonal() * T.transpose();
     }
-  } else if (in.mass_form == MassForm::lumped) {
-    MatX M, M_s;
-    kernel.mass(in, true, M);
-    kernel.scalar_mass(in, M_s);
-    for (int a = 0; a < kernel.nodes; ++a)
-      if (M_s(a, a) > 0.0) J[a] = M.block<3, 3>(6 * a + 3, 6 * a + 3) / M_s(a, a);
   }
   return J;
 }
@@ -61,6 +55,19 @@ void mass_matrix(const ElementKernel& kernel, const ElementInput& in, bool secti
   out = MatX::Zero(d * kernel.nodes, d * kernel.nodes);
   for (int a = 0; a < kernel.nodes; ++a) out.block<3, 3>(d * a, d * a).diagonal().setConstant(m(a));
   if (d == 3 || !section_inertia) return;
+  if (kernel.family == ElementFamily::shell && in.mass_form == MassForm::lumped) {
+    // Rotary inertia, and of shells beside their nodes the static moment.
+    MatX M, M_s;
+    kernel.mass(in, true, M);
+    kernel.scalar_mass(in, M_s);
+    for (int a = 0; a < kernel.nodes; ++a) {
+      if (!(M_s(a, a) > 0.0)) continue;
+      const double share = m(a) / M_s(a, a);
+      out.block<3, 6>(6 * a + 3, 6 * a) = share * M.block<3, 6>(6 * a + 3, 6 * a);
+      out.block<3, 3>(6 * a, 6 * a + 3) = share * M.block<3, 3>(6 * a, 6 * a + 3);
+    }
+    return;
+  }
   const std::vector<Mat3> J = rotary(kernel, in);
   for (int a = 0; a < kernel.nodes; ++a) out.block<3, 3>(6 * a + 3, 6 * a + 3) = m(a) * J[a];
 }

@@ -83,7 +83,11 @@ double integral(const FeModel& model, bool density) {
   MatX scalar;
   for (const Element& e : model.elements) {
     ElementInput in = gather(model, e);
-    if (!density) in.material.density = 1.0;
+    if (!density) {
+      in.material.density = 1.0;
+      in.shell.mass = 0.0;
+      if (in.layers) in.layers->mass = in.shell.thickness;
+    }
     element_kernel(e.type).scalar_mass(in, scalar);
     sum += scalar.sum();
   }

@@ -8,11 +8,17 @@
 // 4 xi (1 - xi) D_k, with the length l and phi_k = 12 D/(G s l^2), D = E h^3/(12 (1 - nu^2)),
 //   D_k = -(3/2 (w_j - w_i)/l + 3/4 (beta_i + beta_j))/(1 + phi_k),  gamma_k = -2/3 phi_k D_k
 // constant shear strains gamma_k of the sides, at a corner those of its two sides, linear between.
-// Mass: linear displacements, rotary inertia of the thickness, none about the normal.
+// Of a section with A, B, D (fe/shell_layers.hpp) E h is A, the plate has D, in phi_k that of the
+// side's direction, and the mean membrane strain e = L^T u/S (S: area, h = 1) and the mean
+// curvature k are coupled, e^T B k S. The middle of the thickness moves with the nodes,
+// u + theta x z_0 n. Mass: linear displacements, rotary inertia of the thickness, none about the
+// normal.
 #include "floatframe/fe/shell_triangle.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "floatframe/math/so3.hpp"
 
 namespace floatframe {
 namespace {
@@ -40,16 +46,8 @@ Plane flatten(const std::array<Vec3, 3>& p, const Mat3& R) {
   return t;
 }
 
-/// Plane stress, without the thickness.
-Mat3 plane_stress(const Material& m) {
-  const double c = m.young / (1.0 - m.poisson * m.poisson);
-  Mat3 D;
-  D << c, c * m.poisson, 0, c * m.poisson, c, 0, 0, 0, m.shear();
-  return D;
-}
-
-/// Forces of the corners (u, v, rz) from a constant membrane stress.
-Eigen::Matrix<double, 9, 3> lumping(const Plane& t, double h) {
+/// Forces of the corners (u, v, rz) from constant membrane forces over length.
+Eigen::Matrix<double, 9, 3> lumping(const Plane& t) {
   constexpr double alpha = 1.5;
   Eigen::Matrix<double, 9, 3> L;
   for (int i = 0; i < 3; ++i) {
@@ -61,7 +59,7 @@ Eigen::Matrix<double, 9, 3> lumping(const Plane& t, double h) {
         2.0 * (t.dx(k, i) * t.dy(i, k) - t.dx(i, j) * t.dy(j, i));
     L.row(3 * i + 2) *= alpha / 6.0;
   }
-  return 0.5 * h * L;
+  return 0.5 * L;
 }
 
 /// The higher-order membrane strains, which the drilling rotations turn on: at corner i 3/2 Te Q_i
@@ -71,10 +69,8 @@ struct HigherStrains {
   Mat39 T;  ///< deviation of the drilling rotations from the mean rotation of the sides
   Mat3 Te;  ///< from natural strains along the sides 12, 23, 31
   std::array<Mat3, 3> Q;  ///< natural strains at the corners
-  double beta_0;
 
-  HigherStrains(const Plane& t, double poisson)
-      : beta_0(std::max(0.5 * (1.0 - 4.0 * poisson * poisson), 0.01)) {
+  explicit HigherStrains(const Plane& t) {
     const double A = t.area;
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -101,19 +97,17 @@ struct HigherStrains {
 };
 
 /// Dofs (u, v, rz) per node: basic part (constant stress) + 3/4 beta_0 of the higher-order part.
-Mat9 membrane(const Plane& t, const Material& material, double h) {
-  const Mat3 E = plane_stress(material);
-  const double A = t.area;
-  const Eigen::Matrix<double, 9, 3> L = lumping(t, h);
-  const Mat9 basic = L * E * L.transpose() / (A * h);
+Mat9 membrane(const Plane& t, const ShellLayers& s) {
+  const Eigen::Matrix<double, 9, 3> L = lumping(t);
+  const Mat9 basic = L * s.A * L.transpose() / t.area;
 
-  const HigherStrains higher(t, material.poisson);
-  const Mat3 E_natural = higher.Te.transpose() * E * higher.Te;
+  const HigherStrains higher(t);
+  const Mat3 E_natural = higher.Te.transpose() * s.A * higher.Te;
   const Mat3 Q4 = 0.5 * (higher.Q[0] + higher.Q[1]), Q5 = 0.5 * (higher.Q[1] + higher.Q[2]),
              Q6 = 0.5 * (higher.Q[2] + higher.Q[0]);
   const Mat3 K_theta = Q4.transpose() * E_natural * Q4 + Q5.transpose() * E_natural * Q5 +
                        Q6.transpose() * E_natural * Q6;
-  return basic + (0.75 * higher.beta_0 * h * A) * higher.T.transpose() * K_theta * higher.T;
+  return basic + (0.75 * s.beta_0 * t.area) * higher.T.transpose() * K_theta * higher.T;
 }
 
 /// Curvatures at a point (xi, eta) of the triangle from (w, rx, ry) of the corners.
@@ -163,16 +157,14 @@ struct ShearSides {
   Vec3 phi;
   Mat39 D;  ///< D_k of a plate without shear, from (w, rx, ry) of the corners
 
-  ShearSides(const Plane& t, const Material& material, const ShellSection& section)
-      : D(Mat39::Zero()) {
-    const double h = section.thickness, nu = material.poisson;
-    const double bending = material.young * h * h * h / (12.0 * (1.0 - nu * nu));
+  ShearSides(const Plane& t, const ShellLayers& layers) : D(Mat39::Zero()) {
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
       const double l = std::sqrt(t.square(i, j));
       const Vec2 s(t.dx(j, i) / l, t.dy(j, i) / l);
       along[k] = s;
-      phi(k) = 12.0 * bending / (material.shear() * section.shear * l * l);
+      const Vec3 bent(s(0) * s(0), s(1) * s(1), 2.0 * s(0) * s(1));
+      phi(k) = 12.0 * bent.dot(layers.D * bent) / (s.dot(layers.shear * s) * l * l);
       D(k, 3 * i) = 1.5 / l;
       D(k, 3 * j) = -1.5 / l;
       for (const int end : {i, j}) D.row(k).segment<2>(3 * end + 1) << 0.75 * s(1), -0.75 * s(0);
@@ -213,26 +205,27 @@ struct ShearSides {
 };
 
 /// Dofs (w, rx, ry) per node; the curvatures are linear, so the middles of the sides are exact.
-Mat9 plate(const Plane& t, const Material& material, const ShellSection& section) {
-  const double h = section.thickness;
-  const Mat3 D = plane_stress(material) * (h * h * h / 12.0);
+/// `mean`: their mean.
+Mat9 plate(const Plane& t, const ShellLayers& layers, Mat39& mean) {
   const Vec2 middle[3] = {Vec2(0.5, 0.0), Vec2(0.5, 0.5), Vec2(0.0, 0.5)};
   Mat9 K = Mat9::Zero();
-  if (!(section.shear > 0.0)) {
+  mean.setZero();
+  if (layers.shear.isZero(0.0)) {
     for (const Vec2& m : middle) {
       const Mat39 B = curvatures(t, m(0), m(1));
-      K += (t.area / 3.0) * B.transpose() * D * B;
+      K += (t.area / 3.0) * B.transpose() * layers.D * B;
+      mean += B / 3.0;
     }
     return K;
   }
-  const ShearSides sides(t, material, section);
+  const ShearSides sides(t, layers);
   for (int k = 0; k < 3; ++k) {
     const Vec2& m = middle[k];
     const Mat39 B = curvatures(t, m(0), m(1)) - sides.relieved(t, m(0), m(1));
     // Between corners k and k + 1.
     const Eigen::Matrix<double, 2, 9> S = 0.5 * (sides.at_corner(k) + sides.at_corner((k + 1) % 3));
-    K += (t.area / 3.0) *
-         (B.transpose() * D * B + material.shear() * section.shear * S.transpose() * S);
+    K += (t.area / 3.0) * (B.transpose() * layers.D * B + S.transpose() * layers.shear * S);
+    mean += B / 3.0;
   }
   return K;
 }
@@ -260,34 +253,57 @@ double triangle_area(const std::array<Vec3, 3>& p) {
   return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
 }
 
-Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const Material& material,
-                               const ShellSection& section) {
-  const Mat3 R = triangle_axes(p);
+TriangleSection::TriangleSection(const std::array<Vec3, 3>& p, const ShellLayers& section)
+    : R(triangle_axes(p)), layers(section) {
+  if (!section.directional) return;
+  const Vec3 local = R.transpose() * section.axis;
+  layers = turned_layers(section, std::atan2(local(1), local(0)));
+}
+
+Mat18 to_middle(const Vec3& normal, double offset) {
+  Mat18 T = Mat18::Identity();
+  for (int i = 0; i < 3; ++i) T.block<3, 3>(6 * i, 6 * i + 3) = -offset * skew(normal);
+  return T;
+}
+
+Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const ShellLayers& section) {
+  const auto [R, layers] = TriangleSection(p, section);
   const Plane t = flatten(p, R);
-  const Mat9 in_plane = membrane(t, material, section.thickness),
-             bending = plate(t, material, section);
+  Mat39 mean;
+  const Mat9 in_plane = membrane(t, layers), bending = plate(t, layers, mean);
+  const Mat9 coupled = lumping(t) * layers.B * mean;
   constexpr int u[9] = {0, 1, 5, 6, 7, 11, 12, 13, 17}, w[9] = {2, 3, 4, 8, 9, 10, 14, 15, 16};
   Mat18 K = Mat18::Zero();
   for (int i = 0; i < 9; ++i) {
     for (int j = 0; j < 9; ++j) {
       K(u[i], u[j]) = in_plane(i, j);
       K(w[i], w[j]) = bending(i, j);
+      K(u[i], w[j]) = K(w[j], u[i]) = coupled(i, j);
     }
   }
   to_body_axes(R, K);
+  if (layers.offset != 0.0) {
+    const Mat18 T = to_middle(R.col(2), layers.offset), KT = K * T;
+    K = T.transpose() * KT;
+  }
   return 0.5 * (K + K.transpose());
 }
 
 Eigen::Matrix<double, 3, 18> shell_triangle_membrane(const std::array<Vec3, 3>& p,
-                                                     const Material& material, double h) {
-  const Mat3 R = triangle_axes(p);
+                                                     const ShellLayers& section) {
+  const auto [R, layers] = TriangleSection(p, section);
   const Plane t = flatten(p, R);
-  const Eigen::Matrix<double, 3, 9> B = plane_stress(material) * lumping(t, h).transpose() / t.area;
+  Mat39 mean;
+  plate(t, layers, mean);
+  const Mat39 in_plane = layers.A * lumping(t).transpose() / t.area, bending = layers.B * mean;
   Eigen::Matrix<double, 3, 18> N;
   for (int i = 0; i < 3; ++i) {
-    N.block<3, 3>(0, 6 * i) = B.block<3, 2>(0, 3 * i) * R.leftCols<2>().transpose();
-    N.block<3, 3>(0, 6 * i + 3) = B.col(3 * i + 2) * R.col(2).transpose();
+    N.block<3, 3>(0, 6 * i) = in_plane.block<3, 2>(0, 3 * i) * R.leftCols<2>().transpose() +
+                              bending.col(3 * i) * R.col(2).transpose();
+    N.block<3, 3>(0, 6 * i + 3) = in_plane.col(3 * i + 2) * R.col(2).transpose() +
+                                  bending.block<3, 2>(0, 3 * i + 1) * R.leftCols<2>().transpose();
   }
+  if (layers.offset != 0.0) N = (N * to_middle(R.col(2), layers.offset)).eval();
   return N;
 }
 
@@ -302,46 +318,53 @@ Eigen::Matrix<double, 6, 3> from_triangle_axes(const Mat3& R) {
 }
 
 Eigen::Matrix<double, 12, 18> shell_triangle_stress(const std::array<Vec3, 3>& p,
-                                                    const Material& material,
-                                                    const ShellSection& section, int corner) {
-  const double h = section.thickness;
-  const Mat3 R = triangle_axes(p);
+                                                    const ShellLayers& section, int corner) {
+  const auto [R, layers] = TriangleSection(p, section);
   const Plane t = flatten(p, R);
-  const Mat3 E = plane_stress(material);
-  const HigherStrains higher(t, material.poisson);
-  Mat39 in_plane = E * lumping(t, h).transpose() / (t.area * h);
-  in_plane += 1.5 * E * higher.Te * higher.Q[corner] * higher.T;
+  const HigherStrains higher(t);
+  Mat39 strain = lumping(t).transpose() / t.area;
+  strain += 1.5 * higher.Te * higher.Q[corner] * higher.T;
   const double xi = corner == 1 ? 1.0 : 0.0, eta = corner == 2 ? 1.0 : 0.0;
-  Mat39 bending = 0.5 * h * E * curvatures(t, xi, eta);
-  if (section.shear > 0.0)
-    bending -= 0.5 * h * E * ShearSides(t, material, section).relieved(t, xi, eta);
+  Mat39 curvature = curvatures(t, xi, eta);
+  if (!layers.shear.isZero(0.0)) curvature -= ShearSides(t, layers).relieved(t, xi, eta);
   const Eigen::Matrix<double, 6, 3> turn = from_triangle_axes(R);
   Eigen::Matrix<double, 12, 18> out;
-  for (int i = 0; i < 3; ++i) {
-    // (u, v, rz) and (w, rx, ry) of the corner from its displacements in body axes.
-    const Mat3 u = in_plane.block<3, 2>(0, 3 * i) * R.leftCols<2>().transpose();
-    const Mat3 rz = in_plane.col(3 * i + 2) * R.col(2).transpose();
-    const Mat3 w = bending.col(3 * i) * R.col(2).transpose();
-    const Mat3 r = bending.block<3, 2>(0, 3 * i + 1) * R.leftCols<2>().transpose();
-    out.block<6, 3>(0, 6 * i) = turn * (u + w);
-    out.block<6, 3>(0, 6 * i + 3) = turn * (rz + r);
-    out.block<6, 3>(6, 6 * i) = turn * (u - w);
-    out.block<6, 3>(6, 6 * i + 3) = turn * (rz - r);
+  int row = 0;
+  for (const ShellLayers::Side* side : {&layers.top, &layers.bottom}) {
+    const Mat39 in_plane = side->membrane * strain, bending = side->bending * curvature;
+    for (int i = 0; i < 3; ++i) {
+      // (u, v, rz) and (w, rx, ry) of the corner from its displacements in body axes.
+      const Mat3 u = in_plane.block<3, 2>(0, 3 * i) * R.leftCols<2>().transpose();
+      const Mat3 rz = in_plane.col(3 * i + 2) * R.col(2).transpose();
+      const Mat3 w = bending.col(3 * i) * R.col(2).transpose();
+      const Mat3 r = bending.block<3, 2>(0, 3 * i + 1) * R.leftCols<2>().transpose();
+      out.block<6, 3>(row, 6 * i) = turn * (u + w);
+      out.block<6, 3>(row, 6 * i + 3) = turn * (rz + r);
+    }
+    row += 6;
   }
+  if (layers.offset != 0.0) out = (out * to_middle(R.col(2), layers.offset)).eval();
   return out;
 }
 
-Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const Material& material, double h,
+Mat18 shell_triangle_mass(const std::array<Vec3, 3>& p, const ShellLayers& section,
                           bool section_inertia) {
   const Vec3 n = triangle_axes(p).col(2);
-  const double line = material.density * h * triangle_area(p) / 12.0;
-  const Mat3 turning = h * h / 12.0 * (Mat3::Identity() - n * n.transpose());
+  const double line = triangle_area(p) / 12.0, z = section.offset;
+  const double moment = section.moment + z * section.mass;  // about the nodes
+  double inertia = section.inertia + 2.0 * z * section.moment + z * z * section.mass;
+  // Without the inertia of the section what is left of it is a layer of all mass at its centre.
+  if (!section_inertia) inertia = section.mass > 0.0 ? moment * moment / section.mass : 0.0;
+  const Mat3 turning = inertia * (Mat3::Identity() - n * n.transpose());
+  const Mat3 arm = -moment * skew(n);
   Mat18 M = Mat18::Zero();
   for (int a = 0; a < 3; ++a) {
     for (int b = 0; b < 3; ++b) {
       const double m = line * (a == b ? 2.0 : 1.0);
-      M.block<3, 3>(6 * a, 6 * b) = m * Mat3::Identity();
-      if (section_inertia) M.block<3, 3>(6 * a + 3, 6 * b + 3) = m * turning;
+      M.block<3, 3>(6 * a, 6 * b) = m * section.mass * Mat3::Identity();
+      M.block<3, 3>(6 * a + 3, 6 * b + 3) = m * turning;
+      M.block<3, 3>(6 * a, 6 * b + 3) = m * arm;
+      M.block<3, 3>(6 * a + 3, 6 * b) = m * arm.transpose();
     }
   }
   return M;

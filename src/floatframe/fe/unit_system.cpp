@@ -87,6 +87,7 @@ void to_si(FeModel& model, const UnitSystem& units) {
   for (Material& m : model.materials) {
     m.young *= units.pressure();
     m.density *= units.density();
+    if (m.elasticity) *m.elasticity *= units.pressure();
   }
   for (BeamSection& s : model.sections) {
     for (double* x : {&s.A, &s.shear_y, &s.shear_z}) *x *= l2;
@@ -98,7 +99,12 @@ void to_si(FeModel& model, const UnitSystem& units) {
   for (ShellSection& s : model.shells) {
     s.thickness *= l;
     s.shear *= l;
+    s.offset *= l;
+    s.mass *= units.mass / l2;
+    s.coupling *= units.pressure();
+    for (ShellPly& ply : s.plies) ply.thickness *= l;
   }
+  for (Orientation& o : model.orientations) o.origin *= l;
   for (PointMass& m : model.masses) {
     m.mass *= units.mass;
     m.J *= units.mass * l2;

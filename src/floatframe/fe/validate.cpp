@@ -66,7 +66,10 @@ void check_materials(const FeModel& model, LimitedErrors& errors) {
     const bool named = i < model.material_names.size() && !model.material_names[i].empty();
     const std::string label =
         named ? "material '" + model.material_names[i] + "'" : "material " + std::to_string(i);
-    if (!(m.young > 0.0) || !std::isfinite(m.young)) {
+    if (m.elasticity) {
+      const std::string error = elasticity_error(*m.elasticity, m.plane, elasticity_name);
+      if (!error.empty()) errors.add("materials", {}, label + ": " + error);
+    } else if (!(m.young > 0.0) || !std::isfinite(m.young)) {
       errors.add("materials", {},
                  fmt::format("{}: found Young's modulus {:g}, expected a positive number", label,
                              m.young));
@@ -76,7 +79,7 @@ void check_materials(const FeModel& model, LimitedErrors& errors) {
           "materials", {},
           fmt::format("{}: found the density {:g}, expected no negative number", label, m.density));
     }
-    if (!(m.poisson > -1.0 && m.poisson < 0.5)) {
+    if (!m.elasticity && !(m.poisson > -1.0 && m.poisson < 0.5)) {
       errors.add("materials", {},
                  fmt::format("{}: found Poisson's ratio {:g}, expected a number between -1 and 0.5",
                              label, m.poisson));
@@ -86,6 +89,27 @@ void check_materials(const FeModel& model, LimitedErrors& errors) {
     errors.add("materials", {},
                "the model has no material: give one (Young's modulus, Poisson's ratio, density)");
   }
+}
+
+void check_shells(const FeModel& model, LimitedErrors& errors) {
+  for (std::size_t i = 0; i < model.shells.size(); ++i) {
+    const std::string error = section_error(model.shells[i], model.materials);
+    if (!error.empty())
+      errors.add("shell sections", {}, fmt::format("shell section {} {}", i, error));
+  }
+}
+
+/// What does not go with the material of an element; empty if all does.
+std::string material_misfit(const FeModel& model, const Element& element) {
+  if (!in_range(element.orientation + 1, model.orientations.size() + 1))
+    return fmt::format(": there is no orientation {}", element.orientation);
+  const Material& material = model.materials[element.material];
+  const ElementFamily family = element_kernel(element.type).family;
+  if (family == ElementFamily::beam && material.elasticity)
+    return " is a beam, whose material must be isotropic";
+  if (family == ElementFamily::solid && material.plane)
+    return " is a solid, but its material is one of plane stress, for shells only";
+  return {};
 }
 
 /// What follows looks up kernels by the type.
@@ -142,6 +166,10 @@ void check_elements(const FeModel& model, LimitedErrors& errors) {
       }
     }
     if (twice) continue;
+    if (const std::string misfit = material_misfit(model, element); !misfit.empty()) {
+      add("elements that do not fit their material", misfit);
+      continue;
+    }
     const std::string error = kernel.error(gather(model, element));
     if (!error.empty()) add("badly formed elements", " " + error);
   }
@@ -341,6 +369,7 @@ void validate(const FeModel& model) {
   check_types(model, errors);
   check_nodes(model, errors);
   check_materials(model, errors);
+  check_shells(model, errors);
   check_elements(model, errors);
   check_masses(model, errors);
   check_spiders(model, errors);

@@ -88,8 +88,10 @@ class Key {
         mass_model, eigen_mass, section_inertia, damping_ratio);
   }
   void add(const Material& m) {
-    const auto& [young, poisson, density] = m;
-    all(young, poisson, density);
+    const auto& [young, poisson, density, elasticity, plane] = m;
+    all(young, poisson, density, static_cast<double>(plane));
+    add(static_cast<double>(elasticity.has_value()));
+    for (Eigen::Index k = 0; elasticity && k < elasticity->size(); ++k) add(elasticity->data()[k]);
   }
   void add(const BeamSection& s) {
     const auto& [A, Iy, Iz, J, outline, width, height, bore, shear_y, shear_z, slenderness] = s;

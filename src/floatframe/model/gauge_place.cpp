@@ -233,7 +233,13 @@ GaugeChoice choose_place(const BodyStress& stress, const std::string& body,
     apart = apart || !there;
   }
   if (!materials && !(apart && gauge.toward.isZero(0.0))) {
-    out.place = chosen;
+    if (!gauge.direction.isZero(0.0) && !(stress.groups[place.group].young > 0.0))
+      out.error = fmt::format(
+          "the material of body '{}' at {} is not isotropic: its strain does not follow from the "
+          "stress that the body knows, expected an output of stress",
+          body, where);
+    else
+      out.place = chosen;
     return out;
   }
   std::string list;

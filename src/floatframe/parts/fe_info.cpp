@@ -21,15 +21,18 @@ using Json = nlohmann::ordered_json;
 
 /// Volume and mass: elements of unit density, so that they exist without a material too.
 void measure(FeModel model, FeFacts& out) {
-  std::vector<double> densities;
-  for (const Material& m : model.materials) densities.push_back(m.density);
+  const FeModel given = model;
   if (model.materials.empty()) model.materials.push_back({1.0, 0.3, 1.0});
   for (Material& m : model.materials) m = {1.0, 0.3, 1.0};
+  for (ShellSection& s : model.shells) s.mass = 0.0;
+  const auto in_range = [&](int material) {
+    return material >= 0 && material < static_cast<int>(given.materials.size());
+  };
   MatX M;
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     Element& element = model.elements[e];
     const int material = element.material;
-    if (material < 0 || material >= static_cast<int>(model.materials.size())) element.material = 0;
+    if (!in_range(material)) element.material = 0;
     const ElementInput input = gather(model, element);
     const ElementKernel& kernel = element_kernel(element.type);
     if (!kernel.error(input).empty()) {
@@ -37,10 +40,10 @@ void measure(FeModel model, FeFacts& out) {
       continue;
     }
     kernel.scalar_mass(input, M);
-    const double volume = M.sum();
-    out.volume += volume;
-    if (material >= 0 && material < static_cast<int>(densities.size()))
-      out.mass += volume * densities[material];
+    out.volume += M.sum();
+    if (!in_range(material)) continue;
+    kernel.scalar_mass(gather(given, given.elements[e]), M);
+    out.mass += M.sum();
   }
   for (const PointMass& m : model.masses) out.mass += m.mass;
 }

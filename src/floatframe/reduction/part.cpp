@@ -90,6 +90,7 @@ PointModel volume_points(FeModel model, Integration integration) {
         "take mean_axis");
   }
   for (Material& m : model.materials) m.density = 1.0;
+  for (ShellSection& s : model.shells) s.mass = 0.0;
   model.masses.clear();
   return point_model(model, assemble(model, integration), integration);
 }
@@ -97,6 +98,9 @@ PointModel volume_points(FeModel model, Integration integration) {
 /// Uniform density without point masses: the volume weighs as the mass does.
 bool uniform(const FeModel& model) {
   if (!model.masses.empty() || model.matrices || model.materials.empty()) return false;
+  if (std::any_of(model.shells.begin(), model.shells.end(),
+                  [](const ShellSection& s) { return s.mass != 0.0; }))
+    return false;
   const double density = model.materials.front().density;
   return std::all_of(model.materials.begin(), model.materials.end(),
                      [&](const Material& m) { return m.density == density; });

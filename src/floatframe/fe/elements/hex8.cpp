@@ -79,13 +79,13 @@ void incompatible(const ElementInput& in, MatX& K, Modes& amplitudes) {
   const solid::SampledRule& rule = element().stiffness[0];
   const solid::Positions P = solid::positions(in, 8);
   const Mat3 J0 = centre_jacobian(P);
-  const Mat6 D = elasticity_matrix(in.material);
   Eigen::Matrix<double, 33, 33> all = Eigen::Matrix<double, 33, 33>::Zero();
   for (int q = 0; q < rule.size(); ++q) {
     double detJ = 0.0;
     Eigen::Matrix<double, 6, 33> B;
     B.leftCols<24>() = solid::strain_matrix(solid::gradients(rule, q, P, detJ));
     B.rightCols<9>() = incompatible_strains(J0, rule.points[q], detJ);
+    const Mat6 D = elasticity_at(in, P * rule.N.col(q));
     const Eigen::Matrix<double, 6, 33> DB = (rule.weight(q) * detJ) * (D * B);
     all.noalias() += B.transpose() * DB;
   }
@@ -125,12 +125,12 @@ void stressed_points_i(const ElementInput& in, std::vector<StressedPoint>& point
   const solid::SampledRule& rule = element().stress;
   const solid::Positions P = solid::positions(in, 8);
   const Mat3 J0 = centre_jacobian(P);
-  const Mat6 D = elasticity_matrix(in.material);
   for (int q = 0; q < rule.size(); ++q) {
     double detJ = 0.0;
     solid::gradients(rule, q, P, detJ);
     const Eigen::Matrix<double, 6, 24> more =
         incompatible_strains(J0, rule.points[q], detJ) * amplitudes;
+    const Mat6 D = elasticity_at(in, P * rule.N.col(q));
     points[q].stress += (rule.weight(q) * detJ) * (D * more);
   }
 }
@@ -156,7 +156,7 @@ void stiffness_r(const ElementInput& in, MatX& K) {
   double volume = 0.0;
   const Gradients8 b = mean_gradients(P, volume);
   const Strain24 B = solid::strain_matrix(b);
-  const Strain24 DB = volume * elasticity_matrix(in.material) * B;
+  const Strain24 DB = volume * elasticity_at(in, P.rowwise().mean()) * B;
   K = B.transpose() * DB;
   // Hourglass vectors without what a linear field has in them: gamma = (h - sum_i (h . x_i) b_i)/8.
   Eigen::Matrix<double, 8, 4> h;
@@ -169,8 +169,9 @@ void stiffness_r(const ElementInput& in, MatX& K) {
   const Eigen::Matrix<double, 8, 4> gamma = 0.125 * (h - b.transpose() * Xh);
   ElementInput block = in;
   const Mat3 J0 = centre_jacobian(P);
+  const Vec3 centre = in.orientation ? Vec3(P.rowwise().mean()) : Vec3(Vec3::Zero());
   for (int a = 0; a < 8; ++a) {
-    block.p[a] = J0 * Vec3(corner[a][0], corner[a][1], corner[a][2]);
+    block.p[a] = centre + J0 * Vec3(corner[a][0], corner[a][1], corner[a][2]);
   }
   MatX K_block;
   stiffness_i(block, K_block);
@@ -197,9 +198,10 @@ void nodal_strains_r(const ElementInput& in, MatX& out) {
 
 void stressed_points_r(const ElementInput& in, std::vector<StressedPoint>& points) {
   double volume = 0.0;
-  const Gradients8 b = mean_gradients(solid::positions(in, 8), volume);
+  const solid::Positions P = solid::positions(in, 8);
+  const Gradients8 b = mean_gradients(P, volume);
   points.resize(1);
-  points[0].stress = volume * elasticity_matrix(in.material) * solid::strain_matrix(b);
+  points[0].stress = volume * elasticity_at(in, P.rowwise().mean()) * solid::strain_matrix(b);
   solid::set_gradient(b, points[0].gradient);
 }
 

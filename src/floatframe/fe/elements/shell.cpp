@@ -11,6 +11,7 @@
 
 #include "floatframe/fe/shell_triangle.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/so3.hpp"
 
 namespace floatframe {
 namespace {
@@ -74,6 +75,10 @@ std::array<Vec3, 3> corners(const ElementInput& in, const Part& part) {
   return p;
 }
 
+ShellLayers layers_of(const ElementInput& in) {
+  return in.layers ? *in.layers : plain_layers(in.shell, in.material);
+}
+
 template <int nodes>
 std::string error(const ElementInput& given) {
   const ElementInput in = complete<nodes>(given);
@@ -83,6 +88,8 @@ std::string error(const ElementInput& given) {
   if (!(in.shell.shear >= 0.0) || !std::isfinite(in.shell.shear)) {
     return "has a shear stiffness that is negative or no number";
   }
+  if (in.layers && in.layers->axis.isZero(0.0))
+    return "lies across the first axis of its material, which must have a direction in it";
   double size = 0.0;
   for (std::size_t a = 1; a < nodes; ++a) size = std::max(size, (in.p[a] - in.p[0]).norm());
   constexpr bool triangular = nodes % 3 == 0;
@@ -114,8 +121,9 @@ void for_blocks(const Part& part, const Add& add) {
 template <int nodes>
 MatX whole_stiffness(const ElementInput& in) {
   MatX out = MatX::Zero(6 * all_nodes<nodes>, 6 * all_nodes<nodes>);
+  const ShellLayers layers = layers_of(in);
   for (const Part& part : parts<nodes>()) {
-    const Mat18 K = shell_triangle_stiffness(corners(in, part), in.material, in.shell);
+    const Mat18 K = shell_triangle_stiffness(corners(in, part), layers);
     for_blocks<nodes>(part, [&](int a, int b, int i, int j) {
       out.block<6, 6>(6 * a, 6 * b) += part.weight * K.block<6, 6>(6 * i, 6 * j);
     });
@@ -158,9 +166,9 @@ template <int nodes>
 void mass(const ElementInput& given, bool section_inertia, MatX& out) {
   const ElementInput in = complete<nodes>(given);
   out = MatX::Zero(6 * all_nodes<nodes>, 6 * all_nodes<nodes>);
+  const ShellLayers layers = layers_of(in);
   for (const Part& part : parts<nodes>()) {
-    const Mat18 M =
-        shell_triangle_mass(corners(in, part), in.material, in.shell.thickness, section_inertia);
+    const Mat18 M = shell_triangle_mass(corners(in, part), layers, section_inertia);
     for_blocks<nodes>(part, [&](int a, int b, int i, int j) {
       out.block<6, 6>(6 * a, 6 * b) += part.weight * M.block<6, 6>(6 * i, 6 * j);
     });
@@ -188,12 +196,13 @@ void stressed_points(const ElementInput& given, std::vector<StressedPoint>& poin
   const ElementInput in = complete<nodes>(given);
   points.resize(parts<nodes>().size());
   const MatX G = following<nodes>(in);
+  const ShellLayers layers = layers_of(in);
   std::size_t q = 0;
   for (const Part& part : parts<nodes>()) {
     const std::array<Vec3, 3> p = corners(in, part);
     const double area = triangle_area(p);
     const Mat3 R = triangle_axes(p);
-    const auto N = shell_triangle_membrane(p, in.material, in.shell.thickness);
+    const auto N = shell_triangle_membrane(p, layers);
     const Eigen::Matrix<double, 6, 18> stress = part.weight * area * from_triangle_axes(R) * N;
     StressedPoint& point = points[q++];
     point.stress = MatX::Zero(6, 6 * all_nodes<nodes>);
@@ -203,7 +212,12 @@ void stressed_points(const ElementInput& given, std::vector<StressedPoint>& poin
       point.stress.middleCols<6>(to) = stress.middleCols<6>(6 * a);
       const Vec3 side = p[(a + 2) % 3] - p[(a + 1) % 3];
       const Vec3 g = R.col(2).cross(side) / (2.0 * area);
-      for (int i = 0; i < 3; ++i) point.gradient.block<3, 1>(3 * i, to + i) = g;
+      // Of the middle of the thickness: u + theta x offset n.
+      const Mat3 arm = -layers.offset * skew(R.col(2));
+      for (int i = 0; i < 3; ++i) {
+        point.gradient.block<3, 1>(3 * i, to + i) = g;
+        if (layers.offset != 0.0) point.gradient.block<3, 3>(3 * i, to + 3) = g * arm.row(i);
+      }
     }
     condense(G, point.stress);
     condense(G, point.gradient);
@@ -216,6 +230,7 @@ template <int nodes>
 void layer_stresses(const ElementInput& given, MatX& out) {
   const ElementInput in = complete<nodes>(given);
   out = MatX::Zero(12 * nodes, 6 * all_nodes<nodes>);
+  const ShellLayers layers = layers_of(in);
   for (int a = 0; a < nodes; ++a) {
     std::array<std::array<int, 2>, most_cells> count{};  // of the triangles of each division here
     const auto corner_of = [&](const Part& part) {
@@ -230,7 +245,7 @@ void layer_stresses(const ElementInput& given, MatX& out) {
     for (const Part& part : all) {
       const int corner = corner_of(part);
       if (corner < 0) continue;
-      const auto S = shell_triangle_stress(corners(in, part), in.material, in.shell, corner);
+      const auto S = shell_triangle_stress(corners(in, part), layers, corner);
       const double share =
           part.weight / count[part.cell][part.division] / static_cast<double>(cells);
       for (int i = 0; i < 3; ++i)

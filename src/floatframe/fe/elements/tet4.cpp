@@ -36,9 +36,13 @@ solid::Gradients gradients(const ElementInput& in) {
 
 solid::Strain strains(const ElementInput& in) { return solid::strain_matrix(gradients(in)); }
 
+Mat6 elasticity(const ElementInput& in) {
+  return elasticity_at(in, 0.25 * (in.p[0] + in.p[1] + in.p[2] + in.p[3]));
+}
+
 void stiffness(const ElementInput& in, MatX& out) {
   const solid::Strain B = strains(in);
-  out = B.transpose() * elasticity_matrix(in.material) * B * (edges(in).determinant() / 6.0);
+  out = B.transpose() * elasticity(in) * B * (edges(in).determinant() / 6.0);
 }
 
 void scalar_mass(const ElementInput& in, MatX& out) {
@@ -53,7 +57,7 @@ void nodal_strains(const ElementInput& in, MatX& B) { B = strains(in).replicate(
 void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
   const double volume = edges(in).determinant() / 6.0;
   points.resize(1);
-  points[0].stress = volume * elasticity_matrix(in.material) * strains(in);
+  points[0].stress = volume * elasticity(in) * strains(in);
   solid::set_gradient(gradients(in), points[0].gradient);
 }
 

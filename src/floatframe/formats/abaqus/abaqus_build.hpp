@@ -1,5 +1,8 @@
 #pragma once
 // From the content of an Abaqus deck to the model.
+#include <functional>
+
+#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/abaqus/abaqus_resolve.hpp"
 #include "floatframe/formats/fe_file.hpp"
 
@@ -13,6 +16,10 @@ struct AbaqusBuild {
   std::vector<int> element_index;  ///< of each element of the deck: in the model, -1 if it has none
   FeModel model;
   DialectClues clues;  ///< of the deck, and of what its sections are used for
+  /// In FeModel::orientations, of names and what uses them; in FeModel::shells, of sections whose
+  /// plies have orientations of their own.
+  std::map<std::string, int> orientation_index;
+  std::map<std::vector<long>, int> turned_sections;
 
   AbaqusBuild(const AbaqusContent& c, TextSource& s)
       : content(c),
@@ -33,6 +40,8 @@ struct AbaqusBuild {
 struct AbaqusProperties {
   int material = -1, section = 0;
   Vec3 reference = Vec3::UnitZ();
+  int orientation = -1;
+  bool directional = false;  ///< shells: not isotropic in the plane
 };
 
 // abaqus_build_sections.cpp
@@ -45,6 +54,17 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
 void look_at_abaqus_beams(AbaqusBuild& build, const std::vector<int>& section_of);
 /// Of each section; its material and its shape get into the model.
 std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build);
+// abaqus_build_layers.cpp
+/// Index of an orientation in the model, which gets it; -1 and an error if there is none.
+int abaqus_orientation(AbaqusBuild& build, const std::string& name, const AbaqusSection& section);
+/// `material`: index of one by its name.
+ShellSection abaqus_shell_section(AbaqusBuild& build, const AbaqusSection& section,
+                                  const std::function<int(const std::string&)>& material);
+void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
+                           const Material& material);
+/// Axes of the material of an element whose nodes are known.
+void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
+                           const AbaqusProperties& p, Element& e);
 // abaqus_build_mesh.cpp
 void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);

@@ -212,8 +212,10 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
       continue;
     }
     if (type.remark != nullptr) counts.read_as[&type].add(element.at);
-    const auto result = element_of(build, element, section < 0 ? given : properties[section]);
+    auto result = element_of(build, element, section < 0 ? given : properties[section]);
     if (!result) continue;
+    if (section >= 0)
+      orient_abaqus_element(build, c.sections[section], properties[section], *result);
     build.element_index[e] = static_cast<int>(model.elements.size());
     model.elements.push_back(*result);
   }

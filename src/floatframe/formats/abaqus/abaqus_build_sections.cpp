@@ -15,34 +15,34 @@ using Family = AbaqusType::Family;
 namespace {
 
 /// Index of the section's material in the model, which gets it if it is not there yet.
-int material_of(AbaqusBuild& build, const AbaqusSection& section,
+int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::string& name,
                 std::unordered_map<std::string, int>& index) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
-  const auto [place, fresh] =
-      index.emplace(section.material, static_cast<int>(model.materials.size()));
+  const auto [place, fresh] = index.emplace(name, static_cast<int>(model.materials.size()));
   if (!fresh) return place->second;
-  const auto it = c.materials.find(section.material);
+  const auto it = c.materials.find(name);
   Material material;
   if (it == c.materials.end()) {
     build.source.error(
-        section.at, fmt::format("{} names the material {}, which does not exist{}", section.shown,
-                                shown(section.material),
-                                c.material_order.size() > most_known
-                                    ? ""
-                                    : did_you_mean(section.material, c.material_order)));
+        section.at,
+        fmt::format(
+            "{} names the material {}, which does not exist{}", section.shown, shown(name),
+            c.material_order.size() > most_known ? "" : did_you_mean(name, c.material_order)));
   } else {
     const AbaqusMaterial& m = it->second;
     if (!m.young) {
-      build.source.error(m.at, fmt::format("material {} has no *ELASTIC", shown(section.material)));
+      build.source.error(m.at, fmt::format("material {} has no *ELASTIC", shown(name)));
     }
     if (!m.density) {
-      build.source.error(m.at, fmt::format("material {} has no *DENSITY", shown(section.material)));
+      build.source.error(m.at, fmt::format("material {} has no *DENSITY", shown(name)));
     }
-    material = {m.young.value_or(0.0), m.poisson.value_or(0.0), m.density.value_or(0.0)};
+    material = m.elasticity ? anisotropic_material(*m.elasticity, m.plane, m.density.value_or(0.0))
+                            : Material{m.young.value_or(0.0), m.poisson.value_or(0.0),
+                                       m.density.value_or(0.0)};
   }
   model.materials.push_back(material);
-  model.material_names.push_back(section.material);
+  model.material_names.push_back(name);
   return place->second;
 }
 
@@ -159,7 +159,13 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
   FeModel& model = build.model;
   for (const AbaqusSection& section : build.content.sections) {
     AbaqusProperties p;
-    p.material = material_of(build, section, material_index);
+    const auto material = [&](const std::string& name) {
+      return material_of(build, section, name, material_index);
+    };
+    p.material = material(section.material);
+    check_abaqus_material(build, section, model.materials[p.material]);
+    if (!section.orientation.empty())
+      p.orientation = abaqus_orientation(build, section.orientation, section);
     if (section.family == Family::beam) {
       p.section = static_cast<int>(model.sections.size());
       check_form(build, section);
@@ -169,7 +175,9 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
       p.reference = build.content.placement.R * section.n1;
     } else if (section.family == Family::shell) {
       p.section = static_cast<int>(model.shells.size());
-      model.shells.push_back({section.thickness, 5.0 / 6.0 * section.thickness});
+      const ShellSection shell = abaqus_shell_section(build, section, material);
+      p.directional = !is_plain(shell, model.materials[p.material]);
+      model.shells.push_back(shell);
     }
     list.push_back(p);
   }

@@ -85,6 +85,19 @@ struct AbaqusSurface {
 
 struct AbaqusMaterial {
   std::optional<double> young, poisson, density;
+  std::optional<Mat6> elasticity;  ///< if it is not isotropic; `young` is the first constant then
+  bool plane = false;              ///< TYPE=LAMINA
+  FeSource at;
+};
+
+/// *ORIENTATION: points a, b and the origin c, then a rotation about one of the axes.
+struct AbaqusOrientation {
+  enum class Kind { rectangular, z_rectangular, cylindrical };
+  Kind kind = Kind::rectangular;
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero(), c = Vec3::Zero();
+  int axis = 0;        ///< 1, 2, 3; 0: no second line
+  double angle = 0.0;  ///< [rad]
+  AbaqusScope scope = AbaqusScope::part;
   FeSource at;
 };
 
@@ -93,7 +106,17 @@ struct AbaqusSection {
   std::string shown;  ///< for messages: "*SOLID SECTION"
   AbaqusReference elements;
   std::string material;
+  std::string orientation;  ///< name; empty: none
   double thickness = 0.0;
+  double offset = 0.0;  ///< of shells: of the nodes from the middle, in thicknesses
+  struct Ply {
+    double thickness = 0.0;
+    std::string material;
+    double angle = 0.0;       ///< [rad]
+    std::string orientation;  ///< in place of the angle; empty: none
+  };
+  std::vector<Ply> plies;  ///< of *SHELL SECTION, COMPOSITE from the bottom
+  bool symmetric = false;  ///< `plies` are the lower half
   BeamSection beam;
   std::string shape;  ///< of beams: "CIRC"
   double round =
@@ -154,6 +177,7 @@ struct AbaqusContent {
   std::map<Key, AbaqusSurface> surfaces;
   std::map<std::string, AbaqusMaterial> materials;
   std::vector<std::string> material_order;
+  std::map<std::string, AbaqusOrientation> orientations;
   std::vector<AbaqusSection> sections, masses;
   std::vector<AbaqusSpider> spiders;
   std::vector<AbaqusEquation> equations;
@@ -200,7 +224,6 @@ void read_abaqus_material(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_elastic(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_density(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_solid_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_shell_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_surface_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_mass(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_rotary_inertia(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
@@ -209,6 +232,14 @@ bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaq
                           AbaqusType::Family family, AbaqusSection& section);
 /// The value; one error at the last line if it is no positive number.
 double positive_real(AbaqusLines& lines, std::string_view field, std::string_view what);
+// abaqus_shell_section.cpp
+void read_abaqus_shell_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_anisotropic.cpp
+void read_abaqus_orientation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+/// Is it a type of *ELASTIC that is read but not isotropic?
+bool is_abaqus_anisotropic(std::string_view type);
+void read_abaqus_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                             AbaqusMaterial* material);
 // abaqus_beam_section.cpp
 void read_abaqus_beam_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_constraints.cpp

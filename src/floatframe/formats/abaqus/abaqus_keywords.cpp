@@ -26,7 +26,7 @@ const Refused refused[] = {
     {"contact has no place in a linear part",
      {"CONTACT", "CONTACT PAIR", "CLEARANCE", "SLIDE LINE", "RIGID SURFACE"}},
     {"take the cut and its tension out of the deck", {"PRE-TENSION SECTION"}},
-    {"write the deck in global directions", {"ORIENTATION", "TRANSFORM", "SYSTEM", "NORMAL"}},
+    {"write the deck in global directions", {"TRANSFORM", "SYSTEM", "NORMAL"}},
     {"write the deck with all nodes and elements",
      {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYMMETRIC MODEL GENERATION",
       "IMPERFECTION", "IMPORT", "MODEL CHANGE", "CYCLIC SYMMETRY MODEL", "ADJUST"}},

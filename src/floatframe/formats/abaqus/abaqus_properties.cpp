@@ -52,10 +52,13 @@ bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaq
   section.elements.scope = content.scope;
   section.elements.at = keyword.at;
   if (family == Family::solid || family == Family::shell || family == Family::beam) {
-    section.material = abaqus_name(lines.required(keyword, "MATERIAL"));
+    if (!keyword.has("COMPOSITE"))
+      section.material = abaqus_name(lines.required(keyword, "MATERIAL"));
   }
   if (keyword.has("ORIENTATION")) {
-    lines.error(keyword, "has the parameter 'ORIENTATION', which is not supported");
+    section.orientation = abaqus_name(keyword.value("ORIENTATION"));
+    if (family != Family::solid && family != Family::shell)
+      lines.error(keyword, "has the parameter 'ORIENTATION', which is not supported");
   }
   if (lines.source().errors() == before) return true;
   lines.skip_data();
@@ -90,8 +93,10 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   lines.allow_only(keyword, {"TYPE", "MODULI", "DEPENDENCIES"});
   AbaqusMaterial* const material = present_material(lines, keyword, content);
   const std::string type = abaqus_name(keyword.value("TYPE"));
+  if (is_abaqus_anisotropic(type)) return read_abaqus_anisotropic(lines, keyword, material);
   if (!type.empty() && type != "ISO" && type != "ISOTROPIC") {
-    lines.error(keyword, fmt::format("has the type {}; only isotropic elasticity is supported",
+    lines.error(keyword, fmt::format("has the type {}, expected ISOTROPIC, ENGINEERING CONSTANTS, "
+                                     "ORTHOTROPIC, ANISOTROPIC or LAMINA",
                                      shown(keyword.value("TYPE"))));
     return lines.skip_data();
   }
@@ -139,27 +144,6 @@ void read_abaqus_solid_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (!begin_abaqus_section(lines, keyword, content, Family::solid, section)) return;
   content.sections.push_back(section);
   lines.skip_data();
-}
-
-void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                               AbaqusContent& content) {
-  AbaqusSection section;
-  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET",
-                             "SECTIONINTEGRATION", "TEMPERATURE", "POISSON"});
-  const std::string offset = abaqus_name(keyword.value("OFFSET"));
-  if (!offset.empty() && parse_real(offset).value_or(1.0) != 0.0) {
-    lines.error(keyword, fmt::format("has the offset {}, which is not supported", shown(offset)));
-  }
-  if (!begin_abaqus_section(lines, keyword, content, Family::shell, section)) return;
-  std::vector<std::string_view> fields;
-  if (!lines.next_fields(fields)) return lines.error(keyword, "has no thickness");
-  section.thickness = positive_real(lines, fields[0], "thickness of the shell");
-  std::string_view more;
-  if (lines.next_data(more)) {
-    lines.source().error("*SHELL SECTION has a second line, which is not supported");
-    lines.skip_data();
-  }
-  content.sections.push_back(section);
 }
 
 /// Surface elements carry mass only if the section gives them some.

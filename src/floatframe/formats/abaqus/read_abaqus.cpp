@@ -39,6 +39,7 @@ constexpr std::array handlers{
     Known{"MATERIAL", read_abaqus_material},
     Known{"ELASTIC", read_abaqus_elastic},
     Known{"DENSITY", read_abaqus_density},
+    Known{"ORIENTATION", read_abaqus_orientation},
     Known{"SOLID SECTION", read_abaqus_solid_section},
     Known{"SHELL SECTION", read_abaqus_shell_section},
     Known{"BEAM SECTION", read_abaqus_beam_section},

@@ -1,6 +1,7 @@
 #pragma once
 // From the content of Nastran bulk data to the model.
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ struct NastranBuild {
   TextSource& source;
   FeModel model;
   std::unordered_map<int, int> node_of;  ///< index of a node number
+  std::map<int, int> orientation_of;     ///< index in FeModel::orientations of a system
   std::vector<char> turned;              ///< nodes whose displacements are in a turned system
 
   NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
@@ -47,6 +49,16 @@ void build_nastran_nodes(NastranBuild& build);
 /// Lumped or consistent.
 void nastran_mass_forms(NastranBuild& build);
 void build_nastran_elements(NastranBuild& build, const FeReadOptions& options);
+// nastran_build_layers.cpp
+/// `material`: index of one by its number.
+ShellSection nastran_shell_section(NastranBuild& build, const NastranElement& e,
+                                   const NastranProperty& p,
+                                   const std::function<int(int)>& material);
+/// Axes of the material of an element whose section and material are known.
+void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element& result);
+void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result);
+/// The cards that a property of a kind could have in place of a material; empty if it may have it.
+std::string nastran_material_misfit(const NastranMaterial& m, std::string_view card);
 // nastran_build_constraints.cpp
 void build_nastran_constraints(NastranBuild& build);
 void build_nastran_supports(NastranBuild& build);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/fe/elasticity.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/nastran/nastran_build.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -93,7 +94,7 @@ class ElementBuilder {
     if (mesh_only_) {
       result.material = options_.material ? 0 : -1;
     } else if (e.surface) {
-      const NastranProperty* p = property(e, {"PSHELL"});
+      const NastranProperty* p = property(e, {"PSHELL", "PCOMP", "PCOMPG"});
       if (p == nullptr) return;
       if (e.other) {
         b_.source.error(e.at, fmt::format("{}: only a part of its mid-side nodes is given; all "
@@ -101,8 +102,11 @@ class ElementBuilder {
                                           label(e)));
         return;
       }
-      result.material = material(*p, p->nonstructural / std::max(p->thickness, 1e-300));
-      result.section = shell(e.property, *p);
+      // A PCOMP has its nonstructural mass in its section.
+      result.material =
+          material(*p, p->plies.empty() ? p->nonstructural / std::max(p->thickness, 1e-300) : 0.0);
+      result.section = shell(e, *p);
+      orient_nastran_shell(b_, e, result);
     } else if (e.type == ElementType::beam2) {
       const bool bar = e.card == std::string_view("CBAR");
       const NastranProperty* p =
@@ -114,6 +118,7 @@ class ElementBuilder {
       const NastranProperty* p = property(e, {"PSOLID"});
       if (p == nullptr) return;
       result.material = material(*p, 0.0);
+      orient_nastran_solid(b_, *p, result);
       if (e.type == ElementType::hex8 && !p->full_integration) result.type = ElementType::hex8i;
     }
     for (const std::string& name : set_names(e.property)) {
@@ -175,30 +180,40 @@ class ElementBuilder {
     return *m.shear * 2.0 * (1.0 + *m.poisson) / *m.young;
   }
 
-  int shell(int id, const NastranProperty& p) {
-    const auto [it, fresh] = shells_.try_emplace(id, static_cast<int>(b_.model.shells.size()));
-    if (fresh) {
-      must_be_positive(p, id, "the thickness", p.thickness);
-      b_.model.shells.push_back({p.thickness, p.shell_shear});
-    }
+  int shell(const NastranElement& e, const NastranProperty& p) {
+    const auto [it, fresh] =
+        shells_.try_emplace({e.property, e.offset}, static_cast<int>(b_.model.shells.size()));
+    if (!fresh) return it->second;
+    must_be_positive(p, e.property, "the thickness", p.thickness);
+    b_.model.shells.push_back(nastran_shell_section(b_, e, p, [&](int id) {
+      // Of plies the mass counts, of a PSHELL that of its first material.
+      return material(p, 0.0, id, !p.plies.empty());
+    }));
     return it->second;
   }
 
   /// Index of a material; one with nonstructural mass (over volume) is a material of its own.
   int material(const NastranProperty& p, double nonstructural) {
-    const auto key = std::pair{p.material, nonstructural};
+    return material(p, nonstructural, p.material, true);
+  }
+  int material(const NastranProperty& p, double nonstructural, int id, bool weighs) {
+    const auto key = std::tuple{id, nonstructural, weighs};
     const auto it = materials_.find(key);
     if (it != materials_.end()) return it->second;
     Material m;
-    const auto found = c_.materials.find(p.material);
+    const auto found = c_.materials.find(id);
     if (found != c_.materials.end()) {
+      const std::string misfit = nastran_material_misfit(found->second, p.card);
+      if (!misfit.empty())
+        b_.source.error(p.at, fmt::format("{}: material {} is a {}, expected a {}", p.card, id,
+                                          found->second.card, misfit));
       m = elastic(found->first, found->second);
       m.density = (found->second.density.value_or(0.0) + nonstructural) * c_.mass_factor;
-      if (!found->second.density && nonstructural == 0.0) {
+      if (!found->second.density && nonstructural == 0.0 && weighs) {
         b_.source.error(found->second.at,
-                        fmt::format("MAT1 {}: RHO is missing; give the density (0.0 if all mass is "
+                        fmt::format("{} {}: RHO is missing; give the density (0.0 if all mass is "
                                     "in point masses)",
-                                    p.material));
+                                    found->second.card, id));
       }
       if (nonstructural != 0.0) {
         b_.note(p.at, fmt::format("{}: its nonstructural mass is added to the density of its "
@@ -206,24 +221,32 @@ class ElementBuilder {
                                   p.card));
       }
     } else {
-      const auto other = c_.other_materials.find(p.material);
-      b_.source.error(
-          p.at, other == c_.other_materials.end()
-                    ? fmt::format("{}: material {} is not in the file", p.card, p.material)
-                    : fmt::format("{}: material {} is a {}, only MAT1 is read", p.card, p.material,
-                                  other->second));
+      const auto other = c_.other_materials.find(id);
+      b_.source.error(p.at, other == c_.other_materials.end()
+                                ? fmt::format("{}: material {} is not in the file", p.card, id)
+                                : fmt::format("{}: material {} is a {}, which is not read", p.card,
+                                              id, other->second));
     }
     const int index = static_cast<int>(b_.model.materials.size());
     b_.model.materials.push_back(m);
-    const auto name = c_.material_names.find(p.material);
+    const auto name = c_.material_names.find(id);
     b_.model.material_names.push_back(
-        name == c_.material_names.end() ? fmt::format("MAT1 {}", p.material) : name->second);
+        name == c_.material_names.end()
+            ? fmt::format("{} {}", found == c_.materials.end() ? "MAT1" : found->second.card, id)
+            : name->second);
     return materials_[key] = index;
   }
 
   /// E, G and NU: two give the third.
   Material elastic(int id, const NastranMaterial& m) {
     Material result;
+    if (m.elasticity && checked_.insert(id).second) {
+      const std::string error = nastran_plane_error(m);
+      if (!error.empty()) b_.source.error(m.at, fmt::format("{} {}: {}", m.card, id, error));
+    }
+    if (m.elasticity)
+      return anisotropic_material(c_.stiffness_factor * *m.elasticity, m.plane, 0.0);
+    if (m.card != std::string_view("MAT1")) return result;  // refused already
     const int given = (m.young ? 1 : 0) + (m.shear ? 1 : 0) + (m.poisson ? 1 : 0);
     if (given < 2) {
       b_.source.error(m.at, fmt::format("MAT1 {}: {} of E, G and NU given, expected two", id,
@@ -305,8 +328,9 @@ class ElementBuilder {
   FeSource first_skin_;
   std::set<int> missing_, inconsistent_, checked_;
   std::map<std::string, std::set<int>> members_;
-  std::map<int, int> sections_, shells_;
-  std::map<std::pair<int, double>, int> materials_;
+  std::map<int, int> sections_;
+  std::map<std::pair<int, double>, int> shells_;
+  std::map<std::tuple<int, double, bool>, int> materials_;
 };
 
 }  // namespace

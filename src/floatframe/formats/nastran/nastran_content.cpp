@@ -49,20 +49,21 @@ class ContentReader {
 
   void one(F& f) {
     static const std::map<std::string_view, NastranCardReader> readers = {
-        {"GRID", read_nastran_grid},      {"GRDSET", read_nastran_grid_default},
-        {"CORD2R", read_nastran_system},  {"CORD2C", read_nastran_system},
-        {"CORD2S", read_nastran_system},  {"CTETRA", read_nastran_solid},
-        {"CPYRAM", read_nastran_solid},   {"CPYRA", read_nastran_solid},
-        {"CHEXA", read_nastran_solid},    {"CPENTA", read_nastran_solid},
-        {"CTRIA3", read_nastran_surface}, {"CQUAD4", read_nastran_surface},
-        {"CTRIA6", read_nastran_surface}, {"CQUAD8", read_nastran_surface},
-        {"CTRIAR", read_nastran_surface}, {"CQUADR", read_nastran_surface},
-        {"CBAR", read_nastran_bar},       {"CBEAM", read_nastran_bar},
-        {"MAT1", read_nastran_material},  {"CONM2", read_nastran_mass},
-        {"RBE2", read_nastran_rbe2},      {"RBE3", read_nastran_rbe3},
-        {"RBAR", read_nastran_rbar},      {"MPC", read_nastran_mpc},
-        {"MPCADD", read_nastran_mpc_add}, {"SPC", read_nastran_spc},
-        {"SPC1", read_nastran_spc1},
+        {"GRID", read_nastran_grid},        {"GRDSET", read_nastran_grid_default},
+        {"CORD2R", read_nastran_system},    {"CORD2C", read_nastran_system},
+        {"CORD2S", read_nastran_system},    {"CTETRA", read_nastran_solid},
+        {"CPYRAM", read_nastran_solid},     {"CPYRA", read_nastran_solid},
+        {"CHEXA", read_nastran_solid},      {"CPENTA", read_nastran_solid},
+        {"CTRIA3", read_nastran_surface},   {"CQUAD4", read_nastran_surface},
+        {"CTRIA6", read_nastran_surface},   {"CQUAD8", read_nastran_surface},
+        {"CTRIAR", read_nastran_surface},   {"CQUADR", read_nastran_surface},
+        {"CBAR", read_nastran_bar},         {"CBEAM", read_nastran_bar},
+        {"MAT1", read_nastran_material},    {"CONM2", read_nastran_mass},
+        {"MAT2", read_nastran_anisotropic}, {"MAT8", read_nastran_anisotropic},
+        {"MAT9", read_nastran_anisotropic}, {"RBE2", read_nastran_rbe2},
+        {"RBE3", read_nastran_rbe3},        {"RBAR", read_nastran_rbar},
+        {"MPC", read_nastran_mpc},          {"MPCADD", read_nastran_mpc_add},
+        {"SPC", read_nastran_spc},          {"SPC1", read_nastran_spc1},
     };
     const std::string& name = f.name();
     if (only_nodes_ && name != "GRID" && name != "GRDSET" && !name.starts_with("CORD") &&

@@ -37,21 +37,39 @@ struct NastranElement {
   bool other = false;               ///< surface with a part of its mid-side nodes: only a skin
   Vec3 orientation = Vec3::Zero();  ///< bars: in the system of the first node's cd
   int orientation_node = 0;         ///< bars: or a node
+  double theta = 0.0;               ///< shells: of axis 1 of the material from the side 1-2 [rad]
+  int material_system = -1;         ///< shells: MCID in place of the angle; -1: none
+  double offset = 0.0;              ///< shells: ZOFFS
   FeSource at;
 };
 
 struct NastranMaterial {
-  std::optional<double> young, shear, poisson;
+  const char* card = "MAT1";
+  std::optional<double> young, shear, poisson;  ///< MAT1
   std::optional<double> density;
+  std::optional<Mat6> elasticity;  ///< MAT2, MAT8, MAT9
+  bool plane = false;              ///< MAT2, MAT8
   FeSource at;
+};
+
+struct NastranPly {
+  int material = 0;
+  double thickness = 0.0, angle = 0.0;  ///< [rad]
 };
 
 struct NastranProperty {
   const char* card = "";
   int material = 0;
   bool full_integration = false;  ///< PSOLID: of CHEXA with 8 nodes
-  double thickness = 0.0;         ///< PSHELL
-  double shell_shear = 0.0;       ///< PSHELL with MID3
+  int material_system = 0;        ///< PSOLID: CORDM
+  double thickness = 0.0;         ///< PSHELL, PCOMP
+  int bending = 0, coupling = 0;  ///< PSHELL: MID2, MID4; 0: none
+  double bending_factor = 1.0;    ///< PSHELL: 12I/T**3
+  std::vector<NastranPly> plies;  ///< PCOMP, from the bottom
+  std::optional<double> z0;       ///< PCOMP: of the bottom from the nodes
+  bool smeared = false;           ///< PCOMP: LAM = SMEAR
+  double shell_shear = 0.0;       ///< PSHELL with MID3, PCOMP
+  int shear_material = 0;         ///< PSHELL: MID3
   BeamSection section;            ///< PBAR, PBARL, PBEAM, PBEAML
   double nonstructural = 0.0;     ///< mass over length or area
   FeSource at;
@@ -149,6 +167,14 @@ void read_nastran_surface(NastranFields&, NastranContent&);
 void read_nastran_bar(NastranFields&, NastranContent&);
 void read_nastran_material(NastranFields&, NastranContent&);
 void read_nastran_mass(NastranFields&, NastranContent&);
+// nastran_materials.cpp
+/// MAT2, MAT8, MAT9
+void read_nastran_anisotropic(NastranFields&, NastranContent&);
+/// What is wrong with the constants of a MAT2 that is the material of a shell.
+std::string nastran_plane_error(const NastranMaterial& m);
+// nastran_laminates.cpp
+void read_nastran_pshell(NastranFields&, NastranProperty&);
+void read_nastran_pcomp(NastranFields&, NastranProperty&);  ///< and PCOMPG
 // nastran_constraint_cards.cpp
 void read_nastran_rbe2(NastranFields&, NastranContent&);
 void read_nastran_rbe3(NastranFields&, NastranContent&);
@@ -162,7 +188,7 @@ void nastran_twice(NastranFields& card, const FeSource& first);
 // nastran_home.cpp
 /// Shear areas of a named section by its dimensions.
 void nastran_shear_of_shape(std::string_view type, const double* d, BeamSection& section) noexcept;
-/// PSOLID, PSHELL, PBAR, PBARL, PBEAM, PBEAML; false if the card is none of them.
+/// PSOLID, PSHELL, PCOMP, PCOMPG, PBAR, PBARL, PBEAM, PBEAML; false if the card is none of them.
 bool read_nastran_property(NastranFields& card, NastranProperty& property);
 
 }  // namespace floatframe

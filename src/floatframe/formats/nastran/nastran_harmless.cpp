@@ -35,7 +35,7 @@ const char* const harmless_cards[] = {
     // rotors: gyroscopic terms, which are not of the part
     "ROTOR*", "RSPIN*", "RGYRO", "ROTPARM", "ROTHYBD", "ROTBENT", "UNBALNC",
     // coordinate systems and materials, which are errors where they are used
-    "CORD1*", "CORD3*", "MAT2", "MAT3", "MAT4", "MAT5", "MAT8", "MAT9", "MAT10*", "MAT11*", "MATS1",
+    "CORD1*", "CORD3*", "MAT3", "MAT4", "MAT5", "MAT10*", "MAT11*", "MATS1",
     "MATG", "MATHP*", "MATHE*", "MATORT", "MATEP", "MATF*", "MATVP", "MATVE", "MATSMA", "MATUSR",
     "MATUDS", "MATNLE*", "MATPE*", "MATDMG", "MATCRP", "MATTC", "MATT4", "MATT5", "MATDIGI",
     // heat

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "floatframe/formats/nastran/nastran_content.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
@@ -17,6 +18,17 @@ NastranElement element(NastranFields& f, const char* card) {
   e.id = f.label(0, "the number of the element");
   e.property = f.blank(1) ? e.id : f.label(1, "the property");
   return e;
+}
+
+/// THETA or MCID, then ZOFFS.
+void shell_axes(NastranFields& f, std::size_t i, NastranElement& e) {
+  const std::string_view text = f.text(i);
+  if (!text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos) {
+    e.material_system = f.integer(i, "the material system MCID", -1);
+  } else {
+    e.theta = f.real(i, "the material angle THETA", 0.0) * std::numbers::pi / 180.0;
+  }
+  e.offset = f.real(i + 1, "the offset ZOFFS", 0.0);
 }
 
 }  // namespace
@@ -110,7 +122,7 @@ void read_nastran_surface(NastranFields& f, NastranContent& c) {
     e.type = triangle ? ElementType::tri3 : ElementType::quad4;
   }
   if (!e.other) {
-    f.must_be_zero(!midside ? 3 + corners : triangle ? 9 : 15, "the offset ZOFFS");
+    shell_axes(f, !midside ? 2 + corners : triangle ? 8 : 14, e);
     for (std::size_t k = 10; k < 10 + corners; ++k) {
       if (!f.blank(k)) {
         f.error("thicknesses of the corners are not supported; give one with PSHELL");

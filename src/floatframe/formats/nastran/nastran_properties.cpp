@@ -14,38 +14,13 @@ namespace {
 
 void psolid(NastranFields& f, NastranProperty& p) {
   p.material = f.label(1, "the material");
+  p.material_system = f.integer(2, "CORDM", 0);
   const std::string_view in = f.text(3), isop = f.text(5);
   const bool points = in == "2" || in == "3" || same_word(in, "TWO") || same_word(in, "THREE");
   p.full_integration = points && (isop == "1" || same_word(isop, "FULL"));
   if (!f.blank(6) && !same_word(f.text(6), "SMECH")) {
     f.error(fmt::format("FCTN is {}, only solids (SMECH) are read", shown(f.text(6))));
   }
-}
-
-void pshell(NastranFields& f, NastranProperty& p) {
-  p.material = f.label(1, "the material (MID1)");
-  p.thickness = f.real(2, "the thickness");
-  if (f.blank(3)) {
-    f.error("MID2 is blank: a membrane without bending stiffness is not supported");
-  } else if (f.text(3) != "-1" && f.label(3, "MID2") != p.material) {
-    f.error("MID2 is not MID1: only homogeneous shells are supported");
-  }
-  if (f.text(3) == "-1") f.error("MID2 is -1: plane strain is not supported");
-  if (std::abs(f.real(4, "12I/T**3", 1.0) - 1.0) > 1e-6) {
-    f.error("12I/T**3 is not 1: only homogeneous shells are supported");
-  }
-  if (!f.blank(5)) {
-    if (f.label(5, "MID3") != p.material) {
-      f.error("MID3 is not MID1: only homogeneous shells are supported");
-    }
-    if (std::abs(f.real(6, "TS/T", 5.0 / 6.0) - 5.0 / 6.0) > 1e-3) {
-      f.error(fmt::format("TS/T is {}, expected 0.833333: only homogeneous shells are supported",
-                          shown(f.text(6))));
-    }
-    p.shell_shear = 5.0 / 6.0 * p.thickness;
-  }
-  p.nonstructural = f.real(7, "the nonstructural mass", 0.0);
-  if (!f.blank(10)) f.error("MID4 is given: only homogeneous shells are supported");
 }
 
 /// A, I1, I2, J as one section.
@@ -161,8 +136,14 @@ void pbeam(NastranFields& f, NastranProperty& p) {
 
 bool read_nastran_property(NastranFields& f, NastranProperty& p) {
   const std::pair<const char*, void (*)(NastranFields&, NastranProperty&)> readers[] = {
-      {"PSOLID", psolid},       {"PSHELL", pshell}, {"PBAR", pbar},
-      {"PBARL", named_section}, {"PBEAM", pbeam},   {"PBEAML", named_section}};
+      {"PSOLID", psolid},
+      {"PSHELL", read_nastran_pshell},
+      {"PCOMP", read_nastran_pcomp},
+      {"PCOMPG", read_nastran_pcomp},
+      {"PBAR", pbar},
+      {"PBARL", named_section},
+      {"PBEAM", pbeam},
+      {"PBEAML", named_section}};
   for (const auto& [name, read] : readers) {
     if (f.name() != name) continue;
     p.card = name;

@@ -1,0 +1,85 @@
+// *SHELL SECTION: one material, or layers from the bottom to the top (the side of the normal).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/text/text_fields.hpp"
+
+namespace floatframe {
+namespace {
+
+/// SPOS, SNEG or a number: of the nodes from the middle, in thicknesses.
+void read_shell_offset(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusSection& section) {
+  const std::string offset = abaqus_name(keyword.value("OFFSET"));
+  if (offset.empty()) return;
+  const auto value = parse_real(offset);
+  if (offset == "SPOS" || offset == "SNEG") {
+    section.offset = offset == "SPOS" ? 0.5 : -0.5;
+  } else if (value && std::isfinite(*value)) {
+    section.offset = *value;
+  } else {
+    lines.error(keyword,
+                fmt::format("has the offset {}, expected SPOS, SNEG or a number", shown(offset)));
+  }
+}
+
+/// Thickness, number of points, material, orientation (a name, or an angle in degrees), name.
+void read_ply(AbaqusLines& lines, const std::vector<std::string_view>& fields, std::size_t number,
+              AbaqusSection& section) {
+  AbaqusSection::Ply ply;
+  ply.thickness = positive_real(lines, fields[0], fmt::format("thickness of ply {}", number));
+  if (fields.size() > 2) ply.material = abaqus_name(fields[2]);
+  if (ply.material.empty())
+    lines.source().error(fmt::format("ply {} names no material (third entry)", number));
+  if (fields.size() > 3 && !fields[3].empty()) {
+    if (const auto angle = parse_real(fields[3])) {
+      ply.angle = *angle * std::numbers::pi / 180.0;
+    } else {
+      ply.orientation = abaqus_name(fields[3]);
+    }
+  }
+  section.plies.push_back(ply);
+}
+
+}  // namespace
+
+void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                               AbaqusContent& content) {
+  constexpr std::size_t most_plies = 10000;
+  AbaqusSection section;
+  lines.allow_only(keyword,
+                   {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET", "SECTIONINTEGRATION",
+                    "TEMPERATURE", "POISSON", "COMPOSITE", "SYMMETRIC", "LAYUP", "STACKDIRECTION"});
+  const bool composite = keyword.has("COMPOSITE");
+  read_shell_offset(lines, keyword, section);
+  section.symmetric = keyword.has("SYMMETRIC");
+  if (section.symmetric && !composite) lines.error(keyword, "is SYMMETRIC without COMPOSITE");
+  if (composite && keyword.has("MATERIAL"))
+    lines.error(keyword, "has COMPOSITE and a material: those of the plies are in its lines");
+  if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::shell, section)) return;
+  std::vector<std::string_view> fields;
+  if (!lines.next_fields(fields))
+    return lines.error(keyword, composite ? "has no plies" : "has no thickness");
+  if (composite) {
+    do {
+      if (section.plies.size() < most_plies)
+        read_ply(lines, fields, section.plies.size() + 1, section);
+    } while (lines.next_fields(fields) && section.plies.size() <= most_plies);
+    section.material = section.plies.front().material;
+    if (section.plies.size() >= most_plies)
+      lines.error(keyword, fmt::format("has more than {} plies", most_plies - 1));
+    content.sections.push_back(section);
+    return lines.skip_data();
+  }
+  section.thickness = positive_real(lines, fields[0], "thickness of the shell");
+  std::string_view more;
+  if (lines.next_data(more)) {
+    lines.source().error("*SHELL SECTION has a second line, which is not supported");
+    lines.skip_data();
+  }
+  content.sections.push_back(section);
+}
+
+}  // namespace floatframe
