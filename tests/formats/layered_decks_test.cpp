@@ -55,10 +55,11 @@ TEST(LayeredDecks, TheSameLaminateInBothLanguages) {
   const FeModel a =
       layered_inp(abaqus_mesh + "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 10.\n" +
                   "*SHELL SECTION, ELSET=SKIN, COMPOSITE, ORIENTATION=O\n" + plies);
-  const FeModel n = layered_bdf(nastran_mesh +
-                                "CORD2R,8,,0.,0.,0.,0.,0.,1.\n,0.98480775,0.17364818,0.\n"
-                                "CQUAD4,1,3,1,2,3,4,8\nCTRIA3,2,3,2,5,3,8\n"
-                                "PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n,1,.5,45.\n");
+  const FeModel n =
+      layered_bdf(nastran_mesh +
+                  "CORD2R,8,,0.,0.,0.,0.,0.,1.\n,0.984807753012208,0.17364817766693,0.\n"
+                  "CQUAD4,1,3,1,2,3,4,8\nCTRIA3,2,3,2,5,3,8\n"
+                  "PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n,1,.5,45.\n");
   ASSERT_EQ(a.shells.at(0).plies.size(), 3u);
   EXPECT_NEAR(a.shells[0].thickness, 3.5, 1e-15);
   EXPECT_EQ(n.shells.at(0).plies.size(), 3u);
@@ -74,10 +75,11 @@ TEST(LayeredDecks, TheSameLaminateInBothLanguages) {
       abaqus_mesh + "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n3, 10.\n" +
       "*SHELL SECTION, ELSET=SKIN, COMPOSITE, SYMMETRIC, ORIENTATION=O, OFFSET=SNEG\n" + plies);
   ASSERT_EQ(symmetric.shells.at(0).plies.size(), 6u);
-  const FeModel sym = layered_bdf(nastran_mesh +
-                                  "CORD2R,8,,0.,0.,0.,0.,0.,1.\n,0.98480775,0.17364818,0.\n"
-                                  "CQUAD4,1,3,1,2,3,4,8\nCTRIA3,2,3,2,5,3,8\n"
-                                  "PCOMP,3,0.,,,,,,SYM\n,1,1.,0.,YES,2,2.,0.\n,1,.5,45.\n");
+  const FeModel sym =
+      layered_bdf(nastran_mesh +
+                  "CORD2R,8,,0.,0.,0.,0.,0.,1.\n,0.984807753012208,0.17364817766693,0.\n"
+                  "CQUAD4,1,3,1,2,3,4,8\nCTRIA3,2,3,2,5,3,8\n"
+                  "PCOMP,3,0.,,,,,,SYM\n,1,1.,0.,YES,2,2.,0.\n,1,.5,45.\n");
   EXPECT_NEAR(sym.shells.at(0).offset, 3.5, 1e-15);
   expect_same(symmetric, sym);
 }
