@@ -77,7 +77,7 @@ TEST(BadLayers, AbaqusDecks) {
        "deck.inp:9: *ELASTIC TYPE=LAMINA: NU12 is 4, expected a size below 3.74166, the root of "
        "E1/E2"},
       {".3, 5000.,", ".3, 0.,", "deck.inp:9: *ELASTIC TYPE=LAMINA: G12 is 0, expected more than 0"},
-      {"1.e4, .3", "1.e4, a", "deck.inp:10: elastic constant 3 is 'a', expected a number"},
+      {"1.e4, .3", "1.e4, a", "deck.inp:10: elastic constant 3: 'a' is not a number"},
       {"5000., 3000.\n", "5000., 3000., 20.\n1.3e5, 1.e4, .3, 5000., 5000., 3000., 80.\n",
        "deck.inp:9: *ELASTIC depends on temperature or fields (more lines), which is not "
        "supported"},
@@ -107,7 +107,7 @@ TEST(BadLayers, AbaqusDecks) {
        "of "
        "D1212 D2323"},
       {"*ORIENTATION, NAME=O\n", "*ORIENTATION\n",
-       "deck.inp:13: *ORIENTATION has no parameter 'NAME'"},
+       "deck.inp:13: *ORIENTATION needs the parameter NAME"},
       {"NAME=O\n", "NAME=O, SYSTEM=SPHERICAL\n",
        "deck.inp:13: *ORIENTATION has the system 'SPHERICAL', expected RECTANGULAR, Z RECTANGULAR "
        "or CYLINDRICAL"},
@@ -120,7 +120,7 @@ TEST(BadLayers, AbaqusDecks) {
       {"1., 0., 0., 0., 1., 0.\n3, 10.", "1., 0., 0.\n3, 10.",
        "deck.inp:13: *ORIENTATION has 3 coordinates, expected those of the points a and b"},
       {"3, 10.", "4, 10.", "deck.inp:13: *ORIENTATION turns about axis 4, expected 1, 2 or 3"},
-      {"3, 10.", "3, x", "deck.inp:15: additional rotation is 'x', expected a number"},
+      {"3, 10.", "3, x", "deck.inp:15: additional rotation: 'x' is not a number"},
       {"3, 10.\n", "3, 10.\n*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n",
        "deck.inp:16: *ORIENTATION names the orientation 'O' a second time (deck.inp:13)"},
       {"ORIENTATION=O\n", "ORIENTATION=P\n",
@@ -211,7 +211,7 @@ TEST(BadLayers, NastranDecks) {
        "deck.bdf:8: PSHELL 3: TS/T is '-1.', expected more than 0"},
       {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,,2\n",
        "deck.bdf:8: PSHELL 3: MID3 is not MID1: that is read of MAT1 only"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,,,,,\n,,2\n",
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,,,\n,,,2\n",
        "deck.bdf:8: PSHELL 3: MID4 is 2, expected a MAT2"},
       {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,-1\n",
        "deck.bdf:8: PSHELL 3: MID2 is -1: plane strain is not supported"},

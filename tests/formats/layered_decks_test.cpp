@@ -191,7 +191,7 @@ TEST(LayeredDecks, SolidsInBothLanguages) {
     for (int j = i; j < 6; ++j) {
       char text[40];
       std::snprintf(text, sizeof text, ",%.12g", D(i, j));
-      if (field++ == 9) mat9 += "\n", field = 3;
+      if (field++ == 9) mat9 += "\n", field = 2;
       mat9 += text;
     }
   const FeModel a = layered_inp(

@@ -65,13 +65,13 @@ bool next_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, std::size_
       return false;
     }
     const std::size_t here = std::min<std::size_t>(8, count - out.size());
+    if (fields.size() < here) {
+      lines.error(keyword, fmt::format("has no constant {} of {}: eight stand in a line",
+                                       out.size() + fields.size() + 1, count));
+      return false;
+    }
     for (std::size_t k = 0; k < here; ++k) {
       const std::size_t number = out.size() + 1;
-      if (k >= fields.size() && out.size() + fields.size() < count && fields.size() < here) {
-        lines.error(keyword,
-                    fmt::format("has no constant {} of {}: eight stand in a line", number, count));
-        return false;
-      }
       out.push_back(lines.real_or(fields, k, 0.0, fmt::format("elastic constant {}", number)));
     }
   }

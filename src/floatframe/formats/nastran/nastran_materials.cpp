@@ -26,6 +26,7 @@ void mat8(NastranFields& f, NastranMaterial& m) {
   c.G13 = f.real(5, "G1Z", 0.0);
   c.G23 = f.real(6, "G2Z", 0.0);
   if (!f.blank(7)) m.density = f.real(7, "RHO");
+  if (f.blank(1) || f.blank(2) || f.blank(3)) return;
   const std::string error = engineering_error(c, true);
   if (!error.empty()) return f.error(error);
   m.elasticity = lamina_elasticity(c);
