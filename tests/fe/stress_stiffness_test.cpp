@@ -10,7 +10,9 @@
 
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/fe_system.hpp"
+#include "floatframe/fe/model_checks.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/sparse_factors.hpp"
 #include "support/fe_parts.hpp"
 #include "support/midside_sheets.hpp"
 #include "support/quadratic_mesh.hpp"

@@ -123,7 +123,7 @@ const char* const tiny =
     "$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 1 0\n$EndEntities\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n"
     "0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
 
-std::string error_of(std::string_view text) {
+std::string mesh_error(std::string_view text) {
   try {
     parse_gmsh(text, "arm.msh", {});
   } catch (const InputError& error) {
@@ -139,7 +139,7 @@ struct FileError {
 };
 
 TEST(Gmsh, ErrorsOfText) {
-  ASSERT_EQ(error_of(tiny), "no error");
+  ASSERT_EQ(mesh_error(tiny), "no error");
   const FileError errors[] = {
       {"4.1 0 8", "4.0 0 8",
        "arm.msh:2: the version of the format is '4.0', expected 4.1 or 2.2 (Gmsh writes them with "
@@ -194,45 +194,45 @@ TEST(Gmsh, ErrorsOfText) {
     const std::size_t at = text.find(error.from);
     ASSERT_NE(at, std::string::npos) << error.from;
     text.replace(at, std::strlen(error.from), error.to);
-    EXPECT_EQ(error_of(text), error.sentence);
+    EXPECT_EQ(mesh_error(text), error.sentence);
   }
 }
 
 TEST(Gmsh, ErrorsOfBinary) {
   const std::string good = read_whole_file(data("bricks_bin.msh.gz"));
-  ASSERT_EQ(error_of(good), "no error");
+  ASSERT_EQ(mesh_error(good), "no error");
   const std::size_t nodes = good.find("$Nodes\n") + 7, elements = good.find("$Elements\n") + 10;
   // Truncated in the last node of the last element.
   const std::size_t end = good.find("$EndElements") - 1;
   EXPECT_EQ(
-      error_of(std::string_view(good).substr(0, end - 5)),
+      mesh_error(std::string_view(good).substr(0, end - 5)),
       fmt::format("arm.msh: byte {}: the file ends where a node of an element was expected (3 "
                   "bytes are left)",
                   end - 8));
   // A count that nothing backs.
   std::string text = good;
   text[nodes + 13] = 1;
-  EXPECT_EQ(error_of(text),
+  EXPECT_EQ(mesh_error(text),
             fmt::format("arm.msh: byte {}: the number of nodes is 1099511627873, more than the {} "
                         "bytes that are left of the file can hold",
                         nodes + 8, good.size() - nodes - 16));
   // Rubbish in a node number, a coordinate that is no number, a wrong order of bytes.
   text = good;
   text[nodes + 58] = 1;
-  EXPECT_EQ(error_of(text),
+  EXPECT_EQ(mesh_error(text),
             fmt::format("arm.msh: byte {}: the number of a node is 281474976710657, expected 1 to "
                         "2147483647",
                         nodes + 52));
   text = good;
   const std::size_t one = text.find("8\n") + 2;
   text[one] = 7;
-  EXPECT_EQ(error_of(text),
+  EXPECT_EQ(mesh_error(text),
             "arm.msh: byte 24: found 7, expected the number 1 that shows the order "
             "of bytes");
   text = good;
   text.erase(elements);
   EXPECT_EQ(
-      error_of(text),
+      mesh_error(text),
       fmt::format("arm.msh: byte {}: the file ends where the number of blocks of elements was "
                   "expected (0 bytes are left)",
                   elements));
