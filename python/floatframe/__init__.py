@@ -32,13 +32,14 @@ from .meshes import BeamSection, Material, Mesh
 from .model import Model
 from .options import Options
 from .parts import FileInfo, Part, info, read_body, reduce
-from .places import Place, cylinder, nearest, node, nodes, plane, sphere
-from .places import set_ as set  # not in __all__: a star would hide that of Python
+from .places import Place, cylinder, nearest, node, nodes, plane, set_, sphere
 from .run import Result, run
 from .simulation import Simulation
 from .study import sweep
 
 __version__ = version()
+
+set = set_  # not in __all__: a star would hide that of Python
 
 __all__ = [
     "BeamSection",

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 Path = str | os.PathLike[str]
 Progress = bool | Callable[[str, float], object]
 Places = Mapping[str, Place]
+Density = float | Mapping[str, float]
 
 
 class Part:
@@ -176,9 +177,11 @@ def reduce(
     effective_mass: float | None = None,
     reference: str | None = None,
     material: Material | None = None,
+    density: Density | None = None,
     integration: Literal["exact", "ccx"] | None = None,
     damping: float | None = None,
     solver: Literal["auto", "mumps", "eigen"] | None = None,
+    contact: str | None = None,
     free_check: bool | None = None,
     stresses: bool | None = None,
     projection: bool | None = None,
@@ -207,6 +210,9 @@ def reduce(
     beam_shear, shell_shear: shear deformation of beams and shells of a file; mass_form: consistent or lumped mass.
     projection=True: nodes and mass matrix are kept for the projection method.
 
+    material: of files that have none. density: of materials that have none in the file, a number or by their names,
+    {"STEEL": 7.85e-9}; both in the units of the file. contact: contact pairs of the deck: "ignore", "tied" or "tied:DISTANCE".
+
     progress: True prints a line for each stage, or a function of the stage and its duration [s]. Other threads of Python go on
     meanwhile; Ctrl-C ends it when the stage that runs is done. Raises InputError.
     """
@@ -224,19 +230,12 @@ def reduce(
         "free_check": free_check,
         "stresses": stresses,
         "projection": projection,
-        "format": format,
-        "dialect": dialect,
         "beam_shear": beam_shear,
         "shell_shear": shell_shear,
         "mass_form": mass_form,
-        "nodes": None if nodes is None else _path("nodes", nodes),
-        "mass": None if mass is None else _path("mass", mass),
-        "dofs": None if dofs is None else _path("dofs", dofs),
     }
-    words = ("units", "method", "reference", "integration", "solver", "format", "dialect", "beam_shear", "shell_shear")
-    for name in (*words, "mass_form"):
-        if options[name] is not None and not isinstance(options[name], str):
-            raise InputError(f"{name}: found {options[name]!r}, expected a text")
+    _expect_texts(options, ("units", "method", "reference", "integration", "solver", "beam_shear", "shell_shear", "mass_form"))
+    options |= _reading(format, dialect, contact, density, nodes, mass, dofs)
     chosen: dict[str, object] = {}
     for key, places in (("interfaces", interfaces), ("markers", markers)):
         if places is not None:
@@ -245,17 +244,15 @@ def reduce(
     if tell is not None and not callable(tell):
         raise InputError(f"progress: found {progress!r}, expected True, False or a function")
     if mesh:
-        for name in ("format", "dialect", "beam_shear", "shell_shear", "mass_form", "nodes", "mass", "dofs"):
+        of_files = ("format", "dialect", "contact", "density", "beam_shear", "shell_shear", "mass_form", "nodes", "mass", "dofs")
+        for name in of_files:
             if options[name] is not None:
                 raise InputError(f"{name} says how files are read: found it for a mesh")
         model = fe_model(source, material, thickness, section, chosen)
         return Part._of(_core.reduce_mesh(model, type(source).__name__, options, tell))
     if thickness is not None or section is not None:
         raise InputError("thickness and section belong to meshes: found them for a file, which has its own")
-    if material is not None:
-        if not isinstance(material, Material):
-            raise InputError(f"material: found {material!r}, expected floatframe.Material(young, poisson, density)")
-        options["material"] = ",".join(repr(x) for x in material.checked())
+    options |= _material(material)
     if not isinstance(source, (str, os.PathLike)):
         found = type(source).__name__
         raise InputError(f"source: found {found}, expected a file, floatframe.Mesh, meshio.Mesh or pyvista.UnstructuredGrid")
@@ -267,15 +264,56 @@ def read_body(path: Path) -> Part:
     return Part._of(_core.read_body(_path("path", path)))
 
 
-def info(path: Path, *, format: str | None = None, material: Material | None = None) -> FileInfo:
-    """What is in a finite-element file, a body file or a SID_FEM file: what `floatframe info` prints, as a dict of its JSON."""
-    if format is not None and not isinstance(format, str):
-        raise InputError(f"format: found {format!r}, expected a text")
-    options: dict[str, Any] = {"format": format}
-    if material is not None:
-        options["material"] = ",".join(repr(x) for x in material.checked())
+def info(
+    path: Path,
+    *,
+    format: str | None = None,
+    material: Material | None = None,
+    density: Density | None = None,
+    dialect: Literal["abaqus", "calculix"] | None = None,
+    contact: str | None = None,
+    nodes: Path | None = None,
+    mass: Path | None = None,
+    dofs: Path | None = None,
+) -> FileInfo:
+    """What is in a finite-element file, a body file or a SID_FEM file: what `floatframe info` prints, as a dict of its JSON.
+    Options as those of `reduce`."""
+    options = _reading(format, dialect, contact, density, nodes, mass, dofs) | _material(material)
     text, content = _core.file_info(_path("path", path), options)
     return FileInfo(text, json.loads(content))
+
+
+def _expect_texts(options: dict[str, Any], names: tuple[str, ...]) -> None:
+    for name in names:
+        if options[name] is not None and not isinstance(options[name], str):
+            raise InputError(f"{name}: found {options[name]!r}, expected a text")
+
+
+def _reading(
+    format: object, dialect: object, contact: object, density: object, nodes: object, mass: object, dofs: object
+) -> dict[str, Any]:
+    """How a file is read, as options of the C++ library."""
+    options: dict[str, Any] = {"format": format, "dialect": dialect, "contact": contact, "density": None}
+    _expect_texts(options, ("format", "dialect", "contact"))
+    for name, file in (("nodes", nodes), ("mass", mass), ("dofs", dofs)):
+        options[name] = None if file is None else _path(name, file)
+    if density is None:
+        return options
+    texts = []
+    for material, value in (density.items() if isinstance(density, Mapping) else [("", density)]):
+        rho = _plain(value)
+        if isinstance(rho, bool) or not isinstance(rho, (int, float)) or not isinstance(material, str):
+            raise InputError(f"density: found {density!r}, expected a number or numbers by the names of materials")
+        texts.append(f"{material}={float(rho)!r}" if material else repr(float(rho)))
+    return options | {"density": texts}
+
+
+def _material(material: object) -> dict[str, Any]:
+    if material is None:
+        return {}
+    if not isinstance(material, Material):
+        raise InputError(f"material: found {material!r}, expected floatframe.Material(young, poisson, density)")
+    return {"material": ",".join(repr(x) for x in material.checked())}
 
 
 def _plain(value: Any) -> Any:

@@ -32,7 +32,7 @@ void bind_check(nb::module_& m) {
   value(c, "cut_joint_names", &ModelCounts::cut_joint_names, "");
   value(c, "start", &ModelCounts::start, "");
   m.def("check", [](const Model& model) {
-    nb::gil_scoped_release released;
+    Unlocked released;
     return check(model);
   });
 }
@@ -66,7 +66,7 @@ void bind_statics(nb::module_& m) {
       "state", [](const StaticsResult& s) { return SystemState(*s.state); },
       "The equilibrium, at rest: a start for runs.");
   m.def("statics", [](const Model& model) {
-    nb::gil_scoped_release released;
+    Unlocked released;
     return statics(model);
   });
 }
@@ -88,7 +88,7 @@ void bind_mass(nb::module_& m) {
   value(c, "start", &ModelMass::start, "");
   m.def("mass_properties", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
-    nb::gil_scoped_release released;
+    Unlocked released;
     return mass_properties(model, options);
   });
 }
@@ -136,7 +136,7 @@ void bind_advice(nb::module_& m) {
   m.def("advise", [](const Model& model, const Keywords& given, double drop_share,
                      double static_ratio, double tolerance, int repeat) {
     const SimulationDescription simulation = described(model, options_of(given));
-    nb::gil_scoped_release released;
+    Unlocked released;
     return advise(model, simulation, {drop_share, static_ratio, tolerance, repeat});
   });
 }
@@ -158,7 +158,7 @@ void bind_order(nb::module_& m) {
   value(c, "differences", &ModelOrder::differences, "Of the runs, the largest first.");
   value(c, "warnings", &ModelOrder::warnings, "");
   m.def("model_order", [](const Model& model, double below, double tolerance) {
-    nb::gil_scoped_release released;
+    Unlocked released;
     return model_order(model, {below, tolerance});
   });
 }
@@ -166,7 +166,7 @@ void bind_order(nb::module_& m) {
 CampbellDiagram campbell_of(const Model& model, const std::string& joint, double from, double to,
                             double step, const std::array<double, 3>& axis,
                             const std::vector<double>& orders, int modes) {
-  nb::gil_scoped_release released;
+  Unlocked released;
   return campbell(model, {joint, from, to, step, {axis[0], axis[1], axis[2]}, orders, modes});
 }
 

@@ -67,6 +67,33 @@ InertiaMethod inertia_of(const std::string& word);
 /// Of keyword arguments; None is as if it was not given. Throws TypeError for other names, types.
 SimulationOptions options_of(const Keywords& given);
 
+/// The lock of the interpreter given away, and taken back at the end of the scope. When the
+/// interpreter ends it stops the threads that ask for its lock, by an exception that C++ cannot
+/// hold: they wait here instead, for the end of the process (`bind_threads`).
+class Unlocked {
+ public:
+  Unlocked();
+  ~Unlocked();
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+/// The lock taken, in threads that do not hold it.
+class Locked {
+ public:
+  Locked();
+  ~Locked();
+  Locked(const Locked&) = delete;
+  Locked& operator=(const Locked&) = delete;
+
+ private:
+  PyGILState_STATE state_;
+};
+/// Registers what happens to threads in C++ when the interpreter ends.
+void bind_threads();
+
 /// `run` in a thread of its own; this one, of Python, looks for signals meanwhile (Ctrl-C) and
 /// calls `watch` with the lock held. What either throws ends both: `stop` is set and waited for.
 void interruptible(std::atomic<bool>& stop, const std::function<void()>& run,

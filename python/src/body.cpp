@@ -89,7 +89,7 @@ InvariantsPtr invariants_of_projection(const ProjectionPtr& d) {
 
 InvariantsPtr invariants_of_mesh(const FeModel& model, const AnyNumbers& X) {
   const MatX shapes = shapes_of(X, model.positions.size());
-  nb::gil_scoped_release released;
+  Unlocked released;
   validate(model);
   return std::make_shared<InertiaInvariants>(invariants_isoparametric(model, shapes));
 }
@@ -97,7 +97,7 @@ InvariantsPtr invariants_of_mesh(const FeModel& model, const AnyNumbers& X) {
 ProjectionPtr projection_of_mesh(const FeModel& model, const AnyNumbers& X) {
   auto data = std::make_shared<ProjectionData>();
   data->X = shapes_of(X, model.positions.size());
-  nb::gil_scoped_release released;
+  Unlocked released;
   validate(model);
   data->p.resize(3, model.nodes());
   for (int k = 0; k < model.nodes(); ++k) data->p.col(k) = model.positions[k];

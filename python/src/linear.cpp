@@ -20,7 +20,7 @@ void bind_linearization(nb::module_& m) {
   value(c, "start", &Linearization::start, "What became of the start values.");
   m.def("linearize", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
-    nb::gil_scoped_release released;
+    Unlocked released;
     return linearize(model, options);
   });
 }
@@ -37,7 +37,7 @@ void bind_system(nb::module_& m) {
   value(c, "notes", &LinearSystem::notes, "Where it holds less than one might think.");
   m.def("linear_system", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
-    nb::gil_scoped_release released;
+    Unlocked released;
     return linear_system(model, options);
   });
 }
@@ -58,7 +58,7 @@ Numbers shares(const std::vector<std::string>& names, const std::vector<double>&
 
 std::vector<Mode> modes_of(const Model& model, const Keywords& given) {
   const SimulationOptions options = options_of(given);
-  nb::gil_scoped_release released;
+  Unlocked released;
   const LinearSystem system = linear_system(model, options);
   std::vector<std::string> bodies, forces;
   for (const Body& b : model.bodies) bodies.push_back(b.name);
@@ -128,7 +128,7 @@ ComplexArray response(const LinearModel& linear, const Frequencies& given) {
   auto kept = std::make_unique<std::complex<double>[]>(frequencies.size() * ny * nu);
   std::complex<double>* g = kept.get();
   {
-    nb::gil_scoped_release released;
+    Unlocked released;
     const FrequencyResponse of(linear);
     for (std::size_t k = 0; k < frequencies.size(); ++k) {
       const Eigen::MatrixXcd at = of.at_frequency(frequencies[k]);
@@ -167,7 +167,7 @@ void bind_ports(nb::module_& m) {
   m.def("linear_model", [](const Model& model, const std::vector<std::string>& inputs,
                            const std::vector<std::string>& outputs, const Keywords& given) {
     const SimulationOptions options = options_of(given);
-    nb::gil_scoped_release released;
+    Unlocked released;
     return linear_model(model, {inputs, outputs}, options);
   });
 }
@@ -189,7 +189,7 @@ void bind_road(nb::module_& m) {
            const Keywords& options_given) {
           const std::vector<double> frequencies = finite(given);
           const SimulationOptions options = options_of(options_given);
-          nb::gil_scoped_release released;
+          Unlocked released;
           return road_response(model, outputs, frequencies,
                                {roughness, waviness, speed, band[0], band[1]}, options);
         });

@@ -43,7 +43,7 @@ void bind_model(nb::module_& m) {
       [](const std::string& text, const std::string& path,
          const std::vector<std::pair<std::string, std::string>>& given) {
         const std::vector<ParameterOverride> parameters = overrides(given);
-        nb::gil_scoped_release released;
+        Unlocked released;
         return build_model(read_description(text, path, parameters));
       },
       nb::arg("text"), nb::arg("path"), nb::arg("parameters"));
@@ -51,7 +51,7 @@ void bind_model(nb::module_& m) {
       "load_model",
       [](const std::string& path, const std::vector<std::pair<std::string, std::string>>& given) {
         const std::vector<ParameterOverride> parameters = overrides(given);
-        nb::gil_scoped_release released;
+        Unlocked released;
         return load_model(path, parameters);
       },
       nb::arg("path"), nb::arg("parameters"));

@@ -17,4 +17,5 @@ NB_MODULE(_core, m) {
   bind_body(m);
   bind_mesh(m);
   bind_part(m);
+  bind_threads();
 }

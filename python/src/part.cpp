@@ -131,6 +131,9 @@ struct Given {
   void operator()(const O::Special& o) const {
     if (key == "interfaces" || key == "markers")
       add_places(job, key, nb::cast<nb::dict>(value));
+    else if (o.repeated)
+      for (const auto& text : need<std::vector<std::string>>(key, value, "a list of texts"))
+        o.parse(job, text);
     else
       o.parse(job, need<std::string>(key, value, "text"));
   }
@@ -193,7 +196,7 @@ FilePtr reduce_file(const std::string& file, const Keywords& options, const nb::
   if (job.units.empty()) {
     std::string hint;
     {
-      nb::gil_scoped_release released;
+      Unlocked released;
       hint = hint_of_units(job);
     }
     std::string known;
@@ -214,7 +217,7 @@ FilePtr reduce_mesh(const std::shared_ptr<FeModel>& mesh, const std::string& nam
 nb::bytes bytes_of(const BodyFile& content) {
   std::string bytes;
   {
-    nb::gil_scoped_release released;
+    Unlocked released;
     bytes = body_file_bytes(content);
   }
   return nb::bytes(bytes.data(), bytes.size());
@@ -248,7 +251,7 @@ void bind_functions(nb::module_& m) {
     return keys;
   });
   m.def("read_body", [](const std::string& file) {
-    nb::gil_scoped_release released;
+    Unlocked released;
     return std::make_shared<BodyFile>(read_body_file(file));
   });
   m.def("read_body_bytes", [](const nb::bytes& bytes, const std::string& name) {
@@ -257,7 +260,7 @@ void bind_functions(nb::module_& m) {
   });
   m.def("file_info", [](const std::string& file, const Keywords& options) {
     const PartJob job = job_of(file, options);
-    nb::gil_scoped_release released;
+    Unlocked released;
     return std::make_pair(file_info_text(job), file_info_json(job));
   });
 }
@@ -281,7 +284,7 @@ void bind_part(nb::module_& m) {
   });
   c.def_prop_ro("report_json", [](const BodyFile& f) { return health_json(f.part.health, 0); });
   c.def("save", [](const BodyFile& f, const std::string& path) {
-    nb::gil_scoped_release released;
+    Unlocked released;
     write_body_file(path, f);
   });
   c.def("to_bytes", bytes_of);

@@ -35,8 +35,10 @@ struct Stepper {
   std::thread::id worker;
   nb::object on_step;
   std::vector<Law> laws;
-  nb::object seen, changed;  ///< arrays that on_step gets: outputs and inputs
-  double *seen_numbers = nullptr, *changed_numbers = nullptr;
+  /// What on_step gets: outputs and inputs. Arrays are views of numbers that live as long as the
+  /// simulation and the last view, whatever is done to the arrays.
+  std::shared_ptr<std::vector<double>> seen_numbers, changed_numbers;
+  nb::object seen, changed;
   std::exception_ptr failed;
 
   /// Throws where the simulation is at work.
@@ -68,15 +70,31 @@ std::size_t output_of(const Stepper& s, const std::string& name) {
   return index_in(s.output_index, s.output_names, "output", name);
 }
 
-/// An array that Python owns, and its numbers.
-double* numbers_of(const nb::object& array) { return nb::cast<Line>(array).data(); }
+using Kept = std::shared_ptr<std::vector<double>>;
 
-void call_on_step(const Stepper& s, double time, std::span<const double> outputs,
+nb::object view_of(const Kept& numbers) {
+  auto kept = std::make_unique<Kept>(numbers);
+  nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<Kept*>(p); });
+  kept.release();
+  return nb::cast(Line(numbers->data(), {numbers->size()}, owner));
+}
+
+/// The view again if its user has made another array of it.
+void keep_view(nb::object& array, const Kept& numbers) {
+  Line line;
+  if (!nb::try_cast(array, line) || line.data() != numbers->data() ||
+      line.shape(0) != numbers->size())
+    array = view_of(numbers);
+}
+
+void call_on_step(Stepper& s, double time, std::span<const double> outputs,
                   std::span<double> inputs) {
-  std::copy(outputs.begin(), outputs.end(), s.seen_numbers);
-  std::copy(inputs.begin(), inputs.end(), s.changed_numbers);
+  std::copy(outputs.begin(), outputs.end(), s.seen_numbers->begin());
+  std::copy(inputs.begin(), inputs.end(), s.changed_numbers->begin());
+  keep_view(s.seen, s.seen_numbers);
+  keep_view(s.changed, s.changed_numbers);
   s.on_step(time, s.seen, s.changed);
-  std::copy_n(s.changed_numbers, inputs.size(), inputs.begin());
+  std::copy_n(s.changed_numbers->begin(), inputs.size(), inputs.begin());
 }
 
 void call_law(const Stepper& s, const Law& law, double time, std::span<const double> outputs,
@@ -102,7 +120,7 @@ void set_callback(Stepper& s) {
   }
   s.simulation.on_force(
       [&s](double time, std::span<const double> outputs, std::span<double> inputs) {
-        nb::gil_scoped_acquire lock;
+        Locked lock;
         try {
           if (s.on_step.is_valid()) call_on_step(s, time, outputs, inputs);
           for (const Law& law : s.laws) call_law(s, law, time, outputs, inputs);
@@ -118,10 +136,10 @@ void on_step(Stepper& s, const nb::object& function) {
   if (!function.is_none() && !PyCallable_Check(function.ptr()))
     throw nb::type_error("on_step: expected a function of (time, outputs, inputs), or None");
   s.on_step = function.is_none() ? nb::object() : function;
-  s.seen = array_of(std::vector<double>(s.output_names.size()));
-  s.changed = array_of(std::vector<double>(s.input_names.size()));
-  s.seen_numbers = numbers_of(s.seen);
-  s.changed_numbers = numbers_of(s.changed);
+  s.seen_numbers = std::make_shared<std::vector<double>>(s.output_names.size());
+  s.changed_numbers = std::make_shared<std::vector<double>>(s.input_names.size());
+  s.seen = view_of(s.seen_numbers);
+  s.changed = view_of(s.changed_numbers);
   set_callback(s);
 }
 
@@ -150,7 +168,7 @@ Report step(Stepper& s, std::optional<double> size) {
   s.busy = true;
   StepReport report;
   {
-    nb::gil_scoped_release released;
+    Unlocked released;
     report = size ? s.simulation.step(*size) : s.simulation.step();
   }
   s.busy = false;
@@ -173,6 +191,7 @@ int traverse(PyObject* self, visitproc visit, void* arg) {
   return 0;
 }
 int clear(PyObject* self) {
+  if (!nb::inst_ready(self)) return 0;
   Stepper* s = nb::inst_ptr<Stepper>(self);
   s->simulation.on_force({});
   s->on_step.reset();
@@ -226,7 +245,7 @@ void bind_simulation(nb::module_& m) {
           "__init__",
           [](Stepper* self, const Model& model, const Keywords& given) {
             const SimulationOptions options = options_of(given);
-            nb::gil_scoped_release released;
+            Unlocked released;
             new (self) Stepper(model, options);
           },
           nb::arg("model"), nb::arg("options"))

@@ -1,4 +1,6 @@
-// Long work with Python alive beside it.
+// Long work with Python alive beside it, and threads at the end of the interpreter.
+#include <unistd.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -7,6 +9,60 @@
 #include "bindings.hpp"
 
 namespace floatframe::python {
+namespace {
+
+/// Python is about to end: nobody asks for its lock any more.
+std::atomic<bool> ending{false};
+std::atomic<std::thread::id> finisher;  // the thread that ends it, which may go on
+/// Threads that are asking for the lock, and callbacks from C++ that run in Python.
+std::atomic<int> asking{0}, called{0};
+
+[[noreturn]] void wait_for_the_end() {
+  while (true) ::pause();
+}
+
+/// Counts who asks, before looking whether Python ends: after `ending` is set and the count is zero
+/// nobody is on the way to the lock.
+void ask(std::atomic<int>& count) {
+  ++count;
+  if (!ending || std::this_thread::get_id() == finisher) return;
+  --count;
+  wait_for_the_end();
+}
+
+/// Called by Python's atexit, with the lock.
+void end_threads() {
+  finisher = std::this_thread::get_id();
+  ending = true;
+  PyThreadState* const state = PyEval_SaveThread();
+  for (int k = 0; k < 5000 && (asking > 0 || called > 0); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  PyEval_RestoreThread(state);
+}
+
+}  // namespace
+
+Unlocked::Unlocked() : state_(PyEval_SaveThread()) {}
+
+Unlocked::~Unlocked() {
+  ask(asking);
+  PyEval_RestoreThread(state_);
+  --asking;
+}
+
+Locked::Locked() {
+  ask(called);
+  state_ = PyGILState_Ensure();
+}
+
+Locked::~Locked() {
+  PyGILState_Release(state_);
+  --called;
+}
+
+void bind_threads() {
+  nb::module_::import_("atexit").attr("register")(nb::cpp_function(end_threads));
+}
 
 void interruptible(std::atomic<bool>& stop, const std::function<void()>& run,
                    const std::function<void()>& watch) {
@@ -28,7 +84,7 @@ void interruptible(std::atomic<bool>& stop, const std::function<void()>& run,
   while (true) {
     bool over = false;
     {
-      nb::gil_scoped_release released;
+      Unlocked released;
       std::unique_lock lock(mutex);
       over = ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return done; });
     }

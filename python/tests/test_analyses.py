@@ -121,3 +121,24 @@ def test_advice():
 def test_what_is_not_valid(iltis, call):
     with pytest.raises((ff.Error, TypeError, ValueError)):
         call(iltis)
+
+
+@pytest.mark.parametrize("options", [
+    {"axis": (float("nan"), 0, 0)}, {"axis": (0, 0, 0)}, {"to": 1e160, "step": 1e159}, {"modes": 0}, {"modes": -1},
+    {"orders": [float("nan")]}, {"orders": [0.0]}, {"orders": [-1.0]},
+], ids=str)
+def test_campbell_of_impossible_options(options):
+    rotor = ff.Model.load(ff.example("rotor"))
+    given = {"to": 100.0, "step": 50.0} | options
+    with pytest.raises(ff.InputError):
+        ff.campbell(rotor, "motor", 0.0, given.pop("to"), given.pop("step"), **given)
+
+
+@pytest.mark.parametrize("options", [
+    {"roughness": -1.0}, {"roughness": float("nan")}, {"waviness": float("nan")}, {"waviness": -1.0}, {"band": (-5.0, 1.0)},
+    {"band": (0.1, float("inf"))},
+], ids=str)
+def test_road_response_of_impossible_roads(options):
+    model = ff.Model.load(ff.example("quarter_car"))
+    with pytest.raises(ff.InputError):
+        ff.road_response(model, ["travel"], [1.0], speed=10.0, **options)

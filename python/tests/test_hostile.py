@@ -3,6 +3,8 @@
 import copy
 import gc
 import pickle
+import subprocess
+import sys
 
 import floatframe as ff
 import numpy as np
@@ -133,3 +135,62 @@ def test_durations_beyond_memory(model):
     for duration in (1e15, 1e18, 1e300):
         with pytest.raises((ff.Error, ValueError, MemoryError)):
             ff.run(model, step=1e-3, duration=duration)
+
+
+IN_A_PROCESS = {
+    "failed start in a cycle": """
+class Env(ff.Simulation):
+    def __init__(self, path):
+        self.reward = self.compute
+        super().__init__(ff.Model.load(path), step=1e-3)
+    def compute(self): return 0.0
+try: Env("missing.yaml")
+except ff.InputError: pass
+gc.collect()""",
+    "never started, in a cycle": """
+s = ff.Simulation.__new__(ff.Simulation)
+s.me = s
+del s
+gc.collect()""",
+    "arrays of on_step are emptied": """
+s = ff.Simulation(ff.Model.load(ff.example("active_damper")), step=1e-3)
+before = dict(s.inputs)
+s.on_step(lambda t, o, i: (o.__setstate__((1, (0,), np.dtype("f8"), False, b"")), i.__setstate__((1, (0,), np.dtype("f8"), False, b""))))
+for _ in range(100): s.step()
+assert dict(s.inputs) == before
+seen = []
+s.on_step(lambda t, o, i: seen.append((o.size, i.size)))
+s.step()
+assert seen == [(len(s.outputs), len(s.inputs))]""",
+    "a daemon thread steps at the end": """
+s = ff.Simulation(ff.Model.load(ff.example("active_damper")), step=1e-3)
+def work():
+    while True: s.step()
+threading.Thread(target=work, daemon=True).start()
+time.sleep(0.2)""",
+    "a daemon thread is called back at the end": """
+s = ff.Simulation(ff.Model.load(ff.example("active_damper")), step=1e-3)
+s.on_step(lambda t, o, i: None)
+def work():
+    while True: s.step()
+threading.Thread(target=work, daemon=True).start()
+time.sleep(0.2)""",
+    "a daemon thread runs at the end": """
+def work():
+    while True: ff.run(ff.Model.load(ff.example("iltis")))
+threading.Thread(target=work, daemon=True).start()
+time.sleep(0.2)""",
+    "a daemon thread analyses at the end": """
+m = ff.Model.load(ff.example("iltis"))
+def work():
+    while True: ff.statics(m), ff.modes(m)
+threading.Thread(target=work, daemon=True).start()
+time.sleep(0.2)""",
+}
+
+
+@pytest.mark.parametrize("name", IN_A_PROCESS)
+def test_the_interpreter_ends_well(name):
+    head = "import gc, threading, time\nimport numpy as np\nimport floatframe as ff\n"
+    done = subprocess.run([sys.executable, "-B", "-c", head + IN_A_PROCESS[name]], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")

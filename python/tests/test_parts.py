@@ -322,3 +322,19 @@ def test_control_c_and_errors_of_the_progress_end_it():
     with pytest.raises(KeyboardInterrupt):
         while time.monotonic() - start < 20:
             ff.reduce(ARM, units="mm-t-s", material=STEEL_MM, interfaces={"A": ff.set("BALL")})
+
+
+def test_density_of_materials_without_one(tmp_path):
+    deck = tmp_path / "tet.inp"
+    deck.write_text(
+        "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=A\n1,1,2,3,4\n"
+        "*MATERIAL,NAME=STEEL\n*ELASTIC\n2e11,0.3\n*SOLID SECTION,ELSET=A,MATERIAL=STEEL\n"
+    )
+    assert ff.info(deck)["materials"][0]["density"] is None
+    assert ff.info(deck, density=6000.0)["mass"] == pytest.approx(1000.0)
+    assert ff.info(deck, density={"STEEL": np.float64(600.0)})["mass"] == pytest.approx(100.0)
+    with pytest.raises(ff.InputError, match="no density"):
+        ff.reduce(deck, units="m-kg-s", method="free_free")
+    for bad in ("7", True, {1: 2.0}, [7.0], {"STEEL": None}, float("nan"), -1.0):
+        with pytest.raises(ff.InputError):
+            ff.info(deck, density=bad)

@@ -176,8 +176,6 @@ TEST(BadLayers, NastranDecks) {
        "deck.bdf:5: MAT8 1: NU12 is 3.8, expected a size below 3.74166, the root of E1/E2"},
       {"3000.,1.6-9", "3000.,-1.6-9",
        "deck.bdf:5: MAT8 1: RHO is -1.6e-09, expected no negative density"},
-      {"3000.,1.6-9", "3000.",
-       "deck.bdf:5: MAT8 1: RHO is missing; give the density (0.0 if all mass is in point masses)"},
       {mat8, "MAT2,1,1.+5,1.+5,,1.+4,,5000.,1.6-9",
        "deck.bdf:5: MAT2 1: G12 is 100000, expected a size below 31622.8, the root of G11 G22"},
       {mat8, "MAT2,1,1.+5,,,1.+4,,,1.6-9", "deck.bdf:5: MAT2 1: G33 is 0, expected more than 0"},

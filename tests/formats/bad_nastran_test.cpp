@@ -86,8 +86,6 @@ TEST(BadNastran, Decks) {
        "arm.bdf:10: MAT1 1: G is -7e+10, expected more than 0 where it gives NU with E"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,.3,-1.",
        "arm.bdf:10: MAT1 1: RHO is -1, expected no negative density"},
-      {"MAT1,1,2.+11,,.3,8000.", "MAT1,1,2.+11,,.3",
-       "arm.bdf:10: MAT1 1: RHO is missing; give the density (0.0 if all mass is in point masses)"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT1,3,2.+11,,.3,8000.",
        "arm.bdf:8: PSOLID: material 1 is not in the file"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT9,1,2.+11,,.3,8000.",

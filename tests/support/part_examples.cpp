@@ -55,6 +55,10 @@ Texts special(O::Special::What what) {
               {"3,0.25,4", "{young: 3, poisson: 0.25, density: 4}"},
               {"3,0.05,4", "{young: 3, poisson: 0.05, density: 4}"},
               {"5,0.25,2", "{young: 5, poisson: 0.25, density: 2}"}};
+    case What::densities:
+      return {{"7.5", "7.5"}, {"STEEL=7.5", "{STEEL: 7.5}"}, {"STEEL=0", "{STEEL: 0}"}};
+    case What::contact:
+      return {{"ignore", "ignore"}, {"tied", "tied"}, {"tied:0.5", "tied:0.5"}};
     case What::interfaces:
       return places({{"type=mean", "type: mean"},
                      {"dofs=xyz", "dofs: [x, y, z]"},

@@ -71,6 +71,31 @@ class Resolver {
     owner_[dof] = owner;
   }
 
+  /// sum of terms = 0, solved for `first` if it is still free, else for the dof with the largest
+  /// factor. Nothing is left to solve if other equations say the same.
+  void add_equation(int owner, int first, const Terms& terms) {
+    double scale = 0.0;
+    for (const auto& [dof, factor] : terms) scale = std::max(scale, std::abs(factor));
+    Terms reduced = reduce(terms);
+    std::erase_if(reduced, [&](const auto& t) { return std::abs(t.second) <= 1e-12 * scale; });
+    if (reduced.empty()) return;
+    const auto smaller = [](const auto& a, const auto& b) {
+      return std::abs(a.second) < std::abs(b.second);
+    };
+    auto pivot = std::find_if(reduced.begin(), reduced.end(),
+                              [&](const auto& t) { return t.first == first; });
+    const auto largest = std::max_element(reduced.begin(), reduced.end(), smaller);
+    if (pivot == reduced.end() || std::abs(pivot->second) < 1e-3 * std::abs(largest->second))
+      pivot = largest;
+    const auto [dof, factor] = *pivot;
+    reduced.erase(pivot);
+    for (auto& [other, f] : reduced) f /= -factor;
+    out_.dependent[dof] = 1;
+    out_.terms[dof] = std::move(reduced);
+    out_.any = true;
+    owner_[dof] = owner;
+  }
+
   /// Dofs that the matrices of another program leave out.
   void fix_missing(const std::vector<Dof>& present) {
     std::vector<char> there(out_.dependent.size(), 0);
@@ -255,9 +280,9 @@ void add_equation(const FeModel& model, const DofTable& table, const LinearEquat
                                       node_dof_names[t.axis]);
       return;
     }
-    if (&t != &first) terms.emplace_back(dof, -t.factor / first.factor);
+    terms.emplace_back(dof, t.factor);
   }
-  resolver.add(owner, first.node, first.axis, terms);
+  resolver.add_equation(owner, table.index(first.node, first.axis), terms);
 }
 
 }  // namespace

@@ -23,6 +23,12 @@ namespace floatframe {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+/// Where an entity stands in the files of a model: index in FeModel::files, line from 1.
+struct FeSource {
+  int file = -1;
+  int line = 0;
+};
+
 /// Linear elastic: isotropic, or with an elasticity matrix in axes of its own (fe/elasticity.hpp).
 struct Material {
   double young = 0.0;    ///< E [Pa]; of one with a matrix: along its axis 1, to be shown
@@ -46,6 +52,13 @@ struct Orientation {
   Mat3 turn = Mat3::Identity();  ///< of the axes at a place, about one of themselves
   /// Columns are the material axes at a place.
   Mat3 at(const Vec3& p) const;
+};
+
+/// A material whose density the file does not give: it is 0 in the model, and `validate` asks for
+/// one.
+struct MissingDensity {
+  FeSource source;
+  double factor = 1.0;  ///< of all masses of the file (Nastran WTMASS)
 };
 
 /// Section of a beam about its centroid, in the beam's local axes: Iy = int z^2 dA, Iz = int y^2
@@ -75,12 +88,6 @@ struct BeamSection {
   /// width along local y, height along local z. J = a b^3 (1/3 - 0.21 b/a (1 - (b/a)^4/12)), a >=
   /// b.
   static BeamSection rectangle(double width, double height);
-};
-
-/// Where an entity stands in the files of a model: index in FeModel::files, line from 1.
-struct FeSource {
-  int file = -1;
-  int line = 0;
 };
 
 struct Element {
@@ -150,7 +157,7 @@ struct Spider {
 };
 
 /// Linear equation sum_k factor_k u(node_k, axis_k) = 0; the first term's dof depends on the
-/// others.
+/// others, unless it depends on another equation already: then one of the others does.
 struct LinearEquation {
   struct Term {
     int node = -1, axis = 0;
@@ -199,6 +206,7 @@ struct FeModel {
   std::vector<int> node_ids;           ///< the user's numbers; empty: index + 1
   std::vector<FeSource> node_sources;  ///< same length as positions, or empty
   std::vector<std::string> material_names;
+  std::map<int, MissingDensity> without_density;  ///< by the index of the material
   std::map<std::string, std::vector<int>> node_sets;
   std::map<std::string, std::vector<int>> element_sets;
   std::map<std::string, std::vector<ElementFace>> surfaces;

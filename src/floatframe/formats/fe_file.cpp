@@ -117,6 +117,45 @@ void choose(const FeReadOptions& options, FeModel& model) {
   if (std::string note = home_note(model); !note.empty()) model.notes.push_back(std::move(note));
 }
 
+/// Gives materials without a density what the options say.
+void fill_densities(const std::filesystem::path& file, const FeReadOptions& options,
+                    FeModel& model) {
+  std::vector<std::string> missing;
+  for (const auto& [material, where] : model.without_density)
+    missing.push_back(model.material_names[material]);
+  const auto is = [&](const std::string& name) {
+    return [&](const std::string& other) { return same_word(name, other); };
+  };
+  for (const auto& [name, density] : options.densities) {
+    if (missing.empty())
+      throw InputError({file.string()},
+                       "a density is given, but every material of the file has one: leave it out");
+    if (!name.empty() && std::none_of(missing.begin(), missing.end(), is(name)))
+      throw InputError({file.string()},
+                       fmt::format("a density is given for the material '{}', but no material "
+                                   "without a density has this name{}",
+                                   name, did_you_mean(name, missing)));
+  }
+  for (auto it = model.without_density.begin(); it != model.without_density.end();) {
+    const std::string& name = model.material_names[it->first];
+    const auto& given = options.densities;
+    auto found = std::find_if(given.begin(), given.end(),
+                              [&](const auto& d) { return same_word(d.first, name); });
+    if (found == given.end()) found = given.find("");
+    if (found == given.end()) {
+      ++it;
+      continue;
+    }
+    model.materials[it->first].density = found->second * it->second.factor;
+    const SourceMark mark = model.mark(it->second.source);
+    model.notes.push_back(
+        fmt::format("{}:{}: material '{}' has no density: {:g} is taken, as the "
+                    "options say",
+                    mark.file, mark.line, name, found->second));
+    it = model.without_density.erase(it);
+  }
+}
+
 }  // namespace
 
 std::span<const FeFormat> fe_formats() { return formats(); }
@@ -143,6 +182,7 @@ FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& opt
                                  word(options.dialect), chosen.name));
   }
   FeModel model = chosen.read(file, options);
+  fill_densities(file, options, model);
   choose(options, model);
   if (model.notes.size() > most_notes) {
     const std::size_t more = model.notes.size() - most_notes;

@@ -4,6 +4,7 @@
 // be compressed with gzip (.gz). Errors throw InputError with file:line, all that can be found at
 // once.
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,9 +38,19 @@ enum class ShellShear {
 /// Mass of the elements: as the program of the file has it, or one form for all.
 enum class MassChoice { by_format, consistent, lumped };
 
+/// What becomes of contact pairs, which are not linear.
+enum class DeckContact {
+  refuse,  ///< an error
+  ignore,  ///< their surfaces are free
+  tied     ///< joined where they are within a distance
+};
+
 struct FeReadOptions {
   /// Formats without material (Gmsh): the material of all elements, in the units of the file.
   std::optional<Material> material;
+  /// For materials whose density the file does not give, by their names, in the units of the file;
+  /// by an empty name: of all others.
+  std::map<std::string, double> densities;
   /// Matrices without coordinates: a deck (any format) or "node,x,y,z" CSV with the nodes.
   std::filesystem::path nodes;
   /// Matrix formats: the mass matrix and the dof map, if they cannot be found beside the stiffness.
@@ -48,6 +59,9 @@ struct FeReadOptions {
   BeamShear beam_shear = BeamShear::by_format;
   ShellShear shell_shear = ShellShear::by_format;
   MassChoice mass_form = MassChoice::by_format;
+  DeckContact contact = DeckContact::refuse;
+  /// Of `tied`, in the units of the file; 0: 2.5 % of the size of the faces.
+  double contact_distance = 0.0;
 };
 
 /// On the command line and in model files: "abaqus", "calculix".

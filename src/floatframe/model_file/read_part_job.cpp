@@ -57,6 +57,10 @@ class JobReader {
         return format(option.key);
       case Special::What::material:
         return material(option.key);
+      case Special::What::densities:
+        return densities(option.key);
+      case Special::What::contact:
+        return contact(option);
       case Special::What::interfaces:
         if (const auto v = s_.get(option.key))
           for (const auto& [name, place] : v->named("a map of names to interfaces", true))
@@ -108,6 +112,28 @@ class JobReader {
     material.density = m->required_number("density", positive_number(""), 1.0);
     m->finish();
     job_.read.material = material;
+  }
+
+  void densities(const char* key) {
+    const auto v = s_.get(key);
+    if (!v) return;
+    if (!v->is_map()) {
+      job_.read.densities[""] = v->number(non_negative_number("")).value_or(1.0);
+      return;
+    }
+    for (const auto& [name, density] : v->named("a map of materials to densities", true))
+      job_.read.densities[name] = density.number(non_negative_number("")).value_or(1.0);
+  }
+
+  void contact(const PartOption& option) {
+    const auto v = s_.get(option.key);
+    const auto text = v ? v->text("ignore, tied or tied:DISTANCE") : std::nullopt;
+    if (!text) return;
+    try {
+      std::get<Special>(option.kind).parse(job_, *text);
+    } catch (const InputError&) {
+      v->unexpected("ignore, tied or tied:DISTANCE");
+    }
   }
 
   /// The one way of choosing nodes; an error at none or several.

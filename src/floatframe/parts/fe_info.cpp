@@ -95,9 +95,12 @@ std::vector<std::string> likely_units(const FeModel& model) {
     if (!units || name == "si") continue;  // another name of m-kg-s
     const double size = (high - low).norm() * units->length;
     bool likely = size > 1e-3 && size < 50.0;
-    for (const Material& m : model.materials) {
+    for (std::size_t k = 0; k < model.materials.size(); ++k) {
+      const Material& m = model.materials[k];
       const double E = m.young * units->pressure(), density = m.density * units->density();
-      likely = likely && E > 1e8 && E < 2e12 && density > 50.0 && density < 25000.0;
+      const bool usual = model.without_density.contains(static_cast<int>(k)) ||
+                         (density > 50.0 && density < 25000.0);
+      likely = likely && E > 1e8 && E < 2e12 && usual;
     }
     if (likely) out.push_back(name);
   }
@@ -151,16 +154,22 @@ std::string fe_info_text(const std::string& file, const FeModel& model) {
                       vector_text(f.high));
   if (!f.elements.empty()) {
     text += fmt::format("  volume        {:.8g}\n", f.volume);
-    if (!model.materials.empty()) text += fmt::format("  mass          {:.8g}\n", f.mass);
+    if (!model.materials.empty())
+      text += fmt::format(
+          "  mass          {:.8g}{}\n", f.mass,
+          model.without_density.empty() ? "" : ", without that of materials that have no density");
   }
   if (!model.materials.empty()) {
     TextTable table({"material", "Young", "Poisson", "density"});
     for (std::size_t k = 0; k < model.materials.size(); ++k) {
       const Material& m = model.materials[k];
+      const bool known = !model.without_density.contains(static_cast<int>(k));
       table.add({material_name(model, k), fmt::format("{:g}", m.young),
-                 fmt::format("{:g}", m.poisson), fmt::format("{:g}", m.density)});
+                 fmt::format("{:g}", m.poisson), known ? fmt::format("{:g}", m.density) : "-"});
     }
     text += '\n' + table.text(2);
+    if (!model.without_density.empty())
+      text += "  density -: the file gives none; `reduce` needs one: --density RHO or NAME=RHO\n";
     text += f.likely_units.empty()
                 ? "  no unit system makes these values those of a usual material\n"
                 : fmt::format("  units: these values look like {}\n",
@@ -204,10 +213,12 @@ std::string fe_info_json(const std::string& file, const FeModel& model) {
   for (const auto& [type, count] : f.elements) elements[type] = count;
   for (std::size_t k = 0; k < model.materials.size(); ++k) {
     const Material& m = model.materials[k];
-    materials.push_back({{"name", material_name(model, k)},
-                         {"young", m.young},
-                         {"poisson", m.poisson},
-                         {"density", m.density}});
+    materials.push_back(
+        {{"name", material_name(model, k)},
+         {"young", m.young},
+         {"poisson", m.poisson},
+         {"density",
+          model.without_density.contains(static_cast<int>(k)) ? Json(nullptr) : Json(m.density)}});
   }
   for (const FeFacts::Set& s : f.sets)
     all_sets.push_back({{"name", s.name}, {"of", s.kind}, {"size", s.size}, {"nodes", s.nodes}});

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
+
 #include "floatframe/parts/part_text.hpp"
 #include "floatframe/reduction/mode_selection.hpp"
 
@@ -44,6 +47,30 @@ O::Word reading_word(std::vector<const char*> words) {
           0};
 }
 
+/// "ignore", "tied", "tied:DISTANCE"
+Special contact() {
+  return {Special::What::contact,
+          [](const PartJob& job) {
+            const FeReadOptions& r = job.read;
+            if (r.contact == DeckContact::refuse) return Texts();
+            if (r.contact == DeckContact::ignore) return Texts{"ignore"};
+            return Texts{r.contact_distance > 0.0 ? fmt::format("tied:{}", r.contact_distance)
+                                                  : "tied"};
+          },
+          [](PartJob& job, const std::string& text) {
+            job.read.contact = text == "ignore" ? DeckContact::ignore : DeckContact::tied;
+            if (text == "ignore" || text == "tied") return;
+            char* end = nullptr;
+            const double distance = text.starts_with("tied:") && text.size() > 5
+                                        ? std::strtod(text.c_str() + 5, &end)
+                                        : 0.0;
+            if (end == nullptr || *end != '\0' || !(distance > 0.0) || !std::isfinite(distance))
+              throw InputError(fmt::format(
+                  "--contact: found '{}', expected ignore, tied or tied:DISTANCE", text));
+            job.read.contact_distance = distance;
+          }};
+}
+
 Special units() {
   return {Special::What::units, [](const PartJob& job) { return Texts{job.units}; },
           [](PartJob& job, const std::string& text) {
@@ -65,6 +92,24 @@ Special material() {
         return job.read.material ? Texts{material_text(*job.read.material)} : Texts();
       },
       [](PartJob& job, const std::string& text) { job.read.material = material_argument(text); }};
+}
+
+Special densities() {
+  return {Special::What::densities,
+          [](const PartJob& job) {
+            Texts out;
+            for (const auto& [name, density] : job.read.densities)
+              out.push_back(density_text(name, density));
+            return out;
+          },
+          [](PartJob& job, const std::string& text) {
+            auto [name, density] = density_argument(text);
+            if (!job.read.densities.emplace(name, density).second)
+              throw InputError(fmt::format(
+                  "--density: two densities for {}",
+                  name.empty() ? "all materials" : fmt::format("the material '{}'", name)));
+          },
+          true};
 }
 
 Special interfaces() {
@@ -128,6 +173,13 @@ std::vector<PartOption> list() {
        reading_word<&R::mass_form>({"by_format", "consistent", "lumped"}), true},
       {"material", "material", "E,NU,RHO",
        "young,poisson,density in the units of the file, if it has none", material(), true},
+      {"density", "density", "RHO or NAME=RHO",
+       "Density of materials without one, of all or by name, in the units of the file; repeatable",
+       densities(), true},
+      {"contact", "contact", "WORD",
+       "Contact pairs of the deck: ignore leaves them free, tied joins them (tied:DISTANCE); "
+       "default: they are refused",
+       contact(), true},
       {"nodes", "nodes", "FILE", "File with the nodes of matrices", O::File{&R::nodes}, true},
       {"mass", "mass", "FILE", "Mass matrix, if it is not beside the stiffness", O::File{&R::mass},
        true},
@@ -169,8 +221,8 @@ std::vector<PartOption> list() {
 [[maybe_unused]] void every_member_has_an_entry(const PartJob& job) {
   // The content of the file is part of every key.
   [[maybe_unused]] const auto& [file, format, units, read, options] = job;
-  [[maybe_unused]] const auto& [material, nodes, mass, dofs, dialect, beam_shear, shell_shear,
-                                mass_form] = read;
+  [[maybe_unused]] const auto& [material, densities, nodes, mass, dofs, dialect, beam_shear,
+                                shell_shear, mass_form, contact, contact_distance] = read;
   // `progress` decides nothing.
   [[maybe_unused]] const auto& [interfaces, markers, method, modes, max_frequency, effective_mass,
                                 reference, integration, damping_ratio, check_free_modes, stresses,

@@ -49,7 +49,16 @@ struct PartOption {
   };
   /// Values of a form of their own: each has a reader in model_file/read_part_job.cpp.
   struct Special {
-    enum class What { units, format, material, interfaces, markers, reference } what;
+    enum class What {
+      units,
+      format,
+      material,
+      densities,
+      contact,
+      interfaces,
+      markers,
+      reference
+    } what;
     std::vector<std::string> (*texts)(const PartJob&);
     /// One value of the command line. Throws InputError.
     void (*parse)(PartJob&, const std::string& text);

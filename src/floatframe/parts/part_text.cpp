@@ -239,6 +239,10 @@ std::string material_text(const Material& m) {
   return fmt::format("{},{},{}", m.young, m.poisson, m.density);
 }
 
+std::string density_text(const std::string& name, double density) {
+  return name.empty() ? fmt::format("{}", density) : fmt::format("{}={}", name, density);
+}
+
 std::string reference_text(const BodyReference& reference) {
   if (reference.kind == BodyReference::Kind::node) return "node:" + reference.node;
   return reference_words[index_of(reference.kind)];
@@ -287,6 +291,20 @@ Material material_argument(const std::string& text) {
                     "units of the file, such as 210000,0.3,7.85e-9",
                     text));
   return {x[0], x[1], x[2]};
+}
+
+std::pair<std::string, double> density_argument(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  const bool named = equals != std::string::npos;
+  const std::string number = named ? text.substr(equals + 1) : text;
+  char* end = nullptr;
+  const double density = std::strtod(number.c_str(), &end);
+  if (number.empty() || *end != '\0' || !std::isfinite(density) || density < 0.0 || equals == 0)
+    throw InputError(
+        fmt::format("--density: found '{}', expected a density in the units of the "
+                    "file or MATERIAL=density, such as 7.85e-9 or STEEL=7.85e-9",
+                    text));
+  return {named ? text.substr(0, equals) : "", density};
 }
 
 BodyReference reference_argument(const std::string& text) {

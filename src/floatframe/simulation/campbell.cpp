@@ -208,6 +208,23 @@ std::string kind_of_line(const CampbellLine& line) {
   return best;
 }
 
+/// Above it squares of speeds leave the range in which eigenvalues can be found.
+constexpr double most_speed = 1e9;
+
+void check_options(const CampbellOptions& o) {
+  if (std::max(std::abs(o.from), std::abs(o.to)) > most_speed)
+    throw InputError(fmt::format("--speed {}: found {:g} to {:g} rad/s, expected at most {:g}",
+                                 o.joint, o.from, o.to, most_speed));
+  if (!o.axis.allFinite() || !(o.axis.stableNorm() > 0.0))
+    throw InputError(fmt::format("the axis of '{}' is ({:g}, {:g}, {:g}), expected a direction",
+                                 o.joint, o.axis.x(), o.axis.y(), o.axis.z()));
+  if (o.modes < 1)
+    throw InputError(fmt::format("found {} modes to follow, expected at least 1", o.modes));
+  for (const double order : o.orders)
+    if (!(order > 0.0) || !std::isfinite(order))
+      throw InputError(fmt::format("found the order {:g}, expected a positive number", order));
+}
+
 std::vector<double> speeds_of(const CampbellOptions& o) {
   if (!(o.step > 0.0) || !(o.to > o.from) || !std::isfinite(o.from) || !std::isfinite(o.to) ||
       !std::isfinite(o.step))
@@ -239,8 +256,9 @@ std::string whirl_word(double whirl, double across) {
 
 CampbellDiagram campbell(const Model& model, const CampbellOptions& o) {
   CampbellDiagram d;
+  check_options(o);
   d.speeds = speeds_of(o);
-  TurningModel turning(model, o.joint, o.axis);
+  TurningModel turning(model, o.joint, o.axis.stableNormalized());
   d.dependence_on_angle = turning.dependence_on_angle(d.speeds.back());
   if (!(d.dependence_on_angle <= symmetric_enough))
     throw RunError(fmt::format(

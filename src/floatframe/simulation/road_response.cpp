@@ -65,6 +65,16 @@ RoadResponse road_response(const Model& model, const std::vector<std::string>& o
   if (!(loading.speed > 0.0))
     throw InputError(fmt::format("found a speed of {:g} m/s on a road, expected a positive number",
                                  loading.speed));
+  const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  if (!positive(loading.roughness))
+    throw InputError(
+        fmt::format("found a roughness of {:g} m3, expected a positive number", loading.roughness));
+  if (!(loading.waviness >= 0.0 && loading.waviness <= 10.0))
+    throw InputError(
+        fmt::format("found a waviness of {:g}, expected a number from 0 to 10", loading.waviness));
+  if (!(loading.from >= 0.0) || !positive(loading.to))
+    throw InputError(fmt::format("found a band from {:g} to {:g} Hz, expected positive numbers",
+                                 loading.from, loading.to));
   RoadResponse r;
   r.from = std::max(loading.from, road_classes::low * loading.speed);
   r.to = std::min(loading.to, road_classes::high * loading.speed);

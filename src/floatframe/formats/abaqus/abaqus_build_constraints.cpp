@@ -105,25 +105,10 @@ void build_surfaces(AbaqusBuild& build) {
 }
 
 void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list) {
-  const AbaqusContent& c = build.content;
-  const AbaqusSurface* surface = nullptr;
-  std::string name = c.names[spider.surface];
-  for (const AbaqusScope scope : {spider.surface_scope, AbaqusScope::assembly, AbaqusScope::part}) {
-    const auto it = c.surfaces.find({scope, spider.surface});
-    if (surface != nullptr || it == c.surfaces.end()) continue;
-    surface = &it->second;
-    name = surface_name(c, it->first);
-  }
-  if (surface == nullptr) {
-    std::vector<std::string> known;
-    for (const auto& [key, s] : c.surfaces) {
-      if (known.size() == most_known) break;
-      known.push_back(c.names[key.second]);
-    }
-    build.source.error(spider.at, fmt::format("surface {} does not exist{}", shown(name),
-                                              did_you_mean(name, known)));
-    return;
-  }
+  std::string name;
+  const AbaqusSurface* const surface =
+      find_abaqus_surface(build, spider.surface, spider.surface_scope, spider.at, name);
+  if (surface == nullptr) return;
   if (surface->of_nodes) {
     for (const AbaqusSurface::Item& item : surface->items) {
       for (const int node : build.nodes.resolve(item.where)) list.add(node, item.weight);
@@ -214,7 +199,27 @@ class DofMap {
   std::map<int, int> reference_;
 };
 
-void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap& dofs) {
+/// A term in body axes: of a turned node one of each axis.
+void add_term(LinearEquation& equation, const Dof& dof, double factor,
+              const std::map<int, Mat3>& axes) {
+  const auto it = axes.find(dof.node);
+  if (it == axes.end()) {
+    equation.terms.push_back({dof.node, dof.axis, factor});
+    return;
+  }
+  const int first = dof.axis / 3 * 3;
+  const Vec3 direction = it->second.col(dof.axis - first);
+  Eigen::Index largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  for (int k = 0; k < 3; ++k) {
+    const int axis = (static_cast<int>(largest) + k) % 3;
+    if (std::abs(direction(axis)) > 1e-15)
+      equation.terms.push_back({dof.node, first + axis, factor * direction(axis)});
+  }
+}
+
+void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap& dofs,
+                    const std::map<int, Mat3>& axes) {
   std::vector<std::vector<int>> nodes;
   const std::size_t before = build.source.errors();
   for (const AbaqusEquation::Term& term : raw.terms) {
@@ -235,13 +240,50 @@ void build_equation(AbaqusBuild& build, const AbaqusEquation& raw, const DofMap&
     for (std::size_t t = 0; t < raw.terms.size(); ++t) {
       const int node = nodes[t].size() == 1 ? nodes[t].front() : nodes[t][k];
       const Dof dof = dofs(node, raw.terms[t].axis);
-      equation.terms.push_back({dof.node, dof.axis, raw.terms[t].factor});
+      add_term(equation, dof, raw.terms[t].factor, axes);
     }
     build.model.equations.push_back(std::move(equation));
   }
 }
 
+/// A node that follows in some directions only follows in its own ones.
+void check_turned_spiders(AbaqusBuild& build, const std::map<int, Mat3>& axes) {
+  if (axes.empty()) return;
+  for (const Spider& s : build.model.spiders) {
+    const unsigned translations = s.mask & 7u, rotations = s.mask >> 3;
+    if (s.kind == Spider::Kind::mean ||
+        ((translations == 0 || translations == 7u) && (rotations == 0 || rotations == 7u)))
+      continue;
+    for (const int node : s.nodes) {
+      if (!axes.contains(node)) continue;
+      build.source.error(s.source, fmt::format("{} follows in some directions only, and *TRANSFORM "
+                                               "turns them, which is not supported",
+                                               build.model.node_label(node)));
+      break;
+    }
+  }
+}
+
 }  // namespace
+
+const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, int name, AbaqusScope scope,
+                                         const FeSource& at, std::string& shown_name) {
+  const AbaqusContent& c = build.content;
+  for (const AbaqusScope s : {scope, AbaqusScope::assembly, AbaqusScope::part}) {
+    const auto it = c.surfaces.find({s, name});
+    if (it == c.surfaces.end()) continue;
+    shown_name = surface_name(c, it->first);
+    return &it->second;
+  }
+  std::vector<std::string> known;
+  for (const auto& [key, s] : c.surfaces) {
+    if (known.size() == most_known) break;
+    known.push_back(c.names[key.second]);
+  }
+  build.source.error(at, fmt::format("surface {} does not exist{}", shown(c.names[name]),
+                                     did_you_mean(c.names[name], known)));
+  return nullptr;
+}
 
 void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
   const AbaqusContent& c = build.content;
@@ -252,7 +294,8 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
   NodeList list(c.nodes.size());
   for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes, list);
   const DofMap dofs(build.model);
-  for (const AbaqusEquation& equation : c.equations) build_equation(build, equation, dofs);
+  const std::map<int, Mat3> axes = abaqus_node_axes(build);
+  for (const AbaqusEquation& equation : c.equations) build_equation(build, equation, dofs, axes);
   for (const AbaqusSupport& support : c.supports) {
     for (const int node : build.nodes.resolve(support.nodes)) {
       const bool rotation = dofs.is_rotation(node);
@@ -260,6 +303,8 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
       build.model.supports.push_back({dofs(node, 0).node, mask, support.at});
     }
   }
+  check_turned_spiders(build, axes);
+  if (!only_nodes && build.source.errors() == 0) build_abaqus_ties(build);
 }
 
 }  // namespace floatframe

@@ -34,9 +34,7 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::str
     if (!m.young) {
       build.source.error(m.at, fmt::format("material {} has no *ELASTIC", shown(name)));
     }
-    if (!m.density) {
-      build.source.error(m.at, fmt::format("material {} has no *DENSITY", shown(name)));
-    }
+    if (!m.density) model.without_density[static_cast<int>(model.materials.size())] = {m.at};
     material = m.elasticity ? anisotropic_material(*m.elasticity, m.plane, m.density.value_or(0.0))
                             : Material{m.young.value_or(0.0), m.poisson.value_or(0.0),
                                        m.density.value_or(0.0)};

@@ -158,6 +158,23 @@ struct AbaqusSupport {
   FeSource at;
 };
 
+/// *TIE, or a contact pair that is joined.
+struct AbaqusTie {
+  int slave = -1, master = -1;  ///< names of surfaces, indices in AbaqusContent::names
+  AbaqusScope scope = AbaqusScope::part;
+  double distance = 0.0;  ///< 0: in proportion to the faces
+  bool adjust = true, rotations = true, contact = false;
+  FeSource at;
+};
+
+/// Turned directions of degrees of freedom.
+struct AbaqusTransform {
+  AbaqusReference nodes;
+  bool cylindrical = false;
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();
+  FeSource at;
+};
+
 /// Where the instance is: x = R (p + t - a) + a.
 struct AbaqusPlacement {
   Vec3 t = Vec3::Zero(), a = Vec3::Zero();
@@ -182,7 +199,11 @@ struct AbaqusContent {
   std::vector<AbaqusSpider> spiders;
   std::vector<AbaqusEquation> equations;
   std::vector<AbaqusSupport> supports;
+  std::vector<AbaqusTie> ties;
+  std::vector<AbaqusTransform> transforms;
   std::vector<std::string> notes;
+  DeckContact contact = DeckContact::refuse;  ///< as the user says
+  double contact_distance = 0.0;
   DeckDialect dialect = DeckDialect::by_content;  ///< as the user says
   DialectClues clues;
   /// Only nodes, sets and spiders are wanted: matrices hold what the rest would change.
@@ -249,6 +270,11 @@ void read_abaqus_kinematic_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusCo
 void read_abaqus_distributing_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_equation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_boundary(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_ties.cpp
+void read_abaqus_tie(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_contact_pair(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_transforms.cpp
+void read_abaqus_transform(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 
 /// Degrees of freedom "first, last" (1..6; `last` may be missing) of the fields from `index` on, as
 /// a mask; 0 and an error if they are none.

@@ -52,6 +52,9 @@ constexpr std::array handlers{
     Known{"DISTRIBUTING COUPLING", read_abaqus_distributing_coupling},
     Known{"EQUATION", read_abaqus_equation},
     Known{"BOUNDARY", read_abaqus_boundary},
+    Known{"TIE", read_abaqus_tie},
+    Known{"CONTACT PAIR", read_abaqus_contact_pair},
+    Known{"TRANSFORM", read_abaqus_transform},
 };
 
 /// A keyword that is one or two letters away from one that is read.
@@ -183,6 +186,8 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   AbaqusContent content;
   content.dialect = options.dialect;
   content.only_nodes = part == DeckPart::nodes;
+  content.contact = options.contact;
+  content.contact_distance = options.contact_distance;
   AbaqusLines lines(source);
   DeckReader(lines, content).read();
   if (content.nodes.empty() && source.errors() == 0) {

@@ -209,12 +209,9 @@ class ElementBuilder {
                                           found->second.card, misfit));
       m = elastic(found->first, found->second);
       m.density = (found->second.density.value_or(0.0) + nonstructural) * c_.mass_factor;
-      if (!found->second.density && nonstructural == 0.0 && weighs) {
-        b_.source.error(found->second.at,
-                        fmt::format("{} {}: RHO is missing; give the density (0.0 if all mass is "
-                                    "in point masses)",
-                                    found->second.card, id));
-      }
+      if (!found->second.density && nonstructural == 0.0 && weighs)
+        b_.model.without_density[static_cast<int>(b_.model.materials.size())] = {found->second.at,
+                                                                                 c_.mass_factor};
       if (nonstructural != 0.0) {
         b_.note(p.at, fmt::format("{}: its nonstructural mass is added to the density of its "
                                   "material",
