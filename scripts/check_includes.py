@@ -57,6 +57,8 @@ FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>
 # Programs and modules beside the library see one header of it each.
 OUTSIDE = {"main": "apps/command_line.hpp", "mpi": "sweep/ranks.hpp", "mumps": "math/sparse_engine.hpp"}
 
+# Comments of installed headers send nobody to a header that is not installed.
+NAMED = re.compile(r"^(?!\s*#).*?\b([a-z_]+\.hpp)")
 INCLUDE = re.compile(r'\s*#\s*include\s*["<]floatframe/([^">]+)[">]')
 
 
@@ -113,6 +115,9 @@ def public_errors(root):
             if (match := FOREIGN.match(line)) and match.group(1) != "time.h":
                 yield (f"{root / name}:{number}: the public header {reached[name]} must not reach <{match.group(1)}>: "
                        "only the standard library and Eigen")
+            if (match := NAMED.match(line)) and not (root / match.group(1)).is_file():
+                yield (f"{root / name}:{number}: a comment names {match.group(1)}, which is not installed; the public header "
+                       f"{reached[name]} reaches this one")
         for number, used in included(root / name):
             if "/" in used and used not in PUBLIC and room_of(used) not in PUBLIC:
                 yield f"{root / name}:{number}: the public header {reached[name]} must not reach {used}"

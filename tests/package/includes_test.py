@@ -33,6 +33,15 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(self.check(files), (1, "model/a.hpp:3: the public header model.hpp must not reach <fmt/format.h>: "
                                                 "only the standard library and Eigen\n"))
 
+    def test_comments_of_installed_headers_name_only_those(self):
+        files = {"model.hpp": '#include "floatframe/model/a.hpp"\n', "model/a.hpp": "// The list is in model.hpp.\n",
+                 "model/b.hpp": "// As c.hpp says.\n"}
+        self.assertEqual(self.check(files), (0, ""))
+        files["model/a.hpp"] += "int a;  // see b.hpp\n"
+        code, text = self.check(files)
+        self.assertEqual(code, 1)
+        self.assertTrue(text.startswith("model/a.hpp:2: a comment names b.hpp, which is not installed"), text)
+
     def test_public_headers_stay_out_of_private_rooms(self):
         code, text = self.check({"a.hpp": '#include "floatframe/model/a.hpp"\n', "integrator/a.hpp": "",
                                  "model/a.hpp": "", "b.hpp": '\n#include "floatframe/integrator/a.hpp"\n'})

@@ -29,7 +29,7 @@ struct FeSource {
   int line = 0;
 };
 
-/// Linear elastic: isotropic, or with an elasticity matrix in axes of its own (fe/elasticity.hpp).
+/// Linear elastic: isotropic, or with an elasticity matrix in axes of its own.
 struct Material {
   double young = 0.0;    ///< E [Pa]; of one with a matrix: along its axis 1, to be shown
   double poisson = 0.0;  ///< [-], between -1 and 0.5; with a matrix: nu_12, to be shown
@@ -113,7 +113,7 @@ struct ShellPly {
   double angle = 0.0;      ///< of its axis 1 from that of the element, about the normal [rad]
 };
 
-/// Through the thickness of a shell: one material, or plies (fe/shell_layers.hpp).
+/// Through the thickness of a shell: one material, or plies.
 struct ShellSection {
   double thickness = 0.0;  ///< [m], of all plies
   /// Transverse shear force over a width = G shear gamma, 5/6 of the thickness of a homogeneous
