@@ -9,6 +9,7 @@
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/sid/sid_file.hpp"
 #include "floatframe/parts/file_info.hpp"
+#include "floatframe/parts/mesh_file.hpp"
 #include "floatframe/parts/node_ways.hpp"
 #include "floatframe/parts/part_job.hpp"
 #include "floatframe/parts/part_options.hpp"

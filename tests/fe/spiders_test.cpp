@@ -6,6 +6,7 @@
 #include "fe/mixed_model.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/fe_system.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 #include "support/random_body.hpp"
 
@@ -124,6 +125,26 @@ std::string refusal(const FeModel& model) {
   return "no error";
 }
 
+/// A face that moves as one in x with a point beside it is one that moves as its first node.
+TEST(Spiders, EquationsCarryNodesThatNothingElseUses) {
+  FeModel model = mixed_model(Spider::Kind::rigid);
+  model.elements.pop_back();
+  model.masses.clear();
+  model.spiders.clear();
+  FeModel direct = model;
+  for (const int node : {9, 10, 11})
+    direct.equations.push_back({{{node, 0, 1.0}, {8, 0, -1.0}}, {}});
+  for (const int node : {8, 9, 10, 11})
+    model.equations.push_back({{{node, 0, 1.0}, {13, 0, -1.0}}, {}});
+  const FeSystem A = assemble(model), B = assemble(direct);
+  ASSERT_EQ(A.size(), B.size());
+  EXPECT_EQ(A.row(13, 0), A.size() - 1);
+  EXPECT_EQ(A.row(13, 1), -1);
+  const VecX found = generalised_eigenvalues(MatX(A.K), MatX(A.M)).values;
+  const VecX expected = generalised_eigenvalues(MatX(B.K), MatX(B.M)).values;
+  EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.maxCoeff());
+}
+
 TEST(Spiders, Refusals) {
   const FeModel good = mixed_model(Spider::Kind::rigid);
   EXPECT_EQ(refusal(good), "no error");
@@ -157,6 +178,9 @@ TEST(Spiders, Refusals) {
   e.terms = {{0, 0, 1.0}, {1, 4, 1.0}};
   f.equations.push_back(e);
   EXPECT_EQ(refusal(f), "equation for node 0: node 1 has no degree of freedom ry");
+  f.positions.emplace_back(1, 2, 3);  // 14: nothing uses it, nor an equation with another node
+  f.equations[0].terms = {{14, 0, 1.0}};
+  EXPECT_EQ(refusal(f), "equation for node 14: node 14 has no degree of freedom ux");
   f.equations[0].terms = {{0, 0, 0.0}, {1, 1, 1.0}};
   EXPECT_EQ(refusal(f), "equation 1: the factor of its first term must not be zero");
 }

@@ -8,7 +8,7 @@
 
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/export/stress_field.hpp"
-#include "floatframe/export/vtk_file.hpp"
+#include "floatframe/formats/vtk/vtk_file.hpp"
 
 namespace floatframe {
 namespace {

@@ -15,6 +15,8 @@ namespace {
 
 using Terms = DependentDofs::Terms;
 
+std::vector<int> dofs_of_nodes(const FeModel& model);
+
 /// Resolves one dependence after the other; what it is made of is expressed at once in the dofs
 /// that are independent so far.
 class Resolver {
@@ -112,6 +114,20 @@ class Resolver {
       out_.dependent[i] = 1;
       out_.any = true;
       owner_[i] = owner;
+    }
+  }
+
+  /// Directions of carried nodes that no equation names: nothing moves there.
+  void fix_idle() {
+    const std::vector<int> count = dofs_of_nodes(model_);
+    std::vector<char> named(out_.dependent.size(), 0);
+    for (const LinearEquation& e : model_.equations)
+      for (const LinearEquation::Term& t : e.terms)
+        if (const int dof = table_.index(t.node, t.axis); dof >= 0) named[dof] = 1;
+    for (int node = 0; node < model_.nodes(); ++node) {
+      if (count[node + 1] > 0) continue;
+      for (int dof = table_.begin[node]; dof < table_.begin[node + 1]; ++dof)
+        if (named[dof] == 0) out_.dependent[dof] = 1, out_.any = true;
     }
   }
 
@@ -287,7 +303,10 @@ void add_equation(const FeModel& model, const DofTable& table, const LinearEquat
 
 }  // namespace
 
-DofTable dof_table(const FeModel& model) {
+namespace {
+
+/// Degrees of freedom of each node, behind a leading 0, without those that only equations give.
+std::vector<int> dofs_of_nodes(const FeModel& model) {
   std::vector<int> count(model.positions.size() + 1, 0);
   const auto need = [&](int node, int dofs) {
     int& c = count[node + 1];
@@ -307,8 +326,31 @@ DofTable dof_table(const FeModel& model) {
     need(s.reference, 6);
     for (const int node : s.nodes) need(node, 3);
   }
+  return count;
+}
+
+/// Equations carry nodes that nothing else uses (points that decks hold and drive) with the others.
+void add_carried(const FeModel& model, std::vector<int>& count) {
+  for (bool more = true; more;) {
+    more = false;
+    for (const LinearEquation& e : model.equations) {
+      const auto used = [&](const LinearEquation::Term& t) { return count[t.node + 1] > 0; };
+      if (std::none_of(e.terms.begin(), e.terms.end(), used)) continue;
+      for (const LinearEquation::Term& t : e.terms) {
+        if (used(t) || t.axis >= 3) continue;
+        count[t.node + 1] = 3;
+        more = true;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+DofTable dof_table(const FeModel& model) {
   DofTable table;
-  table.begin = std::move(count);
+  table.begin = dofs_of_nodes(model);
+  add_carried(model, table.begin);
   for (std::size_t i = 1; i < table.begin.size(); ++i) table.begin[i] += table.begin[i - 1];
   return table;
 }
@@ -317,6 +359,7 @@ DependentDofs resolve_dependences(const FeModel& model, const DofTable& table) {
   ErrorList errors;
   Resolver resolver(model, table, errors);
   if (model.matrices) resolver.fix_missing(model.matrices->dofs);
+  resolver.fix_idle();
   for (const LinearEquation& e : model.equations) {
     add_equation(model, table, e, resolver, errors);
   }

@@ -9,7 +9,8 @@
 
 namespace floatframe {
 
-/// All dofs of a model before any is eliminated: node after node, 0, 3 or 6 per node.
+/// All dofs of a model before any is eliminated: node after node, 0, 3 or 6 per node. Nodes that
+/// nothing but equations with other nodes uses have 3.
 struct DofTable {
   std::vector<int> begin;  ///< nodes + 1
   int size() const noexcept { return begin.back(); }

@@ -1,4 +1,4 @@
-#include "floatframe/export/vtk_file.hpp"
+#include "floatframe/formats/vtk/vtk_file.hpp"
 
 #include <fmt/format.h>
 

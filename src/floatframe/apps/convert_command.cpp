@@ -1,0 +1,52 @@
+// floatframe convert: a finite-element model as a file of another program.
+#include <fmt/format.h>
+
+#include "floatframe/apps/commands.hpp"
+#include "floatframe/apps/part_arguments.hpp"
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/parts/mesh_file.hpp"
+
+namespace floatframe {
+namespace {
+
+struct ConvertArguments {
+  PartArguments options;
+  std::string from, to;
+  int modes = 20;
+};
+
+int convert(const ConvertArguments& a) {
+  PartJob job = a.options.job();
+  job.file = a.from;
+  require_writable({{"OUT", a.to}}, {a.from});
+  const ConvertedMesh converted = convert_mesh_file(job, a.to, a.modes);
+  require_distinct({{"OUT", a.to}}, converted.files);
+  write_file(a.to, converted.bytes);
+  print(converted.summary);
+  return 0;
+}
+
+}  // namespace
+
+Command convert_command() {
+  const auto a = std::make_shared<ConvertArguments>();
+  return {.name = "convert",
+          .help = "Write a finite-element model as a CalculiX deck, a Gmsh mesh or a VTU file",
+          .options = joined(
+              {file_position("PART", a->from, "Finite-element file (also .gz)"),
+               file_position("OUT", a->to, "File to write; its ending says what: .inp, .msh, .vtu"),
+               whole_option("--modes", a->modes, 0, 100000,
+                            "Modes of the vibration step of a deck; 0: no step; default 20")},
+              a->options.table(true)),
+          .footer =
+              "Mesh, sets, materials, sections, connections and point masses as they were "
+              "understood, in\n"
+              "the units of the file. What the other format cannot hold is said; what would "
+              "make it\n"
+              "another model is refused. Supports stand in a deck as comments.\n"
+              "Example: floatframe convert arm.bdf arm.inp && ccx arm\n"
+              "Exit codes: 0 done, 2 bad input; files are written atomically.",
+          .run = [a] { return convert(*a); }};
+}
+
+}  // namespace floatframe

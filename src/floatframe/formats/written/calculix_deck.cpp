@@ -1,0 +1,197 @@
+// A deck of CalculiX: nodes, elements, sets and surfaces; a step of free vibration if all masses
+// are known. Sections and constraints are in sources of their own.
+// Source: CalculiX CrunchiX User's Manual 2.20, "Input deck format".
+#include <fmt/format.h>
+
+#include "floatframe/core/plural.hpp"
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/formats/written/calculix_text.hpp"
+#include "floatframe/formats/written/mesh_writers.hpp"
+
+namespace floatframe {
+namespace {
+
+const char* calculix_type(ElementType type) {
+  switch (type) {
+    case ElementType::beam2:
+      return "B31";
+    case ElementType::beam3:
+      return "B32";
+    case ElementType::tri3:
+      return "S3";
+    case ElementType::quad4:
+      return "S4";
+    case ElementType::tri6:
+      return "S6";
+    case ElementType::quad8:
+      return "S8";
+    case ElementType::tet4:
+      return "C3D4";
+    case ElementType::tet10:
+      return "C3D10";
+    case ElementType::hex8:
+      return "C3D8";
+    case ElementType::hex8i:
+      return "C3D8I";
+    case ElementType::hex8r:
+      return "C3D8R";
+    case ElementType::hex20:
+      return "C3D20";
+    case ElementType::hex20r:
+      return "C3D20R";
+    case ElementType::wedge6:
+      return "C3D6";
+    case ElementType::wedge15:
+      return "C3D15";
+    case ElementType::pyramid5:
+      return "C3D8";
+    case ElementType::pyramid13:
+      return "C3D20";
+  }
+  return "";
+}
+
+/// Nodes as they are written: pyramids are bricks whose upper face is one node.
+std::vector<int> deck_nodes(const CalculixText& deck, const Element& e) {
+  std::vector<int> order;
+  if (e.type == ElementType::pyramid5) {
+    order = {0, 1, 2, 3, 4, 4, 4, 4};
+  } else if (e.type == ElementType::pyramid13) {
+    order = {0, 1, 2, 3, 4, 4, 4, 4, 5, 6, 7, 8, 4, 4, 4, 4, 9, 10, 11, 12};
+  } else {
+    for (int k = 0; k < element_nodes(e.type); ++k) order.push_back(k);
+  }
+  for (int& k : order) k = deck.node(e.nodes[static_cast<std::size_t>(k)]);
+  return order;
+}
+
+void add_nodes(CalculixText& deck) {
+  deck.text += "*NODE, NSET=NALL\n";
+  for (int n = 0; n < deck.model.nodes(); ++n) {
+    const Vec3& p = deck.model.positions[static_cast<std::size_t>(n)];
+    deck.text += fmt::format("{}, {}, {}, {}\n", deck.node(n), calculix_number(p(0)),
+                             calculix_number(p(1)), calculix_number(p(2)));
+  }
+  deck.names.insert("NALL");
+}
+
+void add_elements(CalculixText& deck) {
+  std::size_t pyramids = 0, spread = 0, expanded = 0;
+  ElementType last{};
+  for (std::size_t e = 0; e < deck.model.elements.size(); ++e) {
+    const Element& element = deck.model.elements[e];
+    if (e == 0 || element.type != last)
+      deck.text += fmt::format("*ELEMENT, TYPE={}\n", calculix_type(element.type));
+    last = element.type;
+    std::vector<int> numbers = deck_nodes(deck, element);
+    numbers.insert(numbers.begin(), deck.element(e));
+    add_calculix_numbers(deck.text, numbers, true);
+    pyramids += element.type == ElementType::pyramid5 || element.type == ElementType::pyramid13;
+    spread += element.mass_form != MassForm::consistent;
+    expanded += is_beam(element.type) || is_shell(element.type);
+  }
+  const auto note = [&](std::size_t count, const char* what) {
+    if (count > 0)
+      deck.notes.push_back(fmt::format("{} {}", plural(static_cast<long>(count), "element"), what));
+  };
+  note(pyramids,
+       "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node");
+  note(spread, "of lumped mass: CalculiX takes consistent mass");
+  note(expanded,
+       "are beams or shells: CalculiX makes solid elements of them, its frequencies differ");
+}
+
+void add_set(CalculixText& deck, const char* keyword, const std::string& name,
+             const std::vector<int>& members) {
+  if (members.empty()) return;
+  deck.text += fmt::format("*{0}, {0}={1}\n", keyword, written_name(name, true, deck.names));
+  add_calculix_numbers(deck.text, members, false);
+}
+
+void add_sets(CalculixText& deck) {
+  for (const auto& [name, nodes] : deck.model.node_sets) {
+    std::vector<int> members;
+    for (const int n : nodes) members.push_back(deck.node(n));
+    add_set(deck, "NSET", name, members);
+  }
+  for (const auto& [name, elements] : deck.model.element_sets) {
+    std::vector<int> members;
+    for (const int e : elements) members.push_back(deck.element(static_cast<std::size_t>(e)));
+    add_set(deck, "ELSET", name, members);
+  }
+  std::size_t skins = 0;
+  for (const auto& [name, faces] : deck.model.surfaces) {
+    std::string lines;
+    for (const ElementFace& f : faces) {
+      const auto e = static_cast<std::size_t>(f.element);
+      const ElementType type = deck.model.elements[e].type;
+      const bool solid = element_kernel(type).family == ElementFamily::solid &&
+                         type != ElementType::pyramid5 && type != ElementType::pyramid13;
+      if (solid)
+        lines += fmt::format("{}, S{}\n", deck.element(e), f.face + 1);
+      else
+        ++skins;
+    }
+    if (!lines.empty())
+      deck.text +=
+          fmt::format("*SURFACE, NAME={}\n{}", written_name(name, true, deck.names), lines);
+  }
+  if (skins > 0)
+    deck.notes.push_back(fmt::format("{} of surfaces left out: they are not faces of solids",
+                                     plural(static_cast<long>(skins), "face")));
+}
+
+/// What holds the part in its own deck is not in force here either: comments.
+void add_supports(CalculixText& deck) {
+  if (deck.model.supports.empty()) return;
+  deck.text += "** Supports of the model; without the stars they are in force:\n** *BOUNDARY\n";
+  for (const Support& s : deck.model.supports)
+    for (int axis = 0; axis < 6; ++axis)
+      if ((s.mask >> static_cast<unsigned>(axis) & 1u) != 0u)
+        deck.text += fmt::format("** {}, {}, {}\n", deck.node(s.node), axis + 1, axis + 1);
+}
+
+void add_step(CalculixText& deck, int modes) {
+  if (modes <= 0) return;
+  if (!deck.model.without_density.empty()) {
+    deck.notes.push_back(
+        "no step of vibration: the density of a material is not known (--density RHO)");
+    return;
+  }
+  deck.text += fmt::format("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", modes);
+}
+
+}  // namespace
+
+std::string calculix_number(double value) { return fmt::format("{:.13g}", value); }
+
+void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bool goes_on) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const bool end = k + 1 == numbers.size();
+    text += std::to_string(numbers[k]);
+    if (!end && (k % 16 != 15 || goes_on)) text += ',';
+    if (end || k % 16 == 15)
+      text += '\n';
+    else
+      text += ' ';
+  }
+}
+
+WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options) {
+  if (model.elements.empty())
+    throw InputError("the model has no elements, expected a mesh (matrices make no deck)");
+  CalculixText deck(model);
+  deck.text = "*HEADING\nWritten by Floatframe\n";
+  add_nodes(deck);
+  add_elements(deck);
+  add_sets(deck);
+  add_calculix_sections(deck);
+  add_calculix_constraints(deck);
+  add_supports(deck);
+  add_step(deck, options.modes);
+  deck.errors.throw_if_any();
+  return {std::move(deck.text), std::move(deck.notes)};
+}
+
+}  // namespace floatframe

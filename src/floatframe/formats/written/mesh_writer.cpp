@@ -1,0 +1,32 @@
+#include "floatframe/formats/written/mesh_writer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "floatframe/formats/written/mesh_writers.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr MeshFormat formats_written[] = {
+    {"calculix", "CalculiX deck (.inp)", ".inp", calculix_deck},
+    {"gmsh", "Gmsh mesh, format 4.1 (.msh)", ".msh", gmsh_mesh_file},
+    {"vtu", "VTK unstructured grid, for ParaView (.vtu)", ".vtu", vtu_mesh},
+};
+
+}  // namespace
+
+std::span<const MeshFormat> mesh_formats() { return formats_written; }
+
+const MeshFormat& mesh_format_of(const std::filesystem::path& file) {
+  std::vector<std::string> known;
+  for (const MeshFormat& format : mesh_formats()) {
+    if (file.extension() == format.ending) return format;
+    known.emplace_back(format.description);
+  }
+  throw InputError({file.string(), 0, 0},
+                   fmt::format("found the ending '{}', expected one of: {}",
+                               file.extension().string(), fmt::join(known, "; ")));
+}
+
+}  // namespace floatframe

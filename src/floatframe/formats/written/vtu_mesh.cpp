@@ -1,0 +1,180 @@
+// A .vtu file of a finite-element model: elements as cells with their materials and sections,
+// spiders as lines from their reference, point masses as vertices; node sets and element sets as
+// arrays of 0 and 1.
+#include <fmt/format.h>
+
+#include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/formats/vtk/vtk_file.hpp"
+#include "floatframe/formats/written/mesh_writers.hpp"
+#include "floatframe/formats/written/written_numbers.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Sets beyond this many are left out: arrays of each cell would fill the memory.
+constexpr std::size_t most_sets = 200;
+
+/// The nodes of VTK's cells are in the order of the model's, but in the quadratic beam.
+std::uint8_t vtk_cell_of(ElementType type) {
+  switch (type) {
+    case ElementType::beam2:
+      return 3;
+    case ElementType::beam3:
+      return 21;
+    case ElementType::tri3:
+      return 5;
+    case ElementType::quad4:
+      return 9;
+    case ElementType::tri6:
+      return 22;
+    case ElementType::quad8:
+      return 23;
+    case ElementType::tet4:
+      return 10;
+    case ElementType::tet10:
+      return 24;
+    case ElementType::hex8:
+    case ElementType::hex8i:
+    case ElementType::hex8r:
+      return 12;
+    case ElementType::hex20:
+    case ElementType::hex20r:
+      return 25;
+    case ElementType::wedge6:
+      return 13;
+    case ElementType::wedge15:
+      return 26;
+    case ElementType::pyramid5:
+      return 14;
+    case ElementType::pyramid13:
+      return 27;
+  }
+  return 0;
+}
+
+/// What a cell shows.
+struct Cells {
+  std::vector<std::int32_t> element, kind, material;
+  std::vector<double> young, density, thickness;
+  std::vector<std::string> kinds;
+
+  void add(int number, int kind_of, int material_of, const Material& m, double t) {
+    element.push_back(number);
+    kind.push_back(kind_of);
+    material.push_back(material_of);
+    young.push_back(m.young);
+    density.push_back(m.density);
+    thickness.push_back(t);
+  }
+};
+
+void add_cell(VtkGrid& grid, std::uint8_t type, std::initializer_list<int> nodes) {
+  grid.connectivity.insert(grid.connectivity.end(), nodes.begin(), nodes.end());
+  grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
+  grid.types.push_back(type);
+}
+
+void add_element_cells(const FeModel& model, const WrittenNumbers& numbers, VtkGrid& grid,
+                       Cells& cells) {
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const Element& element = model.elements[e];
+    const int count = element_nodes(element.type);
+    if (element.type == ElementType::beam3) {
+      add_cell(grid, vtk_cell_of(element.type),
+               {element.nodes[0], element.nodes[2], element.nodes[1]});
+    } else {
+      grid.connectivity.insert(grid.connectivity.end(), element.nodes.begin(),
+                               element.nodes.begin() + count);
+      grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
+      grid.types.push_back(vtk_cell_of(element.type));
+    }
+    const auto m = static_cast<std::size_t>(element.material);
+    const auto s = static_cast<std::size_t>(element.section);
+    const bool known = element.material >= 0 && m < model.materials.size();
+    const bool shell = is_shell(element.type) && s < model.shells.size();
+    cells.add(numbers.element[e], static_cast<int>(element.type), known ? element.material : -1,
+              known ? model.materials[m] : Material{}, shell ? model.shells[s].thickness : 0.0);
+  }
+}
+
+/// Behind the elements: spiders as lines, point masses as vertices.
+void add_other_cells(const FeModel& model, VtkGrid& grid, Cells& cells) {
+  const int spider = static_cast<int>(std::size(element_types)), mass = spider + 1;
+  for (const Spider& s : model.spiders) {
+    if (s.reference < 0) continue;
+    for (const int node : s.nodes) {
+      add_cell(grid, vtk_cell::line, {s.reference, node});
+      cells.add(0, spider, -1, {}, 0.0);
+    }
+  }
+  for (const PointMass& m : model.masses) {
+    add_cell(grid, vtk_cell::vertex, {m.node});
+    cells.add(0, mass, -1, {}, 0.0);
+  }
+}
+
+VtkArray marks(const std::string& name, std::size_t size, const std::vector<int>& members) {
+  std::vector<std::int32_t> values(size, 0);
+  for (const int i : members) values[static_cast<std::size_t>(i)] = 1;
+  return {name, 1, std::move(values)};
+}
+
+void add_set_arrays(const FeModel& model, VtkGrid& grid, std::vector<std::string>& notes) {
+  std::set<std::string> used_by_points, used_by_cells;
+  std::size_t left_out = 0;
+  const auto add = [&](const auto& sets, std::size_t size, std::set<std::string>& used,
+                       std::vector<VtkArray>& arrays) {
+    std::size_t count = 0;
+    for (const auto& [name, members] : sets) {
+      if (++count > most_sets) {
+        ++left_out;
+        continue;
+      }
+      arrays.push_back(marks(written_name("set_" + name, false, used), size, members));
+    }
+  };
+  add(model.node_sets, model.positions.size(), used_by_points, grid.point_data);
+  add(model.element_sets, grid.types.size(), used_by_cells, grid.cell_data);
+  if (left_out > 0)
+    notes.push_back(
+        fmt::format("{} sets are left out: only the first {} of nodes and of elements "
+                    "are written",
+                    left_out, most_sets));
+  if (!model.surfaces.empty())
+    notes.push_back(
+        fmt::format("{} not written",
+                    model.surfaces.size() == 1
+                        ? "1 surface of element faces is"
+                        : fmt::format("{} surfaces of element faces are", model.surfaces.size())));
+}
+
+}  // namespace
+
+WrittenMesh vtu_mesh(const FeModel& model, const MeshWriteOptions&) {
+  WrittenMesh out;
+  const WrittenNumbers numbers = written_numbers(model, out.notes);
+  VtkGrid grid;
+  for (const Vec3& p : model.positions) grid.points.insert(grid.points.end(), {p(0), p(1), p(2)});
+  Cells cells;
+  add_element_cells(model, numbers, grid, cells);
+  add_other_cells(model, grid, cells);
+  grid.point_data.push_back(
+      {"node_number", 1, std::vector<std::int32_t>(numbers.node.begin(), numbers.node.end())});
+  grid.cell_data = {{"element_number", 1, std::move(cells.element)},
+                    {"element_type", 1, std::move(cells.kind)},
+                    {"material", 1, std::move(cells.material)},
+                    {"young", 1, std::move(cells.young)},
+                    {"density", 1, std::move(cells.density)},
+                    {"thickness", 1, std::move(cells.thickness)}};
+  add_set_arrays(model, grid, out.notes);
+  std::vector<std::string> types(std::begin(element_words), std::end(element_words)), materials;
+  types.insert(types.end(), {"spider", "point_mass"});
+  for (std::size_t m = 0; m < model.materials.size(); ++m)
+    materials.push_back(written_material(model, static_cast<int>(m)));
+  grid.texts = {{"element_type_names", std::move(types)}, {"material_names", std::move(materials)}};
+  out.bytes = vtu_bytes(grid);
+  return out;
+}
+
+}  // namespace floatframe

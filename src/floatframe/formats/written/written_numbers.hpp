@@ -1,0 +1,25 @@
+#pragma once
+// What all written meshes need: numbers of nodes and elements, and names that any program reads.
+#include <set>
+#include <string>
+#include <vector>
+
+#include "floatframe/fe/fe_model.hpp"
+
+namespace floatframe {
+
+/// The numbers of the user's file, where they are positive and different; else 1, 2, 3, ...
+struct WrittenNumbers {
+  std::vector<int> node, element;
+  int last_node = 0, last_element = 0;
+};
+WrittenNumbers written_numbers(const FeModel& model, std::vector<std::string>& notes);
+
+/// Letters, digits, '_' and '-', at most 60; in upper case if asked for; none of `used`, which it
+/// joins.
+std::string written_name(const std::string& name, bool upper, std::set<std::string>& used);
+
+/// Name of the material in the model, or "MATERIAL_1".
+std::string written_material(const FeModel& model, int material);
+
+}  // namespace floatframe

@@ -1,0 +1,25 @@
+#pragma once
+// A finite-element model from one program's file to another's, in the units of the file: a deck to
+// compute with, a mesh to look at what was understood.
+#include <filesystem>
+#include <string>
+
+#include "floatframe/parts/part_job.hpp"
+
+namespace floatframe {
+
+struct ConvertedMesh {
+  std::string bytes;    ///< of the file to be written
+  std::string summary;  ///< what was read and written, with the notes of both; lines
+  /// Of the file that was read, and those that it includes.
+  std::vector<std::string> files;
+};
+
+/// The ending of `out`, which is not written here, says the format: .inp, .msh or .vtu. `modes` of
+/// the vibration step of a deck; 0: no step. Throws InputError.
+ConvertedMesh convert_mesh_file(const PartJob& job, const std::filesystem::path& out, int modes);
+
+/// "CalculiX deck (.inp); ..."
+std::string mesh_formats_text();
+
+}  // namespace floatframe
