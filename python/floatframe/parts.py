@@ -190,6 +190,7 @@ def reduce(
     beam_shear: Literal["by_format", "none"] | None = None,
     shell_shear: Literal["by_format", "none", "all"] | None = None,
     mass_form: Literal["by_format", "consistent", "lumped"] | None = None,
+    grounded_springs: Literal["refuse", "ignore"] | None = None,
     nodes: Path | None = None,
     mass: Path | None = None,
     dofs: Path | None = None,
@@ -208,6 +209,7 @@ def reduce(
     this fraction is reached. reference: "mean_axis", "buckens" or "node:NAME" of an interface. damping: fraction of critical.
     free_check=False: no free modes of the full model in the report (saves a factorisation). stresses=False: no stress.
     beam_shear, shell_shear: shear deformation of beams and shells of a file; mass_form: consistent or lumped mass.
+    grounded_springs="ignore": springs to the ground are left out.
     projection=True: nodes and mass matrix are kept for the projection method.
 
     material: of files that have none. density: of materials that have none in the file, a number or by their names,
@@ -233,8 +235,10 @@ def reduce(
         "beam_shear": beam_shear,
         "shell_shear": shell_shear,
         "mass_form": mass_form,
+        "grounded_springs": grounded_springs,
     }
-    _expect_texts(options, ("units", "method", "reference", "integration", "solver", "beam_shear", "shell_shear", "mass_form"))
+    texts = ("units", "method", "reference", "integration", "solver", "beam_shear", "shell_shear", "mass_form", "grounded_springs")
+    _expect_texts(options, texts)
     options |= _reading(format, dialect, contact, density, nodes, mass, dofs)
     chosen: dict[str, object] = {}
     for key, places in (("interfaces", interfaces), ("markers", markers)):
@@ -244,8 +248,8 @@ def reduce(
     if tell is not None and not callable(tell):
         raise InputError(f"progress: found {progress!r}, expected True, False or a function")
     if mesh:
-        of_files = ("format", "dialect", "contact", "density", "beam_shear", "shell_shear", "mass_form", "nodes", "mass", "dofs")
-        for name in of_files:
+        of_files = ("format", "dialect", "contact", "density", "beam_shear", "shell_shear", "mass_form", "grounded_springs", "nodes")
+        for name in (*of_files, "mass", "dofs"):
             if options[name] is not None:
                 raise InputError(f"{name} says how files are read: found it for a mesh")
         model = fe_model(source, material, thickness, section, chosen)

@@ -64,6 +64,8 @@ StressRecovery::StressRecovery(const FeModel& model, const std::vector<int>& sur
       case ElementFamily::beam:
         add_beam(e);
         break;
+      case ElementFamily::rod:
+        break;
     }
   }
   if (!layout_.sections.empty())

@@ -8,23 +8,44 @@
 namespace floatframe {
 namespace {
 
-std::span<const int> nodes_of(const Element& e) {
-  return {e.nodes.data(), static_cast<std::size_t>(element_kernel(e.type).nodes)};
-}
+/// Elements, then blocks: what has nodes in common.
+class NodeGroups {
+ public:
+  NodeGroups(const FeModel& model, std::span<const SpringBlock> blocks) : model_(model) {
+    for (const SpringBlock& block : blocks) {
+      std::vector<int>& nodes = blocks_.emplace_back();
+      for (const Dof& dof : block.dofs)
+        if (nodes.empty() || nodes.back() != dof.node) nodes.push_back(dof.node);
+    }
+  }
+  std::size_t size() const { return model_.elements.size() + blocks_.size(); }
+  std::span<const int> operator[](std::size_t group) const {
+    if (group >= model_.elements.size()) return blocks_[group - model_.elements.size()];
+    const Element& e = model_.elements[group];
+    return {e.nodes.data(), static_cast<std::size_t>(element_kernel(e.type).nodes)};
+  }
+
+ private:
+  const FeModel& model_;
+  std::vector<std::vector<int>> blocks_;
+};
 
 }  // namespace
 
-BlockAssembly::BlockAssembly(const FeModel& model, const DofTable& table) : table_(table) {
+BlockAssembly::BlockAssembly(const FeModel& model, const DofTable& table,
+                             std::span<const SpringBlock> blocks)
+    : table_(table) {
   const std::size_t n = model.positions.size();
-  std::vector<int> first(n + 1, 0);  // elements of each node
-  for (const Element& e : model.elements) {
-    for (const int node : nodes_of(e)) ++first[node + 1];
+  const NodeGroups groups(model, blocks);
+  std::vector<int> first(n + 1, 0);  // groups of each node
+  for (std::size_t e = 0; e < groups.size(); ++e) {
+    for (const int node : groups[e]) ++first[node + 1];
   }
   for (std::size_t i = 1; i <= n; ++i) first[i] += first[i - 1];
   std::vector<int> elements(first.back());
   std::vector<int> next(first.begin(), first.end() - 1);
-  for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    for (const int node : nodes_of(model.elements[e])) {
+  for (std::size_t e = 0; e < groups.size(); ++e) {
+    for (const int node : groups[e]) {
       elements[next[node]++] = static_cast<int>(e);
     }
   }
@@ -38,7 +59,7 @@ BlockAssembly::BlockAssembly(const FeModel& model, const DofTable& table) : tabl
     }
     for (int i = first[k]; i < first[k + 1]; ++i) {
       const int e = elements[i];
-      for (const int node : nodes_of(model.elements[e])) {
+      for (const int node : groups[e]) {
         int& s = seen[node];
         if (s == static_cast<int>(k)) continue;
         s = static_cast<int>(k);

@@ -1,15 +1,18 @@
 #pragma once
 // Assembly of large symmetric matrices from blocks of nodes: the pattern (which nodes share an
 // element) is made once, element matrices are added in place.
+#include <span>
 #include <vector>
 
-#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/springs.hpp"
 
 namespace floatframe {
 
 class BlockAssembly {
  public:
-  BlockAssembly(const FeModel& model, const DofTable& table);
+  /// `blocks`: nodes that share stiffness without an element.
+  BlockAssembly(const FeModel& model, const DofTable& table,
+                std::span<const SpringBlock> blocks = {});
 
   /// Element matrix with d dofs per node, as the kernels make it.
   void add(const int* nodes, int count, int d, const MatX& matrix);

@@ -7,6 +7,7 @@
 
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
+#include "floatframe/fe/springs.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -303,10 +304,7 @@ void add_equation(const FeModel& model, const DofTable& table, const LinearEquat
 
 }  // namespace
 
-namespace {
-
-/// Degrees of freedom of each node, behind a leading 0, without those that only equations give.
-std::vector<int> dofs_of_nodes(const FeModel& model) {
+std::vector<int> dofs_without_springs(const FeModel& model) {
   std::vector<int> count(model.positions.size() + 1, 0);
   const auto need = [&](int node, int dofs) {
     int& c = count[node + 1];
@@ -326,6 +324,15 @@ std::vector<int> dofs_of_nodes(const FeModel& model) {
     need(s.reference, 6);
     for (const int node : s.nodes) need(node, 3);
   }
+  return count;
+}
+
+namespace {
+
+/// Degrees of freedom of each node, behind a leading 0, without those that only equations give.
+std::vector<int> dofs_of_nodes(const FeModel& model) {
+  std::vector<int> count = dofs_without_springs(model);
+  if (!model.springs.empty()) add_spring_dofs(model, count);
   return count;
 }
 
@@ -360,6 +367,11 @@ DependentDofs resolve_dependences(const FeModel& model, const DofTable& table) {
   Resolver resolver(model, table, errors);
   if (model.matrices) resolver.fix_missing(model.matrices->dofs);
   resolver.fix_idle();
+  if (!model.springs.empty()) {
+    const int owner = resolver.begin_owner("springs alone", {});
+    for (const Dof& dof : spring_system(model, table).condensed)
+      resolver.add(owner, dof.node, dof.axis, {});
+  }
   for (const LinearEquation& e : model.equations) {
     add_equation(model, table, e, resolver, errors);
   }

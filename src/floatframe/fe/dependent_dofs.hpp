@@ -21,6 +21,8 @@ struct DofTable {
   }
 };
 DofTable dof_table(const FeModel& model);
+/// Their number of each node, behind a leading 0, without what springs and equations need.
+std::vector<int> dofs_without_springs(const FeModel& model);
 
 struct DependentDofs {
   using Terms = std::vector<std::pair<int, double>>;  ///< dof, factor; ascending

@@ -35,8 +35,8 @@ struct StressedPoint {
   MatX gradient;  ///< 9 x dofs: du_i/dx_j in row 3 i + j
 };
 
-/// Which section an element has: a beam's, a shell's, or none.
-enum class ElementFamily { beam, shell, solid };
+/// Which section an element has: a beam's (rods too), a shell's, or none.
+enum class ElementFamily { beam, shell, solid, rod };
 
 struct ElementKernel {
   ElementFamily family;
@@ -65,6 +65,9 @@ const ElementKernel& element_kernel(ElementType type) noexcept;
 
 inline bool is_beam(ElementType type) noexcept {
   return element_kernel(type).family == ElementFamily::beam;
+}
+inline bool is_rod(ElementType type) noexcept {
+  return element_kernel(type).family == ElementFamily::rod;
 }
 inline bool is_shell(ElementType type) noexcept {
   return element_kernel(type).family == ElementFamily::shell;

@@ -31,7 +31,8 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
   }
   input.material = model.materials[element.material];
   const std::size_t section = element.section;
-  if (kernel.family == ElementFamily::beam) input.section = model.sections[section];
+  if (kernel.family == ElementFamily::beam || kernel.family == ElementFamily::rod)
+    input.section = model.sections[section];
   input.reference = element.reference;
   input.mass_form = element.mass_form;
   const Orientation* const orientation =

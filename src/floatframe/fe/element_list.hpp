@@ -10,6 +10,7 @@
 #define FLOATFRAME_ELEMENTS(entry)                                                          \
   entry(beam2)    /* 2-node beam, exact for loads at its ends; with shear if its section has */ \
   entry(beam3)    /* 3-node Timoshenko beam: end, middle, end */                            \
+  entry(rod2)     /* 2-node rod: axial force only */                                        \
   entry(tri3)     /* 3-node flat shell */                                                   \
   entry(quad4)    /* 4-node flat shell */                                                   \
   entry(tri6)     /* 6-node shell, divided into four of 3 nodes; edges 12 23 31 */          \

@@ -6,6 +6,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/lumped_mass.hpp"
+#include "floatframe/fe/springs.hpp"
 
 namespace floatframe {
 
@@ -59,6 +60,11 @@ std::string FeModel::element_label(int element) const {
          ")";
 }
 
+std::string FeModel::spring_label(int spring) const {
+  const std::string& name = springs[spring].name;
+  return name.empty() ? "spring " + std::to_string(spring) : name;
+}
+
 SourceMark FeModel::mark(const FeSource& source) const {
   if (source.file < 0 || static_cast<std::size_t>(source.file) >= files.size()) return {};
   return {files[source.file], source.line, 0};
@@ -89,6 +95,15 @@ SparseMatrix assemble_stiffness(const FeModel& model) {
     const ElementKernel& kernel = element_kernel(element.type);
     kernel.stiffness(gather(model, element), matrix);
     scatter(element, kernel, d, matrix, triplets);
+  }
+  if (!model.springs.empty()) {
+    for (const SpringBlock& block : spring_system(model, dof_table(model)).blocks)
+      for (std::size_t i = 0; i < block.dofs.size(); ++i)
+        for (std::size_t j = 0; j < block.dofs.size(); ++j)
+          triplets.emplace_back(
+              d * block.dofs[i].node + block.dofs[i].axis,
+              d * block.dofs[j].node + block.dofs[j].axis,
+              block.K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   }
   SparseMatrix K(d * model.nodes(), d * model.nodes());
   K.setFromTriplets(triplets.begin(), triplets.end());

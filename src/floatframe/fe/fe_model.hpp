@@ -94,7 +94,7 @@ struct Element {
   ElementType type = ElementType::beam2;
   std::array<int, 20> nodes{};  ///< only the first ones are used, as the type needs
   int material = 0;
-  int section = 0;  ///< beams: in FeModel::sections; shells: in FeModel::shells
+  int section = 0;  ///< beams, rods: in FeModel::sections; shells: in FeModel::shells
   MassForm mass_form = MassForm::consistent;
   Vec3 reference = Vec3::UnitZ();  ///< beams: local y lies in the plane of the axis and this vector
   /// In FeModel::orientations; -1: solids have the body's axes, shells the first axis of their
@@ -129,6 +129,17 @@ struct ShellSection {
   int bending = -1;
   double bending_factor = 1.0;
   Mat3 coupling = Mat3::Zero();
+};
+
+/// A linear spring. Its force is stiffness times elongation, the elongation
+///   e = d_1 . q_1 + d_2 . q_2
+/// of displacements and rotations q = (u, theta) of its nodes. A bushing is several springs.
+struct Spring {
+  std::array<int, 2> nodes{-1, -1};                            ///< the second -1: the ground
+  std::array<Vec6, 2> directions{Vec6::Zero(), Vec6::Zero()};  ///< d_1, d_2; of u [-]
+  double stiffness = 0.0;  ///< [N/m]; if the directions are of rotations alone [N m/rad]
+  std::string name;        ///< for messages
+  FeSource source;
 };
 
 struct PointMass {
@@ -200,6 +211,7 @@ struct FeModel {
   std::vector<Orientation> orientations;
   std::vector<Element> elements;
   std::vector<PointMass> masses;
+  std::vector<Spring> springs;
 
   // What imported models have besides. Sets keep the order of the file; names as in the file
   // (Abaqus: upper case).
@@ -227,6 +239,8 @@ struct FeModel {
   std::string node_label(int node) const;
   /// The element's name, or "element 3 (beam2)".
   std::string element_label(int element) const;
+  /// The spring's name, or "spring 3".
+  std::string spring_label(int spring) const;
   /// For errors; empty if the model was not read from a file.
   SourceMark mark(const FeSource& source) const;
 };

@@ -2,6 +2,7 @@
 
 #include "floatframe/fe/block_assembly.hpp"
 #include "floatframe/fe/lumped_mass.hpp"
+#include "floatframe/fe/springs.hpp"
 
 namespace floatframe {
 namespace {
@@ -34,13 +35,19 @@ void add_point_masses(const FeModel& model, const DofTable& table, BlockAssembly
 }  // namespace
 
 SparseMatrix full_stiffness(const FeModel& model, const DofTable& table, Integration integration) {
-  BlockAssembly assembly(model, table);
+  const std::vector<SpringBlock> springs = spring_system(model, table).blocks;
+  BlockAssembly assembly(model, table, springs);
   MatX matrix;
   for (const Element& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
     kernel.stiffness(gather(model, e, integration), matrix);
     assembly.add(e.nodes.data(), kernel.nodes, kernel.dofs_per_node, matrix);
   }
+  for (const SpringBlock& block : springs)
+    for (std::size_t i = 0; i < block.dofs.size(); ++i)
+      for (std::size_t j = 0; j < block.dofs.size(); ++j)
+        assembly.add(block.dofs[i], block.dofs[j],
+                     block.K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   SparseMatrix K = assembly.finish();
   if (model.matrices) K += ordered(model.matrices->K, model.matrices->dofs, table);
   return K;

@@ -12,6 +12,7 @@
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/springs.hpp"
 
 namespace floatframe {
 namespace {
@@ -190,16 +191,24 @@ std::vector<std::string> model_warnings(const FeModel& model) {
                               elements[i], elements[i] == 1 ? "element is" : "elements are"));
   }
   warn_duplicates(model, out);
+  const auto list = [&](const std::vector<int>& nodes) {
+    std::string text;
+    for (std::size_t i = 0; i < nodes.size() && i < named; ++i)
+      text += (i == 0 ? "" : ", ") + model.node_label(nodes[i]);
+    if (nodes.size() > named) text += fmt::format(" and {} more", nodes.size() - named);
+    return text;
+  };
   const std::vector<int> unused = unreferenced_nodes(model);
-  if (!unused.empty()) {
-    std::string list;
-    for (std::size_t i = 0; i < unused.size() && i < named; ++i) {
-      list += (i == 0 ? "" : ", ") + model.node_label(unused[i]);
-    }
-    if (unused.size() > named) list += fmt::format(" and {} more", unused.size() - named);
+  if (!unused.empty())
     out.push_back(fmt::format("{} {} used by nothing: {}", unused.size(),
-                              unused.size() == 1 ? "node is" : "nodes are", list));
-  }
+                              unused.size() == 1 ? "node is" : "nodes are", list(unused)));
+  const std::vector<int> hanging = nodes_on_springs(model);
+  if (!hanging.empty())
+    out.push_back(fmt::format(
+        "{} {} on springs alone, without mass, and follow{}: a spring that ends there and nowhere "
+        "else does nothing, unless its end is an interface: {}",
+        hanging.size(), hanging.size() == 1 ? "node hangs" : "nodes hang",
+        hanging.size() == 1 ? "s" : "", list(hanging)));
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/springs.hpp"
 
 namespace floatframe {
 namespace {
@@ -53,6 +54,7 @@ MatX strain_energy(const FeModel& model, const MatX& U, const MatX& Theta,
   MatX K = MatX::Zero(U.cols(), U.cols());
   each_element(model, U, Theta, integration,
                [&](const MatX& q, const MatX& f) { K.noalias() += q.transpose() * f; });
+  if (!model.springs.empty()) K += spring_energy(model, U, Theta);
   return 0.5 * (K + K.transpose());
 }
 
@@ -62,6 +64,7 @@ VecX strain_energy_of_each(const FeModel& model, const MatX& U, const MatX& Thet
   each_element(model, U, Theta, integration, [&](const MatX& q, const MatX& f) {
     k += q.cwiseProduct(f).colwise().sum().transpose();
   });
+  if (!model.springs.empty()) k += spring_energy(model, U, Theta).diagonal();
   return k;
 }
 

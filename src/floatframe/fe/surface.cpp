@@ -40,7 +40,7 @@ Surface outer_surface(const FeModel& model) {
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const Element& element = model.elements[e];
     const std::span<const FaceNodes> faces = element_faces(element.type);
-    if (is_beam(element.type)) {
+    if (is_beam(element.type) || is_rod(element.type)) {
       const int count = element_kernel(element.type).nodes;
       for (int i = 0; i + 1 < count; ++i) {
         surface.lines.push_back({element.nodes[i], element.nodes[i + 1]});

@@ -105,6 +105,14 @@ void to_si(FeModel& model, const UnitSystem& units) {
     for (ShellPly& ply : s.plies) ply.thickness *= l;
   }
   for (Orientation& o : model.orientations) o.origin *= l;
+  // k e^2 is an energy. With translations e is a length, and rotations count with lengths.
+  for (Spring& s : model.springs) {
+    const bool turns_only =
+        s.directions[0].head<3>().isZero(0.0) && s.directions[1].head<3>().isZero(0.0);
+    s.stiffness *= turns_only ? units.force() * l : units.force() / l;
+    if (turns_only) continue;
+    for (Vec6& d : s.directions) d.tail<3>() *= l;
+  }
   for (PointMass& m : model.masses) {
     m.mass *= units.mass;
     m.J *= units.mass * l2;

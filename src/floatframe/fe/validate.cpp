@@ -10,6 +10,7 @@
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/springs.hpp"
 
 namespace floatframe {
 namespace {
@@ -112,6 +113,8 @@ std::string material_misfit(const FeModel& model, const Element& element) {
   const ElementFamily family = element_kernel(element.type).family;
   if (family == ElementFamily::beam && material.elasticity)
     return " is a beam, whose material must be isotropic";
+  if (family == ElementFamily::rod && material.elasticity)
+    return " is a rod, whose material must be isotropic";
   if (family == ElementFamily::solid && material.plane)
     return " is a solid, but its material is one of plane stress, for shells only";
   return {};
@@ -149,15 +152,13 @@ void check_elements(const FeModel& model, LimitedErrors& errors) {
                                : fmt::format(": there is no material {}", element.material));
       valid = false;
     }
-    const std::size_t sections = is_beam(element.type)    ? model.sections.size()
-                                 : is_shell(element.type) ? model.shells.size()
-                                                          : 0;
-    if ((is_beam(element.type) || is_shell(element.type)) && !in_range(element.section, sections)) {
+    const bool line = is_beam(element.type) || is_rod(element.type);
+    const std::size_t sections = line ? model.sections.size() : model.shells.size();
+    if ((line || is_shell(element.type)) && !in_range(element.section, sections)) {
       add("elements without section",
-          element.section < 0
-              ? " has no section"
-              : fmt::format(": there is no {} {}",
-                            is_beam(element.type) ? "section" : "shell section", element.section));
+          element.section < 0 ? " has no section"
+                              : fmt::format(": there is no {} {}",
+                                            line ? "section" : "shell section", element.section));
       valid = false;
     }
     if (!valid) continue;
@@ -198,6 +199,9 @@ std::vector<char> nodes_with_rotations(const FeModel& model) {
       for (const int node : s.nodes) mark(node);
     }
   }
+  for (const Spring& s : model.springs)
+    for (int end = 0; end < 2; ++end)
+      if (!s.directions[end].tail<3>().isZero(0.0)) mark(s.nodes[end]);
   if (model.matrices) {
     for (const Dof& d : model.matrices->dofs) {
       if (d.axis >= 3) mark(d.node);
@@ -233,6 +237,10 @@ void check_masses(const FeModel& model, LimitedErrors& errors) {
       add(at + " has rotary inertia, but the nodes of solid elements have no rotations");
     }
   }
+}
+
+void check_springs(const FeModel& model, LimitedErrors& errors) {
+  for (const SpringError& e : spring_errors(model)) errors.add(e.kind, model.mark(e.at), e.text);
 }
 
 void check_spiders(const FeModel& model, LimitedErrors& errors) {
@@ -377,6 +385,7 @@ void validate(const FeModel& model) {
   check_shells(model, errors);
   check_elements(model, errors);
   check_masses(model, errors);
+  check_springs(model, errors);
   check_spiders(model, errors);
   check_equations(model, errors);
   check_sets(model, errors);

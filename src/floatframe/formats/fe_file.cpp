@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/fe/springs.hpp"
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 #include "floatframe/formats/home_notes.hpp"
@@ -114,6 +115,9 @@ void choose(const FeReadOptions& options, FeModel& model) {
     for (Element& e : model.elements)
       e.mass_form =
           options.mass_form == MassChoice::lumped ? MassForm::lumped : MassForm::consistent;
+  if (options.grounded_springs == GroundedSprings::ignore)
+    if (const int count = remove_grounded_springs(model); count > 0)
+      model.notes.push_back(fmt::format("{} springs to the ground are left out", count));
   if (std::string note = home_note(model); !note.empty()) model.notes.push_back(std::move(note));
 }
 

@@ -45,6 +45,12 @@ enum class DeckContact {
   tied     ///< joined where they are within a distance
 };
 
+/// What becomes of springs to the ground, to which a part that floats cannot be tied.
+enum class GroundedSprings {
+  refuse,  ///< an error of the part
+  ignore   ///< left out
+};
+
 struct FeReadOptions {
   /// Formats without material (Gmsh): the material of all elements, in the units of the file.
   std::optional<Material> material;
@@ -62,6 +68,7 @@ struct FeReadOptions {
   DeckContact contact = DeckContact::refuse;
   /// Of `tied`, in the units of the file; 0: 2.5 % of the size of the faces.
   double contact_distance = 0.0;
+  GroundedSprings grounded_springs = GroundedSprings::refuse;
 };
 
 /// On the command line and in model files: "abaqus", "calculix".

@@ -114,6 +114,9 @@ FeFacts fe_facts(const FeModel& model) {
   for (const Element& e : model.elements) ++types[element_type_name(e.type)];
   out.elements.assign(types.begin(), types.end());
   out.point_masses = static_cast<int>(model.masses.size());
+  out.springs = static_cast<int>(model.springs.size());
+  out.grounded_springs = static_cast<int>(std::count_if(
+      model.springs.begin(), model.springs.end(), [](const Spring& s) { return s.nodes[1] < 0; }));
   out.equations = static_cast<int>(model.equations.size());
   std::set<int> supported;
   for (const Support& s : model.supports) supported.insert(s.node);
@@ -147,6 +150,13 @@ std::string fe_info_text(const std::string& file, const FeModel& model) {
   for (const auto& [type, count] : f.elements) text += fmt::format("  {:<12}  {}\n", type, count);
   if (f.matrix_rows > 0) text += fmt::format("  matrices      {} rows\n", f.matrix_rows);
   if (f.point_masses > 0) text += fmt::format("  point masses  {}\n", f.point_masses);
+  if (f.springs > 0)
+    text += fmt::format("  springs       {}{}\n", f.springs,
+                        f.grounded_springs == 0
+                            ? ""
+                            : fmt::format(", {} of them to the ground: `reduce` needs "
+                                          "--grounded-springs ignore",
+                                          f.grounded_springs));
   if (f.equations > 0) text += fmt::format("  equations     {}\n", f.equations);
   if (f.supports > 0)
     text += fmt::format("  supports      on {} nodes (a hint, not applied)\n", f.supports);
@@ -231,6 +241,8 @@ std::string fe_info_json(const std::string& file, const FeModel& model) {
                      {"elements", elements},
                      {"matrix_rows", f.matrix_rows},
                      {"point_masses", f.point_masses},
+                     {"springs", f.springs},
+                     {"grounded_springs", f.grounded_springs},
                      {"equations", f.equations},
                      {"supported_nodes", f.supports},
                      {"low", json_vector(f.low)},

@@ -180,6 +180,9 @@ std::vector<PartOption> list() {
        "Contact pairs of the deck: ignore leaves them free, tied joins them (tied:DISTANCE); "
        "default: they are refused",
        contact(), true},
+      {"grounded_springs", "grounded-springs", "WORD",
+       "Springs to the ground: refuse (default), or ignore: left out",
+       reading_word<&R::grounded_springs>({"refuse", "ignore"}), true},
       {"nodes", "nodes", "FILE", "File with the nodes of matrices", O::File{&R::nodes}, true},
       {"mass", "mass", "FILE", "Mass matrix, if it is not beside the stiffness", O::File{&R::mass},
        true},
@@ -222,7 +225,8 @@ std::vector<PartOption> list() {
   // The content of the file is part of every key.
   [[maybe_unused]] const auto& [file, format, units, read, options] = job;
   [[maybe_unused]] const auto& [material, densities, nodes, mass, dofs, dialect, beam_shear,
-                                shell_shear, mass_form, contact, contact_distance] = read;
+                                shell_shear, mass_form, contact, contact_distance,
+                                grounded_springs] = read;
   // `progress` decides nothing.
   [[maybe_unused]] const auto& [interfaces, markers, method, modes, max_frequency, effective_mass,
                                 reference, integration, damping_ratio, check_free_modes, stresses,

@@ -102,7 +102,8 @@ std::optional<BarChains> BarChains::make(const FeModel& model, const SparseMatri
                                          const std::vector<int>& zero,
                                          const std::function<std::string(int)>& label) {
   const std::size_t n = model.elements.size();
-  if (n <= few_elements || model.dofs_per_node() != 6) return std::nullopt;
+  if (n <= few_elements || model.dofs_per_node() != 6 || !model.springs.empty())
+    return std::nullopt;
   for (const Element& e : model.elements)
     if (e.type != ElementType::beam2) return std::nullopt;
   std::vector<char> kept(model.positions.size(), 0);

@@ -46,6 +46,7 @@ Pieces pieces_of(const FeModel& model) {
     for (int a = 0; a < element_nodes(e.type); ++a) pieces.tie(e.nodes[0], e.nodes[a]);
   }
   for (const PointMass& m : model.masses) pieces.use(m.node);
+  for (const Spring& s : model.springs) pieces.tie(s.nodes[0], s.nodes[s.nodes[1] < 0 ? 0 : 1]);
   for (const Spider& s : model.spiders)
     for (const int node : s.nodes) pieces.tie(s.reference, node);
   for (const LinearEquation& e : model.equations)

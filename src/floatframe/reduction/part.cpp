@@ -91,7 +91,10 @@ PointModel volume_points(FeModel model, Integration integration) {
   }
   for (Material& m : model.materials) m.density = 1.0;
   for (ShellSection& s : model.shells) s.mass = 0.0;
-  model.masses.clear();
+  for (PointMass& m : model.masses) {  // its degrees of freedom stay
+    m.mass = 0.0;
+    m.J *= 1e-100;
+  }
   return point_model(model, assemble(model, integration), integration);
 }
 

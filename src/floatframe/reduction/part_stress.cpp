@@ -22,7 +22,7 @@ std::vector<char> doubtful_nodes(const FeModel& model) {
   }
   for (const Element& e : model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
-    if (kernel.family == ElementFamily::beam) continue;
+    if (kernel.family == ElementFamily::beam || kernel.family == ElementFamily::rod) continue;
     bool near = false;
     for (int a = 0; a < kernel.nodes; ++a) near = near || held[e.nodes[a]] != 0;
     for (int a = 0; near && a < kernel.nodes; ++a) out[e.nodes[a]] = 1;

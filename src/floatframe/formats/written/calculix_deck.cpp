@@ -16,6 +16,8 @@ const char* calculix_type(ElementType type) {
   switch (type) {
     case ElementType::beam2:
       return "B31";
+    case ElementType::rod2:
+      return "T3D2";
     case ElementType::beam3:
       return "B32";
     case ElementType::tri3:
@@ -89,7 +91,7 @@ void add_elements(CalculixText& deck) {
     add_calculix_numbers(deck.text, numbers, true);
     pyramids += element.type == ElementType::pyramid5 || element.type == ElementType::pyramid13;
     spread += element.mass_form != MassForm::consistent;
-    expanded += is_beam(element.type) || is_shell(element.type);
+    expanded += is_beam(element.type) || is_shell(element.type) || is_rod(element.type);
   }
   const auto note = [&](std::size_t count, const char* what) {
     if (count > 0)
@@ -99,7 +101,7 @@ void add_elements(CalculixText& deck) {
        "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node");
   note(spread, "of lumped mass: CalculiX takes consistent mass");
   note(expanded,
-       "are beams or shells: CalculiX makes solid elements of them, its frequencies differ");
+       "are beams, rods or shells: CalculiX makes solid elements of them, its frequencies differ");
 }
 
 void add_set(CalculixText& deck, const char* keyword, const std::string& name,
@@ -181,6 +183,10 @@ void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bo
 WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options) {
   if (model.elements.empty())
     throw InputError("the model has no elements, expected a mesh (matrices make no deck)");
+  if (!model.springs.empty())
+    throw InputError(fmt::format("the model has {} springs, which are not written as a CalculiX "
+                                 "deck (.vtu and .msh show the mesh)",
+                                 model.springs.size()));
   CalculixText deck(model);
   deck.text = "*HEADING\nWritten by Floatframe\n";
   add_nodes(deck);

@@ -71,7 +71,9 @@ class SectionWriter {
       what = shell_error(e);
     else if (is_beam(e.type) && in(e.section, model_.sections))
       what = beam_error(e);
-    else if (is_shell(e.type) || is_beam(e.type))
+    else if (is_rod(e.type) && in(e.section, model_.sections))
+      what = material(e.material).elasticity ? "is a rod of a material with axes" : "";
+    else if (is_shell(e.type) || is_beam(e.type) || is_rod(e.type))
       what = "has no section";
     if (what.empty()) return true;
     refuse(e, index, what);
@@ -194,6 +196,9 @@ class SectionWriter {
     const std::string words = fmt::format("ELSET={}, MATERIAL={}{}", set, of_material, axes);
     if (key.family == ElementFamily::solid) {
       deck_.text += fmt::format("*SOLID SECTION, {}\n", words);
+    } else if (key.family == ElementFamily::rod) {
+      deck_.text +=
+          fmt::format("*SOLID SECTION, {}\n{}\n", words, calculix_number(beam(key.section).A));
     } else if (is_of_shell) {
       const ShellSection& s = shell(key.section);
       const std::string offset =

@@ -23,6 +23,7 @@ constexpr std::array<int, 20> as_it_is{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
 int gmsh_number(ElementType type) {
   switch (type) {
     case ElementType::beam2:
+    case ElementType::rod2:
       return 1;
     case ElementType::beam3:
       return 8;

@@ -19,6 +19,7 @@ constexpr std::size_t most_sets = 200;
 std::uint8_t vtk_cell_of(ElementType type) {
   switch (type) {
     case ElementType::beam2:
+    case ElementType::rod2:
       return 3;
     case ElementType::beam3:
       return 21;

@@ -1,0 +1,290 @@
+#include "floatframe/fe/springs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/math/dense.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Dofs that a set of condensed ones may tie together: their stiffness is full.
+constexpr std::size_t most_tied = 1200;
+
+/// Nodes whose translations, and nodes whose rotations, springs alone hold.
+struct LooseNodes {
+  std::vector<char> moves, turns;
+  std::vector<char> has_rotations;  ///< of other reasons than springs
+};
+
+bool is_named(const FeModel& model, int node) {
+  const std::size_t k = node;
+  return k < model.node_names.size() && !model.node_names[k].empty();
+}
+
+LooseNodes loose_nodes(const FeModel& model) {
+  const std::vector<int> others = dofs_without_springs(model);
+  LooseNodes loose;
+  const std::size_t n = model.positions.size();
+  loose.moves.assign(n, 0);
+  loose.turns.assign(n, 0);
+  loose.has_rotations.assign(n, 0);
+  for (int k = 0; k < model.nodes(); ++k) loose.has_rotations[k] = others[k + 1] == 6;
+  for (const Spider& s : model.spiders)
+    if (s.kind == Spider::Kind::rigid && (s.mask & 56u) != 0)
+      for (const int node : s.nodes) loose.has_rotations[node] = 1;
+  std::vector<char> moved(n, 0), turned(n, 0);  // by equations
+  for (const LinearEquation& e : model.equations)
+    for (const LinearEquation::Term& t : e.terms) (t.axis < 3 ? moved : turned)[t.node] = 1;
+  for (int k = 0; k < model.nodes(); ++k) {
+    const bool alone = others[k + 1] == 0;
+    if ((alone && (is_named(model, k) || moved[k] != 0)) || turned[k] != 0) continue;
+    loose.moves[k] = alone;
+    loose.turns[k] = loose.has_rotations[k] == 0;
+  }
+  return loose;
+}
+
+bool turns(const Spring& s, int end) { return !s.directions[end].tail<3>().isZero(0.0); }
+
+/// Joins of numbered things.
+class Joins {
+ public:
+  explicit Joins(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int root(int k) {
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+  void join(int a, int b) { parent_[root(a)] = root(b); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+struct DofOrder {
+  bool operator()(const Dof& a, const Dof& b) const {
+    return a.node != b.node ? a.node < b.node : a.axis < b.axis;
+  }
+};
+
+/// Springs that share condensed dofs, as one stiffness.
+class Gathered {
+ public:
+  Gathered(const FeModel& model, const LooseNodes& loose) : model_(model), loose_(loose) {}
+
+  void add(const Spring& s) { springs_.push_back(&s); }
+
+  void finish(SpringSystem& out) {
+    for (const Spring* s : springs_)
+      each(*s, [&](const Dof& dof, double) { (condensed(dof) ? inner_ : outer_)[dof] = 0; });
+    if (inner_.size() + outer_.size() > most_tied) {
+      const Dof& at = (inner_.empty() ? outer_ : inner_).begin()->first;
+      throw InputError(std::vector<ErrorEntry>{
+          {model_.mark(springs_.front()->source),
+           fmt::format("springs tie {} degrees of freedom together through {} and others that "
+                       "nothing else holds, at most {} can be; give it a mass, or tie it to the "
+                       "part",
+                       inner_.size() + outer_.size(), model_.node_label(at.node), most_tied)}});
+    }
+    number(inner_, 0);
+    number(outer_, static_cast<int>(inner_.size()));
+    const auto ni = static_cast<Eigen::Index>(inner_.size());
+    const auto n = ni + static_cast<Eigen::Index>(outer_.size());
+    MatX K = MatX::Zero(n, n);
+    for (const Spring* s : springs_) {
+      VecX d = VecX::Zero(n);
+      each(*s, [&](const Dof& dof, double value) {
+        d((condensed(dof) ? inner_ : outer_).at(dof)) += value;
+      });
+      K += s->stiffness * d * d.transpose();
+    }
+    for (const auto& [dof, place] : inner_) out.condensed.push_back(dof);
+    if (outer_.empty()) return;
+    SpringBlock block;
+    for (const auto& [dof, place] : outer_) block.dofs.push_back(dof);
+    block.K = without(K, ni);
+    if (!block.K.isZero(0.0)) out.blocks.push_back(std::move(block));
+  }
+
+ private:
+  using Places = std::map<Dof, int, DofOrder>;
+
+  bool condensed(const Dof& dof) const {
+    return (dof.axis < 3 ? loose_.moves : loose_.turns)[dof.node] != 0;
+  }
+
+  template <class Use>
+  void each(const Spring& s, Use&& use) const {
+    for (int end = 0; end < 2; ++end)
+      for (int axis = 0; axis < 6 && s.nodes[end] >= 0; ++axis)
+        if (s.directions[end](axis) != 0.0) use(Dof{s.nodes[end], axis}, s.directions[end](axis));
+  }
+
+  static void number(Places& places, int first) {
+    for (auto& [dof, place] : places) place = first++;
+  }
+
+  /// K_CC - K_CL K_LL^+ K_LC; the first `inner` are L. Scaled by the diagonal, so that lengths and
+  /// angles compare.
+  static MatX without(const MatX& K, Eigen::Index inner) {
+    const Eigen::Index outer = K.rows() - inner;
+    MatX out = K.bottomRightCorner(outer, outer);
+    if (inner == 0) return out;
+    VecX scale(inner);
+    for (Eigen::Index i = 0; i < inner; ++i)
+      scale(i) = K(i, i) > 0.0 ? 1.0 / std::sqrt(K(i, i)) : 0.0;
+    const SymmetricEigen e = symmetric_eigen(
+        MatX(scale.asDiagonal() * K.topLeftCorner(inner, inner) * scale.asDiagonal()));
+    const MatX B = e.vectors.transpose() * (scale.asDiagonal() * K.topRightCorner(inner, outer));
+    for (Eigen::Index i = 0; i < inner; ++i)
+      if (e.values(i) > 1e-12 * e.values(inner - 1))
+        out -= B.row(i).transpose() * B.row(i) / e.values(i);
+    // What is left of springs that end in the air is rounding.
+    const double size = K.bottomRightCorner(outer, outer).cwiseAbs().maxCoeff();
+    return out.unaryExpr([&](double x) { return std::abs(x) > 1e-13 * size ? x : 0.0; });
+  }
+
+  const FeModel& model_;
+  const LooseNodes& loose_;
+  std::vector<const Spring*> springs_;
+  Places inner_, outer_;
+};
+
+}  // namespace
+
+void add_bushing(FeModel& model, int a, int b, const Vec3& at, const Mat3& axes, const Vec6& k,
+                 const std::string& name, const FeSource& source) {
+  const auto arm = [&](int node) {
+    const Vec3& p = model.positions[node];
+    const Vec3 r = at - p;
+    return r.norm() > 1e-9 * (at.norm() + p.norm()) ? r : Vec3(Vec3::Zero());
+  };
+  for (int i = 0; i < 6; ++i) {
+    if (k(i) == 0.0) continue;
+    const Vec3 t = axes.col(i % 3);
+    Spring s;
+    s.nodes = {a, b};
+    s.stiffness = k(i);
+    s.name = name;
+    s.source = source;
+    for (int end = 0; end < 2; ++end) {
+      if (s.nodes[end] < 0) continue;
+      Vec6& d = s.directions[end];
+      if (i < 3) {
+        d << t, arm(s.nodes[end]).cross(t);  // t . (u + theta x r)
+      } else {
+        d.tail<3>() = t;
+      }
+      if (end == 0) d = -d;
+    }
+    model.springs.push_back(std::move(s));
+  }
+}
+
+SpringSystem spring_system(const FeModel& model, const DofTable& table) {
+  SpringSystem out;
+  if (model.springs.empty()) return out;
+  const LooseNodes loose = loose_nodes(model);
+  Joins joins(model.nodes());
+  const auto is_loose = [&](const Spring& s, int end) {
+    const int node = s.nodes[end];
+    return node >= 0 && (loose.moves[node] != 0 || (loose.turns[node] != 0 && turns(s, end)));
+  };
+  for (const Spring& s : model.springs)
+    if (is_loose(s, 0) && is_loose(s, 1)) joins.join(s.nodes[0], s.nodes[1]);
+  std::map<int, Gathered> groups;
+  for (const Spring& s : model.springs) {
+    const int end = is_loose(s, 0) ? 0 : 1;
+    if (!is_loose(s, end)) {
+      Gathered alone(model, loose);
+      alone.add(s);
+      alone.finish(out);
+      continue;
+    }
+    groups.try_emplace(joins.root(s.nodes[end]), model, loose).first->second.add(s);
+  }
+  for (auto& [root, group] : groups) group.finish(out);
+  // Directions that no spring has are not held either.
+  out.condensed.clear();
+  for (int k = 0; k < model.nodes(); ++k)
+    for (int axis = 0; axis < table.count(k) && loose.moves[k] != 0; ++axis)
+      out.condensed.push_back({k, axis});
+  return out;
+}
+
+void add_spring_dofs(const FeModel& model, std::vector<int>& count) {
+  const LooseNodes loose = loose_nodes(model);
+  for (const Spring& s : model.springs) {
+    for (int end = 0; end < 2; ++end) {
+      const int node = s.nodes[end];
+      if (node < 0) continue;
+      const bool six = turns(s, end) && (loose.turns[node] == 0 || loose.moves[node] != 0);
+      count[node + 1] = std::max(count[node + 1], six ? 6 : 3);
+    }
+  }
+}
+
+std::vector<SpringError> spring_errors(const FeModel& model) {
+  std::vector<SpringError> out;
+  const auto known = [&](int node) { return node >= 0 && node < model.nodes(); };
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    const Spring& s = model.springs[i];
+    const auto add = [&](const char* kind, const std::string& text) {
+      out.push_back({kind, s.source, model.spring_label(static_cast<int>(i)) + text});
+    };
+    if (!known(s.nodes[0]) || !(known(s.nodes[1]) || s.nodes[1] == -1)) {
+      add("springs", fmt::format(": node index {} or {} is out of range", s.nodes[0], s.nodes[1]));
+    } else if (s.nodes[1] < 0) {
+      add("springs to the ground",
+          fmt::format(" ties {} to the ground, which a part that floats cannot be tied to: take it "
+                      "out, end it at a node that becomes an interface, or leave all such springs "
+                      "out (--grounded-springs ignore, key `grounded_springs`)",
+                      model.node_label(s.nodes[0])));
+    }
+    if (!(s.stiffness >= 0.0) || !std::isfinite(s.stiffness))
+      add("springs",
+          fmt::format(": found the stiffness {:g}, expected no negative number", s.stiffness));
+    if (!s.directions[0].allFinite() || !s.directions[1].allFinite())
+      add("springs", " has a direction that is not finite");
+  }
+  return out;
+}
+
+std::vector<int> nodes_on_springs(const FeModel& model) {
+  std::vector<int> out;
+  if (model.springs.empty()) return out;
+  const LooseNodes loose = loose_nodes(model);
+  for (const Spring& s : model.springs)
+    for (const int node : s.nodes)
+      if (node >= 0 && loose.moves[node] != 0) out.push_back(node);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+int remove_grounded_springs(FeModel& model) {
+  return static_cast<int>(
+      std::erase_if(model.springs, [](const Spring& s) { return s.nodes[1] < 0; }));
+}
+
+MatX spring_energy(const FeModel& model, const MatX& U, const MatX& Theta) {
+  MatX K = MatX::Zero(U.cols(), U.cols());
+  for (const SpringBlock& block : spring_system(model, dof_table(model)).blocks) {
+    MatX q(static_cast<Eigen::Index>(block.dofs.size()), U.cols());
+    for (std::size_t i = 0; i < block.dofs.size(); ++i) {
+      const auto [node, axis] = block.dofs[i];
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(node);
+      q.row(static_cast<Eigen::Index>(i)) =
+          axis < 3 ? U.row(row + axis) : Theta.row(row + axis - 3);
+    }
+    K.noalias() += q.transpose() * (block.K * q);
+  }
+  return K;
+}
+
+}  // namespace floatframe
