@@ -3,8 +3,8 @@
 // dofs d . q of its nodes.
 //
 // Nodes that only springs hold have no mass: they follow without inertia and may have directions
-// without stiffness, as the rotations do that springs alone give to the nodes of solids. Such dofs L
-// are condensed: with all springs that touch them and C the other dofs of these,
+// without stiffness, as the rotations do that springs alone give to the nodes of solids. Such dofs
+// L are condensed: with all springs that touch them and C the other dofs of these,
 //   K = K_CC - K_CL K_LL^+ K_LC
 // K_LL^+ the pseudo-inverse: what no spring resists has no force. So a spring that ends in the air
 // does nothing. A node with a name (an interface) is kept.
@@ -15,9 +15,9 @@
 
 namespace floatframe {
 
-/// Adds the springs of a bushing between two nodes: three along the axes (columns of `axes`) between
-/// the points of the two nodes at the place `at`, which move rigidly with them, and three about the
-/// axes. Entries of k that are zero add none. b = -1: the ground.
+/// Adds the springs of a bushing between two nodes: three along the axes (columns of `axes`)
+/// between the points of the two nodes at the place `at`, which move rigidly with them, and three
+/// about the axes. Entries of k that are zero add none. b = -1: the ground.
 void add_bushing(FeModel& model, int a, int b, const Vec3& at, const Mat3& axes, const Vec6& k,
                  const std::string& name, const FeSource& source);
 
@@ -35,8 +35,8 @@ struct SpringSystem {
 /// Throws InputError if condensed dofs tie too many others.
 SpringSystem spring_system(const FeModel& model, const DofTable& table);
 
-/// Dofs that springs need beside the others of the nodes (dofs_without_springs): three of each node,
-/// and rotations of those that have nothing else.
+/// Dofs that springs need beside the others of the nodes (dofs_without_springs): three of each
+/// node, and rotations of those that have nothing else.
 void add_spring_dofs(const FeModel& model, std::vector<int>& count);
 
 /// What is wrong with the springs of a model.

@@ -252,6 +252,7 @@ WrittenMesh gmsh_mesh_file(const FeModel& model, const MeshWriteOptions&) {
   leave_out(model.spiders.size(), "rigid or mean connection");
   leave_out(model.equations.size(), "equation");
   leave_out(model.masses.size(), "point mass", "point masses");
+  leave_out(model.springs.size(), "spring");
   leave_out(model.surfaces.size(), "surface");
   if (!model.materials.empty())
     out.notes.push_back(

@@ -169,6 +169,8 @@ WrittenMesh vtu_mesh(const FeModel& model, const MeshWriteOptions&) {
                     {"density", 1, std::move(cells.density)},
                     {"thickness", 1, std::move(cells.thickness)}};
   add_set_arrays(model, grid, out.notes);
+  if (!model.springs.empty())
+    out.notes.push_back(fmt::format("{} springs left out", model.springs.size()));
   std::vector<std::string> types(std::begin(element_words), std::end(element_words)), materials;
   types.insert(types.end(), {"spider", "point_mass"});
   for (std::size_t m = 0; m < model.materials.size(); ++m)
