@@ -15,7 +15,7 @@ from .arrays import Array, Whole, number, numbers, text, truths, whole_numbers
 from .errors import InputError
 
 AnyMesh = Any
-"""`floatframe.Mesh`, `meshio.Mesh` or `pyvista.UnstructuredGrid`."""
+"""`floatframe.Mesh`, `meshio.Mesh`, or a mesh of pyvista: UnstructuredGrid, StructuredGrid, ImageData, PolyData, ..."""
 
 
 @dataclass(frozen=True)
@@ -124,9 +124,14 @@ def _is_pyvista(mesh: object) -> bool:
     return all(hasattr(mesh, name) for name in ("points", "cells_dict", "celltypes"))
 
 
+def _is_grid(mesh: object) -> bool:
+    """Of pyvista, with points in rows or a surface, which become cells."""
+    return hasattr(mesh, "cast_to_unstructured_grid") and not _is_pyvista(mesh)
+
+
 def is_mesh(mesh: object) -> bool:
     """A mesh of one of the kinds that are known?"""
-    return isinstance(mesh, Mesh) or _is_pyvista(mesh) or _is_meshio(mesh)
+    return isinstance(mesh, Mesh) or _is_pyvista(mesh) or _is_grid(mesh) or _is_meshio(mesh)
 
 
 def _cells(name: str, word: str, dimension: int, nodes: object, columns: int | str) -> _Cells:
@@ -241,8 +246,10 @@ def fe_model(
     """The model of a mesh; `more_sets`: indices or masks of nodes by the names of new sets."""
     if not is_mesh(mesh):
         raise InputError(
-            f"found {type(mesh).__name__}, expected a floatframe.Mesh, a meshio.Mesh or a pyvista.UnstructuredGrid"
+            f"found {type(mesh).__name__}, expected a floatframe.Mesh, a meshio.Mesh or a mesh of pyvista"
         )
+    if _is_grid(mesh):
+        mesh = mesh.cast_to_unstructured_grid()
     if not isinstance(material, Material):
         raise InputError(f"material: found {material!r}, expected floatframe.Material(young, poisson, density)")
     if section is not None and not isinstance(section, BeamSection):

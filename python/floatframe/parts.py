@@ -200,8 +200,8 @@ def reduce(
 ) -> Part:
     """Reduces a finite-element part to a flexible body, as `floatframe reduce` does; docs/parts.md explains its options.
 
-    source: a file (Abaqus or CalculiX, Nastran, Gmsh, matrices), or a mesh: `floatframe.Mesh`, `meshio.Mesh`,
-    `pyvista.UnstructuredGrid`, which need `material`, and `thickness` or `section` where surfaces are shells or lines are
+    source: a file (Abaqus or CalculiX, Nastran, Gmsh, matrices), or a mesh: `floatframe.Mesh`, `meshio.Mesh` or
+    one of pyvista, which need `material`, and `thickness` or `section` where surfaces are shells or lines are
     beams. units: "mm-t-s", "m-kg-s", ...: required for files; of meshes SI if it is not given. interfaces: where the part is
     held or driven; markers: where loads act or outputs are taken; lengths in the units of the part.
 
@@ -259,7 +259,7 @@ def reduce(
     options |= _material(material)
     if not isinstance(source, (str, os.PathLike)):
         found = type(source).__name__
-        raise InputError(f"source: found {found}, expected a file, floatframe.Mesh, meshio.Mesh or pyvista.UnstructuredGrid")
+        raise InputError(f"source: found {found}, expected a file, a floatframe.Mesh, a meshio.Mesh or a mesh of pyvista")
     return Part._of(_core.reduce_file(_path("source", source), options, tell))
 
 

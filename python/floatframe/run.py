@@ -16,6 +16,7 @@ from .options import Array, Options, as_dict
 
 if TYPE_CHECKING:
     import pandas
+    import pyvista
     from typing_extensions import Unpack
 
 
@@ -26,10 +27,10 @@ class Result(Mapping[str, Array]):
     the result and keep it alive.
     """
 
-    def __init__(self, core: _core.Run, model: _core.Model, name: str) -> None:
+    def __init__(self, core: _core.Run, model: Model) -> None:
         self._core = core
-        self._model = model
-        self.name = name
+        self._model = model.copy()
+        self.name = model.name
         """Of the model."""
         columns = core.columns
         self.units: dict[str, str] = dict(columns)
@@ -71,7 +72,7 @@ class Result(Mapping[str, Array]):
     def save(self, folder: str | os.PathLike[str]) -> str:
         """Writes results.csv, states.ffr, report.html and summary.json into a folder, as `floatframe run --out` does; all
         commands that read results read these. Returns the folder."""
-        self._core.save(self._model, os.fspath(folder))
+        self._core.save(self._model.core, os.fspath(folder))
         return os.fspath(folder)
 
     def plot(self, names: Sequence[str] | str | None = None, *, axes: Any = None) -> Any:
@@ -88,6 +89,14 @@ class Result(Mapping[str, Array]):
         with tempfile.TemporaryDirectory() as folder:
             self.save(folder)
             return Page(Path(folder, "report.html").read_text(encoding="utf-8"), height)
+
+    def to_pyvista(self, time: float | None = None) -> pyvista.UnstructuredGrid:
+        """The bodies at the recorded instant that is nearest to `time` [s] (None: the last), where they are and as they are
+        bent, for pictures; needs pyvista. Point data "displacement" [m] from the design, "deformation", "velocity", and where
+        parts know their stress "von_mises" [Pa]; cell data "body" (docs/export.md)."""
+        from .scene import scene
+
+        return scene(self, self._model, time)
 
     @property
     def state(self) -> _core.State | None:
@@ -117,4 +126,4 @@ def run(
     core = built(model)
     with Bar(progress) as bar:
         settings = [f"{name}={value}" for name, value in model.parameters.items()]
-        return Result(_core.run(core, duration, bar.show, as_dict(options), model.file, settings), core, model.name)
+        return Result(_core.run(core, duration, bar.show, as_dict(options), model.file, settings), model)

@@ -48,6 +48,8 @@ def sweep(
     from where a study that was interrupted goes on; None: nothing stays. case_timeout [s]: a run that takes longer has
     failed. A run that fails or crashes is a row whose "status" and "message" say so. Raises InputError for what is not valid.
     """
+    import pandas  # noqa: F401  before hours of computing
+
     built(model)  # says what is wrong with it
     with tempfile.TemporaryDirectory() as scratch:
         out = os.fspath(folder) if folder is not None else os.path.join(scratch, "study")

@@ -13,19 +13,17 @@ import floatframe as ff
 import matplotlib.pyplot as plt
 import numpy as np
 
-short = os.environ.get("FLOATFRAME_SHORT") == "1"
 L, load = 0.8, 0.5  # [m], [kg]
 kp, kd = 6000.0, 40.0  # [N m/rad], [N m s/rad]
 goal, T = np.radians(60), 0.4  # [rad], [s]
-step, duration = 1e-4, 0.8 if short else 1.2
+step, duration = 1e-4, 0.8 if os.environ.get("FLOATFRAME_SHORT") == "1" else 1.2
 
 
 def arm(controller):
     """The arm in the horizontal plane; with an input for a controller, or with spring and damper."""
     model = ff.Model("robot_arm")
     model.data["gravity"] = [0, 0, 0]
-    model.points.add("shoulder", [0, 0, 0])
-    model.points.add("hand", [L, 0, 0])
+    model.data["points"] = {"shoulder": [0, 0, 0], "hand": [L, 0, 0]}
     bar = {"from": "shoulder", "to": "hand", "elements": 8, "section": {"round": 0.02}, "reference": "y"}
     flexible = {"material": {"young": 70e9, "poisson": 0.3, "density": 2700}, "bars": {"bar": bar}, "clamped": ["shoulder"]}
     flexible |= {"static_modes": [{"point": "hand", "dofs": ["y", "z", "ry", "rz"]}], "normal_modes": 2}
@@ -40,19 +38,17 @@ def arm(controller):
         model.forces.add("drive", type="joint_spring", joint="motor", actuator={"input": "torque"})
     else:
         model.forces.add("drive", type="joint_spring", joint="motor", spring=kp, damper=kd)
-    model.outputs.add("angle", joint_position="motor")
-    model.outputs.add("rate", joint_velocity="motor")
+    model.data["outputs"] = {"angle": {"joint_position": "motor"}, "rate": {"joint_velocity": "motor"}}
     model.outputs.add("hand", position={"body": "arm", "at": "hand"})
     return model
-
-
-def abrupt(t):
-    return goal * min(t / T, 1.0), goal / T if t < T else 0.0
 
 
 def smooth(t):
     tau = min(t / T, 1.0)
     return goal * (10 * tau**3 - 15 * tau**4 + 6 * tau**5), goal * 30 * tau**2 * (1 - tau) ** 2 / T
+
+
+commands = {"abrupt": lambda t: (goal * min(t / T, 1.0), goal / T if t < T else 0.0), "smooth": smooth}
 
 
 def move(command):
@@ -74,13 +70,13 @@ def move(command):
 
 
 # %%
-runs = {"abrupt": move(abrupt), "smooth": move(smooth)}
+runs = {name: move(command) for name, command in commands.items()}
 fig, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
 for name, (t, phi, bend, *_) in runs.items():
     left.plot(t, np.degrees(phi), label=name)
     right.plot(t, 1e3 * bend, label=name)
-left.set(xlabel="time [s]", ylabel="angle of the motor [°]")
-right.set(xlabel="time [s]", ylabel="deflection of the hand [mm]")
+for axes, what in ((left, "angle of the motor [°]"), (right, "deflection of the hand [mm]")):
+    axes.set(xlabel="time [s]", ylabel=what)
 left.legend()
 plt.show()
 
@@ -100,6 +96,4 @@ print(", ".join(f"{m.frequency:.3f} Hz with damping {m.damping:.3f}" for m in mo
 print(f"vibration after the abrupt move fitted by these: off by {100 * misfit:.2f} % of its largest deflection")
 print(f"largest deflection: abrupt {peaks['abrupt']:.2f} mm, smooth {peaks['smooth']:.2f} mm")
 print(f"hand after the smooth move: {1e3 * end:.4f} mm from (L cos 60°, L sin 60°)")
-assert misfit < 0.02
-assert peaks["smooth"] < 0.6 * peaks["abrupt"]
-assert end < 2e-3 * L
+assert misfit < 0.02 and end < 2e-3 * L and peaks["smooth"] < 0.6 * peaks["abrupt"]

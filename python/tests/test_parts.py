@@ -163,10 +163,10 @@ def test_pyvista_meshes_with_wedges_of_either_hand():
     same = ff.reduce(ff.Mesh(points, [("hex8", cells)]), interfaces=ENDS, **QUICK)
     assert np.array_equal(ff.reduce(hexahedra, interfaces=ENDS, **QUICK).body.K, same.body.K)
     image = pyvista.ImageData(dimensions=(5, 3, 3), spacing=(0.15, 0.05, 0.05))
-    voxels = ff.reduce(image.cast_to_unstructured_grid(), interfaces=ENDS, **QUICK)
-    assert voxels.frequencies == pytest.approx(same.frequencies, rel=1e-6)
-    with pytest.raises(ff.InputError, match="found ImageData, expected a file, floatframe.Mesh, meshio"):
-        ff.reduce(image, interfaces=ENDS, **QUICK)
+    for voxels in (image, image.cast_to_unstructured_grid()):
+        assert ff.reduce(voxels, interfaces=ENDS, **QUICK).frequencies == pytest.approx(same.frequencies, rel=1e-6)
+    with pytest.raises(ff.InputError, match="found list, expected a file, a floatframe.Mesh, a meshio"):
+        ff.reduce([image], interfaces=ENDS, **QUICK)
 
 
 def test_sets_of_meshio(tmp_path):

@@ -1,6 +1,7 @@
 """Studies: the table of `floatframe sweep`."""
 
 import subprocess
+import sys
 
 import floatframe as ff
 import numpy as np
@@ -55,3 +56,10 @@ def test_runs_one_by_one():
 def test_what_is_not_valid(options):
     with pytest.raises(ff.InputError, match="found|expected|nowhere"):
         ff.sweep(model(), **options)
+
+
+def test_without_pandas_nothing_is_run(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match="pandas"):
+        ff.sweep(ff.Model.load(ff.example("quarter_car"), duration=0.1), speed=[10], folder=tmp_path / "study")
+    assert not (tmp_path / "study").exists()
