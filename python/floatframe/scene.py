@@ -40,8 +40,7 @@ def scene(result: Result, model: Model, time: float | None) -> pyvista.Unstructu
             lines = [line.removeprefix("floatframe: ") for line in done.stderr.strip().splitlines()]
             raise InputError([ErrorEntry("", 0, 0, line) for line in lines or ["the run cannot be shown"]])
         (file,) = Path(folder, "vtk").glob("**/*.vtu")
-        grid = pyvista.read(file)
-    return grid
+        return pyvista.UnstructuredGrid(str(file))
 
 
 def _beside(model: Model, folder: str) -> str:
