@@ -26,7 +26,7 @@ from .analyses import (
 )
 from .bodies import Body, Invariants, Node, Projection
 from .build import build_info, example, program
-from .errors import Error, ErrorEntry, InputError, OutputError, RunError, StepError
+from .errors import Error, ErrorEntry, InputError, OutputError, RunError, StepError, UnknownNameError
 from .health import Report
 from .meshes import BeamSection, Material, Mesh
 from .model import Model
@@ -66,6 +66,7 @@ __all__ = [
     "State",
     "StepError",
     "StepReport",
+    "UnknownNameError",
     "__version__",
     "advise",
     "build_info",

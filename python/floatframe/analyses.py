@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from .arrays import number, numbers as array, text, texts, whole
 from .model import Model, built
 from .options import Array, Coordinates, Inertia, Options, as_dict
 
@@ -60,7 +61,7 @@ def linear_model(
 ) -> _core.LinearModel:
     """The linear system between inputs and outputs (none named: all). `state_space()` gives A, B, C, D, `response` the
     frequency response."""
-    return _core.linear_model(built(model), list(inputs), list(outputs), as_dict(options))
+    return _core.linear_model(built(model), texts("inputs", inputs), texts("outputs", outputs), as_dict(options))
 
 
 def frequency_response(
@@ -83,9 +84,9 @@ def road_response(
 ) -> _core.RoadResponse:
     """Spectral densities of outputs at frequencies [Hz], and effective values in the band [Hz], on a random road at a speed
     [m/s]. roughness: G0 at 0.1 cycles/m [m3] (class C)."""
-    return _core.road_response(
-        built(model), list(outputs), numbers(frequencies), speed, roughness, waviness, band, as_dict(options)
-    )
+    low, high = array("band", band, 2)
+    road = number("speed", speed), number("roughness", roughness), number("waviness", waviness), (float(low), float(high))
+    return _core.road_response(built(model), texts("outputs", outputs), numbers(frequencies), *road, as_dict(options))
 
 
 def campbell(
@@ -101,8 +102,10 @@ def campbell(
 ) -> _core.CampbellDiagram:
     """Vibrations over the speed of a rotor [rad/s] that turns in `joint`; critical speeds of the orders; onset of
     instability. axis: of a free joint, shape (3,)."""
-    x, y, z = (float(c) for c in axis)
-    return _core.campbell(built(model), joint, from_, to, step, (x, y, z), [float(n) for n in orders], modes)
+    x, y, z = (float(c) for c in array("axis", axis, 3))
+    speeds = number("from_", from_), number("to", to), number("step", step)
+    multiples = [float(n) for n in array("orders", orders, "orders")]
+    return _core.campbell(built(model), text("joint", joint), *speeds, (x, y, z), multiples, whole("modes", modes, 1, 10**6))
 
 
 def advise(
@@ -118,14 +121,15 @@ def advise(
 ) -> _core.ModeAdviceReport:
     """Which modes the model could do without, verified by runs. tolerance: of the range of every output."""
     options: dict[str, object] = {"step": step, "coordinates": coordinates, "inertia": inertia}
-    return _core.advise(built(model), options, drop_share, static_ratio, tolerance, repeat)
+    limits = number("drop_share", drop_share), number("static_ratio", static_ratio), number("tolerance", tolerance)
+    return _core.advise(built(model), options, *limits, whole("repeat", repeat, 1, 10**6))
 
 
 def model_order(model: Model, below: float, tolerance: float = 0.01) -> _core.ModelOrder:
     """How many modes of each body the vibrations below a frequency [Hz] need, verified; tolerance: of frequencies."""
-    return _core.model_order(built(model), below, tolerance)
+    return _core.model_order(built(model), number("below", below), number("tolerance", tolerance))
 
 
 def numbers(values: npt.ArrayLike) -> Array:
-    """Numbers as a contiguous array of one dimension."""
-    return np.ascontiguousarray(np.atleast_1d(np.asarray(values, dtype=np.float64)))
+    """Frequencies as an array of one dimension; one number is one of them."""
+    return array("frequencies", [values] if np.ndim(values) == 0 else values, "frequencies")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -82,3 +84,36 @@ def text(name: str, value: object) -> str:
     except UnicodeEncodeError:
         raise InputError(f"{name}: found {value!r}, expected a text") from None
     return value
+
+
+def texts(name: str, value: object) -> list[str]:
+    """Texts, or one."""
+    if isinstance(value, str):
+        return [text(name, value)]
+    if isinstance(value, (bytes, bytearray)) or not isinstance(value, Iterable):
+        raise InputError(f"{name}: found {value!r}, expected a list of names")
+    return [text(name, item) for item in value]
+
+
+def whole(name: str, value: object, low: int, high: int) -> int:
+    """A whole number from `low` to `high`."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
+        raise InputError(f"{name}: found {value!r}, expected a whole number from {low} to {high}")
+    return int(value)
+
+
+def path(name: str, value: object) -> str:
+    """Of a file or folder."""
+    try:
+        given = os.fspath(value)  # type: ignore[call-overload]
+    except TypeError:
+        raise InputError(f"{name}: found {type(value).__name__}, expected a path") from None
+    if not isinstance(given, str) or not given or "\0" in given:
+        raise InputError(f"{name}: found {given!r}, expected a path")
+    return given
+
+
+def function_or_flag(name: str, value: object) -> None:
+    """InputError unless it is True, False or a function."""
+    if not isinstance(value, (bool, np.bool_)) and not callable(value):
+        raise InputError(f"{name}: found {value!r}, expected True, False or a function")

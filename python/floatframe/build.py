@@ -49,6 +49,8 @@ def program() -> str:
 
 def example(name: str) -> str:
     """Path of the model file of an example: "iltis", "quarter_car", ..."""
+    if not isinstance(name, str):
+        raise InputError(f"found {type(name).__name__}, expected the name of an example")
     folders = [place / "examples" for place in _PLACES if (place / "examples").is_dir()]
     for folder in folders:
         if name and (folder / name / f"{name}.yaml").is_file():

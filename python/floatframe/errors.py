@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -41,6 +42,10 @@ class InputError(Error, ValueError):
         return "\n".join(str(error) for error in self.errors)
 
 
+class UnknownNameError(InputError, KeyError):
+    """A name that nothing has: of an input, an output, a column, an entity."""
+
+
 class RunError(Error, RuntimeError):
     """What was asked for cannot be started, in one sentence."""
 
@@ -62,4 +67,25 @@ class StepError(Error, RuntimeError):
         return str(self.args[0])
 
 
-__all__: list[Any] = ["Error", "ErrorEntry", "InputError", "OutputError", "RunError", "StepError"]
+# Sentences of the command line speak of its options: here they are arguments.
+_OPTION = re.compile(r"(?<![\w/.'\"-])--([a-z]+(?:-[a-z]+)*)\b")
+_HELP = re.compile(r" \(see floatframe \w+ --help\)")
+_NAMES = {"threads": "processes", "out": "folder", "vary": "vary", "interface": "interfaces", "marker": "markers"}
+
+
+def worded(message: str) -> str:
+    """A sentence of the C++ library in words of Python."""
+    message = re.sub(r"^--set(?:\.|: )", "", _HELP.sub("", message))
+    message = re.sub(r"^--speed: ", "", message)
+    message = re.sub(r"^--speed ([^:]+): ", r"joint '\1': ", message)
+    return _OPTION.sub(lambda option: _NAMES.get(option[1], option[1].replace("-", "_")), message)
+
+
+def entry_of(file: str, line: int, column: int, message: str) -> ErrorEntry:
+    """An error of the C++ library."""
+    if line == 0 and file.startswith("--"):  # an option of the command line
+        file, message = "", f"{file}: {message}"
+    return ErrorEntry(file, line, column, worded(message))
+
+
+__all__: list[Any] = ["Error", "ErrorEntry", "InputError", "OutputError", "RunError", "StepError", "UnknownNameError"]

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator, Mapping, MutableMapping
 from pathlib import Path
 from typing import Any, Union
 
 from . import _core
-from .errors import InputError
+from .arrays import path as path_of
+from .errors import InputError, UnknownNameError
 from .yaml import plain, to_yaml
 
 PathLike = Union[str, "os.PathLike[str]"]
 
 
 def parameter_text(value: object) -> str:
-    """A value as the command line's `--set` takes it."""
+    """A value as the reader of model files takes it."""
     if isinstance(value, bool) or type(value).__name__ == "bool":
         return "true" if value else "false"
     if isinstance(value, str):
@@ -23,7 +25,13 @@ def parameter_text(value: object) -> str:
     if isinstance(value, int):
         return str(value)
     if hasattr(value, "__float__"):
-        return repr(float(value))
+        try:
+            number = float(value)
+            # As studies write it: 3 for 3.0.
+            whole = number.is_integer() and abs(number) < 1e15 and str(number) != "-0.0"
+            return str(int(number)) if whole else repr(number)
+        except (TypeError, ValueError, OverflowError):
+            pass
     raise InputError(f"found {type(value).__name__}, expected a number, a text or a truth value")
 
 
@@ -53,12 +61,16 @@ class Section(MutableMapping[str, Any]):
         return name
 
     def __getitem__(self, name: str) -> Any:
-        return self._entities()[name]
+        entities = self._entities()
+        if name not in entities:
+            raise UnknownNameError(f"{self._key}: found no {name!r}, expected one of {', '.join(map(str, entities)) or 'none'}")
+        return entities[name]
 
     def __setitem__(self, name: str, value: Any) -> None:
         self._entities()[name] = plain(value, f"{self._key}.{name}")
 
     def __delitem__(self, name: str) -> None:
+        self[name]  # says which there are
         del self._entities()[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -89,7 +101,7 @@ class Model:
         self.data: dict[str, Any] = {"floatframe": 1, "name": name}
         self._path: str | None = None  # of a model file
         self._text: str | None = None  # of a model from a text
-        self._folder = os.fspath(folder) if folder is not None else ""
+        self._folder = path_of("folder", folder) if folder is not None else ""
         self._parameters: dict[str, str] = {}
         self._built: tuple[str | None, _core.Model] | None = None
 
@@ -98,9 +110,7 @@ class Model:
         """The model of a file, with other values of its parameters. Raises InputError with every error of the file: file,
         line, column, sentence."""
         model = cls()
-        model._path = os.fspath(path)
-        if not isinstance(model._path, str):
-            raise InputError(f"found {type(path).__name__}, expected a path")
+        model._path = path_of("path", path)
         return model._with(parameters)
 
     @classmethod

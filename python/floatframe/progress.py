@@ -6,6 +6,8 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+from .arrays import function_or_flag
+
 
 class Bar:
     """`show` takes the fraction done; None where nothing is to be shown."""
@@ -15,6 +17,7 @@ class Bar:
     def __init__(self, progress: bool | Callable[[float], object]) -> None:
         self._bar: Any = None
         self._text = False
+        function_or_flag("progress", progress)
         if callable(progress):
             self.show = progress
         elif not progress:

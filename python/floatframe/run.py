@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from .arrays import path
+from .errors import UnknownNameError
 from .model import Model, built
 from .progress import Bar
 from .options import Array, Options, as_dict
@@ -48,7 +50,7 @@ class Result(Mapping[str, Array]):
 
     def __getitem__(self, name: str) -> Array:
         if name not in self._column:
-            raise KeyError(f"found no output '{name}', expected one of {', '.join(self._column)}")
+            raise UnknownNameError(f"found no output '{name}', expected one of {', '.join(self._column)}")
         return self.table[:, self._column[name]]
 
     def __iter__(self) -> Iterator[str]:
@@ -72,8 +74,9 @@ class Result(Mapping[str, Array]):
     def save(self, folder: str | os.PathLike[str]) -> str:
         """Writes results.csv, states.ffr, report.html and summary.json into a folder, as `floatframe run --out` does; all
         commands that read results read these. Returns the folder."""
-        self._core.save(self._model.core, os.fspath(folder))
-        return os.fspath(folder)
+        where = path("folder", folder)
+        self._core.save(self._model.core, where)
+        return where
 
     def plot(self, names: Sequence[str] | str | None = None, *, axes: Any = None) -> Any:
         """Curves of outputs over the time by matplotlib, one picture for each unit; returns its axes, shape (units,). names:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequenc
 from typing import TYPE_CHECKING
 
 from . import _core
+from .arrays import texts
 from .errors import InputError
 from .model import Model, built
 from .options import Array, Options, as_dict
@@ -120,9 +121,7 @@ class Simulation(_core.Simulation):
         outputs named in `of`. The input drives an actuator, a load or a target of the model. The value is held during the
         step, so a stiff law needs small steps; laws of the model itself are evaluated in every iteration. None removes it.
         Price: 0.35 us a step, and what the function does."""
-        if isinstance(of, str):
-            of = [of]
-        self.set_law(input, function, list(of))
+        self.set_law(input, function, texts("of", of))
 
     def __repr__(self) -> str:
         return f"<floatframe.Simulation of '{self._model.name}' at {self.time:g} s>"

@@ -12,8 +12,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .arrays import number, path, texts, whole
 from .build import program
-from .errors import ErrorEntry, InputError, RunError
+from .errors import ErrorEntry, InputError, OutputError, RunError, worded
 from .model import Model, built, parameter_text
 
 if TYPE_CHECKING:
@@ -51,31 +52,55 @@ def sweep(
     import pandas  # noqa: F401  before hours of computing
 
     built(model)  # says what is wrong with it
+    out_folder = None if folder is None else path("folder", folder)
+    fixed = _options(processes, step, duration, coordinates, inertia, case_timeout)
+    if vary is not None and not isinstance(vary, Mapping):
+        raise InputError(f"vary: found {type(vary).__name__}, expected a map of names and values")
     with tempfile.TemporaryDirectory() as scratch:
-        out = os.fspath(folder) if folder is not None else os.path.join(scratch, "study")
-        arguments = [program(), "sweep", _model_file(model, out if folder is not None else scratch), "--out", out]
+        out = out_folder or os.path.join(scratch, "study")
+        arguments = [program(), "sweep", *_model_file(model, out_folder or scratch), "--out", out, *fixed]
         arguments += _values({**(vary or {}), **variations}, runs, scratch)
         for name, text in model.parameters.items():
             arguments += ["--set", f"{name}={text}"]
-        for name, value in (("threads", processes), ("step", step), ("duration", duration), ("coordinates", coordinates),
-                            ("inertia", inertia), ("case-timeout", case_timeout)):
-            if value is not None:
-                arguments += [f"--{name}", parameter_text(value)]
-        for figure in [measure] if isinstance(measure, str) else measure:
-            arguments += ["--measure", str(figure)]
+        for figure in texts("measure", measure):
+            arguments += ["--measure", figure]
         arguments += ["--fresh"] if fresh else []
         _run(arguments if progress else [*arguments, "--quiet"], progress)
         return _table(Path(out, "sweep.csv"))
 
 
-def _model_file(model: Model, folder: str) -> str:
+def _options(
+    processes: object, step: object, duration: object, coordinates: object, inertia: object, case_timeout: object
+) -> list[str]:
+    """Of all runs, as the command takes them."""
+    given: dict[str, str] = {}
+    if processes is not None:
+        given["threads"] = str(whole("processes", processes, 1, 4096))
+    for name, value in (("step", step), ("duration", duration), ("case_timeout", case_timeout)):
+        if value is not None:
+            given[name.replace("_", "-")] = repr(number(name, value, positive=True))
+    for name, word, words in (
+        ("coordinates", coordinates, ("relative", "absolute")),
+        ("inertia", inertia, ("preprocessing", "projection")),
+    ):
+        if word is not None and word not in words:
+            raise InputError(f"{name}: found {word!r}, expected one of {', '.join(words)}")
+        if word is not None:
+            given[name] = str(word)
+    return [text for name, value in given.items() for text in (f"--{name}", value)]
+
+
+def _model_file(model: Model, folder: str) -> list[str]:
     """A model that is not from a file is written into one; files that it names are found from its own folder."""
     if not model.file.endswith("<model>"):
-        return model.file
-    os.makedirs(folder, exist_ok=True)
-    path = Path(folder, "model.yaml")
-    path.write_text(model.to_yaml(), encoding="utf-8")
-    return str(path)
+        return [model.file]
+    try:
+        os.makedirs(folder, exist_ok=True)
+        file = Path(folder, "model.yaml")
+        file.write_text(model.to_yaml(), encoding="utf-8")
+    except OSError as error:
+        raise OutputError(f"the model of the study cannot be written: {error}") from None
+    return [str(file), "--files-in", os.path.dirname(os.path.abspath(model.file))]
 
 
 def _values(vary: Mapping[str, Iterable[Any]], runs: Iterable[Mapping[str, Any]] | None, scratch: str) -> list[str]:
@@ -85,6 +110,8 @@ def _values(vary: Mapping[str, Iterable[Any]], runs: Iterable[Mapping[str, Any]]
         # A table of all combinations holds any text; the last changes fastest.
         rows: list[dict[str, Any]] = [{}]
         for name, values in vary.items():
+            if not isinstance(name, str):
+                raise InputError(f"vary: found the name {name!r}, expected a text")
             if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
                 raise InputError(f"{name}: found {values!r}, expected a list of values")
             taken = list(values)
@@ -94,13 +121,24 @@ def _values(vary: Mapping[str, Iterable[Any]], runs: Iterable[Mapping[str, Any]]
     elif vary:
         raise InputError("found variations and runs, expected one of them")
     else:
-        rows = [dict(row) for row in runs]
+        rows = _rows(runs)
     if not rows or any(list(row) != list(rows[0]) for row in rows) or not rows[0]:
         raise InputError("runs: expected at least one map of values, all with the same names")
     path = Path(scratch, "runs.csv")
     lines = [list(rows[0])] + [[parameter_text(value) for value in row.values()] for row in rows]
     path.write_text("".join(",".join(_field(text) for text in line) + "\n" for line in lines), encoding="utf-8")
     return ["--table", str(path)]
+
+
+def _rows(runs: object) -> list[dict[str, Any]]:
+    if isinstance(runs, (str, bytes, Mapping)) or not isinstance(runs, Iterable):
+        raise InputError(f"runs: found {type(runs).__name__}, expected a list of maps of values")
+    rows = []
+    for row in runs:
+        if not isinstance(row, Mapping) or not all(isinstance(name, str) for name in row):
+            raise InputError(f"runs: found {row!r}, expected a map of names and values")
+        rows.append(dict(row))
+    return rows
 
 
 def _field(text: str) -> str:
@@ -125,10 +163,14 @@ def _run(arguments: Sequence[str], progress: bool) -> None:
 
 
 def _entry(line: str) -> ErrorEntry:
-    line = line.removeprefix("floatframe: ")
+    # Values come by a table of this package: its second line is the first run.
+    line = re.sub(r"\S*/runs\.csv: ", "", line.removeprefix("floatframe: "))
+    line = re.sub(r"\S*/runs\.csv:(\d+)[.:] ?", lambda found: f"run {int(found[1]) - 1}: ", line)
     if place := re.match(r"(.+?):(\d+):(\d+): (.*)", line):
-        return ErrorEntry(place[1], int(place[2]), int(place[3]), place[4])
-    return ErrorEntry("", 0, 0, line)
+        return ErrorEntry(place[1], int(place[2]), int(place[3]), worded(place[4]))
+    if place := re.match(r"(/\S+): (.*)", line):
+        return ErrorEntry(place[1], 0, 0, worded(place[2]))
+    return ErrorEntry("", 0, 0, worded(line))
 
 
 def _table(path: Path) -> pandas.DataFrame:

@@ -49,7 +49,12 @@ RealArray array_of(const std::vector<double>& v);
 ComplexArray array_of(const Eigen::VectorXcd& v);
 ComplexArray array_of(const Eigen::MatrixXcd& a);
 
-/// The argument `name`, one of `words`. Throws ValueError with what was found and expected.
+/// A name that nothing has: also KeyError in Python.
+struct UnknownName : InputError {
+  using InputError::InputError;
+};
+
+/// The argument `name`, one of `words`. Throws InputError with what was found and expected.
 template <class T>
 T word_of(const char* name, const std::string& found,
           std::initializer_list<std::pair<const char*, T>> words) {
@@ -58,13 +63,21 @@ T word_of(const char* name, const std::string& found,
     if (found == word) return value;
     expected += (expected.empty() ? "'" : ", '") + std::string(word) + "'";
   }
-  throw nb::value_error(
-      (std::string(name) + ": found '" + found + "', expected one of " + expected).c_str());
+  throw InputError(std::string(name) + ": found '" + found + "', expected one of " + expected);
 }
 
 Coordinates coordinates_of(const std::string& word);
 InertiaMethod inertia_of(const std::string& word);
-/// Of keyword arguments; None is as if it was not given. Throws TypeError for other names, types.
+/// Arguments of Python as they are: InputError says what was found and what was expected.
+double number(const std::string& name, nb::handle value);
+int whole(const std::string& name, nb::handle value);
+bool flag(const std::string& name, nb::handle value);
+std::string text(const std::string& name, nb::handle value);
+/// Name of the type of something.
+std::string type_of(nb::handle value);
+/// A file or folder: a text or what `os.fspath` takes.
+std::string path(const std::string& name, nb::handle value);
+/// Of keyword arguments; None is as if it was not given. Throws TypeError for other names.
 SimulationOptions options_of(const Keywords& given);
 
 /// The lock of the interpreter given away, and taken back at the end of the scope. When the

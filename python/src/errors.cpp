@@ -12,10 +12,10 @@ nb::object class_named(const char* name) {
 }
 
 nb::object entries_of(const InputError& error) {
-  const nb::object entry = class_named("ErrorEntry");
+  const nb::object worded = class_named("entry_of");
   nb::list list;
   for (const ErrorEntry& e : error.errors())
-    list.append(entry(e.mark.file, e.mark.line, e.mark.column, e.message));
+    list.append(worded(e.mark.file, e.mark.line, e.mark.column, e.message));
   return list;
 }
 
@@ -28,6 +28,8 @@ void raise(const char* name, const nb::object& argument) {
 void translate(const std::exception_ptr& p, void*) {
   try {
     std::rethrow_exception(p);
+  } catch (const UnknownName& error) {
+    raise("UnknownNameError", entries_of(error));
   } catch (const InputError& error) {
     raise("InputError", entries_of(error));
   } catch (const RunError& error) {

@@ -7,35 +7,15 @@ namespace floatframe::python {
 namespace {
 
 [[noreturn]] void refuse(const std::string& name, const nb::handle value, const char* expected) {
-  const std::string found = nb::cast<std::string>(nb::repr(nb::type_name(value.type())));
-  throw nb::type_error((name + ": found " + found + ", expected " + expected).c_str());
-}
-
-double number(const std::string& name, const nb::handle value) {
-  double x = 0.0;
-  if (PyBool_Check(value.ptr()) || !nb::try_cast(value, x)) refuse(name, value, "a number");
-  return x;
-}
-
-int whole(const std::string& name, const nb::handle value) {
-  int n = 0;
-  if (PyBool_Check(value.ptr()) || !nb::try_cast(value, n)) refuse(name, value, "a whole number");
-  return n;
-}
-
-bool flag(const std::string& name, const nb::handle value) {
-  if (!PyBool_Check(value.ptr())) refuse(name, value, "True or False");
-  return value.ptr() == Py_True;
-}
-
-std::string text(const std::string& name, const nb::handle value) {
-  std::string s;
-  if (!nb::try_cast(value, s)) refuse(name, value, "a word");
-  return s;
+  std::string found;
+  if (!nb::try_cast(nb::repr(value), found) || found.size() > 100 ||
+      found.find('\n') != std::string::npos)
+    found = type_of(value);
+  throw InputError(name + ": found " + found + ", expected " + expected);
 }
 
 void set_start(SimulationOptions& o, const std::string& name, const nb::handle value) {
-  if (nb::isinstance<SystemState>(value)) {
+  if (nb::isinstance<SystemState>(value) && nb::inst_ready(value)) {
     o.start = Start::state;
     o.state = std::make_shared<const SystemState>(nb::cast<const SystemState&>(value));
     return;
@@ -75,7 +55,51 @@ const std::vector<std::pair<std::string, Setter>>& setters() {
   return list;
 }
 
+/// True and False of Python or numpy.
+bool is_truth(const nb::handle value) {
+  return PyBool_Check(value.ptr()) ||
+         std::string_view(Py_TYPE(value.ptr())->tp_name) == "numpy.bool" ||
+         std::string_view(Py_TYPE(value.ptr())->tp_name) == "numpy.bool_";
+}
+
 }  // namespace
+
+std::string type_of(const nb::handle value) {
+  return nb::cast<std::string>(nb::borrow<nb::str>(value.type().attr("__name__")));
+}
+
+double number(const std::string& name, const nb::handle value) {
+  double x = 0.0;
+  if (is_truth(value) || !nb::try_cast(value, x)) refuse(name, value, "a number");
+  return x;
+}
+
+int whole(const std::string& name, const nb::handle value) {
+  int n = 0;
+  if (is_truth(value) || !nb::try_cast(value, n)) refuse(name, value, "a whole number");
+  return n;
+}
+
+bool flag(const std::string& name, const nb::handle value) {
+  if (!is_truth(value)) refuse(name, value, "True or False");
+  return PyObject_IsTrue(value.ptr()) == 1;
+}
+
+std::string text(const std::string& name, const nb::handle value) {
+  std::string s;
+  if (!nb::isinstance<nb::str>(value) || !nb::try_cast(value, s)) refuse(name, value, "a text");
+  return s;
+}
+
+std::string path(const std::string& name, const nb::handle value) {
+  nb::object given = nb::borrow(value);
+  if (nb::hasattr(value, "__fspath__")) given = value.attr("__fspath__")();
+  std::string s;
+  if (!nb::isinstance<nb::str>(given) || !nb::try_cast(given, s) || s.empty() ||
+      s.find('\0') != std::string::npos)
+    refuse(name, value, "a path");
+  return s;
+}
 
 Coordinates coordinates_of(const std::string& word) {
   return word_of<Coordinates>(

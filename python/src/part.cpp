@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <stdexcept>
 
 #include "views.hpp"
 
@@ -176,6 +177,20 @@ class StageQueue {
   std::vector<std::pair<std::string, double>> stages_;
 };
 
+/// What the numbers of a part or a damaged file make of the algorithms is an error of the input.
+template <class Work>
+auto of_input(const std::string& name, const Work& work) {
+  try {
+    return work();
+  } catch (const RunError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError({name, 0, 0}, error.what());
+  } catch (const std::logic_error& error) {
+    throw InputError({name, 0, 0}, std::string("the file is damaged: ") + error.what());
+  }
+}
+
 FilePtr reduced(PartJob job, const std::function<BodyFile(const PartJob&)>& reduce,
                 const nb::object& progress) {
   std::atomic<bool> stop{false};
@@ -186,7 +201,8 @@ FilePtr reduced(PartJob job, const std::function<BodyFile(const PartJob&)>& redu
   };
   auto content = std::make_shared<BodyFile>();
   interruptible(
-      stop, [&] { *content = reduce(job); }, [&] { stages.tell(progress); });
+      stop, [&] { *content = of_input(job.file, [&] { return reduce(job); }); },
+      [&] { stages.tell(progress); });
   stages.tell(progress);
   return content;
 }
@@ -252,11 +268,12 @@ void bind_functions(nb::module_& m) {
   });
   m.def("read_body", [](const std::string& file) {
     Unlocked released;
-    return std::make_shared<BodyFile>(read_body_file(file));
+    return std::make_shared<BodyFile>(of_input(file, [&] { return read_body_file(file); }));
   });
   m.def("read_body_bytes", [](const nb::bytes& bytes, const std::string& name) {
     const std::string_view content(bytes.c_str(), bytes.size());
-    return std::make_shared<BodyFile>(read_body_bytes(content, name));
+    return std::make_shared<BodyFile>(
+        of_input(name, [&] { return read_body_bytes(content, name); }));
   });
   m.def("file_info", [](const std::string& file, const Keywords& options) {
     const PartJob job = job_of(file, options);

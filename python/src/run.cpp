@@ -6,13 +6,13 @@
 namespace floatframe::python {
 namespace {
 
-std::shared_ptr<KeptRun> run_model(const Model& model, std::optional<double> duration,
+std::shared_ptr<KeptRun> run_model(const Model& model, const nb::object& duration,
                                    const nb::object& progress, const Keywords& given,
                                    const std::string& model_file,
                                    const std::vector<std::string>& settings) {
   SimulationDescription simulation = described(model, options_of(given));
-  if (duration) {
-    simulation.duration = *duration;
+  if (!duration.is_none()) {
+    simulation.duration = number("duration", duration);
     simulation.given_by("", "duration");
   }
   std::atomic<bool> stop{false};

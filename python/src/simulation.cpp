@@ -58,16 +58,15 @@ std::size_t index_in(const std::unordered_map<std::string, std::size_t>& index,
   if (const auto it = index.find(name); it != index.end()) return it->second;
   std::string known;
   for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
-  throw nb::key_error(("found no " + std::string(what) + " '" + name + "', expected one of " +
-                       (known.empty() ? "none" : known))
-                          .c_str());
+  throw UnknownName("found no " + std::string(what) + " '" + name + "', expected one of " +
+                    (known.empty() ? "none" : known));
 }
 
-std::size_t input_of(const Stepper& s, const std::string& name) {
-  return index_in(s.input_index, s.input_names, "input", name);
+std::size_t input_of(const Stepper& s, const nb::handle name) {
+  return index_in(s.input_index, s.input_names, "input", text("input", name));
 }
-std::size_t output_of(const Stepper& s, const std::string& name) {
-  return index_in(s.output_index, s.output_names, "output", name);
+std::size_t output_of(const Stepper& s, const nb::handle name) {
+  return index_in(s.output_index, s.output_names, "output", text("output", name));
 }
 
 using Kept = std::shared_ptr<std::vector<double>>;
@@ -105,10 +104,8 @@ void call_law(const Stepper& s, const Law& law, double time, std::span<const dou
   const nb::object value = law.function(*arguments);
   double x = 0.0;
   if (!nb::try_cast(value, x))
-    throw nb::type_error(
-        ("the law of the input '" + s.input_names[static_cast<std::size_t>(law.input)] + "' gave " +
-         nb::cast<std::string>(nb::type_name(value.type())) + ", expected a number")
-            .c_str());
+    throw InputError("the law of the input '" + s.input_names[static_cast<std::size_t>(law.input)] +
+                     "' gave " + type_of(value) + ", expected a number");
   inputs[static_cast<std::size_t>(law.input)] = x;
 }
 
@@ -134,7 +131,8 @@ void set_callback(Stepper& s) {
 void on_step(Stepper& s, const nb::object& function) {
   s.idle();
   if (!function.is_none() && !PyCallable_Check(function.ptr()))
-    throw nb::type_error("on_step: expected a function of (time, outputs, inputs), or None");
+    throw InputError("on_step: found " + type_of(function) +
+                     ", expected a function of (time, outputs, inputs), or None");
   s.on_step = function.is_none() ? nb::object() : function;
   s.seen_numbers = std::make_shared<std::vector<double>>(s.output_names.size());
   s.changed_numbers = std::make_shared<std::vector<double>>(s.input_names.size());
@@ -143,13 +141,13 @@ void on_step(Stepper& s, const nb::object& function) {
   set_callback(s);
 }
 
-void add_law(Stepper& s, const std::string& input, const nb::object& function,
-             const std::vector<std::string>& of) {
+void add_law(Stepper& s, const nb::object& input, const nb::object& function, const nb::list& of) {
   s.idle();
   Law law{static_cast<std::ptrdiff_t>(input_of(s, input)), {}, function};
-  for (const std::string& name : of) law.outputs.push_back(output_of(s, name));
+  for (const nb::handle name : of) law.outputs.push_back(output_of(s, name));
   if (!function.is_none() && !PyCallable_Check(function.ptr()))
-    throw nb::type_error("law: expected a function of (time, *outputs), or None");
+    throw InputError("law: found " + type_of(function) +
+                     ", expected a function of (time, *outputs), or None");
   std::erase_if(s.laws, [&](const Law& l) { return l.input == law.input; });
   if (!function.is_none()) s.laws.push_back(std::move(law));
   set_callback(s);
@@ -161,8 +159,10 @@ struct Report {
   std::string where;
 };
 
-Report step(Stepper& s, std::optional<double> size) {
+Report step(Stepper& s, const nb::object& given) {
   s.idle();
+  std::optional<double> size;
+  if (!given.is_none()) size = number("size", given);
   s.failed = nullptr;
   s.worker = std::this_thread::get_id();
   s.busy = true;
@@ -250,6 +250,7 @@ void bind_simulation(nb::module_& m) {
           },
           nb::arg("model"), nb::arg("options"))
       .def("step", step, nb::arg("size") = nb::none(),
+           nb::sig("def step(self, size: float | None = None) -> StepReport"),
            "One step of the size of the options, or of `size` [s]. Raises StepError if it fails: "
            "time and outputs stay "
            "those of the last good step, and further steps fail until `restore`. What a callback "
@@ -261,23 +262,37 @@ void bind_simulation(nb::module_& m) {
       .def_ro("input_names", &Stepper::input_names)
       .def_ro("output_names", &Stepper::output_names)
       .def("input",
-           [](Stepper& s, const std::string& n) { return s.idle().inputs()[input_of(s, n)]; })
+           [](Stepper& s, const nb::object& n) { return s.idle().inputs()[input_of(s, n)]; })
       .def("set_input",
-           [](Stepper& s, const std::string& n, double value) {
-             s.idle().set_input(static_cast<std::ptrdiff_t>(input_of(s, n)), value);
+           [](Stepper& s, const nb::object& n, const nb::object& given) {
+             Simulation& simulation = s.idle();
+             const std::size_t input = input_of(s, n);
+             double value = 0.0;
+             if (!PyFloat_CheckExact(given.ptr()))
+               value = number("input '" + s.input_names[input] + "'", given);
+             else
+               value = PyFloat_AS_DOUBLE(given.ptr());
+             simulation.set_input(static_cast<std::ptrdiff_t>(input), value);
            })
       .def("output",
-           [](Stepper& s, const std::string& n) { return s.idle().outputs()[output_of(s, n)]; })
+           [](Stepper& s, const nb::object& n) { return s.idle().outputs()[output_of(s, n)]; })
       .def("inputs_array", [](Stepper& s) { return array_of(copied(s.idle().inputs())); })
       .def("outputs_array", [](Stepper& s) { return array_of(copied(s.idle().outputs())); })
       .def("set_on_step", on_step, nb::arg("function").none())
-      .def("set_law", add_law, nb::arg("input"), nb::arg("function").none(), nb::arg("of"))
+      .def("set_law", add_law, nb::arg("input"), nb::arg("function").none(), nb::arg("of"),
+           nb::sig("def set_law(self, input: str, function: object | None, of: list[str]) -> None"))
       .def(
           "save", [](Stepper& s) { return s.idle().save(); },
           "All that decides the next steps; may be pickled.")
       .def(
-          "restore", [](Stepper& s, const SimulationState& state) { s.idle().restore(state); },
-          nb::arg("state"),
+          "restore",
+          [](Stepper& s, const nb::object& state) {
+            if (!nb::isinstance<SimulationState>(state) || !nb::inst_ready(state))
+              throw InputError("state: found " + type_of(state) +
+                               ", expected a floatframe.SimulationState");
+            s.idle().restore(nb::cast<const SimulationState&>(state));
+          },
+          nb::arg("state"), nb::sig("def restore(self, state: SimulationState) -> None"),
           "Back, or on, to a state of this simulation or of another one of the same model and "
           "options: the same steps "
           "follow, bit for bit. Raises InputError, and changes nothing, for any other state.")

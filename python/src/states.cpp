@@ -10,7 +10,10 @@ nb::bytes bytes_of(const SimulationState& state) {
   return nb::bytes(bytes.data(), bytes.size());
 }
 
-SimulationState from_bytes(const nb::bytes& bytes) {
+SimulationState from_bytes(const nb::object& given) {
+  if (!nb::isinstance<nb::bytes>(given))
+    throw InputError("data: found " + type_of(given) + ", expected bytes of a saved state");
+  const auto bytes = nb::borrow<nb::bytes>(given);
   return SimulationState::from_bytes(
       {reinterpret_cast<const std::byte*>(bytes.c_str()), bytes.size()});
 }
@@ -53,9 +56,10 @@ void bind_states(nb::module_& m) {
       "All that decides the next steps of a simulation, bit for bit. May be pickled and copied.")
       .def_prop_ro("time", &SimulationState::time, "[s]")
       .def("to_bytes", bytes_of)
-      .def_static("from_bytes", from_bytes, nb::arg("data"))
+      .def_static("from_bytes", from_bytes, nb::arg("data"),
+                  nb::sig("def from_bytes(data: bytes) -> SimulationState"))
       .def("__getstate__", bytes_of)
-      .def("__setstate__", [](SimulationState& self, const nb::bytes& data) {
+      .def("__setstate__", [](SimulationState& self, const nb::object& data) {
         new (&self) SimulationState(from_bytes(data));
       });
   nb::class_<SystemState>(
@@ -63,7 +67,8 @@ void bind_states(nb::module_& m) {
       "Where a model is at one instant, by the names of its joints and bodies. Runs in either "
       "coordinates start from it (`start=`), not with the same bits.")
       .def_static(
-          "load", [](const std::string& path) { return read_state(path); }, nb::arg("path"),
+          "load", [](const nb::object& file) { return read_state(path("path", file)); },
+          nb::sig("def load(path: str | os.PathLike[str]) -> State"), nb::arg("path"),
           "A file of `floatframe run --write-state`, or of `to_json`.")
       .def("to_json", [](const SystemState& s) { return state_json(s); })
       .def_ro("time", &SystemState::time, "[s]")

@@ -63,3 +63,30 @@ def test_without_pandas_nothing_is_run(tmp_path, monkeypatch):
     with pytest.raises(ImportError, match="pandas"):
         ff.sweep(ff.Model.load(ff.example("quarter_car"), duration=0.1), speed=[10], folder=tmp_path / "study")
     assert not (tmp_path / "study").exists()
+
+
+def test_a_model_of_texts_and_data_finds_its_files(tmp_path):
+    (tmp_path / "models/parts").mkdir(parents=True)
+    description = model().data
+    part = tmp_path / "models/parts/arm.ffb"
+    from blocks import ENDS, QUICK, mesh
+    ff.reduce(mesh(), **QUICK, interfaces=ENDS).save(part)
+    description["bodies"]["rod"] = {"flexible": "../models/parts/arm.ffb"}
+    description["joints"]["rod"] = {"type": "free", "parent": "ground", "child": "rod", "at": "rod"}
+    description["points"]["rod"] = [0, 0.05, 0.05]
+    for made in (ff.Model.from_dict(description, folder=tmp_path / "models"), ff.Model.from_yaml(ff.Model.from_dict(description, folder=tmp_path / "models").to_yaml(), folder=str(tmp_path / "models"))):
+        for folder in (None, tmp_path / f"study{made.filled_in}"):
+            table = ff.sweep(made, m=[1, 2], duration=0.01, measure="end.z:final", folder=folder)
+            assert list(table["status"]) == ["completed"] * 2
+            run = ff.run(made.copy(), duration=0.01)
+            assert table["end.z final [m]"][1] == run["end.z"][-1]
+
+
+def test_whole_numbers_are_written_alike(tmp_path):
+    path = ff.example("iltis")
+    tables = []
+    for k, speeds in enumerate((np.linspace(3, 5, 3), [3, 4, 5], [3.0, "4", np.float32(5)])):
+        ff.sweep(ff.Model.load(path), speed=speeds, duration=0.02, folder=tmp_path / str(k))
+        tables.append((tmp_path / str(k) / "sweep.csv").read_bytes())
+    subprocess.run([ff.program(), "sweep", path, "--vary", "speed=3:5:3", "--duration", "0.02", "--quiet", "--out", tmp_path / "c"], check=True)
+    assert {*tables} == {(tmp_path / "c/sweep.csv").read_bytes()}

@@ -17,6 +17,7 @@
 #include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/regular_file.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/sweep/process_memory.hpp"
 #include "floatframe/sweep/sweep_ranks.hpp"
@@ -28,7 +29,7 @@ namespace {
 struct SweepArguments {
   ModelArguments model;
   std::vector<std::string> vary, measures;
-  std::string table, out, coordinates, inertia, step, duration, case_timeout, case_memory;
+  std::string files_in, table, out, coordinates, inertia, step, duration, case_timeout, case_memory;
   int threads = 0;
   bool keep_results = false, fresh = false, retry_failed = false, strict = false, quiet = false;
 };
@@ -86,6 +87,13 @@ double megabytes(const std::string& text) {
 SweepOptions options_from(const SweepArguments& a) {
   SweepOptions o;
   o.model = a.model.path;
+  if (!a.files_in.empty()) {
+    const std::filesystem::path file(a.model.path);
+    std::string& text = o.text.emplace();
+    if (const std::string error = read_regular_file(file, largest_file_read, text); !error.empty())
+      throw InputError({a.model.path, 0, 0}, error);
+    o.model = (std::filesystem::path(a.files_in) / file.filename()).string();
+  }
   for (const std::string& setting : a.model.settings) {
     const std::size_t equal = setting.find('=');
     if (equal == std::string::npos || equal == 0)
@@ -228,6 +236,8 @@ Command sweep_command() {
       .help = "Run a model many times with different values; one row of results per run",
       .options =
           {file_position("MODEL", a->model.path, "Model file (YAML)"),
+           text_option("--files-in", a->files_in, "DIR",
+                       "Where files are that the model names; default: beside the model file"),
            repeated_option(
                "--vary", a->vary, "NAME=VALUES",
                "Values to vary: LO:HI:N (N values), LO:HI:N:log or A,B,C; repeated: all "

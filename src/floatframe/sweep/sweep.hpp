@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ namespace floatframe {
 
 struct SweepOptions {
   std::string model;                ///< model file
+  std::optional<std::string> text;  ///< read instead of it: it says where other files are
   std::vector<SweepSetting> fixed;  ///< for all runs
   SweepPlan plan;
   std::vector<SweepMeasure> measures;  ///< empty: all outputs

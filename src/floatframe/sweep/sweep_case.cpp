@@ -33,14 +33,15 @@ std::vector<ErrorEntry> renamed(std::vector<ErrorEntry> errors,
 
 }  // namespace
 
-SweepCaseReader::SweepCaseReader(std::string model, const std::vector<SweepSetting>& fixed,
-                                 const SweepPlan& plan)
+SweepCaseReader::SweepCaseReader(std::string model, const std::optional<std::string>& text,
+                                 const std::vector<SweepSetting>& fixed, const SweepPlan& plan)
     : model_(std::move(model)), fixed_(fixed), plan_(plan) {
   // The file may be wrong with its own values and right with those of the study: only its
   // parameters are asked for here.
+  if (text) options_.text = &*text;
   ModelFingerprint file;
   try {
-    read_model(model_, {}, &file);
+    read_model(model_, {}, &file, options_);
   } catch (const InputError&) {
     if (file.model.empty()) throw;
   }
@@ -90,7 +91,7 @@ SweepCase SweepCaseReader::read(std::size_t run) const {
     if (!targets_[k].option) overrides.push_back({plan_.names[k], values[k]});
   SweepCase out;
   try {
-    out.description = read_model(model_, overrides, &out.fingerprint);
+    out.description = read_model(model_, overrides, &out.fingerprint, options_);
   } catch (const InputError& error) {
     throw InputError(renamed(error.errors(), fixed_, plan_.origins[run]));
   }

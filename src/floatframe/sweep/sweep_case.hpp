@@ -1,6 +1,7 @@
 #pragma once
 // One run of a study before it is run: the model file read with the run's values.
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,8 +21,10 @@ struct SweepCase {
 class SweepCaseReader {
  public:
   /// Finds out what the names of the plan and of `fixed` stand for. Throws InputError if the model
-  /// file cannot be read at all or a name is unknown. Both references must outlive the reader.
-  SweepCaseReader(std::string model, const std::vector<SweepSetting>& fixed, const SweepPlan& plan);
+  /// file cannot be read at all or a name is unknown. All references must outlive the reader.
+  /// `text`, if there is one, is read instead of the file.
+  SweepCaseReader(std::string model, const std::optional<std::string>& text,
+                  const std::vector<SweepSetting>& fixed, const SweepPlan& plan);
 
   /// Reads the model for a run (from 0). May be called by several threads. Throws InputError.
   SweepCase read(std::size_t run) const;
@@ -38,6 +41,7 @@ class SweepCaseReader {
              SimulationDescription& simulation, SweepCase& out, ErrorList& errors) const;
 
   std::string model_;
+  ReadOptions options_;
   const std::vector<SweepSetting>& fixed_;
   const SweepPlan& plan_;
   std::vector<std::string> parameters_;

@@ -105,7 +105,7 @@ HistoryOrigin origin_of(const SweepOptions& options, std::size_t run, const Prep
 SweepRunner::SweepRunner(const SweepOptions& options, const std::atomic<bool>& stop)
     : options_(options),
       stop_(stop),
-      reader_(options.model, options_.fixed, options_.plan),
+      reader_(options.model, options_.text, options_.fixed, options_.plan),
       pool_(8) {}
 
 SweepCase SweepRunner::read(std::size_t run) {
