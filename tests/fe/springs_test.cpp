@@ -156,6 +156,22 @@ TEST(Springs, NodesWithoutMassAreCondensed) {
   EXPECT_EQ(assemble(model).size(), 9);
 }
 
+// A node without mass that an equation carries in one direction.
+TEST(Springs, EndsThatEquationsCarry) {
+  FeModel model = masses({Vec3(0, 0, 0), Vec3(2, 0, 0)});
+  model.positions.emplace_back(1, 0, 0);
+  model.springs = {along(0, 2, Vec3(0.6, 0.8, 0.0), 100.0)};
+  model.equations = {{{{2, 0, 1.0}, {1, 0, -1.0}}, {}}};
+  validate(model);
+  const FeSystem system = assemble(model);
+  EXPECT_EQ(system.size(), 6);
+  EXPECT_LT(MatX(system.K).cwiseAbs().maxCoeff(), 1e-12);  // it can move along y
+  model.springs.push_back(along(2, 1, Vec3::UnitY(), 36.0));
+  const MatX K = assemble(model).K;
+  // y of the end follows: 100 (0.6 u - 0.8 v)^2 + 36 v^2, u the difference along x
+  EXPECT_NEAR(K(0, 0), 36.0 - 48.0 * 48.0 / 100.0, 1e-12);
+}
+
 // Between nodes without rotations a bushing can turn about them: only its length resists, whatever
 // its other stiffness is. About an end at one of them (k4 to k6 zero) likewise.
 TEST(Springs, BushingBetweenNodesWithoutRotations) {

@@ -113,8 +113,8 @@ TEST(BadNastran, Decks) {
       {"SPC1,1,123,1", "SET3,5,GRID,1,9", "arm.bdf:13: set 5 has node 9, which is not in the file"},
       {"SPC1,1,123,1", "INCLUDE 'none.bdf'",
        "arm.bdf:13: the include file 'none.bdf' cannot be read here"},
-      {"SPC1,1,123,1", "CELAS1,4,4,1,1,2,1\nCELAS1,5,4,1,2,2,2",
-       "arm.bdf:13: CELAS1 is not read and may change stiffness or mass (2 cards in the file)"},
+      {"SPC1,1,123,1", "CELASX,4,4,1,1,2,1\nCELASX,5,4,1,2,2,2",
+       "arm.bdf:13: CELASX is not read and may change stiffness or mass (2 cards in the file)"},
   };
   for (const Error& error : errors) {
     std::string text = deck;

@@ -66,7 +66,7 @@ FeModel single_element(ElementType type) {
     return Vec3(x + 0.05 * y * z, 1.1 * y + 0.04 * x, 0.9 * z - 0.03 * x * y);
   };
   std::vector<Vec3> corners;
-  if (kernel.family == ElementFamily::beam) {
+  if (kernel.family == ElementFamily::beam || kernel.family == ElementFamily::rod) {
     corners = {place(0, 0, 0), place(1, 0.2, 0.1)};
     model.sections = {BeamSection::rectangle(0.02, 0.03)};
     e.reference = Vec3(0.1, 0.2, 1.0).normalized();

@@ -16,10 +16,11 @@ namespace {
 /// Dofs that a set of condensed ones may tie together: their stiffness is full.
 constexpr std::size_t most_tied = 1200;
 
-/// Nodes whose translations, and nodes whose rotations, springs alone hold.
+/// Of each node: whether springs alone use it, and the axes of dofs that springs alone hold.
 struct LooseNodes {
-  std::vector<char> moves, turns;
-  std::vector<char> has_rotations;  ///< of other reasons than springs
+  std::vector<char> alone;
+  std::vector<unsigned> mask;
+  bool has(const Dof& dof) const { return (mask[dof.node] >> dof.axis & 1u) != 0; }
 };
 
 bool is_named(const FeModel& model, int node) {
@@ -29,28 +30,28 @@ bool is_named(const FeModel& model, int node) {
 
 LooseNodes loose_nodes(const FeModel& model) {
   const std::vector<int> others = dofs_without_springs(model);
-  LooseNodes loose;
   const std::size_t n = model.positions.size();
-  loose.moves.assign(n, 0);
-  loose.turns.assign(n, 0);
-  loose.has_rotations.assign(n, 0);
-  for (int k = 0; k < model.nodes(); ++k) loose.has_rotations[k] = others[k + 1] == 6;
-  for (const Spider& s : model.spiders)
-    if (s.kind == Spider::Kind::rigid && (s.mask & 56u) != 0)
-      for (const int node : s.nodes) loose.has_rotations[node] = 1;
-  std::vector<char> moved(n, 0), turned(n, 0);  // by equations
-  for (const LinearEquation& e : model.equations)
-    for (const LinearEquation::Term& t : e.terms) (t.axis < 3 ? moved : turned)[t.node] = 1;
+  LooseNodes loose{std::vector<char>(n, 0), std::vector<unsigned>(n, 0)};
   for (int k = 0; k < model.nodes(); ++k) {
-    const bool alone = others[k + 1] == 0;
-    if ((alone && (is_named(model, k) || moved[k] != 0)) || turned[k] != 0) continue;
-    loose.moves[k] = alone;
-    loose.turns[k] = loose.has_rotations[k] == 0;
+    const int count = others[k + 1];
+    loose.alone[k] = count == 0;
+    if (count < 6 && !(count == 0 && is_named(model, k))) loose.mask[k] = count == 0 ? 63u : 56u;
   }
+  for (const Spider& s : model.spiders)
+    if (s.kind == Spider::Kind::rigid)
+      for (const int node : s.nodes) loose.mask[node] &= ~(s.mask & 56u);
+  for (const LinearEquation& e : model.equations)
+    for (const LinearEquation::Term& t : e.terms) loose.mask[t.node] &= ~(1u << t.axis);
   return loose;
 }
 
-bool turns(const Spring& s, int end) { return !s.directions[end].tail<3>().isZero(0.0); }
+/// Axes that a spring has at an end.
+unsigned axes_of(const Spring& s, int end) {
+  unsigned mask = 0;
+  for (int axis = 0; axis < 6; ++axis)
+    if (s.directions[end](axis) != 0.0) mask |= 1u << axis;
+  return mask;
+}
 
 /// Joins of numbered things.
 class Joins {
@@ -114,9 +115,7 @@ class Gathered {
  private:
   using Places = std::map<Dof, int, DofOrder>;
 
-  bool condensed(const Dof& dof) const {
-    return (dof.axis < 3 ? loose_.moves : loose_.turns)[dof.node] != 0;
-  }
+  bool condensed(const Dof& dof) const { return loose_.has(dof); }
 
   template <class Use>
   void each(const Spring& s, Use&& use) const {
@@ -193,7 +192,7 @@ SpringSystem spring_system(const FeModel& model, const DofTable& table) {
   Joins joins(model.nodes());
   const auto is_loose = [&](const Spring& s, int end) {
     const int node = s.nodes[end];
-    return node >= 0 && (loose.moves[node] != 0 || (loose.turns[node] != 0 && turns(s, end)));
+    return node >= 0 && (loose.mask[node] & axes_of(s, end)) != 0;
   };
   for (const Spring& s : model.springs)
     if (is_loose(s, 0) && is_loose(s, 1)) joins.join(s.nodes[0], s.nodes[1]);
@@ -211,9 +210,13 @@ SpringSystem spring_system(const FeModel& model, const DofTable& table) {
   for (auto& [root, group] : groups) group.finish(out);
   // Directions that no spring has are not held either.
   out.condensed.clear();
+  std::vector<char> on_spring(model.positions.size(), 0);
+  for (const Spring& s : model.springs)
+    for (const int node : s.nodes)
+      if (node >= 0) on_spring[node] = 1;
   for (int k = 0; k < model.nodes(); ++k)
-    for (int axis = 0; axis < table.count(k) && loose.moves[k] != 0; ++axis)
-      out.condensed.push_back({k, axis});
+    for (int axis = 0; axis < table.count(k); ++axis)
+      if (loose.has({k, axis}) && on_spring[k] != 0) out.condensed.push_back({k, axis});
   return out;
 }
 
@@ -223,7 +226,8 @@ void add_spring_dofs(const FeModel& model, std::vector<int>& count) {
     for (int end = 0; end < 2; ++end) {
       const int node = s.nodes[end];
       if (node < 0) continue;
-      const bool six = turns(s, end) && (loose.turns[node] == 0 || loose.moves[node] != 0);
+      const bool turns = (axes_of(s, end) & 56u) != 0;
+      const bool six = turns && (loose.alone[node] != 0 || (loose.mask[node] & 56u) != 56u);
       count[node + 1] = std::max(count[node + 1], six ? 6 : 3);
     }
   }
@@ -261,7 +265,7 @@ std::vector<int> nodes_on_springs(const FeModel& model) {
   const LooseNodes loose = loose_nodes(model);
   for (const Spring& s : model.springs)
     for (const int node : s.nodes)
-      if (node >= 0 && loose.moves[node] != 0) out.push_back(node);
+      if (node >= 0 && loose.alone[node] != 0 && loose.mask[node] == 63u) out.push_back(node);
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;

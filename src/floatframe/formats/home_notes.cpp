@@ -40,6 +40,7 @@ constexpr std::array differences{
     Difference{H::calculix, T::quad4, expanded},
     Difference{H::calculix, T::tri6, expanded},
     Difference{H::calculix, T::quad8, expanded},
+    Difference{H::calculix, T::rod2, expanded},
     Difference{H::calculix, T::beam2, expanded},
     Difference{H::calculix, T::beam3, expanded},
     Difference{H::nastran, T::hex8i, own_modes},

@@ -45,6 +45,8 @@ struct AbaqusProperties {
 };
 
 // abaqus_build_sections.cpp
+/// Elements that have no section: masses, springs, ...
+bool is_abaqus_point(AbaqusType::Family family) noexcept;
 /// "element 7 (C3D4)"
 std::string abaqus_label(const AbaqusElement& element);
 /// Of each element of the deck the index of the section whose set names it; -1: none.
@@ -75,6 +77,8 @@ void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
 double abaqus_shear_factor(std::string_view shape) noexcept;
 /// Mass and shear of the elements as the program of the deck has them.
 void as_in_home_program(AbaqusBuild& build);
+// abaqus_springs.cpp
+void build_abaqus_springs(AbaqusBuild& build);
 // abaqus_ties.cpp
 void build_abaqus_ties(AbaqusBuild& build);
 // abaqus_transforms.cpp

@@ -197,18 +197,23 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     const AbaqusType& type = *element.type;
     const int section = section_of[e];
     // Shells are skins of a solid unless the deck has shells.
-    const bool skin = section < 0 && (type.family == Family::skin ||
+    const bool skin = section < 0 && (type.family == Family::skin || type.family == Family::rod ||
                                       (type.family == Family::shell && !has_shells));
     if (skin) counts.skins[&type].add(element.at);
-    if (skin || type.family == Family::mass || type.family == Family::rotary ||
-        type.family == Family::coupling) {
-      continue;
-    }
+    if (type.family == Family::spring) counts.structural.add(element.at);
+    if (skin || is_abaqus_point(type.family)) continue;
     counts.structural.add(element.at);
     const bool material_given = mesh_only && type.family == Family::solid;
     if (section < 0 && !material_given) {
       if (counts.without_section.number == 0 && assigned) no_section(build, element);
       counts.without_section.add(element.at);
+      continue;
+    }
+    if (type.family == Family::rod && !(c.sections[section].thickness > 0.0)) {
+      build.source.error(c.sections[section].at,
+                         fmt::format("*SOLID SECTION names {}, which needs the area of its section "
+                                     "in the line below",
+                                     abaqus_label(element)));
       continue;
     }
     if (type.remark != nullptr) counts.read_as[&type].add(element.at);
@@ -252,7 +257,8 @@ void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
       const Family family = c.elements[e].type->family;
       if (index >= 0) {
         list.push_back(index);
-      } else if (only_nodes || family == Family::skin || family == Family::shell) {
+      } else if (only_nodes || family == Family::skin || family == Family::shell ||
+                 family == Family::rod) {
         skins.push_back(e);
       }
     }

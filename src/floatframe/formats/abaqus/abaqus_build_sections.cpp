@@ -87,6 +87,11 @@ void check_form(AbaqusBuild& build, const AbaqusSection& section) {
 
 }  // namespace
 
+bool is_abaqus_point(Family family) noexcept {
+  return family == Family::mass || family == Family::rotary || family == Family::coupling ||
+         family == Family::spring || family == Family::damper || family == Family::gap;
+}
+
 std::string abaqus_label(const AbaqusElement& e) {
   return fmt::format("element {} ({})", e.id, e.type->name);
 }
@@ -102,9 +107,10 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
       const AbaqusElement& element = c.elements[e];
       int& at = section_of[e];
       // Sets of parts hold masses beside the elements of a section.
-      if (element.type->family != section.family &&
-          (element.type->family == Family::mass || element.type->family == Family::rotary ||
-           element.type->family == Family::coupling)) {
+      const Family family = element.type->family;
+      const bool fits =
+          family == section.family || (family == Family::rod && section.family == Family::solid);
+      if (!fits && is_abaqus_point(family)) {
         continue;
       }
       if (reported) {
@@ -112,7 +118,7 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
         continue;
       }
       std::string error;
-      if (element.type->family != section.family) {
+      if (!fits) {
         error = element.type->family == Family::skin
                     ? fmt::format(
                           "{} names {}; elements of this type are read as skins only, "
@@ -171,6 +177,9 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
       BeamSection& beam = model.sections.back();
       beam.shear_y = beam.shear_z = abaqus_shear_factor(section.shape) * beam.A;
       p.reference = build.content.placement.R * section.n1;
+    } else if (section.family == Family::solid && section.thickness > 0.0) {  // of rods
+      p.section = static_cast<int>(model.sections.size());
+      model.sections.push_back({section.thickness, 0.0, 0.0, 0.0});
     } else if (section.family == Family::shell) {
       p.section = static_cast<int>(model.shells.size());
       const ShellSection shell = abaqus_shell_section(build, section, material);

@@ -27,6 +27,10 @@ struct AbaqusType {
     mass,      ///< MASS
     rotary,    ///< ROTARYI
     coupling,  ///< DCOUP3D: names the reference of a distributing coupling
+    rod,       ///< T3D2: harmless without a section, as a skin
+    spring,    ///< SPRINGA, SPRING1, SPRING2
+    damper,    ///< DASHPOTA, ...: passed over
+    gap        ///< GAPUNI: *GAP says what becomes of it
   };
   const char* name;
   Family family;
@@ -158,6 +162,15 @@ struct AbaqusSupport {
   FeSource at;
 };
 
+/// *SPRING
+struct AbaqusSpring {
+  AbaqusReference elements;
+  std::vector<std::vector<double>> lines;  ///< data, without blank lines
+  std::string orientation;                 ///< name; empty: none
+  bool nonlinear = false;
+  FeSource at;
+};
+
 /// *TIE, or a contact pair that is joined.
 struct AbaqusTie {
   int slave = -1, master = -1;  ///< names of surfaces, indices in AbaqusContent::names
@@ -200,6 +213,7 @@ struct AbaqusContent {
   std::vector<AbaqusEquation> equations;
   std::vector<AbaqusSupport> supports;
   std::vector<AbaqusTie> ties;
+  std::vector<AbaqusSpring> springs;
   std::vector<AbaqusTransform> transforms;
   std::vector<std::string> notes;
   DeckContact contact = DeckContact::refuse;  ///< as the user says
@@ -273,6 +287,9 @@ void read_abaqus_boundary(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_ties.cpp
 void read_abaqus_tie(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_contact_pair(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_springs.cpp
+void read_abaqus_spring(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_gap(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_transforms.cpp
 void read_abaqus_transform(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 

@@ -142,6 +142,9 @@ void read_abaqus_solid_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   AbaqusSection section;
   lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"});
   if (!begin_abaqus_section(lines, keyword, content, Family::solid, section)) return;
+  // Of rods the area; of other elements the line means nothing.
+  std::vector<std::string_view> fields;
+  if (lines.next_fields(fields)) section.thickness = parse_real(fields[0]).value_or(0.0);
   content.sections.push_back(section);
   lines.skip_data();
 }

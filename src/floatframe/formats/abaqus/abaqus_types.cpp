@@ -33,6 +33,10 @@ constexpr AbaqusType beam(const char* name, int nodes, ElementType type,
   return {name, Family::beam, nodes, type, remark};
 }
 
+constexpr AbaqusType point(const char* name, Family family, int nodes) {
+  return {name, family, nodes, ElementType::beam2, nullptr};
+}
+
 constexpr std::array types_of_abaqus{
     solid("C3D4", 4, ElementType::tet4),
     solid("C3D4H", 4, ElementType::tet4, hybrid),
@@ -101,10 +105,17 @@ constexpr std::array types_of_abaqus{
     skin("R3D3", 3),
     skin("R3D4", 4),
     skin("RB3D2", 2),
-    skin("T3D2", 2),
+    AbaqusType{"T3D2", Family::rod, 2, ElementType::rod2, nullptr},
     skin("T3D3", 3),
     AbaqusType{"MASS", Family::mass, 1, ElementType::beam2, nullptr},
     AbaqusType{"ROTARYI", Family::rotary, 1, ElementType::beam2, nullptr},
+    point("SPRINGA", Family::spring, 2),
+    point("SPRING1", Family::spring, 1),
+    point("SPRING2", Family::spring, 2),
+    point("DASHPOTA", Family::damper, 2),
+    point("DASHPOT1", Family::damper, 1),
+    point("DASHPOT2", Family::damper, 2),
+    point("GAPUNI", Family::gap, 2),
     AbaqusType{"DCOUP3D", Family::coupling, 1, ElementType::beam2, nullptr},
 };
 

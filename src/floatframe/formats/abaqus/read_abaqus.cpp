@@ -54,6 +54,8 @@ constexpr std::array handlers{
     Known{"BOUNDARY", read_abaqus_boundary},
     Known{"TIE", read_abaqus_tie},
     Known{"CONTACT PAIR", read_abaqus_contact_pair},
+    Known{"SPRING", read_abaqus_spring},
+    Known{"GAP", read_abaqus_gap},
     Known{"TRANSFORM", read_abaqus_transform},
 };
 
@@ -203,6 +205,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   if (!only_nodes) as_in_home_program(build);
   build_abaqus_sets(build, only_nodes);
   build_abaqus_constraints(build, only_nodes);
+  if (!only_nodes && source.errors() == 0) build_abaqus_springs(build);
   source.throw_if_any();
   build.model.files = source.files();
   return std::move(build.model);

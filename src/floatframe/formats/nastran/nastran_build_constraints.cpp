@@ -28,6 +28,9 @@ class ConstraintBuilder {
       if (kernel.dofs_per_node != 6) continue;
       for (int k = 0; k < kernel.nodes; ++k) rotates_[index(e.nodes[k])] = 1;
     }
+    for (const Spring& s : b_.model.springs)
+      for (int end = 0; end < 2; ++end)
+        if (!s.directions[end].tail<3>().isZero(0.0)) rotates_[index(s.nodes[end])] = 1;
   }
 
   void build() {

@@ -30,7 +30,8 @@ class ElementBuilder {
                                           "line {}",
                                           label(e), it->second.line));
       }
-      if (mesh_only_ && (e.surface || e.type == ElementType::beam2)) {
+      if (mesh_only_ &&
+          (e.surface || e.type == ElementType::beam2 || e.type == ElementType::rod2)) {
         skin(e);
       } else {
         element(e);
@@ -114,6 +115,12 @@ class ElementBuilder {
       if (p == nullptr || !orientation(e, result)) return;
       result.material = material(*p, p->nonstructural / std::max(p->section.A, 1e-300));
       result.section = section(e.property, *p);
+    } else if (e.type == ElementType::rod2) {
+      const bool tube = e.card == std::string_view("CTUBE");
+      const NastranProperty* p = property(e, {tube ? "PTUBE" : "PROD", "CONROD"});
+      if (p == nullptr) return;
+      result.material = material(*p, p->nonstructural / std::max(p->section.A, 1e-300));
+      result.section = rod_section(e.property, *p);
     } else {
       const NastranProperty* p = property(e, {"PSOLID"});
       if (p == nullptr) return;
@@ -121,9 +128,10 @@ class ElementBuilder {
       orient_nastran_solid(b_, *p, result);
       if (e.type == ElementType::hex8 && !p->full_integration) result.type = ElementType::hex8i;
     }
-    for (const std::string& name : set_names(e.property)) {
-      b_.model.element_sets[name].push_back(static_cast<int>(b_.model.elements.size()));
-    }
+    if (e.property > 0)  // a CONROD has none
+      for (const std::string& name : set_names(e.property)) {
+        b_.model.element_sets[name].push_back(static_cast<int>(b_.model.elements.size()));
+      }
     b_.model.elements.push_back(result);
   }
 
@@ -156,6 +164,15 @@ class ElementBuilder {
     BeamSection& own = b_.model.sections.back();
     const double ratio = own_shear(p.material);
     for (double* x : {&own.J, &own.shear_y, &own.shear_z}) *x *= ratio;
+    return it->second;
+  }
+
+  int rod_section(int id, const NastranProperty& p) {
+    const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
+    if (!fresh) return it->second;
+    must_be_positive(p, std::abs(id), "A", p.section.A);
+    b_.model.sections.push_back(p.section);
+    b_.model.sections.back().J *= own_shear(p.material);
     return it->second;
   }
 

@@ -63,6 +63,11 @@ class ContentReader {
         {"MAT9", read_nastran_anisotropic}, {"RBE2", read_nastran_rbe2},
         {"RBE3", read_nastran_rbe3},        {"RBAR", read_nastran_rbar},
         {"MPC", read_nastran_mpc},          {"MPCADD", read_nastran_mpc_add},
+        {"CELAS1", read_nastran_celas},     {"CELAS2", read_nastran_celas},
+        {"CELAS3", read_nastran_scalar},    {"CELAS4", read_nastran_scalar},
+        {"PELAS", read_nastran_pelas},      {"CBUSH", read_nastran_bush},
+        {"PBUSH", read_nastran_pbush},      {"CROD", read_nastran_rod},
+        {"CTUBE", read_nastran_rod},        {"CONROD", read_nastran_rod},
         {"SPC", read_nastran_spc},          {"SPC1", read_nastran_spc1},
     };
     const std::string& name = f.name();
@@ -198,10 +203,15 @@ class ContentReader {
       c_.notes.push_back(fmt::format("PARAM {}: the {} of the part is multiplied by {:g}", name,
                                      name == "CK1" ? "stiffness" : "mass", value));
     }
-    std::string list;
+    std::string list, dampers;
     for (const auto& [name, passed] : passed_) {
+      if (name.starts_with("CDAMP") || name == "CVISC")
+        dampers += fmt::format("{}{} {}", dampers.empty() ? "" : ", ", passed.number, name);
       list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
     }
+    if (!dampers.empty())
+      c_.notes.push_back(fmt::format(
+          "dampers are passed over, the part has modal damping (--damping): {}", dampers));
     if (!list.empty()) {
       c_.notes.push_back(
           fmt::format("cards that change neither stiffness nor mass are passed over: {}", list));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/formats/nastran/nastran_springs.hpp"
 
 namespace floatframe {
 
@@ -128,6 +129,7 @@ struct NastranContent {
   std::map<int, NastranMaterial> materials;
   std::map<int, NastranProperty> properties;
   std::vector<NastranMass> masses;
+  NastranSprings springs;
   std::vector<NastranSpider> spiders;
   std::vector<NastranEquation> equations;
   std::vector<NastranSupport> supports;
@@ -188,7 +190,9 @@ void nastran_twice(NastranFields& card, const FeSource& first);
 // nastran_home.cpp
 /// Shear areas of a named section by its dimensions.
 void nastran_shear_of_shape(std::string_view type, const double* d, BeamSection& section) noexcept;
-/// PSOLID, PSHELL, PCOMP, PCOMPG, PBAR, PBARL, PBEAM, PBEAML; false if the card is none of them.
+// nastran_springs.cpp
+void read_nastran_rod_property(NastranFields&, NastranProperty&);  ///< PROD, PTUBE
+/// A property of elements (PSOLID, PROD, ...); false if the card is none that is read.
 bool read_nastran_property(NastranFields& card, NastranProperty& property);
 
 }  // namespace floatframe

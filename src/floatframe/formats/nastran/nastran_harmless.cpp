@@ -43,10 +43,11 @@ const char* const harmless_cards[] = {
     "RADM*", "RADBC", "RADBND", "RADLST", "RADCAV", "RADCOL", "RADCT", "VIEW*", "BDYOR", "CHGEN*",
     "CFTUBE", "PFTUBE", "THPAD",
     // dampers
-    "CVISC", "PVISC",
+    "CVISC", "PVISC", "CDAMP*", "PDAMP",
     // properties of elements that are refused, or of what depends on frequency
-    "PELAST", "PBUSHT", "PDAMPT", "PDAMP5", "PGAP", "PMASS", "PFAST", "PWELD", "PSEAM", "PAABSF",
-    "PACABS", "PACBAR", "PACINF", "PBEND", "PCONEAX", "PLPLANE", "PRAC2D", "PRAC3D",
+    "PELAST", "PBUSHT", "PBUSH1D", "PBUSH2D", "PSHEAR", "PDAMPT", "PDAMP5", "PGAP", "PMASS",
+    "PFAST", "PWELD", "PSEAM", "PAABSF", "PACABS", "PACBAR", "PACINF", "PBEND", "PCONEAX",
+    "PLPLANE", "PRAC2D", "PRAC3D",
     // aeroelasticity, also of ZAERO and ASTROS
     "AERO*", "CAERO*", "PAERO*", "SPLINE*", "AEFACT", "AELIST*", "AESTAT", "AESURF*", "AEPARM",
     "AELINK", "AECOMP*", "AEFORCE", "AEPRESS", "AEQUAD4", "AETRIA3", "AEGRID", "AEROS", "AEDW",
@@ -61,6 +62,11 @@ const std::pair<const char*, const char*> refused_cards[] = {
     {"RSPLINE", "interpolation along a spline is not supported; use RBE3 or MPC"},
     {"RSSCON", "connections of shells to solids are not supported; use RBE3 or MPC"},
     {"RTRPLT*", "rigid triangles are not supported; use RBE2"},
+    {"CSHEAR",
+     "shear panels (of Garvey) are not supported; give a CQUAD4 whose PSHELL has the "
+     "thickness that carries the shear"},
+    {"CBUSH1D", "bushings of one direction with tables are not supported; give CBUSH or CELAS1"},
+    {"CBUSH2D", "bushings of two directions are not supported; give CBUSH"},
     {"CGAP", "gaps are not linear; replace those that are closed with CELAS2 or RBE2"},
     {"GENEL", "general elements are not supported"},
     {"CFAST", "fasteners are not supported; replace them with RBE3 and CBUSH"},

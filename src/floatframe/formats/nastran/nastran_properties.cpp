@@ -142,6 +142,8 @@ bool read_nastran_property(NastranFields& f, NastranProperty& p) {
       {"PCOMPG", read_nastran_pcomp},
       {"PBAR", pbar},
       {"PBARL", named_section},
+      {"PROD", read_nastran_rod_property},
+      {"PTUBE", read_nastran_rod_property},
       {"PBEAM", pbeam},
       {"PBEAML", named_section}};
   for (const auto& [name, read] : readers) {

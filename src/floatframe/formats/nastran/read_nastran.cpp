@@ -39,7 +39,9 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
   if (part == NastranPart::all) {
     build_nastran_elements(build, options);
     nastran_mass_forms(build);
+    build_nastran_springs(build);
     build_nastran_constraints(build);
+    if (source.errors() == 0) build_nastran_torsion(build);
   } else {
     for (const NastranGrid& g : content.grids) {
       if (build.turned[&g - content.grids.data()] == 0) continue;
