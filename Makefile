@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer test-export python test-python wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer test-export test-decks python test-python wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -11,7 +11,7 @@ help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
 	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, twenty kills of each kind,"
-	@echo "                   the page in a browser, exported files in VTK and a glTF validator, the Python package and its wheel"
+	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, the Python package and its wheel"
 	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
 	@echo "make wheel         the Python package with all that it needs, in dist; make test-wheel tries it in a fresh environment"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
@@ -46,12 +46,20 @@ test-all: test
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
+	$(MAKE) --no-print-directory test-decks
 	$(MAKE) --no-print-directory test-python
 	$(MAKE) --no-print-directory test-wheel
 
 # Files for other programs, opened by VTK and by Khronos' validator of glTF.
 test-export:
 	@scripts/check_export.sh
+
+# The decks of CalculiX' own test suite: how many are read, and whether frequencies are its own.
+test-decks: build
+	@scripts/install_packages.sh --decks
+	cmake --build build --parallel $(JOBS) --target deck_modes
+	python3 -B scripts/deck_suite.py --free --reference --require read=140 read_contact=177 density_read_contact=107 \
+	  free_agree=100 matrices_agree=30 reference_agree=22
 
 # The Python package in the build folder, for an environment of its own from PyPI.
 python: build

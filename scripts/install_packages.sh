@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs what Floatframe needs to be built and tested on Debian 12 or Ubuntu 24.04 (and their relatives).
 #
-#   scripts/install_packages.sh [--check | --docs | --viewer]
+#   scripts/install_packages.sh [--check | --docs | --viewer | --decks]
 #
 # Runs nothing when everything is there. Otherwise prints what is missing and installs it, through sudo when not
 # root. Exit code 1, with the command to run, when it cannot install. --check only looks; --docs: with what the reference
-# of the C++ interface is made with; --viewer: with the browser that the page of a run is tested in.
+# of the C++ interface is made with; --viewer: with the browser that the page of a run is tested in;
+# --decks: with CalculiX and its decks, which readers are tested with.
 #
 # Node builds that page. It is looked for as commands, since a Node from elsewhere conflicts with the packages of the
 # system; without it there is a note and the program writes reports with static curves.
@@ -27,8 +28,10 @@ elif [[ "${1:-}" == "--docs" ]]; then
 elif [[ "${1:-}" == "--viewer" ]]; then
   command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null ||
     packages+=(chromium)
+elif [[ "${1:-}" == "--decks" ]]; then
+  packages+=(calculix-ccx calculix-ccx-test)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [--check | --docs | --viewer]" >&2
+  echo "usage: $0 [--check | --docs | --viewer | --decks]" >&2
   exit 2
 fi
 

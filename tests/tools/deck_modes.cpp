@@ -1,0 +1,124 @@
+// deck_modes modes FILE [options of reading] [--modes N] [--held] [--ccx]: the frequencies of a
+// finite-element file as JSON on standard output, for comparisons with other programs.
+//   {"rows": 1275, "frequencies": [0, 0, 0, 0, 0, 0, 1234.5, ...]}      Hz in the units of the file
+// --held: the supports of the file are in force. --ccx: integration as in CalculiX. Rigid motions
+// are near zero.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <set>
+
+#include "floatframe/apps/command_parser.hpp"
+#include "floatframe/apps/part_arguments.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/fe_system.hpp"
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/reduction/free_structure.hpp"
+
+namespace floatframe {
+namespace {
+
+struct Arguments {
+  PartArguments reading;
+  std::string file;
+  int modes = 20;
+  bool held = false, ccx = false;
+};
+
+/// Supports of dofs that have no row hold something that other dofs carry.
+std::vector<int> free_rows(const FeModel& model, const FeSystem& system) {
+  std::set<int> held;
+  for (const Support& s : model.supports)
+    for (int axis = 0; axis < 6; ++axis) {
+      if ((s.mask >> static_cast<unsigned>(axis) & 1u) == 0u) continue;
+      const int row = system.row(s.node, axis);
+      const bool turns = system.T_theta.rows() > 0 && axis >= 3 &&
+                         system.T_theta.row(3 * s.node + axis - 3).nonZeros() > 0;
+      const bool moves = axis < 3 && system.T.row(3 * s.node + axis).nonZeros() > 0;
+      if (row >= 0)
+        held.insert(row);
+      else if (turns || moves)
+        throw InputError(model.mark(s.source),
+                         fmt::format("the support of {} holds what depends on other nodes",
+                                     model.node_label(s.node)));
+    }
+  std::vector<int> rows;
+  for (int i = 0; i < system.size(); ++i)
+    if (!held.contains(i)) rows.push_back(i);
+  return rows;
+}
+
+SparseMatrix chosen(const SparseMatrix& A, const std::vector<int>& rows) {
+  std::vector<int> place(static_cast<std::size_t>(A.rows()), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    place[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
+      const int row = place[static_cast<std::size_t>(it.row())];
+      const int column = place[static_cast<std::size_t>(it.col())];
+      if (row >= 0 && column >= 0) entries.emplace_back(row, column, it.value());
+    }
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  SparseMatrix out(n, n);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+int show(const Arguments& a) {
+  const PartJob job = a.reading.job();
+  const FeModel model = read_fe_file(a.file, job.read, job.format);
+  validate(model);
+  const FeSystem system = assemble(model, a.ccx ? Integration::ccx : Integration::exact);
+  std::vector<int> rows;
+  if (a.held) {
+    rows = free_rows(model, system);
+  } else {
+    for (int i = 0; i < system.size(); ++i) rows.push_back(i);
+  }
+  const SparseMatrix K = chosen(system.K, rows), M = chosen(system.M, rows);
+  // Below zero, and of the size of the lowest elastic eigenvalue: of one part by its estimate, of
+  // several by a fraction of the largest.
+  double sigma = -elastic_estimate(model, system);
+  const double least = -1e-9 * K.diagonal().sum() / M.diagonal().sum();
+  if (!(sigma < least)) sigma = 1e3 * least;
+  const SparseMatrix A = K - sigma * M;
+  const SparseFactors factors(A);
+  if (factors.singular() >= 0)
+    throw InputError("a degree of freedom has neither stiffness nor mass");
+  const int count = std::min(a.modes, static_cast<int>(K.rows()));
+  const Eigenpairs pairs = lowest_eigenpairs(A, factors, sigma, M, count);
+  std::vector<double> frequencies;
+  for (const double l : pairs.lambda)
+    frequencies.push_back(std::copysign(hertz(std::sqrt(std::abs(l))), l));
+  print(fmt::format("{{\"rows\": {}, \"frequencies\": [{}]}}\n", K.rows(),
+                    fmt::join(frequencies, ", ")));
+  return 0;
+}
+
+Command modes_command() {
+  const auto a = std::make_shared<Arguments>();
+  return {.name = "modes",
+          .help = "The lowest frequencies of a finite-element file",
+          .options = joined({file_position("FILE", a->file, "Finite-element file"),
+                             whole_option("--modes", a->modes, 1, 10000, "How many; default 20"),
+                             flag("--held", a->held, "With the supports of the file"),
+                             flag("--ccx", a->ccx, "Integration as in CalculiX")},
+                            a->reading.table(true)),
+          .run = [a] { return show(*a); }};
+}
+
+}  // namespace
+}  // namespace floatframe
+
+int main(int argc, char** argv) {
+  using namespace floatframe;
+  try {
+    const ParsedCommand command = parse_command_line({modes_command()}, argc, argv);
+    return command.run ? command.run() : command.exit_code;
+  } catch (const std::exception& error) {
+    say(error.what());
+    return exit_code::bad_input;
+  }
+}
