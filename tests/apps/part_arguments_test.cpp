@@ -49,8 +49,8 @@ TEST(PartArguments, OptionsOfReadingAreThoseOfInfo) {
   for (const Option& option : arguments.table(true)) names.push_back(option.name);
   EXPECT_EQ(names,
             (std::vector<std::string>{"--format", "--dialect", "--beam-shear", "--shell-shear",
-                                      "--mass-form", "--grounded-springs", "--material",
-                                      "--density", "--contact", "--nodes", "--mass", "--dofs"}));
+                                      "--mass-form", "--material", "--density", "--contact",
+                                      "--grounded-springs", "--nodes", "--mass", "--dofs"}));
 }
 
 TEST(PartArguments, RepeatedOptionsKeepTheirOrder) {

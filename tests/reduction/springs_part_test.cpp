@@ -1,0 +1,157 @@
+// Parts with springs: blocks joined by bushings, reduced in every way, ends that are interfaces.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/fe/springs.hpp"
+#include "floatframe/reduction/part.hpp"
+#include "support/error_of.hpp"
+
+namespace floatframe::test {
+namespace {
+
+/// A row of cubes of hex8i from x on.
+void add_row(FeModel& model, double x, int cubes, double size) {
+  const int first = model.nodes();
+  for (int i = 0; i <= cubes; ++i)
+    for (int j = 0; j < 4; ++j)
+      model.positions.emplace_back(x + size * i, size * (j == 1 || j == 2), size * (j / 2));
+  for (int i = 0; i < cubes; ++i) {
+    Element e;
+    e.type = ElementType::hex8i;
+    const int a = first + 4 * i, b = a + 4;
+    const int nodes[8] = {a, b, b + 1, a + 1, a + 3, b + 3, b + 2, a + 2};
+    std::copy(nodes, nodes + 8, e.nodes.begin());
+    model.elements.push_back(e);
+  }
+}
+
+/// Two rows whose near ends have reference nodes, a bushing between these; a node in the air on a
+/// bushing of its own.
+FeModel jointed() {
+  FeModel model;
+  model.materials = {{2.1e11, 0.3, 7800.0}};
+  add_row(model, 0.0, 4, 0.05);
+  add_row(model, 0.24, 4, 0.05);
+  const Vec3 joint(0.22, 0.025, 0.025);
+  for (const int first : {16, 20}) {
+    Spider s;
+    s.reference = model.nodes();
+    s.nodes = {first, first + 1, first + 2, first + 3};
+    model.positions.push_back(joint);
+    model.spiders.push_back(s);
+  }
+  Vec6 k;
+  k << 1e8, 2e8, 3e8, 1e5, 2e5, 3e5;
+  const Mat3 axes = Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  add_bushing(model, 40, 41, joint, axes, k, "joint", {});
+  model.positions.emplace_back(0.44, 0.1, 0.0);  // node 42: a mount
+  add_bushing(model, 41, 42, joint, Mat3::Identity(), k, "mount", {});
+  return model;
+}
+
+PartOptions held_at_the_end() {
+  PartOptions options;
+  InterfaceDescription end;
+  end.name = "end";
+  end.choice.by = NodeChoice::By::plane;
+  end.choice.axis = Vec3::UnitX();
+  options.interfaces = {end};
+  options.modes = 12;
+  return options;
+}
+
+TEST(SpringsPart, FreeModesInEveryMethodAndFrame) {
+  std::vector<double> first;
+  for (const ModeMethod method :
+       {ModeMethod::craig_bampton, ModeMethod::free_free, ModeMethod::craig_chang}) {
+    PartOptions options = held_at_the_end();
+    options.method = method;
+    options.modes = 30;
+    for (const auto kind : {BodyReference::Kind::mean_axis, BodyReference::Kind::buckens}) {
+      options.reference.kind = kind;
+      const ReducedPart part = reduce_part(jointed(), options);
+      ASSERT_GT(part.health.free_frequencies.size(), 5u);
+      for (std::size_t k = 0; k < 5; ++k) {
+        const FrequencyPair& pair = part.health.free_frequencies[k];
+        EXPECT_LT(std::abs(pair.relative_error()), 1e-4) << k;
+        if (first.size() < 5) first.push_back(pair.full);
+        EXPECT_NEAR(pair.full / first[k], 1.0, 1e-8);
+      }
+      EXPECT_LT(part.health.rigid_residual, 1e-12);
+    }
+  }
+}
+
+// With a soft joint the rows are rigid and the first frequency is that of the joint, which goes
+// with the root of its stiffness.
+TEST(SpringsPart, StiffnessOfTheJointDecides) {
+  double last = 0.0;
+  for (const double factor : {1e-3, 1e-1, 10.0}) {
+    FeModel model = jointed();
+    for (Spring& s : model.springs) s.stiffness *= factor;
+    const ReducedPart part = reduce_part(model, held_at_the_end());
+    const double f = part.health.free_frequencies.at(0).full;
+    EXPECT_GT(f, 1.5 * last);
+    if (factor == 1e-1) {
+      EXPECT_NEAR(f / last, 10.0, 0.3);
+    }
+    last = f;
+  }
+}
+
+TEST(SpringsPart, AnEndMayBeAnInterface) {
+  PartOptions options = held_at_the_end();
+  InterfaceDescription mount;
+  mount.name = "mount";
+  mount.choice.by = NodeChoice::By::node;
+  mount.choice.number = 43;
+  options.interfaces.push_back(mount);
+  const ReducedPart part = reduce_part(jointed(), options);
+  EXPECT_LT(part.health.interfaces.at(1).static_error, 1e-6);
+  EXPECT_EQ(part.body.nodes.at(1).name, "mount");
+}
+
+TEST(SpringsPart, Errors) {
+  FeModel grounded = jointed();
+  Vec6 k = Vec6::Constant(1e6);
+  add_bushing(grounded, 40, -1, Vec3::Zero(), Mat3::Identity(), k, "CBUSH 7", {});
+  EXPECT_NE(error_of([&] {
+              reduce_part(grounded, held_at_the_end());
+            }).find("CBUSH 7 ties node 40 to the ground"),
+            std::string::npos);
+  // A bushing at a node without rotations turns with nothing.
+  FeModel loose = jointed();
+  loose.springs.resize(6);
+  k << 1e8, 2e8, 3e8, 1e5, 2e5, 3e5;
+  add_bushing(loose, 37, 42, loose.positions[37], Mat3::Identity(), k, "mount", {});
+  PartOptions options = held_at_the_end();
+  options.interfaces.push_back({});
+  options.interfaces[1].name = "mount";
+  options.interfaces[1].choice.by = NodeChoice::By::node;
+  options.interfaces[1].choice.number = 43;
+  const std::string what = error_of([&] { reduce_part(loose, options); });
+  EXPECT_NE(what.find("interface 'mount': node 42 can move without resistance in"),
+            std::string::npos)
+      << what;
+  // A spring across the line of its nodes.
+  FeModel across = jointed();
+  Spring s;
+  s.nodes = {0, 36};
+  s.directions[0].head<3>() = -Vec3::UnitY();
+  s.directions[1].head<3>() = Vec3::UnitY();
+  s.stiffness = 1e9;
+  across.springs.push_back(s);
+  const std::string text = error_of([&] { reduce_part(across, held_at_the_end()); });
+  EXPECT_NE(text.find("rigid motions cause forces of"), std::string::npos) << text;
+  // Without its turns the joint is a mechanism.
+  FeModel hinge = jointed();
+  std::erase_if(hinge.springs, [](const Spring& spring) {
+    return spring.directions[0].head<3>().isZero(0.0) && spring.nodes[0] == 40;
+  });
+  EXPECT_NE(error_of([&] { reduce_part(hinge, held_at_the_end()); }), "no error");
+}
+
+}  // namespace
+}  // namespace floatframe::test
