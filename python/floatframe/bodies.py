@@ -236,7 +236,8 @@ class Body:
     `projection` makes the projection method possible. Integrals that no body can have are InputError.
     """
 
-    __slots__ = ("_core", "_part", "__weakref__")
+    __slots__ = ("_core", "_part", "_frequencies", "__weakref__")
+    _frequencies: Array
 
     def __init__(
         self,
@@ -304,7 +305,11 @@ class Body:
     @property
     def frequencies(self) -> Array:
         """Of each mode alone, sqrt(K_kk / M_kk) / 2 pi, shape (modes,) [Hz]."""
-        return self._core.frequencies
+        try:
+            return self._frequencies
+        except AttributeError:
+            self._frequencies = self._core.frequencies
+            return self._frequencies
 
     @property
     def nodes(self) -> Mapping[str, Node]:

@@ -100,10 +100,11 @@ class Model:
         """folder: from which files that the model names are read; the working folder if none is given."""
         self.data: dict[str, Any] = {"floatframe": 1, "name": name}
         self._path: str | None = None  # of a model file
+        self._home = ""  # working folder at that time
         self._text: str | None = None  # of a model from a text
         self._folder = path_of("folder", folder) if folder is not None else ""
         self._parameters: dict[str, str] = {}
-        self._built: tuple[str | None, _core.Model] | None = None
+        self._built: tuple[str | None, _core.LoadedModel] | None = None
 
     @classmethod
     def load(cls, path: PathLike, /, **parameters: Any) -> Model:
@@ -111,6 +112,7 @@ class Model:
         line, column, sentence."""
         model = cls()
         model._path = path_of("path", path)
+        model._home = os.getcwd()
         return model._with(parameters)
 
     @classmethod
@@ -142,12 +144,12 @@ class Model:
         return self._path is None and self._text is None
 
     @property
-    def core(self) -> _core.Model:
+    def core(self) -> _core.LoadedModel:
         """The built model of the C++ library."""
         parameters = list(self._parameters.items())
         if self._path is not None:
             if self._built is None:
-                self._built = None, _core.load_model(self._path, parameters)
+                self._built = None, _core.load_model(self.file, parameters)
             return self._built[1]
         text = self.to_yaml()
         if self._built is None or self._built[0] != text:
@@ -157,7 +159,9 @@ class Model:
     @property
     def file(self) -> str:
         """The model file, or what stands for it in messages."""
-        return self._path if self._path is not None else os.path.join(self._folder, "<model>")
+        if self._path is None:
+            return os.path.join(self._folder, "<model>")
+        return self._path if os.getcwd() == self._home else os.path.join(self._home, self._path)
 
     @property
     def parameters(self) -> dict[str, str]:
@@ -165,9 +169,10 @@ class Model:
         return dict(self._parameters)
 
     def to_yaml(self) -> str:
-        """The text of its model file, which `floatframe run` reads; for a model that was loaded, the text of the file."""
+        """The text of its model file, which `floatframe run` reads; for a model that was loaded, the text
+        of the file, in which parameters have its own values (those that were given are `parameters`)."""
         if self._path is not None:
-            return Path(self._path).read_text(encoding="utf-8")
+            return Path(self.file).read_text(encoding="utf-8")
         return self._text if self._text is not None else to_yaml(self.data)
 
     def _section(self, key: str) -> Section:
@@ -251,7 +256,7 @@ class Model:
         return {**self.__dict__, "_built": None}
 
 
-def built(model: Model) -> _core.Model:
+def built(model: Model) -> _core.LoadedModel:
     """The built model of the C++ library; InputError for what is no model."""
     if not isinstance(model, Model):
         raise InputError(f"found {type(model).__name__}, expected a floatframe.Model")

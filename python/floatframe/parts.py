@@ -38,8 +38,9 @@ class Part:
     body frame. Parts are copied (nothing is: they never change), and pickled as body files.
     """
 
-    __slots__ = ("_held", "__weakref__")
+    __slots__ = ("_held", "_frequencies", "__weakref__")
     _held: _core.Part
+    _frequencies: Array
 
     def __init__(self) -> None:
         raise TypeError("parts are made by floatframe.reduce and floatframe.read_body")
@@ -63,7 +64,11 @@ class Part:
     @property
     def frequencies(self) -> Array:
         """Of each mode alone, shape (modes,) [Hz]. Those of the free part are in `report.free_frequencies`."""
-        return self.body.frequencies
+        try:
+            return self._frequencies
+        except AttributeError:
+            self._frequencies = self.body.frequencies
+            return self._frequencies
 
     @property
     def report(self) -> Report:

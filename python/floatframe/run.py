@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from .arrays import path
-from .errors import UnknownNameError
+from .errors import OutputError, UnknownNameError
 from .model import Model, built
 from .progress import Bar
 from .options import Array, Options, as_dict
@@ -73,10 +73,26 @@ class Result(Mapping[str, Array]):
 
     def save(self, folder: str | os.PathLike[str]) -> str:
         """Writes results.csv, states.ffr, report.html and summary.json into a folder, as `floatframe run --out` does; all
-        commands that read results read these. Returns the folder."""
+        commands that read results read these. A model that was made in Python is written beside them (model.yaml); if it names
+        files, commands need its place among these: `--model`. Returns the folder."""
         where = path("folder", folder)
-        self._core.save(self._model.core, where)
+        model, file = self._model.core, self._model.file
+        if self._model.file.endswith("<model>"):
+            model, file = self._written(where, model)
+        self._core.save(model, where, file)
         return where
+
+    def _written(self, folder: str, model: _core.LoadedModel) -> tuple[_core.LoadedModel, str]:
+        """The model file of a model that has none, beside the results; if it names no files, they are of this file."""
+        file = os.path.join(folder, "model.yaml")
+        try:
+            os.makedirs(folder, exist_ok=True)
+            Path(file).write_text(self._model.to_yaml(), encoding="utf-8")
+        except OSError as error:
+            raise OutputError(f"the model of the run cannot be written: {error}") from None
+        if len(model.files) > 1:
+            return model, self._model.file
+        return _core.load_model(file, list(self._model.parameters.items())), file
 
     def plot(self, names: Sequence[str] | str | None = None, *, axes: Any = None) -> Any:
         """Curves of outputs over the time by matplotlib, one picture for each unit; returns its axes, shape (units,). names:
@@ -106,6 +122,9 @@ class Result(Mapping[str, Array]):
         """Where the run came to, for another one to start from: `ff.run(model, start=res.state)`."""
         return self._core.state
 
+    def __reduce_ex__(self, protocol: object) -> str:
+        raise TypeError("a result is not copied or pickled; save() writes its files, to_pandas() is a table of its own")
+
     def __repr__(self) -> str:
         return f"<floatframe.Result of '{self.name}': {len(self.table)} samples, {self.summary['status']}>"
 
@@ -130,3 +149,11 @@ def run(
     with Bar(progress) as bar:
         settings = [f"{name}={value}" for name, value in model.parameters.items()]
         return Result(_core.run(core, duration, bar.show, as_dict(options), model.file, settings), model)
+
+
+def state_again(text: str) -> _core.State:
+    """A state that was pickled."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "state.json")
+        file.write_text(text, encoding="utf-8")
+        return _core.State.load(str(file))

@@ -17,6 +17,11 @@ namespace nb = nanobind;
 
 namespace floatframe::python {
 
+/// As Python has it.
+struct LoadedModel : Model {
+  ModelSource source;
+};
+
 void bind_errors(nb::module_& m);
 void bind_version(nb::module_& m);
 void bind_model(nb::module_& m);

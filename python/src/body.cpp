@@ -3,6 +3,7 @@
 #include <nanobind/stl/tuple.h>
 
 #include <limits>
+#include <sstream>
 
 #include "views.hpp"
 
@@ -79,6 +80,9 @@ ProjectionPtr make_projection(const Points& p, const AnyNumbers& X, const Indice
   }
   data->M_s.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   data->M_s.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> turned = data->M_s.transpose();
+  require((data->M_s - turned).norm() <= 1e-9 * data->M_s.norm(),
+          "M_s: found a matrix that is not symmetric, expected the mass matrix of nodes");
   return data;
 }
 
@@ -112,6 +116,39 @@ MatX modal_matrix(const char* name, const AnyNumbers& a, int modes) {
   return matrix_of(a.data(), nm, nm);
 }
 
+/// Mass of all nodes and its first moment, from the translations of a projection.
+std::pair<double, Vec3> mass_of(const ProjectionData& d) {
+  const auto& M = d.six_dof() ? d.M_6 : d.M_s;
+  const Eigen::Index stride = d.six_dof() ? 6 : 1;
+  double mass = 0.0;
+  Vec3 moment = Vec3::Zero();
+  for (Eigen::Index row = 0; row < M.rows(); row += stride)
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(M, row); it; ++it) {
+      if (it.col() % stride != 0) continue;
+      mass += it.value();
+      moment += it.value() * d.p.col(row / stride);
+    }
+  return {mass, moment};
+}
+
+/// Nodes of the same body: mass and centre fit (lumped masses may move the centre a little).
+void require_same_body(const InertiaInvariants& v, const ProjectionData& d) {
+  const auto [mass, moment] = mass_of(d);
+  const auto text = [](double x) {
+    std::ostringstream out;
+    out << x;
+    return out.str();
+  };
+  require(std::abs(mass - v.m) <= 1e-3 * std::abs(v.m),
+          "projection: found nodes with a mass of " + text(mass) + " kg, expected " + text(v.m) +
+              " kg, that of the invariants");
+  const Vec3 extent = d.p.rowwise().maxCoeff() - d.p.rowwise().minCoeff();
+  const double off = (moment / mass - v.m_u / v.m).norm();
+  require(off <= 1e-2 * extent.norm() + 1e-9 * d.p.cwiseAbs().maxCoeff(),
+          "projection: found nodes whose centre of mass is " + text(off) +
+              " m from that of the invariants");
+}
+
 BodyPtr make_body(const InvariantsPtr& invariants, const std::optional<AnyNumbers>& K,
                   const std::optional<AnyNumbers>& D,
                   const std::optional<ProjectionPtr>& projection) {
@@ -124,6 +161,7 @@ BodyPtr make_body(const InvariantsPtr& invariants, const std::optional<AnyNumber
   if (projection && *projection) {
     require((*projection)->X.cols() == nm,
             "projection: expected as many modes as the invariants have");
+    require_same_body(body->invariants, **projection);
     body->projection = *projection;
   }
   std::string found;

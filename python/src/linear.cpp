@@ -83,8 +83,9 @@ void bind_modes(nb::module_& m) {
       .def_prop_ro(
           "damping", [](const Mode& x) { return x.mode.damping(); }, "Ratio; 1: critical.")
       .def_prop_ro(
-          "z", [](const Mode& x) -> const Eigen::VectorXcd& { return x.mode.z; },
-          nb::rv_policy::reference_internal, "In the states of the system, |z| = 1, shape (nz,).")
+          "z",
+          [](const nb::handle self) { return view_of(nb::cast<const Mode&>(self).mode.z, self); },
+          nb::rv_policy::reference, "In the states of the system, |z| = 1, shape (nz,).")
       .def_prop_ro(
           "kinetic", [](const Mode& x) { return shares(x.bodies, x.parts.kinetic); },
           "Share of each body in the kinetic energy.")

@@ -25,6 +25,15 @@ std::vector<std::pair<std::string, std::string>> units_of(const Model& model) {
   return units;
 }
 
+/// A model with what it was read from.
+LoadedModel loaded(const std::function<ModelDescription(ModelSource&)>& read) {
+  ModelSource source;
+  LoadedModel out;
+  static_cast<Model&>(out) = build_model(read(source));
+  out.source = std::move(source);
+  return out;
+}
+
 }  // namespace
 
 void bind_model(nb::module_& m) {
@@ -38,13 +47,20 @@ void bind_model(nb::module_& m) {
       .def_prop_ro("output_units", units_of)
       .def_prop_ro("step", [](const Model& model) { return model.simulation.step; })
       .def_prop_ro("duration", [](const Model& model) { return model.simulation.duration; });
+  nb::class_<LoadedModel, Model>(m, "LoadedModel")
+      .def_prop_ro("files", [](const LoadedModel& model) {
+        std::vector<std::string> files;
+        for (const auto& [file, hash] : model.source.files) files.push_back(file);
+        return files;
+      });
   m.def(
       "read_model",
       [](const std::string& text, const std::string& path,
          const std::vector<std::pair<std::string, std::string>>& given) {
         const std::vector<ParameterOverride> parameters = overrides(given);
         Unlocked released;
-        return build_model(read_description(text, path, parameters));
+        return loaded(
+            [&](ModelSource& source) { return read_description(text, path, parameters, &source); });
       },
       nb::arg("text"), nb::arg("path"), nb::arg("parameters"));
   m.def(
@@ -52,7 +68,8 @@ void bind_model(nb::module_& m) {
       [](const std::string& path, const std::vector<std::pair<std::string, std::string>>& given) {
         const std::vector<ParameterOverride> parameters = overrides(given);
         Unlocked released;
-        return load_model(path, parameters);
+        return loaded(
+            [&](ModelSource& source) { return load_description(path, parameters, &source); });
       },
       nb::arg("path"), nb::arg("parameters"));
 }

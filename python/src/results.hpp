@@ -1,8 +1,6 @@
 #pragma once
 // Members of plain structs as attributes: matrices and vectors as arrays that look at the struct
 // and keep it alive.
-#include <nanobind/eigen/dense.h>
-
 #include "bindings.hpp"
 
 namespace floatframe::python {
@@ -26,10 +24,28 @@ void numbers(nb::class_<S>& c, const char* name, std::vector<double> S::*member,
       nb::rv_policy::reference, doc);
 }
 
+/// Numbers of a result as an array of numpy that keeps it alive and cannot be written to.
+template <class T>
+auto view_of(const T& a, const nb::handle owner) {
+  using Scalar = typename T::Scalar;
+  static const Scalar nothing{};
+  const auto rows = static_cast<std::size_t>(a.rows());
+  const Scalar* data = a.size() > 0 ? a.data() : &nothing;
+  if constexpr (T::ColsAtCompileTime == 1)
+    return nb::ndarray<nb::numpy, const Scalar, nb::ndim<1>>(data, {rows}, owner);
+  else
+    return nb::ndarray<nb::numpy, const Scalar, nb::ndim<2>>(
+        data, {rows, static_cast<std::size_t>(a.cols())}, owner,
+        {1, static_cast<std::int64_t>(a.rows())});
+}
+
 /// A matrix or vector as an array.
 template <class S, class T>
 void array(nb::class_<S>& c, const char* name, T S::*member, const char* doc) {
-  c.def_ro(name, member, doc);
+  c.def_prop_ro(
+      name,
+      [member](const nb::handle self) { return view_of(nb::cast<const S&>(self).*member, self); },
+      nb::rv_policy::reference, doc);
 }
 
 }  // namespace floatframe::python

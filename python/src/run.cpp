@@ -6,7 +6,7 @@
 namespace floatframe::python {
 namespace {
 
-std::shared_ptr<KeptRun> run_model(const Model& model, const nb::object& duration,
+std::shared_ptr<KeptRun> run_model(const LoadedModel& model, const nb::object& duration,
                                    const nb::object& progress, const Keywords& given,
                                    const std::string& model_file,
                                    const std::vector<std::string>& settings) {
@@ -30,6 +30,7 @@ std::shared_ptr<KeptRun> run_model(const Model& model, const nb::object& duratio
   if (!progress.is_none()) progress(1.0);
   result->model_file = model_file;
   result->settings = settings;
+  result->source = model.source;
   return result;
 }
 
@@ -64,8 +65,13 @@ void bind_run(nb::module_& m) {
                    })
       .def_prop_ro("summary_json", [](const KeptRun& r) { return summary_json(r.result.summary); })
       .def_prop_ro("results_csv", [](const KeptRun& r) { return results_csv(r.result.table); })
-      .def("save", [](const KeptRun& r, const Model& model, const std::string& folder) {
-        save_run(model, r, folder);
+      .def("save", [](const KeptRun& r, const LoadedModel& model, const std::string& folder,
+                      const std::string& model_file) {
+        KeptRun run = r;
+        run.model_file = model_file;
+        run.source = model.source;
+        Unlocked released;
+        save_run(model, run, folder);
       });
   m.def("run", run_model, nb::arg("model"), nb::arg("duration").none(), nb::arg("progress").none(),
         nb::arg("options"), nb::arg("model_file"), nb::arg("settings"));

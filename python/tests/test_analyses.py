@@ -46,8 +46,7 @@ def test_mass(iltis):
 
 def test_matrices_share_the_memory_of_the_result(iltis):
     linear = ff.linearize(iltis, start="equilibrium")
-    linear.M[0, 1] = 7.0
-    assert linear.M[0, 1] == 7.0 and np.shares_memory(linear.M, linear.M)
+    assert np.shares_memory(linear.M, linear.M)
     k, copy = linear.K, linear.K.copy()
     del linear
     gc.collect()

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "floatframe/model/model.hpp"
+#include "floatframe/model/model_source.hpp"
 #include "floatframe/model_file/parameter_override.hpp"
 
 namespace floatframe {
@@ -11,12 +12,14 @@ namespace floatframe {
 /// Reads a model file (docs/model-file.md) and the files it refers to. Throws InputError with
 /// every error found, each with file, line and column.
 ModelDescription load_description(const std::string& path,
-                                  const std::vector<ParameterOverride>& parameters = {});
+                                  const std::vector<ParameterOverride>& parameters = {},
+                                  ModelSource* source = nullptr);
 
 /// The same of the text of a model file. `path` stands for it in messages, and files that it names
 /// are relative to the folder of `path`.
 ModelDescription read_description(const std::string& text, const std::string& path,
-                                  const std::vector<ParameterOverride>& parameters = {});
+                                  const std::vector<ParameterOverride>& parameters = {},
+                                  ModelSource* source = nullptr);
 
 /// As `load_description`, built.
 Model load_model(const std::string& path, const std::vector<ParameterOverride>& parameters = {});

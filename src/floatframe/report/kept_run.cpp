@@ -17,6 +17,7 @@
 #include "floatframe/report/run_page.hpp"
 #include "floatframe/report/scene_frames.hpp"
 #include "floatframe/report/scene_json.hpp"
+#include "floatframe/report/scene_loads.hpp"
 #include "floatframe/report/summary_json.hpp"
 #include "floatframe/simulation/state_layout.hpp"
 
@@ -47,12 +48,27 @@ KeptRun run_and_keep(const Model& model, const SimulationDescription& options,
 
 namespace {
 
-void write_kept_states(const std::string& path, const Model& model, const KeptRun& run) {
+/// The model file as one finds it from the folder of the results.
+std::string from_folder(const std::string& model_file, const std::string& folder) {
+  if (model_file.empty()) return "";
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(model_file, ignored)
+      .lexically_relative(std::filesystem::weakly_canonical(folder, ignored))
+      .string();
+}
+
+void write_kept_states(const std::string& folder, const std::string& path, const Model& model,
+                       const KeptRun& run) {
   HistoryOrigin origin;
   origin.program = version();
   origin.library = build_description();
   origin.model_file = run.model_file;
   origin.settings = run.settings;
+  if (!run.source.files.empty()) {
+    origin.from_here = from_folder(run.model_file, folder);
+    origin.files = run.source.relative;
+    origin.text = run.source.text;
+  }
   StatesFile file(path, history_content(model, run.options, run.states->layout, std::move(origin)),
                   false);
   file.append(run.states->rows);
@@ -75,7 +91,9 @@ std::string kept_page(const Model& model, const KeptRun& run, const RunSummary& 
   auto page = run_page(report, page_curves(report.result.table), buffer);
   if (run.states) {
     const StateHistory states(states_path);
-    page["scene"] = scene_json(model, scene_frames(model, states), buffer);
+    SceneFrames frames = scene_frames(model, states);
+    add_load_coefficients(model, states, run.options, frames);
+    page["scene"] = scene_json(model, frames, buffer);
     add_trust_curves(states, page["trust"], buffer);
   }
   return page_html(page_template(), page, buffer);
@@ -93,8 +111,9 @@ void save_run(const Model& model, const KeptRun& run, const std::string& folder)
   for (const char* name : {"run.checkpoint", "states.ffr", "report.html"}) remove_file(path(name));
   RunSummary summary = run.result.summary;
   summary.settings = run.settings;
+  summary.files = run.source.files;
   write_file(path("results.csv"), results_csv(run.result.table));
-  if (run.states) write_kept_states(path("states.ffr"), model, run);
+  if (run.states) write_kept_states(folder, path("states.ffr"), model, run);
   write_file(path("report.html"), kept_page(model, run, summary, path("states.ffr")));
   write_file(path("summary.json"), summary_json(summary));
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "floatframe/model/model.hpp"
+#include "floatframe/model/model_source.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -15,6 +16,7 @@ struct KeptRun {
   SimulationDescription options;
   std::string model_file;             ///< for the report; empty if there is none
   std::vector<std::string> settings;  ///< of parameters, "name=value"
+  ModelSource source;                 ///< of `model_file`; empty if it is not known
   struct States;
   std::shared_ptr<const States> states;  ///< null: the run kept none
 };
