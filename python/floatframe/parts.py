@@ -242,8 +242,8 @@ def reduce(
         "mass_form": mass_form,
         "grounded_springs": grounded_springs,
     }
-    texts = ("units", "method", "reference", "integration", "solver", "beam_shear", "shell_shear", "mass_form", "grounded_springs")
-    _expect_texts(options, texts)
+    words = ("beam_shear", "shell_shear", "mass_form", "grounded_springs")
+    _expect_texts(options, ("units", "method", "reference", "integration", "solver", *words))
     options |= _reading(format, dialect, contact, density, nodes, mass, dofs)
     chosen: dict[str, object] = {}
     for key, places in (("interfaces", interfaces), ("markers", markers)):
@@ -253,8 +253,7 @@ def reduce(
     if tell is not None and not callable(tell):
         raise InputError(f"progress: found {progress!r}, expected True, False or a function")
     if mesh:
-        of_files = ("format", "dialect", "contact", "density", "beam_shear", "shell_shear", "mass_form", "grounded_springs", "nodes")
-        for name in (*of_files, "mass", "dofs"):
+        for name in ("format", "dialect", "contact", "density", *words, "nodes", "mass", "dofs"):
             if options[name] is not None:
                 raise InputError(f"{name} says how files are read: found it for a mesh")
         model = fe_model(source, material, thickness, section, chosen)
