@@ -71,11 +71,13 @@ void bind_states(nb::module_& m) {
           nb::sig("def load(path: str | os.PathLike[str]) -> State"), nb::arg("path"),
           "A file of `floatframe run --write-state`, or of `to_json`.")
       .def("to_json", [](const SystemState& s) { return state_json(s); })
-      .def("__reduce__",
-           [](const SystemState& s) {
-             return nb::make_tuple(nb::module_::import_("floatframe.run").attr("state_again"),
-                                   nb::make_tuple(state_json(s)));
-           })
+      .def(
+          "__reduce__",
+          [](const SystemState& s) {
+            return nb::make_tuple(nb::module_::import_("floatframe.run").attr("state_again"),
+                                  nb::make_tuple(state_json(s)));
+          },
+          nb::sig("def __reduce__(self) -> tuple[object, tuple[str]]"))
       .def("__copy__", [](const SystemState& s) { return s; })
       .def("__deepcopy__", [](const SystemState& s, const nb::object&) { return s; })
       .def_ro("time", &SystemState::time, "[s]")

@@ -1,0 +1,117 @@
+"""A script of a user that uses the whole interface passes `mypy --strict`."""
+
+import os
+import pathlib
+import subprocess
+import sys
+
+import floatframe as ff
+import pytest
+
+SCRIPT = '''
+import numpy as np
+import numpy.typing as npt
+import floatframe as ff
+
+Array = npt.NDArray[np.float64]
+
+model: ff.Model = ff.Model.load(ff.example("iltis"), speed=10)
+filled = ff.Model("pendulum", folder=".")
+filled.points.add("hinge", [0, 0, 0])
+filled.simulation.update(step=1e-3)
+text: str = filled.to_yaml()
+copies = ff.Model.from_yaml(text), ff.Model.from_dict({"bodies": {}})
+
+result: ff.Result = ff.run(model, step=0.01, duration=1.0, progress=print, start="equilibrium", locate_edges=True)
+z: Array = result["chassis.z"]
+largest: float = float(z.max())
+status: object = result.summary["status"]
+folder: str = result.save("out")
+again = ff.run(model, start=result.state)
+
+sim = ff.Simulation(model, step=1e-3, coordinates="absolute", inertia="projection")
+report: ff.StepReport = sim.step()
+sim.step(2e-3)
+sim.inputs["damper"] = 300.0
+value: float = sim.outputs["chassis.z"] + sim.time + report.time
+
+
+def controller(time: float, outputs: Array, inputs: Array) -> None:
+    inputs[0] = -900.0 * outputs[0]
+
+
+sim.on_step(controller)
+sim.law("damper", lambda time, v: -900.0 * v, of=["chassis.z"])
+saved: ff.SimulationState = sim.save()
+sim.restore(ff.SimulationState.from_bytes(saved.to_bytes()))
+state: ff.State = sim.state()
+position: Array = state.bodies["chassis"]["position"]
+sim.restore(saved)
+
+M = ff.linearize(model).M
+a: Array = np.asarray(ff.linear_system(model).A)
+frequencies: list[float] = [mode.frequency for mode in ff.modes(model)]
+g: npt.NDArray[np.complex128] = ff.frequency_response(model, [1.0, 2.0], ["a"], ["b"])
+A = ff.linear_model(model, ["a"], ["b"]).state_space().A
+rms: float = ff.road_response(model, ["chassis.z"], np.linspace(1, 10, 5), speed=10.0).outputs[0].rms
+line = ff.campbell(model, "motor", 0.0, 100.0, 10.0, axis=(0, 0, 1), orders=[1.0]).lines[0].eigenvalues
+force = ff.statics(model).joints[0].force
+mass: float = ff.mass_properties(model).mass
+counts: int = ff.check(model).degrees_of_freedom
+bodies = ff.advise(model).bodies, ff.model_order(model, below=30.0).bodies
+names: list[str] = ff.linear_inputs(model)
+table = ff.sweep(model, speed=np.linspace(3, 8, 11), processes=4, measure=["chassis.z:max"], folder="study")
+runs = ff.sweep(model, runs=[{"speed": 3}])
+
+points: Array = np.zeros((8, 3))
+mesh = ff.Mesh(points, [("hex8i", np.arange(8)[None])], {"END": points[:, 0] < 1e-6})
+steel = ff.Material(2.1e11, 0.3, 7850.0)
+places = {"A": ff.set("A"), "B": ff.plane([0, 0, 0], "x"), "C": ff.cylinder([0, 0, 0], "z", 1.0, dofs="xyz"), "D": ff.sphere([0, 0, 0], 1.0),
+          "E": ff.nodes(points[:, 0] < 1e-6)}
+marks = {"M": ff.nearest([0, 0, 0], residual=True), "N": ff.node(3)}
+part: ff.Part = ff.reduce(mesh, material=steel, interfaces=places, markers=marks, modes=10, progress=True)
+part.save("part.ffb")
+own: Array = part.frequencies
+heaviest: float = ff.read_body("part.ffb").invariants.m
+shape: Array = part.mode_shapes
+inertia, forces = part.body.inertia(np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3), method="projection", coordinates="absolute")
+body = ff.Body(ff.Invariants.rigid(1.0, [0, 0, 0], np.eye(3)))
+p = ff.Projection(points, np.zeros((8, 3, 2)), np.eye(8))
+k: Array = ff.Body(p.invariants(), K=np.eye(2), projection=p).K
+summary: str = str(ff.info("part.ffb"))
+health: str = str(part.report)
+version: str = ff.version() + ff.__version__ + ff.build_info()["version"] + ff.program()
+
+try:
+    ff.run(model)
+except ff.UnknownNameError as unknown:
+    print(unknown.errors[0].message)
+except ff.InputError as error:
+    for entry in error.errors:
+        print(entry.file, entry.line + entry.column, entry.message)
+except (ff.RunError, ff.OutputError):
+    pass
+except ff.StepError as failed:
+    print(failed.status, failed.where, failed.time)
+'''
+
+
+def mypy(tmp_path, text):
+    pytest.importorskip("mypy")
+    (tmp_path / "script.py").write_text(text)
+    source = os.path.abspath(pathlib.Path(ff.__file__).parents[1])
+    source = "" if source.endswith("-packages") else source  # mypy finds what is installed
+    command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(tmp_path / "cache"), "script.py"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, env={**os.environ, "MYPYPATH": source})
+    return done.stdout + done.stderr
+
+
+def test_a_script_of_a_user(tmp_path):
+    text = mypy(tmp_path, SCRIPT)
+    assert "Success" in text, text
+    missing = [name for name in ff.__all__ if f"ff.{name}" not in SCRIPT]
+    assert set(missing) <= {"BeamSection", "Error", "ErrorEntry", "FileInfo", "Node", "Options", "Place", "Report", "set"}, missing
+
+
+def test_mistakes_are_found(tmp_path):
+    assert "arg-type" in mypy(tmp_path, "import floatframe as ff\nff.run(3)\n")
