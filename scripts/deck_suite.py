@@ -5,6 +5,7 @@
     --program FILE, --modes FILE                 build/floatframe, build/tests/deck_modes
     --free                                       free modes against CalculiX (ccx) on the converted deck
     --reference                                  modes of *FREQUENCY decks against their .dat.ref
+    --options "..."                              options of all programs; of CalculiX' suite "--dialect calculix"
     --require NAME=NUMBER ...                    exit code 1 if a count is smaller
     --json FILE, --list                          all results; every deck with what became of it
 
@@ -58,8 +59,8 @@ def reason(errors):
 
 
 class Deck:
-    def __init__(self, path, program, modes):
-        self.path, self.program, self.modes = path, program, modes
+    def __init__(self, path, arguments):
+        self.path, self.program, self.modes, self.options = path, arguments.program, arguments.modes, arguments.options
         self.name = path.name.removesuffix(".gz")
         self.text = (gzip.open(path, "rt", errors="replace") if path.suffix == ".gz" else open(path, errors="replace")).read()
         self.result = {"deck": self.name}
@@ -72,7 +73,7 @@ class Deck:
         r = self.result
         r["elastic"] = bool(STRUCTURE.search(self.text)) and self.has(r"^\*\s*ELASTIC")
         r["density"] = self.has(r"^\*\s*DENSITY")
-        for kind, options in (("read", ()), ("contact", CONTACT)):
+        for kind, options in (("read", self.options), ("contact", (*self.options, *CONTACT))):
             code, text, errors = call([self.program, "info", self.path, *options])
             if code is None or code < 0 or code > 2:
                 r["state"], r["why"] = ("slow", "") if code is None else ("crashed", f"exit code {code}")
@@ -203,7 +204,7 @@ def compare_reference(deck, options, folder):
     copy = pathlib.Path(folder, "held.inp")
     copy.write_text(held_deck(deck.text))
     code, text, errors = call([deck.modes, "modes", copy, "--ccx", "--held", "--modes", "30", "--mass-form", "consistent",
-                               "--dialect", "calculix", *options])
+                               *options])
     if code != 0:
         r["reference"] = "no modes: " + (reason(errors) if code else "too slow")
         return
@@ -214,7 +215,7 @@ def compare_reference(deck, options, folder):
 
 
 def tried(path, arguments):
-    deck = Deck(path, arguments.program, arguments.modes)
+    deck = Deck(path, arguments)
     options = deck.read()
     if deck.result["elastic"]:
         with tempfile.TemporaryDirectory() as folder:
@@ -273,11 +274,14 @@ def main():
     parser.add_argument("--free", action="store_true")
     parser.add_argument("--reference", action="store_true")
     parser.add_argument("--require", nargs="*", default=[])
+    parser.add_argument("--options", type=lambda text: tuple(text.split()))
     parser.add_argument("--json", type=pathlib.Path)
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     arguments.program, arguments.modes = arguments.program.resolve(), arguments.modes.resolve()
+    if arguments.options is None:
+        arguments.options = ("--dialect", "calculix") if arguments.folder.resolve() == SUITE.resolve() else ()
     decks = sorted(p for p in arguments.folder.rglob("*") if p.name.endswith((".inp", ".inp.gz")))
     if not decks:
         sys.exit(f"{arguments.folder}: found no decks (.inp, .inp.gz); CalculiX' are in Debian's package calculix-ccx-test")

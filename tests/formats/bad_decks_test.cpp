@@ -58,8 +58,6 @@ const Case decks[] = {
     {"element_cut_off", "=*NODE\n1, 0., 0., 0.\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3,",
      "bad.inp:4: element 1 (C3D4) has 3 nodes, expected 4"},
     {"too_few_nodes", "7: 1, 1, 2, 3", "bad.inp:7: element 1 (C3D4) has 3 nodes, expected 4"},
-    {"too_many_nodes", "7: 1, 1, 2, 3, 4, 1",
-     "bad.inp:7: element 1 (C3D4) has 5 nodes, expected 4"},
     {"missing_node_of_element", "5:", "bad.inp:6: element 1 (C3D4): node 4 does not exist"},
     {"missing_node_of_set", "+*NSET, NSET=HOLE\n1, 2, 17\n", "bad.inp:15: node 17 does not exist"},
     {"missing_set", "+*NSET, NSET=HOLE\n1, 2\n*BOUNDARY\nHOLES, 1, 3\n",

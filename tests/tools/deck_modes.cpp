@@ -68,8 +68,14 @@ SparseMatrix chosen(const SparseMatrix& A, const std::vector<int>& rows) {
 
 int show(const Arguments& a) {
   const PartJob job = a.reading.job();
-  const FeModel model = read_fe_file(a.file, job.read, job.format);
+  FeModel model = read_fe_file(a.file, job.read, job.format);
   validate(model);
+  if (a.held) {  // nodes with a name keep their rows, those that only springs hold as well
+    model.node_names.resize(model.positions.size());
+    for (const Support& s : model.supports)
+      if (model.node_names[static_cast<std::size_t>(s.node)].empty())
+        model.node_names[static_cast<std::size_t>(s.node)] = fmt::format("held {}", s.node);
+  }
   const FeSystem system = assemble(model, a.ccx ? Integration::ccx : Integration::exact);
   std::vector<int> rows;
   if (a.held) {

@@ -1,6 +1,7 @@
-// *BEAM SECTION. Abaqus and CalculiX agree on RECT, PIPE (radius, wall) and BOX. CIRC has a radius
-// in Abaqus and one or two diameters in CalculiX (two: an ellipse); a RECT with one number is a
-// square in CalculiX. CalculiX takes CIRC for elements of three nodes only, PIPE and BOX for B32R.
+// *BEAM SECTION, and *BEAM GENERAL SECTION as CalculiX has it. Abaqus and CalculiX agree on RECT,
+// PIPE (radius, wall) and BOX. CIRC has a radius in Abaqus and one or two diameters in CalculiX
+// (two: an ellipse); a RECT with one number is a square in CalculiX. CalculiX takes CIRC for
+// elements of three nodes only, PIPE and BOX for B32R.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -114,9 +115,17 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "SECTION", "OFFSET1", "OFFSET2",
                              "TEMPERATURE", "POISSON"});
   no_offset(lines, keyword);
+  if (keyword.name == "BEAMGENERALSECTION" && !keyword.has("MATERIAL")) {
+    lines.error(keyword,
+                "has no MATERIAL, as in Abaqus, which is not supported: use *BEAM SECTION");
+    return lines.skip_data();
+  }
   section.shape = abaqus_name(lines.required(keyword, "SECTION"));
-  const auto shape = std::find_if(shapes.begin(), shapes.end(),
-                                  [&](const Shape& s) { return section.shape == s.name; });
+  // RECTANGULAR as well.
+  const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const Shape& s) {
+    return section.shape.starts_with(s.name);
+  });
+  if (shape != shapes.end()) section.shape = shape->name;
   if (shape == shapes.end() && !section.shape.empty()) {
     lines.error(keyword, fmt::format("has the section {}, expected RECT, CIRC, PIPE or BOX",
                                      shown(section.shape)));

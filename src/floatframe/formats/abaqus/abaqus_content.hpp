@@ -216,6 +216,7 @@ struct AbaqusContent {
   std::vector<AbaqusSpring> springs;
   std::vector<AbaqusTransform> transforms;
   std::vector<std::string> notes;
+  void note(const SourceMark& mark, const std::string& text);
   DeckContact contact = DeckContact::refuse;  ///< as the user says
   double contact_distance = 0.0;
   DeckDialect dialect = DeckDialect::by_content;  ///< as the user says

@@ -1,6 +1,7 @@
 // Nodes, elements, sets and surfaces of Abaqus decks.
 #include <fmt/format.h>
 
+#include "floatframe/core/plural.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/abaqus/abaqus_content.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -11,6 +12,10 @@ int AbaqusContent::intern(std::string name) {
   const auto [it, added] = name_of_text.emplace(std::move(name), static_cast<int>(names.size()));
   if (added) names.push_back(it->first);
   return it->second;
+}
+
+void AbaqusContent::note(const SourceMark& mark, const std::string& text) {
+  notes.push_back(fmt::format("{}:{}: {}", mark.file, mark.line, text));
 }
 
 AbaqusReference AbaqusContent::reference(std::string_view field, const FeSource& at) {
@@ -158,6 +163,8 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
   AbaqusSet* const set = set_of_parameter(content.node_sets, keyword, "NSET", content);
   lines.take_input(keyword);
   std::vector<std::string_view> fields;
+  long further = 0;
+  FeSource first_further;
   while (lines.next_fields(fields)) {
     const FeSource at = lines.source().here();
     const std::optional<int> id = parse_label(fields[0]);
@@ -165,12 +172,10 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
       lines.source().error("node number: " + not_an_integer(fields[0]));
       continue;
     }
+    // Direction cosines of shells and beams in Abaqus; CalculiX looks at nothing there.
     if (fields.size() > 4) {
-      lines.source().error(
-          fmt::format("node {} has {} fields, expected its number and three "
-                      "coordinates",
-                      *id, fields.size()));
-      continue;
+      if (further++ == 0) first_further = at;
+      fields.resize(4);
     }
     AbaqusNode node{*id, content.scope, Vec3::Zero(), at};
     for (std::size_t k = 1; k < fields.size(); ++k) {
@@ -194,6 +199,11 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
     content.nodes.push_back(node);
     if (set != nullptr) set->items.push_back(number(*id, content.scope, at));
   }
+  if (further > 0) {
+    content.note(lines.source().mark(first_further),
+                 fmt::format("what stands behind the coordinates of {} is passed over",
+                             plural(further, "node")));
+  }
 }
 
 void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
@@ -212,6 +222,8 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
   lines.take_input(keyword);
   std::vector<std::string_view> fields;
   const std::size_t count = type->nodes + 1;
+  long further = 0;
+  FeSource first_further;
   FeSource at;
   while (element_fields(lines, count, fields, at)) {
     const std::optional<int> id = parse_label(fields[0]);
@@ -225,6 +237,10 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                            "is not supported: give the direction in *BEAM SECTION",
                                            *id, type->name));
       continue;
+    }
+    if (fields.size() > count && type->family == AbaqusType::Family::solid) {
+      if (further++ == 0) first_further = at;
+      fields.resize(count);
     }
     if (fields.size() != count) {
       lines.source().error(at, fmt::format("element {} ({}) has {} nodes, expected {}", *id,
@@ -252,6 +268,13 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
     }
     content.elements.push_back(element);
     if (set != nullptr) set->items.push_back(number(*id, content.scope, at));
+  }
+  if (further > 0) {
+    content.note(
+        lines.source().mark(first_further),
+        fmt::format("{} of type {} with more than {} nodes: the others are passed over, as "
+                    "CalculiX does",
+                    plural(further, "element"), type->name, type->nodes));
   }
 }
 

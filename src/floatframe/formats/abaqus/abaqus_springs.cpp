@@ -15,12 +15,6 @@ namespace {
 
 using Family = AbaqusType::Family;
 
-void spring_note(AbaqusLines& lines, const FeSource& at, AbaqusContent& content,
-                 const std::string& text) {
-  const SourceMark mark = lines.source().mark(at);
-  content.notes.push_back(fmt::format("{}:{}: {}", mark.file, mark.line, text));
-}
-
 /// dF/du at u = 0 of a table of (force, elongation): the mean of both sides at a corner.
 std::optional<double> slope_at_zero(std::vector<std::pair<double, double>> table) {
   std::sort(table.begin(), table.end(),
@@ -214,8 +208,8 @@ void read_abaqus_spring(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqus
 
 void read_abaqus_gap(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
   if (content.contact == DeckContact::ignore || content.only_nodes) {
-    spring_note(lines, keyword.at, content,
-                keyword.shown + " is passed over, as the options say: its nodes are free");
+    content.note(lines.source().mark(keyword.at),
+                 keyword.shown + " is passed over, as the options say: its nodes are free");
   } else {
     lines.error(keyword,
                 "has no linear stiffness: --contact ignore (key `contact`) leaves its nodes free; "

@@ -43,6 +43,7 @@ constexpr std::array handlers{
     Known{"SOLID SECTION", read_abaqus_solid_section},
     Known{"SHELL SECTION", read_abaqus_shell_section},
     Known{"BEAM SECTION", read_abaqus_beam_section},
+    Known{"BEAM GENERAL SECTION", read_abaqus_beam_section},
     Known{"SURFACE SECTION", read_abaqus_surface_section},
     Known{"MASS", read_abaqus_mass},
     Known{"ROTARY INERTIA", read_abaqus_rotary_inertia},

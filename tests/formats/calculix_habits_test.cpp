@@ -1,0 +1,88 @@
+// What CalculiX takes in decks beside the rules: fields too many, abbreviations, sections.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "floatframe/formats/abaqus/read_abaqus.hpp"
+#include "floatframe/formats/fe_file.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace floatframe::test {
+namespace {
+
+FeModel habit_deck(const std::string& text) {
+  const TemporaryFolder folder;
+  FeReadOptions options;
+  options.dialect = DeckDialect::calculix;
+  FeModel model = read_fe_file(folder.write("deck.inp", text), options);
+  for (std::string& note : model.notes) note = folder.without(note);
+  return model;
+}
+
+const char* const steel_of_deck =
+    "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000, 0.3\n*DENSITY\n7.8E-9\n";
+
+bool habit_noted(const FeModel& model, const std::string& text) {
+  for (const std::string& note : model.notes)
+    if (note == text) return true;
+  return false;
+}
+
+TEST(CalculixHabits, FieldsBehindNodesAndElements) {
+  const FeModel model = habit_deck(
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0, 0, 0\n3, , 1, , 1\n4, 0, 0, 1\n"
+      "*ELEMENT, TYPE=C3D4, ELSET=E\n7, 1, 2, 3, 4, 3, 3\n"
+      "*SOLID SECTION, ELSET=E, MATERIAL=STEEL\n" +
+      std::string(steel_of_deck));
+  EXPECT_EQ(model.positions[2], Vec3(0, 1, 0));
+  ASSERT_EQ(model.elements.size(), 1u);
+  EXPECT_EQ(model.elements[0].nodes[3], 3);
+  EXPECT_TRUE(habit_noted(
+      model, "deck.inp:3: what stands behind the coordinates of 2 nodes is passed over"));
+  EXPECT_TRUE(habit_noted(model,
+                          "deck.inp:7: 1 element of type C3D4 with more than 4 nodes: the "
+                          "others are passed over, as CalculiX does"));
+}
+
+TEST(CalculixHabits, FurtherNodesOfShellsAreAnError) {
+  const std::string error = error_of([] {
+    habit_deck(
+        "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, TYPE=S3, ELSET=E\n"
+        "7, 1, 2, 3, 4\n*SHELL SECTION, ELSET=E, MATERIAL=STEEL\n0.1\n" +
+        std::string(steel_of_deck));
+  });
+  EXPECT_NE(error.find("deck.inp:7: element 7 (S3) has 4 nodes, expected 3"), std::string::npos)
+      << error;
+}
+
+/// The same bar, its section written in two ways.
+FeModel bar_with(const std::string& section) {
+  return habit_deck(
+      "*NODE\n1, 0, 0, 0\n2, 5, 0, 0\n3, 10, 0, 0\n*ELEMENT, TYPE=B32R, ELSET=E\n7, 1, 2, "
+      "3\n" +
+      section + "\n0, 1, 0\n" + steel_of_deck);
+}
+
+TEST(CalculixHabits, GeneralSectionsAndWholeWords) {
+  const FeModel pipe = bar_with("*BEAM SECTION, SECTION=PIPE, ELSET=E, MATERIAL=STEEL\n1, 0.2");
+  const FeModel general =
+      bar_with("*BEAM GENERAL SECTION, SECTION=PIPE, ELSET=E, MATERIAL=STEEL\n1, 0.2");
+  EXPECT_EQ(general.sections[0].Iy, pipe.sections[0].Iy);
+  EXPECT_EQ(general.sections[0].J, pipe.sections[0].J);
+  const FeModel word =
+      bar_with("*BEAM SECTION, SECTION=RECTANGULAR, ELSET=E, MATERIAL=STEEL\n1, 2");
+  EXPECT_EQ(word.sections[0].A, 2.0);
+  EXPECT_EQ(word.sections[0].width, 1.0);
+}
+
+TEST(CalculixHabits, GeneralSectionsOfAbaqusAreRefused) {
+  const std::string error =
+      error_of([] { bar_with("*BEAM GENERAL SECTION, SECTION=PIPE, ELSET=E\n1, 0.2"); });
+  EXPECT_NE(error.find(":7: *BEAM GENERAL SECTION has no MATERIAL, as in Abaqus, which is not "
+                       "supported: use *BEAM SECTION"),
+            std::string::npos)
+      << error;
+}
+
+}  // namespace
+}  // namespace floatframe::test
