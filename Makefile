@@ -67,7 +67,7 @@ python: build
 	  && cmake --build build --parallel $(JOBS) --target floatframe_python floatframe_python_stub floatframe_program
 
 test-python: python
-	python=$$(scripts/python_environment.sh) && PYTHONPATH=build/python $$python -B -m pytest -q \
+	python=$$(scripts/python_environment.sh) && PYTHONPATH=$(CURDIR)/build/python $$python -B -m pytest -q \
 	  && MYPYPATH=build/python $$python -m mypy -p floatframe
 
 # A wheel with all that it needs, in dist: what is built, libraries of others beside it, their licences, and a look at the

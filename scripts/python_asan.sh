@@ -8,5 +8,5 @@ python="${1:-$(scripts/python_environment.sh)}"
 cmake --preset asan -DFLOATFRAME_PYTHON=ON -DPython_EXECUTABLE="$python"
 cmake --build build-asan --parallel "${JOBS:-$(nproc)}" --target floatframe_python floatframe_program
 LD_PRELOAD="$(c++ -print-file-name=libasan.so) $(c++ -print-file-name=libubsan.so) $(c++ -print-file-name=libstdc++.so)" \
-  MPLBACKEND=agg ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1:handle_segv=0 PYTHONPATH=build-asan/python \
+  MPLBACKEND=agg ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1:handle_segv=0 PYTHONPATH=$PWD/build-asan/python \
   "$python" -B -m pytest -q -p no:cacheprovider
