@@ -51,6 +51,9 @@ TEST(BadNastran, Decks) {
       {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,x",
        "arm.bdf:6: CTETRA 1: a node is 'x', expected a whole number from 1"},
       {"CTETRA,1,1", "CHEXX,1,1", "arm.bdf:6: CHEXX is not read and may change stiffness or mass"},
+      {"CTETRA,1,1", "CBEND,1,1",
+       "arm.bdf:6: CBEND is not read: curved beams are not supported; divide the arc into CBAR "
+       "elements"},
       {"CTETRA,1,1", "CTETRA,2,1",
        "arm.bdf:7: CBAR 2: this element number is in the file twice, first in line 6"},
       {"CTETRA,1,1", "CTETRA,1,2", "arm.bdf:6: CTETRA 1: property 2 is a PBAR, expected a PSOLID"},
@@ -90,11 +93,24 @@ TEST(BadNastran, Decks) {
        "arm.bdf:8: PSOLID: material 1 is not in the file"},
       {"MAT1,1,2.+11,,.3,8000.", "MAT9,1,2.+11,,.3,8000.",
        "arm.bdf:10: MAT9 1: G22 is 0, expected more than 0"},
+      {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,DBOX\n,.1,.1,.1,.1",
+       "arm.bdf:9: PBARL 2: the section 'DBOX' is not read (BAR, BOX, BOX1, CHAN, CHAN1, CHAN2, "
+       "CROSS, H, HAT, I, I1, L, ROD, T, T1, T2, TUBE, TUBE2 and Z are); give A, I1, I2 and J with "
+       "PBAR"},
       {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,CHAN\n,.1,.1,.1,.1",
-       "arm.bdf:9: PBARL 2: the section 'CHAN' is not read (ROD, TUBE, TUBE2, BAR and BOX are); "
-       "give A, I1, I2 and J with PBAR"},
-      {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2,0.,0.,1.\n,,,0.1",
-       "arm.bdf:8: CBAR 2: an offset of the ends (WA, WB) is '0.1', which is not supported"},
+       "arm.bdf:9: PBARL 2: the dimensions of the CHAN do not fit: a wall of it would be 0.1 by 0"},
+      {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,L\n,.1,-.1,.1,.1",
+       "arm.bdf:9: PBARL 2: a dimension of the section is negative"},
+      {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,BOX1\n,.1,.1,.01,.01,.06,.05",
+       "arm.bdf:9: PBARL 2: the walls of the BOX1 are thicker than the box"},
+      {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBARL,2,1,,BAR\n,.1,.1,0.,3.",
+       "arm.bdf:9: PBARL 2: found '3.' after the section, expected YES or NO of a station"},
+      {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2,0.,0.,1.\n,7",
+       "arm.bdf:8: CBAR 2: the pins PA are '7', expected some of the digits 1 to 6"},
+      {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2,0.,0.,1.\n,,,x",
+       "arm.bdf:8: CBAR 2: the offset WA: 'x' is not a number"},
+      {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2,1.,0.,0.\n,,,-1.,,,-2.",
+       "arm.bdf:7: CBAR 2: it has no length, or its orientation vector is along its axis"},
       {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBAR,2,1,-1.-3,1.-7",
        "arm.bdf:9: PBAR 2: A is -0.001, expected more than 0\n"
        "arm.bdf:9: PBAR 2: I2 is 0, expected more than 0\n"

@@ -18,6 +18,19 @@ struct NastranFrame {
   char kind = 'R';  ///< rectangular, cylindrical, spherical
 };
 
+/// Equations in directions that are not those of the basic axes. Those of one node are solved for
+/// as many of its basic directions, each of its own, so that every equation has a dependent degree
+/// of freedom.
+class NastranEquations {
+ public:
+  /// `rotation`: the block that the equation determines. The order of its terms does not matter.
+  void add(int node, bool rotation, LinearEquation equation);
+  void flush(FeModel& model, TextSource& source);
+
+ private:
+  std::map<std::pair<int, bool>, std::vector<LinearEquation>> blocks_;
+};
+
 struct NastranBuild {
   const NastranContent& content;
   TextSource& source;
@@ -25,6 +38,7 @@ struct NastranBuild {
   std::unordered_map<int, int> node_of;  ///< index of a node number
   std::map<int, int> orientation_of;     ///< index in FeModel::orientations of a system
   std::vector<char> turned;              ///< nodes whose displacements are in a turned system
+  NastranEquations equations;            ///< what goes to the model at the end
 
   NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
   /// Index of a node; an error and -1 if it is not there.
@@ -32,13 +46,24 @@ struct NastranBuild {
   /// The system in basic coordinates; an error (once a system) and basic axes if it is not there.
   const NastranFrame& frame(int id, const FeSource& at);
   void note(const FeSource& at, const std::string& text);
+  /// Axes of the displacements of a node (CD) at its place; columns in basic axes.
+  Mat3 axes(int node) const;
+  std::unordered_map<int, Mat3> turned_axes;  ///< of the turned nodes
+  /// A new node with a number of its own.
+  int add_node(const Vec3& p, const FeSource& at, const std::string& who);
   /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if
   /// there are too many in all.
   void spend(std::size_t members, const FeSource& at);
 
  private:
+  int largest_id_ = 0;
   std::uint64_t spent_ = 0;
   NastranFrame made(int id, const FeSource& at);
+  NastranFrame through(char kind, const Vec3& a, const Vec3& b, const Vec3& c, int id,
+                       const FeSource& at);
+  /// Where a node is, before it is in the model.
+  Vec3 place_of(int id, const FeSource& at, int system);
+  std::unordered_map<int, int> grid_of_;
   std::map<int, NastranFrame> frames_;
   std::set<int> open_;  // systems being made, to find circles
 };
@@ -59,6 +84,29 @@ void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element&
 void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result);
 /// The cards that a property of a kind could have in place of a material; empty if it may have it.
 std::string nastran_material_misfit(const NastranMaterial& m, std::string_view card);
+// nastran_build_bars.cpp
+/// Orientation and ends of bars. `finish` ties the ends to their nodes.
+class NastranBars {
+ public:
+  explicit NastranBars(NastranBuild& build) : b_(build) {}
+  /// The element has its nodes; `turn`: of the principal axes of its section.
+  bool place(const NastranElement& e, double turn, Element& element);
+  void finish();
+
+ private:
+  struct Tie {
+    int fresh = -1, node = -1;
+    Vec3 arm = Vec3::Zero();
+    Mat3 axes = Mat3::Identity();
+    unsigned mask = 63u;  ///< what is tied, in the axes
+    FeSource at;
+  };
+  void tie(const Tie& t, bool rotates);
+  NastranBuild& b_;
+  std::vector<Tie> ties_;
+  std::map<std::array<double, 4>, int> offset_nodes_;
+  std::map<int, int> spiders_;
+};
 // nastran_build_constraints.cpp
 void build_nastran_constraints(NastranBuild& build);
 void build_nastran_supports(NastranBuild& build);

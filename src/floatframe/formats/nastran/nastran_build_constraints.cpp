@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <set>
 
 #include "floatframe/fe/element_kernel.hpp"
@@ -34,22 +34,36 @@ class ConstraintBuilder {
   }
 
   void build() {
-    for (const int id : b_.model.node_ids) largest_id_ = std::max(largest_id_, id);
+    for (const Spider& s : b_.model.spiders) rotates_[index(s.reference)] = 1;  // of bars
     for (const NastranSpider& s : b_.content.spiders) spider(s);
     for (const NastranMass& m : b_.content.masses) mass(m);
     equations();
+    b_.equations.flush(b_.model, b_.source);
   }
 
  private:
   static std::size_t index(int node) { return node; }
 
-  void turned(int node, unsigned mask, const FeSource& at, const std::string& who) {
-    if (b_.turned[index(node)] != 0 && !any_axes(mask)) {
-      b_.source.error(at,
-                      fmt::format("{}: directions of node {} are in its turned system CD, which "
-                                  "is not supported",
-                                  who, b_.model.node_ids[index(node)]));
+  /// Of a node with a turned system that follows only in some of its directions: equations.
+  bool follows_turned(const NastranSpider& s, int reference, int node) {
+    if (b_.turned[index(node)] == 0 || any_axes(s.mask) || node == reference) return false;
+    const Mat3 axes = b_.axes(node);
+    const Vec3 arm = b_.model.positions[index(node)] - b_.model.positions[index(reference)];
+    for (int c = 0; c < 6; ++c) {
+      const bool rotation = c >= 3;
+      if (((s.mask >> c) & 1u) == 0 || (rotation && rotates_[index(node)] == 0)) continue;
+      const Vec3 axis = axes.col(c % 3), lever = arm.cross(axis);
+      LinearEquation e;
+      e.source = s.at;
+      for (int k = 0; k < 3; ++k) {
+        const int dof = rotation ? 3 + k : k;
+        e.terms.push_back({node, dof, axis(k)});
+        e.terms.push_back({reference, dof, -axis(k)});
+        if (!rotation) e.terms.push_back({reference, 3 + k, -lever(k)});
+      }
+      b_.equations.add(node, rotation, std::move(e));
     }
+    return true;
   }
 
   void spider(const NastranSpider& s) {
@@ -72,7 +86,7 @@ class ConstraintBuilder {
     for (const int id : s.nodes) {
       const int node = b_.node(id, s.at, who);
       if (node < 0) return;
-      turned(node, s.kind == Spider::Kind::mean ? all_six : s.mask, s.at, who);
+      if (s.kind == Spider::Kind::rigid && follows_turned(s, spider.reference, node)) continue;
       if (s.weighs_rotations && rotates_[index(node)] != 0) {
         b_.source.error(s.at, fmt::format("{}: node {} has rotations, whose weights (components "
                                           "456) are not supported; give 123",
@@ -84,6 +98,11 @@ class ConstraintBuilder {
         if ((s.mask >> 3) != 0) rotates_[index(node)] = 1;
         if (s.mask == all_six) rigid_of_[index(node)] = static_cast<int>(b_.model.spiders.size());
       }
+    }
+    if (spider.nodes.empty()) {  // a node that only gives the reference its rotations
+      spider.nodes.push_back(b_.add_node(b_.model.positions[index(spider.reference)], s.at, who));
+      rotates_.push_back(1);
+      rigid_of_.push_back(-1);
     }
     rotates_[index(spider.reference)] = 1;
     if (std::any_of(s.weights.begin(), s.weights.end(), [](double w) { return w != 1.0; })) {
@@ -130,15 +149,7 @@ class ConstraintBuilder {
   /// A new node that moves rigidly with another.
   int add_rigid_node(int node, const Vec3& p, const std::string& who, const FeSource& at) {
     FeModel& model = b_.model;
-    const int fresh = model.nodes();
-    model.positions.push_back(p);
-    if (largest_id_ == std::numeric_limits<int>::max()) {
-      b_.source.stop(at, fmt::format("{} needs a node of its own, but there is no number above {}",
-                                     who, largest_id_));
-    }
-    model.node_ids.push_back(++largest_id_);
-    model.node_sources.push_back(at);
-    b_.turned.push_back(0);
+    const int fresh = b_.add_node(p, at, who);
     rotates_.push_back(1);
     rigid_of_.push_back(-1);
     const int spider = rigid_of_[index(node)];
@@ -176,10 +187,24 @@ class ConstraintBuilder {
     return sets;
   }
 
+  /// A term in basic axes.
+  void add_term(int node, const NastranEquation::Term& term, LinearEquation& equation) {
+    if (b_.turned[index(node)] == 0) {
+      equation.terms.push_back({node, term.component, term.factor});
+      return;
+    }
+    const Vec3 axis = b_.axes(node).col(term.component % 3);
+    for (int k = 0; k < 3; ++k) {
+      const double factor = term.factor * axis(k);
+      if (std::abs(factor) > 1e-15 * std::abs(term.factor))
+        equation.terms.push_back({node, term.component >= 3 ? 3 + k : k, factor});
+    }
+  }
+
   void equations() {
     const bool by_control = b_.content.control.there;
     const std::set<int> selected = by_control ? selected_sets() : std::set<int>{};
-    int set = 0, passed_over = 0;
+    int set = 0, passed_over = 0, applied = 0;
     FeSource first;
     for (const NastranEquation& e : b_.content.equations) {
       if (by_control && !selected.contains(e.set)) {
@@ -198,17 +223,22 @@ class ConstraintBuilder {
       for (const NastranEquation::Term& term : e.terms) {
         const int node = b_.node(term.node, e.at, fmt::format("MPC {}", e.set));
         if (node < 0) return;
-        turned(node, 1u << term.component, e.at, fmt::format("MPC {}", e.set));
-        equation.terms.push_back({node, term.component, term.factor});
+        add_term(node, term, equation);
       }
-      b_.model.equations.push_back(std::move(equation));
+      const int dependent = b_.node_of.at(e.terms[0].node);
+      if (b_.turned[index(dependent)] != 0) {
+        b_.equations.add(dependent, e.terms[0].component >= 3, std::move(equation));
+      } else {
+        b_.model.equations.push_back(std::move(equation));
+      }
+      ++applied;
     }
     if (passed_over > 0) {
       b_.note(first, fmt::format("{} MPC equations are in sets that the case control does not "
                                  "select: they are not applied",
                                  passed_over));
     }
-    if (by_control && !selected.empty() && b_.model.equations.empty() && b_.source.errors() == 0) {
+    if (by_control && !selected.empty() && applied == 0 && b_.source.errors() == 0) {
       b_.source.error(b_.content.control.mpc.front().second,
                       fmt::format("the case control selects MPC set {}, which is not in the file",
                                   b_.content.control.mpc.front().first));
@@ -218,8 +248,21 @@ class ConstraintBuilder {
   NastranBuild& b_;
   std::vector<char> rotates_;  // nodes that have rotations
   std::vector<int> rigid_of_;  // rigid spider that a node follows
-  int largest_id_ = 0;
 };
+
+/// Basic directions that lie in what is held in turned axes.
+unsigned held_in_basic(const Mat3& axes, unsigned mask) {
+  unsigned basic = 0;
+  for (int c = 0; c < 6; ++c) {
+    double share = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const bool held = ((mask >> (c < 3 ? k : 3 + k)) & 1u) != 0;
+      if (held) share += axes(c % 3, k) * axes(c % 3, k);
+    }
+    if (share > 1.0 - 1e-9) basic |= 1u << c;
+  }
+  return basic;
+}
 
 }  // namespace
 
@@ -238,7 +281,11 @@ void build_nastran_supports(NastranBuild& build) {
                          fmt::format("SPC1: there is no node from {} to {}", s.first, s.last));
     }
     build.spend(nodes.size(), s.at);
-    for (const int node : nodes) build.model.supports.push_back({node, s.mask, s.at});
+    for (const int node : nodes) {
+      const unsigned mask =
+          build.turned[node] == 0 ? s.mask : held_in_basic(build.axes(node), s.mask);
+      if (mask != 0) build.model.supports.push_back({node, mask, s.at});
+    }
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 class ElementBuilder {
  public:
   ElementBuilder(NastranBuild& build, const FeReadOptions& options)
-      : b_(build), c_(build.content), options_(options) {}
+      : b_(build), c_(build.content), options_(options), bars_(build) {}
 
   void build() {
     mesh_only_ = c_.properties.empty() && c_.materials.empty() && c_.other_materials.empty();
@@ -37,6 +37,7 @@ class ElementBuilder {
         element(e);
       }
     }
+    bars_.finish();
     notes();
   }
 
@@ -112,7 +113,7 @@ class ElementBuilder {
       const bool bar = e.card == std::string_view("CBAR");
       const NastranProperty* p =
           bar ? property(e, {"PBAR", "PBARL"}) : property(e, {"PBEAM", "PBEAML"});
-      if (p == nullptr || !orientation(e, result)) return;
+      if (p == nullptr || !bars_.place(e, p->turn, result)) return;
       result.material = material(*p, p->nonstructural / std::max(p->section.A, 1e-300));
       result.section = section(e.property, *p);
     } else if (e.type == ElementType::rod2) {
@@ -135,31 +136,14 @@ class ElementBuilder {
     b_.model.elements.push_back(result);
   }
 
-  bool orientation(const NastranElement& e, Element& result) {
-    const auto at = [this](int node) { return b_.model.positions[node]; };
-    if (e.orientation_node > 0) {
-      const int node = b_.node(e.orientation_node, e.at, label(e));
-      if (node < 0) return false;
-      result.reference = at(node) - at(result.nodes[0]);
-    } else {
-      result.reference = e.orientation;
-      if (b_.turned[result.nodes[0]] != 0) {
-        b_.source.error(e.at,
-                        fmt::format("{}: its orientation vector is in the turned system CD of "
-                                    "its first node, which is not supported; use node G0",
-                                    label(e)));
-        return false;
-      }
-    }
-    return true;
-  }
-
   int section(int id, const NastranProperty& p) {
     const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
     if (!fresh) return it->second;
     const std::pair<const char*, double> values[] = {
         {"A", p.section.A}, {"I1", p.section.Iz}, {"I2", p.section.Iy}, {"J", p.section.J}};
     for (const auto& [name, value] : values) must_be_positive(p, id, name, value);
+    for (const std::string& remark : p.remarks)
+      b_.note(p.at, fmt::format("{} {}: {}", p.card, id, remark));
     b_.model.sections.push_back(p.section);
     BeamSection& own = b_.model.sections.back();
     const double ratio = own_shear(p.material);
@@ -337,6 +321,7 @@ class ElementBuilder {
   NastranBuild& b_;
   const NastranContent& c_;
   const FeReadOptions& options_;
+  NastranBars bars_;
   bool mesh_only_ = false;
   int skins_ = 0;
   FeSource first_skin_;

@@ -1,6 +1,8 @@
 // Cards of spiders, linear equations and supports.
 #include <fmt/format.h>
 
+#include <bit>
+
 #include "floatframe/formats/nastran/nastran_content.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -18,6 +20,21 @@ NastranSpider spider(NastranFields& f, const char* card) {
 
 bool is_real(std::string_view field) {
   return field.find_first_of(".eEdD") != std::string_view::npos && parse_real(field).has_value();
+}
+
+/// UM of RBE3 says which components depend: the equations are the same whichever do, so it is only
+/// looked at.
+void dependent_components(NastranFields& f, std::size_t i) {
+  int count = 0;
+  for (; i < f.size() && !same_word(f.text(i), "ALPHA"); i += 2) {
+    if (f.blank(i)) {
+      --i;  // fields between lines
+      continue;
+    }
+    f.label(i, "a node of UM");
+    count += std::popcount(f.components(i + 1, "the components of UM"));
+  }
+  if (count != 6) f.error(fmt::format("UM has {} components, expected 6", count));
 }
 
 }  // namespace
@@ -45,7 +62,7 @@ void read_nastran_rbe3(NastranFields& f, NastranContent& c) {
     if (f.blank(i)) continue;
     if (same_word(f.text(i), "ALPHA")) break;
     if (same_word(f.text(i), "UM")) {
-      f.error("dependent components of its own (UM) are not supported");
+      dependent_components(f, i + 1);
       break;
     }
     if (is_real(f.text(i))) {

@@ -49,26 +49,52 @@ class ContentReader {
 
   void one(F& f) {
     static const std::map<std::string_view, NastranCardReader> readers = {
-        {"GRID", read_nastran_grid},        {"GRDSET", read_nastran_grid_default},
-        {"CORD2R", read_nastran_system},    {"CORD2C", read_nastran_system},
-        {"CORD2S", read_nastran_system},    {"CTETRA", read_nastran_solid},
-        {"CPYRAM", read_nastran_solid},     {"CPYRA", read_nastran_solid},
-        {"CHEXA", read_nastran_solid},      {"CPENTA", read_nastran_solid},
-        {"CTRIA3", read_nastran_surface},   {"CQUAD4", read_nastran_surface},
-        {"CTRIA6", read_nastran_surface},   {"CQUAD8", read_nastran_surface},
-        {"CTRIAR", read_nastran_surface},   {"CQUADR", read_nastran_surface},
-        {"CBAR", read_nastran_bar},         {"CBEAM", read_nastran_bar},
-        {"MAT1", read_nastran_material},    {"CONM2", read_nastran_mass},
-        {"MAT2", read_nastran_anisotropic}, {"MAT8", read_nastran_anisotropic},
-        {"MAT9", read_nastran_anisotropic}, {"RBE2", read_nastran_rbe2},
-        {"RBE3", read_nastran_rbe3},        {"RBAR", read_nastran_rbar},
-        {"MPC", read_nastran_mpc},          {"MPCADD", read_nastran_mpc_add},
-        {"CELAS1", read_nastran_celas},     {"CELAS2", read_nastran_celas},
-        {"CELAS3", read_nastran_scalar},    {"CELAS4", read_nastran_scalar},
-        {"PELAS", read_nastran_pelas},      {"CBUSH", read_nastran_bush},
-        {"PBUSH", read_nastran_pbush},      {"CROD", read_nastran_rod},
-        {"CTUBE", read_nastran_rod},        {"CONROD", read_nastran_rod},
-        {"SPC", read_nastran_spc},          {"SPC1", read_nastran_spc1},
+        {"GRID", read_nastran_grid},
+        {"GRDSET", read_nastran_grid_default},
+        {"CORD2R", read_nastran_system},
+        {"CORD2C", read_nastran_system},
+        {"CORD2S", read_nastran_system},
+        {"CTETRA", read_nastran_solid},
+        {"CPYRAM", read_nastran_solid},
+        {"CPYRA", read_nastran_solid},
+        {"CHEXA", read_nastran_solid},
+        {"CPENTA", read_nastran_solid},
+        {"CTRIA3", read_nastran_surface},
+        {"CQUAD4", read_nastran_surface},
+        {"CTRIA6", read_nastran_surface},
+        {"CQUAD8", read_nastran_surface},
+        {"CTRIAR", read_nastran_surface},
+        {"CQUADR", read_nastran_surface},
+        {"CBAR", read_nastran_bar},
+        {"CBEAM", read_nastran_bar},
+        {"MAT1", read_nastran_material},
+        {"CONM2", read_nastran_mass},
+        {"MAT2", read_nastran_anisotropic},
+        {"MAT8", read_nastran_anisotropic},
+        {"MAT9", read_nastran_anisotropic},
+        {"RBE2", read_nastran_rbe2},
+        {"RBE3", read_nastran_rbe3},
+        {"RBAR", read_nastran_rbar},
+        {"MPC", read_nastran_mpc},
+        {"MPCADD", read_nastran_mpc_add},
+        {"CELAS1", read_nastran_celas},
+        {"CELAS2", read_nastran_celas},
+        {"CELAS3", read_nastran_scalar},
+        {"CELAS4", read_nastran_scalar},
+        {"PELAS", read_nastran_pelas},
+        {"CBUSH", read_nastran_bush},
+        {"PBUSH", read_nastran_pbush},
+        {"CROD", read_nastran_rod},
+        {"CTUBE", read_nastran_rod},
+        {"CONROD", read_nastran_rod},
+        {"SPC", read_nastran_spc},
+        {"SPC1", read_nastran_spc1},
+        {"BAROR", read_nastran_bar_default},
+        {"BEAMOR", read_nastran_bar_default},
+        {"CORD1R", read_nastran_node_system},
+        {"CORD1C", read_nastran_node_system},
+        {"CORD1S", read_nastran_node_system},
+        {"SPOINT", read_nastran_scalar_points},
     };
     const std::string& name = f.name();
     if (only_nodes_ && name != "GRID" && name != "GRDSET" && !name.starts_with("CORD") &&
@@ -92,7 +118,7 @@ class ContentReader {
       if (unknown_.size() > TextSource::most_errors) finish();  // throws
       return;
     }
-    if (name.starts_with("CORD1")) {
+    if (name.starts_with("CORD3")) {
       if (const auto id = parse_label(f.text(0))) c_.other_systems[*id] = name;
     } else if (name.starts_with("MAT") && !name.starts_with("MATT")) {
       if (const auto id = parse_label(f.text(0))) c_.other_materials[*id] = name;
@@ -180,6 +206,7 @@ class ContentReader {
       const unsigned held = g.held.value_or(c_.grid_default.held.value_or(0u));
       if (held != 0) c_.supports.push_back({g.id, g.id, held, g.at});
     }
+    complete_nastran_bars(c_, source_);
     if (!only_nodes_) {
       for (const auto& [command, at] : c_.control.additions) {
         source_.error(at, fmt::format("the case control has {}, which adds stiffness or mass and "

@@ -28,6 +28,31 @@ struct NastranSystem {
   FeSource at;
 };
 
+/// CORD1R, CORD1C, CORD1S: the same by nodes.
+struct NastranNodeSystem {
+  char kind = 'R';
+  int a = 0, b = 0, c = 0;
+  FeSource at;
+};
+
+/// Bars: offsets of the ends and components that these do not pass on.
+struct NastranBarEnds {
+  Vec3 offset[2] = {Vec3::Zero(), Vec3::Zero()};
+  unsigned pins[2] = {0, 0};
+  /// OFFT: axes of the orientation vector (G: of the displacements of node A, B: basic) and of the
+  /// offsets (G: of the node's displacements, O: of the element).
+  char axes[3] = {'G', 'G', 'G'};
+};
+
+/// BAROR, BEAMOR.
+struct NastranBarDefault {
+  int property = 0;  ///< 0: none
+  Vec3 orientation = Vec3::Zero();
+  int orientation_node = 0;
+  char axes = 'G';
+  FeSource at;
+};
+
 struct NastranElement {
   ElementType type = ElementType::tet4;
   const char* card = "";
@@ -41,6 +66,9 @@ struct NastranElement {
   double theta = 0.0;               ///< shells: of axis 1 of the material from the side 1-2 [rad]
   int material_system = -1;         ///< shells: MCID in place of the angle; -1: none
   double offset = 0.0;              ///< shells: ZOFFS
+  int ends = -1;                    ///< bars: index of what is special about their ends
+  /// Bars, while reading: BAROR decides.
+  bool default_property = false, default_orientation = false;
   FeSource at;
 };
 
@@ -58,21 +86,28 @@ struct NastranPly {
   double thickness = 0.0, angle = 0.0;  ///< [rad]
 };
 
+/// Of a bar: I1 = int y^2, I2 = int z^2, I12 = int y z dA about the centroid.
+struct NastranSection {
+  double A = 0.0, I1 = 0.0, I2 = 0.0, I12 = 0.0, J = 0.0;
+};
+
 struct NastranProperty {
   const char* card = "";
   int material = 0;
-  bool full_integration = false;  ///< PSOLID: of CHEXA with 8 nodes
-  int material_system = 0;        ///< PSOLID: CORDM
-  double thickness = 0.0;         ///< PSHELL, PCOMP
-  int bending = 0, coupling = 0;  ///< PSHELL: MID2, MID4; 0: none
-  double bending_factor = 1.0;    ///< PSHELL: 12I/T**3
-  std::vector<NastranPly> plies;  ///< PCOMP, from the bottom
-  std::optional<double> z0;       ///< PCOMP: of the bottom from the nodes
-  bool smeared = false;           ///< PCOMP: LAM = SMEAR
-  double shell_shear = 0.0;       ///< PSHELL with MID3, PCOMP
-  int shear_material = 0;         ///< PSHELL: MID3
-  BeamSection section;            ///< PBAR, PBARL, PBEAM, PBEAML
-  double nonstructural = 0.0;     ///< mass over length or area
+  bool full_integration = false;     ///< PSOLID: of CHEXA with 8 nodes
+  int material_system = 0;           ///< PSOLID: CORDM
+  double thickness = 0.0;            ///< PSHELL, PCOMP
+  int bending = 0, coupling = 0;     ///< PSHELL: MID2, MID4; 0: none
+  double bending_factor = 1.0;       ///< PSHELL: 12I/T**3
+  std::vector<NastranPly> plies;     ///< PCOMP, from the bottom
+  std::optional<double> z0;          ///< PCOMP: of the bottom from the nodes
+  bool smeared = false;              ///< PCOMP: LAM = SMEAR
+  double shell_shear = 0.0;          ///< PSHELL with MID3, PCOMP
+  int shear_material = 0;            ///< PSHELL: MID3
+  BeamSection section;               ///< PBAR, PBARL, PBEAM, PBEAML: about its principal axes
+  double turn = 0.0;                 ///< of these from y of the element towards z [rad]
+  std::vector<std::string> remarks;  ///< what is approximated
+  double nonstructural = 0.0;        ///< mass over length or area
   FeSource at;
 };
 
@@ -124,8 +159,12 @@ struct NastranContent {
   std::vector<NastranGrid> grids;
   NastranGrid grid_default;  ///< GRDSET
   std::map<int, NastranSystem> systems;
+  std::map<int, NastranNodeSystem> node_systems;
   std::map<int, std::string> other_systems, other_materials;  ///< card, of what is not read
   std::vector<NastranElement> elements;
+  std::vector<NastranBarEnds> bar_ends;
+  std::map<std::string, NastranBarDefault> bar_defaults;  ///< by CBAR and CBEAM
+  std::set<int> scalar_points;                            ///< SPOINT
   std::map<int, NastranMaterial> materials;
   std::map<int, NastranProperty> properties;
   std::vector<NastranMass> masses;
@@ -164,9 +203,10 @@ using NastranCardReader = void (*)(NastranFields&, NastranContent&);
 void read_nastran_grid(NastranFields&, NastranContent&);
 void read_nastran_grid_default(NastranFields&, NastranContent&);
 void read_nastran_system(NastranFields&, NastranContent&);
+void read_nastran_node_system(NastranFields&, NastranContent&);
+void read_nastran_scalar_points(NastranFields&, NastranContent&);
 void read_nastran_solid(NastranFields&, NastranContent&);
 void read_nastran_surface(NastranFields&, NastranContent&);
-void read_nastran_bar(NastranFields&, NastranContent&);
 void read_nastran_material(NastranFields&, NastranContent&);
 void read_nastran_mass(NastranFields&, NastranContent&);
 // nastran_materials.cpp
@@ -177,6 +217,11 @@ std::string nastran_plane_error(const NastranMaterial& m);
 // nastran_laminates.cpp
 void read_nastran_pshell(NastranFields&, NastranProperty&);
 void read_nastran_pcomp(NastranFields&, NastranProperty&);  ///< and PCOMPG
+// nastran_bar_cards.cpp
+void read_nastran_bar(NastranFields&, NastranContent&);
+void read_nastran_bar_default(NastranFields&, NastranContent&);
+/// What bars leave to BAROR and BEAMOR.
+void complete_nastran_bars(NastranContent&, TextSource&);
 // nastran_constraint_cards.cpp
 void read_nastran_rbe2(NastranFields&, NastranContent&);
 void read_nastran_rbe3(NastranFields&, NastranContent&);
@@ -192,6 +237,9 @@ void nastran_twice(NastranFields& card, const FeSource& first);
 void nastran_shear_of_shape(std::string_view type, const double* d, BeamSection& section) noexcept;
 // nastran_springs.cpp
 void read_nastran_rod_property(NastranFields&, NastranProperty&);  ///< PROD, PTUBE
+// nastran_sections.cpp
+void read_nastran_named_section(NastranFields&, NastranProperty&);
+void set_nastran_section(NastranProperty& property, const NastranSection& section);
 /// A property of elements (PSOLID, PROD, ...); false if the card is none that is read.
 bool read_nastran_property(NastranFields& card, NastranProperty& property);
 

@@ -29,15 +29,15 @@ const char* const harmless_cards[] = {
     "DCOMP", "DSMDV", "TOPVAR", "TOMVAR", "BEADVAR", "BLDVAR", "BNDGRID", "MODTRAK", "ADAPT",
     // output, plots and marks
     "PLOTEL*", "ECHO*", "GROUP", "OUTRCV", "OUTPUT", "BOUTPUT", "UNITS", "METADATA", "CBARAO",
-    "SETREF", "PSET", "PVAL", "GM*", "FEEDGE", "FEFACE", "DEBUG", "ACCSSPT", "SPOINT", "TITLE",
-    "SUBTITLE", "SUBTI", "LABEL", "CAMPBL*", "ERPPNL", "MONPNT*", "MONDSP*", "MONGRP", "MONSUM*",
-    "MONCNCM", "SWLDPRM", "PRINT*", "GEOMCHECK",
+    "SETREF", "PSET", "PVAL", "GM*", "FEEDGE", "FEFACE", "DEBUG", "ACCSSPT", "TITLE", "SUBTITLE",
+    "SUBTI", "LABEL", "CAMPBL*", "ERPPNL", "MONPNT*", "MONDSP*", "MONGRP", "MONSUM*", "MONCNCM",
+    "SWLDPRM", "PRINT*", "GEOMCHECK",
     // rotors: gyroscopic terms, which are not of the part
     "ROTOR*", "RSPIN*", "RGYRO", "ROTPARM", "ROTHYBD", "ROTBENT", "UNBALNC",
     // coordinate systems and materials, which are errors where they are used
-    "CORD1*", "CORD3*", "MAT3", "MAT4", "MAT5", "MAT10*", "MAT11*", "MATS1", "MATG", "MATHP*",
-    "MATHE*", "MATORT", "MATEP", "MATF*", "MATVP", "MATVE", "MATSMA", "MATUSR", "MATUDS", "MATNLE*",
-    "MATPE*", "MATDMG", "MATCRP", "MATTC", "MATT4", "MATT5", "MATDIGI",
+    "CORD3*", "MAT3", "MAT4", "MAT5", "MAT10*", "MAT11*", "MATS1", "MATG", "MATHP*", "MATHE*",
+    "MATORT", "MATEP", "MATF*", "MATVP", "MATVE", "MATSMA", "MATUSR", "MATUDS", "MATNLE*", "MATPE*",
+    "MATDMG", "MATCRP", "MATTC", "MATT4", "MATT5", "MATDIGI",
     // heat
     "QVECT", "QVOL", "QBDY*", "QHBDY", "CHBDY*", "PHBDY", "CONV", "CONVM", "PCONV*", "RADSET",
     "RADM*", "RADBC", "RADBND", "RADLST", "RADCAV", "RADCOL", "RADCT", "VIEW*", "BDYOR", "CHGEN*",

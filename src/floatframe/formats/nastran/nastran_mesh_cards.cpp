@@ -63,6 +63,36 @@ void read_nastran_system(NastranFields& f, NastranContent& c) {
   if (!fresh && id > 0) nastran_twice(f, it->second.at);
 }
 
+/// One or two systems on a card.
+void read_nastran_node_system(NastranFields& f, NastranContent& c) {
+  for (std::size_t i = 0; i == 0 || (i == 4 && !f.blank(4)); i += 4) {
+    NastranNodeSystem s;
+    s.kind = f.name().back();
+    s.at = f.at();
+    const int id = f.label(i, "the number of the coordinate system");
+    s.a = f.label(i + 1, "node G1");
+    s.b = f.label(i + 2, "node G2");
+    s.c = f.label(i + 3, "node G3");
+    const auto [it, fresh] = c.node_systems.try_emplace(id, s);
+    if (!fresh && id > 0) nastran_twice(f, it->second.at);
+  }
+}
+
+void read_nastran_scalar_points(NastranFields& f, NastranContent& c) {
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    if (f.blank(i)) continue;
+    const int first = f.label(i, "a scalar point");
+    c.scalar_points.insert(first);
+    if (!same_word(f.text(i + 1), "THRU")) continue;
+    const int last = f.label(i + 2, "the last scalar point");
+    if (last > first && last - first > 1'000'000) {
+      return f.error(fmt::format("{} scalar points are too many", last - first));
+    }
+    for (int id = first + 1; id <= last; ++id) c.scalar_points.insert(id);
+    i += 2;
+  }
+}
+
 void read_nastran_solid(NastranFields& f, NastranContent& c) {
   const bool tetra = f.name() == "CTETRA", hexa = f.name() == "CHEXA",
              pyramid = f.name().starts_with("CPYRA");
@@ -130,26 +160,6 @@ void read_nastran_surface(NastranFields& f, NastranContent& c) {
       }
     }
   }
-  c.elements.push_back(e);
-}
-
-void read_nastran_bar(NastranFields& f, NastranContent& c) {
-  NastranElement e = element(f, f.name() == "CBAR" ? "CBAR" : "CBEAM");
-  e.type = ElementType::beam2;
-  e.count = 2;
-  e.nodes[0] = f.label(2, "node GA");
-  e.nodes[1] = f.label(3, "node GB");
-  if (f.blank(4) && f.blank(5) && f.blank(6)) {
-    f.error("the orientation vector is missing");
-  } else if (f.blank(5) && f.blank(6) && parse_label(f.text(4))) {
-    e.orientation_node = f.label(4, "node G0");
-  } else {
-    e.orientation = f.vector(4, "the orientation vector");
-  }
-  for (std::size_t i = 8; i < 10; ++i) {
-    if (!f.blank(i) && f.text(i) != "0") f.error("pins (PA, PB) are not supported");
-  }
-  for (std::size_t i = 10; i < 16; ++i) f.must_be_zero(i, "an offset of the ends (WA, WB)");
   c.elements.push_back(e);
 }
 
