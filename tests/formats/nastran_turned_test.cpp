@@ -37,7 +37,7 @@ MatX stiffness_at(const FeModel& model, const std::vector<int>& nodes) {
 }
 
 void expect_same_turned(const std::string& basic, const std::string& turned,
-                 const std::vector<int>& nodes) {
+                        const std::vector<int>& nodes) {
   const MatX a = stiffness_at(turned_deck(basic), nodes),
              b = stiffness_at(turned_deck(turned), nodes);
   ASSERT_EQ(a.rows(), b.rows()) << turned;
@@ -119,7 +119,7 @@ TEST(NastranTurned, Equations) {
                            rows(r, 3), rows(r, 4), rows(r, 5), rows(r, 6));
     }
     expect_same_turned(bars + nodes_3_and_4(0) + basic, bars + systems + nodes_3_and_4(cd) + turned,
-                {0, 1, 3});
+                       {0, 1, 3});
   }
 }
 
@@ -144,7 +144,8 @@ TEST(NastranTurned, RigidElements) {
     const std::string deck = bars + systems + nodes_3_and_4(cd);
     expect_same_turned(deck + mpc, deck + "RBE2,9,2,135,4\n", {0, 1, 2});
     // All directions do not depend on the system.
-    expect_same_turned(bars + nodes_3_and_4(0) + "RBE2,9,2,123,4\n", deck + "RBE2,9,2,123,4\n", {0, 1, 2});
+    expect_same_turned(bars + nodes_3_and_4(0) + "RBE2,9,2,123,4\n", deck + "RBE2,9,2,123,4\n",
+                       {0, 1, 2});
   }
 }
 
