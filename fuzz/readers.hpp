@@ -23,6 +23,7 @@
 #include "floatframe/formats/nastran/read_nastran.hpp"
 #include "floatframe/formats/sid/sid_file.hpp"
 #include "floatframe/formats/text/text_source.hpp"
+#include "floatframe/formats/unv/read_unv.hpp"
 #include "floatframe/history/history_blocks.hpp"
 #include "floatframe/history/state_history.hpp"
 #include "packets.hpp"
@@ -89,6 +90,11 @@ inline void gmsh(std::string_view bytes) { use(parse_gmsh(bytes, "fuzz.msh", {})
 inline void nastran(std::string_view bytes) {
   TextSource source(std::string(bytes), "fuzz.bdf");
   use(read_nastran(source, has_begin_bulk(bytes), {}));
+}
+
+inline void unv(std::string_view bytes) {
+  TextSource source(std::string(bytes), "fuzz.unv");
+  use(read_unv(source, {}));
 }
 
 /// Matrices and nodes.
@@ -187,6 +193,7 @@ inline constexpr Reader readers[] = {
     {"matrix_market", matrix_market},
     {"gmsh", gmsh},
     {"nastran", nastran},
+    {"unv", unv},
     {"dmig", dmig},
     {"sid", sid},
     {"body_file", body_file},

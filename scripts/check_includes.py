@@ -22,10 +22,11 @@ ALLOWED = {
     "reduction": FE | {"body"},
     "inertia": {"core", "math", "body"},
     # A room of its own for each format. `formats` itself holds the list of finite-element files (fe_file.hpp).
-    "formats": FE | {"formats/abaqus", "formats/gmsh", "formats/matrices", "formats/nastran", "formats/text"},
+    "formats": FE | {"formats/abaqus", "formats/gmsh", "formats/matrices", "formats/nastran", "formats/text", "formats/unv"},
     "formats/text": {"core", "fe"},
     "formats/abaqus": FE | {"formats", "formats/text"},
     "formats/gmsh": FE | {"formats", "formats/text"},
+    "formats/unv": FE | {"formats", "formats/text"},
     "formats/nastran": FE | {"formats", "formats/text"},
     "formats/matrices": FE | {"formats", "formats/text", "formats/abaqus", "formats/nastran"},
     "formats/sid": {"core", "math", "body", "formats/text"},

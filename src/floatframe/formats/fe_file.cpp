@@ -14,6 +14,7 @@
 #include "floatframe/formats/nastran/read_nastran.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/text/text_source.hpp"
+#include "floatframe/formats/unv/read_unv.hpp"
 
 namespace floatframe {
 namespace {
@@ -30,6 +31,7 @@ const std::vector<FeFormat>& formats() {
        {".bdf", ".dat", ".nas", ".fem", ".blk"},
        looks_like_nastran,
        read_nastran},
+      {"unv", "Universal file (.unv)", {".unv"}, looks_like_unv, read_unv},
       {"dmig", "Nastran matrices (DMIG, .pch)", {".pch"}, looks_like_dmig, read_dmig},
       {"calculix_matrices",
        "CalculiX matrices (.sti, .mas, .dof)",

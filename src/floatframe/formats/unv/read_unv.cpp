@@ -1,0 +1,187 @@
+#include "floatframe/formats/unv/read_unv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "floatframe/formats/text/text_fields.hpp"
+#include "floatframe/formats/unv/unv_content.hpp"
+
+namespace floatframe {
+namespace {
+
+/// The model of what the file says.
+class UnvBuild {
+ public:
+  UnvBuild(TextSource& in, UnvContent content, const FeReadOptions& options)
+      : in_(in), c_(std::move(content)) {
+    if (options.material) {
+      c_.model.materials.push_back(*options.material);
+      c_.model.material_names.emplace_back();
+      material_ = 0;
+    }
+  }
+
+  FeModel model() {
+    elements();
+    groups();
+    notes();
+    in_.throw_if_any();
+    c_.model.files = in_.files();
+    return std::move(c_.model);
+  }
+
+ private:
+  /// The nodes of an element as indices, in the order of the file; false if there is an error.
+  bool gather(const UnvElement& e, std::vector<int>& nodes) {
+    nodes.clear();
+    for (int k = 0; k < e.nodes; ++k) {
+      const int id = c_.element_nodes[e.first + k];
+      const auto it = c_.node_index.find(id);
+      if (it == c_.node_index.end()) {
+        in_.error(e.at, fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
+                                    e.type->name, id));
+        return false;
+      }
+      if (std::find(nodes.begin(), nodes.end(), it->second) != nodes.end()) {
+        in_.error(e.at, fmt::format("element {} ({}) has node {} twice", e.id, e.type->name, id));
+        return false;
+      }
+      nodes.push_back(it->second);
+    }
+    return true;
+  }
+
+  void elements() {
+    std::vector<int> nodes;
+    std::set<int> materials;
+    for (UnvElement& e : c_.elements) {
+      if (!e.type->solid) {
+        ++skins_;
+        continue;
+      }
+      if (!gather(e, nodes)) continue;
+      Element element;
+      element.type = *e.type->solid;
+      for (std::size_t k = 0; k < nodes.size(); ++k) element.nodes[k] = nodes[e.type->order[k]];
+      element.material = material_;
+      element.id = e.id;
+      element.source = e.at;
+      e.index = static_cast<int>(c_.model.elements.size());
+      c_.model.elements.push_back(std::move(element));
+      materials.insert(e.material);
+    }
+    materials_ = materials.size();
+    if (c_.model.elements.empty() && in_.errors() == 0)
+      in_.stop({0, 0}, fmt::format("the file has {} elements and none of them is solid; a part "
+                                   "needs tetrahedra, bricks or wedges",
+                                   c_.elements.size()));
+    for (const auto& [system, first] : c_.systems_used) {
+      const auto known = c_.systems.find(system);
+      if (known != c_.systems.end() ? known->second : system == 0 || system == 1) continue;
+      in_.error(
+          first.second,
+          fmt::format("node {} is in coordinate system {}, which is {}; only nodes in global "
+                      "rectangular coordinates are read",
+                      first.first, system,
+                      known == c_.systems.end() ? "not in the file" : "turned, moved or round"));
+    }
+  }
+
+  void groups() {
+    std::vector<int> nodes;
+    std::map<int, int> others;
+    for (const UnvGroup& group : c_.groups) {
+      std::vector<int> node_set, element_set;
+      for (const auto& [kind, number] : group.members) {
+        if (kind != 7 && kind != 8) {
+          ++others[kind];
+          continue;
+        }
+        const auto node = c_.node_index.find(number);
+        const auto element = c_.element_index.find(number);
+        if (kind == 7 ? node == c_.node_index.end() : element == c_.element_index.end()) {
+          in_.error(group.at, fmt::format("group '{}' has {} {}, which is not in the file",
+                                          group.name, kind == 7 ? "node" : "element", number));
+          continue;
+        }
+        if (kind == 7) {
+          node_set.push_back(node->second);
+        } else if (const UnvElement& e = c_.elements[element->second]; e.type->solid) {
+          if (e.index >= 0) element_set.push_back(e.index);
+        } else if (gather(e, nodes)) {
+          node_set.insert(node_set.end(), nodes.begin(), nodes.end());
+        }
+      }
+      append(node_set, c_.model.node_sets, group.name);
+      append(element_set, c_.model.element_sets, group.name);
+    }
+    for (auto* sets : {&c_.model.node_sets, &c_.model.element_sets})
+      for (auto& [name, set] : *sets) {
+        std::sort(set.begin(), set.end());
+        set.erase(std::unique(set.begin(), set.end()), set.end());
+      }
+    for (const auto& [kind, count] : others)
+      c_.model.notes.push_back(fmt::format(
+          "{}: {} members of groups are neither nodes nor elements (kind {}) and are left out",
+          in_.files()[0], count, kind));
+  }
+
+  static void append(const std::vector<int>& more, std::map<std::string, std::vector<int>>& sets,
+                     const std::string& name) {
+    if (more.empty()) return;
+    std::vector<int>& set = sets[name];
+    set.insert(set.end(), more.begin(), more.end());
+  }
+
+  void notes() {
+    const std::string& file = in_.files()[0];
+    if (material_ < 0)
+      c_.model.notes.push_back(
+          fmt::format("{}: materials of the format are not read; give Young's modulus, Poisson's "
+                      "ratio and density with the file",
+                      file));
+    else if (materials_ > 1)
+      c_.model.notes.push_back(fmt::format(
+          "{}: the elements have {} different material numbers; all get the material given with "
+          "the file",
+          file, materials_));
+    if (skins_ > 0)
+      c_.model.notes.push_back(fmt::format(
+          "{}: {} shells, beams and rods are taken as skins and edges: they make node sets and "
+          "have no stiffness and no mass",
+          file, skins_));
+    for (const int number : c_.passed_over)
+      c_.model.notes.push_back(fmt::format("{}: dataset {} is passed over", file, number));
+  }
+
+  TextSource& in_;
+  UnvContent c_;
+  int material_ = -1, skins_ = 0;
+  std::size_t materials_ = 0;
+};
+
+}  // namespace
+
+bool looks_like_unv(std::string_view beginning) {
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return false;
+  beginning.remove_prefix(first);
+  const std::size_t end = beginning.find('\n');
+  if (end == std::string_view::npos || !is_unv_delimiter(beginning.substr(0, end))) return false;
+  beginning.remove_prefix(end + 1);
+  return parse_label(trimmed(beginning.substr(0, beginning.find('\n')))).has_value();
+}
+
+FeModel read_unv(TextSource& source, const FeReadOptions& options) {
+  return UnvBuild(source, read_unv_content(source), options).model();
+}
+
+FeModel read_unv(const std::filesystem::path& file, const FeReadOptions& options) {
+  TextSource source(file);
+  return read_unv(source, options);
+}
+
+}  // namespace floatframe

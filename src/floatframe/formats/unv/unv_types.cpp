@@ -1,0 +1,53 @@
+#include "floatframe/formats/unv/unv_types.hpp"
+
+#include <algorithm>
+
+namespace floatframe {
+namespace {
+
+using U = ElementType;
+
+constexpr std::array<int, 20> as_in_unv = {0, 1, 2, 3, 4, 5, 6, 7};
+
+/// Parabolic elements go round each ring from corner to middle to corner.
+const UnvType unv_types[] = {
+    {11, "rod", 2, true, {}, {}},
+    {21, "linear beam", 2, true, {}, {}},
+    {22, "tapered beam", 0, true, {}, {}},
+    {23, "curved beam", 0, true, {}, {}},
+    {24, "parabolic beam", 3, true, {}, {}},
+    {41, "plane stress triangle", 3, false, {}, {}},
+    {42, "parabolic plane stress triangle", 6, false, {}, {}},
+    {44, "plane stress quadrilateral", 4, false, {}, {}},
+    {45, "parabolic plane stress quadrilateral", 8, false, {}, {}},
+    {51, "plane strain triangle", 3, false, {}, {}},
+    {52, "parabolic plane strain triangle", 6, false, {}, {}},
+    {54, "plane strain quadrilateral", 4, false, {}, {}},
+    {55, "parabolic plane strain quadrilateral", 8, false, {}, {}},
+    {91, "thin shell triangle", 3, false, {}, {}},
+    {92, "parabolic thin shell triangle", 6, false, {}, {}},
+    {94, "thin shell quadrilateral", 4, false, {}, {}},
+    {95, "parabolic thin shell quadrilateral", 8, false, {}, {}},
+    {111, "solid linear tetrahedron", 4, false, U::tet4, as_in_unv},
+    {112, "solid linear wedge", 6, false, U::wedge6, as_in_unv},
+    {113,
+     "solid parabolic wedge",
+     15,
+     false,
+     U::wedge15,
+     {0, 2, 4, 9, 11, 13, 1, 3, 5, 10, 12, 14, 6, 7, 8}},
+    {115, "solid linear brick", 8, false, U::hex8, as_in_unv},
+    {116, "solid parabolic brick", 20, false, U::hex20, {0, 2, 4,  6,  12, 14, 16, 18, 1,  3,
+                                                         5, 7, 13, 15, 17, 19, 8,  9,  10, 11}},
+    {118, "solid parabolic tetrahedron", 10, false, U::tet10, {0, 2, 4, 9, 1, 3, 5, 6, 7, 8}},
+};
+
+}  // namespace
+
+const UnvType* unv_type(int number) noexcept {
+  const auto* it = std::find_if(std::begin(unv_types), std::end(unv_types),
+                                [number](const UnvType& t) { return t.number == number; });
+  return it == std::end(unv_types) ? nullptr : it;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,22 @@
+#pragma once
+// Finite elements of universal files by their descriptor number, and the order of their nodes.
+#include <array>
+#include <optional>
+
+#include "floatframe/fe/fe_model.hpp"
+
+namespace floatframe {
+
+struct UnvType {
+  int number = 0;
+  const char* name = "";
+  int nodes = 0;
+  bool beam = false;                 ///< a record of orientation and end sections comes first
+  std::optional<ElementType> solid;  ///< the solid element that it is, if there is one
+  std::array<int, 20> order{};       ///< solids: node k of the element is node order[k] of the file
+};
+
+/// Null if the number is not known, or of elements that are no mesh (masses, springs, rigid ones).
+const UnvType* unv_type(int number) noexcept;
+
+}  // namespace floatframe
