@@ -45,7 +45,11 @@ def executed(source):
     notebook = jupytext.read(source)
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
     folders = [os.path.abspath(folder) for folder in os.environ.get("PYTHONPATH", "").split(os.pathsep) if folder]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(folders)}  # the kernel starts in another folder
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(folders),  # the kernel starts in another folder
+        "MPLBACKEND": "module://matplotlib_inline.backend_inline",  # whichever the shell has
+    }
     client = nbclient.NotebookClient(notebook, timeout=600, resources={"metadata": {"path": str(HERE)}})
     client.execute(env=environment)
     return notebook
