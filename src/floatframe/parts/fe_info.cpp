@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,11 +14,31 @@
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/math/vector_text.hpp"
 #include "floatframe/parts/json_vector.hpp"
+#include "floatframe/parts/part_text.hpp"
 
 namespace floatframe {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Masses of the materials of one element: shares by the thickness of plies, and what its section
+/// has besides.
+void share(const FeModel& model, const Element& element, double volume, double mass, FeFacts& out) {
+  const ShellSection* shell = is_shell(element.type) ? &model.shells[element.section] : nullptr;
+  if (shell == nullptr || shell->plies.empty()) {
+    const double own = volume * model.materials[element.material].density;
+    out.material_masses[element.material] += own;
+    out.other_mass += mass - own;
+    return;
+  }
+  for (const ShellPly& ply : shell->plies) {
+    const double own =
+        volume * ply.thickness / shell->thickness * model.materials[ply.material].density;
+    out.material_masses[ply.material] += own;
+    mass -= own;
+  }
+  out.other_mass += mass;
+}
 
 /// Volume and mass: elements of unit density, so that they exist without a material too.
 void measure(FeModel model, FeFacts& out) {
@@ -25,6 +46,7 @@ void measure(FeModel model, FeFacts& out) {
   if (model.materials.empty()) model.materials.push_back({1.0, 0.3, 1.0});
   for (Material& m : model.materials) m = {1.0, 0.3, 1.0};
   for (ShellSection& s : model.shells) s.mass = 0.0;
+  out.material_masses.assign(given.materials.size(), 0.0);
   const auto in_range = [&](int material) {
     return material >= 0 && material < static_cast<int>(given.materials.size());
   };
@@ -40,21 +62,23 @@ void measure(FeModel model, FeFacts& out) {
       continue;
     }
     kernel.scalar_mass(input, M);
-    out.volume += M.sum();
+    const double volume = M.sum();
+    out.volume += volume;
     if (!in_range(material)) continue;
     kernel.scalar_mass(gather(given, given.elements[e]), M);
     out.mass += M.sum();
+    share(given, given.elements[e], volume, M.sum(), out);
   }
-  for (const PointMass& m : model.masses) out.mass += m.mass;
+  for (const PointMass& m : model.masses) out.point_mass += m.mass;
+  out.mass += out.point_mass;
+  // Rounding of the differences is no mass.
+  if (std::abs(out.other_mass) < 1e-9 * std::abs(out.mass)) out.other_mass = 0.0;
 }
 
 void sets(const FeModel& model, FeFacts& out) {
   const auto add = [&](const std::string& name, const char* kind, std::size_t size,
                        const std::set<int>& nodes) {
     out.sets.push_back({name, kind, static_cast<int>(size), static_cast<int>(nodes.size())});
-    // A set of everything is not a place, two nodes leave a rotation open.
-    if (!nodes.empty() && nodes.size() != 2 && static_cast<int>(nodes.size()) < model.nodes())
-      out.interfaces.push_back("set:" + name);
   };
   for (const auto& [name, nodes] : model.node_sets)
     add(name, "nodes", nodes.size(), {nodes.begin(), nodes.end()});
@@ -83,6 +107,23 @@ std::string material_name(const FeModel& model, std::size_t k) {
   return k < model.material_names.size() ? model.material_names[k] : fmt::format("{}", k + 1);
 }
 
+/// "set:BALL", "node:5": without the name of the interface.
+std::string way_of(const InterfaceDescription& d) {
+  return interface_text(d).substr(d.name.size() + 1);
+}
+
+std::string proposal_text(const ReduceProposal& p) {
+  std::string text;
+  if (!p.interfaces.empty()) {
+    std::vector<std::string> ways;
+    for (const InterfaceDescription& d : p.interfaces) ways.push_back(way_of(d));
+    text += fmt::format("\nInterfaces that `reduce` takes together: {}\n", fmt::join(ways, ", "));
+  }
+  if (!p.obstacle.empty())
+    return text + fmt::format("\n`reduce` would refuse this: {}\n", p.obstacle);
+  return text + fmt::format("\nTo reduce it, with the interfaces that you need\n  {}\n", p.command);
+}
+
 }  // namespace
 
 std::vector<std::string> likely_units(const FeModel& model) {
@@ -107,7 +148,7 @@ std::vector<std::string> likely_units(const FeModel& model) {
   return out;
 }
 
-FeFacts fe_facts(const FeModel& model) {
+FeFacts fe_facts(const PartJob& job, const FeModel& model) {
   FeFacts out;
   out.nodes = model.nodes();
   std::map<std::string, int> types;
@@ -135,17 +176,16 @@ FeFacts fe_facts(const FeModel& model) {
     const std::string reference = s.reference >= 0 ? model.node_label(s.reference) : "";
     out.spiders.push_back({s.name, s.kind == Spider::Kind::rigid ? "rigid" : "mean", reference,
                            static_cast<int>(s.nodes.size())});
-    if (s.reference >= 0 && s.reference < static_cast<int>(model.node_ids.size()))
-      out.interfaces.push_back(fmt::format("node:{}", model.node_ids[s.reference]));
   }
   out.likely_units = likely_units(model);
+  out.proposal = propose_reduction(job, model, out.likely_units);
   return out;
 }
 
-std::string fe_info_text(const std::string& file, const FeModel& model) {
-  const FeFacts f = fe_facts(model);
-  std::string text =
-      fmt::format("{}: finite-element model (numbers in the units of the file)\n", file);
+std::string fe_info_text(const PartJob& job, const FeModel& model) {
+  const FeFacts f = fe_facts(job, model);
+  std::string text = fmt::format("{}: finite-element model (numbers in the units of the file)\n",
+                                 job.file.string());
   text += fmt::format("\n  nodes         {}\n", f.nodes);
   for (const auto& [type, count] : f.elements) text += fmt::format("  {:<12}  {}\n", type, count);
   if (f.matrix_rows > 0) text += fmt::format("  matrices      {} rows\n", f.matrix_rows);
@@ -170,14 +210,19 @@ std::string fe_info_text(const std::string& file, const FeModel& model) {
           model.without_density.empty() ? "" : ", without that of materials that have no density");
   }
   if (!model.materials.empty()) {
-    TextTable table({"material", "Young", "Poisson", "density"});
+    TextTable table({"material", "Young", "Poisson", "density", "mass"});
     for (std::size_t k = 0; k < model.materials.size(); ++k) {
       const Material& m = model.materials[k];
       const bool known = !model.without_density.contains(static_cast<int>(k));
       table.add({material_name(model, k), fmt::format("{:g}", m.young),
-                 fmt::format("{:g}", m.poisson), known ? fmt::format("{:g}", m.density) : "-"});
+                 fmt::format("{:g}", m.poisson), known ? fmt::format("{:g}", m.density) : "-",
+                 known ? fmt::format("{:.6g}", f.material_masses[k]) : "-"});
     }
     text += '\n' + table.text(2);
+    if (f.point_mass != 0.0) text += fmt::format("  point masses: {:.6g}\n", f.point_mass);
+    if (f.other_mass != 0.0)
+      text +=
+          fmt::format("  mass of sections besides that of their materials: {:.6g}\n", f.other_mass);
     if (!model.without_density.empty())
       text += "  density -: the file gives none; `reduce` needs one: --density RHO or NAME=RHO\n";
     text += f.likely_units.empty()
@@ -199,8 +244,6 @@ std::string fe_info_text(const std::string& file, const FeModel& model) {
       table.add({s.name, s.kind, s.reference, std::to_string(s.nodes)});
     text += '\n' + table.text(2);
   }
-  if (!f.interfaces.empty())
-    text += fmt::format("\n  interfaces could be: {}\n", fmt::join(f.interfaces, ", "));
   if (!model.notes.empty()) {
     text += "\nPassed over in the file\n";
     for (const std::string& note : model.notes) text += "  - " + note + '\n';
@@ -213,11 +256,12 @@ std::string fe_info_text(const std::string& file, const FeModel& model) {
                               f.bad_elements.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
                     shown < f.bad_elements.size() ? ", ..." : "");
   }
+  if (f.bad_elements.empty()) text += proposal_text(f.proposal);
   return text;
 }
 
-std::string fe_info_json(const std::string& file, const FeModel& model) {
-  const FeFacts f = fe_facts(model);
+std::string fe_info_json(const PartJob& job, const FeModel& model) {
+  const FeFacts f = fe_facts(job, model);
   Json elements = Json::object(), materials = Json::array(), all_sets = Json::array(),
        spiders = Json::array();
   for (const auto& [type, count] : f.elements) elements[type] = count;
@@ -228,14 +272,19 @@ std::string fe_info_json(const std::string& file, const FeModel& model) {
          {"young", m.young},
          {"poisson", m.poisson},
          {"density",
-          model.without_density.contains(static_cast<int>(k)) ? Json(nullptr) : Json(m.density)}});
+          model.without_density.contains(static_cast<int>(k)) ? Json(nullptr) : Json(m.density)},
+         {"mass", model.without_density.contains(static_cast<int>(k))
+                      ? Json(nullptr)
+                      : Json(f.material_masses[k])}});
   }
   for (const FeFacts::Set& s : f.sets)
     all_sets.push_back({{"name", s.name}, {"of", s.kind}, {"size", s.size}, {"nodes", s.nodes}});
   for (const FeFacts::SpiderFacts& s : f.spiders)
     spiders.push_back(
         {{"name", s.name}, {"kind", s.kind}, {"reference", s.reference}, {"nodes", s.nodes}});
-  const Json json = {{"file", file},
+  Json ways = Json::array();
+  for (const InterfaceDescription& d : f.proposal.interfaces) ways.push_back(way_of(d));
+  const Json json = {{"file", job.file.string()},
                      {"kind", "finite-element model"},
                      {"nodes", f.nodes},
                      {"elements", elements},
@@ -249,11 +298,15 @@ std::string fe_info_json(const std::string& file, const FeModel& model) {
                      {"high", json_vector(f.high)},
                      {"volume", f.volume},
                      {"mass", f.mass},
+                     {"point_mass", f.point_mass},
+                     {"other_mass", f.other_mass},
                      {"materials", materials},
                      {"likely_units", f.likely_units},
                      {"sets", all_sets},
                      {"spiders", spiders},
-                     {"possible_interfaces", f.interfaces},
+                     {"possible_interfaces", ways},
+                     {"command", f.proposal.command},
+                     {"obstacle", f.proposal.obstacle},
                      {"bad_elements", f.bad_elements},
                      {"notes", model.notes},
                      {"files", model.files}};

@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "floatframe/fe/fe_model.hpp"
+#include "floatframe/parts/part_job.hpp"
+#include "floatframe/parts/reduce_proposal.hpp"
 
 namespace floatframe {
 
@@ -16,7 +17,9 @@ struct FeFacts {
   int matrix_rows = 0;                           ///< of matrices from another program
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box
   double volume = 0.0;                           ///< of solids, shells and beams that are valid
-  double mass = 0.0;                             ///< volume times density, and point masses
+  double mass = 0.0;                             ///< of all, known as far as densities are
+  std::vector<double> material_masses;           ///< of each material
+  double point_mass = 0.0, other_mass = 0.0;     ///< and that of sections per length or area
   std::vector<std::string> bad_elements;         ///< labels of elements that are inverted or flat
   struct Set {
     std::string name, kind;  ///< "nodes", "elements", "surface"
@@ -31,17 +34,17 @@ struct FeFacts {
   std::vector<SpiderFacts> spiders;
   /// Unit systems in which all materials look like those of real parts.
   std::vector<std::string> likely_units;
-  /// Values of --interface that could be made, without their names.
-  std::vector<std::string> interfaces;
+  ReduceProposal proposal;
 };
 
-FeFacts fe_facts(const FeModel& model);
+/// Of the job the file and how it was read.
+FeFacts fe_facts(const PartJob& job, const FeModel& model);
 
 /// Unit systems in which every material has 1e8 Pa < E < 2e12 Pa, 50 kg/m3 < density < 25000 kg/m3
 /// and the part measures 1 mm to 50 m.
 std::vector<std::string> likely_units(const FeModel& model);
 
-std::string fe_info_text(const std::string& file, const FeModel& model);
-std::string fe_info_json(const std::string& file, const FeModel& model);
+std::string fe_info_text(const PartJob& job, const FeModel& model);
+std::string fe_info_json(const PartJob& job, const FeModel& model);
 
 }  // namespace floatframe

@@ -34,7 +34,7 @@ std::string info(const PartJob& job, bool json) {
                 : sid_info_text(file, sid.body, sid.notes);
   }
   const FeModel model = read_fe_file(job.file, job.read, job.format);
-  return json ? fe_info_json(file, model) : fe_info_text(file, model);
+  return json ? fe_info_json(job, model) : fe_info_text(job, model);
 }
 
 }  // namespace

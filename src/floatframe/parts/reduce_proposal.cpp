@@ -1,0 +1,292 @@
+#include "floatframe/parts/reduce_proposal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/math/dense.hpp"
+#include "floatframe/math/so3.hpp"
+#include "floatframe/parts/part_options.hpp"
+#include "floatframe/parts/part_text.hpp"
+#include "floatframe/reduction/connectivity.hpp"
+
+namespace floatframe {
+namespace {
+
+constexpr std::size_t most_interfaces = 24;
+constexpr int most_trials = 200;
+
+struct Candidate {
+  InterfaceDescription interface;
+  std::size_t nodes = 0;
+};
+
+/// Letters, digits, `_` and `-`, so that models, results and shells take it as it is.
+std::string plain_name(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '_' || c == '-';
+    if (plain || (!out.empty() && out.back() != '_')) out += plain ? c : '_';
+  }
+  while (!out.empty() && out.back() == '_') out.pop_back();
+  if (out.empty() || (out[0] >= '0' && out[0] <= '9') || out[0] == '-') out = "I" + out;
+  return out;
+}
+
+InterfaceDescription at_set(const std::string& name) {
+  InterfaceDescription out;
+  out.name = plain_name(name);
+  out.choice.by = NodeChoice::By::set;
+  out.choice.set = name;
+  return out;
+}
+
+/// Does the command line read what it shows?
+bool can_be_written(const InterfaceDescription& d) {
+  try {
+    const InterfaceDescription again = interface_argument(interface_text(d));
+    return again.name == d.name && again.choice.by == d.choice.by &&
+           again.choice.set == d.choice.set && again.choice.number == d.choice.number;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Candidates of the first group, then those of a second one.
+std::vector<Candidate> candidates(const FeModel& model, bool elements) {
+  std::vector<Candidate> out;
+  const auto add = [&](const std::string& name) {
+    Candidate c{at_set(name)};
+    try {
+      c.nodes = choose_nodes(model, c.interface.choice).size();
+    } catch (const InputError&) {  // an empty set
+      return;
+    }
+    if (2 * c.nodes <= model.positions.size()) out.push_back(std::move(c));
+  };
+  if (elements) {
+    for (const auto& [name, set] : model.element_sets) add(name);
+  } else {
+    for (const auto& [name, set] : model.node_sets) add(name);
+    for (const auto& [name, set] : model.surfaces)
+      if (!model.node_sets.contains(name) && !model.element_sets.contains(name)) add(name);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.nodes < b.nodes; });
+  return out;
+}
+
+/// A copy of the model that gets the interfaces.
+class Trial {
+ public:
+  explicit Trial(const FeModel& model) : model_(model) {}
+
+  bool accept(InterfaceDescription d) {
+    if (accepted_.size() >= most_interfaces || trials_++ >= most_trials) return false;
+    const std::string name = d.name;
+    for (int k = 2; model_.find_node(d.name) >= 0; ++k) d.name = fmt::format("{}_{}", name, k);
+    if (!can_be_written(d)) return false;
+    const std::size_t nodes = model_.positions.size();
+    int node = -1;
+    try {
+      node = add_interface(model_, d);
+    } catch (const InputError&) {
+      return false;
+    }
+    const bool added = model_.positions.size() > nodes;
+    const auto known = std::find(nodes_.begin(), nodes_.end(), node);
+    if (known == nodes_.end() && has_own_dofs(node) && moves_something(node)) {
+      accepted_.push_back(std::move(d));
+      nodes_.push_back(node);
+      return true;
+    }
+    if (added)
+      take_back();
+    else  // it goes on under the name of the first
+      model_.node_names[node] = known == nodes_.end() ? "" : accepted_[known - nodes_.begin()].name;
+    return false;
+  }
+
+  const std::vector<InterfaceDescription>& accepted() const { return accepted_; }
+  const FeModel& model() const { return model_; }
+
+ private:
+  bool has_own_dofs(int node) const {
+    const DofTable table = dof_table(model_);
+    if (table.count(node) != 6) return false;
+    try {
+      const DependentDofs dofs = resolve_dependences(model_, table);
+      const auto first = dofs.dependent.begin() + table.begin[node];
+      return std::none_of(first, first + 6, [](char dependent) { return dependent != 0; });
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  /// Of the reference of a rigid spider: some node that follows resists every motion of it.
+  bool moves_something(int node) const {
+    const auto without = dofs_without_springs(model_);
+    const auto own = [&](int k) { return without[static_cast<std::size_t>(k) + 1]; };
+    Mat6 A = Mat6::Zero();
+    bool rigid = false;
+    for (const Spider& s : model_.spiders) {
+      if (s.reference != node) continue;
+      if (s.kind == Spider::Kind::mean) return true;
+      rigid = true;
+      double size = 0.0;
+      for (const int k : s.nodes)
+        size = std::max(size, (model_.positions[k] - model_.positions[node]).norm());
+      if (!(size > 0.0)) size = 1.0;
+      for (const int k : s.nodes) {
+        const Vec3 r = (model_.positions[k] - model_.positions[node]) / size;
+        Mat6 motion = Mat6::Identity();
+        motion.block<3, 3>(0, 3) = -skew(r);
+        for (int axis = 0; axis < 6; ++axis)
+          if (((s.mask >> axis) & 1u) != 0 && axis < own(k))
+            A += motion.row(axis).transpose() * motion.row(axis);
+      }
+    }
+    if (!rigid || is_used_by_elements(node)) return true;
+    const VecX e = symmetric_eigenvalues(A);
+    return e(0) > 1e-10 * e(5);
+  }
+
+  bool is_used_by_elements(int node) const {
+    return std::any_of(model_.elements.begin(), model_.elements.end(), [&](const Element& e) {
+      const auto last = e.nodes.begin() + element_nodes(e.type);
+      return std::find(e.nodes.begin(), last, node) != last;
+    });
+  }
+
+  void take_back() {
+    model_.positions.pop_back();
+    model_.spiders.pop_back();
+    const auto shorten = [&](auto& values) {
+      if (values.size() > model_.positions.size()) values.resize(model_.positions.size());
+    };
+    shorten(model_.node_ids);
+    shorten(model_.node_sources);
+    shorten(model_.node_names);
+  }
+
+  FeModel model_;
+  std::vector<InterfaceDescription> accepted_;
+  std::vector<int> nodes_;  ///< of the accepted ones
+  int trials_ = 0;
+};
+
+InterfaceDescription at_node(const FeModel& model, int node, const std::string& name) {
+  InterfaceDescription out;
+  const std::size_t k = node;
+  out.choice.by = NodeChoice::By::node;
+  out.choice.number = k < model.node_ids.size() ? model.node_ids[k] : node + 1;
+  out.name = name.empty() ? fmt::format("node{}", out.choice.number) : plain_name(name);
+  return out;
+}
+
+/// Nodes of given matrices that have rotations, if they are few: references of spiders.
+std::vector<int> turning_nodes(const FeModel& model) {
+  std::vector<int> out;
+  if (!model.matrices) return out;
+  for (const Dof& dof : model.matrices->dofs)
+    if (dof.axis == 5) out.push_back(dof.node);
+  if (out.size() > most_interfaces) out.clear();
+  return out;
+}
+
+Trial trial_of(const FeModel& model) {
+  Trial trial(model);
+  std::set<int> followers;
+  for (const Spider& s : model.spiders)
+    if (s.kind == Spider::Kind::rigid) followers.insert(s.nodes.begin(), s.nodes.end());
+  for (const Spider& s : model.spiders) {
+    if (s.reference >= 0 && !followers.contains(s.reference))
+      trial.accept(at_node(model, s.reference, s.name));
+  }
+  for (const int node : turning_nodes(model)) trial.accept(at_node(model, node, ""));
+  for (const Candidate& c : candidates(model, false)) trial.accept(c.interface);
+  if (trial.accepted().empty())
+    for (const Candidate& c : candidates(model, true)) trial.accept(c.interface);
+  return trial;
+}
+
+/// Degrees of freedom that are left for normal modes.
+int inner_dofs(const FeModel& tied, std::size_t interfaces) {
+  try {
+    const DependentDofs dofs = resolve_dependences(tied, dof_table(tied));
+    const auto count = std::count(dofs.dependent.begin(), dofs.dependent.end(), 0);
+    return std::max(
+        0, static_cast<int>(count) - 6 * static_cast<int>(std::max<std::size_t>(interfaces, 1)));
+  } catch (const InputError&) {  // the reduction says it
+    return 0;
+  }
+}
+
+std::string obstacle_of(const FeModel& tied) {
+  if (tied.elements.empty() && !tied.matrices) return "the file has no elements";
+  try {
+    check_connected(tied);
+  } catch (const InputError& error) {
+    return error.errors().front().message;
+  }
+  return "";
+}
+
+/// As a shell takes it for one word.
+std::string shell_word(const std::string& text) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./:=,+@%").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+/// `inner`: degrees of freedom for normal modes.
+std::string command_of(const PartJob& job, const FeModel& model,
+                       const std::vector<std::string>& likely_units,
+                       const std::vector<InterfaceDescription>& interfaces, int inner) {
+  std::string text = "floatframe reduce " + shell_word(job.file.string());
+  const auto add = [&](const std::string& option, const std::string& value) {
+    text += " --" + option + (value.empty() ? "" : " " + shell_word(value));
+  };
+  const PartJob plain;
+  add("units", likely_units.empty() ? "UNITS" : likely_units.front());
+  for (const PartOption& option : part_options()) {
+    if (!option.reading) continue;
+    const auto texts = option_texts(option, job);
+    if (texts == option_texts(option, plain)) continue;
+    for (const std::string& value : texts) add(option.name, value);
+  }
+  if (model.materials.empty() && !model.matrices && !job.read.material) add("material", "E,NU,RHO");
+  if (!model.without_density.empty()) add("density", "RHO");
+  const bool grounded = std::any_of(model.springs.begin(), model.springs.end(),
+                                    [](const Spring& s) { return s.nodes[1] < 0; });
+  if (grounded) add("grounded-springs", "ignore");
+  if (interfaces.empty()) add("method", "free_free");
+  for (const InterfaceDescription& d : interfaces) add("interface", interface_text(d));
+  if (inner <= default_modes) add("modes", std::to_string(inner / 2));
+  return text;
+}
+
+}  // namespace
+
+ReduceProposal propose_reduction(const PartJob& job, const FeModel& model,
+                                 const std::vector<std::string>& likely_units) {
+  const Trial trial = trial_of(model);
+  ReduceProposal out;
+  out.interfaces = trial.accepted();
+  const int inner = inner_dofs(trial.model(), out.interfaces.size());
+  out.command = command_of(job, model, likely_units, out.interfaces, inner);
+  out.obstacle = obstacle_of(trial.model());
+  return out;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,30 @@
+#pragma once
+// What `floatframe info` proposes of a finite-element file: interfaces that a reduction accepts
+// together, and the command that makes it.
+#include <string>
+#include <vector>
+
+#include "floatframe/parts/part_job.hpp"
+
+namespace floatframe {
+
+struct ReduceProposal {
+  /// At the references of spiders, then at node sets and surfaces, small ones first; at element
+  /// sets only if there are no others. Each was added to a copy of the model as a reduction does,
+  /// so that no node belongs to two, none is given twice and no direction of one depends on others
+  /// or is held by nothing. Sets of more than half of the nodes are none. At most 24.
+  std::vector<InterfaceDescription> interfaces;
+  /// "floatframe reduce FILE --units ... --interface NAME=set:NAME": a line to paste into a shell,
+  /// with the options of reading that the job has, and the first of the likely units. What the
+  /// file does not say stands there in capitals: UNITS, RHO, E,NU,RHO. Free modes if there is no
+  /// interface.
+  std::string command;
+  /// Why it would be refused for the mesh itself, pieces that nothing joins; empty if it is not.
+  std::string obstacle;
+};
+
+/// Of the job the file and how the model was read from it.
+ReduceProposal propose_reduction(const PartJob& job, const FeModel& model,
+                                 const std::vector<std::string>& likely_units);
+
+}  // namespace floatframe

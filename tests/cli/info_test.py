@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""What `floatframe info` proposes, and that a shell and `reduce` take it as it is printed."""
+
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+BINARY = os.environ["FLOATFRAME_BINARY"]
+DECKS = Path(os.environ["FLOATFRAME_TEST_DATA"]) / "fe"
+
+# Two bricks along z. TOP of the upper one is tied to node 20 by a rigid spider.
+HEAD = """*NODE
+1, 0,0,0
+2, 1,0,0
+3, 1,1,0
+4, 0,1,0
+5, 0,0,1
+6, 1,0,1
+7, 1,1,1
+8, 0,1,1
+9, 0,0,2
+10, 1,0,2
+11, 1,1,2
+12, 0,1,2
+20, 0.5,0.5,2.5
+*ELEMENT, TYPE=C3D8, ELSET=LOW
+1, 1,2,3,4,5,6,7,8
+*ELEMENT, TYPE=C3D8, ELSET=HIGH
+2, 5,6,7,8,9,10,11,12
+*MATERIAL, NAME=STEEL
+*ELASTIC
+210000., 0.3
+*DENSITY
+7.85e-9
+*MATERIAL, NAME=ALU
+*ELASTIC
+70000., 0.33
+*DENSITY
+2.7e-9
+*SOLID SECTION, ELSET=LOW, MATERIAL=STEEL
+*SOLID SECTION, ELSET=HIGH, MATERIAL=ALU
+*NSET, NSET=TOP
+9, 10, 11, 12
+"""
+SETS = """*NSET, NSET=FOOT
+1, 2, 3, 4
+*NSET, NSET=FOOT AGAIN
+4, 3, 2, 1
+*NSET, NSET=FOOT AND ONE
+1, 2, 3, 4, 5
+*NSET, NSET=CORNER
+1
+*NSET, NSET=EDGE
+1, 2
+*SURFACE, NAME=SFOOT
+1, S1
+*SURFACE, NAME=STOP
+2, S2
+"""
+SPIDER = "*RIGID BODY, NSET=TOP, REF NODE=20\n"
+
+
+class Info(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="floatframe_"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def expect(self, code, *arguments):
+        done = subprocess.run([BINARY, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def facts(self, text, *options, name="part.inp"):
+        (self.folder / name).write_text(text)
+        return json.loads(self.expect(0, "info", name, "--json", *options).stdout)
+
+    def pasted(self, command, **values):
+        """Runs the command as it stands, but for what it leaves to the user."""
+        for word, value in values.items():
+            self.assertIn(word, command)
+            command = command.replace(word, value)
+        program = Path(BINARY).resolve()
+        bin_folder = self.folder / "bin"
+        bin_folder.mkdir(exist_ok=True)
+        if not (bin_folder / "floatframe").exists():
+            (bin_folder / "floatframe").symlink_to(program)
+        done = subprocess.run(
+            ["sh", "-c", f"PATH=$PWD/bin:$PATH; {command} --quiet -o pasted.ffb"], cwd=self.folder, capture_output=True, text=True, timeout=120
+        )
+        self.assertEqual(done.returncode, 0, command + done.stderr)
+        body = json.loads(self.expect(0, "info", "pasted.ffb", "--json").stdout)
+        return [marker["name"] for marker in body["markers"]]
+
+    def test_each_place_once_and_what_reduce_takes(self):
+        facts = self.facts(HEAD + SETS + SPIDER)
+        self.assertEqual(facts["possible_interfaces"], ["node:20", "set:FOOT"])
+        self.assertEqual(facts["obstacle"], "")
+        self.assertEqual(self.pasted(facts["command"]), ["TOP", "FOOT"])
+        text = self.expect(0, "info", "part.inp").stdout
+        self.assertIn("  " + facts["command"] + "\n", text)
+        self.assertIn("Interfaces that `reduce` takes together: node:20, set:FOOT\n", text)
+
+    def test_without_a_spider_the_sets(self):
+        facts = self.facts(HEAD + SETS)
+        # The smallest sets first, each of several with the same nodes once; the corner of a solid and an edge are none.
+        self.assertEqual(facts["possible_interfaces"], ["set:FOOT", "set:TOP"])
+        self.pasted(facts["command"])
+
+    def test_mass_of_each_material(self):
+        facts = self.facts(HEAD + "*ELEMENT, TYPE=MASS, ELSET=M\n3, 12\n*MASS, ELSET=M\n1e-9\n")
+        self.assertEqual([m["name"] for m in facts["materials"]], ["STEEL", "ALU"])
+        for material, mass in zip(facts["materials"], (7.85e-9, 2.7e-9)):
+            self.assertAlmostEqual(material["mass"], mass, delta=1e-15)
+        self.assertAlmostEqual(facts["point_mass"], 1e-9, delta=1e-15)
+        self.assertAlmostEqual(facts["mass"], 11.55e-9, delta=1e-15)
+        self.assertEqual(facts["other_mass"], 0.0)
+
+    def test_mass_of_plies(self):
+        facts = self.facts(
+            "*NODE\n1,0,0,0\n2,2,0,0\n3,2,1,0\n4,0,1,0\n*ELEMENT,TYPE=S4,ELSET=E\n1,1,2,3,4\n"
+            "*MATERIAL,NAME=A\n*ELASTIC\n7e10,0.3\n*DENSITY\n2000\n*MATERIAL,NAME=B\n*ELASTIC\n7e9,0.3\n*DENSITY\n1000\n"
+            "*SHELL SECTION,ELSET=E,COMPOSITE\n0.01,3,A,0\n0.03,3,B,90\n"
+        )
+        self.assertAlmostEqual(facts["materials"][0]["mass"], 40.0, delta=1e-9)
+        self.assertAlmostEqual(facts["materials"][1]["mass"], 60.0, delta=1e-9)
+        self.assertAlmostEqual(facts["mass"], 100.0, delta=1e-9)
+
+    def test_what_the_file_does_not_say_is_left_to_the_user(self):
+        bare = HEAD.replace("*DENSITY\n7.85e-9\n", "").replace("*DENSITY\n2.7e-9\n", "") + SETS
+        facts = self.facts(bare)
+        self.assertEqual([m["mass"] for m in facts["materials"]], [None, None])
+        self.pasted(facts["command"], RHO="7.85e-9")
+        facts = self.facts(bare, "--density", "STEEL=7.85e-9")
+        self.assertIn("--density STEEL=7.85e-09 --density RHO", facts["command"])
+        facts = self.facts(bare, "--density", "7.85e-9")
+        self.assertNotIn("RHO", facts["command"])
+        self.pasted(facts["command"])
+        mesh = bare[: bare.index("*MATERIAL")] + "*NSET, NSET=TOP\n9, 10, 11, 12\n"
+        facts = self.facts(mesh)
+        self.assertIn("--units UNITS", facts["command"])
+        self.pasted(facts["command"].replace("E,NU,RHO", "210000,0.3,7.85e-9"), UNITS="mm-t-s")
+
+    def test_hard_names(self):
+        strange = HEAD + SETS.replace("NSET=FOOT\n", "NSET=\"it's $HOME, $(touch no) ;a\"\n")
+        facts = self.facts(strange, name="it's a part.inp")
+        names = self.pasted(facts["command"])
+        self.assertEqual(len(names), 2)
+        self.assertFalse((self.folder / "no").exists())
+
+    def test_what_reduce_would_refuse(self):
+        loose = HEAD.replace("2, 5,6,7,8,9,10,11,12", "2, 15,16,17,18,9,10,11,12").replace(
+            "*ELEMENT, TYPE=C3D8, ELSET=LOW", "15, 0,0,1.5\n16, 1,0,1.5\n17, 1,1,1.5\n18, 0,1,1.5\n*ELEMENT, TYPE=C3D8, ELSET=LOW"
+        )
+        facts = self.facts(loose)
+        self.assertIn("the part is in 2 pieces", facts["obstacle"])
+        text = self.expect(0, "info", "part.inp").stdout
+        self.assertIn("`reduce` would refuse this: the part is in 2 pieces", text)
+        self.assertNotIn("floatframe reduce part.inp", text)
+        done = self.expect(2, "reduce", "part.inp", "--units", "mm-t-s", "--method", "free_free")
+        self.assertIn("the part is in 2 pieces", done.stderr)
+        # Inverted elements: the warning says it, no command.
+        text = self.facts(HEAD.replace("1, 1,2,3,4,5,6,7,8", "1, 5,6,7,8,1,2,3,4"))
+        self.assertEqual(len(text["bad_elements"]), 1)
+        self.assertNotIn("floatframe reduce part.inp", self.expect(0, "info", "part.inp").stdout)
+
+    def test_a_hinge_is_no_interface(self):
+        # Two nodes that a spider holds without their rotations leave a turn free.
+        facts = self.facts(HEAD.replace("9, 10, 11, 12\n", "9, 11\n") + SPIDER)
+        self.assertNotIn("node:20", facts["possible_interfaces"])
+
+    def test_matrices(self):
+        for file in DECKS.glob("two_bricks*"):
+            shutil.copy(file, self.folder)
+        facts = json.loads(self.expect(0, "info", "two_bricks.sti.gz", "--json").stdout)
+        self.assertEqual(facts["possible_interfaces"], ["node:20", "set:FOOT"])
+        self.pasted(facts["command"], UNITS="m-kg-s")
+
+
+if __name__ == "__main__":
+    unittest.main()
