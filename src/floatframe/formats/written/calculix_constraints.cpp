@@ -1,5 +1,8 @@
-// Constraints and point masses of a CalculiX deck.
+// Constraints, springs and point masses of a CalculiX deck.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
@@ -23,7 +26,7 @@ std::vector<int> add_rotation_nodes(CalculixText& deck, const DofTable& table) {
     if (s.rotation_node >= 0)
       out[static_cast<std::size_t>(s.reference)] = deck.node(s.rotation_node);
   std::string lines;
-  int last = deck.numbers.last_node;
+  int& last = deck.numbers.last_node;
   for (int n = 0; n < model.nodes(); ++n) {
     const auto at = static_cast<std::size_t>(n);
     if (table.count(n) < 6 || bends[at] != 0 || out[at] != 0) continue;
@@ -36,41 +39,196 @@ std::vector<int> add_rotation_nodes(CalculixText& deck, const DofTable& table) {
   return out;
 }
 
-void add_equations(CalculixText& deck) {
-  const DofTable table = dof_table(deck.model);
-  const DependentDofs dependences = resolve_dependences(deck.model, table);
-  if (!dependences.any) return;
-  const std::vector<int> rotations = add_rotation_nodes(deck, table);
-  std::vector<std::pair<int, int>> place(static_cast<std::size_t>(table.size()));
-  for (int n = 0; n < deck.model.nodes(); ++n)
-    for (int axis = 0; axis < table.count(n); ++axis) {
-      const int turned = axis < 3 ? 0 : rotations[static_cast<std::size_t>(n)];
-      place[static_cast<std::size_t>(table.index(n, axis))] =
-          turned > 0 ? std::pair{turned, axis - 2} : std::pair{deck.node(n), axis + 1};
-    }
-  std::string zeros;
-  for (std::size_t dof = 0; dof < place.size(); ++dof) {
-    if (dependences.dependent[dof] == 0) continue;
-    const auto& terms = dependences.terms[dof];
+using Terms = DependentDofs::Terms;
+
+/// Degrees of freedom by node and direction of the deck.
+class Equations {
+ public:
+  explicit Equations(CalculixText& deck)
+      : deck_(deck),
+        table_(dof_table(deck.model)),
+        dependences_(resolve_dependences(deck.model, table_)),
+        place_(static_cast<std::size_t>(table_.size())) {
+    if (!dependences_.any && deck.model.springs.empty()) return;
+    const std::vector<int> rotations = add_rotation_nodes(deck, table_);
+    for (int n = 0; n < deck.model.nodes(); ++n)
+      for (int axis = 0; axis < table_.count(n); ++axis) {
+        const int turned = axis < 3 ? 0 : rotations[static_cast<std::size_t>(n)];
+        place_[static_cast<std::size_t>(table_.index(n, axis))] =
+            turned > 0 ? std::pair{turned, axis - 2} : std::pair{deck.node(n), axis + 1};
+      }
+  }
+
+  /// Dependent degrees of freedom by independent ones.
+  void add_dependences() {
+    for (std::size_t dof = 0; dof < place_.size(); ++dof)
+      if (dependences_.dependent[dof] != 0) add(place_[dof], dependences_.terms[dof]);
+  }
+
+  /// place = sum of `terms` in independent degrees of freedom; without a term it is zero.
+  void add(const std::pair<int, int>& place, const Terms& terms) {
+    const auto& [node, axis] = place;
     if (terms.empty()) {
-      zeros += fmt::format("{}, {}, {}\n", place[dof].first, place[dof].second, place[dof].second);
-      continue;
+      zeros_ += fmt::format("{}, {}, {}\n", node, axis, axis);
+      return;
     }
-    deck.text += fmt::format("*EQUATION\n{}\n{}, {}, -1", terms.size() + 1, place[dof].first,
-                             place[dof].second);
+    deck_.text += fmt::format("*EQUATION\n{}\n{}, {}, -1", terms.size() + 1, node, axis);
     int in_line = 1;
     for (const auto& [other, factor] : terms) {
-      const auto& [node, axis] = place[static_cast<std::size_t>(other)];
-      deck.text += in_line++ % 4 == 0 ? ",\n" : ", ";
-      deck.text += fmt::format("{}, {}, {}", node, axis, calculix_number(factor));
+      const auto& [there, direction] = place_[static_cast<std::size_t>(other)];
+      deck_.text += in_line++ % 4 == 0 ? ",\n" : ", ";
+      deck_.text += fmt::format("{}, {}, {}", there, direction, calculix_number(factor));
     }
-    deck.text += '\n';
+    deck_.text += '\n';
   }
-  if (!zeros.empty()) deck.text += "*BOUNDARY\n" + zeros;
+
+  void add_zeros() {
+    if (!zeros_.empty()) deck_.text += "*BOUNDARY\n" + zeros_;
+  }
+
+  /// A sum over degrees of freedom of one node in independent ones.
+  Terms independent(int node, const Vec6& factors) const {
+    std::map<int, double> sum;
+    for (int axis = 0; axis < 6; ++axis) {
+      const int dof = table_.index(node, axis);
+      if (factors(axis) == 0.0 || dof < 0) continue;
+      const std::size_t k = static_cast<std::size_t>(dof);
+      if (dependences_.dependent[k] == 0) sum[dof] += factors(axis);
+      for (const auto& [other, factor] : dependences_.terms[k])
+        sum[other] += factors(axis) * factor;
+    }
+    Terms out;
+    for (const auto& [dof, factor] : sum)
+      if (factor != 0.0) out.emplace_back(dof, factor);
+    return out;
+  }
+
+  const std::pair<int, int>& place(int node, int axis) const {
+    return place_[static_cast<std::size_t>(table_.index(node, axis))];
+  }
+
+ private:
+  CalculixText& deck_;
+  DofTable table_;
+  DependentDofs dependences_;
+  std::vector<std::pair<int, int>> place_;
+  std::string zeros_;
+};
+
+/// CalculiX tells the line of the stiffness from that of the directions by its point.
+std::string with_point(std::string number) {
+  if (number.find('.') == std::string::npos)
+    number.insert(std::min(number.find('e'), number.size()), ".");
+  return number;
 }
 
+/// A spring of any directions between further nodes: the first direction of each is its end's
+/// share of the elongation, the others follow the spring's node, so that nothing is loose.
+class Springs {
+ public:
+  Springs(CalculixText& deck, Equations& equations) : deck_(deck), equations_(equations) {}
+
+  void add(const Spring& s) {
+    const bool grounded = s.nodes[1] < 0, straight = !grounded && along_its_line(s);
+    std::pair<int, int> ends[2];
+    const int count = grounded ? 1 : 2;
+    for (int end = 0; end < count; ++end) {
+      const auto k = static_cast<std::size_t>(end);
+      // SPRING2 takes the second displacement less the first.
+      const Vec6 d = end == 0 && !grounded ? Vec6(-s.directions[k]) : s.directions[k];
+      if (straight)
+        ends[end].first = deck_.node(s.nodes[k]);
+      else if (axis_of(d) >= 0)
+        ends[end] = equations_.place(s.nodes[k], axis_of(d));
+      else
+        ends[end] = further_node(s, s.nodes[k], d);
+    }
+    const int number = ++deck_.numbers.last_element;
+    const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
+    elements_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n{}",
+                             grounded   ? "SPRING1"
+                             : straight ? "SPRINGA"
+                                        : "SPRING2",
+                             set, number);
+    std::string directions;
+    for (int end = 0; end < count; ++end) {
+      elements_ += fmt::format(", {}", ends[end].first);
+      if (!straight) directions += fmt::format("{}{}", end == 0 ? "" : ", ", ends[end].second);
+    }
+    elements_ += fmt::format("\n*SPRING, ELSET={}\n{}\n{}\n", set, directions,
+                             with_point(calculix_number(s.stiffness)));
+  }
+
+  void finish() {
+    if (!nodes_.empty())
+      deck_.text +=
+          "** Ends of springs: the first direction is a share of the elongation\n*NODE\n" + nodes_;
+    for (const auto& [place, terms] : rows_) equations_.add(place, terms);
+    deck_.text += elements_;
+  }
+
+ private:
+  /// The only degree of freedom of a direction, with the factor 1; else -1.
+  static int axis_of(const Vec6& d) {
+    int axis = 0;
+    d.maxCoeff(&axis);
+    return d == Vec6::Unit(axis) ? axis : -1;
+  }
+
+  bool along_its_line(const Spring& s) const {
+    const auto at = [&](int end) {
+      return deck_.model
+          .positions[static_cast<std::size_t>(s.nodes[static_cast<std::size_t>(end)])];
+    };
+    const Vec3 d = at(1) - at(0);
+    if (!(d.norm() > 0.0)) return false;
+    Vec6 line = Vec6::Zero();
+    line.head<3>() = d.normalized();
+    return (s.directions[0] + line).norm() < 1e-14 && (s.directions[1] - line).norm() < 1e-14;
+  }
+
+  /// CalculiX leaves out degrees of freedom of nodes that only equations have.
+  bool is_in_an_element(int node) {
+    if (in_elements_.empty()) {
+      in_elements_.assign(deck_.model.positions.size(), 0);
+      for (const Element& e : deck_.model.elements)
+        for (int k = 0; k < element_nodes(e.type); ++k)
+          in_elements_[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+      for (const PointMass& m : deck_.model.masses)
+        if (m.mass != 0.0) in_elements_[static_cast<std::size_t>(m.node)] = 1;
+      for (const Spider& s : deck_.model.spiders)
+        in_elements_[static_cast<std::size_t>(s.reference)] = 1;
+    }
+    return in_elements_[static_cast<std::size_t>(node)] != 0;
+  }
+
+  std::pair<int, int> further_node(const Spring& s, int node, const Vec6& direction) {
+    if (!is_in_an_element(node))
+      deck_.errors.add(deck_.model.mark(s.source),
+                       fmt::format("a spring that is neither along an axis nor along the line of "
+                                   "its nodes ends at {}, which no element has: CalculiX would "
+                                   "hold it there",
+                                   deck_.model.node_label(node)));
+    const int number = ++deck_.numbers.last_node;
+    const Vec3& p = deck_.model.positions[static_cast<std::size_t>(node)];
+    nodes_ += fmt::format("{}, {}, {}, {}\n", number, calculix_number(p(0)), calculix_number(p(1)),
+                          calculix_number(p(2)));
+    rows_.emplace_back(std::pair{number, 1}, equations_.independent(node, direction));
+    for (int axis = 1; axis < 3; ++axis)
+      rows_.emplace_back(std::pair{number, axis + 1},
+                         equations_.independent(node, Vec6::Unit(axis)));
+    return {number, 1};
+  }
+
+  CalculixText& deck_;
+  Equations& equations_;
+  std::string nodes_, elements_;
+  std::vector<char> in_elements_;
+  std::vector<std::pair<std::pair<int, int>, Terms>> rows_;
+};
+
 void add_masses(CalculixText& deck) {
-  int number = deck.numbers.last_element;
+  int& number = deck.numbers.last_element;
   std::size_t turning = 0;
   for (const PointMass& m : deck.model.masses) {
     turning += !m.J.isZero(0.0);
@@ -89,7 +247,12 @@ void add_masses(CalculixText& deck) {
 }  // namespace
 
 void add_calculix_constraints(CalculixText& deck) {
-  add_equations(deck);
+  Equations equations(deck);
+  equations.add_dependences();
+  Springs springs(deck, equations);
+  for (const Spring& s : deck.model.springs) springs.add(s);
+  springs.finish();
+  equations.add_zeros();
   add_masses(deck);
 }
 

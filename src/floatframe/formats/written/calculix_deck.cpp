@@ -183,11 +183,6 @@ void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bo
 WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options) {
   if (model.elements.empty())
     throw InputError("the model has no elements, expected a mesh (matrices make no deck)");
-  if (!model.springs.empty())
-    throw InputError(
-        fmt::format("the model has {} springs, which are not written as a CalculiX "
-                    "deck (.vtu and .msh show the mesh)",
-                    model.springs.size()));
   CalculixText deck(model);
   deck.text = "*HEADING\nWritten by Floatframe\n";
   add_nodes(deck);

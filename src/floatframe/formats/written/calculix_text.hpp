@@ -33,8 +33,8 @@ void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bo
 /// Materials, orientations and sections of all elements, in sets of their own.
 void add_calculix_sections(CalculixText& deck);
 
-/// Spiders and equations, as *EQUATION in degrees of freedom that depend on none; point masses.
-/// Rotations of nodes without beams and shells are displacements of further nodes.
+/// Spiders and equations, as *EQUATION in degrees of freedom that depend on none; springs, point
+/// masses. Rotations of nodes without beams and shells are displacements of further nodes.
 void add_calculix_constraints(CalculixText& deck);
 
 }  // namespace floatframe
