@@ -295,7 +295,14 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
   for (const AbaqusSpider& spider : c.spiders) build_spider(build, spider, only_nodes, list);
   const DofMap dofs(build.model);
   const std::map<int, Mat3> axes = abaqus_node_axes(build);
-  for (const AbaqusEquation& equation : c.equations) build_equation(build, equation, dofs, axes);
+  // A *MPC is several equations: one error is enough.
+  FeSource wrong;
+  for (const AbaqusEquation& equation : c.equations) {
+    if (equation.at.file == wrong.file && equation.at.line == wrong.line) continue;
+    const std::size_t before = build.source.errors();
+    build_equation(build, equation, dofs, axes);
+    if (build.source.errors() != before) wrong = equation.at;
+  }
   for (const AbaqusSupport& support : c.supports) {
     for (const int node : build.nodes.resolve(support.nodes)) {
       const bool rotation = dofs.is_rotation(node);

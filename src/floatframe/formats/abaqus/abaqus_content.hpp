@@ -249,6 +249,12 @@ void read_abaqus_elements(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_node_set(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_element_set(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_surface(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_generate.cpp
+void read_abaqus_generated_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_filled_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_copied_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_generated_elements(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_copied_elements(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_assembly.cpp
 void read_abaqus_part(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_end_part(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
@@ -285,6 +291,8 @@ void read_abaqus_kinematic_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusCo
 void read_abaqus_distributing_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_equation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_boundary(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_mpc.cpp
+void read_abaqus_mpc(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_ties.cpp
 void read_abaqus_tie(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_contact_pair(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);

@@ -19,7 +19,7 @@ const Refused refused[] = {
     {"join the nodes in the mesher or use *RIGID BODY or *COUPLING",
      {"EMBEDDED ELEMENT", "SHELL TO SOLID COUPLING", "FASTENER", "FASTENER PROPERTY",
       "COHESIVE SECTION", "GASKET SECTION", "BOND"}},
-    {"use *RIGID BODY, *COUPLING or *EQUATION", {"MPC", "NETWORK MPC"}},
+    {"use *RIGID BODY, *COUPLING or *EQUATION", {"NETWORK MPC"}},
     {"put springs, dampers and connectors into the multibody model",
      {"JOINT", "EPJOINT", "BUSHING", "ITS", "RELEASE", "FOUNDATION", "CONNECTOR SECTION",
       "CONNECTOR BEHAVIOR", "CONNECTOR ELASTICITY"}},
@@ -28,8 +28,7 @@ const Refused refused[] = {
     {"take the cut and its tension out of the deck", {"PRE-TENSION SECTION"}},
     {"write the deck in global directions", {"SYSTEM", "NORMAL"}},
     {"write the deck with all nodes and elements",
-     {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYMMETRIC MODEL GENERATION",
-      "IMPERFECTION", "IMPORT", "MODEL CHANGE", "ADJUST"}},
+     {"NMAP", "SYMMETRIC MODEL GENERATION", "IMPERFECTION", "IMPORT", "MODEL CHANGE", "ADJUST"}},
     {"write the deck with numbers", {"PARAMETER"}},
     {"only isotropic linear elasticity is read",
      {"HYPERELASTIC", "HYPERFOAM", "HYPOELASTIC", "USER MATERIAL", "VISCOELASTIC", "LAMINATE",
@@ -123,6 +122,11 @@ const std::initializer_list<const char*> definitions = {
 /// What describes the part itself and stands before the first step. *MODEL CHANGE and
 /// *CHANGE SOLID SECTION belong into a step and change it.
 const std::initializer_list<const char*> of_the_part = {"NODE",
+                                                        "NGEN",
+                                                        "NFILL",
+                                                        "NCOPY",
+                                                        "ELGEN",
+                                                        "ELCOPY",
                                                         "ELEMENT",
                                                         "MATERIAL",
                                                         "ELASTIC",
@@ -154,7 +158,8 @@ std::unordered_map<std::string, AbaqusKeywordRule> rules() {
     for (const char* name : group.names) map[abaqus_name(name)] = {Use::refused, group.advice};
   }
   for (const auto& list : {of_steps, definitions}) {
-    for (const char* name : list) map.try_emplace(abaqus_name(name), Use::harmless);
+    for (const char* name : list)
+      map.try_emplace(abaqus_name(name), AbaqusKeywordRule{Use::harmless});
   }
   return map;
 }

@@ -10,6 +10,7 @@ namespace {
 using Family = AbaqusType::Family;
 
 constexpr const char* hybrid = "without its pressure field";
+constexpr const char* cold = "without their temperatures";
 constexpr const char* full =
     "with full integration as in CalculiX (Abaqus takes the change of volume at the centre)";
 constexpr const char* with_shear = "as Timoshenko beams with the shear factors of Abaqus";
@@ -40,28 +41,41 @@ constexpr AbaqusType point(const char* name, Family family, int nodes) {
 constexpr std::array types_of_abaqus{
     solid("C3D4", 4, ElementType::tet4),
     solid("C3D4H", 4, ElementType::tet4, hybrid),
+    solid("C3D4T", 4, ElementType::tet4, cold),
     solid("C3D10", 10, ElementType::tet10),
     solid("C3D10H", 10, ElementType::tet10, hybrid),
     solid("C3D10I", 10, ElementType::tet10, "as C3D10"),
     solid("C3D10M", 10, ElementType::tet10, "as C3D10, without the modified formulation"),
-    solid("C3D10T", 10, ElementType::tet10, "as C3D10"),
+    solid("C3D10MH", 10, ElementType::tet10, "as C3D10, without the modified formulation"),
+    solid("C3D10MT", 10, ElementType::tet10, "as C3D10, without the modified formulation"),
+    solid("C3D10T", 10, ElementType::tet10, cold),
     solid("C3D5", 5, ElementType::pyramid5),
     solid("C3D5H", 5, ElementType::pyramid5, hybrid),
     solid("C3D6", 6, ElementType::wedge6),
+    solid("C3D6T", 6, ElementType::wedge6, cold),
     solid("C3D15", 15, ElementType::wedge15),
     solid("C3D8", 8, ElementType::hex8, full),
     solid("C3D8H", 8, ElementType::hex8, hybrid),
     solid("C3D8I", 8, ElementType::hex8i),
+    solid("C3D8T", 8, ElementType::hex8, cold),
+    solid("C3D8HT", 8, ElementType::hex8, cold),
+    solid("C3D8RT", 8, ElementType::hex8r, cold),
     solid("C3D8R", 8, ElementType::hex8r),
     solid("C3D20", 20, ElementType::hex20),
     solid("C3D20H", 20, ElementType::hex20, hybrid),
     solid("C3D20R", 20, ElementType::hex20r),
+    solid("C3D20T", 20, ElementType::hex20, cold),
+    solid("C3D20RT", 20, ElementType::hex20r, cold),
     solid("C3D20RH", 20, ElementType::hex20r, hybrid),
     shell("S3", 3, ElementType::tri3),
     shell("S3R", 3, ElementType::tri3),
+    shell("S3T", 3, ElementType::tri3, cold),
+    shell("S3RT", 3, ElementType::tri3, cold),
     shell("STRI3", 3, ElementType::tri3),
     shell("S4", 4, ElementType::quad4),
     shell("S4R", 4, ElementType::quad4, "as S4"),
+    shell("S4T", 4, ElementType::quad4, cold),
+    shell("S4RT", 4, ElementType::quad4, cold),
     shell("S4R5", 4, ElementType::quad4, "as S4"),
     shell("S6", 6, ElementType::tri6, triangles),
     shell("STRI65", 6, ElementType::tri6, triangles),
