@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """How many decks of a folder are read, why the others are not, and whether frequencies are those of other programs.
 
-  scripts/deck_suite.py [FOLDER]                 CalculiX' own suite (Debian's calculix-ccx-test) if no folder is given
+  scripts/deck_suite.py [FOLDER]                 CalculiX' own suite (Debian's calculix-ccx-test) if no folder is given; decks of
+                                                 Abaqus and CalculiX (.inp) and of Nastran (.bdf, .nas, .dat, .blk, .bulk, .fem)
     --program FILE, --modes FILE                 build/floatframe, build/tests/deck_modes
     --free                                       free modes against CalculiX (ccx) on the converted deck
     --reference                                  modes of *FREQUENCY decks against their .dat.ref
@@ -10,7 +11,7 @@
     --json FILE, --list                          all results; every deck with what became of it
 
 A deck is read as it is, with --density where a density is missing, and with --contact ignore besides. Each program has 60 s and 4 GiB.
-Decks may be compressed (.gz). Counts: decks, elastic, elastic_density, read, read_density, read_contact, density_read,
+Decks may be compressed (.gz). Nastran decks are only read; each reason is counted with the decks in which it is the only one. Counts: decks, elastic, elastic_density, read, read_density, read_contact, density_read,
 density_read_contact, free_compared, free_agree, matrices_agree, reference_compared, reference_agree, crashed, slow.
 """
 import argparse
@@ -36,6 +37,9 @@ DENSITY = ("--density", "7.8e-9")
 CONTACT = ("--contact", "ignore")
 # Three-dimensional structural elements and isotropic or other linear elasticity: what a flexible body can be made of.
 STRUCTURE = re.compile(r"TYPE\s*=\s*(C3D|S[3468]|B3|SC|T3D|M3D)", re.IGNORECASE)
+NASTRAN = (".bdf", ".nas", ".dat", ".blk", ".bulk", ".fem")
+NASTRAN_STRUCTURE = re.compile(r"^(CTETRA|CHEXA|CPENTA|CPYRA|CQUAD|CTRIA|CSHEAR|CBAR|CBEAM|CROD|CONROD|CTUBE|CBEND|CELAS|CBUSH)",
+                               re.IGNORECASE | re.MULTILINE)
 
 
 def call(arguments, seconds=SECONDS, folder=None):
@@ -51,17 +55,26 @@ def call(arguments, seconds=SECONDS, folder=None):
     return done.returncode, done.stdout, done.stderr
 
 
+def reasons(errors):
+    """The errors without what differs from deck to deck, each once."""
+    lines = [line for line in errors.splitlines() if re.match(r"\S*\.\w+(:\d+)*: |floatframe: ", line)] or errors.splitlines() or ["?"]
+    found = []
+    for line in lines:
+        text = re.sub(r"^\S*?\.(inp|" + "|".join(s[1:] for s in NASTRAN) + r")(\.gz)?(:\d+)*:\s*", "", line.removeprefix("floatframe: "))
+        text = re.sub(r"^([A-Z]+\d?) \d+:", r"\1:", text)
+        found.append(re.sub(r"(?<![A-Z])[-+]?\d[\d.]*(e[-+]?\d+)?", "#", text)[:110])
+    return list(dict.fromkeys(found))
+
+
 def reason(errors):
-    """The first error without what differs from deck to deck."""
-    lines = [line for line in errors.splitlines() if ".inp" in line or "floatframe:" in line] or errors.splitlines() or ["?"]
-    text = re.sub(r"^.*?\.inp(\.gz)?(:\d+)*:\s*", "", lines[0].removeprefix("floatframe: "))
-    return re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", text)[:110]
+    return reasons(errors)[0]
 
 
 class Deck:
     def __init__(self, path, arguments):
         self.path, self.program, self.modes, self.options = path, arguments.program, arguments.modes, arguments.options
         self.name = path.name.removesuffix(".gz")
+        self.nastran = pathlib.Path(self.name).suffix.lower() in NASTRAN
         self.text = (gzip.open(path, "rt", errors="replace") if path.suffix == ".gz" else open(path, errors="replace")).read()
         self.result = {"deck": self.name}
 
@@ -71,8 +84,11 @@ class Deck:
     def read(self):
         """The options with which the deck is read; None if it is not."""
         r = self.result
-        r["elastic"] = bool(STRUCTURE.search(self.text)) and self.has(r"^\*\s*ELASTIC")
-        r["density"] = self.has(r"^\*\s*DENSITY")
+        if self.nastran:
+            r["elastic"], r["density"] = bool(NASTRAN_STRUCTURE.search(self.text)), False
+        else:
+            r["elastic"] = bool(STRUCTURE.search(self.text)) and self.has(r"^\*\s*ELASTIC")
+            r["density"] = self.has(r"^\*\s*DENSITY")
         for kind, options in (("read", self.options), ("contact", (*self.options, *CONTACT))):
             code, text, errors = call([self.program, "info", self.path, *options])
             if code is None or code < 0 or code > 2:
@@ -81,7 +97,8 @@ class Deck:
             if code == 0:
                 r["state"] = kind
                 return options
-            r["state"], r["why"] = "refused", reason(errors)
+            r["state"], r["whys"] = "refused", reasons(errors)
+            r["why"] = r["whys"][0]
             if "contact" not in errors.lower() and "gap" not in errors.lower():
                 return None
         return None
@@ -217,7 +234,7 @@ def compare_reference(deck, options, folder):
 def tried(path, arguments):
     deck = Deck(path, arguments)
     options = deck.read()
-    if deck.result["elastic"]:
+    if deck.result["elastic"] and not deck.nastran:
         with tempfile.TemporaryDirectory() as folder:
             if arguments.free and options is not None:
                 compare_free(deck, options, folder)
@@ -244,15 +261,20 @@ def counts_of(results):
 def show(results, arguments):
     counts = counts_of(results)
     print("  ".join(f"{name} {count}" for name, count in counts.items()))
-    for key, title in (("why", "refused (of those with *ELASTIC)"), ("free", "free modes"), ("reference", "*FREQUENCY decks")):
-        tally = collections.defaultdict(list)
+    for key, title in (("why", "refused (of those with elastic elements)"), ("free", "free modes"), ("reference", "*FREQUENCY decks")):
+        tally, alone = collections.defaultdict(list), collections.Counter()
         for r in results:
-            if r["elastic"] and r.get(key) and (key != "why" or r["state"] in ("refused", "crashed")):
-                tally[r[key]].append(r["deck"])
+            if not r["elastic"] or not r.get(key) or (key == "why" and r["state"] not in ("refused", "crashed")):
+                continue
+            several = r.get("whys", [r[key]]) if key == "why" else [r[key]]
+            for what in several:
+                tally[what].append(r["deck"])
+            alone[several[0]] += len(several) == 1
         if tally:
             print(f"\n{title}")
         for what, decks in sorted(tally.items(), key=lambda item: -len(item[1])):
-            print(f"  {len(decks):4}  {what}: {', '.join(decks[:4])}{', ...' if len(decks) > 4 else ''}")
+            only = f" ({alone[what]} alone)" if alone[what] not in (0, len(decks)) else ""
+            print(f"  {len(decks):4}  {what}{only}: {', '.join(decks[:4])}{', ...' if len(decks) > 4 else ''}")
     for key in ("free", "reference"):
         apart = [r[f"{key}_apart"] for r in results if r.get(key, "").startswith("agrees")]
         if apart:
@@ -282,9 +304,9 @@ def main():
     arguments.program, arguments.modes = arguments.program.resolve(), arguments.modes.resolve()
     if arguments.options is None:
         arguments.options = ("--dialect", "calculix") if arguments.folder.resolve() == SUITE.resolve() else ()
-    decks = sorted(p for p in arguments.folder.rglob("*") if p.name.endswith((".inp", ".inp.gz")))
+    decks = sorted(p for p in arguments.folder.rglob("*") if p.name.removesuffix(".gz").lower().endswith((".inp", *NASTRAN)))
     if not decks:
-        sys.exit(f"{arguments.folder}: found no decks (.inp, .inp.gz); CalculiX' are in Debian's package calculix-ccx-test")
+        sys.exit(f"{arguments.folder}: found no decks (.inp, {', '.join(NASTRAN)}, also with .gz); CalculiX' are in Debian's package calculix-ccx-test")
     if arguments.free and not shutil.which("ccx"):
         sys.exit("ccx is missing, expected CalculiX (Debian's package calculix-ccx)")
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:

@@ -143,8 +143,6 @@ TEST(BadNastran, Decks) {
 
 TEST(BadNastran, Lines) {
   EXPECT_EQ(deck_error("+A      1\n"), "arm.bdf:1: found a continuation '+A', expected a card");
-  EXPECT_EQ(deck_error("GRID    1               0.      0.      0.\n=       *(1)    =\n"),
-            "arm.bdf:2: repeated cards ('=') are not read; write them out");
   EXPECT_EQ(
       deck_error("CTETRA  1       1       1       2       3       4       5       6       +A\n"
                  "+B      7       8       9       10\n"),

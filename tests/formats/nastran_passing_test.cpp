@@ -8,6 +8,7 @@
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 #include "floatframe/formats/nastran/read_nastran.hpp"
 #include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -46,6 +47,25 @@ TEST(NastranPassing, HarmlessCards) {
   for (const char* name : {"SOLLIB", "SPARSTOR", "EQCHECK", "RCONDK", "PRTSTIFF", "GRIDSEQ"}) {
     EXPECT_EQ(passing_error(tetra + "PARAM," + name + ",1\n"), "no error") << name;
   }
+}
+
+// Solution sequences are includes of the executive control that users do not have.
+TEST(NastranPassing, MissingIncludesOfTheExecutiveControl) {
+  const TemporaryFolder folder;
+  folder.write("control.dat", "METHOD = 1\n");
+  const std::string alter = "SOL 103\nINCLUDE '/dmap/alter.v9'\n",
+                    control = "include control.dat\n";
+  folder.write("arm.bdf", alter + "CEND\n" + control + "BEGIN BULK\n" + tetra + "ENDDATA\n");
+  const FeModel m = read_fe_file(folder / "arm.bdf");
+  EXPECT_EQ(m.notes.back(),
+            (folder / "arm.bdf").string() +
+                ": files that the executive control includes are missing and passed "
+                "over: /dmap/alter.v9");
+  folder.write("arm.bdf", "SOL 103\nCEND\nINCLUDE 'alter.v9'\nBEGIN BULK\n" + tetra);
+  EXPECT_NE(error_of([&] {
+              read_fe_file(folder / "arm.bdf");
+            }).find("arm.bdf:3: the include file 'alter.v9' does not exist in "),
+            std::string::npos);
 }
 
 TEST(NastranPassing, SentencesOfWhatIsRefused) {

@@ -53,20 +53,24 @@ bool has_begin_bulk(std::string_view beginning) {
 }
 
 NastranCards::NastranCards(TextSource& source, bool has_control)
-    : source_(source), begun_(has_control) {
+    : source_(source), begun_(has_control), replication_(source) {
   if (has_control) read_control();
 }
 
 void NastranCards::read_control() {
   control_.there = true;
+  bool executive = true;  // before CEND: solution sequences and changes of them, which are not read
   std::string_view line;
   while (source_.next(line)) {
     line = trimmed(line.substr(0, line.find('$')));
     if (is_begin_bulk(line)) return;
     if (is_begin(line)) source_.stop(source_.here(), fmt::format(one_model, shown(line)));
     std::string_view rest = line;
-    if (same_word(next_word(rest), "INCLUDE")) {
-      include(line);
+    const std::string_view word = next_word(rest);
+    if (same_word(word, "INCLUDE")) {
+      include(line, executive);
+    } else if (same_word(word, "CEND")) {
+      executive = false;
     } else {
       command(line);
     }
@@ -183,7 +187,7 @@ void NastranCards::split(std::string_view text, Line& line) {
 }
 
 /// INCLUDE 'file', also over several lines.
-void NastranCards::include(std::string_view text) {
+void NastranCards::include(std::string_view text, bool executive) {
   const FeSource at = source_.here();
   std::string path(trimmed(trimmed(text).substr(7)));
   const char quote = !path.empty() && (path[0] == '\'' || path[0] == '"') ? path[0] : '\0';
@@ -195,21 +199,33 @@ void NastranCards::include(std::string_view text) {
     path += trimmed(line);
   }
   if (quote != '\0') path = path.substr(1, path.find(quote, 1) - 1);
-  source_.include(path, at);
+  if (!executive) return source_.include(path, at);
+  if (!source_.include_if_there(path, at)) control_.missing_includes.push_back(path);
 }
 
 bool NastranCards::next(NastranCard& card) {
+  std::swap(before_, card);  // the card of the call before
   if (!cards_of_control_.empty()) {
     card = std::move(cards_of_control_.front());
     cards_of_control_.pop_front();
     return true;
   }
+  if (replication_.next(card, before_)) return true;
+  expanded_before_ = std::move(expanded_);
   expanded_.clear();
+  while (true) {
+    if (!one(card)) return false;
+    if (replication_.complete(card, before_)) return true;
+    if (replication_.next(card, before_)) return true;
+  }
+}
+
+bool NastranCards::one(NastranCard& card) {
   std::string_view text;
   while (true) {
     if (!next_text(text)) return false;
     if (begins_with(trimmed(text), "INCLUDE") && text.find(',') == std::string_view::npos) {
-      include(text);
+      include(text, false);
       continue;
     }
     if (is_begin(text)) {
@@ -224,9 +240,6 @@ bool NastranCards::next(NastranCard& card) {
   if (is_continuation(line.name)) {
     source_.stop(source_.here(),
                  fmt::format("found a continuation {}, expected a card", shown(line.name)));
-  }
-  if (line.name[0] == '=') {
-    source_.stop(source_.here(), "repeated cards ('=') are not read; write them out");
   }
   card.name = upper_case(line.name);
   if (card.name.back() == '*') card.name.pop_back();

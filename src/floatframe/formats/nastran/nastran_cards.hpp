@@ -3,36 +3,16 @@
 // (commas), with their continuations and includes. A continuation follows its card; if both carry
 // marks, these must agree. Of executive and case control before BEGIN BULK only what changes the
 // part is kept: PARAM entries come as cards, matrices and sets that are selected are in `control`.
-#include <algorithm>
 #include <deque>
-#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "floatframe/formats/text/text_source.hpp"
+#include "floatframe/formats/nastran/nastran_replication.hpp"
 
 namespace floatframe {
-
-struct NastranCard {
-  std::string name;                      ///< upper case, without '*'
-  std::vector<std::string_view> fields;  ///< trimmed, from field 2; those of continuations follow
-  FeSource at;
-  /// First field of each continuation and where it stands.
-  std::vector<std::pair<std::size_t, FeSource>> continuations;
-
-  /// Where a field stands.
-  FeSource place(std::size_t i) const {
-    const auto next = std::upper_bound(continuations.begin(), continuations.end(), i,
-                                       [](std::size_t k, const auto& c) { return k < c.first; });
-    return next == continuations.begin() ? at : std::prev(next)->second;
-  }
-  std::string_view field(std::size_t i) const {
-    return i < fields.size() ? fields[i] : std::string_view{};
-  }
-};
 
 /// What the case control selects.
 struct NastranControl {
@@ -40,6 +20,7 @@ struct NastranControl {
   std::vector<std::pair<int, FeSource>> mpc;
   /// Commands that add stiffness or mass: "K2GG = STIF".
   std::vector<std::pair<std::string, FeSource>> additions;
+  std::vector<std::string> missing_includes;  ///< of the executive control
 };
 
 class NastranCards {
@@ -47,7 +28,8 @@ class NastranCards {
   /// `has_control`: there is a BEGIN BULK to look for.
   NastranCards(TextSource& source, bool has_control);
 
-  /// The next card; false at ENDDATA or at the end of the file.
+  /// The next card; false at ENDDATA or at the end of the file. `card` must come as the call before
+  /// left it: cards may repeat the one before.
   bool next(NastranCard& card);
 
   const NastranControl& control() const { return control_; }
@@ -63,10 +45,11 @@ class NastranCards {
     std::vector<std::string_view> data;
     bool large = false;
   };
+  bool one(NastranCard& card);
   bool next_text(std::string_view& text);
   void comment(std::string_view text);
   void split(std::string_view text, Line& line);
-  void include(std::string_view text);
+  void include(std::string_view text, bool executive);
   void read_control();
   void command(std::string_view line);
 
@@ -74,7 +57,10 @@ class NastranCards {
   bool begun_ = false;  // BEGIN BULK was there
   NastranControl control_;
   std::deque<NastranCard> cards_of_control_;
-  std::deque<std::string> expanded_;  // lines of the card that had tabs
+  // Lines of the card and of the one before that had tabs.
+  std::deque<std::string> expanded_, expanded_before_;
+  NastranReplication replication_;
+  NastranCard before_;
   std::map<int, std::string> property_names_, material_names_, set_names_;
 };
 

@@ -1,6 +1,7 @@
 #include "floatframe/formats/nastran/nastran_content.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -229,6 +230,12 @@ class ContentReader {
       if (name == "WTMASS" || value == 1.0) continue;
       c_.notes.push_back(fmt::format("PARAM {}: the {} of the part is multiplied by {:g}", name,
                                      name == "CK1" ? "stiffness" : "mass", value));
+    }
+    if (!c_.control.missing_includes.empty()) {
+      c_.notes.push_back(
+          fmt::format("files that the executive control includes are missing and "
+                      "passed over: {}",
+                      fmt::join(c_.control.missing_includes, ", ")));
     }
     std::string list, dampers;
     for (const auto& [name, passed] : passed_) {

@@ -201,6 +201,14 @@ bool TextSource::next(std::string_view& line) {
 }
 
 void TextSource::include(std::string_view path, const FeSource& at) {
+  include_file(path, at, true);
+}
+
+bool TextSource::include_if_there(std::string_view path, const FeSource& at) {
+  return include_file(path, at, false);
+}
+
+bool TextSource::include_file(std::string_view path, const FeSource& at, bool required) {
   path = trimmed(path);
   if (path.size() >= 2 && (path.front() == '"' || path.front() == '\'') &&
       path.back() == path.front()) {
@@ -227,6 +235,7 @@ void TextSource::include(std::string_view path, const FeSource& at) {
       }
     }
   }
+  if (!exists && !required) return false;
   if (!exists) {
     const std::string where = folder_of(at.file).string();
     stop(at, fmt::format("the include file {} does not exist in {}", shown(target),
@@ -270,6 +279,7 @@ void TextSource::include(std::string_view path, const FeSource& at) {
   if (expanded_ > largest_text) {
     stop(at, fmt::format("the includes hold more than {} GiB in all", largest_text >> 30));
   }
+  return true;
 }
 
 SourceMark TextSource::mark(const FeSource& source) const {

@@ -66,6 +66,8 @@ class TextSource {
   /// the first file, also with `.gz`. Errors (missing, circular, too deep, too many) are thrown at
   /// once.
   void include(std::string_view path, const FeSource& at);
+  /// The same; false and nothing else if the file is missing.
+  bool include_if_there(std::string_view path, const FeSource& at);
 
   SourceMark mark(const FeSource& source) const;
   /// Collects an error; throws all of them when there are `most_errors`.
@@ -87,6 +89,7 @@ class TextSource {
     int line = 0;
   };
   int add_file(std::string name, std::string text);
+  bool include_file(std::string_view path, const FeSource& at, bool required);
   void open(int file);
 
   FileLoader loader_;
