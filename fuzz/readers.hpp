@@ -11,6 +11,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
+#include "floatframe/formats/ansys/read_ansys.hpp"
 #include "floatframe/formats/body_file/body_file.hpp"
 #include "floatframe/formats/body_file/npy.hpp"
 #include "floatframe/formats/body_file/zip_store.hpp"
@@ -54,6 +55,11 @@ inline void text(std::string_view bytes) {
 inline void abaqus(std::string_view bytes) {
   TextSource source(std::string(bytes), "fuzz.inp");
   use(read_abaqus(source, {}));
+}
+
+inline void ansys(std::string_view bytes) {
+  TextSource source(std::string(bytes), "fuzz.cdb");
+  use(read_ansys(source, {}));
 }
 
 /// Stiffness, mass, map, nodes as a deck or a table.
@@ -188,6 +194,7 @@ struct Reader {
 inline constexpr Reader readers[] = {
     {"text", text},
     {"abaqus", abaqus},
+    {"ansys", ansys},
     {"calculix_matrices", calculix_matrices},
     {"abaqus_matrices", abaqus_matrices},
     {"matrix_market", matrix_market},

@@ -7,6 +7,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
+#include "floatframe/formats/ansys/read_ansys.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 #include "floatframe/formats/home_notes.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
@@ -25,6 +26,7 @@ constexpr std::size_t most_notes = 500;
 const std::vector<FeFormat>& formats() {
   static const std::vector<FeFormat> list{
       {"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus},
+      {"ansys", "ANSYS deck (.cdb)", {".cdb"}, looks_like_ansys, read_ansys},
       {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh},
       {"nastran",
        "Nastran bulk data (.bdf)",

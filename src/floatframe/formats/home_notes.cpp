@@ -52,6 +52,19 @@ constexpr std::array differences{
     Difference{H::nastran, T::pyramid5, "shape functions of our own"},
     Difference{H::nastran, T::pyramid13, "shape functions of our own"},
     Difference{H::abaqus, T::pyramid5, "shape functions of our own"},
+    Difference{H::ansys, T::hex8, "the change of volume is taken at the centre there: softer"},
+    Difference{H::ansys, T::hex8i, own_modes},
+    Difference{H::ansys, T::hex8r, own_hourglass},
+    Difference{H::ansys, T::wedge6, "shape functions of our own"},
+    Difference{H::ansys, T::pyramid5, "shape functions of our own"},
+    Difference{H::ansys, T::pyramid13, "shape functions of our own"},
+    Difference{H::ansys, T::tri3, own_shells},
+    Difference{H::ansys, T::quad4, own_shells},
+    Difference{H::ansys, T::tri6, own_mid_shells},
+    Difference{H::ansys, T::quad8, own_mid_shells},
+    Difference{H::ansys, T::beam2,
+               "exact for loads at its ends here, order two in the length there"},
+    Difference{H::ansys, T::beam3, "shear area 5/6 of the section here"},
 };
 
 /// Elements of a type, and how many of them are lumped.
@@ -93,6 +106,10 @@ std::string mass_sentence(const FeModel& model, const std::map<ElementType, Coun
                         : std::string(
                               "all mass is consistent, as in CalculiX; Abaqus lumps that of "
                               "elements of first order: --dialect abaqus or --mass-form lumped");
+    case HomeProgram::ansys:
+      return lumped > 0
+                 ? fmt::format("the mass {} is lumped at their nodes, as LUMPM,ON asks", share)
+                 : std::string("all mass is consistent, as in ANSYS without LUMPM,ON");
     case HomeProgram::unknown:
       break;
   }
@@ -113,6 +130,7 @@ std::string home_note(const FeModel& model) {
       model.home == HomeProgram::abaqus_or_calculix ? HomeProgram::calculix : model.home;
   const char* const name = program == HomeProgram::abaqus     ? "Abaqus"
                            : program == HomeProgram::calculix ? "CalculiX"
+                           : program == HomeProgram::ansys    ? "ANSYS"
                                                               : "Nastran";
   std::string list;
   for (const Difference& d : differences) {

@@ -1,0 +1,163 @@
+#include "floatframe/formats/ansys/ansys_build.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "floatframe/core/diagnostics.hpp"
+
+namespace floatframe {
+
+Mat3 ansys_rotation(const Vec3& angles) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  return (Eigen::AngleAxisd(degree * angles(0), Vec3::UnitZ()) *
+          Eigen::AngleAxisd(degree * angles(1), Vec3::UnitX()) *
+          Eigen::AngleAxisd(degree * angles(2), Vec3::UnitY()))
+      .toRotationMatrix();
+}
+
+int AnsysBuild::node(int id, const FeSource& at, const std::string& who) {
+  const auto it = content.node_index.find(id);
+  if (it != content.node_index.end()) return it->second;
+  source.error(at, fmt::format("{} has node {}, which is not in the file", who, id));
+  return -1;
+}
+
+int AnsysBuild::add_node(const Vec3& p, const FeSource& at) {
+  const int largest = *std::max_element(model.node_ids.begin(), model.node_ids.end());
+  if (largest == std::numeric_limits<int>::max())
+    source.stop(at, "a node of its own is needed here, but there is no number above 2147483647");
+  model.positions.push_back(p);
+  model.node_ids.push_back(largest + 1);
+  model.node_sources.push_back(at);
+  return model.nodes() - 1;
+}
+
+bool AnsysBuild::nodes_of(const AnsysElement& e, std::vector<int>& nodes) {
+  nodes.clear();
+  for (int k = 0; k < e.nodes; ++k) {
+    const int id = content.element_nodes[e.first + k];
+    nodes.push_back(id == 0 ? -1 : node(id, e.at, label(e)));
+    if (id != 0 && nodes.back() < 0) return false;
+  }
+  return true;
+}
+
+std::string AnsysBuild::label(const AnsysElement& e) const {
+  const auto it = content.types.find(e.type);
+  const AnsysLibraryElement* library =
+      it == content.types.end() ? nullptr : ansys_library_element(it->second.number);
+  return library == nullptr ? fmt::format("element {}", e.id)
+                            : fmt::format("element {} ({})", e.id, library->name);
+}
+
+const AnsysType* AnsysBuild::type(const AnsysElement& e) {
+  const auto it = content.types.find(e.type);
+  if (it != content.types.end() && ansys_library_element(it->second.number) != nullptr)
+    return &it->second;
+  if (std::find(said.begin(), said.end(), e.type) != said.end()) return nullptr;
+  said.push_back(e.type);
+  if (it == content.types.end()) {
+    source.error(e.at, fmt::format("element {} is of type {}, which no ET gives", e.id, e.type));
+  } else {
+    source.error(
+        it->second.at,
+        fmt::format("type {} is element {}, which is not read; read are SOLID45, 92, 95, "
+                    "185, 186, 187, 285, SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, "
+                    "LINK8, 180, COMBIN14, MASS21 and MPC184",
+                    e.type, it->second.number));
+  }
+  return nullptr;
+}
+
+const AnsysReal* AnsysBuild::real(const AnsysElement& e) const {
+  const auto it = content.reals.find(e.real);
+  return it == content.reals.end() ? nullptr : &it->second;
+}
+
+int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
+  const auto [it, fresh] =
+      materials.try_emplace({id, more_density}, static_cast<int>(model.materials.size()));
+  if (!fresh) return it->second;
+  const auto found = content.materials.find(id);
+  Material m;
+  const bool own = found != content.materials.end();
+  if (own) {
+    m = ansys_material(found->second, id, source);
+  } else if (content.materials.empty() && options.material) {
+    m = *options.material;
+  } else if (!content.materials.empty()) {
+    error(e, fmt::format("it has material {}, which is not in the file", id));
+  }
+  if (own && !found->second.values.contains("DENS"))
+    model.without_density[it->second] = {found->second.at, 1.0};
+  m.density += more_density;
+  model.materials.push_back(std::move(m));
+  model.material_names.push_back(fmt::format("{}", id));
+  return it->second;
+}
+
+std::optional<Orientation> AnsysBuild::system(int id, const FeSource& at, const std::string& who) {
+  if (id == 0) return std::nullopt;
+  Orientation o;
+  int kind = id;
+  if (id > 10) {
+    const auto it = content.systems.find(id);
+    if (it == content.systems.end()) {
+      source.error(at,
+                   fmt::format("{} has coordinate system {}, which is not in the file", who, id));
+      return std::nullopt;
+    }
+    const AnsysSystem& s = it->second;
+    if (!s.round) {
+      source.error(s.at,
+                   fmt::format("coordinate system {} is elliptical, expected a round one", id));
+      return std::nullopt;
+    }
+    kind = s.kind;
+    o.axes = ansys_rotation(s.angles);
+    o.origin = s.origin;
+  }
+  if (kind > 2) {
+    source.error(at,
+                 fmt::format("{} has coordinate system {}: toroidal ones and those of numbers 3 "
+                             "to 10 are not read",
+                             who, id));
+    return std::nullopt;
+  }
+  if (kind == 1) o.kind = Orientation::Kind::cylindrical;
+  if (kind == 2) {  // radial, around, towards the pole
+    o.kind = Orientation::Kind::spherical;
+    o.turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  }
+  return o;
+}
+
+int AnsysBuild::orientation(int id, const FeSource& at, const std::string& who) {
+  if (id == 0) return -1;
+  const auto [it, fresh] = orientations.try_emplace(id, -1);
+  if (!fresh) return it->second;
+  if (const auto o = system(id, at, who)) {
+    it->second = static_cast<int>(model.orientations.size());
+    model.orientations.push_back(*o);
+  }
+  return it->second;
+}
+
+Mat3 AnsysBuild::nodal_axes(int node) const {
+  const auto it = content.node_angles.find(node);
+  return it == content.node_angles.end() ? Mat3::Identity() : ansys_rotation(it->second);
+}
+
+void AnsysBuild::error(const AnsysElement& e, const std::string& text) {
+  source.error(e.at, fmt::format("{}: {}", label(e), text));
+}
+
+void AnsysBuild::note(const FeSource& at, const std::string& text) {
+  model.notes.push_back(ErrorEntry{source.mark(at), text}.text());
+}
+
+}  // namespace floatframe

@@ -1,0 +1,73 @@
+#pragma once
+// From the content of an ANSYS deck to the model.
+#include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "floatframe/formats/ansys/ansys_content.hpp"
+#include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/text/text_source.hpp"
+
+namespace floatframe {
+
+struct AnsysBuild {
+  TextSource& source;
+  AnsysContent& content;
+  const FeReadOptions& options;
+  FeModel& model;
+  std::vector<int> index;  ///< in the model, of each element of the deck; -1: none
+
+  /// Index of a node; an error and -1 if it is not there.
+  int node(int id, const FeSource& at, const std::string& who);
+  /// A new node with a number of its own.
+  int add_node(const Vec3& p, const FeSource& at);
+  /// The nodes of an element as indices, in the order of the deck, -1 for 0 and missing ones;
+  /// false with an error.
+  bool nodes_of(const AnsysElement& e, std::vector<int>& nodes);
+  /// "element 12 (SOLID185)"
+  std::string label(const AnsysElement& e) const;
+  /// The type of an element and what it is; null with an error, once a type.
+  const AnsysType* type(const AnsysElement& e);
+  const AnsysReal* real(const AnsysElement& e) const;
+  /// Index of a material by its number, with a mass besides its own over the volume.
+  int material(int id, const AnsysElement& e, double more_density = 0.0);
+  /// Axes of a coordinate system; none of the global rectangular one. An error if it is not read.
+  std::optional<Orientation> system(int id, const FeSource& at, const std::string& who);
+  /// Index in FeModel::orientations; -1: body axes.
+  int orientation(int id, const FeSource& at, const std::string& who);
+  /// Axes of the nodal system of a node; columns in body axes.
+  Mat3 nodal_axes(int node) const;
+  void error(const AnsysElement& e, const std::string& text);
+  void note(const FeSource& at, const std::string& text);
+
+  std::map<std::pair<int, double>, int> materials;
+  std::map<int, int> orientations;
+  std::vector<int> said;  ///< types with an error
+};
+
+/// Solids, shells, beams, rods.
+void build_ansys_elements(AnsysBuild& build);
+/// Elements of those families; `nodes`: indices in the order of the deck.
+void build_ansys_shell(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
+                       Element& element);
+bool build_ansys_line(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
+                      const std::vector<int>& nodes, Element& element);
+// ansys_build_points.cpp
+/// COMBIN14, MPC184, CERIG, then MASS21.
+void build_ansys_springs(AnsysBuild& build);
+void build_ansys_rigid(AnsysBuild& build);
+void build_ansys_masses(AnsysBuild& build);
+// ansys_build_contact.cpp
+void build_ansys_contact(AnsysBuild& build);
+// ansys_build_constraints.cpp
+void build_ansys_equations(AnsysBuild& build);
+void build_ansys_supports(AnsysBuild& build);
+void build_ansys_components(AnsysBuild& build);
+
+/// R_z(a) R_x(b) R_y(c), angles in degrees: of nodes and coordinate systems.
+Mat3 ansys_rotation(const Vec3& angles);
+
+}  // namespace floatframe
