@@ -320,11 +320,11 @@ TEST(Nastran, AveragingElementsAndEquations) {
       "MPC,8,1,1,1.,2,1,-.5,\n,,3,2,-.5\n"
       "RBAR,6,1,2,123456\n");
   ASSERT_EQ(m.spiders.size(), 2u);
-  EXPECT_EQ(m.spiders[0].kind, Spider::Kind::mean);
-  EXPECT_EQ(m.spiders[0].reference, 4);
-  EXPECT_EQ(m.spiders[0].nodes, (std::vector<int>{0, 1, 2, 3}));
-  EXPECT_EQ(m.spiders[0].weights, (std::vector<double>{1.0, 1.0, 1.0, 2.5}));
-  EXPECT_EQ(m.spiders[1].reference, 0);
+  EXPECT_EQ(m.spiders[0].reference, 0);
+  EXPECT_EQ(m.spiders[1].kind, Spider::Kind::mean);
+  EXPECT_EQ(m.spiders[1].reference, 4);
+  EXPECT_EQ(m.spiders[1].nodes, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(m.spiders[1].weights, (std::vector<double>{1.0, 1.0, 1.0, 2.5}));
   ASSERT_EQ(m.equations.size(), 1u);
   ASSERT_EQ(m.equations[0].terms.size(), 3u);
   EXPECT_EQ(m.equations[0].terms[2].node, 2);

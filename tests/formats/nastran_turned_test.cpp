@@ -155,7 +155,7 @@ TEST(NastranTurned, DependentComponentsOfMeanSpiders) {
       bars + nodes_3_and_4(0) + "GRID,8,,4.,2.,0.\nCONM2,9,8,,1.\nRBE3,9,,8,123456,1.,123,3,5\n,6";
   expect_same_turned(deck + "\n", deck + ",UM,3,123,5,12,6,3\n", {0, 1, 6});
   EXPECT_EQ(test::error_of([&] { turned_deck(deck + ",UM,3,123,5,12\n"); }),
-            "arm.bdf:15: RBE3 9: UM has 5 components, expected 6");
+            "arm.bdf:15: RBE3 9: UM has 5 components, expected 6 as in REFC");
 }
 
 TEST(NastranTurned, OrientationAndOffsetsOfBars) {

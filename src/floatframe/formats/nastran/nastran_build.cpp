@@ -63,7 +63,19 @@ int NastranBuild::add_node(const Vec3& p, const FeSource& at, const std::string&
   model.node_ids.push_back(++largest_id_);
   model.node_sources.push_back(at);
   turned.push_back(0);
+  if (!rotates.empty()) rotates.push_back(1);
   return model.nodes() - 1;
+}
+
+void NastranBuild::give_rotations(int node, const FeSource& at, const std::string& who) {
+  if (rotates[node] != 0) return;
+  rotates[node] = 1;
+  Spider s;
+  s.name = who;
+  s.reference = node;
+  s.source = at;
+  s.nodes = {add_node(model.positions[node], at, who)};
+  model.spiders.push_back(std::move(s));
 }
 
 int NastranBuild::node(int id, const FeSource& at, const std::string& who) {

@@ -26,6 +26,12 @@ class NastranEquations {
   /// `rotation`: the block that the equation determines. The order of its terms does not matter.
   void add(int node, bool rotation, LinearEquation equation);
   void flush(FeModel& model, TextSource& source);
+  /// Node and block of each.
+  std::vector<std::pair<int, bool>> blocks() const {
+    std::vector<std::pair<int, bool>> list;
+    for (const auto& [block, equations] : blocks_) list.push_back(block);
+    return list;
+  }
 
  private:
   std::map<std::pair<int, bool>, std::vector<LinearEquation>> blocks_;
@@ -51,6 +57,9 @@ struct NastranBuild {
   std::unordered_map<int, Mat3> turned_axes;  ///< of the turned nodes
   /// A new node with a number of its own.
   int add_node(const Vec3& p, const FeSource& at, const std::string& who);
+  std::vector<char> rotates;  ///< nodes that have rotations; empty until constraints are built
+  /// A node that nothing else uses gets rotations by a spider with a node of its own.
+  void give_rotations(int node, const FeSource& at, const std::string& who);
   /// Counts members that a range names: a few bytes can name all nodes again and again. Throws if
   /// there are too many in all.
   void spend(std::size_t members, const FeSource& at);
@@ -107,6 +116,13 @@ class NastranBars {
   std::map<std::array<double, 4>, int> offset_nodes_;
   std::map<int, int> spiders_;
 };
+// nastran_build_rigid.cpp
+/// RBE1, RBAR and RTRPLT whose independent components are of several nodes, RROD.
+void build_nastran_rigids(NastranBuild& build);
+void give_nastran_rigid_rotations(NastranBuild& build);
+// nastran_build_means.cpp
+/// An RBE3 that is no mean spider of displacements; after all other constraints.
+void build_nastran_mean(NastranBuild& build, const NastranSpider& s);
 // nastran_build_constraints.cpp
 void build_nastran_constraints(NastranBuild& build);
 void build_nastran_supports(NastranBuild& build);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <unordered_map>
+#include <vector>
 
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/nastran/nastran_build.hpp"
@@ -21,23 +23,27 @@ bool any_axes(unsigned mask) {
 class ConstraintBuilder {
  public:
   explicit ConstraintBuilder(NastranBuild& build) : b_(build) {
-    rotates_.assign(b_.model.nodes(), 0);
-    rigid_of_.assign(b_.model.nodes(), -1);
+    b_.rotates.assign(b_.model.nodes(), 0);
     for (const Element& e : b_.model.elements) {
       const ElementKernel& kernel = element_kernel(e.type);
       if (kernel.dofs_per_node != 6) continue;
-      for (int k = 0; k < kernel.nodes; ++k) rotates_[index(e.nodes[k])] = 1;
+      for (int k = 0; k < kernel.nodes; ++k) b_.rotates[index(e.nodes[k])] = 1;
     }
     for (const Spring& s : b_.model.springs)
       for (int end = 0; end < 2; ++end)
-        if (!s.directions[end].tail<3>().isZero(0.0)) rotates_[index(s.nodes[end])] = 1;
+        if (!s.directions[end].tail<3>().isZero(0.0)) b_.rotates[index(s.nodes[end])] = 1;
   }
 
   void build() {
-    for (const Spider& s : b_.model.spiders) rotates_[index(s.reference)] = 1;  // of bars
-    for (const NastranSpider& s : b_.content.spiders) spider(s);
+    for (const Spider& s : b_.model.spiders) b_.rotates[index(s.reference)] = 1;  // of bars
+    for (const Spider::Kind kind : {Spider::Kind::rigid, Spider::Kind::mean})
+      for (const NastranSpider& s : b_.content.spiders)
+        if (s.kind == kind) spider(s);
+    give_nastran_rigid_rotations(b_);
     for (const NastranMass& m : b_.content.masses) mass(m);
     equations();
+    build_nastran_rigids(b_);
+    for (const NastranSpider* s : general_) build_nastran_mean(b_, *s);
     b_.equations.flush(b_.model, b_.source);
   }
 
@@ -51,7 +57,7 @@ class ConstraintBuilder {
     const Vec3 arm = b_.model.positions[index(node)] - b_.model.positions[index(reference)];
     for (int c = 0; c < 6; ++c) {
       const bool rotation = c >= 3;
-      if (((s.mask >> c) & 1u) == 0 || (rotation && rotates_[index(node)] == 0)) continue;
+      if (((s.mask >> c) & 1u) == 0 || (rotation && b_.rotates[index(node)] == 0)) continue;
       const Vec3 axis = axes.col(c % 3), lever = arm.cross(axis);
       LinearEquation e;
       e.source = s.at;
@@ -64,6 +70,25 @@ class ConstraintBuilder {
       b_.equations.add(node, rotation, std::move(e));
     }
     return true;
+  }
+
+  /// An RBE3 whose reference follows in all directions the displacements of its nodes, each once.
+  /// Rotations of nodes that have none do not count. Others give their reference rotations here and
+  /// are equations later.
+  bool is_plain_mean(const NastranSpider& s) {
+    std::set<int> seen;
+    bool plain = s.mask == all_six;
+    for (std::size_t i = 0; i < s.nodes.size(); ++i) {
+      const auto it = b_.node_of.find(s.nodes[i]);
+      if (it == b_.node_of.end()) return true;  // an error
+      const unsigned mask = s.components[i];
+      const bool rotations = (mask >> 3) != 0 && b_.rotates[index(it->second)] != 0;
+      plain = plain && seen.insert(it->second).second && (mask & 7u) == translations && !rotations;
+    }
+    const int reference = b_.node_of.at(s.reference);
+    if (!plain && (s.mask >> 3) != 0)
+      b_.give_rotations(reference, s.at, fmt::format("{} {}", s.card, s.id));
+    return plain;
   }
 
   void spider(const NastranSpider& s) {
@@ -83,28 +108,21 @@ class ConstraintBuilder {
     spider.source = s.at;
     spider.reference = b_.node(s.reference, s.at, who);
     if (spider.reference < 0) return;
+    if (s.kind == Spider::Kind::mean && !is_plain_mean(s)) return general_.push_back(&s);
     for (const int id : s.nodes) {
       const int node = b_.node(id, s.at, who);
       if (node < 0) return;
       if (s.kind == Spider::Kind::rigid && follows_turned(s, spider.reference, node)) continue;
-      if (s.weighs_rotations && rotates_[index(node)] != 0) {
-        b_.source.error(s.at, fmt::format("{}: node {} has rotations, whose weights (components "
-                                          "456) are not supported; give 123",
-                                          who, id));
-        return;
-      }
       spider.nodes.push_back(node);
       if (s.kind == Spider::Kind::rigid) {
-        if ((s.mask >> 3) != 0) rotates_[index(node)] = 1;
-        if (s.mask == all_six) rigid_of_[index(node)] = static_cast<int>(b_.model.spiders.size());
+        if ((s.mask >> 3) != 0) b_.rotates[index(node)] = 1;
+        if (s.mask == all_six) rigid_of_[node] = static_cast<int>(b_.model.spiders.size());
       }
     }
     if (spider.nodes.empty()) {  // a node that only gives the reference its rotations
       spider.nodes.push_back(b_.add_node(b_.model.positions[index(spider.reference)], s.at, who));
-      rotates_.push_back(1);
-      rigid_of_.push_back(-1);
     }
-    rotates_[index(spider.reference)] = 1;
+    b_.rotates[index(spider.reference)] = 1;
     if (std::any_of(s.weights.begin(), s.weights.end(), [](double w) { return w != 1.0; })) {
       spider.weights = s.weights;
     }
@@ -127,7 +145,7 @@ class ConstraintBuilder {
     const Vec3 p = b_.model.positions[index(node)];
     // CID -1: the offset is the place of the mass in basic coordinates.
     const Vec3 offset = m.system == -1 ? Vec3(m.offset - p) : Vec3(axes.R * m.offset);
-    if (rotates_[index(node)] == 0) {
+    if (b_.rotates[index(node)] == 0) {
       if (offset.norm() > 0.0) {
         b_.source.error(m.at, fmt::format("{} has an offset, but node {} has no rotations; tie the "
                                           "mass to several nodes (RBE2, RBE3)",
@@ -150,11 +168,9 @@ class ConstraintBuilder {
   int add_rigid_node(int node, const Vec3& p, const std::string& who, const FeSource& at) {
     FeModel& model = b_.model;
     const int fresh = b_.add_node(p, at, who);
-    rotates_.push_back(1);
-    rigid_of_.push_back(-1);
-    const int spider = rigid_of_[index(node)];
-    if (spider >= 0) {
-      model.spiders[index(spider)].nodes.push_back(fresh);
+    const auto spider = rigid_of_.find(node);
+    if (spider != rigid_of_.end()) {
+      model.spiders[index(spider->second)].nodes.push_back(fresh);
     } else {
       Spider rigid;
       rigid.name = who;
@@ -246,8 +262,8 @@ class ConstraintBuilder {
   }
 
   NastranBuild& b_;
-  std::vector<char> rotates_;  // nodes that have rotations
-  std::vector<int> rigid_of_;  // rigid spider that a node follows
+  std::unordered_map<int, int> rigid_of_;      // rigid spider that a node follows
+  std::vector<const NastranSpider*> general_;  // RBE3 that are equations
 };
 
 /// Basic directions that lie in what is held in turned axes.

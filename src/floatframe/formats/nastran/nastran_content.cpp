@@ -12,6 +12,62 @@
 namespace floatframe {
 namespace {
 
+const std::map<std::string_view, NastranCardReader>& card_readers() {
+  static const std::map<std::string_view, NastranCardReader> readers = {
+      {"GRID", read_nastran_grid},
+      {"GRDSET", read_nastran_grid_default},
+      {"CORD2R", read_nastran_system},
+      {"CORD2C", read_nastran_system},
+      {"CORD2S", read_nastran_system},
+      {"CTETRA", read_nastran_solid},
+      {"CPYRAM", read_nastran_solid},
+      {"CPYRA", read_nastran_solid},
+      {"CHEXA", read_nastran_solid},
+      {"CPENTA", read_nastran_solid},
+      {"CTRIA3", read_nastran_surface},
+      {"CQUAD4", read_nastran_surface},
+      {"CTRIA6", read_nastran_surface},
+      {"CQUAD8", read_nastran_surface},
+      {"CTRIAR", read_nastran_surface},
+      {"CQUADR", read_nastran_surface},
+      {"CBAR", read_nastran_bar},
+      {"CBEAM", read_nastran_bar},
+      {"MAT1", read_nastran_material},
+      {"CONM2", read_nastran_mass},
+      {"MAT2", read_nastran_anisotropic},
+      {"MAT8", read_nastran_anisotropic},
+      {"MAT9", read_nastran_anisotropic},
+      {"RBE2", read_nastran_rbe2},
+      {"RBE3", read_nastran_rbe3},
+      {"RBAR", read_nastran_rbar},
+      {"RBAR1", read_nastran_rbar},
+      {"RBE1", read_nastran_rbe1},
+      {"RTRPLT", read_nastran_rtrplt},
+      {"RROD", read_nastran_rrod},
+      {"MPC", read_nastran_mpc},
+      {"MPCADD", read_nastran_mpc_add},
+      {"CELAS1", read_nastran_celas},
+      {"CELAS2", read_nastran_celas},
+      {"CELAS3", read_nastran_scalar},
+      {"CELAS4", read_nastran_scalar},
+      {"PELAS", read_nastran_pelas},
+      {"CBUSH", read_nastran_bush},
+      {"PBUSH", read_nastran_pbush},
+      {"CROD", read_nastran_rod},
+      {"CTUBE", read_nastran_rod},
+      {"CONROD", read_nastran_rod},
+      {"SPC", read_nastran_spc},
+      {"SPC1", read_nastran_spc1},
+      {"BAROR", read_nastran_bar_default},
+      {"BEAMOR", read_nastran_bar_default},
+      {"CORD1R", read_nastran_node_system},
+      {"CORD1C", read_nastran_node_system},
+      {"CORD1S", read_nastran_node_system},
+      {"SPOINT", read_nastran_scalar_points},
+  };
+  return readers;
+}
+
 class ContentReader {
  public:
   ContentReader(TextSource& source, bool only_nodes) : source_(source), only_nodes_(only_nodes) {}
@@ -49,60 +105,13 @@ class ContentReader {
   };
 
   void one(F& f) {
-    static const std::map<std::string_view, NastranCardReader> readers = {
-        {"GRID", read_nastran_grid},
-        {"GRDSET", read_nastran_grid_default},
-        {"CORD2R", read_nastran_system},
-        {"CORD2C", read_nastran_system},
-        {"CORD2S", read_nastran_system},
-        {"CTETRA", read_nastran_solid},
-        {"CPYRAM", read_nastran_solid},
-        {"CPYRA", read_nastran_solid},
-        {"CHEXA", read_nastran_solid},
-        {"CPENTA", read_nastran_solid},
-        {"CTRIA3", read_nastran_surface},
-        {"CQUAD4", read_nastran_surface},
-        {"CTRIA6", read_nastran_surface},
-        {"CQUAD8", read_nastran_surface},
-        {"CTRIAR", read_nastran_surface},
-        {"CQUADR", read_nastran_surface},
-        {"CBAR", read_nastran_bar},
-        {"CBEAM", read_nastran_bar},
-        {"MAT1", read_nastran_material},
-        {"CONM2", read_nastran_mass},
-        {"MAT2", read_nastran_anisotropic},
-        {"MAT8", read_nastran_anisotropic},
-        {"MAT9", read_nastran_anisotropic},
-        {"RBE2", read_nastran_rbe2},
-        {"RBE3", read_nastran_rbe3},
-        {"RBAR", read_nastran_rbar},
-        {"MPC", read_nastran_mpc},
-        {"MPCADD", read_nastran_mpc_add},
-        {"CELAS1", read_nastran_celas},
-        {"CELAS2", read_nastran_celas},
-        {"CELAS3", read_nastran_scalar},
-        {"CELAS4", read_nastran_scalar},
-        {"PELAS", read_nastran_pelas},
-        {"CBUSH", read_nastran_bush},
-        {"PBUSH", read_nastran_pbush},
-        {"CROD", read_nastran_rod},
-        {"CTUBE", read_nastran_rod},
-        {"CONROD", read_nastran_rod},
-        {"SPC", read_nastran_spc},
-        {"SPC1", read_nastran_spc1},
-        {"BAROR", read_nastran_bar_default},
-        {"BEAMOR", read_nastran_bar_default},
-        {"CORD1R", read_nastran_node_system},
-        {"CORD1C", read_nastran_node_system},
-        {"CORD1S", read_nastran_node_system},
-        {"SPOINT", read_nastran_scalar_points},
-    };
     const std::string& name = f.name();
     if (only_nodes_ && name != "GRID" && name != "GRDSET" && !name.starts_with("CORD") &&
         !name.starts_with("SPC") && !name.starts_with("SET")) {
       return;
     }
-    if (const auto it = readers.find(name); it != readers.end()) return it->second(f, c_);
+    const auto reader = card_readers().find(name);
+    if (reader != card_readers().end()) return reader->second(f, c_);
     if (name == "PARAM") return parameter(f);
     if (name == "SET" || name == "SET1" || name == "SET3") return set(f);
     NastranProperty property;

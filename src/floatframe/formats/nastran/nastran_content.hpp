@@ -126,7 +126,25 @@ struct NastranSpider {
   unsigned mask = 63u;
   std::vector<int> nodes;
   std::vector<double> weights;
-  bool weighs_rotations = false;  ///< RBE3: components 456 of the nodes have weights
+  std::vector<unsigned> components;  ///< RBE3: of each node; `mask` is REFC
+  FeSource at;
+};
+
+/// Components of nodes; RBE1, RBAR, RTRPLT: six that define a rigid motion and those that follow.
+struct NastranRigid {
+  struct Part {
+    int node = 0;
+    unsigned mask = 0;
+  };
+  const char* card = "";
+  int id = 0;
+  std::vector<Part> independent, dependent;
+  FeSource at;
+};
+
+/// RROD: the distance of two nodes stays.
+struct NastranRigidRod {
+  int id = 0, a = 0, b = 0;
   FeSource at;
 };
 
@@ -170,6 +188,8 @@ struct NastranContent {
   std::vector<NastranMass> masses;
   NastranSprings springs;
   std::vector<NastranSpider> spiders;
+  std::vector<NastranRigid> rigids;
+  std::vector<NastranRigidRod> rigid_rods;
   std::vector<NastranEquation> equations;
   std::vector<NastranSupport> supports;
   std::vector<NastranSet> sets;
@@ -225,7 +245,10 @@ void complete_nastran_bars(NastranContent&, TextSource&);
 // nastran_constraint_cards.cpp
 void read_nastran_rbe2(NastranFields&, NastranContent&);
 void read_nastran_rbe3(NastranFields&, NastranContent&);
-void read_nastran_rbar(NastranFields&, NastranContent&);
+void read_nastran_rbar(NastranFields&, NastranContent&);  ///< and RBAR1
+void read_nastran_rbe1(NastranFields&, NastranContent&);
+void read_nastran_rtrplt(NastranFields&, NastranContent&);
+void read_nastran_rrod(NastranFields&, NastranContent&);
 void read_nastran_mpc(NastranFields&, NastranContent&);
 void read_nastran_mpc_add(NastranFields&, NastranContent&);
 void read_nastran_spc(NastranFields&, NastranContent&);

@@ -61,7 +61,7 @@ const std::pair<const char*, const char*> refused_cards[] = {
     {"CBEAM3", "beams of three nodes are not supported; divide them into CBAR elements"},
     {"RSPLINE", "interpolation along a spline is not supported; use RBE3 or MPC"},
     {"RSSCON", "connections of shells to solids are not supported; use RBE3 or MPC"},
-    {"RTRPLT*", "rigid triangles are not supported; use RBE2"},
+    {"RTRPLT1", "rigid triangles with nodes that follow only in part are not supported; use RBE2"},
     {"CSHEAR",
      "shear panels (of Garvey) are not supported; give a CQUAD4 whose PSHELL has the "
      "thickness that carries the shear"},
