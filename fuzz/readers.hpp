@@ -91,6 +91,12 @@ inline void matrix_market(std::string_view bytes) {
   });
 }
 
+inline void harwell_boeing(std::string_view bytes) {
+  matrices(bytes, [](TextSource& K, TextSource& M, TextSource& dofs, FeModel nodes) {
+    return read_harwell_boeing(K, M, dofs, std::move(nodes));
+  });
+}
+
 inline void gmsh(std::string_view bytes) { use(parse_gmsh(bytes, "fuzz.msh", {})); }
 
 inline void nastran(std::string_view bytes) {
@@ -198,6 +204,7 @@ inline constexpr Reader readers[] = {
     {"calculix_matrices", calculix_matrices},
     {"abaqus_matrices", abaqus_matrices},
     {"matrix_market", matrix_market},
+    {"harwell_boeing", harwell_boeing},
     {"gmsh", gmsh},
     {"nastran", nastran},
     {"unv", unv},

@@ -50,6 +50,11 @@ const std::vector<FeFormat>& formats() {
        {".mtx", ".mm"},
        looks_like_matrix_market,
        read_matrix_market},
+      {"harwell_boeing",
+       "Harwell-Boeing matrices (.matrix)",
+       {".matrix", ".hb", ".rsa", ".rua"},
+       looks_like_harwell_boeing,
+       read_harwell_boeing},
   };
   return list;
 }

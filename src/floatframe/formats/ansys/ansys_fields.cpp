@@ -13,49 +13,12 @@
 namespace floatframe {
 namespace {
 
-/// Widths and counts beyond this are no format.
-constexpr int widest = 1000;
-
-std::optional<int> leading_number(std::string_view& text) {
-  std::size_t n = 0;
-  while (n < text.size() && std::isdigit(static_cast<unsigned char>(text[n])) != 0) ++n;
-  const auto value = parse_integer(text.substr(0, n));
-  if (n > 0) text.remove_prefix(n);
-  return value;
-}
-
 bool begins_command(std::string_view line) noexcept {
   return !line.empty() && (std::isalpha(static_cast<unsigned char>(line[0])) != 0 ||
                            line[0] == '/' || line[0] == '*' || line[0] == '!' || line[0] == '_');
 }
 
 }  // namespace
-
-std::size_t FortranColumns::integers() const noexcept {
-  std::size_t n = 0;
-  while (n < columns.size() && columns[n].first == 'i') ++n;
-  return n;
-}
-
-std::optional<FortranColumns> parse_fortran_columns(std::string_view text) {
-  text = trimmed(text);
-  if (text.size() < 2 || text.front() != '(' || text.back() != ')') return std::nullopt;
-  std::vector<std::string_view> items;
-  split_commas(text.substr(1, text.size() - 2), items);
-  FortranColumns result;
-  for (std::string_view item : items) {
-    const int count = leading_number(item).value_or(1);
-    if (item.empty() || count < 1 || count > widest) return std::nullopt;
-    const char kind = lower_case(item.substr(0, 1))[0];
-    item.remove_prefix(1);
-    const auto width = leading_number(item);  // what follows it are decimals
-    if (std::string_view("iaefg").find(kind) == std::string_view::npos || !width || *width < 1 ||
-        *width > widest || result.columns.size() > static_cast<std::size_t>(widest))
-      return std::nullopt;
-    result.columns.insert(result.columns.end(), count, {kind, *width});
-  }
-  return result;
-}
 
 bool AnsysFields::next() {
   while (true) {
@@ -170,13 +133,7 @@ bool AnsysFields::row(const FortranColumns& format, std::vector<std::string_view
   if (!block_line(line)) return false;
   cells.clear();
   if (trimmed(line) == "-1") return false;
-  std::size_t begin = 0;
-  for (const auto& [kind, width] : format.columns) {
-    if (begin >= line.size()) break;
-    cells.push_back(trimmed(line.substr(begin, width)));
-    begin += width;
-  }
-  if (begin < line.size() && !trimmed(line.substr(begin)).empty())
+  if (!format.split(line, cells).empty())
     source_.stop(source_.here(), fmt::format("{}: the line is longer than its format, which has {} "
                                              "columns",
                                              command_, format.columns.size()));

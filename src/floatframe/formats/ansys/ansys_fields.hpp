@@ -9,18 +9,11 @@
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/formats/text/fortran_columns.hpp"
 
 namespace floatframe {
 
 class TextSource;
-
-/// Columns of a Fortran format: (3i9,6e21.13e3) is 'i' 9 three times, then 'e' 21 six times.
-struct FortranColumns {
-  std::vector<std::pair<char, int>> columns;  ///< kind in lower case, width
-  std::size_t integers() const noexcept;      ///< columns 'i' at the beginning
-};
-/// Empty if the text is no format of whole numbers and reals with their widths.
-std::optional<FortranColumns> parse_fortran_columns(std::string_view text);
 
 /// One command after the other. Comments (behind `!`), empty lines and `/COM` are passed over; `$`
 /// divides commands of one line. Errors of form stop the reading: what follows them cannot be

@@ -54,6 +54,18 @@ FeModel read_ansys(TextSource& source, const FeReadOptions& options) {
   return std::move(content.model);
 }
 
+FeModel read_ansys_nodes(TextSource& source) {
+  AnsysContent content = read_ansys_content(source);
+  const FeReadOptions options;
+  AnsysBuild build{source, content, options, content.model, {}, {}, {}, {}};
+  build.index.assign(content.elements.size(), -1);
+  build_ansys_supports(build);
+  build_ansys_components(build);
+  source.throw_if_any();
+  content.model.files = source.files();
+  return std::move(content.model);
+}
+
 FeModel read_ansys(const std::filesystem::path& file, const FeReadOptions& options) {
   TextSource source(file);
   return read_ansys(source, options);

@@ -12,5 +12,7 @@ class TextSource;
 bool looks_like_ansys(std::string_view beginning);
 FeModel read_ansys(const std::filesystem::path& file, const FeReadOptions& options);
 FeModel read_ansys(TextSource& source, const FeReadOptions& options);
+/// Nodes, components and supports alone, for matrices.
+FeModel read_ansys_nodes(TextSource& source);
 
 }  // namespace floatframe

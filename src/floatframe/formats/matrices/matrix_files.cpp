@@ -71,6 +71,15 @@ Path companion(const Path& file, const Path& given, const std::vector<Path>& can
   return {};
 }
 
+NamedMatrices named_matrices(const Path& file, const char* ending) {
+  NamedMatrices named{stem_of(file), {}};
+  const std::string name = named.begin.filename().string();
+  if (!name.ends_with("_K") && !name.ends_with("_k")) return named;
+  named.begin = file.parent_path() / name.substr(0, name.size() - 2);
+  named.mass = named.begin.string() + (name.ends_with("_K") ? "_M" : "_m") + ending;
+  return named;
+}
+
 std::string_view first_line(std::string_view text, std::string_view comments) {
   while (!text.empty()) {
     const std::size_t end = text.find('\n');

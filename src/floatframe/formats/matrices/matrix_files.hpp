@@ -27,6 +27,13 @@ std::filesystem::path companion(const std::filesystem::path& file,
                                 const std::vector<std::filesystem::path>& candidates,
                                 std::string_view what, std::string_view option, ErrorList& errors);
 
+/// Of a stiffness arm_K.ending: its beginning arm, and arm_M.ending (the case is kept); the file's
+/// own stem and an empty path if its name does not end with _K.
+struct NamedMatrices {
+  std::filesystem::path begin, mass;
+};
+NamedMatrices named_matrices(const std::filesystem::path& file, const char* ending);
+
 /// First line that is not empty and does not begin with one of `comments`.
 std::string_view first_line(std::string_view text, std::string_view comments);
 /// "row column value".

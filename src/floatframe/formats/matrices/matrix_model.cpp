@@ -8,6 +8,7 @@
 
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
+#include "floatframe/formats/ansys/read_ansys.hpp"
 #include "floatframe/formats/matrices/matrix_entries.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
@@ -16,6 +17,8 @@
 
 namespace floatframe {
 namespace {
+
+constexpr const char* row_words[] = {"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"};
 
 /// A first line of words, like "node,x,y,z".
 bool is_heading(std::string_view line) {
@@ -138,6 +141,16 @@ std::vector<DofLabel> read_dof_labels(TextSource& source) {
       fields = {line.substr(0, dot),
                 dot == std::string_view::npos ? std::string_view{} : line.substr(dot + 1)};
     }
+    // Of ANSYS: number of the row, node, UX to ROTZ.
+    if (fields.size() == 3 && parse_label(fields[0]) == static_cast<int>(labels.size()) + 1) {
+      const auto* axis = std::find_if(std::begin(row_words), std::end(row_words),
+                                      [&](const char* word) { return same_word(word, fields[2]); });
+      const std::optional<int> node = parse_label(fields[1]);
+      if (node && axis != std::end(row_words)) {
+        labels.push_back({*node, static_cast<int>(axis - row_words) + 1, source.here()});
+        return;
+      }
+    }
     // A line of commas alone has no field.
     const std::optional<int> node = fields.empty() ? std::optional<int>{} : parse_label(fields[0]);
     const std::optional<int> direction =
@@ -212,6 +225,10 @@ FeModel read_nodes(const std::filesystem::path& file) {
   if (looks_like_nastran(beginning) || looks_like_dmig(beginning)) {
     TextSource source(file);
     return read_nastran(source, has_begin_bulk(beginning), {}, NastranPart::nodes);
+  }
+  if (looks_like_ansys(beginning)) {
+    TextSource source(file);
+    return read_ansys_nodes(source);
   }
   FeModel model = read_fe_file(file);
   keep_nodes(model);

@@ -16,7 +16,8 @@ struct DofLabel {
   FeSource at;
 };
 
-/// "12.3" of CalculiX, or "12,3" (CSV; `#` comments, a first line of words is passed over).
+/// "12.3" of CalculiX, "12,3" (CSV), or "1 12 UZ" with the number of the row (mapping of ANSYS);
+/// `#` comments and a first line of words are passed over.
 std::vector<DofLabel> read_dof_labels(TextSource& source);
 /// "12.3", for messages.
 std::vector<std::string> dof_names(const std::vector<DofLabel>& labels);

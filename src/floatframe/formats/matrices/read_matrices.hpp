@@ -5,6 +5,8 @@
 //                  direction, value"; or "row column value" with a map
 //   Matrix Market  arm_K.mtx, arm_M.mtx with arm_dofs.csv ("node,dir") and arm_nodes.csv
 //                  ("node,x,y,z")
+//   Harwell-Boeing arm_K.matrix, arm_M.matrix with arm_K.mapping (HBMAT of ANSYS) or arm_dofs.csv,
+//                  and arm_nodes.csv or arm.cdb
 // FeReadOptions names the files that do not lie beside the stiffness under these names. The nodes
 // may also come from any finite-element file.
 #include <string_view>
@@ -17,10 +19,12 @@ namespace floatframe {
 bool looks_like_calculix_matrix(std::string_view beginning);
 bool looks_like_abaqus_matrix(std::string_view beginning);
 bool looks_like_matrix_market(std::string_view beginning);
+bool looks_like_harwell_boeing(std::string_view beginning);
 
 FeModel read_calculix_matrices(const std::filesystem::path& file, const FeReadOptions& options);
 FeModel read_abaqus_matrices(const std::filesystem::path& file, const FeReadOptions& options);
 FeModel read_matrix_market(const std::filesystem::path& file, const FeReadOptions& options);
+FeModel read_harwell_boeing(const std::filesystem::path& file, const FeReadOptions& options);
 
 /// The same from texts. `dofs` may be null for Abaqus matrices with labels.
 FeModel read_calculix_matrices(TextSource& stiffness, TextSource& mass, TextSource& dofs,
@@ -29,5 +33,7 @@ FeModel read_abaqus_matrices(TextSource& stiffness, TextSource& mass, TextSource
                              FeModel nodes);
 FeModel read_matrix_market(TextSource& stiffness, TextSource& mass, TextSource& dofs,
                            FeModel nodes);
+FeModel read_harwell_boeing(TextSource& stiffness, TextSource& mass, TextSource& dofs,
+                            FeModel nodes);
 
 }  // namespace floatframe

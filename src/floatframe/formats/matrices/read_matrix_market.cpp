@@ -104,18 +104,13 @@ FeModel read_matrix_market(TextSource& stiffness, TextSource& mass, TextSource& 
 }
 
 FeModel read_matrix_market(const std::filesystem::path& file, const FeReadOptions& options) {
-  // arm_K.mtx has arm_M.mtx, arm_dofs.csv and arm_nodes.csv beside it.
-  std::filesystem::path mass, begin = stem_of(file);
-  const std::string name = begin.filename().string();
-  if (name.ends_with("_K") || name.ends_with("_k")) {
-    begin = file.parent_path() / name.substr(0, name.size() - 2);
-    mass = begin.string() + (name.ends_with("_K") ? "_M.mtx" : "_m.mtx");
-  }
+  const auto [begin, named_mass] = named_matrices(file, ".mtx");
   ErrorList errors;
-  mass = companion(file, options.mass, {mass}, "the mass matrix is", "mass", errors);
-  const std::filesystem::path dofs =
-      companion(file, options.dofs, {with_ending(begin, "_dofs.csv")},
-                "the map of degrees of freedom is", "dofs", errors);
+  const std::filesystem::path mass =
+      companion(file, options.mass, {named_mass}, "the mass matrix is", "mass", errors);
+  const std::filesystem::path dofs = companion(
+      file, options.dofs, {with_ending(begin, "_dofs.csv"), with_ending(stem_of(file), ".mapping")},
+      "the map of degrees of freedom is", "dofs", errors);
   const std::filesystem::path nodes =
       companion(file, options.nodes, {with_ending(begin, "_nodes.csv"), with_ending(begin, ".inp")},
                 "the coordinates of the nodes are", "nodes", errors);
