@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer test-export test-decks python test-python wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer test-export test-decks python test-python test-python-asan wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -13,6 +13,7 @@ help:
 	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, twenty kills of each kind,"
 	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, the Python package and its wheel"
 	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
+	@echo "make test-python-asan  its tests with address and undefined-behaviour sanitizers"
 	@echo "make wheel         the Python package with all that it needs, in dist; make test-wheel tries it in a fresh environment"
 	@echo "make demo          release build, then the Iltis over its road, with a report"
 	@echo "make docs          reference of the C++ interface: build/docs/html/index.html"
@@ -69,6 +70,9 @@ python: build
 test-python: python
 	python=$$(scripts/python_environment.sh) && PYTHONPATH=$(CURDIR)/build/python $$python -B -m pytest -q \
 	  && MYPYPATH=build/python $$python -m mypy -p floatframe
+
+test-python-asan: install-packages
+	scripts/python_asan.sh
 
 # A wheel with all that it needs, in dist: what is built, libraries of others beside it, their licences, and a look at the
 # result.

@@ -31,7 +31,7 @@ from .health import Report
 from .meshes import BeamSection, Material, Mesh
 from .model import Model
 from .options import Options
-from .parts import FileInfo, Part, info, read_body, reduce
+from .parts import FileInfo, Part, convert, info, read_body, reduce
 from .places import Place, cylinder, nearest, node, nodes, plane, set_, sphere
 from .run import Result, run
 from .simulation import Simulation
@@ -72,6 +72,7 @@ __all__ = [
     "build_info",
     "campbell",
     "check",
+    "convert",
     "cylinder",
     "example",
     "frequency_response",

@@ -291,6 +291,27 @@ def info(
     return FileInfo(text, json.loads(content))
 
 
+def convert(
+    source: Path,
+    out: Path,
+    *,
+    modes: int = 20,
+    format: str | None = None,
+    material: Material | None = None,
+    density: Density | None = None,
+    dialect: Literal["abaqus", "calculix"] | None = None,
+    contact: str | None = None,
+) -> str:
+    """Writes what was understood of a finite-element file for another program, as `floatframe convert` does: a CalculiX deck
+    (.inp, with a step of `modes` free modes unless it is 0), a Gmsh mesh (.msh) or a VTU file (.vtu). Returns what the command
+    prints. Options as those of `reduce`. Raises InputError, OutputError."""
+    count = _plain(modes)
+    if isinstance(count, bool) or not isinstance(count, int) or not 0 <= count <= 100000:
+        raise InputError(f"modes: found {modes!r}, expected a whole number from 0 to 100000")
+    options = _reading(format, dialect, contact, density, None, None, None) | _material(material)
+    return _core.convert_file(_path("source", source), _path("out", out), count, options)
+
+
 def _expect_texts(options: dict[str, Any], names: tuple[str, ...]) -> None:
     for name in names:
         if options[name] is not None and not isinstance(options[name], str):

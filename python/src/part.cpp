@@ -275,6 +275,12 @@ void bind_functions(nb::module_& m) {
     return std::make_shared<BodyFile>(
         of_input(name, [&] { return read_body_bytes(content, name); }));
   });
+  m.def("convert_file",
+        [](const std::string& file, const std::string& out, int modes, const Keywords& options) {
+          const PartJob job = job_of(file, options);
+          Unlocked released;
+          return of_input(job.file, [&] { return save_converted_mesh(job, out, modes); });
+        });
   m.def("file_info", [](const std::string& file, const Keywords& options) {
     const PartJob job = job_of(file, options);
     Unlocked released;

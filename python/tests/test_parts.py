@@ -338,3 +338,32 @@ def test_density_of_materials_without_one(tmp_path):
     for bad in ("7", True, {1: 2.0}, [7.0], {"STEEL": None}, float("nan"), -1.0):
         with pytest.raises(ff.InputError):
             ff.info(deck, density=bad)
+
+
+def test_converted_files_are_those_of_the_command_line(tmp_path):
+    for name in ("arm.inp", "arm.msh", "arm.vtu"):
+        text = ff.convert(ARM, tmp_path / name, material=STEEL_MM, modes=3)
+        options = ["--material", "200000.0,0.3,7.85e-09", "--modes", "3"]
+        command = [ff.program(), "convert", str(ARM), tmp_path / "c" / name, *options]
+        (tmp_path / "c").mkdir(exist_ok=True)
+        printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        assert (tmp_path / name).read_bytes() == (tmp_path / "c" / name).read_bytes()
+        assert text == printed.replace(f"{tmp_path}/c/", f"{tmp_path}/")
+    assert ff.info(tmp_path / "arm.inp")["nodes"] == ff.info(ARM)["nodes"]
+
+
+def test_a_file_is_not_converted_into_itself_nor_into_anything(tmp_path):
+    deck = tmp_path / "part.inp"
+    ff.convert(ARM, deck, material=STEEL_MM)
+    before = deck.read_bytes()
+    with pytest.raises(ff.InputError, match="part.inp"):
+        ff.convert(deck, deck)
+    assert deck.read_bytes() == before
+    with pytest.raises(ff.InputError, match=r"modes: found -1, expected a whole number from 0 to 100000"):
+        ff.convert(ARM, deck, modes=-1)
+    with pytest.raises(ff.InputError, match="docx"):
+        ff.convert(ARM, tmp_path / "part.docx")
+    with pytest.raises(ff.InputError, match="has no material|material"):
+        ff.convert(ARM, deck)
+    with pytest.raises(ff.OutputError):
+        ff.convert(ARM, tmp_path / "nowhere" / "part.inp", material=STEEL_MM)

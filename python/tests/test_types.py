@@ -79,6 +79,7 @@ body = ff.Body(ff.Invariants.rigid(1.0, [0, 0, 0], np.eye(3)))
 p = ff.Projection(points, np.zeros((8, 3, 2)), np.eye(8))
 k: Array = ff.Body(p.invariants(), K=np.eye(2), projection=p).K
 summary: str = str(ff.info("part.ffb"))
+converted: str = ff.convert("arm.bdf", "arm.inp", modes=0, contact="tied")
 health: str = str(part.report)
 version: str = ff.version() + ff.__version__ + ff.build_info()["version"] + ff.program()
 

@@ -3,7 +3,6 @@
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/part_arguments.hpp"
-#include "floatframe/core/atomic_file.hpp"
 #include "floatframe/parts/mesh_file.hpp"
 
 namespace floatframe {
@@ -19,10 +18,7 @@ int convert(const ConvertArguments& a) {
   PartJob job = a.options.job();
   job.file = a.from;
   require_writable({{"OUT", a.to}}, {a.from});
-  const ConvertedMesh converted = convert_mesh_file(job, a.to, a.modes);
-  require_distinct({{"OUT", a.to}}, converted.files);
-  write_file(a.to, converted.bytes);
-  print(converted.summary);
+  print(save_converted_mesh(job, a.to, a.modes));
   return 0;
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/output_files.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/formats/written/mesh_writer.hpp"
 
@@ -29,6 +31,13 @@ ConvertedMesh convert_mesh_file(const PartJob& job, const std::filesystem::path&
   add("written with these notes", written.notes);
   converted.files = model.files;
   return converted;
+}
+
+std::string save_converted_mesh(const PartJob& job, const std::string& out, int modes) {
+  const ConvertedMesh converted = convert_mesh_file(job, out, modes);
+  require_distinct({{"OUT", out}}, converted.files);
+  write_file(out, converted.bytes);
+  return converted.summary;
 }
 
 std::string mesh_formats_text() {

@@ -19,6 +19,10 @@ struct ConvertedMesh {
 /// the vibration step of a deck; 0: no step. Throws InputError.
 ConvertedMesh convert_mesh_file(const PartJob& job, const std::filesystem::path& out, int modes);
 
+/// The same, written to `out`, at once or not at all; the summary. Throws OutputError where it
+/// cannot be written, InputError where it would replace a file that was read.
+std::string save_converted_mesh(const PartJob& job, const std::string& out, int modes);
+
 /// "CalculiX deck (.inp); ..."
 std::string mesh_formats_text();
 
