@@ -114,6 +114,7 @@ FeModel single_element(ElementType type) {
 TEST(MeshWriter, DecksOfEveryElement) {
   for (const ElementType type : element_types) {
     SCOPED_TRACE(element_type_name(type));
+    if (type == ElementType::shear4) continue;  // CalculiX has none
     const FeModel model = single_element(type);
     const FeModel again = there_and_back(model, ".inp");
     if (type == ElementType::pyramid5 || type == ElementType::pyramid13) {

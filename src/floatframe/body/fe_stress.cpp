@@ -65,6 +65,7 @@ StressRecovery::StressRecovery(const FeModel& model, const std::vector<int>& sur
         add_beam(e);
         break;
       case ElementFamily::rod:
+      case ElementFamily::panel:
         break;
     }
   }

@@ -35,8 +35,8 @@ struct StressedPoint {
   MatX gradient;  ///< 9 x dofs: du_i/dx_j in row 3 i + j
 };
 
-/// Which section an element has: a beam's (rods too), a shell's, or none.
-enum class ElementFamily { beam, shell, solid, rod };
+/// Which section an element has: a beam's (rods too), a shell's (panels too), or none.
+enum class ElementFamily { beam, shell, solid, rod, panel };
 
 struct ElementKernel {
   ElementFamily family;
@@ -71,6 +71,10 @@ inline bool is_rod(ElementType type) noexcept {
 }
 inline bool is_shell(ElementType type) noexcept {
   return element_kernel(type).family == ElementFamily::shell;
+}
+
+inline bool is_panel(ElementType type) noexcept {
+  return element_kernel(type).family == ElementFamily::panel;
 }
 
 ElementInput gather(const FeModel& model, const Element& element,

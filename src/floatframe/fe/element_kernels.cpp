@@ -38,6 +38,7 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
   const Orientation* const orientation =
       element.orientation < 0 ? nullptr : &model.orientations[element.orientation];
   if (kernel.family == ElementFamily::solid && orientation) input.orientation = *orientation;
+  if (kernel.family == ElementFamily::panel) input.shell = model.shells[section];
   if (kernel.family == ElementFamily::shell) {
     input.shell = model.shells[section];
     if (!is_plain(input.shell, input.material)) {

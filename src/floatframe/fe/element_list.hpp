@@ -15,6 +15,7 @@
   entry(quad4)    /* 4-node flat shell */                                                   \
   entry(tri6)     /* 6-node shell, divided into four of 3 nodes; edges 12 23 31 */          \
   entry(quad8)    /* 8-node shell, divided into triangles; edges 12 23 34 41 */             \
+  entry(shear4)   /* 4-node shear panel: shear flow of its edges only */                    \
   entry(tet4)     /* linear tetrahedron */                                                  \
   entry(tet10)    /* quadratic tetrahedron; edges 12 23 13 14 24 34 */                      \
   entry(hex8)     /* trilinear brick, full integration */                                   \

@@ -118,6 +118,7 @@ struct ShellSection {
   double thickness = 0.0;  ///< [m], of all plies
   /// Transverse shear force over a width = G shear gamma, 5/6 of the thickness of a homogeneous
   /// shell; 0: no shear deformation (thin). Of plies G is their mean.
+  /// Of a shear panel: the thickness that carries shear, 0: all.
   double shear = 0.0;                ///< [m]
   double offset = 0.0;               ///< of its middle from the nodes, along the normal [m]
   double mass = 0.0;                 ///< besides that of the materials, in the middle [kg/m2]

@@ -115,6 +115,8 @@ std::string material_misfit(const FeModel& model, const Element& element) {
     return " is a beam, whose material must be isotropic";
   if (family == ElementFamily::rod && material.elasticity)
     return " is a rod, whose material must be isotropic";
+  if (family == ElementFamily::panel && material.elasticity)
+    return " is a shear panel, whose material must be isotropic";
   if (family == ElementFamily::solid && material.plane)
     return " is a solid, but its material is one of plane stress, for shells only";
   return {};
@@ -154,7 +156,8 @@ void check_elements(const FeModel& model, LimitedErrors& errors) {
     }
     const bool line = is_beam(element.type) || is_rod(element.type);
     const std::size_t sections = line ? model.sections.size() : model.shells.size();
-    if ((line || is_shell(element.type)) && !in_range(element.section, sections)) {
+    const bool surface = is_shell(element.type) || is_panel(element.type);
+    if ((line || surface) && !in_range(element.section, sections)) {
       add("elements without section",
           element.section < 0 ? " has no section"
                               : fmt::format(": there is no {} {}",

@@ -26,8 +26,8 @@ Vec3 to_basic(const NastranFrame& f, const Vec3& x) {
   return f.origin + f.R * local;
 }
 
-/// Directions of a system at a place: cylinder radial, around, along; sphere radial, along the
-/// meridian (theta), around (phi). On the axis the angle around is zero.
+}  // namespace
+
 Mat3 nastran_axes_at(const NastranFrame& f, const Vec3& p) {
   if (f.kind == 'R') return f.R;
   const Vec3 local = f.R.transpose() * (p - f.origin);
@@ -43,8 +43,6 @@ Mat3 nastran_axes_at(const NastranFrame& f, const Vec3& p) {
   }
   return f.R * T;
 }
-
-}  // namespace
 
 Mat3 NastranBuild::axes(int node) const {
   const auto it = turned_axes.find(node);

@@ -2,6 +2,9 @@
 // From the content of Nastran bulk data to the model.
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <set>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -79,6 +82,12 @@ struct NastranBuild {
 
 // nastran_build.cpp
 void build_nastran_nodes(NastranBuild& build);
+/// Directions of a system at a place: cylinder radial, around, along; sphere radial, along the
+/// meridian (theta), around (phi). On the axis the angle around is zero.
+Mat3 nastran_axes_at(const NastranFrame& f, const Vec3& p);
+// nastran_masses.cpp
+/// Of each node one.
+std::vector<NastranMass> nastran_rigid_masses(NastranBuild& build);
 // nastran_build_elements.cpp
 /// Lumped or consistent.
 void nastran_mass_forms(NastranBuild& build);
@@ -93,6 +102,29 @@ void orient_nastran_shell(NastranBuild& build, const NastranElement& e, Element&
 void orient_nastran_solid(NastranBuild& build, const NastranProperty& p, Element& result);
 /// The cards that a property of a kind could have in place of a material; empty if it may have it.
 std::string nastran_material_misfit(const NastranMaterial& m, std::string_view card);
+// nastran_build_materials.cpp
+/// Materials of the model by their numbers.
+class NastranMaterials {
+ public:
+  explicit NastranMaterials(NastranBuild& build) : b_(build), c_(build.content) {}
+  /// Index of a material; one with nonstructural mass (over volume) is a material of its own.
+  int index(const NastranProperty& p, double nonstructural);
+  int index(const NastranProperty& p, double nonstructural, int id, bool weighs);
+  /// The same as another without density.
+  int massless(int material);
+  /// G of a material over that of its E and NU: bars twist and shear by the G of the card, whatever
+  /// E and NU are, and nothing else of a bar depends on it.
+  double own_shear(int id);
+
+ private:
+  Material elastic(int id, const NastranMaterial& m);
+  Material scaled(Material m) const;
+  NastranBuild& b_;
+  const NastranContent& c_;
+  std::map<std::tuple<int, double, bool>, int> indices_;
+  std::map<int, int> massless_;
+  std::set<int> inconsistent_, checked_;
+};
 // nastran_build_bars.cpp
 /// Orientation and ends of bars. `finish` ties the ends to their nodes.
 class NastranBars {

@@ -41,6 +41,7 @@ class ConstraintBuilder {
         if (s.kind == kind) spider(s);
     give_nastran_rigid_rotations(b_);
     for (const NastranMass& m : b_.content.masses) mass(m);
+    for (const NastranMass& m : nastran_rigid_masses(b_)) mass(m);
     equations();
     build_nastran_rigids(b_);
     for (const NastranSpider* s : general_) build_nastran_mean(b_, *s);
@@ -130,7 +131,7 @@ class ConstraintBuilder {
   }
 
   void mass(const NastranMass& m) {
-    const std::string who = fmt::format("CONM2 {}", m.id);
+    const std::string who = fmt::format("{} {}", m.card, m.id);
     const int node = b_.node(m.node, m.at, who);
     if (node < 0) return;
     const NastranFrame axes = m.system > 0 ? b_.frame(m.system, m.at) : NastranFrame{};

@@ -14,7 +14,7 @@ namespace {
 class ElementBuilder {
  public:
   ElementBuilder(NastranBuild& build, const FeReadOptions& options)
-      : b_(build), c_(build.content), options_(options), bars_(build) {}
+      : b_(build), c_(build.content), options_(options), bars_(build), materials_(build) {}
 
   void build() {
     mesh_only_ = c_.properties.empty() && c_.materials.empty() && c_.other_materials.empty();
@@ -95,6 +95,12 @@ class ElementBuilder {
     }
     if (mesh_only_) {
       result.material = options_.material ? 0 : -1;
+    } else if (e.type == ElementType::shear4) {
+      const NastranProperty* p = property(e, {"PSHEAR"});
+      if (p == nullptr) return;
+      result.material = materials_.index(*p, p->nonstructural / std::max(p->thickness, 1e-300));
+      result.section = panel(e.property, *p);
+      edge_rods(*p, result);
     } else if (e.surface) {
       const NastranProperty* p = property(e, {"PSHELL", "PCOMP", "PCOMPG"});
       if (p == nullptr) return;
@@ -105,27 +111,28 @@ class ElementBuilder {
         return;
       }
       // A PCOMP has its nonstructural mass in its section.
+      const double t = thickness(e, *p);
       result.material =
-          material(*p, p->plies.empty() ? p->nonstructural / std::max(p->thickness, 1e-300) : 0.0);
-      result.section = shell(e, *p);
+          materials_.index(*p, p->plies.empty() ? p->nonstructural / std::max(t, 1e-300) : 0.0);
+      result.section = shell(e, *p, t);
       orient_nastran_shell(b_, e, result);
     } else if (e.type == ElementType::beam2) {
       const bool bar = e.card == std::string_view("CBAR");
       const NastranProperty* p =
           bar ? property(e, {"PBAR", "PBARL"}) : property(e, {"PBEAM", "PBEAML"});
       if (p == nullptr || !bars_.place(e, p->turn, result)) return;
-      result.material = material(*p, p->nonstructural / std::max(p->section.A, 1e-300));
+      result.material = materials_.index(*p, p->nonstructural / std::max(p->section.A, 1e-300));
       result.section = section(e.property, *p);
     } else if (e.type == ElementType::rod2) {
       const bool tube = e.card == std::string_view("CTUBE");
       const NastranProperty* p = property(e, {tube ? "PTUBE" : "PROD", "CONROD"});
       if (p == nullptr) return;
-      result.material = material(*p, p->nonstructural / std::max(p->section.A, 1e-300));
+      result.material = materials_.index(*p, p->nonstructural / std::max(p->section.A, 1e-300));
       result.section = rod_section(e.property, *p);
     } else {
       const NastranProperty* p = property(e, {"PSOLID"});
       if (p == nullptr) return;
-      result.material = material(*p, 0.0);
+      result.material = materials_.index(*p, 0.0);
       orient_nastran_solid(b_, *p, result);
       if (e.type == ElementType::hex8 && !p->full_integration) result.type = ElementType::hex8i;
     }
@@ -146,7 +153,7 @@ class ElementBuilder {
       b_.note(p.at, fmt::format("{} {}: {}", p.card, id, remark));
     b_.model.sections.push_back(p.section);
     BeamSection& own = b_.model.sections.back();
-    const double ratio = own_shear(p.material);
+    const double ratio = materials_.own_shear(p.material);
     for (double* x : {&own.J, &own.shear_y, &own.shear_z}) *x *= ratio;
     return it->second;
   }
@@ -156,7 +163,7 @@ class ElementBuilder {
     if (!fresh) return it->second;
     must_be_positive(p, std::abs(id), "A", p.section.A);
     b_.model.sections.push_back(p.section);
-    b_.model.sections.back().J *= own_shear(p.material);
+    b_.model.sections.back().J *= materials_.own_shear(p.material);
     return it->second;
   }
 
@@ -166,134 +173,78 @@ class ElementBuilder {
           p.at, fmt::format("{} {}: {} is {:g}, expected more than 0", p.card, id, what, value));
   }
 
-  /// G of a material over that of its E and NU: bars twist and shear by the G of the card, whatever
-  /// E and NU are, and nothing else of a bar depends on it.
-  double own_shear(int id) {
-    const auto it = c_.materials.find(id);
-    if (it == c_.materials.end()) return 1.0;
-    const NastranMaterial& m = it->second;
-    if (!m.young || !m.shear || !m.poisson) return 1.0;
-    if (!(*m.shear > 0.0)) {
-      b_.source.error(
-          m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 for bars", id, *m.shear));
-      return 1.0;
+  /// The mean of the corners.
+  double thickness(const NastranElement& e, const NastranProperty& p) {
+    if (!e.own_thickness) return p.thickness;
+    if (!p.plies.empty()) {
+      b_.source.error(e.at,
+                      fmt::format("{}: it has thicknesses of its corners, and its property {} "
+                                  "is a {}",
+                                  label(e), e.property, p.card));
+      return p.thickness;
     }
-    return *m.shear * 2.0 * (1.0 + *m.poisson) / *m.young;
+    const int corners = e.type == ElementType::tri3 || e.type == ElementType::tri6 ? 3 : 4;
+    double sum = 0.0, least = 1e300, most = 0.0;
+    for (int k = 0; k < corners; ++k) {
+      const double own = e.corner_thickness[k];
+      const double t = own < 0.0 ? p.thickness : e.relative_thickness ? own * p.thickness : own;
+      sum += t;
+      least = std::min(least, t);
+      most = std::max(most, t);
+    }
+    const double mean = sum / corners;
+    if (most - least > 1e-6 * mean) {
+      if (uneven_++ == 0) first_uneven_ = e.at;
+      unevenness_ = std::max(unevenness_, (most - least) / mean);
+      return mean;
+    }
+    return most;
   }
 
-  int shell(const NastranElement& e, const NastranProperty& p) {
+  int shell(const NastranElement& e, const NastranProperty& p, double t) {
     const auto [it, fresh] =
-        shells_.try_emplace({e.property, e.offset}, static_cast<int>(b_.model.shells.size()));
+        shells_.try_emplace({e.property, e.offset, t}, static_cast<int>(b_.model.shells.size()));
     if (!fresh) return it->second;
-    must_be_positive(p, e.property, "the thickness", p.thickness);
-    b_.model.shells.push_back(nastran_shell_section(b_, e, p, [&](int id) {
+    must_be_positive(p, e.property, "the thickness", t);
+    ShellSection section = nastran_shell_section(b_, e, p, [&](int id) {
       // Of plies the mass counts, of a PSHELL that of its first material.
-      return material(p, 0.0, id, !p.plies.empty());
-    }));
+      return materials_.index(p, 0.0, id, !p.plies.empty());
+    });
+    if (e.own_thickness && p.thickness > 0.0) section.shear *= t / p.thickness;
+    section.thickness = t;
+    b_.model.shells.push_back(std::move(section));
     return it->second;
   }
 
-  /// Index of a material; one with nonstructural mass (over volume) is a material of its own.
-  int material(const NastranProperty& p, double nonstructural) {
-    return material(p, nonstructural, p.material, true);
-  }
-  int material(const NastranProperty& p, double nonstructural, int id, bool weighs) {
-    const auto key = std::tuple{id, nonstructural, weighs};
-    const auto it = materials_.find(key);
-    if (it != materials_.end()) return it->second;
-    Material m;
-    const auto found = c_.materials.find(id);
-    if (found != c_.materials.end()) {
-      const std::string misfit = nastran_material_misfit(found->second, p.card);
-      if (!misfit.empty())
-        b_.source.error(p.at, fmt::format("{}: material {} is a {}, expected a {}", p.card, id,
-                                          found->second.card, misfit));
-      m = elastic(found->first, found->second);
-      m.density = (found->second.density.value_or(0.0) + nonstructural) * c_.mass_factor;
-      if (!found->second.density && nonstructural == 0.0 && weighs)
-        b_.model.without_density[static_cast<int>(b_.model.materials.size())] = {found->second.at,
-                                                                                 c_.mass_factor};
-      if (nonstructural != 0.0) {
-        b_.note(p.at, fmt::format("{}: its nonstructural mass is added to the density of its "
-                                  "material",
-                                  p.card));
-      }
-    } else {
-      const auto other = c_.other_materials.find(id);
-      b_.source.error(p.at, other == c_.other_materials.end()
-                                ? fmt::format("{}: material {} is not in the file", p.card, id)
-                                : fmt::format("{}: material {} is a {}, which is not read", p.card,
-                                              id, other->second));
-    }
-    const int index = static_cast<int>(b_.model.materials.size());
-    b_.model.materials.push_back(m);
-    const auto name = c_.material_names.find(id);
-    b_.model.material_names.push_back(
-        name == c_.material_names.end()
-            ? fmt::format("{} {}", found == c_.materials.end() ? "MAT1" : found->second.card, id)
-            : name->second);
-    return materials_[key] = index;
+  int panel(int id, const NastranProperty& p) {
+    const auto [it, fresh] = panels_.try_emplace(id, static_cast<int>(b_.model.shells.size()));
+    if (!fresh) return it->second;
+    must_be_positive(p, id, "the thickness", p.thickness);
+    b_.model.shells.push_back(
+        {.thickness = p.thickness, .shear = p.thickness * materials_.own_shear(p.material)});
+    return it->second;
   }
 
-  /// E, G and NU: two give the third.
-  Material elastic(int id, const NastranMaterial& m) {
-    Material result;
-    if (m.elasticity && checked_.insert(id).second) {
-      const std::string error = nastran_plane_error(m);
-      if (!error.empty()) b_.source.error(m.at, fmt::format("{} {}: {}", m.card, id, error));
+  /// Of a panel: F1 along the edges 12 and 34, F2 along the others; without mass. Up to 1.01 a
+  /// factor is a share of the panel, above a width in thicknesses.
+  void edge_rods(const NastranProperty& p, const Element& panel) {
+    const auto at = [&](int k) { return b_.model.positions[panel.nodes[k % 4]]; };
+    const double area = 0.5 * (at(2) - at(0)).cross(at(3) - at(1)).norm();
+    for (int k = 0; k < 4; ++k) {
+      const double factor = p.edge_factors[k % 2], t = p.thickness;
+      const double along = (at(k + 1) - at(k)).norm() + (at(k + 3) - at(k + 2)).norm();
+      if (factor == 0.0 || !(along > 0.0)) continue;
+      Element rod;
+      rod.type = ElementType::rod2;
+      rod.source = panel.source;
+      rod.nodes[0] = panel.nodes[k];
+      rod.nodes[1] = panel.nodes[(k + 1) % 4];
+      rod.material = materials_.massless(panel.material);
+      rod.section = static_cast<int>(b_.model.sections.size());
+      b_.model.sections.push_back({});
+      b_.model.sections.back().A = factor > 1.01 ? 0.5 * factor * t * t : factor * t * area / along;
+      b_.model.elements.push_back(rod);
     }
-    if (m.elasticity)
-      return anisotropic_material(c_.stiffness_factor * *m.elasticity, m.plane, 0.0);
-    if (m.card != std::string_view("MAT1")) return result;  // refused already
-    const int given = (m.young ? 1 : 0) + (m.shear ? 1 : 0) + (m.poisson ? 1 : 0);
-    if (given < 2) {
-      b_.source.error(m.at, fmt::format("MAT1 {}: {} of E, G and NU given, expected two", id,
-                                        given == 0 ? "none" : "one"));
-      return result;
-    }
-    result.young = m.young ? *m.young : 2.0 * (1.0 + *m.poisson) * *m.shear;
-    if (m.poisson) {
-      result.poisson = *m.poisson;
-    } else if (*m.shear > 0.0) {
-      result.poisson = *m.young / (2.0 * *m.shear) - 1.0;
-    } else {
-      // The same sentence for each use of the material would not help.
-      if (checked_.insert(id).second)
-        b_.source.error(m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 where it gives "
-                                          "NU with E",
-                                          id, *m.shear));
-      return result;
-    }
-    if (given == 3 && std::abs(result.shear() - *m.shear) > 0.01 * std::abs(*m.shear) &&
-        inconsistent_.insert(id).second) {
-      b_.note(m.at, fmt::format("MAT1 {}: G is {:.6g}, but E and NU give {:.6g}: bars twist by G, "
-                                "shells and solids have E and NU, as in Nastran",
-                                id, *m.shear, result.shear()));
-    }
-    if (!checked_.insert(id).second) return scaled(result);
-    const auto expect = [&](bool valid, const char* what, double found, const std::string& origin,
-                            const char* expected) {
-      if (!valid)
-        b_.source.error(m.at, fmt::format("MAT1 {}: {} is {:g}{}, expected {}", id, what, found,
-                                          origin, expected));
-    };
-    const auto from = [](const std::optional<double>& own, const char* a, double x, const char* b,
-                         double y) {
-      return own ? "" : fmt::format(" (from {} = {:g} and {} = {:g})", a, x, b, y);
-    };
-    const double shear = m.shear.value_or(0.0);
-    expect(result.young > 0.0, "E", result.young, from(m.young, "G", shear, "NU", result.poisson),
-           "more than 0");
-    expect(result.poisson > -1.0 && result.poisson < 0.5, "NU", result.poisson,
-           from(m.poisson, "E", result.young, "G", shear), "more than -1 and less than 0.5");
-    const double density = m.density.value_or(0.0);
-    expect(density >= 0.0, "RHO", density, "", "no negative density");
-    return scaled(result);
-  }
-
-  Material scaled(Material m) const {
-    m.young *= c_.stiffness_factor;
-    return m;
   }
 
   void notes() {
@@ -310,6 +261,11 @@ class ElementBuilder {
                           "make node sets",
                           skins_));
     }
+    if (uneven_ > 0)
+      b_.note(first_uneven_,
+              fmt::format("{} shells have corners of different thickness, by {:.1f} % at most: "
+                          "each has the mean of its corners",
+                          uneven_, 100.0 * unevenness_));
     if (mesh_only_ && !options_.material && !b_.model.elements.empty()) {
       b_.note(b_.model.elements[0].source, "the file has no material");
     }
@@ -322,14 +278,17 @@ class ElementBuilder {
   const NastranContent& c_;
   const FeReadOptions& options_;
   NastranBars bars_;
+  NastranMaterials materials_;
   bool mesh_only_ = false;
   int skins_ = 0;
   FeSource first_skin_;
-  std::set<int> missing_, inconsistent_, checked_;
+  std::set<int> missing_;
   std::map<std::string, std::set<int>> members_;
-  std::map<int, int> sections_;
-  std::map<std::pair<int, double>, int> shells_;
-  std::map<std::tuple<int, double, bool>, int> materials_;
+  std::map<int, int> sections_, panels_;
+  std::map<std::tuple<int, double, double>, int> shells_;
+  int uneven_ = 0;  // shells whose corners differ in thickness
+  FeSource first_uneven_;
+  double unevenness_ = 0.0;
 };
 
 }  // namespace

@@ -10,24 +10,6 @@
 namespace floatframe {
 namespace {
 
-/// Axes of a system at a place: those of a cylinder or sphere turn with it.
-Mat3 system_axes_at(const NastranFrame& f, const Vec3& p) {
-  if (f.kind == 'R') return f.R;
-  const Vec3 x = f.R.transpose() * (p - f.origin);
-  const double r = std::hypot(x(0), x(1));
-  const Vec3 out = r > 0.0 ? Vec3(x(0) / r, x(1) / r, 0.0) : Vec3(Vec3::UnitX());
-  const Vec3 around(-out(1), out(0), 0.0);
-  Mat3 local;
-  if (f.kind == 'C') {
-    local << out, around, Vec3::UnitZ();
-  } else {
-    const double d = x.norm();
-    const Vec3 radial = d > 0.0 ? Vec3(x / d) : Vec3(Vec3::UnitZ());
-    local << radial, around.cross(radial), around;
-  }
-  return f.R * local;
-}
-
 class SpringBuilder {
  public:
   explicit SpringBuilder(NastranBuild& build) : b_(build), springs_(build.content.springs) {}
@@ -56,12 +38,6 @@ class SpringBuilder {
     b_.source.error(s.at, fmt::format("{}: {}", label(s), text));
   }
   const Vec3& position(int node) const { return b_.model.positions[node]; }
-
-  /// Columns are the directions of the displacements of a node.
-  Mat3 axes_of(int node) {
-    const NastranGrid& g = b_.content.grids[node];
-    return g.cd > 0 ? system_axes_at(b_.frame(g.cd, g.at), position(node)) : Mat3::Identity();
-  }
 
   /// Nodes of the model; the second -1: the ground. False with an error.
   bool nodes(const NastranSpring& s, std::array<int, 2>& out) {
@@ -92,7 +68,7 @@ class SpringBuilder {
     for (int end = 0; end < 2; ++end) {
       if (spring.nodes[end] < 0) continue;
       const int c = s.components[end];
-      const Vec3 t = (end == 0 ? -1.0 : 1.0) * axes_of(spring.nodes[end]).col(c % 3);
+      const Vec3 t = (end == 0 ? -1.0 : 1.0) * b_.axes(spring.nodes[end]).col(c % 3);
       spring.directions[end].segment<3>(c < 3 ? 0 : 3) = t;
     }
     if (spring.nodes[0] == spring.nodes[1]) {  // two directions of one node
@@ -115,7 +91,7 @@ class SpringBuilder {
     if (!bushing_axes(s, n, k, axes)) return;
     Vec3 at = position(n[0]);
     if (s.offset_system >= 0) {
-      const Mat3 R = s.offset_system > 0 ? system_axes_at(b_.frame(s.offset_system, s.at), at)
+      const Mat3 R = s.offset_system > 0 ? nastran_axes_at(b_.frame(s.offset_system, s.at), at)
                                          : Mat3(Mat3::Identity());
       at += R * s.offset;
     } else if (n[1] >= 0) {
@@ -128,7 +104,7 @@ class SpringBuilder {
                     Mat3& axes) {
     const Vec3 a = position(n[0]);
     if (s.system >= 0) {
-      if (s.system > 0) axes = system_axes_at(b_.frame(s.system, s.at), a);
+      if (s.system > 0) axes = nastran_axes_at(b_.frame(s.system, s.at), a);
       return true;
     }
     const Vec3 d = n[1] >= 0 ? Vec3(position(n[1]) - a) : Vec3(Vec3::Zero());
@@ -138,7 +114,7 @@ class SpringBuilder {
                           "system CID");
       return false;
     }
-    Vec3 v = axes_of(n[0]) * s.orientation;
+    Vec3 v = b_.axes(n[0]) * s.orientation;
     if (s.orientation_node > 0) {
       const int go = b_.node(s.orientation_node, s.at, label(s));
       if (go < 0) return false;

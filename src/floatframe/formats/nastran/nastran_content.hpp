@@ -66,7 +66,9 @@ struct NastranElement {
   double theta = 0.0;               ///< shells: of axis 1 of the material from the side 1-2 [rad]
   int material_system = -1;         ///< shells: MCID in place of the angle; -1: none
   double offset = 0.0;              ///< shells: ZOFFS
-  int ends = -1;                    ///< bars: index of what is special about their ends
+  bool own_thickness = false, relative_thickness = false;  ///< shells: Ti, TFLAG
+  std::array<double, 4> corner_thickness{};                ///< negative: that of the property
+  int ends = -1;  ///< bars: index of what is special about their ends
   /// Bars, while reading: BAROR decides.
   bool default_property = false, default_orientation = false;
   FeSource at;
@@ -103,6 +105,7 @@ struct NastranProperty {
   std::optional<double> z0;          ///< PCOMP: of the bottom from the nodes
   bool smeared = false;              ///< PCOMP: LAM = SMEAR
   double shell_shear = 0.0;          ///< PSHELL with MID3, PCOMP
+  double edge_factors[2] = {0, 0};   ///< PSHEAR: F1 and F2, rods along the edges
   int shear_material = 0;            ///< PSHELL: MID3
   BeamSection section;               ///< PBAR, PBARL, PBEAM, PBEAML: about its principal axes
   double turn = 0.0;                 ///< of these from y of the element towards z [rad]
@@ -111,7 +114,18 @@ struct NastranProperty {
   FeSource at;
 };
 
+/// CONM1, CMASS1, CMASS2: of displacements and rotations of a node.
+struct NastranMassMatrix {
+  const char* card = "";
+  int id = 0, node = 0;
+  int system = 0;    ///< -1: that of the node's displacements
+  int property = 0;  ///< CMASS1: the matrix is times that
+  Mat6 M = Mat6::Zero();
+  FeSource at;
+};
+
 struct NastranMass {
+  const char* card = "CONM2";
   int id = 0, node = 0, system = 0;
   double mass = 0.0;
   Vec3 offset = Vec3::Zero();
@@ -186,6 +200,8 @@ struct NastranContent {
   std::map<int, NastranMaterial> materials;
   std::map<int, NastranProperty> properties;
   std::vector<NastranMass> masses;
+  std::vector<NastranMassMatrix> mass_matrices;
+  std::map<int, std::pair<double, FeSource>> pmass;
   NastranSprings springs;
   std::vector<NastranSpider> spiders;
   std::vector<NastranRigid> rigids;
@@ -227,8 +243,13 @@ void read_nastran_node_system(NastranFields&, NastranContent&);
 void read_nastran_scalar_points(NastranFields&, NastranContent&);
 void read_nastran_solid(NastranFields&, NastranContent&);
 void read_nastran_surface(NastranFields&, NastranContent&);
+void read_nastran_panel(NastranFields&, NastranContent&);
 void read_nastran_material(NastranFields&, NastranContent&);
 void read_nastran_mass(NastranFields&, NastranContent&);
+// nastran_masses.cpp
+void read_nastran_mass_matrix(NastranFields&, NastranContent&);  ///< CONM1
+void read_nastran_scalar_mass(NastranFields&, NastranContent&);  ///< CMASS1, CMASS2
+void read_nastran_pmass(NastranFields&, NastranContent&);
 // nastran_materials.cpp
 /// MAT2, MAT8, MAT9
 void read_nastran_anisotropic(NastranFields&, NastranContent&);

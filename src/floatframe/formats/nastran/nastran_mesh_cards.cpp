@@ -31,6 +31,23 @@ void shell_axes(NastranFields& f, std::size_t i, NastranElement& e) {
   e.offset = f.real(i + 1, "the offset ZOFFS", 0.0);
 }
 
+/// T1 to T4, which with TFLAG 1 are factors of that of the property; negative: none.
+void corner_thicknesses(NastranFields& f, std::size_t corners, std::size_t flag,
+                        NastranElement& e) {
+  for (std::size_t k = 0; k < corners; ++k) {
+    e.corner_thickness[k] = f.real(10 + k, "the thickness of a corner", -1.0);
+    if (f.blank(10 + k)) continue;
+    if (!(e.corner_thickness[k] > 0.0))
+      f.error(fmt::format("the thickness of a corner is {:g}, expected more than 0",
+                          e.corner_thickness[k]));
+    e.own_thickness = true;
+  }
+  const int relative = f.integer(flag, "TFLAG", 0);
+  if (relative != 0 && relative != 1)
+    f.error(fmt::format("TFLAG is {}, expected 0 or 1", relative));
+  e.relative_thickness = relative == 1;
+}
+
 }  // namespace
 
 void read_nastran_grid(NastranFields& f, NastranContent& c) {
@@ -153,13 +170,16 @@ void read_nastran_surface(NastranFields& f, NastranContent& c) {
   }
   if (!e.other) {
     shell_axes(f, !midside ? 2 + corners : triangle ? 8 : 14, e);
-    for (std::size_t k = 10; k < 10 + corners; ++k) {
-      if (!f.blank(k)) {
-        f.error("thicknesses of the corners are not supported; give one with PSHELL");
-        break;
-      }
-    }
+    corner_thicknesses(f, corners, midside ? (triangle ? 13u : 16u) : 9u, e);
   }
+  c.elements.push_back(e);
+}
+
+void read_nastran_panel(NastranFields& f, NastranContent& c) {
+  NastranElement e = element(f, "CSHEAR");
+  e.surface = true;
+  e.type = ElementType::shear4;
+  for (std::size_t k = 0; k < 4; ++k) e.nodes[e.count++] = f.label(2 + k, "a node");
   c.elements.push_back(e);
 }
 

@@ -92,6 +92,18 @@ void pbeam(NastranFields& f, NastranProperty& p) {
   }
 }
 
+void pshear(NastranFields& f, NastranProperty& p) {
+  p.material = f.label(1, "the material");
+  p.thickness = f.real(2, "the thickness");
+  p.nonstructural = f.real(3, "the nonstructural mass", 0.0);
+  for (int k = 0; k < 2; ++k) {
+    const char* const name = k == 0 ? "F1" : "F2";
+    p.edge_factors[k] = f.real(4 + k, name, 0.0);
+    if (p.edge_factors[k] < 0.0)
+      f.error(fmt::format("{} is {:g}, expected no negative number", name, p.edge_factors[k]));
+  }
+}
+
 }  // namespace
 
 bool read_nastran_property(NastranFields& f, NastranProperty& p) {
@@ -100,6 +112,7 @@ bool read_nastran_property(NastranFields& f, NastranProperty& p) {
       {"PSHELL", read_nastran_pshell},
       {"PCOMP", read_nastran_pcomp},
       {"PCOMPG", read_nastran_pcomp},
+      {"PSHEAR", pshear},
       {"PBAR", pbar},
       {"PBARL", read_nastran_named_section},
       {"PROD", read_nastran_rod_property},

@@ -22,6 +22,7 @@ const char* calculix_type(ElementType type) {
       return "B32";
     case ElementType::tri3:
       return "S3";
+    case ElementType::shear4:  // refused before
     case ElementType::quad4:
       return "S4";
     case ElementType::tri6:

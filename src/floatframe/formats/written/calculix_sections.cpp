@@ -67,6 +67,8 @@ class SectionWriter {
     std::string what;
     if (!in(e.material, model_.materials))
       what = "has no material, which a deck needs";
+    else if (is_panel(e.type))
+      what = "is a shear panel, which CalculiX has not (.vtu and .msh show the mesh)";
     else if (is_shell(e.type) && in(e.section, model_.shells))
       what = shell_error(e);
     else if (is_beam(e.type) && in(e.section, model_.sections))

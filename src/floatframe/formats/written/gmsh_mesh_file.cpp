@@ -30,6 +30,7 @@ int gmsh_number(ElementType type) {
     case ElementType::tri3:
       return 2;
     case ElementType::quad4:
+    case ElementType::shear4:
       return 3;
     case ElementType::tri6:
       return 9;

@@ -26,6 +26,7 @@ std::uint8_t vtk_cell_of(ElementType type) {
     case ElementType::tri3:
       return 5;
     case ElementType::quad4:
+    case ElementType::shear4:
       return 9;
     case ElementType::tri6:
       return 22;
