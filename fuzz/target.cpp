@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "judge.hpp"
 #ifdef FUZZ_MODELS
 #include "models.hpp"
 #else
@@ -22,6 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::abort();
   }();
 #endif
+  const Judge judge;
   run(*reader, std::string_view(reinterpret_cast<const char*>(data), size));
+  judge.judge(size, {});
   return 0;
 }

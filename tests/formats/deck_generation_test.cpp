@@ -145,8 +145,15 @@ TEST(DeckGeneration, Sentences) {
             "deck.inp:9: element 2 does not exist before this line");
   EXPECT_EQ(generation_error(e + "*ELGEN\n1, 0, 1, 1\n"),
             "deck.inp:9: the numbers of elements of *ELGEN must be at least 1");
-  EXPECT_EQ(generation_error(e + "*ELGEN\n1, 2000, 0, 1, 1000\n"),
-            "deck.inp:9: this line makes 2000000, expected at most 1000000");
+  EXPECT_EQ(generation_error(e + "*ELGEN\n1, 2000, 0, 1, 3000\n"),
+            "deck.inp:9: the lines that generate, copy or repeat make more than 4000000 nodes, "
+            "elements and cards; write the deck with its nodes and elements");
+  std::string nested = n + "*NSET, NSET=S0\n1, 1, 1\n";
+  for (int k = 1; k < 40; ++k)
+    nested += fmt::format("*NSET, NSET=S{}\nS{}, S{}\n", k, k - 1, k - 1);
+  EXPECT_EQ(generation_error(nested + "*NFILL\nS39, S39, 2, 1\n"),
+            "deck.inp:86: the lines that generate, copy or repeat make more than 4000000 nodes, "
+            "elements and cards; write the deck with its nodes and elements");
   EXPECT_EQ(generation_error(e + "*ELGEN\n1, 2, 0, 0\n"),
             "deck.inp:9: element 1 is there already (deck.inp:7)");
   EXPECT_EQ(generation_error(e + "*ELGEN\n1, 2, 0, -5\n"),

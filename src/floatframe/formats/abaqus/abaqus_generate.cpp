@@ -16,7 +16,6 @@
 namespace floatframe {
 namespace {
 
-constexpr std::int64_t most_generated = 1'000'000;  // of one line
 constexpr int most_nested = 50;
 
 /// Puts nodes and elements into the content, as if they stood in the deck at a line.
@@ -87,13 +86,6 @@ class Generated {
     return nullptr;
   }
 
-  bool too_many(std::int64_t count) {
-    if (count <= most_generated) return false;
-    lines_.source().error(
-        fmt::format("this line makes {}, expected at most {}", count, most_generated));
-    return true;
-  }
-
   /// Numbers of a set or of one node or element; nothing and an error if there are none.
   std::vector<int> numbers(std::string_view field, bool of_nodes) {
     std::vector<int> out;
@@ -139,15 +131,16 @@ class Generated {
       const auto& sets = of_nodes ? content_.node_sets : content_.element_sets;
       const auto it = sets.find({r.scope, r.name});
       if (it == sets.end() || depth > most_nested) return;
-      const std::vector<AbaqusReference> items = it->second.items;
-      for (const AbaqusReference& item : items) append(item, of_nodes, out, depth + 1);
+      for (const AbaqusReference& item : it->second.items) {
+        lines_.source().make(1);  // sets of sets of sets may name the same ones very often
+        append(item, of_nodes, out, depth + 1);
+      }
       return;
     }
     const auto& known = of_nodes ? content_.node_of_label : content_.element_of_label;
-    if ((r.last - static_cast<std::int64_t>(r.first)) / r.step > most_generated) return;
+    lines_.source().make((r.last - static_cast<std::int64_t>(r.first)) / r.step);
     for (std::int64_t id = r.first; id <= r.last; id += r.step)
-      if (known.contains(AbaqusContent::label(r.scope, static_cast<int>(id))) &&
-          static_cast<std::int64_t>(out.size()) <= most_generated)
+      if (known.contains(AbaqusContent::label(r.scope, static_cast<int>(id))))
         out.push_back(static_cast<int>(id));
   }
 
@@ -241,7 +234,7 @@ void read_abaqus_generated_nodes(AbaqusLines& lines, const AbaqusKeyword& keywor
       continue;
     }
     const std::int64_t count = span / step;
-    if (out.too_many(count)) continue;
+    lines.source().make(count);
     std::optional<Arc> arc;
     if (round) {
       const auto centre = arc_centre(lines, out, fields);
@@ -280,7 +273,7 @@ void read_abaqus_filled_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
       lines.source().error(fmt::format("{} intervals, expected at least 1", intervals));
       continue;
     }
-    if (out.too_many(static_cast<std::int64_t>(first.size()) * intervals)) continue;
+    lines.source().make(static_cast<std::int64_t>(first.size()) * intervals);
     for (std::size_t i = 0; i < first.size(); ++i) {
       const auto a = out.place(first[i]), b = out.place(last[i]);
       if (!a || !b) continue;
@@ -307,8 +300,7 @@ void read_abaqus_copied_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const int times = multiple.empty() ? 1 : lines.integer(multiple, "MULTIPLE");
   Generated out(lines, content, keyword.value("NEWSET"), {});
   const std::vector<int> numbers = out.numbers(old, true);
-  if (out.too_many(static_cast<std::int64_t>(numbers.size()) * std::max(times, 0)))
-    return lines.skip_data();
+  lines.source().make(static_cast<std::int64_t>(numbers.size()) * std::max(times, 0));
   Vec3 shift = Vec3::Zero(), a = Vec3::Zero(), b = Vec3::Zero();
   double degrees = 0.0;
   std::vector<std::string_view> fields;
@@ -360,13 +352,13 @@ void read_abaqus_generated_elements(AbaqusLines& lines, const AbaqusKeyword& key
       node[d] = integer_or(lines, fields, 3 * d + 2, 1, "increment of the nodes");
       element[d] = integer_or(lines, fields, 3 * d + 3, 1, "increment of the elements");
       valid = valid && count[d] >= 1;
-      all = valid ? std::min(all * count[d], 2 * most_generated) : all;
+      all = valid ? std::min(all * count[d], 2 * TextSource::most_made) : all;
     }
     if (!valid) {
       lines.source().error("the numbers of elements of *ELGEN must be at least 1");
       continue;
     }
-    if (out.too_many(all)) continue;
+    lines.source().make(all);
     out.belongs_too(master.id);
     for (std::int64_t l = 0; l < count[2]; ++l)
       for (std::int64_t r = 0; r < count[1]; ++r)
@@ -388,7 +380,9 @@ void read_abaqus_copied_elements(AbaqusLines& lines, const AbaqusKeyword& keywor
   Generated out(lines, content, {}, keyword.value("NEWSET"));
   const std::int64_t step = lines.integer(shift, "ELEMENT SHIFT"),
                      node_step = lines.integer(nodes, "SHIFT NODES");
-  for (const int id : out.numbers(old, false)) {
+  const std::vector<int> numbers = out.numbers(old, false);
+  lines.source().make(static_cast<std::int64_t>(numbers.size()));
+  for (const int id : numbers) {
     const AbaqusElement like = *out.find_element(id);
     out.element(like, id + step, node_step);
   }

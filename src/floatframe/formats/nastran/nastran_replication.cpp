@@ -88,6 +88,7 @@ bool NastranReplication::repeat(const NastranCard& card, const NastranCard& befo
                              "cards",
                              most_repeated));
   }
+  source_.make(*number);
   left_ = *number;
   at_ = card.at;
   return false;

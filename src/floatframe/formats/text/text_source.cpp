@@ -294,6 +294,14 @@ void TextSource::error(const FeSource& at, std::string message) {
   errors_.throw_if_any();
 }
 
+void TextSource::make(std::int64_t count) {
+  if (count > 0) made_ += std::min(count, may_make_ + 1);
+  if (made_ > may_make_)
+    stop(here_, fmt::format("the lines that generate, copy or repeat make more than {} nodes, "
+                            "elements and cards; write the deck with its nodes and elements",
+                            may_make_));
+}
+
 void TextSource::stop(const FeSource& at, std::string message) {
   errors_.add(mark(at), std::move(message));
   errors_.throw_if_any();

@@ -79,6 +79,13 @@ class TextSource {
   std::size_t errors() const noexcept { return errors_.size(); }
   static constexpr std::size_t most_errors = 50;
 
+  /// Lines may stand for many nodes, elements or cards (generated, copied, repeated): each says how
+  /// many it makes or looks at for that. Throws when they are too many in all, since a short file
+  /// could fill any memory.
+  void make(std::int64_t count);
+  void may_make(std::int64_t most) noexcept { may_make_ = most; }
+  static constexpr std::int64_t most_made = 4'000'000;
+
   /// Names of the files read so far, for FeModel::files.
   const std::vector<std::string>& files() const noexcept { return names_; }
 
@@ -100,6 +107,7 @@ class TextSource {
   std::vector<Open> stack_;
   std::uint64_t expanded_ = 0;  // characters put onto the stack
   std::size_t includes_ = 0;
+  std::int64_t may_make_ = most_made, made_ = 0;
   std::string_view line_;
   bool again_ = false;
   FeSource here_, before_;
