@@ -249,8 +249,8 @@ TEST(Abaqus, OnePartAndOneInstance) {
   EXPECT_EQ(model.supports[1].node, 0);
   ASSERT_EQ(model.notes.size(), 1u);
   EXPECT_EQ(model.notes[0],
-            "deck.inp:23: node 1 of the assembly has the number of a node of the "
-            "part: it becomes node 5");
+            "deck.inp:23: node 1 of the assembly has the number of another one: it becomes "
+            "node 5");
 }
 
 TEST(Abaqus, MassesEquationsAndCouplings) {

@@ -165,7 +165,7 @@ void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
        (!cylinder && first.cross(second).norm() <= 1e-12 * first.norm() * second.norm())))
     lines.error(keyword, cylinder ? "has the same point for a and b"
                                   : "has its points a, b and the origin on a line");
-  const auto [it, added] = content.orientations.emplace(name, o);
+  const auto [it, added] = content.orientations.emplace(std::pair{o.scope, name}, o);
   if (added || lines.source().errors() != before) return;
   const SourceMark mark = lines.source().mark(it->second.at);
   lines.error(keyword, fmt::format("names the orientation {} a second time ({}:{})", shown(name),

@@ -1,53 +1,24 @@
-// One part and one instance of an Abaqus deck. Numbers and names of the part are those of the
-// instance; the assembly has its own.
+// Parts and instances of an Abaqus deck. Each instance has the numbers and names of its part, the
+// assembly has its own; from there things of an instance are INSTANCE.NAME and INSTANCE.12.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <numbers>
 
+#include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/abaqus/abaqus_content.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 
-void read_abaqus_part(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
-  const std::string name = abaqus_name(lines.required(keyword, "NAME"));
-  if (!content.part.empty()) {
-    lines.source().stop(keyword.at, fmt::format("*PART {} is a second part; a deck with one part "
-                                                "and one instance of it is read",
-                                                shown(name)));
-  }
-  content.part = name.empty() ? "?" : name;
-  content.scope = AbaqusScope::part;
-  lines.skip_data();
-}
+namespace {
 
-void read_abaqus_end_part(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
-  content.scope = AbaqusScope::assembly;
-  lines.skip_data();
-}
+/// Nodes and elements that instances may add in all: a line of a few bytes can double a deck.
+constexpr std::size_t most_instanced = 20'000'000;
 
-void read_abaqus_assembly(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
-  content.scope = AbaqusScope::assembly;
-  lines.skip_data();
-}
+AbaqusScope new_scope(AbaqusContent& content) { return static_cast<AbaqusScope>(content.scopes++); }
 
-void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                          AbaqusContent& content) {
-  lines.allow_only(keyword, {"NAME", "PART"});
-  const std::string name = abaqus_name(lines.required(keyword, "NAME"));
-  const std::string part = abaqus_name(lines.required(keyword, "PART"));
-  if (!content.instance.empty()) {
-    lines.source().stop(keyword.at, fmt::format("*INSTANCE {} is a second instance; a deck with "
-                                                "one part and one instance of it is read",
-                                                shown(name)));
-  }
-  if (!part.empty() && part != content.part) {
-    lines.error(keyword, fmt::format("is of the part {}, which does not exist", shown(part)));
-  }
-  content.instance = name.empty() ? "?" : name;
-  content.scope = AbaqusScope::part;
-  AbaqusPlacement& place = content.placement;
+void read_placement(AbaqusLines& lines, AbaqusPlacement& place) {
   std::vector<std::string_view> fields;
   const auto vector = [&](std::size_t first, std::string_view what) {
     Vec3 v;
@@ -70,9 +41,105 @@ void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
   lines.skip_data();
 }
 
-void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
+}  // namespace
+
+void read_abaqus_part(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  const std::string name = abaqus_name(lines.required(keyword, "NAME"));
+  AbaqusPart part;
+  part.at = keyword.at;
+  part.scope = content.parts.empty() ? AbaqusScope::part : new_scope(content);
+  part.nodes = part.nodes_end = content.nodes.size();
+  part.elements = part.elements_end = content.elements.size();
+  content.part = name.empty() ? "?" : name;
+  const auto [it, fresh] = content.parts.emplace(content.part, part);
+  if (!fresh) {
+    const SourceMark first = lines.source().mark(it->second.at);
+    lines.source().stop(keyword.at, fmt::format("*PART {} is there already ({}:{})", shown(name),
+                                                first.file, first.line));
+  }
+  content.scope = part.scope;
+  lines.skip_data();
+}
+
+void read_abaqus_end_part(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
+  if (const auto it = content.parts.find(content.part); it != content.parts.end()) {
+    it->second.nodes_end = content.nodes.size();
+    it->second.elements_end = content.elements.size();
+  }
   content.scope = AbaqusScope::assembly;
   lines.skip_data();
+}
+
+void read_abaqus_assembly(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
+  content.scope = AbaqusScope::assembly;
+  lines.skip_data();
+}
+
+void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                          AbaqusContent& content) {
+  lines.allow_only(keyword, {"NAME", "PART"});
+  const std::string name = abaqus_name(lines.required(keyword, "NAME"));
+  const std::string part = abaqus_name(lines.required(keyword, "PART"));
+  const auto it = content.parts.find(part);
+  if (it == content.parts.end()) {
+    std::vector<std::string> known;
+    for (const auto& [k, p] : content.parts) known.push_back(k);
+    lines.source().stop(keyword.at,
+                        fmt::format("*INSTANCE {} is of the part {}, which does not exist{}",
+                                    shown(name), shown(part), did_you_mean(part, known)));
+  }
+  if (content.scope_of_instance.contains(name))
+    lines.source().stop(keyword.at, fmt::format("*INSTANCE {} is there already", shown(name)));
+  AbaqusPart& of = it->second;
+  const std::size_t size = of.nodes_end - of.nodes + of.elements_end - of.elements;
+  if (of.used && of.grown && size > 0)
+    lines.source().stop(keyword.at,
+                        fmt::format("*INSTANCE {} is a second one of the part {}, whose first one "
+                                    "has nodes or elements of its own; give each a part",
+                                    shown(name), shown(part)));
+  const AbaqusScope scope = of.used ? new_scope(content) : of.scope;
+  if (of.used && size > 0) {
+    content.instanced += size;
+    if (content.instanced > most_instanced)
+      lines.source().stop(keyword.at, fmt::format("*INSTANCE {}: the instances add more than {} "
+                                                  "nodes and elements",
+                                                  shown(name), most_instanced));
+    copy_abaqus_part(content, of, scope);
+  }
+  of.used = true;
+  AbaqusInstance instance;
+  instance.name = name.empty() ? "?" : name;
+  instance.part = part;
+  read_placement(lines, instance.place);
+  instance.nodes = content.nodes.size();
+  instance.elements = content.elements.size();
+  content.scope_of_instance.emplace(instance.name, scope);
+  content.instances.emplace(scope, std::move(instance));
+  content.scope = scope;
+}
+
+void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
+  if (const auto it = content.instances.find(content.scope); it != content.instances.end()) {
+    AbaqusPart& part = content.parts.at(it->second.part);
+    part.grown = part.grown || it->second.nodes < content.nodes.size() ||
+                 it->second.elements < content.elements.size();
+  }
+  content.scope = AbaqusScope::assembly;
+  lines.skip_data();
+}
+
+void finish_abaqus_assembly(AbaqusContent& content, TextSource& source) {
+  if (content.parts.size() > 1 && content.instances.empty())
+    source.error(std::next(content.parts.begin())->second.at,
+                 fmt::format("the deck has {} parts and no instance of any (*INSTANCE)",
+                             content.parts.size()));
+  if (content.instances.empty()) return;
+  for (const auto& [name, part] : content.parts) {
+    if (part.used) continue;
+    const SourceMark mark = source.mark(part.at);
+    content.note(mark, fmt::format("part {} has no instance and is left out", shown(name)));
+    remove_abaqus_scope(content, part.scope);
+  }
 }
 
 }  // namespace floatframe

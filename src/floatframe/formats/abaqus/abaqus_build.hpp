@@ -85,10 +85,9 @@ void build_abaqus_ties(AbaqusBuild& build);
 /// Of the nodes that *TRANSFORM turns: columns are the axes of their degrees of freedom.
 std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build);
 // abaqus_build_constraints.cpp
-/// The surface of a name, seen from a scope, and its name in the model; null and an error if there
-/// is none.
-const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, int name, AbaqusScope scope,
-                                         const FeSource& at, std::string& shown_name);
+/// The surface of a name and its name in the model; null and an error if there is none.
+const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReference& reference,
+                                         std::string& shown_name);
 void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes);
 
 }  // namespace floatframe

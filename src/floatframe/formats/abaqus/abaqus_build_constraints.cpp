@@ -59,12 +59,9 @@ double corner_share(const FaceNodes& face) noexcept {
   return face.corners == 3 ? 1.0 / 19.0 : 3.0 / 76.0;
 }
 
-/// Part and assembly may each have a surface of the name.
+/// The name in the model, with that of the instance where others have the same.
 std::string surface_name(const AbaqusContent& c, const AbaqusContent::Key& key) {
-  const std::string& name = c.names[key.second];
-  const bool twice =
-      key.first == AbaqusScope::part && c.surfaces.contains({AbaqusScope::assembly, key.second});
-  return twice ? c.instance + "." + name : name;
+  return abaqus_model_name(c, key, c.surfaces);
 }
 
 void build_surfaces(AbaqusBuild& build) {
@@ -106,8 +103,7 @@ void build_surfaces(AbaqusBuild& build) {
 
 void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list) {
   std::string name;
-  const AbaqusSurface* const surface =
-      find_abaqus_surface(build, spider.surface, spider.surface_scope, spider.at, name);
+  const AbaqusSurface* const surface = find_abaqus_surface(build, *spider.surface, name);
   if (surface == nullptr) return;
   if (surface->of_nodes) {
     for (const AbaqusSurface::Item& item : surface->items) {
@@ -170,7 +166,7 @@ void build_spider(AbaqusBuild& build, const AbaqusSpider& raw, bool only_nodes, 
       list.add(node, 1.0);
     }
   }
-  if (raw.surface >= 0 && !only_nodes) add_surface(build, raw, list);
+  if (raw.surface && !only_nodes) add_surface(build, raw, list);
   if (build.source.errors() != before) return;
   if (list.nodes.empty() && !only_nodes) {
     build.source.error(raw.at, "the rigid body or coupling has no nodes beside its reference");
@@ -266,14 +262,21 @@ void check_turned_spiders(AbaqusBuild& build, const std::map<int, Mat3>& axes) {
 
 }  // namespace
 
-const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, int name, AbaqusScope scope,
-                                         const FeSource& at, std::string& shown_name) {
+const AbaqusSurface* find_abaqus_surface(AbaqusBuild& build, const AbaqusReference& reference,
+                                         std::string& shown_name) {
   const AbaqusContent& c = build.content;
-  for (const AbaqusScope s : {scope, AbaqusScope::assembly, AbaqusScope::part}) {
-    const auto it = c.surfaces.find({s, name});
-    if (it == c.surfaces.end()) continue;
-    shown_name = surface_name(c, it->first);
-    return &it->second;
+  const int name = reference.name;
+  const FeSource& at = reference.at;
+  const AbaqusNamed<AbaqusSurface> found = find_abaqus_name(c, c.surfaces, reference.scope, name);
+  if (found.entry != nullptr) {
+    shown_name = surface_name(c, found.entry->first);
+    return &found.entry->second;
+  }
+  if (found.several) {
+    build.source.error(at, fmt::format("surface {} is in several instances: put the name of one "
+                                       "and a dot before it",
+                                       shown(c.names[name])));
+    return nullptr;
   }
   std::vector<std::string> known;
   for (const auto& [key, s] : c.surfaces) {

@@ -40,10 +40,8 @@ Orientation placed(const AbaqusOrientation& o, const AbaqusPlacement& place) {
   x = (x - z * z.dot(x)).normalized();
   out.axes << x, z.cross(x), z;
   out.origin = o.kind == Kind::cylindrical ? o.a : o.c;
-  if (o.scope == AbaqusScope::part) {
-    out.axes = place.R * out.axes;
-    out.origin = place.R * (out.origin + place.t - place.a) + place.a;
-  }
+  out.axes = (place.R * out.axes).eval();
+  out.origin = place.at(out.origin);
   if (o.axis > 0) out.turn = Eigen::AngleAxisd(o.angle, Vec3::Unit(o.axis - 1)).toRotationMatrix();
   return out;
 }
@@ -105,22 +103,23 @@ int with_angles(AbaqusBuild& build, int section, const std::vector<double>& angl
 
 int abaqus_orientation(AbaqusBuild& build, const std::string& name, const AbaqusSection& section) {
   const bool shell = section.family == Family::shell;
-  const auto [place, fresh] =
-      build.orientation_index.try_emplace(name + (shell ? "*SHELL" : "*SOLID"), -1);
+  const AbaqusScope scope = section.elements.scope;
+  const auto [place, fresh] = build.orientation_index.try_emplace(
+      fmt::format("{}*{}*{}", name, shell ? "SHELL" : "SOLID", static_cast<int>(scope)), -1);
   if (!fresh) return place->second;
-  const auto it = build.content.orientations.find(name);
-  if (it == build.content.orientations.end()) {
+  const AbaqusOrientation* const found = build.content.orientation(scope, name);
+  if (found == nullptr) {
     std::vector<std::string> known;
-    for (const auto& [k, o] : build.content.orientations)
-      if (known.size() < 100) known.push_back(k);
+    for (const auto& [key, o] : build.content.orientations)
+      if (known.size() < 100) known.push_back(key.second);
     build.source.error(section.at,
                        fmt::format("{} names the orientation {}, which does not exist{}",
                                    section.shown, shown(name), did_you_mean(name, known)));
     return -1;
   }
-  Orientation o = placed(it->second, build.content.placement);
+  Orientation o = placed(*found, build.content.placement(found->scope));
   if (shell) {
-    const int normal = normal_axis(build, it->second, name);
+    const int normal = normal_axis(build, *found, name);
     Mat3 permuted = Mat3::Zero();
     for (int k = 0; k < 3; ++k) permuted((normal + k) % 3, k) = 1.0;
     o.turn = (o.turn * permuted).eval();

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <unordered_set>
 
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -11,8 +13,6 @@ namespace {
 
 using Family = AbaqusType::Family;
 
-constexpr int most_renumbered = 20;  // of a kind
-
 /// How many elements of a type there are, and where the first stands.
 struct Count {
   long number = 0;
@@ -20,6 +20,41 @@ struct Count {
   void add(const FeSource& source) {
     if (number++ == 0) at = source;
   }
+};
+
+/// Nodes or elements that get a new number, since another instance or the assembly has theirs.
+class Renumbered {
+ public:
+  Renumbered(AbaqusBuild& build, const char* what) : b_(build), what_(what) {}
+  void add(AbaqusScope scope, int old, int fresh, const FeSource& at) {
+    Range& r = ranges_[scope];
+    if (r.count++ == 0) r = {1, old, fresh, fresh, at};
+    r.last = fresh;
+  }
+  void note() {
+    for (const auto& [scope, r] : ranges_) {
+      const auto instance = b_.content.instances.find(scope);
+      const std::string of = scope == AbaqusScope::assembly ? std::string("the assembly")
+                             : instance == b_.content.instances.end()
+                                 ? std::string("the part")
+                                 : "instance " + shown(instance->second.name);
+      b_.note(r.at, r.count == 1
+                        ? fmt::format("{} {} of {} has the number of another one: it becomes {} {}",
+                                      what_, r.old, of, what_, r.first)
+                        : fmt::format("{} {}s of {} have numbers of others: they become {} to {}",
+                                      r.count, what_, of, r.first, r.last));
+    }
+  }
+
+ private:
+  struct Range {
+    long count = 0;
+    int old = 0, first = 0, last = 0;
+    FeSource at;
+  };
+  AbaqusBuild& b_;
+  const char* what_;
+  std::map<AbaqusScope, Range> ranges_;
 };
 
 void build_masses(AbaqusBuild& build) {
@@ -43,7 +78,7 @@ void build_masses(AbaqusBuild& build) {
                                      c.element_nodes[element.first]));
       continue;
     }
-    const Mat3& R = c.placement.R;
+    const Mat3& R = c.placement(element.scope).R;
     build.model.masses.push_back({node->second, section.mass, R * section.J * R.transpose()});
   }
 }
@@ -77,41 +112,35 @@ std::vector<int> AbaqusBuild::nodes_of_elements(const std::vector<int>& list) {
 void build_abaqus_nodes(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
-  const AbaqusPlacement& place = c.placement;
-  int free_number = 0, renumbered = 0;
-  for (const AbaqusNode& node : c.nodes) free_number = std::max(free_number, node.id);
+  std::int64_t free_number = 0;
+  for (const AbaqusNode& node : c.nodes) free_number = std::max<std::int64_t>(free_number, node.id);
+  const bool several = c.instances.size() > 1;
   model.positions.reserve(c.nodes.size());
   model.node_ids.reserve(c.nodes.size());
   model.node_sources.reserve(c.nodes.size());
+  std::unordered_set<int> taken;
+  Renumbered nodes(build, "node");
   for (const AbaqusNode& node : c.nodes) {
-    const bool in_part = node.scope == AbaqusScope::part;
-    model.positions.push_back(in_part && !c.instance.empty()
-                                  ? Vec3(place.R * (node.p + place.t - place.a) + place.a)
-                                  : node.p);
+    model.positions.push_back(c.placement(node.scope).at(node.p));
     int id = node.id;
-    if (!in_part && c.node_of_label.contains(AbaqusContent::label(AbaqusScope::part, id))) {
-      if (free_number == std::numeric_limits<int>::max()) {
-        build.source.error(node.at, fmt::format("node {} of the assembly has the number of a node "
-                                                "of the part",
-                                                id));
-      } else {
-        id = ++free_number;
-        if (++renumbered <= most_renumbered) {
-          build.note(node.at, fmt::format("node {} of the assembly has the number of a node of the "
-                                          "part: it becomes node {}",
-                                          node.id, id));
-        }
-      }
+    // Numbers of one scope are different, so only several scopes can share one.
+    if (!c.parts.empty() && !taken.insert(id).second) {
+      if (++free_number > std::numeric_limits<int>::max())
+        build.source.stop(node.at,
+                          fmt::format("node {}{} has the number of another node, and there "
+                                      "is no free one",
+                                      c.prefix(node.scope), id));
+      id = static_cast<int>(free_number);
+      nodes.add(node.scope, node.id, id, node.at);
     }
     model.node_ids.push_back(id);
     model.node_sources.push_back(node.at);
+    if (several)
+      model.node_names.push_back(c.instances.contains(node.scope)
+                                     ? fmt::format("{}{}", c.prefix(node.scope), node.id)
+                                     : std::string());
   }
-  if (renumbered > most_renumbered) {
-    build.note({0, 0},
-               fmt::format("{} more nodes of the assembly have numbers of nodes of the part "
-                           "and become others",
-                           renumbered - most_renumbered));
-  }
+  nodes.note();
 }
 
 namespace {
@@ -192,6 +221,13 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
       std::any_of(c.sections.begin(), c.sections.end(),
                   [](const AbaqusSection& s) { return s.family == Family::shell; });
   ElementCounts counts;
+  Renumbered renumbered(build, "element");
+  std::unordered_set<int> taken;
+  const bool scopes = !c.parts.empty();
+  constexpr std::int64_t largest_id = std::numeric_limits<int>::max();
+  std::int64_t free_number = 0;
+  for (const AbaqusElement& element : c.elements)
+    free_number = std::max<std::int64_t>(free_number, element.id);
   for (std::size_t e = 0; e < c.elements.size(); ++e) {
     const AbaqusElement& element = c.elements[e];
     const AbaqusType& type = *element.type;
@@ -222,9 +258,17 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     if (section >= 0)
       orient_abaqus_element(build, c.sections[section], properties[section], *result);
     build.element_index[e] = static_cast<int>(model.elements.size());
+    if (scopes && !taken.insert(result->id).second && ++free_number <= largest_id) {
+      renumbered.add(element.scope, result->id, static_cast<int>(free_number), element.at);
+      result->id = static_cast<int>(free_number);
+    }
+    if (c.instances.size() > 1 && c.instances.contains(element.scope))
+      result->name =
+          fmt::format("element {}{} ({})", c.prefix(element.scope), element.id, type.name);
     model.elements.push_back(*result);
   }
   note_elements(build, counts);
+  renumbered.note();
   if (mesh_only && !options.material && counts.structural.number > 0) {
     build.note(counts.structural.at, "the deck has no material");
   }
@@ -238,10 +282,7 @@ void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
   const AbaqusContent& c = build.content;
   FeModel& model = build.model;
   const auto name_of = [&](const AbaqusContent::Key& key, const auto& sets) {
-    const std::string& name = c.names[key.second];
-    const bool twice =
-        key.first == AbaqusScope::part && sets.contains({AbaqusScope::assembly, key.second});
-    return twice ? c.instance + "." + name : name;
+    return abaqus_model_name(c, key, sets);
   };
   for (const auto& [key, set] : c.node_sets) {
     const std::vector<int>& members = build.nodes.members(key);

@@ -176,7 +176,7 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
       model.sections.push_back(section.round > 0.0 ? round_section(build, section) : section.beam);
       BeamSection& beam = model.sections.back();
       beam.shear_y = beam.shear_z = abaqus_shear_factor(section.shape) * beam.A;
-      p.reference = build.content.placement.R * section.n1;
+      p.reference = build.content.placement(section.elements.scope).R * section.n1;
     } else if (section.family == Family::solid && section.thickness > 0.0) {  // of rods
       p.section = static_cast<int>(model.sections.size());
       model.sections.push_back({section.thickness, 0.0, 0.0, 0.0});

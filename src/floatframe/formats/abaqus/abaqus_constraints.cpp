@@ -19,16 +19,6 @@ std::string_view reference_node(AbaqusLines& lines, const AbaqusKeyword& keyword
   return lines.required(keyword, "REF NODE");
 }
 
-/// A set of nodes or elements by its name, from a parameter.
-AbaqusReference named(AbaqusContent& content, std::string_view name, const FeSource& at) {
-  AbaqusReference r = content.reference(name, at);
-  if (r.name < 0) {  // a set whose name is a number
-    r.name = content.intern(abaqus_name(name));
-    r.first = r.last = 0;
-  }
-  return r;
-}
-
 }  // namespace
 
 unsigned abaqus_dofs(AbaqusLines& lines, const std::vector<std::string_view>& fields,
@@ -64,7 +54,7 @@ void read_abaqus_rigid_body(AbaqusLines& lines, const AbaqusKeyword& keyword,
   }
   for (const char* parameter : {"NSET", "TIENSET", "PINNSET"}) {
     if (keyword.has(parameter)) {
-      spider.nodes.push_back(named(content, keyword.value(parameter), keyword.at));
+      spider.nodes.push_back(content.named(keyword.value(parameter), keyword.at));
       spider.name = abaqus_name(keyword.value(parameter));
     }
   }
@@ -77,7 +67,7 @@ void read_abaqus_rigid_body(AbaqusLines& lines, const AbaqusKeyword& keyword,
     }
   }
   if (keyword.has("ELSET")) {
-    spider.elements.push_back(named(content, keyword.value("ELSET"), keyword.at));
+    spider.elements.push_back(content.named(keyword.value("ELSET"), keyword.at));
     spider.name = abaqus_name(keyword.value("ELSET"));
   }
   if (spider.nodes.empty() && spider.elements.empty()) {
@@ -132,9 +122,7 @@ void read_abaqus_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
   }
   if (reference.empty() || surface.empty()) return;
   spider.reference = content.reference(reference, keyword.at);
-  const AbaqusReference s = named(content, surface, keyword.at);
-  spider.surface = s.name;
-  spider.surface_scope = s.scope;
+  spider.surface = content.named(surface, keyword.at);
   content.spiders.push_back(std::move(spider));
 }
 
@@ -182,7 +170,7 @@ void read_abaqus_distributing_coupling(AbaqusLines& lines, const AbaqusKeyword& 
   }
   if (spider.nodes.empty()) return lines.error(keyword, "has no nodes");
   if (elements.empty()) return;
-  spider.reference = named(content, elements, keyword.at);
+  spider.reference = content.named(elements, keyword.at);
   spider.reference_by_element = true;
   content.spiders.push_back(std::move(spider));
 }

@@ -44,7 +44,8 @@ const AbaqusType* find_abaqus_type(std::string_view name) noexcept;
 /// For messages.
 std::vector<std::string> abaqus_type_names();
 
-/// Flat decks have one space of numbers and names; decks with a part and an instance have two.
+/// Spaces of numbers and names: that of a flat deck or the first part, the assembly, and from 2 on
+/// one of each further part and instance. The first instance of a part has the part's own.
 enum class AbaqusScope { part, assembly };
 
 struct AbaqusNode {
@@ -138,9 +139,8 @@ struct AbaqusSpider {
   AbaqusReference reference;
   std::optional<AbaqusReference> rotation;  ///< ROT NODE
   std::vector<AbaqusReference> nodes, elements;
-  std::vector<double> weights;  ///< one an entry of `nodes`; empty: 1
-  int surface = -1;             ///< index in AbaqusContent::names
-  AbaqusScope surface_scope = AbaqusScope::part;
+  std::vector<double> weights;             ///< one an entry of `nodes`; empty: 1
+  std::optional<AbaqusReference> surface;  ///< its name
   unsigned mask = 63u;
   bool reference_by_element = false;  ///< `reference` is the element set of a DCOUP3D
   FeSource at;
@@ -173,9 +173,8 @@ struct AbaqusSpring {
 
 /// *TIE, or a contact pair that is joined.
 struct AbaqusTie {
-  int slave = -1, master = -1;  ///< names of surfaces, indices in AbaqusContent::names
-  AbaqusScope scope = AbaqusScope::part;
-  double distance = 0.0;  ///< 0: in proportion to the faces
+  AbaqusReference slave, master;  ///< names of surfaces
+  double distance = 0.0;          ///< 0: in proportion to the faces
   bool adjust = true, rotations = true, contact = false;
   FeSource at;
 };
@@ -183,15 +182,32 @@ struct AbaqusTie {
 /// Turned directions of degrees of freedom.
 struct AbaqusTransform {
   AbaqusReference nodes;
+  AbaqusScope scope = AbaqusScope::part;  ///< in which its points are
   bool cylindrical = false;
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
   FeSource at;
 };
 
-/// Where the instance is: x = R (p + t - a) + a.
+/// Where an instance is: x = R (p + t - a) + a.
 struct AbaqusPlacement {
   Vec3 t = Vec3::Zero(), a = Vec3::Zero();
   Mat3 R = Mat3::Identity();
+  Vec3 at(const Vec3& p) const { return R * (p + t - a) + a; }
+};
+
+struct AbaqusPart {
+  AbaqusScope scope = AbaqusScope::part;
+  std::size_t nodes = 0, elements = 0;  ///< where its own begin
+  std::size_t nodes_end = 0, elements_end = 0;
+  bool used = false;   ///< by an instance
+  bool grown = false;  ///< by a mesh inside its first instance
+  FeSource at;
+};
+
+struct AbaqusInstance {
+  std::string name, part;
+  AbaqusPlacement place;
+  std::size_t nodes = 0, elements = 0;  ///< where a mesh inside of it would begin
 };
 
 struct AbaqusContent {
@@ -207,7 +223,7 @@ struct AbaqusContent {
   std::map<Key, AbaqusSurface> surfaces;
   std::map<std::string, AbaqusMaterial> materials;
   std::vector<std::string> material_order;
-  std::map<std::string, AbaqusOrientation> orientations;
+  std::map<std::pair<AbaqusScope, std::string>, AbaqusOrientation> orientations;
   std::vector<AbaqusSection> sections, masses;
   std::vector<AbaqusSpider> spiders;
   std::vector<AbaqusEquation> equations;
@@ -226,16 +242,28 @@ struct AbaqusContent {
 
   // Where reading is.
   AbaqusScope scope = AbaqusScope::part;
-  std::string part, instance;  ///< names; empty in flat decks
-  AbaqusPlacement placement;
-  std::string material;  ///< the last *MATERIAL
+  std::map<std::string, AbaqusPart> parts;  ///< empty in flat decks
+  std::string part;                         ///< the last one
+  std::map<AbaqusScope, AbaqusInstance> instances;
+  std::map<std::string, AbaqusScope> scope_of_instance;
+  int scopes = 2;             ///< how many there are
+  std::size_t instanced = 0;  ///< nodes and elements that instances have added
+  std::string material;       ///< the last *MATERIAL
 
   static std::int64_t label(AbaqusScope scope, int id) noexcept {
     return static_cast<std::int64_t>(scope) << 32 | static_cast<std::int64_t>(id);
   }
   int intern(std::string name);
+  /// Of the scope: that of its instance, or as it stands.
+  const AbaqusPlacement& placement(AbaqusScope scope) const;
+  /// "BOLT-2." if there are several instances and the scope is one of them, else empty.
+  std::string prefix(AbaqusScope scope) const;
+  /// The orientation as seen from a scope; null if there is none.
+  const AbaqusOrientation* orientation(AbaqusScope scope, const std::string& name) const;
   /// A number, a name, or either with the instance before it: "PART-1-1.12".
   AbaqusReference reference(std::string_view field, const FeSource& at);
+  /// A name, also with the instance before it.
+  AbaqusReference named(std::string_view field, const FeSource& at);
   /// "node 12" or "node set 'BALL'" with `what` = "node".
   std::string text(const AbaqusReference& reference, std::string_view what) const;
 };
@@ -261,6 +289,12 @@ void read_abaqus_end_part(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_assembly(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_instance(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_end_instance(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+/// At the end of the deck: parts without an instance go.
+void finish_abaqus_assembly(AbaqusContent& content, TextSource& source);
+// abaqus_instances.cpp
+/// What a part has once more, for an instance of it.
+void copy_abaqus_part(AbaqusContent& content, const AbaqusPart& part, AbaqusScope to);
+void remove_abaqus_scope(AbaqusContent& content, AbaqusScope scope);
 // abaqus_properties.cpp
 void read_abaqus_material(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_elastic(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);

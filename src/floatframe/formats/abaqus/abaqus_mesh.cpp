@@ -27,10 +27,12 @@ AbaqusReference AbaqusContent::reference(std::string_view field, const FeSource&
     return r;
   }
   const std::string name = abaqus_name(field);
-  if (!instance.empty() && name.size() > instance.size() + 1 && name[instance.size()] == '.' &&
-      name.starts_with(instance)) {
-    r.scope = AbaqusScope::part;
-    const std::string rest = name.substr(instance.size() + 1);
+  for (std::size_t dot = name.find('.'); dot != std::string::npos && !scope_of_instance.empty();
+       dot = name.find('.', dot + 1)) {
+    const auto it = scope_of_instance.find(name.substr(0, dot));
+    if (it == scope_of_instance.end() || dot + 1 == name.size()) continue;
+    r.scope = it->second;
+    const std::string rest = name.substr(dot + 1);
     if (const std::optional<int> id = parse_label(rest)) {
       r.first = r.last = *id;
     } else {
@@ -42,9 +44,36 @@ AbaqusReference AbaqusContent::reference(std::string_view field, const FeSource&
   return r;
 }
 
+AbaqusReference AbaqusContent::named(std::string_view field, const FeSource& at) {
+  AbaqusReference r = reference(field, at);
+  if (r.name < 0) r = {0, 0, 1, intern(abaqus_name(field)), r.scope, at};  // a name of digits
+  return r;
+}
+
 std::string AbaqusContent::text(const AbaqusReference& r, std::string_view what) const {
-  if (r.name < 0) return fmt::format("{} {}", what, r.first);
-  return fmt::format("{} set {}", what, shown(names[r.name]));
+  const std::string where = prefix(r.scope);
+  if (r.name < 0) return fmt::format("{} {}{}", what, where, r.first);
+  return fmt::format("{} set {}", what, shown(where + names[r.name]));
+}
+
+const AbaqusPlacement& AbaqusContent::placement(AbaqusScope of) const {
+  static const AbaqusPlacement as_it_stands;
+  const auto it = instances.find(of);
+  return it == instances.end() ? as_it_stands : it->second.place;
+}
+
+std::string AbaqusContent::prefix(AbaqusScope of) const {
+  const auto it = instances.find(of);
+  return instances.size() < 2 || it == instances.end() ? std::string() : it->second.name + ".";
+}
+
+const AbaqusOrientation* AbaqusContent::orientation(AbaqusScope seen_from,
+                                                    const std::string& name) const {
+  for (const AbaqusScope s : {seen_from, AbaqusScope::assembly, AbaqusScope::part}) {
+    const auto it = orientations.find({s, name});
+    if (it != orientations.end()) return &it->second;
+  }
+  return nullptr;
 }
 
 namespace {
@@ -103,10 +132,12 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
   }
   AbaqusScope scope = content.scope;
   if (const std::string_view instance = keyword.value("INSTANCE"); !instance.empty()) {
-    scope = AbaqusScope::part;
-    if (abaqus_name(instance) != content.instance) {
+    const auto it = content.scope_of_instance.find(abaqus_name(instance));
+    if (it == content.scope_of_instance.end()) {
       lines.error(keyword,
                   fmt::format("names the instance {}, which does not exist", shown(instance)));
+    } else {
+      scope = it->second;
     }
   }
   const std::string_view what = of_nodes ? "node number" : "element number";

@@ -76,7 +76,8 @@ void read_abaqus_mpc(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCon
     }
     if (tie) {
       const AbaqusNode *a = mpc_node(content, node), *b = mpc_node(content, reference);
-      if (a == nullptr || b == nullptr || a->scope != b->scope || a->p != b->p) {
+      if (a == nullptr || b == nullptr ||
+          content.placement(a->scope).at(a->p) != content.placement(b->scope).at(b->p)) {
         lines.source().error(
             "*MPC: TIE is read of two nodes at one place that stand before this line; use PIN, or "
             "BEAM for a rigid bar");

@@ -30,14 +30,17 @@ AbaqusResolver::AbaqusResolver(const AbaqusContent& content, TextSource& source,
 }
 
 const AbaqusContent::Key* AbaqusResolver::find_set(const AbaqusReference& reference) const {
-  for (const AbaqusScope scope : {reference.scope, AbaqusScope::assembly, AbaqusScope::part}) {
-    const auto it = sets_.find({scope, reference.name});
-    if (it != sets_.end()) return &it->first;
-  }
-  return nullptr;
+  const auto* entry = find_abaqus_name(content_, sets_, reference.scope, reference.name).entry;
+  return entry == nullptr ? nullptr : &entry->first;
 }
 
 void AbaqusResolver::missing(const AbaqusReference& reference) {
+  if (reference.name >= 0 &&
+      find_abaqus_name(content_, sets_, reference.scope, reference.name).several)
+    return source_.error(reference.at,
+                         fmt::format("{} is in several instances: put the name of one and a dot "
+                                     "before it",
+                                     content_.text(reference, word_)));
   std::string help;
   if (reference.name >= 0 && sets_.size() <= most_known) {
     std::vector<std::string> known;

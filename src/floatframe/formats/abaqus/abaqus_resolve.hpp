@@ -8,6 +8,47 @@
 
 namespace floatframe {
 
+/// What a name means, seen from a scope: there, in the assembly, in the only instance that has it.
+template <typename T>
+struct AbaqusNamed {
+  const std::pair<const AbaqusContent::Key, T>* entry = nullptr;
+  bool several = false;  ///< instances have it
+};
+template <typename T>
+AbaqusNamed<T> find_abaqus_name(const AbaqusContent& c, const std::map<AbaqusContent::Key, T>& map,
+                                AbaqusScope scope, int name) {
+  AbaqusNamed<T> found;
+  for (const AbaqusScope s : {scope, AbaqusScope::assembly}) {
+    const auto it = map.find({s, name});
+    if (it != map.end()) return {&*it, false};
+  }
+  const auto look = [&](AbaqusScope s) {
+    const auto it = map.find({s, name});
+    if (it == map.end()) return;
+    found.several = found.entry != nullptr;
+    found.entry = &*it;
+  };
+  if (c.instances.empty()) look(AbaqusScope::part);
+  for (const auto& [s, instance] : c.instances) {
+    look(s);
+    if (found.several) return {nullptr, true};
+  }
+  return found;
+}
+
+/// The name of a set or surface in the model: with that of the instance where others have the same.
+template <typename T>
+std::string abaqus_model_name(const AbaqusContent& c, const AbaqusContent::Key& key,
+                              const std::map<AbaqusContent::Key, T>& map) {
+  const std::string& name = c.names[key.second];
+  const auto instance = c.instances.find(key.first);
+  if (instance == c.instances.end()) return name;
+  bool twice = map.contains({AbaqusScope::assembly, key.second});
+  for (const auto& [s, other] : c.instances)
+    twice = twice || (s != key.first && map.contains({s, key.second}));
+  return twice ? instance->second.name + "." + name : name;
+}
+
 /// Resolves references to nodes or to elements; what is not there is an error, once. Sets of sets
 /// can name the same nodes again and again in a few bytes: the members that are named in all are
 /// limited in proportion to the deck.

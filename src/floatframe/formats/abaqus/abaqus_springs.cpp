@@ -99,6 +99,7 @@ class AbaqusSpringBuilder {
       AbaqusSection user;  // for the messages
       user.shown = "*SPRING";
       user.at = spring.at;
+      user.elements.scope = spring.elements.scope;
       const int index = abaqus_orientation(b_, spring.orientation, user);
       return index < 0 ? Mat3(Mat3::Identity())
                        : b_.model.orientations[index].at(b_.model.positions[node]);

@@ -24,9 +24,8 @@ void read_pairs(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent&
     }
     AbaqusTie tie = pattern;
     tie.at = lines.source().here();
-    tie.scope = content.scope;
-    tie.slave = content.intern(abaqus_name(fields[0]));
-    tie.master = content.intern(abaqus_name(fields[1]));
+    tie.slave = content.named(fields[0], tie.at);
+    tie.master = content.named(fields[1], tie.at);
     content.ties.push_back(tie);
   }
   if (!any) lines.error(keyword, "has no line with the names of two surfaces, slave and master");
@@ -52,9 +51,8 @@ std::vector<int> nodes_of_surface(AbaqusBuild& build, const AbaqusSurface& surfa
 
 void build_tie(AbaqusBuild& build, const AbaqusTie& raw, std::vector<char>& taken) {
   std::string slave_name, master_name;
-  const AbaqusSurface* slave = find_abaqus_surface(build, raw.slave, raw.scope, raw.at, slave_name);
-  const AbaqusSurface* master =
-      find_abaqus_surface(build, raw.master, raw.scope, raw.at, master_name);
+  const AbaqusSurface* slave = find_abaqus_surface(build, raw.slave, slave_name);
+  const AbaqusSurface* master = find_abaqus_surface(build, raw.master, master_name);
   if (slave == nullptr || master == nullptr) return;
   const char* const word = raw.contact ? "*CONTACT PAIR" : "*TIE";
   if (master->of_nodes) {

@@ -41,6 +41,7 @@ void read_abaqus_transform(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const std::string_view type = keyword.value("TYPE");
   AbaqusTransform t;
   t.at = keyword.at;
+  t.scope = content.scope;
   t.cylindrical = same_word(type, "C");
   if (!type.empty() && !t.cylindrical && !same_word(type, "R")) {
     lines.error(keyword, fmt::format("has the type {}, expected R (rectangular) or C (cylindrical)",
@@ -72,15 +73,9 @@ std::map<int, Mat3> abaqus_node_axes(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   std::map<int, Mat3> axes;
   for (AbaqusTransform t : c.transforms) {
-    if (t.nodes.scope == AbaqusScope::part && !c.instance.empty()) {
-      const AbaqusPlacement& place = c.placement;
-      const auto placed = [&](const Vec3& p) {
-        return t.cylindrical ? Vec3(place.R * (p + place.t - place.a) + place.a)
-                             : Vec3(place.R * p);
-      };
-      t.a = placed(t.a);
-      t.b = placed(t.b);
-    }
+    const AbaqusPlacement& place = c.placement(t.scope);
+    t.a = t.cylindrical ? place.at(t.a) : Vec3(place.R * t.a);
+    t.b = t.cylindrical ? place.at(t.b) : Vec3(place.R * t.b);
     for (const int node : build.nodes.resolve(t.nodes)) {
       const std::optional<Mat3> R = axes_at(t, build.model.positions[node]);
       if (!R) {

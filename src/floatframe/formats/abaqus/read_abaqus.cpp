@@ -199,6 +199,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   content.contact_distance = options.contact_distance;
   AbaqusLines lines(source);
   DeckReader(lines, content).read();
+  finish_abaqus_assembly(content, source);
   if (content.nodes.empty() && source.errors() == 0) {
     source.error({0, 0}, "the deck has no nodes");
   }
