@@ -94,6 +94,15 @@ TEST(NastranPanels, Trapezoid) {
   EXPECT_LT((K.topLeftCorner<3, 3>() - reversed.topLeftCorner<3, 3>()).norm(), 1e-11 * K.norm());
 }
 
+// A general quadrilateral: the integral in closed form, which has logarithms (nu = 0.25).
+TEST(NastranPanels, Quadrilateral) {
+  const std::array<Vec3, 4> p{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(.8, .7, 0), Vec3(.1, .5, 0)};
+  const Vec3 d = (p[2] - p[0]).normalized(), e = (p[3] - p[0]).normalized();
+  const double f1 = .5 * (p[1] - p[0]).cross(e)(2) / d.cross(e)(2),
+               expected = 1.1274018656452662 / (G * t);
+  EXPECT_NEAR(flexibility_of(p, f1), expected, 1e-12 * expected);
+}
+
 // A general quadrilateral is between trapezoids that it goes over to.
 TEST(NastranPanels, QuadrilateralGoesOverToATrapezoid) {
   const auto at = [](double h) {

@@ -1,6 +1,7 @@
 // deck_modes modes FILE [options of reading] [--modes N] [--held] [--ccx]: the frequencies of a
 // finite-element file as JSON on standard output, for comparisons with other programs.
 //   {"rows": 1275, "frequencies": [0, 0, 0, 0, 0, 0, 1234.5, ...]}      Hz in the units of the file
+// --rigid: instead the mass in rigid motions about the origin, 6 x 6, as {"rigid_mass": [...]}.
 // --held: the supports of the file are in force. --ccx: integration as in CalculiX. Rigid motions
 // are near zero.
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ struct Arguments {
   PartArguments reading;
   std::string file;
   int modes = 20;
-  bool held = false, ccx = false;
+  bool held = false, ccx = false, rigid = false;
 };
 
 /// Supports of dofs that have no row hold something that other dofs carry.
@@ -77,6 +78,12 @@ int show(const Arguments& a) {
         model.node_names[static_cast<std::size_t>(s.node)] = fmt::format("held {}", s.node);
   }
   const FeSystem system = assemble(model, a.ccx ? Integration::ccx : Integration::exact);
+  if (a.rigid) {
+    const MatX R = rigid_motions(model, system, Vec3::Zero());
+    const Mat6 mass = R.transpose() * (system.M * R);
+    print(fmt::format("{{\"rigid_mass\": [{}]}}\n", fmt::join(mass.reshaped(), ", ")));
+    return 0;
+  }
   std::vector<int> rows;
   if (a.held) {
     rows = free_rows(model, system);
@@ -110,6 +117,7 @@ Command modes_command() {
           .options = joined({file_position("FILE", a->file, "Finite-element file"),
                              whole_option("--modes", a->modes, 1, 10000, "How many; default 20"),
                              flag("--held", a->held, "With the supports of the file"),
+                             flag("--rigid", a->rigid, "The mass in rigid motions instead"),
                              flag("--ccx", a->ccx, "Integration as in CalculiX")},
                             a->reading.table(true)),
           .run = [a] { return show(*a); }};
