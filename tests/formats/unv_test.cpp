@@ -136,6 +136,27 @@ TEST(Unv, SkinsAndEdgesMakeNodeSets) {
   EXPECT_EQ(m.notes[4], "a.unv: dataset 2414 is passed over");
 }
 
+TEST(Unv, RigidElementsAndDampers) {
+  const FeModel m = unv_of(
+      unv_four_nodes +
+      unv_dataset(2411, "5 1 1 11\n2 0 0\n6 1 1 11\n3 0 0\n7 1 1 11\n4 0 0\n8 1 1 11\n5 0 0\n") +
+      unv_dataset(2412,
+                  "1 111 2 1 7 4\n1 2 3 4\n2 122 2 1 7 3\n5 2 3\n3 121 2 1 7 2\n6 4\n"
+                  "4 141 2 1 7 2\n1 2\n5 121 2 1 7 2\n7 8\n6 121 2 1 7 2\n6 5\n") +
+      unv_dataset(2467, "1 0 0 0 0 0 0 1\nRIGID\n8 2 0 0\n"));
+  ASSERT_EQ(m.spiders.size(), 2u);
+  EXPECT_EQ(m.spiders[0].name, "rigid element 2");
+  EXPECT_EQ(m.spiders[0].kind, Spider::Kind::rigid);
+  EXPECT_EQ(m.spiders[0].mask, 63u);
+  EXPECT_EQ(m.spiders[0].reference, 4);
+  EXPECT_EQ(m.spiders[0].nodes, (std::vector<int>{1, 2, 5, 3}));
+  EXPECT_EQ(m.spiders[1].reference, 6);
+  EXPECT_EQ(m.spiders[1].nodes, std::vector<int>{7});
+  EXPECT_EQ(m.node_sets.at("RIGID"), (std::vector<int>{1, 2, 4}));
+  ASSERT_EQ(m.notes.size(), 2u);
+  EXPECT_EQ(m.notes[1], "a.unv: 1 dampers are passed over: the part has modal damping");
+}
+
 TEST(Unv, FilledColumnsAreDivided) {
   const std::string text =
       unv_dataset(2411,
@@ -181,8 +202,26 @@ TEST(Unv, FaultyFiles) {
        "a.unv: the file has 1 elements and none of them is solid; a part needs tetrahedra, bricks "
        "or wedges"},
       {elements("1 161 2 1 7 1\n1\n"),
-       "a.unv:14: element 1 has the descriptor 161, which is not supported; supported are solid "
-       "elements 111 to 113, 115, 116, 118, and shells, beams and rods as skins"},
+       "a.unv:14: element 1 is a lumped mass, whose value is in a table of properties of the "
+       "format, which is not read; remove it and describe it in the model"},
+      {elements("1 136 2 1 7 2\n1 2\n"),
+       "a.unv:14: element 1 is a translational spring, whose value is in a table of properties of "
+       "the format, which is not read; remove it and describe it in the model"},
+      {elements("1 151 2 1 7 2\n1 2\n"),
+       "a.unv:14: element 1 has the descriptor 151, which is not supported; supported are solid "
+       "elements 111 to 113, 115, 116, 118, rigid ones 121, 122, and shells, beams and rods as "
+       "skins"},
+      {elements("1 121 2 1 7 3\n1 2 3\n"),
+       "a.unv:14: element 1 (rigid bar) has 3 nodes, 2 are expected"},
+      {elements("1 122 2 1 7 0\n1 2 3\n"),
+       "a.unv:14: element 1 (rigid element) has 0 nodes, 1 to 1000000 are expected"},
+      {elements("1 24 2 1 7 21\n"),
+       "a.unv:14: element 1 (parabolic beam) has 21 nodes, 3 are expected"},
+      {elements("1 122 2 1 7 1\n1\n"),
+       "a.unv:14: element 1 (rigid element) has one node, at least 2 are expected"},
+      {elements("1 122 2 1 7 3\n1 2 2\n"), "a.unv:14: element 1 (rigid element) has node 2 twice"},
+      {elements("1 122 2 1 7 3\n1 2 9\n"),
+       "a.unv:14: element 1 (rigid element) has node 9, which is not in the file"},
       {elements("1 111 2 1 7 5\n1 2 3 4 5\n"),
        "a.unv:14: element 1 (solid linear tetrahedron) has 5 nodes, 4 are expected"},
       {elements("1 111 2 1 7 4\n1 2 3 4 5\n"),

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/unv/unv_content.hpp"
@@ -26,6 +30,7 @@ class UnvBuild {
 
   FeModel model() {
     elements();
+    spiders();
     groups();
     notes();
     in_.throw_if_any();
@@ -37,6 +42,7 @@ class UnvBuild {
   /// The nodes of an element as indices, in the order of the file; false if there is an error.
   bool gather(const UnvElement& e, std::vector<int>& nodes) {
     nodes.clear();
+    once_.clear();
     for (int k = 0; k < e.nodes; ++k) {
       const int id = c_.element_nodes[e.first + k];
       const auto it = c_.node_index.find(id);
@@ -45,7 +51,7 @@ class UnvBuild {
                                     e.type->name, id));
         return false;
       }
-      if (std::find(nodes.begin(), nodes.end(), it->second) != nodes.end()) {
+      if (!once_.insert(it->second).second) {
         in_.error(e.at, fmt::format("element {} ({}) has node {} twice", e.id, e.type->name, id));
         return false;
       }
@@ -58,8 +64,18 @@ class UnvBuild {
     std::vector<int> nodes;
     std::set<int> materials;
     for (UnvElement& e : c_.elements) {
+      if (e.type->use == UnvUse::refused) {
+        in_.error(e.at,
+                  fmt::format("element {} is a {}, whose value is in a table of properties of "
+                              "the format, which is not read; remove it and describe it in "
+                              "the model",
+                              e.id, e.type->name));
+        continue;
+      }
+      if (e.type->use == UnvUse::left) ++dampers_;
+      if (e.type->use == UnvUse::rigid && gather(e, nodes)) join(e, nodes);
       if (!e.type->solid) {
-        ++skins_;
+        skins_ += e.type->use == UnvUse::mesh ? 1 : 0;
         continue;
       }
       if (!gather(e, nodes)) continue;
@@ -87,6 +103,42 @@ class UnvBuild {
                       "rectangular coordinates are read",
                       first.first, system,
                       known == c_.systems.end() ? "not in the file" : "turned, moved or round"));
+    }
+  }
+
+  /// Rigid elements that share a node are one rigid body.
+  void join(const UnvElement& e, const std::vector<int>& nodes) {
+    if (nodes.size() < 2) {
+      in_.error(e.at, fmt::format("element {} ({}) has one node, at least 2 are expected", e.id,
+                                  e.type->name));
+      return;
+    }
+    for (const int node : nodes) {
+      const auto [it, fresh] = joined_.try_emplace(node, node);
+      if (fresh) in_order_.emplace_back(node, &e);
+    }
+    for (const int node : nodes) joined_[root(node)] = root(nodes[0]);
+  }
+
+  int root(int node) {
+    while (joined_[node] != node) node = joined_[node] = joined_[joined_[node]];
+    return node;
+  }
+
+  /// The reference is the first node of the first element of each.
+  void spiders() {
+    std::unordered_map<int, std::size_t> spider_of;
+    for (const auto& [node, element] : in_order_) {
+      const auto [it, fresh] = spider_of.try_emplace(root(node), c_.model.spiders.size());
+      if (!fresh) {
+        c_.model.spiders[it->second].nodes.push_back(node);
+        continue;
+      }
+      Spider spider;
+      spider.name = fmt::format("{} {}", element->type->name, element->id);
+      spider.reference = node;
+      spider.source = element->at;
+      c_.model.spiders.push_back(std::move(spider));
     }
   }
 
@@ -153,13 +205,20 @@ class UnvBuild {
           "{}: {} shells, beams and rods are taken as skins and edges: they make node sets and "
           "have no stiffness and no mass",
           file, skins_));
+    if (dampers_ > 0)
+      c_.model.notes.push_back(fmt::format(
+          "{}: {} dampers are passed over: the part has modal damping", file, dampers_));
     for (const int number : c_.passed_over)
       c_.model.notes.push_back(fmt::format("{}: dataset {} is passed over", file, number));
   }
 
   TextSource& in_;
   UnvContent c_;
-  int material_ = -1, skins_ = 0;
+  int material_ = -1, skins_ = 0, dampers_ = 0;
+  std::unordered_set<int> once_;
+  std::unordered_map<int, int> joined_;  // of the nodes of rigid elements, to be followed to a root
+  std::vector<std::pair<int, const UnvElement*>>
+      in_order_;  // each such node with its first element
   std::size_t materials_ = 0;
 };
 

@@ -162,12 +162,15 @@ class UnvParser {
         in_.stop(e.at, fmt::format("an element has the number {}, expected is 1 or more", e.id));
       if (e.type == nullptr)
         in_.stop(e.at, fmt::format("element {} has the descriptor {}, which is not supported; "
-                                   "supported are solid elements 111 to 113, 115, 116, 118, and "
-                                   "shells, beams and rods as skins",
+                                   "supported are solid elements 111 to 113, 115, 116, 118, rigid "
+                                   "ones 121, 122, and shells, beams and rods as skins",
                                    e.id, numbers_[1]));
-      if (e.nodes < 1 || e.nodes > 20 || (e.type->nodes > 0 && e.nodes != e.type->nodes))
+      const int most = e.type->use == UnvUse::rigid ? 1'000'000 : 20;
+      if (e.nodes < 1 || e.nodes > most || (e.type->nodes > 0 && e.nodes != e.type->nodes))
         in_.stop(e.at, fmt::format("element {} ({}) has {} nodes, {} are expected", e.id,
-                                   e.type->name, e.nodes, e.type->nodes > 0 ? e.type->nodes : 2));
+                                   e.type->name, e.nodes,
+                                   e.type->nodes > 0 ? std::to_string(e.type->nodes)
+                                                     : fmt::format("1 to {}", most)));
       if (e.type->beam) static_cast<void>(needed("the orientation of a beam is"));
       e.first = c_.element_nodes.size();
       while (c_.element_nodes.size() < e.first + e.nodes) {

@@ -24,6 +24,10 @@ const UnvType unv_types[] = {
     {52, "parabolic plane strain triangle", 6, false, {}, {}},
     {54, "plane strain quadrilateral", 4, false, {}, {}},
     {55, "parabolic plane strain quadrilateral", 8, false, {}, {}},
+    {61, "plate triangle", 3, false, {}, {}},
+    {62, "parabolic plate triangle", 6, false, {}, {}},
+    {64, "plate quadrilateral", 4, false, {}, {}},
+    {65, "parabolic plate quadrilateral", 8, false, {}, {}},
     {91, "thin shell triangle", 3, false, {}, {}},
     {92, "parabolic thin shell triangle", 6, false, {}, {}},
     {94, "thin shell quadrilateral", 4, false, {}, {}},
@@ -40,6 +44,15 @@ const UnvType unv_types[] = {
     {116, "solid parabolic brick", 20, false, U::hex20, {0, 2, 4,  6,  12, 14, 16, 18, 1,  3,
                                                          5, 7, 13, 15, 17, 19, 8,  9,  10, 11}},
     {118, "solid parabolic tetrahedron", 10, false, U::tet10, {0, 2, 4, 9, 1, 3, 5, 6, 7, 8}},
+    {121, "rigid bar", 2, false, {}, {}, UnvUse::rigid},
+    {122, "rigid element", 0, false, {}, {}, UnvUse::rigid},
+    {136, "translational spring", 2, false, {}, {}, UnvUse::refused},
+    {137, "rotational spring", 2, false, {}, {}, UnvUse::refused},
+    {138, "translational spring to the ground", 1, false, {}, {}, UnvUse::refused},
+    {139, "rotational spring to the ground", 1, false, {}, {}, UnvUse::refused},
+    {141, "damper", 2, false, {}, {}, UnvUse::left},
+    {142, "damper to the ground", 1, false, {}, {}, UnvUse::left},
+    {161, "lumped mass", 1, false, {}, {}, UnvUse::refused},
 };
 
 }  // namespace

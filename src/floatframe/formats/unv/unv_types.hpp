@@ -7,6 +7,14 @@
 
 namespace floatframe {
 
+/// What becomes of an element.
+enum class UnvUse {
+  mesh,    ///< a solid, or a skin or edge that makes node sets
+  rigid,   ///< its nodes move as one rigid body
+  left,    ///< neither stiffness nor mass: passed over
+  refused  ///< has values in tables of the format that are not read
+};
+
 struct UnvType {
   int number = 0;
   const char* name = "";
@@ -14,9 +22,10 @@ struct UnvType {
   bool beam = false;                 ///< a record of orientation and end sections comes first
   std::optional<ElementType> solid;  ///< the solid element that it is, if there is one
   std::array<int, 20> order{};       ///< solids: node k of the element is node order[k] of the file
+  UnvUse use = UnvUse::mesh;
 };
 
-/// Null if the number is not known, or of elements that are no mesh (masses, springs, rigid ones).
+/// Null if the number is not known.
 const UnvType* unv_type(int number) noexcept;
 
 }  // namespace floatframe
