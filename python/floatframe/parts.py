@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import os
 import sys
 import tempfile
@@ -187,6 +188,7 @@ def reduce(
     damping: float | None = None,
     solver: Literal["auto", "mumps", "eigen"] | None = None,
     contact: str | None = None,
+    temperature: float | None = None,
     free_check: bool | None = None,
     stresses: bool | None = None,
     projection: bool | None = None,
@@ -218,7 +220,8 @@ def reduce(
     projection=True: nodes and mass matrix are kept for the projection method.
 
     material: of files that have none. density: of materials that have none in the file, a number or by their names,
-    {"STEEL": 7.85e-9}; both in the units of the file. contact: contact pairs of the deck: "ignore", "tied" or "tied:DISTANCE".
+    {"STEEL": 7.85e-9}; temperature: of materials that depend on it; all in the units of the file.
+    contact: contact pairs of the deck: "ignore", "tied" or "tied:DISTANCE".
 
     progress: True prints a line for each stage, or a function of the stage and its duration [s]. Other threads of Python go on
     meanwhile; Ctrl-C ends it when the stage that runs is done. Raises InputError.
@@ -244,7 +247,7 @@ def reduce(
     }
     words = ("beam_shear", "shell_shear", "mass_form", "grounded_springs")
     _expect_texts(options, ("units", "method", "reference", "integration", "solver", *words))
-    options |= _reading(format, dialect, contact, density, nodes, mass, dofs)
+    options |= _reading(format, dialect, contact, temperature, density, nodes, mass, dofs)
     chosen: dict[str, object] = {}
     for key, places in (("interfaces", interfaces), ("markers", markers)):
         if places is not None:
@@ -253,7 +256,7 @@ def reduce(
     if tell is not None and not callable(tell):
         raise InputError(f"progress: found {progress!r}, expected True, False or a function")
     if mesh:
-        for name in ("format", "dialect", "contact", "density", *words, "nodes", "mass", "dofs"):
+        for name in ("format", "dialect", "contact", "temperature", "density", *words, "nodes", "mass", "dofs"):
             if options[name] is not None:
                 raise InputError(f"{name} says how files are read: found it for a mesh")
         model = fe_model(source, material, thickness, section, chosen)
@@ -280,13 +283,14 @@ def info(
     density: Density | None = None,
     dialect: Literal["abaqus", "calculix"] | None = None,
     contact: str | None = None,
+    temperature: float | None = None,
     nodes: Path | None = None,
     mass: Path | None = None,
     dofs: Path | None = None,
 ) -> FileInfo:
     """What is in a finite-element file, a body file or a SID_FEM file: what `floatframe info` prints, as a dict of its JSON.
     Options as those of `reduce`."""
-    options = _reading(format, dialect, contact, density, nodes, mass, dofs) | _material(material)
+    options = _reading(format, dialect, contact, temperature, density, nodes, mass, dofs) | _material(material)
     text, content = _core.file_info(_path("path", path), options)
     return FileInfo(text, json.loads(content))
 
@@ -301,6 +305,7 @@ def convert(
     density: Density | None = None,
     dialect: Literal["abaqus", "calculix"] | None = None,
     contact: str | None = None,
+    temperature: float | None = None,
 ) -> str:
     """Writes what was understood of a finite-element file for another program, as `floatframe convert` does: a CalculiX deck
     (.inp, with a step of `modes` free modes unless it is 0), a Gmsh mesh (.msh) or a VTU file (.vtu). Returns what the command
@@ -308,7 +313,7 @@ def convert(
     count = _plain(modes)
     if isinstance(count, bool) or not isinstance(count, int) or not 0 <= count <= 100000:
         raise InputError(f"modes: found {modes!r}, expected a whole number from 0 to 100000")
-    options = _reading(format, dialect, contact, density, None, None, None) | _material(material)
+    options = _reading(format, dialect, contact, temperature, density, None, None, None) | _material(material)
     return _core.convert_file(_path("source", source), _path("out", out), count, options)
 
 
@@ -319,13 +324,25 @@ def _expect_texts(options: dict[str, Any], names: tuple[str, ...]) -> None:
 
 
 def _reading(
-    format: object, dialect: object, contact: object, density: object, nodes: object, mass: object, dofs: object
+    format: object,
+    dialect: object,
+    contact: object,
+    temperature: object,
+    density: object,
+    nodes: object,
+    mass: object,
+    dofs: object,
 ) -> dict[str, Any]:
     """How a file is read, as options of the C++ library."""
-    options: dict[str, Any] = {"format": format, "dialect": dialect, "contact": contact, "density": None}
+    options: dict[str, Any] = {"format": format, "dialect": dialect, "contact": contact, "temperature": None, "density": None}
     _expect_texts(options, ("format", "dialect", "contact"))
     for name, file in (("nodes", nodes), ("mass", mass), ("dofs", dofs)):
         options[name] = None if file is None else _path(name, file)
+    if temperature is not None:
+        T = _plain(temperature)
+        if isinstance(T, bool) or not isinstance(T, (int, float)) or not math.isfinite(T):
+            raise InputError(f"temperature: found {temperature!r}, expected a number")
+        options["temperature"] = repr(float(T))
     if density is None:
         return options
     texts = []

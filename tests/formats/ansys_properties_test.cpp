@@ -72,6 +72,16 @@ TEST(AnsysMaterials, IsotropicInAllForms) {
     EXPECT_EQ(m.poisson, 0.3);
     EXPECT_EQ(m.density, 7e-9);
   }
+  FeReadOptions warm;
+  warm.temperature = 60.0;
+  const FeModel at = ansys_of(cdb_brick +
+                                  "MPTEMP,1,20,100\nMPDATA,EX,1,1,2.2e5,2.0e5\n"
+                                  "MPDATA,PRXY,1,1,.3,.3\nMPDATA,DENS,1,1,7e-9\n",
+                              warm);
+  EXPECT_NEAR(at.materials.at(0).young, 2.1e5, 1e-9);
+  EXPECT_EQ(at.notes.at(0),
+            "a.cdb:12: material 1 is taken at the temperature 60 (its table of EX goes from 20 to "
+            "100)");
   const FeModel without = ansys_of(cdb_brick + "MP,EX,1,2.1e5\nMP,PRXY,1,0.3\n");
   EXPECT_TRUE(without.without_density.contains(0));
   const FeModel plastic = ansys_of(cdb_brick + cdb_steel + "TB,BISO,1,1\nTBDATA,1,200,2000\n");

@@ -145,9 +145,8 @@ TEST(BadAnsys, Materials) {
       {bad_solid + "MP,EX,1,1\nMP,PRXY,1,.3\nMP,DENS,1,-2\n",
        "11: material 1: DENS is -2, no negative density is expected"},
       {bad_solid + "MPTEMP,1,20,100\nMPDATA,EX,1,1,2e5,1e5\nMPDATA,PRXY,1,1,.3\n",
-       "12: material 1: its EX depends on the temperature (200000 to 100000): leave one "
-       "temperature "
-       "in the file"},
+       "12: material 1: its EX depends on the temperature (20 to 100): say at which one "
+       "with --temperature (key `temperature`)"},
       {bad_solid + "MPDATA,EX,1,3,2e5\n", "11: MPDATA: EX begins at place 3, but 0 are there"},
       {bad_solid + "MP,EX,1,1\nMP,EY,1,1\nMP,PRXY,1,.3\nMP,PRYZ,1,.3\nMP,PRXZ,1,.3\n",
        "11: material 1: it has EY or EZ, and no GXY"},

@@ -85,8 +85,12 @@ const Case decks[] = {
     {"poisson", "10: 210000., 0.5",
      "bad.inp:9: *ELASTIC has Poisson's ratio 0.5, expected more than -1 and less than 0.5"},
     {"temperature_dependent", "10: 210000., 0.3, 20.\n190000., 0.3, 300.",
-     "bad.inp:11: *ELASTIC depends on temperature or fields (a second line), which is not "
-     "supported"},
+     "bad.inp:9: *ELASTIC depends on the temperature (20 to 300): say at which one with "
+     "--temperature (key `temperature`)"},
+    {"descending_temperatures", "10: 210000., 0.3, 300.\n190000., 0.3, 20.",
+     "bad.inp:9: *ELASTIC has the temperature 20 after 300, expected ascending ones"},
+    {"fields", "9: *ELASTIC, DEPENDENCIES=1",
+     "bad.inp:9: *ELASTIC depends on field variables (DEPENDENCIES), which is not supported"},
     {"no_section",
      "13:", "bad.inp:7: element 1 (C3D4) has no section: no *SOLID SECTION names a set with it"},
     {"shell_without_section",

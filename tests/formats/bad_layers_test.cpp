@@ -79,8 +79,8 @@ TEST(BadLayers, AbaqusDecks) {
       {".3, 5000.,", ".3, 0.,", "deck.inp:9: *ELASTIC TYPE=LAMINA: G12 is 0, expected more than 0"},
       {"1.e4, .3", "1.e4, a", "deck.inp:10: elastic constant 3: 'a' is not a number"},
       {"5000., 3000.\n", "5000., 3000., 20.\n1.3e5, 1.e4, .3, 5000., 5000., 3000., 80.\n",
-       "deck.inp:9: *ELASTIC depends on temperature or fields (more lines), which is not "
-       "supported"},
+       "deck.inp:9: *ELASTIC depends on the temperature (20 to 80): say at which one with "
+       "--temperature (key `temperature`)"},
       {"*DENSITY\n", "*ELASTIC\n2e5, .3\n*DENSITY\n",
        "deck.inp:11: *ELASTIC is given a second time for its material"},
       {lamina, "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n1e5, 1e4, 1e4, .3, .3, .4, 5e3, 5e3\n",

@@ -59,6 +59,8 @@ Texts special(O::Special::What what) {
       return {{"7.5", "7.5"}, {"STEEL=7.5", "{STEEL: 7.5}"}, {"STEEL=0", "{STEEL: 0}"}};
     case What::contact:
       return {{"ignore", "ignore"}, {"tied", "tied"}, {"tied:0.5", "tied:0.5"}};
+    case What::temperature:
+      return {{"80", "80"}, {"-40.5", "-40.5"}};
     case What::interfaces:
       return places({{"type=mean", "type: mean"},
                      {"dofs=xyz", "dofs: [x, y, z]"},

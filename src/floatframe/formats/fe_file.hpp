@@ -69,6 +69,8 @@ struct FeReadOptions {
   /// Of `tied`, in the units of the file; 0: 2.5 % of the size of the faces.
   double contact_distance = 0.0;
   GroundedSprings grounded_springs = GroundedSprings::refuse;
+  /// At which materials that depend on it are taken, in the units of the file.
+  std::optional<double> temperature;
 };
 
 /// On the command line and in model files: "abaqus", "calculix".

@@ -61,6 +61,9 @@ class JobReader {
         return densities(option.key);
       case Special::What::contact:
         return contact(option);
+      case Special::What::temperature:
+        if (const auto v = s_.get(option.key)) job_.read.temperature = v->number(any_number(""));
+        return;
       case Special::What::interfaces:
         if (const auto v = s_.get(option.key))
           for (const auto& [name, place] : v->named("a map of names to interfaces", true))

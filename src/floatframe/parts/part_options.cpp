@@ -71,6 +71,20 @@ Special contact() {
           }};
 }
 
+Special temperature() {
+  return {Special::What::temperature,
+          [](const PartJob& job) {
+            return job.read.temperature ? Texts{fmt::format("{}", *job.read.temperature)} : Texts();
+          },
+          [](PartJob& job, const std::string& text) {
+            char* end = nullptr;
+            const double T = std::strtod(text.c_str(), &end);
+            if (text.empty() || *end != '\0' || !std::isfinite(T))
+              throw InputError(fmt::format("--temperature: found '{}', expected a number", text));
+            job.read.temperature = T;
+          }};
+}
+
 Special units() {
   return {Special::What::units, [](const PartJob& job) { return Texts{job.units}; },
           [](PartJob& job, const std::string& text) {
@@ -180,6 +194,9 @@ std::vector<PartOption> list() {
        "Contact pairs of the deck: ignore leaves them free, tied joins them (tied:DISTANCE); "
        "default: they are refused",
        contact(), true},
+      {"temperature", "temperature", "T",
+       "Temperature at which materials that depend on it are taken, in the units of the file",
+       temperature(), true},
       {"grounded_springs", "grounded-springs", "WORD",
        "Springs to the ground: refuse (default), or ignore: left out",
        reading_word<&R::grounded_springs>({"refuse", "ignore"}), true},
@@ -225,8 +242,8 @@ std::vector<PartOption> list() {
   // The content of the file is part of every key.
   [[maybe_unused]] const auto& [file, format, units, read, options] = job;
   [[maybe_unused]] const auto& [material, densities, nodes, mass, dofs, dialect, beam_shear,
-                                shell_shear, mass_form, contact, contact_distance,
-                                grounded_springs] = read;
+                                shell_shear, mass_form, contact, contact_distance, grounded_springs,
+                                temperature] = read;
   // `progress` decides nothing.
   [[maybe_unused]] const auto& [interfaces, markers, method, modes, max_frequency, effective_mass,
                                 reference, integration, damping_ratio, check_free_modes, stresses,

@@ -55,6 +55,7 @@ struct PartOption {
       material,
       densities,
       contact,
+      temperature,
       interfaces,
       markers,
       reference

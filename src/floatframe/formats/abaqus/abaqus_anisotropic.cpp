@@ -55,8 +55,8 @@ Mat6 constants_matrix(const std::vector<double>& c, Form form) {
 
 /// The constants of one temperature; false if there are no more lines.
 bool next_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, std::size_t count,
-                    std::vector<double>& out) {
-  out.clear();
+                    TemperatureRow& row) {
+  std::vector<double>& out = row.values;
   std::vector<std::string_view> fields;
   while (out.size() < count) {
     if (!lines.next_fields(fields)) {
@@ -74,6 +74,7 @@ bool next_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, std::size_
       const std::size_t number = out.size() + 1;
       out.push_back(lines.real_or(fields, k, 0.0, fmt::format("elastic constant {}", number)));
     }
+    if (out.size() == count) row.temperature = lines.real_or(fields, here, 0.0, "temperature");
   }
   return true;
 }
@@ -86,21 +87,25 @@ bool is_abaqus_anisotropic(std::string_view type) {
 }
 
 void read_abaqus_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                             AbaqusMaterial* material) {
+                             AbaqusContent& content, AbaqusMaterial* material) {
   const std::string name = abaqus_name(keyword.value("TYPE"));
   const ElasticType& type = *std::find_if(std::begin(elastic_types), std::end(elastic_types),
                                           [&](const ElasticType& t) { return name == t.name; });
-  std::vector<double> c, more;
   const std::size_t before = lines.source().errors();
-  if (!next_constants(lines, keyword, type.constants, c)) {
-    if (lines.source().errors() == before) lines.error(keyword, "has no data line");
-    return lines.skip_data();
-  }
-  if (next_constants(lines, keyword, type.constants, more))
-    lines.error(keyword, "depends on temperature or fields (more lines), which is not supported");
+  if (keyword.has("DEPENDENCIES") && !same_word(keyword.value("DEPENDENCIES"), "0"))
+    lines.error(keyword, "depends on field variables (DEPENDENCIES), which is not supported");
+  std::vector<TemperatureRow> rows;
+  for (TemperatureRow row; next_constants(lines, keyword, type.constants, row); row = {})
+    rows.push_back(row);
+  if (rows.empty() && lines.source().errors() == before) lines.error(keyword, "has no data line");
   lines.skip_data();
   if (material == nullptr || lines.source().errors() != before) return;
   if (material->young) return lines.error(keyword, "is given a second time for its material");
+  const std::vector<double> c = abaqus_at_temperature(lines, keyword, content, rows);
+  if (c.empty()) {
+    material->young = 1.0;  // the error is known
+    return;
+  }
   std::string error;
   if (type.form == Form::engineering || type.form == Form::lamina) {
     const bool lamina = type.form == Form::lamina;

@@ -14,6 +14,7 @@
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/formats/abaqus/abaqus_dialect.hpp"
 #include "floatframe/formats/abaqus/abaqus_lines.hpp"
+#include "floatframe/formats/temperature_table.hpp"
 
 namespace floatframe {
 
@@ -236,6 +237,7 @@ struct AbaqusContent {
   DeckContact contact = DeckContact::refuse;  ///< as the user says
   double contact_distance = 0.0;
   DeckDialect dialect = DeckDialect::by_content;  ///< as the user says
+  std::optional<double> temperature;              ///< as the user says
   DialectClues clues;
   /// Only nodes, sets and spiders are wanted: matrices hold what the rest would change.
   bool only_nodes = false;
@@ -315,7 +317,12 @@ void read_abaqus_orientation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&)
 /// Is it a type of *ELASTIC that is read but not isotropic?
 bool is_abaqus_anisotropic(std::string_view type);
 void read_abaqus_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                             AbaqusMaterial* material);
+                             AbaqusContent& content, AbaqusMaterial* material);
+/// Of a table the values at the temperature that the user says, with a note; empty and an error if
+/// that is not known.
+std::vector<double> abaqus_at_temperature(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                          AbaqusContent& content,
+                                          const std::vector<TemperatureRow>& rows);
 // abaqus_beam_section.cpp
 void read_abaqus_beam_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_constraints.cpp

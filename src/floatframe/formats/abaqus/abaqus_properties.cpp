@@ -20,8 +20,7 @@ AbaqusMaterial* present_material(AbaqusLines& lines, const AbaqusKeyword& keywor
   return nullptr;
 }
 
-/// One line of values; more of them mean a dependence on temperature, which a linear model does not
-/// have.
+/// One line of values; more of them mean a dependence on temperature.
 bool one_line(AbaqusLines& lines, const AbaqusKeyword& keyword,
               std::vector<std::string_view>& fields) {
   if (!lines.next_fields(fields)) {
@@ -37,6 +36,28 @@ bool one_line(AbaqusLines& lines, const AbaqusKeyword& keyword,
     lines.skip_data();
   }
   return true;
+}
+
+/// Lines of `count` values and a temperature; empty and an error if there are none.
+std::vector<TemperatureRow> table_of(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                     std::size_t count, const char* const* names) {
+  std::vector<TemperatureRow> rows;
+  std::vector<std::string_view> fields;
+  if (!same_word(keyword.value("DEPENDENCIES"), "0") && keyword.has("DEPENDENCIES")) {
+    lines.error(keyword, "depends on field variables (DEPENDENCIES), which is not supported");
+    lines.skip_data();
+    return rows;
+  }
+  while (lines.next_fields(fields)) {
+    TemperatureRow row;
+    for (std::size_t k = 0; k < count; ++k)
+      row.values.push_back(k == 0 ? lines.real(fields[0], names[0])
+                                  : lines.real_or(fields, k, 0.0, names[k]));
+    row.temperature = lines.real_or(fields, count, 0.0, "temperature");
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) lines.error(keyword, "has no data line");
+  return rows;
 }
 
 }  // namespace
@@ -73,6 +94,23 @@ double positive_real(AbaqusLines& lines, std::string_view field, std::string_vie
   return value;
 }
 
+std::vector<double> abaqus_at_temperature(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                          AbaqusContent& content,
+                                          const std::vector<TemperatureRow>& rows) {
+  AtTemperature found = at_temperature(rows, content.temperature);
+  if (!found.error.empty()) {
+    lines.error(keyword, found.error);
+    return {};
+  }
+  if (found.chosen)
+    content.note(lines.source().mark(keyword.at),
+                 fmt::format("{} of material {} is taken at the temperature {:g} (its table goes "
+                             "from {:g} to {:g})",
+                             keyword.shown, shown(content.material), *content.temperature,
+                             rows.front().temperature, rows.back().temperature));
+  return found.values;
+}
+
 void read_abaqus_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
                           AbaqusContent& content) {
   const std::string name = abaqus_name(lines.required(keyword, "NAME"));
@@ -93,22 +131,25 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   lines.allow_only(keyword, {"TYPE", "MODULI", "DEPENDENCIES"});
   AbaqusMaterial* const material = present_material(lines, keyword, content);
   const std::string type = abaqus_name(keyword.value("TYPE"));
-  if (is_abaqus_anisotropic(type)) return read_abaqus_anisotropic(lines, keyword, material);
+  if (is_abaqus_anisotropic(type))
+    return read_abaqus_anisotropic(lines, keyword, content, material);
   if (!type.empty() && type != "ISO" && type != "ISOTROPIC") {
     lines.error(keyword, fmt::format("has the type {}, expected ISOTROPIC, ENGINEERING CONSTANTS, "
                                      "ORTHOTROPIC, ANISOTROPIC or LAMINA",
                                      shown(keyword.value("TYPE"))));
     return lines.skip_data();
   }
-  std::vector<std::string_view> fields;
   const std::size_t before = lines.source().errors();
-  if (!one_line(lines, keyword, fields) || material == nullptr) return;
+  static constexpr const char* names[] = {"Young's modulus", "Poisson's ratio"};
+  const std::vector<TemperatureRow> rows = table_of(lines, keyword, 2, names);
+  if (lines.source().errors() != before || material == nullptr) return;
   if (material->young) {
     lines.error(keyword, "is given a second time for its material");
     return;
   }
-  material->young = lines.real(fields[0], "Young's modulus");
-  material->poisson = lines.real_or(fields, 1, 0.0, "Poisson's ratio");
+  const std::vector<double> values = abaqus_at_temperature(lines, keyword, content, rows);
+  material->young = values.empty() ? 1.0 : values[0];  // an error is known
+  material->poisson = values.empty() ? 0.0 : values[1];
   if (lines.source().errors() != before) return;
   if (!(*material->young > 0.0)) {
     lines.error(keyword,
@@ -125,13 +166,16 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
 void read_abaqus_density(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
   lines.allow_only(keyword, {"DEPENDENCIES"});
   AbaqusMaterial* const material = present_material(lines, keyword, content);
-  std::vector<std::string_view> fields;
-  if (!one_line(lines, keyword, fields) || material == nullptr) return;
+  const std::size_t before = lines.source().errors();
+  static constexpr const char* names[] = {"density"};
+  const std::vector<TemperatureRow> rows = table_of(lines, keyword, 1, names);
+  if (lines.source().errors() != before || material == nullptr) return;
   if (material->density) {
     lines.error(keyword, "is given a second time for its material");
     return;
   }
-  material->density = lines.real(fields[0], "density");
+  const std::vector<double> values = abaqus_at_temperature(lines, keyword, content, rows);
+  material->density = values.empty() ? 0.0 : values[0];
   if (!(*material->density >= 0.0)) {
     lines.error(keyword, fmt::format("is {:g}, expected no negative density", *material->density));
   }

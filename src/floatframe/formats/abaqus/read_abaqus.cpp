@@ -195,6 +195,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   AbaqusContent content;
   content.dialect = options.dialect;
   content.only_nodes = part == DeckPart::nodes;
+  content.temperature = options.temperature;
   content.contact = options.contact;
   content.contact_distance = options.contact_distance;
   AbaqusLines lines(source);

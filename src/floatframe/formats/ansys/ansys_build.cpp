@@ -86,7 +86,7 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
   Material m;
   const bool own = found != content.materials.end();
   if (own) {
-    m = ansys_material(found->second, id, source);
+    m = ansys_material(found->second, id, options.temperature, content, source);
   } else if (content.materials.empty() && options.material) {
     m = *options.material;
   } else if (!content.materials.empty()) {

@@ -3,6 +3,7 @@
 // model.
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -151,7 +152,8 @@ void read_ansys_material_data(AnsysFields&, AnsysContent&);
 void read_ansys_table(AnsysFields&, AnsysContent&);
 void read_ansys_table_data(AnsysFields&, AnsysContent&);
 /// The material in the units of the deck; its density is 0 if there is none.
-Material ansys_material(const AnsysMaterial& m, int id, TextSource& source);
+Material ansys_material(const AnsysMaterial& m, int id, std::optional<double> temperature,
+                        AnsysContent& content, TextSource& source);
 // ansys_constraint_commands.cpp
 void read_ansys_equation(AnsysFields&, AnsysContent&);
 void read_ansys_coupling(AnsysFields&, AnsysContent&);

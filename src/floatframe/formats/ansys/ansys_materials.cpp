@@ -7,6 +7,7 @@
 
 #include "floatframe/fe/elasticity.hpp"
 #include "floatframe/formats/ansys/ansys_content.hpp"
+#include "floatframe/formats/temperature_table.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
@@ -45,8 +46,9 @@ bool holds(const List& list, std::string_view word) {
 
 class AnsysElastic {
  public:
-  AnsysElastic(const AnsysMaterial& m, int id, TextSource& source)
-      : m_(m), id_(id), source_(source) {}
+  AnsysElastic(const AnsysMaterial& m, int id, std::optional<double> temperature,
+               AnsysContent& content, TextSource& source)
+      : m_(m), id_(id), temperature_(temperature), content_(content), source_(source) {}
 
   Material made() {
     Material result;
@@ -69,16 +71,22 @@ class AnsysElastic {
   std::optional<double> value(const char* label) {
     const auto it = m_.values.find(label);
     if (it == m_.values.end() || it->second.empty()) return std::nullopt;
-    const auto& table = it->second;
-    for (const auto& [T, x] : table)
-      if (x != table.front().second) {
-        error(
-            fmt::format("its {} depends on the temperature ({:g} to {:g}): leave one temperature "
-                        "in the file",
-                        label, table.front().second, x));
-        break;
-      }
-    return table.front().second;
+    std::vector<TemperatureRow> rows;
+    for (const auto& [T, x] : it->second) rows.push_back({T, {x}});
+    const AtTemperature found = at_temperature(rows, temperature_);
+    if (!found.error.empty()) {
+      error(fmt::format("its {} {}", label, found.error));
+      return it->second.front().second;
+    }
+    if (found.chosen && temperatures_noted_++ == 0) {
+      const SourceMark mark = source_.mark(m_.at);
+      content_.model.notes.push_back(
+          fmt::format("{}:{}: material {} is taken at the temperature {:g} (its table of {} goes "
+                      "from {:g} to {:g})",
+                      mark.file, mark.line, id_, *temperature_, label, rows.front().temperature,
+                      rows.back().temperature));
+    }
+    return found.values[0];
   }
 
   void error(const std::string& text) {
@@ -174,7 +182,10 @@ class AnsysElastic {
 
   const AnsysMaterial& m_;
   int id_;
+  std::optional<double> temperature_;
+  AnsysContent& content_;
   TextSource& source_;
+  int temperatures_noted_ = 0;
   std::vector<std::string> said_;
 };
 
@@ -287,8 +298,9 @@ void read_ansys_table_data(AnsysFields& f, AnsysContent& c) {
   m.anisotropic.insert(m.anisotropic.end(), values.begin(), values.end());
 }
 
-Material ansys_material(const AnsysMaterial& m, int id, TextSource& source) {
-  return AnsysElastic(m, id, source).made();
+Material ansys_material(const AnsysMaterial& m, int id, std::optional<double> temperature,
+                        AnsysContent& content, TextSource& source) {
+  return AnsysElastic(m, id, temperature, content, source).made();
 }
 
 }  // namespace floatframe
