@@ -150,6 +150,10 @@ TEST(DeckAssembly, MeshesInsideInstances) {
 
 TEST(DeckAssembly, FaultyAssemblies) {
   const std::string head = "*Part, name=P\n" + brick_lines + "*End Part\n*Assembly, name=X\n";
+  std::string plain = brick_lines;  // without the orientation
+  plain.erase(plain.find("*Orientation"),
+              plain.find("*Solid Section") - plain.find("*Orientation"));
+  plain.erase(plain.find(", orientation=ORI"), 17);
   const int n = 30;  // lines of the part
   const std::string two =
       head +
@@ -185,12 +189,37 @@ TEST(DeckAssembly, FaultyAssemblies) {
            "a.inp:{}: surface 'FACE' is in several instances: put the name of one and a dot "
            "before it",
            n + 5)},
+      {"*Part, name=P\n" + plain +
+           "*End Part\n*Assembly, name=X\n*Instance, name=ONE, part=P\n0, 0, 0\n"
+           "0, 0, 0, 0, 0, 1, 90\n*End Instance\n" +
+           wood,
+       fmt::format("a.inp:{}: *SOLID SECTION of the turned instance 'ONE' has a material with "
+                   "directions and no orientation",
+                   n - 7)},
+      {two + "*Tie, name=T\nONE.12, ONE.BACK\n" + wood,
+       fmt::format("a.inp:{}: surface '12' does not exist", n + 5)},
       {"*Part, name=A\n" + brick_lines + "*End Part\n*Part, name=B\n*End Part\n" + wood,
        fmt::format("a.inp:{}: the deck has 2 parts and no instance of any (*INSTANCE)", n - 1)}};
   for (const auto& [text, expected] : cases) {
     const std::string found = assembly_error(text);
     EXPECT_EQ(found.substr(0, found.find('\n')), expected) << text;
   }
+}
+
+/// A short deck may not fill the memory, nor take long.
+TEST(DeckAssembly, InstancesAreLimited) {
+  std::string deck = "*Part, name=P\n*Node, nset=N\n";
+  for (int k = 1; k <= 2100; ++k) deck += fmt::format("{}, {}\n", k, k);
+  deck += "*End Part\n*Assembly, name=X\n";
+  std::string many = "*Part, name=P\n*Node\n1, 0\n*End Part\n*Assembly, name=X\n";
+  for (int k = 0; k < 2001; ++k) {
+    const std::string instance = fmt::format("*Instance, name=I{}, part=P\n*End Instance\n", k);
+    deck += instance;
+    many += instance;
+  }
+  EXPECT_NE(assembly_error(deck).find("the lines that generate, copy or repeat make more than"),
+            std::string::npos);
+  EXPECT_NE(assembly_error(many).find("the deck has more than 2000 instances"), std::string::npos);
 }
 
 }  // namespace

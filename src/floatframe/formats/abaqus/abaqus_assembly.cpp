@@ -13,8 +13,8 @@ namespace floatframe {
 
 namespace {
 
-/// Nodes and elements that instances may add in all: a line of a few bytes can double a deck.
-constexpr std::size_t most_instanced = 20'000'000;
+/// A name without an instance is looked for in all of them.
+constexpr std::size_t most_instances = 2000;
 
 AbaqusScope new_scope(AbaqusContent& content) { return static_cast<AbaqusScope>(content.scopes++); }
 
@@ -48,8 +48,7 @@ void read_abaqus_part(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCo
   AbaqusPart part;
   part.at = keyword.at;
   part.scope = content.parts.empty() ? AbaqusScope::part : new_scope(content);
-  part.nodes = part.nodes_end = content.nodes.size();
-  part.elements = part.elements_end = content.elements.size();
+  part.begin = part.end = abaqus_sizes(content);
   content.part = name.empty() ? "?" : name;
   const auto [it, fresh] = content.parts.emplace(content.part, part);
   if (!fresh) {
@@ -63,8 +62,7 @@ void read_abaqus_part(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCo
 
 void read_abaqus_end_part(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
   if (const auto it = content.parts.find(content.part); it != content.parts.end()) {
-    it->second.nodes_end = content.nodes.size();
-    it->second.elements_end = content.elements.size();
+    it->second.end = abaqus_sizes(content);
   }
   content.scope = AbaqusScope::assembly;
   lines.skip_data();
@@ -91,28 +89,23 @@ void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (content.scope_of_instance.contains(name))
     lines.source().stop(keyword.at, fmt::format("*INSTANCE {} is there already", shown(name)));
   AbaqusPart& of = it->second;
-  const std::size_t size = of.nodes_end - of.nodes + of.elements_end - of.elements;
-  if (of.used && of.grown && size > 0)
+  const bool meshed = of.end[0] > of.begin[0] || of.end[1] > of.begin[1];
+  if (content.instances.size() == most_instances)
+    lines.source().stop(keyword.at,
+                        fmt::format("the deck has more than {} instances", most_instances));
+  if (of.used && of.grown && meshed)
     lines.source().stop(keyword.at,
                         fmt::format("*INSTANCE {} is a second one of the part {}, whose first one "
                                     "has nodes or elements of its own; give each a part",
                                     shown(name), shown(part)));
   const AbaqusScope scope = of.used ? new_scope(content) : of.scope;
-  if (of.used && size > 0) {
-    content.instanced += size;
-    if (content.instanced > most_instanced)
-      lines.source().stop(keyword.at, fmt::format("*INSTANCE {}: the instances add more than {} "
-                                                  "nodes and elements",
-                                                  shown(name), most_instanced));
-    copy_abaqus_part(content, of, scope);
-  }
+  if (of.used && meshed) copy_abaqus_part(content, of, scope, lines.source());
   of.used = true;
   AbaqusInstance instance;
   instance.name = name.empty() ? "?" : name;
   instance.part = part;
   read_placement(lines, instance.place);
-  instance.nodes = content.nodes.size();
-  instance.elements = content.elements.size();
+  instance.begin = abaqus_sizes(content);
   content.scope_of_instance.emplace(instance.name, scope);
   content.instances.emplace(scope, std::move(instance));
   content.scope = scope;
@@ -121,8 +114,8 @@ void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
 void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
   if (const auto it = content.instances.find(content.scope); it != content.instances.end()) {
     AbaqusPart& part = content.parts.at(it->second.part);
-    part.grown = part.grown || it->second.nodes < content.nodes.size() ||
-                 it->second.elements < content.elements.size();
+    part.grown = part.grown || it->second.begin[0] < content.nodes.size() ||
+                 it->second.begin[1] < content.elements.size();
   }
   content.scope = AbaqusScope::assembly;
   lines.skip_data();
@@ -134,12 +127,14 @@ void finish_abaqus_assembly(AbaqusContent& content, TextSource& source) {
                  fmt::format("the deck has {} parts and no instance of any (*INSTANCE)",
                              content.parts.size()));
   if (content.instances.empty()) return;
+  std::set<AbaqusScope> unused;
   for (const auto& [name, part] : content.parts) {
     if (part.used) continue;
     const SourceMark mark = source.mark(part.at);
     content.note(mark, fmt::format("part {} has no instance and is left out", shown(name)));
-    remove_abaqus_scope(content, part.scope);
+    unused.insert(part.scope);
   }
+  if (!unused.empty()) remove_abaqus_scopes(content, unused);
 }
 
 }  // namespace floatframe

@@ -85,6 +85,21 @@ void check_form(AbaqusBuild& build, const AbaqusSection& section) {
                   section.shown, section.shape, clues.abaqus->what, mark.file, mark.line));
 }
 
+/// Axes that no *ORIENTATION gives are global ones; whether an instance turns them is not said.
+void check_turned_instance(AbaqusBuild& build, const AbaqusSection& section,
+                           const AbaqusProperties& p) {
+  const AbaqusContent& c = build.content;
+  const auto instance = c.instances.find(section.elements.scope);
+  if (instance == c.instances.end() || instance->second.place.R.isIdentity(1e-12)) return;
+  const Material& m = build.model.materials[p.material];
+  const bool directional =
+      section.family == Family::shell ? p.directional : m.elasticity.has_value();
+  if (directional && section.orientation.empty())
+    build.source.error(section.at, fmt::format("{} of the turned instance {} has a material with "
+                                               "directions and no orientation",
+                                               section.shown, shown(instance->second.name)));
+}
+
 }  // namespace
 
 bool is_abaqus_point(Family family) noexcept {
@@ -186,6 +201,7 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
       p.directional = !is_plain(shell, model.materials[p.material]);
       model.shells.push_back(shell);
     }
+    check_turned_instance(build, section, p);
     list.push_back(p);
   }
   return list;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -196,19 +197,21 @@ struct AbaqusPlacement {
   Vec3 at(const Vec3& p) const { return R * (p + t - a) + a; }
 };
 
+/// How much of each kind has been read: nodes, elements and the lists of things.
+using AbaqusSizes = std::array<std::size_t, 10>;
+
 struct AbaqusPart {
   AbaqusScope scope = AbaqusScope::part;
-  std::size_t nodes = 0, elements = 0;  ///< where its own begin
-  std::size_t nodes_end = 0, elements_end = 0;
-  bool used = false;   ///< by an instance
-  bool grown = false;  ///< by a mesh inside its first instance
+  AbaqusSizes begin{}, end{};  ///< its own
+  bool used = false;           ///< by an instance
+  bool grown = false;          ///< by a mesh inside its first instance
   FeSource at;
 };
 
 struct AbaqusInstance {
   std::string name, part;
   AbaqusPlacement place;
-  std::size_t nodes = 0, elements = 0;  ///< where a mesh inside of it would begin
+  AbaqusSizes begin{};  ///< where a mesh inside of it would begin
 };
 
 struct AbaqusContent {
@@ -248,9 +251,8 @@ struct AbaqusContent {
   std::string part;                         ///< the last one
   std::map<AbaqusScope, AbaqusInstance> instances;
   std::map<std::string, AbaqusScope> scope_of_instance;
-  int scopes = 2;             ///< how many there are
-  std::size_t instanced = 0;  ///< nodes and elements that instances have added
-  std::string material;       ///< the last *MATERIAL
+  int scopes = 2;        ///< how many there are
+  std::string material;  ///< the last *MATERIAL
 
   static std::int64_t label(AbaqusScope scope, int id) noexcept {
     return static_cast<std::int64_t>(scope) << 32 | static_cast<std::int64_t>(id);
@@ -294,9 +296,11 @@ void read_abaqus_end_instance(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&
 /// At the end of the deck: parts without an instance go.
 void finish_abaqus_assembly(AbaqusContent& content, TextSource& source);
 // abaqus_instances.cpp
-/// What a part has once more, for an instance of it.
-void copy_abaqus_part(AbaqusContent& content, const AbaqusPart& part, AbaqusScope to);
-void remove_abaqus_scope(AbaqusContent& content, AbaqusScope scope);
+AbaqusSizes abaqus_sizes(const AbaqusContent& content);
+/// What a part has once more, for an instance of it. Throws if instances make too much.
+void copy_abaqus_part(AbaqusContent& content, const AbaqusPart& part, AbaqusScope to,
+                      TextSource& source);
+void remove_abaqus_scopes(AbaqusContent& content, const std::set<AbaqusScope>& scopes);
 // abaqus_properties.cpp
 void read_abaqus_material(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_elastic(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);

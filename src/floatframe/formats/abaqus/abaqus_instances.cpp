@@ -2,6 +2,7 @@
 // scope, once more in another one or not at all.
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include "floatframe/formats/abaqus/abaqus_content.hpp"
 
@@ -60,25 +61,56 @@ AbaqusScope scope_of(const AbaqusEquation& e) {
   return e.terms.empty() ? AbaqusScope::assembly : e.terms.front().nodes.scope;
 }
 
-/// Calls `use` with each list of things that belong to a scope.
-template <typename Use>
-void each_list(AbaqusContent& c, Use use) {
-  use(c.sections);
-  use(c.masses);
-  use(c.spiders);
-  use(c.equations);
-  use(c.supports);
-  use(c.ties);
-  use(c.springs);
-  use(c.transforms);
+/// Calls `use` with each list of things that belong to a scope and its place in AbaqusSizes.
+template <typename Content, typename Use>
+void each_list(Content& c, Use use) {
+  std::size_t place = 2;
+  use(c.sections, place++);
+  use(c.masses, place++);
+  use(c.spiders, place++);
+  use(c.equations, place++);
+  use(c.supports, place++);
+  use(c.ties, place++);
+  use(c.springs, place++);
+  use(c.transforms, place++);
+}
+
+/// Entries of a scope; the keys begin with it.
+template <typename Map>
+auto entries_of(Map& map, AbaqusScope scope) {
+  using Second = decltype(map.begin()->first.second);
+  Second least{};
+  if constexpr (std::is_same_v<Second, int>) least = std::numeric_limits<int>::min();
+  const auto begin = map.lower_bound({scope, least});
+  auto end = begin;
+  while (end != map.end() && end->first.first == scope) ++end;
+  return std::pair{begin, end};
+}
+
+std::int64_t weight(const AbaqusSet& set) { return static_cast<std::int64_t>(set.items.size()); }
+std::int64_t weight(const AbaqusSurface& s) { return static_cast<std::int64_t>(s.items.size()); }
+std::int64_t weight(const AbaqusOrientation&) { return 1; }
+std::int64_t weight(const AbaqusEquation& e) { return static_cast<std::int64_t>(e.terms.size()); }
+std::int64_t weight(const AbaqusSpider& s) {
+  return static_cast<std::int64_t>(1 + s.nodes.size() + s.elements.size());
+}
+std::int64_t weight(const AbaqusSection& s) {
+  return static_cast<std::int64_t>(1 + s.plies.size());
+}
+template <typename T>
+std::int64_t weight(const T&) {
+  return 1;
 }
 
 template <typename Map>
-void copy_names(Map& map, AbaqusScope from, AbaqusScope to) {
+void copy_names(Map& map, AbaqusScope from, AbaqusScope to, TextSource& source) {
   const ScopeChange change(from, to);
-  std::vector<typename Map::value_type> copies;
-  for (const auto& [key, value] : map)
-    if (key.first == from) copies.emplace_back(typename Map::key_type{to, key.second}, value);
+  std::vector<std::pair<typename Map::key_type, typename Map::mapped_type>> copies;
+  const auto [begin, end] = entries_of(map, from);
+  for (auto it = begin; it != end; ++it) {
+    source.make(weight(it->second));
+    copies.emplace_back(typename Map::key_type{to, it->first.second}, it->second);
+  }
   for (auto& [key, value] : copies) {
     change(value);
     map.emplace(key, std::move(value));
@@ -87,39 +119,48 @@ void copy_names(Map& map, AbaqusScope from, AbaqusScope to) {
 
 }  // namespace
 
-void copy_abaqus_part(AbaqusContent& c, const AbaqusPart& part, AbaqusScope to) {
+AbaqusSizes abaqus_sizes(const AbaqusContent& c) {
+  AbaqusSizes sizes{c.nodes.size(), c.elements.size()};
+  each_list(c, [&](const auto& list, std::size_t place) { sizes[place] = list.size(); });
+  return sizes;
+}
+
+void copy_abaqus_part(AbaqusContent& c, const AbaqusPart& part, AbaqusScope to,
+                      TextSource& source) {
   const ScopeChange change(part.scope, to);
-  for (std::size_t k = part.nodes; k < part.nodes_end; ++k) {
+  source.make(static_cast<std::int64_t>(part.end[0] - part.begin[0] + part.end[1] - part.begin[1]));
+  for (std::size_t k = part.begin[0]; k < part.end[0]; ++k) {
     AbaqusNode node = c.nodes[k];
     node.scope = to;
     c.node_of_label.emplace(AbaqusContent::label(to, node.id), static_cast<int>(c.nodes.size()));
     c.nodes.push_back(node);
   }
-  for (std::size_t k = part.elements; k < part.elements_end; ++k) {
+  for (std::size_t k = part.begin[1]; k < part.end[1]; ++k) {
     AbaqusElement element = c.elements[k];  // the numbers of its nodes are the same
     element.scope = to;
     c.element_of_label.emplace(AbaqusContent::label(to, element.id),
                                static_cast<int>(c.elements.size()));
     c.elements.push_back(element);
   }
-  copy_names(c.node_sets, part.scope, to);
-  copy_names(c.element_sets, part.scope, to);
-  copy_names(c.surfaces, part.scope, to);
-  copy_names(c.orientations, part.scope, to);
-  each_list(c, [&](auto& list) {
-    const std::size_t count = list.size();
-    for (std::size_t k = 0; k < count; ++k) {
+  copy_names(c.node_sets, part.scope, to, source);
+  copy_names(c.element_sets, part.scope, to, source);
+  copy_names(c.surfaces, part.scope, to, source);
+  copy_names(c.orientations, part.scope, to, source);
+  each_list(c, [&](auto& list, std::size_t place) {
+    for (std::size_t k = part.begin[place]; k < part.end[place]; ++k) {
       if (scope_of(list[k]) != part.scope) continue;
       auto copy = list[k];
+      source.make(weight(copy));
       change(copy);
       list.push_back(std::move(copy));
     }
   });
 }
 
-void remove_abaqus_scope(AbaqusContent& c, AbaqusScope scope) {
-  std::erase_if(c.nodes, [&](const AbaqusNode& n) { return n.scope == scope; });
-  std::erase_if(c.elements, [&](const AbaqusElement& e) { return e.scope == scope; });
+void remove_abaqus_scopes(AbaqusContent& c, const std::set<AbaqusScope>& scopes) {
+  const auto gone = [&](AbaqusScope scope) { return scopes.contains(scope); };
+  std::erase_if(c.nodes, [&](const AbaqusNode& n) { return gone(n.scope); });
+  std::erase_if(c.elements, [&](const AbaqusElement& e) { return gone(e.scope); });
   c.node_of_label.clear();
   for (std::size_t k = 0; k < c.nodes.size(); ++k)
     c.node_of_label.emplace(AbaqusContent::label(c.nodes[k].scope, c.nodes[k].id),
@@ -128,13 +169,13 @@ void remove_abaqus_scope(AbaqusContent& c, AbaqusScope scope) {
   for (std::size_t k = 0; k < c.elements.size(); ++k)
     c.element_of_label.emplace(AbaqusContent::label(c.elements[k].scope, c.elements[k].id),
                                static_cast<int>(k));
-  const auto named = [&](const auto& entry) { return entry.first.first == scope; };
+  const auto named = [&](const auto& entry) { return gone(entry.first.first); };
   std::erase_if(c.node_sets, named);
   std::erase_if(c.element_sets, named);
   std::erase_if(c.surfaces, named);
   std::erase_if(c.orientations, named);
-  each_list(c, [&](auto& list) {
-    std::erase_if(list, [&](const auto& thing) { return scope_of(thing) == scope; });
+  each_list(c, [&](auto& list, std::size_t) {
+    std::erase_if(list, [&](const auto& thing) { return gone(scope_of(thing)); });
   });
 }
 

@@ -46,8 +46,10 @@ AbaqusReference AbaqusContent::reference(std::string_view field, const FeSource&
 
 AbaqusReference AbaqusContent::named(std::string_view field, const FeSource& at) {
   AbaqusReference r = reference(field, at);
-  if (r.name < 0) r = {0, 0, 1, intern(abaqus_name(field)), r.scope, at};  // a name of digits
-  return r;
+  if (r.name >= 0) return r;
+  std::string name = abaqus_name(field);  // a name of digits, perhaps behind that of an instance
+  if (r.scope != scope) name = name.substr(name.rfind('.') + 1);
+  return {0, 0, 1, intern(std::move(name)), r.scope, at};
 }
 
 std::string AbaqusContent::text(const AbaqusReference& r, std::string_view what) const {
