@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import math
 import os
 import sys
 import tempfile
@@ -22,14 +21,13 @@ from .errors import InputError, OutputError
 from .health import Report
 from .meshes import AnyMesh, BeamSection, Material, fe_model, is_mesh
 from .places import Place
+from .reading import Density, Path, expect_texts, material_option, path_text, plain, reading_options
 
 if TYPE_CHECKING:
     import pyvista
 
-Path = str | os.PathLike[str]
 Progress = bool | Callable[[str, float], object]
 Places = Mapping[str, Place]
-Density = float | Mapping[str, float]
 
 
 class Part:
@@ -108,11 +106,11 @@ class Part:
 
     def save(self, path: Path) -> None:
         """Writes a body file (.ffb), which model files take. Raises OutputError."""
-        self._held.save(_path("path", path))
+        self._held.save(path_text("path", path))
 
     def save_sid(self, path: Path) -> None:
         """Writes Standard Input Data (SID_FEM) for other programs. Raises OutputError."""
-        _write(_path("path", path), self._held.sid_text())
+        _write(path_text("path", path), self._held.sid_text())
 
     def to_pyvista(self, mode: int | None = None, scale: float | None = None) -> pyvista.PolyData:
         """The surface, deformed by a mode (from 0), for pictures; needs pyvista. scale: modal amplitude; without it the largest
@@ -230,12 +228,12 @@ def reduce(
     options: dict[str, Any] = {
         "units": units if units is not None or not mesh else "m-kg-s",
         "method": method,
-        "modes": _plain(modes),
-        "fmax": _plain(fmax),
-        "effective_mass": _plain(effective_mass),
+        "modes": plain(modes),
+        "fmax": plain(fmax),
+        "effective_mass": plain(effective_mass),
         "reference": reference,
         "integration": integration,
-        "damping": _plain(damping),
+        "damping": plain(damping),
         "solver": solver,
         "free_check": free_check,
         "stresses": stresses,
@@ -246,8 +244,8 @@ def reduce(
         "grounded_springs": grounded_springs,
     }
     words = ("beam_shear", "shell_shear", "mass_form", "grounded_springs")
-    _expect_texts(options, ("units", "method", "reference", "integration", "solver", *words))
-    options |= _reading(format, dialect, contact, temperature, density, nodes, mass, dofs)
+    expect_texts(options, ("units", "method", "reference", "integration", "solver", *words))
+    options |= reading_options(format, dialect, contact, temperature, density, nodes, mass, dofs)
     chosen: dict[str, object] = {}
     for key, places in (("interfaces", interfaces), ("markers", markers)):
         if places is not None:
@@ -263,16 +261,16 @@ def reduce(
         return Part._of(_core.reduce_mesh(model, type(source).__name__, options, tell))
     if thickness is not None or section is not None:
         raise InputError("thickness and section belong to meshes: found them for a file, which has its own")
-    options |= _material(material)
+    options |= material_option(material)
     if not isinstance(source, (str, os.PathLike)):
         found = type(source).__name__
         raise InputError(f"source: found {found}, expected a file, a floatframe.Mesh, a meshio.Mesh or a mesh of pyvista")
-    return Part._of(_core.reduce_file(_path("source", source), options, tell))
+    return Part._of(_core.reduce_file(path_text("source", source), options, tell))
 
 
 def read_body(path: Path) -> Part:
     """The part in a body file (.ffb). Raises InputError with every error of the file."""
-    return Part._of(_core.read_body(_path("path", path)))
+    return Part._of(_core.read_body(path_text("path", path)))
 
 
 def info(
@@ -290,8 +288,8 @@ def info(
 ) -> FileInfo:
     """What is in a finite-element file, a body file or a SID_FEM file: what `floatframe info` prints, as a dict of its JSON.
     Options as those of `reduce`."""
-    options = _reading(format, dialect, contact, temperature, density, nodes, mass, dofs) | _material(material)
-    text, content = _core.file_info(_path("path", path), options)
+    options = reading_options(format, dialect, contact, temperature, density, nodes, mass, dofs) | material_option(material)
+    text, content = _core.file_info(path_text("path", path), options)
     return FileInfo(text, json.loads(content))
 
 
@@ -310,71 +308,11 @@ def convert(
     """Writes what was understood of a finite-element file for another program, as `floatframe convert` does: a CalculiX deck
     (.inp, with a step of `modes` free modes unless it is 0), a Gmsh mesh (.msh) or a VTU file (.vtu). Returns what the command
     prints. Options as those of `reduce`. Raises InputError, OutputError."""
-    count = _plain(modes)
+    count = plain(modes)
     if isinstance(count, bool) or not isinstance(count, int) or not 0 <= count <= 100000:
         raise InputError(f"modes: found {modes!r}, expected a whole number from 0 to 100000")
-    options = _reading(format, dialect, contact, temperature, density, None, None, None) | _material(material)
-    return _core.convert_file(_path("source", source), _path("out", out), count, options)
-
-
-def _expect_texts(options: dict[str, Any], names: tuple[str, ...]) -> None:
-    for name in names:
-        if options[name] is not None and not isinstance(options[name], str):
-            raise InputError(f"{name}: found {options[name]!r}, expected a text")
-
-
-def _reading(
-    format: object,
-    dialect: object,
-    contact: object,
-    temperature: object,
-    density: object,
-    nodes: object,
-    mass: object,
-    dofs: object,
-) -> dict[str, Any]:
-    """How a file is read, as options of the C++ library."""
-    options: dict[str, Any] = {"format": format, "dialect": dialect, "contact": contact, "temperature": None, "density": None}
-    _expect_texts(options, ("format", "dialect", "contact"))
-    for name, file in (("nodes", nodes), ("mass", mass), ("dofs", dofs)):
-        options[name] = None if file is None else _path(name, file)
-    if temperature is not None:
-        T = _plain(temperature)
-        if isinstance(T, bool) or not isinstance(T, (int, float)) or not math.isfinite(T):
-            raise InputError(f"temperature: found {temperature!r}, expected a number")
-        options["temperature"] = repr(float(T))
-    if density is None:
-        return options
-    texts = []
-    for material, value in (density.items() if isinstance(density, Mapping) else [("", density)]):
-        rho = _plain(value)
-        if isinstance(rho, bool) or not isinstance(rho, (int, float)) or not isinstance(material, str):
-            raise InputError(f"density: found {density!r}, expected a number or numbers by the names of materials")
-        texts.append(f"{material}={float(rho)!r}" if material else repr(float(rho)))
-    return options | {"density": texts}
-
-
-def _material(material: object) -> dict[str, Any]:
-    if material is None:
-        return {}
-    if not isinstance(material, Material):
-        raise InputError(f"material: found {material!r}, expected floatframe.Material(young, poisson, density)")
-    return {"material": ",".join(repr(x) for x in material.checked())}
-
-
-def _plain(value: Any) -> Any:
-    """Numbers of numpy as those of Python; the C++ library judges them."""
-    return value.item() if isinstance(value, np.generic) else value
-
-
-def _path(name: str, value: object) -> str:
-    try:
-        path = os.fspath(value)  # type: ignore[call-overload]
-    except TypeError:
-        raise InputError(f"{name}: found {type(value).__name__}, expected the path of a file") from None
-    if not isinstance(path, str) or not path or "\0" in path:
-        raise InputError(f"{name}: found {path!r}, expected the path of a file")
-    return path
+    options = reading_options(format, dialect, contact, temperature, density, None, None, None) | material_option(material)
+    return _core.convert_file(path_text("source", source), path_text("out", out), count, options)
 
 
 def _places(key: str, places: object, mesh: bool, chosen: dict[str, object]) -> dict[str, Any]:

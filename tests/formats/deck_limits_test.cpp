@@ -7,6 +7,7 @@
 #include <string>
 
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
+#include "floatframe/formats/ansys/read_ansys.hpp"
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
@@ -119,6 +120,26 @@ TEST(DeckLimits, SetsOfAllNodesAgainAndAgain) {
   std::string terms = "*EQUATION\n15000\n";
   for (int k = 0; k < 15'000; ++k) terms += "ALL, 1, 1.\n";
   EXPECT_EQ(ends(begin + body + terms), end);
+}
+
+/// E takes the number above all others: looking for it each time would take hours here.
+TEST(DeckLimits, AnsysElementsWithoutNumbersAndEdgesWithoutNodes) {
+  std::string deck =
+      "ET,1,180\nET,2,187\nMP,EX,1,1\nMP,PRXY,1,.3\nMP,DENS,1,1\nR,1,2\nN,1,0\nN,2,1\n";
+  constexpr int count = 200'000;
+  for (int k = 0; k < count; ++k) deck += "E,1,2\n";
+  deck += "TYPE,2\n";
+  constexpr int tetrahedra = 8'000;
+  for (int k = 0; k < tetrahedra; ++k) {
+    const int n = 5 * k + 3;
+    deck += fmt::format("N,{},{}\nN,{},{}\nN,{},{},1\nN,{},{},,1\nN,{},{}\n", n, 2 * k, n + 1,
+                        2 * k + 1, n + 2, 2 * k, n + 3, 2 * k, n + 4, 2 * k + 0.5);
+    deck += fmt::format("EN,{},{},{},{},{},{}\n", count + 1 + k, n, n + 1, n + 2, n + 3, n + 4);
+  }
+  TextSource source(deck, "a.cdb");
+  const FeModel model = read_ansys(source, {});
+  EXPECT_EQ(model.elements.size(), static_cast<std::size_t>(count + tetrahedra));
+  EXPECT_EQ(model.nodes(), 2 + 10 * tetrahedra);
 }
 
 TEST(DeckLimits, RangesOfNastranAgainAndAgain) {

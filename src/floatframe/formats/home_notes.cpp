@@ -55,6 +55,7 @@ constexpr std::array differences{
     Difference{H::ansys, T::hex8, "the change of volume is taken at the centre there: softer"},
     Difference{H::ansys, T::hex8i, own_modes},
     Difference{H::ansys, T::hex8r, own_hourglass},
+    Difference{H::ansys, T::tet4, "SOLID285 has pressures at its nodes there"},
     Difference{H::ansys, T::wedge6, "shape functions of our own"},
     Difference{H::ansys, T::pyramid5, "shape functions of our own"},
     Difference{H::ansys, T::pyramid13, "shape functions of our own"},

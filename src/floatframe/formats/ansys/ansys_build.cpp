@@ -27,11 +27,12 @@ int AnsysBuild::node(int id, const FeSource& at, const std::string& who) {
 }
 
 int AnsysBuild::add_node(const Vec3& p, const FeSource& at) {
-  const int largest = *std::max_element(model.node_ids.begin(), model.node_ids.end());
-  if (largest == std::numeric_limits<int>::max())
+  if (largest_node == 0)
+    largest_node = *std::max_element(model.node_ids.begin(), model.node_ids.end());
+  if (largest_node == std::numeric_limits<int>::max())
     source.stop(at, "a node of its own is needed here, but there is no number above 2147483647");
   model.positions.push_back(p);
-  model.node_ids.push_back(largest + 1);
+  model.node_ids.push_back(++largest_node);
   model.node_sources.push_back(at);
   return model.nodes() - 1;
 }

@@ -45,6 +45,7 @@ struct AnsysBuild {
 
   std::map<std::pair<int, double>, int> materials;
   std::map<int, int> orientations;
+  int largest_node = 0;   ///< number, once a node has been added
   std::vector<int> said;  ///< types with an error
 };
 

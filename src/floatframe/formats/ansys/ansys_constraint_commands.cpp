@@ -66,8 +66,8 @@ void read_ansys_equation(AnsysFields& f, AnsysContent& c) {
     return append_terms(f, e, 3, f.size() + 2);
   }
   if (f.word(2) == "DEFI") {
-    c.table_material = f.label(3, "the number of the equation");
-    AnsysEquation& e = c.equations[c.table_material];
+    c.constraint = f.label(3, "the number of the equation");
+    AnsysEquation& e = c.equations[c.constraint];
     e = {};
     e.at = f.at();
     e.constant = f.real(5, "the constant");
@@ -75,7 +75,7 @@ void read_ansys_equation(AnsysFields& f, AnsysContent& c) {
   }
   if (f.word(2) != "NODE" || c.equations.empty())
     f.stop(fmt::format("CE: expected DEFI, then NODE, found {}", shown(f.text(2))));
-  append_terms(f, c.equations[c.table_material], 3, f.size() + 2);
+  append_terms(f, c.equations[c.constraint], 3, f.size() + 2);
 }
 
 /// CP,R5.0,DEFI,number,...,label and CP,R5.0,NODE,nodes; CP,number,label,nodes.
@@ -85,15 +85,15 @@ void read_ansys_coupling(AnsysFields& f, AnsysContent& c) {
     if (c.couplings.empty()) f.stop("CP: NODE, but there is no DEFI before");
   } else {
     const std::size_t at = written ? 3 : 1;
-    c.table_material = number_in(f, at, c.couplings);
-    AnsysCoupling& coupling = c.couplings[c.table_material];
+    c.constraint = number_in(f, at, c.couplings);
+    AnsysCoupling& coupling = c.couplings[c.constraint];
     coupling.at = f.at();
     std::size_t label = at + 1;
     while (written && label + 1 < f.size() && ansys_axis(f.text(label)) < 0) ++label;
     coupling.axis = axis_of(f, label);
     if (written) return;
   }
-  AnsysCoupling& coupling = c.couplings[c.table_material];
+  AnsysCoupling& coupling = c.couplings[c.constraint];
   for (std::size_t k = 3; k < f.size(); ++k) {
     if (f.blank(k)) continue;
     refuse_selection(f, k);

@@ -112,7 +112,9 @@ struct AnsysContent {
   std::string table;  ///< of TB, with its material
   int table_material = 0;
   int real_set = 0, section_set = 0;  ///< of R, SECTYPE
-  bool ended = false;                 ///< /EOF
+  int constraint = 0;                 ///< number of the last CE or CP
+  int highest_element = 0;
+  bool ended = false;  ///< /EOF
   std::map<std::string, FeSource> passed_over;
 };
 

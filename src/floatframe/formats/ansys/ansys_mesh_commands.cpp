@@ -2,6 +2,9 @@
 // unblocked) and as a user does.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "floatframe/formats/ansys/ansys_content.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/text/text_source.hpp"
@@ -39,6 +42,7 @@ void add_element(AnsysFields& f, AnsysContent& c, AnsysElement e) {
   if (!fresh)
     f.source().error(e.at, fmt::format("element {} is in the file twice, first in line {}", e.id,
                                        c.elements[it->second].at.line));
+  c.highest_element = std::max(c.highest_element, e.id);
   c.elements.push_back(e);
 }
 
@@ -146,9 +150,9 @@ void read_ansys_element(AnsysFields& f, AnsysContent& c) {
   }
   AnsysElement e = with_attributes(c, f.at());
   const bool numbered = f.command() == "EN";
-  e.id = numbered ? f.label(1, "the number of the element") : 1;
-  if (!numbered)  // the number above all others
-    for (const AnsysElement& other : c.elements) e.id = std::max(e.id, other.id + 1);
+  if (!numbered && c.highest_element == std::numeric_limits<int>::max())
+    f.stop("E: there is no number above 2147483647 for the element");
+  e.id = numbered ? f.label(1, "the number of the element") : c.highest_element + 1;
   append_nodes(f, c, e, numbered ? 2 : 1);
   add_element(f, c, e);
 }

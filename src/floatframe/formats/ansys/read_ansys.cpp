@@ -38,7 +38,7 @@ bool looks_like_ansys(std::string_view beginning) {
 
 FeModel read_ansys(TextSource& source, const FeReadOptions& options) {
   AnsysContent content = read_ansys_content(source);
-  AnsysBuild build{source, content, options, content.model, {}, {}, {}, {}};
+  AnsysBuild build{source, content, options, content.model, {}, {}, {}, 0, {}};
   content.model.home = HomeProgram::ansys;
   build_ansys_elements(build);
   build_ansys_springs(build);
@@ -57,7 +57,7 @@ FeModel read_ansys(TextSource& source, const FeReadOptions& options) {
 FeModel read_ansys_nodes(TextSource& source) {
   AnsysContent content = read_ansys_content(source);
   const FeReadOptions options;
-  AnsysBuild build{source, content, options, content.model, {}, {}, {}, {}};
+  AnsysBuild build{source, content, options, content.model, {}, {}, {}, 0, {}};
   build.index.assign(content.elements.size(), -1);
   build_ansys_supports(build);
   build_ansys_components(build);

@@ -283,16 +283,16 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
   return model;
 }
 
-FeModel matrix_model_of_triples(TextSource& stiffness, TextSource& mass, TextSource& dofs,
-                                FeModel nodes, bool mass_diagonal) {
+FeModel matrix_model_of(TextSource& stiffness, TextSource& mass, TextSource& dofs, FeModel nodes,
+                        bool mass_diagonal, MatrixReader read) {
   const std::vector<DofLabel> labels = read_dof_labels(dofs);
   dofs.throw_if_any();
   const std::vector<std::string> names = dof_names(labels);
   const int n = static_cast<int>(labels.size());
   const std::string& map = dofs.files().front();
-  SparseMatrix K = read_triples(stiffness, "stiffness", n, map).finish(n, names, true);
+  SparseMatrix K = read(stiffness, "stiffness", n, map).finish(n, names, true);
   stiffness.throw_if_any();
-  SparseMatrix M = read_triples(mass, "mass", n, map).finish(n, names, mass_diagonal);
+  SparseMatrix M = read(mass, "mass", n, map).finish(n, names, mass_diagonal);
   mass.throw_if_any();
   return matrix_model(std::move(nodes), labels, std::move(K), std::move(M), dofs,
                       {stiffness.files().front(), mass.files().front()});

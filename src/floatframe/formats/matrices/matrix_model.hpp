@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/matrices/matrix_entries.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
@@ -35,9 +36,12 @@ FeModel matrix_model(FeModel nodes, const std::vector<DofLabel>& labels, SparseM
                      SparseMatrix M, TextSource& labels_source,
                      const std::vector<std::string>& other_files);
 
-/// The same from lines "row column value" and a map of the rows. With `mass_diagonal` the mass must
-/// have its whole diagonal.
-FeModel matrix_model_of_triples(TextSource& stiffness, TextSource& mass, TextSource& dofs,
-                                FeModel nodes, bool mass_diagonal);
+/// The entries of a matrix of n rows; `map` names the file that says n.
+using MatrixReader = SymmetricEntries (*)(TextSource& source, const std::string& what, int n,
+                                          const std::string& map);
+/// The same from texts and a map of the rows. With `mass_diagonal` the mass must have its whole
+/// diagonal.
+FeModel matrix_model_of(TextSource& stiffness, TextSource& mass, TextSource& dofs, FeModel nodes,
+                        bool mass_diagonal, MatrixReader read);
 
 }  // namespace floatframe

@@ -95,7 +95,7 @@ bool looks_like_abaqus_matrix(std::string_view beginning) {
 FeModel read_abaqus_matrices(TextSource& stiffness, TextSource& mass, TextSource* dofs,
                              FeModel nodes) {
   if (dofs != nullptr) {
-    return matrix_model_of_triples(stiffness, mass, *dofs, std::move(nodes), false);
+    return matrix_model_of(stiffness, mass, *dofs, std::move(nodes), false, read_triples);
   }
   LabelTable table;
   SymmetricEntries K = read_quintuples(stiffness, "stiffness", table);

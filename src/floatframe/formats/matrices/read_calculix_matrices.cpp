@@ -15,7 +15,7 @@ bool looks_like_calculix_matrix(std::string_view beginning) {
 
 FeModel read_calculix_matrices(TextSource& stiffness, TextSource& mass, TextSource& dofs,
                                FeModel nodes) {
-  return matrix_model_of_triples(stiffness, mass, dofs, std::move(nodes), true);
+  return matrix_model_of(stiffness, mass, dofs, std::move(nodes), true, read_triples);
 }
 
 FeModel read_calculix_matrices(const std::filesystem::path& file, const FeReadOptions& options) {

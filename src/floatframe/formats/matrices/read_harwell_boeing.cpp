@@ -146,6 +146,11 @@ class HarwellBoeing {
   FortranColumns formats_[3];
 };
 
+SymmetricEntries read_harwell_boeing_entries(TextSource& source, const std::string& what, int n,
+                                             const std::string& map) {
+  return HarwellBoeing(source, what).read(n, map);
+}
+
 }  // namespace
 
 bool looks_like_harwell_boeing(std::string_view beginning) {
@@ -162,17 +167,8 @@ bool looks_like_harwell_boeing(std::string_view beginning) {
 
 FeModel read_harwell_boeing(TextSource& stiffness, TextSource& mass, TextSource& dofs,
                             FeModel nodes) {
-  const std::vector<DofLabel> labels = read_dof_labels(dofs);
-  dofs.throw_if_any();
-  const std::vector<std::string> names = dof_names(labels);
-  const int n = static_cast<int>(labels.size());
-  const std::string& map = dofs.files().front();
-  SparseMatrix K = HarwellBoeing(stiffness, "stiffness").read(n, map).finish(n, names, true);
-  stiffness.throw_if_any();
-  SparseMatrix M = HarwellBoeing(mass, "mass").read(n, map).finish(n, names, false);
-  mass.throw_if_any();
-  return matrix_model(std::move(nodes), labels, std::move(K), std::move(M), dofs,
-                      {stiffness.files().front(), mass.files().front()});
+  return matrix_model_of(stiffness, mass, dofs, std::move(nodes), false,
+                         read_harwell_boeing_entries);
 }
 
 FeModel read_harwell_boeing(const std::filesystem::path& file, const FeReadOptions& options) {

@@ -90,17 +90,7 @@ bool looks_like_matrix_market(std::string_view beginning) {
 
 FeModel read_matrix_market(TextSource& stiffness, TextSource& mass, TextSource& dofs,
                            FeModel nodes) {
-  const std::vector<DofLabel> labels = read_dof_labels(dofs);
-  dofs.throw_if_any();
-  const std::vector<std::string> names = dof_names(labels);
-  const int n = static_cast<int>(labels.size());
-  const std::string& map = dofs.files().front();
-  SparseMatrix K = read_entries(stiffness, "stiffness", n, map).finish(n, names, true);
-  stiffness.throw_if_any();
-  SparseMatrix M = read_entries(mass, "mass", n, map).finish(n, names, false);
-  mass.throw_if_any();
-  return matrix_model(std::move(nodes), labels, std::move(K), std::move(M), dofs,
-                      {stiffness.files().front(), mass.files().front()});
+  return matrix_model_of(stiffness, mass, dofs, std::move(nodes), false, read_entries);
 }
 
 FeModel read_matrix_market(const std::filesystem::path& file, const FeReadOptions& options) {

@@ -1,0 +1,76 @@
+"""How finite-element files are read: arguments of Python as options of the C++ library."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError
+from .meshes import Material
+
+Path = str | os.PathLike[str]
+Density = float | Mapping[str, float]
+
+
+def expect_texts(options: dict[str, Any], names: tuple[str, ...]) -> None:
+    for name in names:
+        if options[name] is not None and not isinstance(options[name], str):
+            raise InputError(f"{name}: found {options[name]!r}, expected a text")
+
+
+def reading_options(
+    format: object,
+    dialect: object,
+    contact: object,
+    temperature: object,
+    density: object,
+    nodes: object,
+    mass: object,
+    dofs: object,
+) -> dict[str, Any]:
+    """How a file is read, as options of the C++ library."""
+    options: dict[str, Any] = {"format": format, "dialect": dialect, "contact": contact, "temperature": None, "density": None}
+    expect_texts(options, ("format", "dialect", "contact"))
+    for name, file in (("nodes", nodes), ("mass", mass), ("dofs", dofs)):
+        options[name] = None if file is None else path_text(name, file)
+    if temperature is not None:
+        T = plain(temperature)
+        if isinstance(T, bool) or not isinstance(T, (int, float)) or not math.isfinite(T):
+            raise InputError(f"temperature: found {temperature!r}, expected a number")
+        options["temperature"] = repr(float(T))
+    if density is None:
+        return options
+    texts = []
+    for material, value in (density.items() if isinstance(density, Mapping) else [("", density)]):
+        rho = plain(value)
+        if isinstance(rho, bool) or not isinstance(rho, (int, float)) or not isinstance(material, str):
+            raise InputError(f"density: found {density!r}, expected a number or numbers by the names of materials")
+        texts.append(f"{material}={float(rho)!r}" if material else repr(float(rho)))
+    return options | {"density": texts}
+
+
+def material_option(material: object) -> dict[str, Any]:
+    if material is None:
+        return {}
+    if not isinstance(material, Material):
+        raise InputError(f"material: found {material!r}, expected floatframe.Material(young, poisson, density)")
+    return {"material": ",".join(repr(x) for x in material.checked())}
+
+
+def plain(value: Any) -> Any:
+    """Numbers of numpy as those of Python; the C++ library judges them."""
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def path_text(name: str, value: object) -> str:
+    try:
+        path = os.fspath(value)  # type: ignore[call-overload]
+    except TypeError:
+        raise InputError(f"{name}: found {type(value).__name__}, expected the path of a file") from None
+    if not isinstance(path, str) or not path or "\0" in path:
+        raise InputError(f"{name}: found {path!r}, expected the path of a file")
+    return path
