@@ -208,6 +208,13 @@ void build_ansys_masses(AnsysBuild& b) {
     PointMass m;
     m.node = n[0];
     m.mass = real->value(0);
+    const std::size_t inertias = type.keyopt[3] == 0 ? 6 : 1;
+    for (std::size_t k = 0; k < inertias; ++k)
+      if (real->value(k) < 0.0)
+        return b.source.error(real->at, fmt::format("real constants {}: a {} of {:g} for {}, "
+                                                    "expected none below 0",
+                                                    e.real, k < 3 ? "mass" : "moment of inertia",
+                                                    real->value(k), b.label(e)));
     if (type.keyopt[3] == 0) {
       for (std::size_t k = 1; k < 3; ++k)
         if (std::abs(real->value(k) - m.mass) > 1e-9 * std::abs(m.mass))
