@@ -68,7 +68,7 @@ const AnsysType* AnsysBuild::type(const AnsysElement& e) {
         it->second.at,
         fmt::format("type {} is element {}, which is not read; read are SOLID45, 92, 95, "
                     "185, 186, 187, 285, SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, "
-                    "LINK8, 180, COMBIN14, MASS21 and MPC184",
+                    "PIPE288, 289, LINK8, 180, COMBIN14, MASS21 and MPC184",
                     e.type, it->second.number));
   }
   return nullptr;
@@ -77,6 +77,11 @@ const AnsysType* AnsysBuild::type(const AnsysElement& e) {
 const AnsysReal* AnsysBuild::real(const AnsysElement& e) const {
   const auto it = content.reals.find(e.real);
   return it == content.reals.end() ? nullptr : &it->second;
+}
+
+const AnsysSection* AnsysBuild::section(const AnsysElement& e, const char* kind) const {
+  const auto it = content.sections.find(e.section);
+  return it != content.sections.end() && it->second.kind == kind ? &it->second : nullptr;
 }
 
 int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {

@@ -1,5 +1,6 @@
 #pragma once
 // From the content of an ANSYS deck to the model.
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
@@ -13,12 +14,27 @@
 
 namespace floatframe {
 
+/// A section of beams in the axes of its principal moments.
+struct AnsysBeam {
+  BeamSection section;
+  double turn = 0.0;                ///< of y towards z [rad]
+  double mass = 0.0;                ///< besides that of the material [mass/length]
+  double arm_y = 0.0, arm_z = 0.0;  ///< of the centroid from the node, before the turn
+};
+
+/// The end of a beam beside its node.
+struct AnsysArm {
+  int fresh = -1, node = -1;
+  Vec3 arm = Vec3::Zero();
+  FeSource at;
+};
+
 struct AnsysBuild {
   TextSource& source;
   AnsysContent& content;
   const FeReadOptions& options;
   FeModel& model;
-  std::vector<int> index;  ///< in the model, of each element of the deck; -1: none
+  std::vector<int> index = {};  ///< in the model, of each element of the deck; -1: none
 
   /// Index of a node; an error and -1 if it is not there.
   int node(int id, const FeSource& at, const std::string& who);
@@ -32,6 +48,8 @@ struct AnsysBuild {
   /// The type of an element and what it is; null with an error, once a type.
   const AnsysType* type(const AnsysElement& e);
   const AnsysReal* real(const AnsysElement& e) const;
+  /// The section of an element if it is one of a kind (SHEL, BEAM, ...), else null.
+  const AnsysSection* section(const AnsysElement& e, const char* kind) const;
   /// Index of a material by its number, with a mass besides its own over the volume.
   int material(int id, const AnsysElement& e, double more_density = 0.0);
   /// Axes of a coordinate system; none of the global rectangular one. An error if it is not read.
@@ -43,10 +61,13 @@ struct AnsysBuild {
   void error(const AnsysElement& e, const std::string& text);
   void note(const FeSource& at, const std::string& text);
 
-  std::map<std::pair<int, double>, int> materials;
-  std::map<int, int> orientations;
-  int largest_node = 0;   ///< number, once a node has been added
-  std::vector<int> said;  ///< types with an error
+  std::map<std::pair<int, double>, int> materials = {};
+  std::map<int, int> orientations = {};
+  std::map<int, std::optional<AnsysBeam>> beams = {};  ///< by section; none: with an error
+  std::vector<AnsysArm> arms = {};
+  std::map<std::array<double, 4>, int> arm_nodes = {};
+  int largest_node = 0;        ///< number, once a node has been added
+  std::vector<int> said = {};  ///< types with an error
 };
 
 /// Solids, shells, beams, rods.
@@ -56,6 +77,15 @@ void build_ansys_shell(AnsysBuild& build, const AnsysElement& e, const AnsysType
                        Element& element);
 bool build_ansys_line(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
                       const std::vector<int>& nodes, Element& element);
+/// BEAM and PIPE sections; none with an error.
+std::optional<AnsysBeam> ansys_beam_section(AnsysBuild& build, const AnsysSection& section,
+                                            const AnsysElement& e);
+/// Iy, Iz of the principal axes and the turn, from moments about y and z.
+void set_ansys_principal(double Iyy, double Izz, double Iyz, AnsysBeam& beam);
+// ansys_build_arms.cpp
+/// The node at the end of an arm, which is tied rigidly by `build_ansys_arms`.
+int ansys_arm_node(AnsysBuild& build, int node, const Vec3& arm, const FeSource& at);
+void build_ansys_arms(AnsysBuild& build);
 // ansys_build_points.cpp
 /// COMBIN14, MPC184, CERIG, then MASS21.
 void build_ansys_springs(AnsysBuild& build);

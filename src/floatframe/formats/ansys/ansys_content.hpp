@@ -49,9 +49,15 @@ struct AnsysSection {
   std::string kind, shape;                ///< SHELL, BEAM, LINK, ...; RECT, ...
   std::vector<std::vector<double>> rows;  ///< SECDATA, SECBLOCK
   std::string offset;                     ///< SECOFFSET: MID, ...; empty: not given
+  std::vector<double> offsets;            ///< its numbers: of USER and what follows
   std::vector<double> control;            ///< SECCONTROL
   FeSource at;
 };
+
+/// 0 where nothing is given.
+inline double ansys_value(const std::vector<double>& row, std::size_t k) noexcept {
+  return k < row.size() ? row[k] : 0.0;
+}
 
 struct AnsysTerm {
   int node = 0, axis = 0;

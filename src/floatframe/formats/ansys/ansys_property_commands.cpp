@@ -160,8 +160,14 @@ void read_ansys_section_block(AnsysFields& f, AnsysContent& c) {
   }
 }
 
+/// SECOFFSET,Location,OFFSET1,OFFSET2,CG-Y,CG-Z,SH-Y,SH-Z; of pipes two numbers.
 void read_ansys_section_offset(AnsysFields& f, AnsysContent& c) {
-  open_section(f, c).offset = f.word(1).substr(0, 4);
+  AnsysSection& s = open_section(f, c);
+  const bool pipe = s.kind == "PIPE" && (f.blank(1) || f.number(1));
+  s.offset = pipe ? "USER" : f.word(1).substr(0, 4);
+  s.offsets.clear();
+  for (std::size_t k = pipe ? 1 : 2; k < f.size(); ++k)
+    s.offsets.push_back(f.real(k, "the offset"));
 }
 
 void read_ansys_section_control(AnsysFields& f, AnsysContent& c) {

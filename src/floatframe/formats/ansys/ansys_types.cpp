@@ -43,6 +43,8 @@ constexpr AnsysLibraryElement ansys_library[] = {
     {201, "FOLLW201", F::passed_over, 1},
     {281, "SHELL281", F::shell, 8},
     {285, "SOLID285", F::tet, 4},
+    {288, "PIPE288", F::beam2, 2},
+    {289, "PIPE289", F::beam3, 3},
 };
 
 /// One of the shapes that a brick or a shell takes by repeating nodes: places of the corners, then

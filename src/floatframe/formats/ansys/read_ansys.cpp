@@ -38,12 +38,13 @@ bool looks_like_ansys(std::string_view beginning) {
 
 FeModel read_ansys(TextSource& source, const FeReadOptions& options) {
   AnsysContent content = read_ansys_content(source);
-  AnsysBuild build{source, content, options, content.model, {}, {}, {}, 0, {}};
+  AnsysBuild build{source, content, options, content.model};
   content.model.home = HomeProgram::ansys;
   build_ansys_elements(build);
   build_ansys_springs(build);
   build_ansys_rigid(build);
   build_ansys_contact(build);
+  build_ansys_arms(build);
   build_ansys_masses(build);
   build_ansys_equations(build);
   build_ansys_supports(build);
@@ -57,7 +58,7 @@ FeModel read_ansys(TextSource& source, const FeReadOptions& options) {
 FeModel read_ansys_nodes(TextSource& source) {
   AnsysContent content = read_ansys_content(source);
   const FeReadOptions options;
-  AnsysBuild build{source, content, options, content.model, {}, {}, {}, 0, {}};
+  AnsysBuild build{source, content, options, content.model};
   build.index.assign(content.elements.size(), -1);
   build_ansys_supports(build);
   build_ansys_components(build);

@@ -1,8 +1,6 @@
 // Sections of PBARL and PBEAML by name. Element y points up in the figures of Nastran, z to the
-// right. All but round ones and solid bars are made of plates along y and z:
-//   A = sum b h,  I1 = sum (b h^3/12 + b h y^2),  I2 = sum (h b^3/12 + b h z^2),  I12 = sum b h y z
-// with y, z of the plates' centres from the centroid. J of open sections is sum b t^3/3 of the
-// plates, of a box that of Bredt: 4 A_m^2 / sum b/t.
+// right. All but round ones and solid bars are made of plates along y and z (plate_section.hpp). J
+// of open sections is sum b t^3/3 of the plates, of a box that of Bredt.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "floatframe/fe/plate_section.hpp"
 #include "floatframe/formats/nastran/nastran_content.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
@@ -18,11 +17,7 @@
 namespace floatframe {
 namespace {
 
-struct Plate {
-  double y = 0.0, z = 0.0;           ///< centre
-  double height = 0.0, width = 0.0;  ///< along y, along z
-};
-using Plates = std::vector<Plate>;
+using Plates = std::vector<SectionPlate>;
 using Dimensions = const double*;
 
 Plates plates_of_i(Dimensions d) {
@@ -122,30 +117,8 @@ const std::map<std::string_view, PlateSection>& plate_sections() {
 }
 
 NastranSection made_of(const Plates& plates) {
-  double A = 0.0, y = 0.0, z = 0.0;
-  for (const Plate& p : plates) {
-    const double a = p.height * p.width;
-    A += a;
-    y += a * p.y;
-    z += a * p.z;
-  }
-  NastranSection s;
-  s.A = A;
-  for (const Plate& p : plates) {
-    const double a = p.height * p.width, dy = p.y - y / A, dz = p.z - z / A,
-                 thin = std::min(p.height, p.width);
-    s.I1 += a * (p.height * p.height / 12.0 + dy * dy);
-    s.I2 += a * (p.width * p.width / 12.0 + dz * dz);
-    s.I12 += a * dy * dz;
-    s.J += std::max(p.height, p.width) * thin * thin * thin / 3.0;
-  }
-  return s;
-}
-
-/// 4 A_m^2 / sum b/t of a box of width w and height h: walls above, below, left and right.
-double bredt(double w, double h, double top, double bottom, double left, double right) {
-  const double b = w - (left + right) / 2.0, a = h - (top + bottom) / 2.0;
-  return 4.0 * a * a * b * b / (b / top + b / bottom + a / left + a / right);
+  const PlateSums s = plate_sums(plates);
+  return {s.A, s.Iz, s.Iy, s.Iyz, s.thin_J};
 }
 
 /// Sections that are not of plates; those with a shape that is known for stress.
@@ -183,7 +156,7 @@ void named_shape(NastranFields& f, NastranProperty& p, const std::string& type, 
   const double* const of_box = type == "BOX" ? box : d;
   const PlateSection& made = plate_sections().at(type == "BOX" ? "BOX1" : type.c_str());
   const Plates plates = made.plates(closed ? of_box : d);
-  for (const Plate& plate : plates) {
+  for (const SectionPlate& plate : plates) {
     if (plate.height > 0.0 && plate.width > 0.0) continue;
     if (type == "BOX") return f.error("the walls of the BOX are thicker than the box");
     return f.error(
@@ -196,7 +169,7 @@ void named_shape(NastranFields& f, NastranProperty& p, const std::string& type, 
     if (!(of_box[4] + of_box[5] < of_box[0])) {
       return f.error(fmt::format("the walls of the {} are thicker than the box", type));
     }
-    s.J = bredt(of_box[0], of_box[1], of_box[2], of_box[3], of_box[4], of_box[5]);
+    s.J = bredt_torsion(of_box[0], of_box[1], of_box[2], of_box[3], of_box[4], of_box[5]);
   } else {
     p.remarks.push_back(
         fmt::format("the torsion constant of the section {} is the sum of b t^3/3 "
