@@ -104,7 +104,16 @@ inline void harwell_boeing(std::string_view bytes) {
   });
 }
 
-inline void gmsh(std::string_view bytes) { use(parse_gmsh(bytes, "fuzz.msh", {})); }
+/// Surfaces of meshes without sections as shells.
+inline FeReadOptions with_thickness() {
+  FeReadOptions options;
+  options.thicknesses = {{"", 1.0}, {"PLATE", 2.0}, {"RIB", 3.0}};
+  return options;
+}
+
+inline void gmsh(std::string_view bytes) {
+  use(parse_gmsh(bytes, "fuzz.msh", bytes.size() % 2 == 0 ? FeReadOptions() : with_thickness()));
+}
 
 inline void nastran(std::string_view bytes) {
   TextSource source(std::string(bytes), "fuzz.bdf");
@@ -114,7 +123,7 @@ inline void nastran(std::string_view bytes) {
 
 inline void unv(std::string_view bytes) {
   TextSource source(std::string(bytes), "fuzz.unv");
-  use(read_unv(source, {}));
+  use(read_unv(source, bytes.size() % 2 == 0 ? FeReadOptions() : with_thickness()));
 }
 
 /// Matrices and nodes.

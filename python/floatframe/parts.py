@@ -21,7 +21,7 @@ from .errors import InputError, OutputError
 from .health import Report
 from .meshes import AnyMesh, BeamSection, Material, fe_model, is_mesh
 from .places import Place
-from .reading import Density, Path, expect_texts, material_option, path_text, plain, reading_options
+from .reading import Density, Path, Thickness, expect_texts, material_option, path_text, plain, reading_options
 
 if TYPE_CHECKING:
     import pyvista
@@ -199,7 +199,7 @@ def reduce(
     nodes: Path | None = None,
     mass: Path | None = None,
     dofs: Path | None = None,
-    thickness: float | None = None,
+    thickness: Thickness | None = None,
     section: BeamSection | None = None,
     progress: Progress = False,
 ) -> Part:
@@ -219,7 +219,8 @@ def reduce(
 
     material: of files that have none. density: of materials that have none in the file, a number or by their names,
     {"STEEL": 7.85e-9}; temperature: of materials that depend on it; all in the units of the file.
-    contact: contact pairs of the deck: "ignore", "tied" or "tied:DISTANCE".
+    thickness: of shells of a mesh; of surfaces of files without sections (Gmsh, UNV), which are shells then, a number or by
+    the names of groups, {"RIBS": 2.0}. contact: contact pairs of the deck: "ignore", "tied" or "tied:DISTANCE".
 
     progress: True prints a line for each stage, or a function of the stage and its duration [s]. Other threads of Python go on
     meanwhile; Ctrl-C ends it when the stage that runs is done. Raises InputError.
@@ -245,7 +246,8 @@ def reduce(
     }
     words = ("beam_shear", "shell_shear", "mass_form", "grounded_springs")
     expect_texts(options, ("units", "method", "reference", "integration", "solver", *words))
-    options |= reading_options(format, dialect, contact, temperature, density, nodes, mass, dofs)
+    surfaces = None if mesh else thickness
+    options |= reading_options(format, dialect, contact, temperature, density, surfaces, nodes, mass, dofs)
     chosen: dict[str, object] = {}
     for key, places in (("interfaces", interfaces), ("markers", markers)):
         if places is not None:
@@ -257,10 +259,12 @@ def reduce(
         for name in ("format", "dialect", "contact", "temperature", "density", *words, "nodes", "mass", "dofs"):
             if options[name] is not None:
                 raise InputError(f"{name} says how files are read: found it for a mesh")
+        if isinstance(thickness, Mapping):
+            raise InputError(f"thickness: found {thickness!r}, expected a number for a mesh")
         model = fe_model(source, material, thickness, section, chosen)
         return Part._of(_core.reduce_mesh(model, type(source).__name__, options, tell))
-    if thickness is not None or section is not None:
-        raise InputError("thickness and section belong to meshes: found them for a file, which has its own")
+    if section is not None:
+        raise InputError("section belongs to meshes: found it for a file, which has its own")
     options |= material_option(material)
     if not isinstance(source, (str, os.PathLike)):
         found = type(source).__name__
@@ -282,13 +286,14 @@ def info(
     dialect: Literal["abaqus", "calculix"] | None = None,
     contact: str | None = None,
     temperature: float | None = None,
+    thickness: Thickness | None = None,
     nodes: Path | None = None,
     mass: Path | None = None,
     dofs: Path | None = None,
 ) -> FileInfo:
     """What is in a finite-element file, a body file or a SID_FEM file: what `floatframe info` prints, as a dict of its JSON.
     Options as those of `reduce`."""
-    options = reading_options(format, dialect, contact, temperature, density, nodes, mass, dofs) | material_option(material)
+    options = reading_options(format, dialect, contact, temperature, density, thickness, nodes, mass, dofs) | material_option(material)
     text, content = _core.file_info(path_text("path", path), options)
     return FileInfo(text, json.loads(content))
 
@@ -304,6 +309,7 @@ def convert(
     dialect: Literal["abaqus", "calculix"] | None = None,
     contact: str | None = None,
     temperature: float | None = None,
+    thickness: Thickness | None = None,
 ) -> str:
     """Writes what was understood of a finite-element file for another program, as `floatframe convert` does: a CalculiX deck
     (.inp, with a step of `modes` free modes unless it is 0), a Gmsh mesh (.msh) or a VTU file (.vtu). Returns what the command
@@ -311,7 +317,7 @@ def convert(
     count = plain(modes)
     if isinstance(count, bool) or not isinstance(count, int) or not 0 <= count <= 100000:
         raise InputError(f"modes: found {modes!r}, expected a whole number from 0 to 100000")
-    options = reading_options(format, dialect, contact, temperature, density, None, None, None) | material_option(material)
+    options = reading_options(format, dialect, contact, temperature, density, thickness) | material_option(material)
     return _core.convert_file(path_text("source", source), path_text("out", out), count, options)
 
 

@@ -14,6 +14,7 @@ from .meshes import Material
 
 Path = str | os.PathLike[str]
 Density = float | Mapping[str, float]
+Thickness = float | Mapping[str, float]
 
 
 def expect_texts(options: dict[str, Any], names: tuple[str, ...]) -> None:
@@ -28,12 +29,13 @@ def reading_options(
     contact: object,
     temperature: object,
     density: object,
-    nodes: object,
-    mass: object,
-    dofs: object,
+    thickness: object,
+    nodes: object = None,
+    mass: object = None,
+    dofs: object = None,
 ) -> dict[str, Any]:
     """How a file is read, as options of the C++ library."""
-    options: dict[str, Any] = {"format": format, "dialect": dialect, "contact": contact, "temperature": None, "density": None}
+    options: dict[str, Any] = {"format": format, "dialect": dialect, "contact": contact, "temperature": None}
     expect_texts(options, ("format", "dialect", "contact"))
     for name, file in (("nodes", nodes), ("mass", mass), ("dofs", dofs)):
         options[name] = None if file is None else path_text(name, file)
@@ -42,15 +44,22 @@ def reading_options(
         if isinstance(T, bool) or not isinstance(T, (int, float)) or not math.isfinite(T):
             raise InputError(f"temperature: found {temperature!r}, expected a number")
         options["temperature"] = repr(float(T))
-    if density is None:
-        return options
+    options["density"] = named_numbers("density", density, "a number or numbers by the names of materials")
+    options["thickness"] = named_numbers("thickness", thickness, "a number or numbers by the names of groups")
+    return options
+
+
+def named_numbers(name: str, value: object, expected: str) -> list[str] | None:
+    """A number for all, or numbers by names, as texts of the command line."""
+    if value is None:
+        return None
     texts = []
-    for material, value in (density.items() if isinstance(density, Mapping) else [("", density)]):
-        rho = plain(value)
-        if isinstance(rho, bool) or not isinstance(rho, (int, float)) or not isinstance(material, str):
-            raise InputError(f"density: found {density!r}, expected a number or numbers by the names of materials")
-        texts.append(f"{material}={float(rho)!r}" if material else repr(float(rho)))
-    return options | {"density": texts}
+    for key, number in value.items() if isinstance(value, Mapping) else [("", value)]:
+        x = plain(number)
+        if isinstance(x, bool) or not isinstance(x, (int, float)) or not isinstance(key, str):
+            raise InputError(f"{name}: found {value!r}, expected {expected}")
+        texts.append(f"{key}={float(x)!r}" if key else repr(float(x)))
+    return texts
 
 
 def material_option(material: object) -> dict[str, Any]:

@@ -72,7 +72,26 @@ def test_a_file_gives_the_body_of_the_command_line(arm, tmp_path):
 def test_every_option_of_the_command_is_there():
     parameters = set(inspect.signature(ff.reduce).parameters)
     assert set(ff._core.reduce_options()) <= parameters
-    assert parameters - set(ff._core.reduce_options()) == {"source", "thickness", "section", "progress"}
+    assert parameters - set(ff._core.reduce_options()) == {"source", "section", "progress"}
+
+
+def test_thickness_of_surfaces_of_a_file(tmp_path):
+    file = tmp_path / "plate.msh"
+    file.write_text(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"RIB\"\n$EndPhysicalNames\n$Nodes\n6\n"
+        "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 2 1 0\n$EndNodes\n"
+        "$Elements\n2\n1 3 2 1 1 1 2 3 4\n2 3 2 0 2 2 5 6 3\n$EndElements\n"
+    )
+    steel = ff.Material(2.1e11, 0.3, 7850)
+    info = ff.info(file, material=steel, thickness={"RIB": 0.01, "": 0.004})
+    assert info["mass"] == pytest.approx(7850 * 0.014, rel=1e-12)
+    held = {"A": ff.node(1)}
+    assert ff.reduce(file, units="m-kg-s", thickness=0.01, interfaces=held, **QUICK).invariants.m == pytest.approx(157.0)
+    ff.convert(file, tmp_path / "plate.inp", material=steel, thickness=0.01)
+    assert "SHELL SECTION" in (tmp_path / "plate.inp").read_text().upper()
+    for wrong in ("thick", True, {1: 0.01}, {"RIB": None}):
+        with pytest.raises(ff.InputError, match="thickness: found"):
+            ff.info(file, thickness=wrong)
 
 
 def test_all_ways_of_choosing_nodes(arm_arguments):

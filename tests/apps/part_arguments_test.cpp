@@ -47,10 +47,10 @@ TEST(PartArguments, OptionsOfReadingAreThoseOfInfo) {
   PartArguments arguments;
   std::vector<std::string> names;
   for (const Option& option : arguments.table(true)) names.push_back(option.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"--format", "--dialect", "--beam-shear",
-                                             "--shell-shear", "--mass-form", "--material",
-                                             "--density", "--contact", "--temperature",
-                                             "--grounded-springs", "--nodes", "--mass", "--dofs"}));
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "--format", "--dialect", "--beam-shear", "--shell-shear", "--mass-form",
+                       "--material", "--density", "--thickness", "--contact", "--temperature",
+                       "--grounded-springs", "--nodes", "--mass", "--dofs"}));
 }
 
 TEST(PartArguments, RepeatedOptionsKeepTheirOrder) {

@@ -170,10 +170,12 @@ TEST(Gmsh, ErrorsOfText) {
        "arm.msh:26: a block of dimension 3 has elements of type 2 (3-node triangle)"},
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "0 0 0 0\n",
        "arm.msh: the mesh has no elements; a part needs tetrahedra, hexahedra or wedges (in Gmsh: "
-       "mesh in 3D and give the volume a physical group)"},
+       "mesh in 3D and give the volume a physical group), or surfaces to which a thickness is "
+       "given (--thickness, key `thickness`)"},
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 1 1 1\n2 1 2 1\n1 1 2 3\n",
        "arm.msh: the mesh has no solid elements, only surfaces; a part needs tetrahedra, hexahedra "
-       "or wedges (in Gmsh: mesh in 3D and give the volume a physical group)"},
+       "or wedges (in Gmsh: mesh in 3D and give the volume a physical group), or surfaces to which "
+       "a thickness is given (--thickness, key `thickness`)"},
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 2 1 2\n3 1 4 2\n1 1 2 3 4\n1 1 2 3 4\n",
        "arm.msh:28: element 1 is in the file twice, first in line 27"},
       {"1 1 1 1\n3 1 4 1\n1 1 2 3 4\n", "1 1 1 1\n3 1 14 1\n9 1 2 3 4 1 2 3 4 1 2 3 4 1 2\n",

@@ -197,10 +197,10 @@ TEST(Unv, FaultyFiles) {
        "a.unv:14: node 1 is in the file twice, first in line 3"},
       {n,
        "a.unv: the file has 0 elements and none of them is solid; a part needs tetrahedra, "
-       "bricks or wedges"},
+       "bricks or wedges, or shells to which a thickness is given (--thickness, key `thickness`)"},
       {elements("1 91 2 1 7 3\n1 2 3\n"),
        "a.unv: the file has 1 elements and none of them is solid; a part needs tetrahedra, bricks "
-       "or wedges"},
+       "or wedges, or shells to which a thickness is given (--thickness, key `thickness`)"},
       {elements("1 161 2 1 7 1\n1\n"),
        "a.unv:14: element 1 is a lumped mass, whose value is in a table of properties of the "
        "format, which is not read; remove it and describe it in the model"},

@@ -57,6 +57,8 @@ Texts special(O::Special::What what) {
               {"5,0.25,2", "{young: 5, poisson: 0.25, density: 2}"}};
     case What::densities:
       return {{"7.5", "7.5"}, {"STEEL=7.5", "{STEEL: 7.5}"}, {"STEEL=0", "{STEEL: 0}"}};
+    case What::thicknesses:
+      return {{"2.5", "2.5"}, {"RIB=2.5", "{RIB: 2.5}"}, {"RIB=3", "{RIB: 3}"}};
     case What::contact:
       return {{"ignore", "ignore"}, {"tied", "tied"}, {"tied:0.5", "tied:0.5"}};
     case What::temperature:

@@ -27,13 +27,13 @@ const std::vector<FeFormat>& formats() {
   static const std::vector<FeFormat> list{
       {"abaqus", "Abaqus / CalculiX deck (.inp)", {".inp"}, looks_like_abaqus, read_abaqus},
       {"ansys", "ANSYS deck (.cdb)", {".cdb"}, looks_like_ansys, read_ansys},
-      {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh},
+      {"gmsh", "Gmsh mesh (.msh)", {".msh"}, looks_like_gmsh, read_gmsh, true},
       {"nastran",
        "Nastran bulk data (.bdf)",
        {".bdf", ".dat", ".nas", ".fem", ".blk"},
        looks_like_nastran,
        read_nastran},
-      {"unv", "Universal file (.unv)", {".unv"}, looks_like_unv, read_unv},
+      {"unv", "Universal file (.unv)", {".unv"}, looks_like_unv, read_unv, true},
       {"dmig", "Nastran matrices (DMIG, .pch)", {".pch"}, looks_like_dmig, read_dmig},
       {"calculix_matrices",
        "CalculiX matrices (.sti, .mas, .dof)",
@@ -194,6 +194,11 @@ FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& opt
                                  "CalculiX: it is read as '{}'",
                                  word(options.dialect), chosen.name));
   }
+  if (!options.thicknesses.empty() && !chosen.without_sections)
+    throw InputError({file.string()},
+                     fmt::format("a thickness is given, but shells of the format '{}' have that of "
+                                 "the file: leave it out",
+                                 chosen.name));
   FeModel model = chosen.read(file, options);
   fill_densities(file, options, model);
   choose(options, model);

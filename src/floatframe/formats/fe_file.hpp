@@ -57,6 +57,10 @@ struct FeReadOptions {
   /// For materials whose density the file does not give, by their names, in the units of the file;
   /// by an empty name: of all others.
   std::map<std::string, double> densities;
+  /// Formats without sections (Gmsh, UNV): of surface elements, which are shells then, by the names
+  /// of their groups, in the units of the file; by an empty name: of all that are no faces of
+  /// solids and in none of these groups.
+  std::map<std::string, double> thicknesses;
   /// Matrices without coordinates: a deck (any format) or "node,x,y,z" CSV with the nodes.
   std::filesystem::path nodes;
   /// Matrix formats: the mass matrix and the dof map, if they cannot be found beside the stiffness.
@@ -83,6 +87,8 @@ struct FeFormat {
   /// Does the beginning of the file (decompressed) look like this format?
   bool (*recognise)(std::string_view beginning);
   FeModel (*read)(const std::filesystem::path& file, const FeReadOptions& options);
+  /// Surfaces are shells only by FeReadOptions::thicknesses.
+  bool without_sections = false;
 };
 
 std::span<const FeFormat> fe_formats();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "floatframe/body/body_stress.hpp"
 #include "floatframe/body/flexible_body.hpp"
 
 namespace floatframe {

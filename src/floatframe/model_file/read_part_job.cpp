@@ -58,7 +58,11 @@ class JobReader {
       case Special::What::material:
         return material(option.key);
       case Special::What::densities:
-        return densities(option.key);
+        return named_numbers(option.key, job_.read.densities, non_negative_number(""),
+                             "a map of materials to densities");
+      case Special::What::thicknesses:
+        return named_numbers(option.key, job_.read.thicknesses, positive_number(""),
+                             "a map of groups to thicknesses");
       case Special::What::contact:
         return contact(option);
       case Special::What::temperature:
@@ -117,15 +121,17 @@ class JobReader {
     job_.read.material = material;
   }
 
-  void densities(const char* key) {
+  /// A number for all, or a map of names to numbers.
+  void named_numbers(const char* key, std::map<std::string, double>& numbers,
+                     const NumberRule& rule, const char* expected) {
     const auto v = s_.get(key);
     if (!v) return;
     if (!v->is_map()) {
-      job_.read.densities[""] = v->number(non_negative_number("")).value_or(1.0);
+      numbers[""] = v->number(rule).value_or(1.0);
       return;
     }
-    for (const auto& [name, density] : v->named("a map of materials to densities", true))
-      job_.read.densities[name] = density.number(non_negative_number("")).value_or(1.0);
+    for (const auto& [name, number] : v->named(expected, true))
+      numbers[name] = number.number(rule).value_or(1.0);
   }
 
   void contact(const PartOption& option) {

@@ -113,7 +113,7 @@ Special densities() {
           [](const PartJob& job) {
             Texts out;
             for (const auto& [name, density] : job.read.densities)
-              out.push_back(density_text(name, density));
+              out.push_back(named_number_text(name, density));
             return out;
           },
           [](PartJob& job, const std::string& text) {
@@ -122,6 +122,24 @@ Special densities() {
               throw InputError(fmt::format(
                   "--density: two densities for {}",
                   name.empty() ? "all materials" : fmt::format("the material '{}'", name)));
+          },
+          true};
+}
+
+Special thicknesses() {
+  return {Special::What::thicknesses,
+          [](const PartJob& job) {
+            Texts out;
+            for (const auto& [name, thickness] : job.read.thicknesses)
+              out.push_back(named_number_text(name, thickness));
+            return out;
+          },
+          [](PartJob& job, const std::string& text) {
+            auto [name, thickness] = thickness_argument(text);
+            if (!job.read.thicknesses.emplace(name, thickness).second)
+              throw InputError(
+                  fmt::format("--thickness: two thicknesses for {}",
+                              name.empty() ? "all shells" : fmt::format("the group '{}'", name)));
           },
           true};
 }
@@ -190,6 +208,10 @@ std::vector<PartOption> list() {
       {"density", "density", "RHO or NAME=RHO",
        "Density of materials without one, of all or by name, in the units of the file; repeatable",
        densities(), true},
+      {"thickness", "thickness", "T or GROUP=T",
+       "Thickness of surface elements of files without one (Gmsh, UNV), which are shells then, of "
+       "all or by group, in the units of the file; repeatable",
+       thicknesses(), true},
       {"contact", "contact", "WORD",
        "Contact pairs of the deck: ignore leaves them free, tied joins them (tied:DISTANCE); "
        "default: they are refused",
@@ -241,9 +263,9 @@ std::vector<PartOption> list() {
 [[maybe_unused]] void every_member_has_an_entry(const PartJob& job) {
   // The content of the file is part of every key.
   [[maybe_unused]] const auto& [file, format, units, read, options] = job;
-  [[maybe_unused]] const auto& [material, densities, nodes, mass, dofs, dialect, beam_shear,
-                                shell_shear, mass_form, contact, contact_distance, grounded_springs,
-                                temperature] = read;
+  [[maybe_unused]] const auto& [material, densities, thicknesses, nodes, mass, dofs, dialect,
+                                beam_shear, shell_shear, mass_form, contact, contact_distance,
+                                grounded_springs, temperature] = read;
   // `progress` decides nothing.
   [[maybe_unused]] const auto& [interfaces, markers, method, modes, max_frequency, effective_mass,
                                 reference, integration, damping_ratio, check_free_modes, stresses,

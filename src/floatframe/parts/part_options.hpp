@@ -54,6 +54,7 @@ struct PartOption {
       format,
       material,
       densities,
+      thicknesses,
       contact,
       temperature,
       interfaces,

@@ -239,8 +239,8 @@ std::string material_text(const Material& m) {
   return fmt::format("{},{},{}", m.young, m.poisson, m.density);
 }
 
-std::string density_text(const std::string& name, double density) {
-  return name.empty() ? fmt::format("{}", density) : fmt::format("{}={}", name, density);
+std::string named_number_text(const std::string& name, double number) {
+  return name.empty() ? fmt::format("{}", number) : fmt::format("{}={}", name, number);
 }
 
 std::string reference_text(const BodyReference& reference) {
@@ -293,18 +293,39 @@ Material material_argument(const std::string& text) {
   return {x[0], x[1], x[2]};
 }
 
-std::pair<std::string, double> density_argument(const std::string& text) {
+namespace {
+
+/// "number" or "NAME=number"; nothing if the text is something else.
+std::optional<std::pair<std::string, double>> named_number(const std::string& text) {
   const std::size_t equals = text.rfind('=');
   const bool named = equals != std::string::npos;
   const std::string number = named ? text.substr(equals + 1) : text;
   char* end = nullptr;
-  const double density = std::strtod(number.c_str(), &end);
-  if (number.empty() || *end != '\0' || !std::isfinite(density) || density < 0.0 || equals == 0)
+  const double value = std::strtod(number.c_str(), &end);
+  if (number.empty() || *end != '\0' || !std::isfinite(value) || equals == 0) return {};
+  return std::pair{named ? text.substr(0, equals) : "", value};
+}
+
+}  // namespace
+
+std::pair<std::string, double> density_argument(const std::string& text) {
+  const auto found = named_number(text);
+  if (!found || found->second < 0.0)
     throw InputError(
         fmt::format("--density: found '{}', expected a density in the units of the "
                     "file or MATERIAL=density, such as 7.85e-9 or STEEL=7.85e-9",
                     text));
-  return {named ? text.substr(0, equals) : "", density};
+  return *found;
+}
+
+std::pair<std::string, double> thickness_argument(const std::string& text) {
+  const auto found = named_number(text);
+  if (!found || !(found->second > 0.0))
+    throw InputError(
+        fmt::format("--thickness: found '{}', expected a thickness above 0 in the units of the "
+                    "file or GROUP=thickness, such as 2 or RIBS=2",
+                    text));
+  return *found;
 }
 
 BodyReference reference_argument(const std::string& text) {

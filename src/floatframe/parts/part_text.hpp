@@ -23,7 +23,8 @@ std::optional<unsigned> dofs_of(const std::string& text);
 std::string interface_text(const InterfaceDescription& interface);
 std::string marker_text(const MarkerDescription& marker);
 std::string material_text(const Material& material);
-std::string density_text(const std::string& name, double density);
+/// A density or thickness: "number" or "NAME=number".
+std::string named_number_text(const std::string& name, double number);
 std::string reference_text(const BodyReference& reference);
 /// The texts read again. Each throws InputError with one sentence that names the option and what
 /// was expected.
@@ -33,6 +34,8 @@ MarkerDescription marker_argument(const std::string& text);
 Material material_argument(const std::string& text);
 /// "density" or "NAME=density": the name of a material, empty for all.
 std::pair<std::string, double> density_argument(const std::string& text);
+/// "thickness" or "NAME=thickness": the name of a group, empty for all.
+std::pair<std::string, double> thickness_argument(const std::string& text);
 /// "mean_axis", "buckens" or "node:NAME"
 BodyReference reference_argument(const std::string& text);
 

@@ -12,9 +12,12 @@ struct GmshType {
   const char* name = "";
   int dimension = 0;
   int nodes = 0;
-  std::optional<ElementType> solid;  ///< the solid element that it is, if there is one
-  std::array<int, 20> order{};       ///< solids: node k of the element is node order[k] of the file
+  std::optional<ElementType> element;  ///< the solid or shell that it is, if there is one
+  std::array<int, 20> order{};  ///< of these: node k of the element is node order[k] of the file
 };
+
+/// Of a triangle or quadrilateral of any order.
+int surface_corners(const GmshType& type) noexcept;
 
 /// Null if the number is unknown.
 const GmshType* gmsh_type(int number) noexcept;

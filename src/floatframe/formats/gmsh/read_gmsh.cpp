@@ -6,8 +6,10 @@
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "floatframe/formats/gmsh/gmsh_mesh.hpp"
+#include "floatframe/formats/surface_thickness.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
@@ -18,15 +20,16 @@ class GmshModel {
  public:
   GmshModel(const GmshMesh& mesh, const GmshStream& in, const FeReadOptions& options,
             const std::string& name)
-      : mesh_(mesh), in_(in), options_(options) {
+      : mesh_(mesh), in_(in), options_(options), thickness_(options.thicknesses) {
     model_.files.push_back(name);
   }
 
   FeModel build() {
     nodes();
     material();
-    elements();
     group_names();
+    shells();
+    elements();
     sets();
     for (const std::string& section : mesh_.passed_over) {
       model_.notes.push_back(
@@ -80,8 +83,10 @@ class GmshModel {
     }
   }
 
-  /// The element's nodes as indices, in the order of the file; false if there is an error.
+  /// The element's nodes as indices, in the order of the file; false if there is an error, which is
+  /// said once.
   bool gather(const GmshElement& e, std::vector<int>& nodes) {
+    if (faulty_.contains(e.first)) return false;
     nodes.clear();
     for (int k = 0; k < e.type->nodes; ++k) {
       const int id = mesh_.element_nodes[e.first + k];
@@ -89,6 +94,7 @@ class GmshModel {
       if (it == index_.end()) {
         error(e.at, fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
                                 e.type->name, id));
+        faulty_.insert(e.first);
         return false;
       }
       nodes.push_back(it->second);
@@ -96,18 +102,56 @@ class GmshModel {
     return true;
   }
 
+  /// Decides which surface elements are shells.
+  void shells() {
+    section_.assign(thickness_.any() ? mesh_.elements.size() : 0, -1);
+    if (!thickness_.any()) return;
+    model_.shells = thickness_.sections();
+    std::vector<int> nodes, corners;
+    for (const GmshElement& e : mesh_.elements) {
+      if (e.type->dimension < 3 || !e.type->element || !gather(e, nodes)) continue;
+      corners.resize(nodes.size());
+      for (std::size_t k = 0; k < nodes.size(); ++k) corners[k] = nodes[e.type->order[k]];
+      thickness_.add_solid(*e.type->element, corners);
+    }
+    std::map<int, std::vector<std::string>> names;  // of a list of groups
+    for (std::size_t i = 0; i < mesh_.elements.size(); ++i) {
+      const GmshElement& e = mesh_.elements[i];
+      if (e.type->dimension != 2 || !gather(e, nodes)) continue;
+      const auto [list, fresh] = names.try_emplace(e.groups);
+      if (fresh)
+        for (const int tag : mesh_.group_lists[e.groups]) list->second.push_back(name_of(2, tag));
+      const auto choice = thickness_.choose(
+          std::span(nodes).first(static_cast<std::size_t>(surface_corners(*e.type))), list->second);
+      if (!choice.error.empty()) error(e.at, fmt::format("element {} {}", e.id, choice.error));
+      section_[i] = choice.section;
+    }
+    std::vector<std::string> known;
+    for (const auto& [key, name] : names_)
+      if (key.first == 2) known.push_back(name);
+    for (std::string& message : thickness_.not_found(known))
+      errors_.push_back({{model_.files[0], 0, 0}, std::move(message)});
+  }
+
+  /// Solids, and surfaces with a thickness.
+  bool is_part(std::size_t i) const {
+    return mesh_.elements[i].type->dimension == 3 || (!section_.empty() && section_[i] >= 0);
+  }
+
   void elements() {
     int dimension = -1;
     for (const GmshElement& e : mesh_.elements) dimension = std::max(dimension, e.type->dimension);
-    if (dimension < 3) {
+    if (dimension < 3 && !(dimension == 2 && thickness_.any())) {
       const auto what = dimension < 0    ? std::string("no elements")
                         : dimension == 2 ? std::string("no solid elements, only surfaces")
                         : dimension == 1 ? std::string("no solid elements, only lines")
                                          : std::string("no solid elements, only points");
-      throw InputError({{model_.files[0], 0, 0},
-                        fmt::format("the mesh has {}; a part needs tetrahedra, hexahedra or wedges "
-                                    "(in Gmsh: mesh in 3D and give the volume a physical group)",
-                                    what)});
+      throw InputError(
+          {{model_.files[0], 0, 0},
+           fmt::format("the mesh has {}; a part needs tetrahedra, hexahedra or wedges "
+                       "(in Gmsh: mesh in 3D and give the volume a physical group), "
+                       "or surfaces to which a thickness is given (--thickness, key `thickness`)",
+                       what)});
     }
     const bool repeats = mesh_.element_per_group && several_groups();
     std::map<int, std::pair<const GmshElement*, int>> unsupported;  // first of a type, number
@@ -123,8 +167,8 @@ class GmshModel {
         error(e.at,
               fmt::format("element {} is in the file twice, first {}", e.id, where(it->second)));
       }
-      if (e.type->dimension < 3) continue;
-      if (!e.type->solid) {
+      if (!is_part(i)) continue;
+      if (!e.type->element) {
         auto& [first, number] = unsupported[e.type->number];
         if (number++ == 0) first = &e;
         continue;
@@ -142,13 +186,15 @@ class GmshModel {
             same_nodes.try_emplace(key, static_cast<int>(model_.elements.size()));
         if (!first) {
           element_index_[i] = known->second;
+          if (e.type->dimension == 2) same_section(e, i, model_.elements[known->second]);
           ++repeated;
           continue;
         }
       }
       element_index_[i] = static_cast<int>(model_.elements.size());
       Element element;
-      element.type = *e.type->solid;
+      element.type = *e.type->element;
+      if (e.type->dimension == 2) element.section = section_[i];
       for (std::size_t k = 0; k < nodes.size(); ++k) {
         element.nodes[k] = nodes[e.type->order[k]];
       }
@@ -169,10 +215,22 @@ class GmshModel {
     }
   }
 
+  /// Of an element that is there again: that of a named group counts.
+  void same_section(const GmshElement& e, std::size_t i, Element& known) {
+    const int others = thickness_.others();
+    if (section_[i] == known.section || section_[i] == others) return;
+    if (known.section != others)
+      error(e.at, fmt::format("element {} is there again, and different thicknesses are given to "
+                              "its groups",
+                              e.id));
+    known.section = section_[i];
+  }
+
   bool several_groups() const {
     int group = -1;
-    for (const GmshElement& e : mesh_.elements) {
-      if (e.type->dimension < 3) continue;
+    for (std::size_t i = 0; i < mesh_.elements.size(); ++i) {
+      const GmshElement& e = mesh_.elements[i];
+      if (!is_part(i)) continue;
       if (group >= 0 && e.groups != group) return true;
       group = e.groups;
     }
@@ -181,6 +239,7 @@ class GmshModel {
 
   static const char* advice(int type) {
     switch (type) {
+      case 10:
       case 12:
       case 13:
       case 14:
@@ -231,7 +290,7 @@ class GmshModel {
       const GmshElement& e = mesh_.elements[i];
       const int dimension = e.type->dimension;
       const auto& groups = mesh_.group_lists[e.groups];
-      if (groups.empty() || (dimension == 3 && element_index_[i] < 0)) continue;
+      if (groups.empty() || (is_part(i) && element_index_[i] < 0)) continue;
       if (dimension < 3 && !gather(e, nodes)) continue;
       for (const int tag : groups) {
         const std::string& name = name_of(dimension, tag);
@@ -244,10 +303,8 @@ class GmshModel {
               model_.files[0], name));
           it->second = -1;
         }
-        if (dimension == 3) {
-          model_.element_sets[name].push_back(element_index_[i]);
-          continue;
-        }
+        if (element_index_[i] >= 0) model_.element_sets[name].push_back(element_index_[i]);
+        if (dimension == 3) continue;
         std::vector<int>& set = model_.node_sets[name];
         std::set<int>& known = members[name];
         for (const int node : nodes) {
@@ -271,7 +328,10 @@ class GmshModel {
   std::unordered_map<int, int> index_;  // of a node number
   std::vector<int> element_index_;      // in the model, of each element of the mesh
   std::map<std::pair<int, int>, std::string> names_;
+  std::unordered_set<std::size_t> faulty_;  // GmshElement::first
   int material_ = -1;
+  SurfaceThickness thickness_;
+  std::vector<int> section_;  // of each element of the mesh that is a shell; empty: no thicknesses
 };
 
 }  // namespace

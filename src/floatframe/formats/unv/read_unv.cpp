@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "floatframe/formats/surface_thickness.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/unv/unv_content.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 class UnvBuild {
  public:
   UnvBuild(TextSource& in, UnvContent content, const FeReadOptions& options)
-      : in_(in), c_(std::move(content)) {
+      : in_(in), c_(std::move(content)), thickness_(options.thicknesses) {
     if (options.material) {
       c_.model.materials.push_back(*options.material);
       c_.model.material_names.emplace_back();
@@ -29,6 +30,7 @@ class UnvBuild {
   }
 
   FeModel model() {
+    if (thickness_.any()) prepare_shells();
     elements();
     spiders();
     groups();
@@ -39,8 +41,16 @@ class UnvBuild {
   }
 
  private:
-  /// The nodes of an element as indices, in the order of the file; false if there is an error.
+  /// The nodes of an element as indices, in the order of the file; false if there is an error,
+  /// which is said once.
   bool gather(const UnvElement& e, std::vector<int>& nodes) {
+    if (faulty_.contains(e.first)) return false;
+    if (look_up(e, nodes)) return true;
+    faulty_.insert(e.first);
+    return false;
+  }
+
+  bool look_up(const UnvElement& e, std::vector<int>& nodes) {
     nodes.clear();
     once_.clear();
     for (int k = 0; k < e.nodes; ++k) {
@@ -60,6 +70,47 @@ class UnvBuild {
     return true;
   }
 
+  /// The faces of solids, and the groups of each element that may be a shell.
+  void prepare_shells() {
+    c_.model.shells = thickness_.sections();
+    std::vector<int> nodes, ordered;
+    for (const UnvElement& e : c_.elements) {
+      if (!e.type->solid || !gather(e, nodes)) continue;
+      put_in_order(*e.type, nodes, ordered);
+      thickness_.add_solid(*e.type->solid, ordered);
+    }
+    for (const UnvGroup& group : c_.groups)
+      for (const auto& [kind, number] : group.members)
+        if (kind == 8) groups_of_[number].push_back(group.name);
+  }
+
+  static void put_in_order(const UnvType& type, const std::vector<int>& nodes,
+                           std::vector<int>& ordered) {
+    ordered.resize(nodes.size());
+    for (std::size_t k = 0; k < nodes.size(); ++k) ordered[k] = nodes[type.order[k]];
+  }
+
+  /// Its section; -1: a skin.
+  int shell_section(const UnvElement& e, const std::vector<int>& nodes) {
+    std::vector<int> ordered;
+    put_in_order(*e.type, nodes, ordered);
+    const std::size_t corners = nodes.size() % 3 == 0 ? 3 : 4;
+    const auto groups = groups_of_.find(e.id);
+    const SurfaceThickness::Choice choice =
+        thickness_.choose(std::span(ordered).first(corners),
+                          groups == groups_of_.end() ? std::vector<std::string>() : groups->second);
+    if (!choice.error.empty())
+      in_.error(e.at, fmt::format("element {} ({}) {}", e.id, e.type->name, choice.error));
+    return choice.section;
+  }
+
+  void thickness_errors() {
+    std::set<std::string> known;
+    for (const UnvGroup& group : c_.groups) known.insert(group.name);
+    for (std::string& message : thickness_.not_found({known.begin(), known.end()}))
+      in_.error({0, 0}, std::move(message));
+  }
+
   void elements() {
     std::vector<int> nodes;
     std::set<int> materials;
@@ -74,13 +125,16 @@ class UnvBuild {
       }
       if (e.type->use == UnvUse::left) ++dampers_;
       if (e.type->use == UnvUse::rigid && gather(e, nodes)) join(e, nodes);
-      if (!e.type->solid) {
+      int section = -1;
+      if (thickness_.any() && e.type->shell && gather(e, nodes)) section = shell_section(e, nodes);
+      if (!e.type->solid && section < 0) {
         skins_ += e.type->use == UnvUse::mesh ? 1 : 0;
         continue;
       }
-      if (!gather(e, nodes)) continue;
+      if (section < 0 && !gather(e, nodes)) continue;
       Element element;
-      element.type = *e.type->solid;
+      element.type = section < 0 ? *e.type->solid : *e.type->shell;
+      element.section = std::max(section, 0);
       for (std::size_t k = 0; k < nodes.size(); ++k) element.nodes[k] = nodes[e.type->order[k]];
       element.material = material_;
       element.id = e.id;
@@ -90,9 +144,11 @@ class UnvBuild {
       materials.insert(e.material);
     }
     materials_ = materials.size();
+    if (thickness_.any()) thickness_errors();
     if (c_.model.elements.empty() && in_.errors() == 0)
       in_.stop({0, 0}, fmt::format("the file has {} elements and none of them is solid; a part "
-                                   "needs tetrahedra, bricks or wedges",
+                                   "needs tetrahedra, bricks or wedges, or shells to which a "
+                                   "thickness is given (--thickness, key `thickness`)",
                                    c_.elements.size()));
     for (const auto& [system, first] : c_.systems_used) {
       const auto known = c_.systems.find(system);
@@ -161,9 +217,11 @@ class UnvBuild {
         }
         if (kind == 7) {
           node_set.push_back(node->second);
-        } else if (const UnvElement& e = c_.elements[element->second]; e.type->solid) {
-          if (e.index >= 0) element_set.push_back(e.index);
-        } else if (gather(e, nodes)) {
+          continue;
+        }
+        const UnvElement& e = c_.elements[element->second];
+        if (e.index >= 0) element_set.push_back(e.index);
+        if (!e.type->solid && gather(e, nodes)) {
           node_set.insert(node_set.end(), nodes.begin(), nodes.end());
         }
       }
@@ -215,7 +273,10 @@ class UnvBuild {
   TextSource& in_;
   UnvContent c_;
   int material_ = -1, skins_ = 0, dampers_ = 0;
+  SurfaceThickness thickness_;
+  std::unordered_map<int, std::vector<std::string>> groups_of_;  // of elements, by their numbers
   std::unordered_set<int> once_;
+  std::unordered_set<std::size_t> faulty_;  // UnvElement::first
   std::unordered_map<int, int> joined_;  // of the nodes of rigid elements, to be followed to a root
   std::vector<std::pair<int, const UnvElement*>>
       in_order_;  // each such node with its first element

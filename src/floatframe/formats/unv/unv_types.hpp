@@ -21,8 +21,9 @@ struct UnvType {
   int nodes = 0;
   bool beam = false;                 ///< a record of orientation and end sections comes first
   std::optional<ElementType> solid;  ///< the solid element that it is, if there is one
-  std::array<int, 20> order{};       ///< solids: node k of the element is node order[k] of the file
+  std::array<int, 20> order{};       ///< of solids and shells: node k is node order[k] of the file
   UnvUse use = UnvUse::mesh;
+  std::optional<ElementType> shell = {};  ///< that it is if a thickness is given to it
 };
 
 /// Null if the number is not known.

@@ -67,7 +67,7 @@ std::array<int, 20> file_order(ElementType type, const GmshType& gmsh) {
     order[2] = 1;
     return order;
   }
-  return gmsh.solid ? gmsh.order : as_it_is;
+  return gmsh.element ? gmsh.order : as_it_is;
 }
 
 using Groups = std::vector<int>;  ///< tags of physical groups, ascending
