@@ -106,8 +106,7 @@ TEST(BadAnsys, NodesAndElements) {
       {"ET,1,42\n" + bad_nodes + "E,1,2,3,4\n",
        "1: type 1 is element 42, which is not read; read are SOLID45, 92, 95, 185, 186, 187, 285, "
        "SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, PIPE288, 289, LINK8, 180, COMBIN14, "
-       "MASS21 "
-       "and MPC184"},
+       "MATRIX27, MASS21 and MPC184"},
       {"ET,1,185\n" + bad_nodes + "E,1,2,3,4,5,6,7,9\n",
        "10: element 1 (SOLID185) has node 9, which is not in the file"},
       {"ET,1,185\n" + bad_nodes + "E,1,2,1,4,5,6,7,8\n",
@@ -116,7 +115,12 @@ TEST(BadAnsys, NodesAndElements) {
       {"ET,1,185\n" + bad_nodes + "EN,1,1,2,3,4,5,6,7,8,1\n",
        "10: element 1 (SOLID185): it has 9 nodes, at most 8 are expected"},
       {"ET,1,185\nKEYOPT,1,3,1\n" + bad_nodes + "E,1,2,3,4,5,6,7,8\n" + cdb_steel,
-       "11: element 1 (SOLID185): layers of solids (KEYOPT(3) = 1) are not read"},
+       "11: element 1 (SOLID185): its layers (SECTYPE,n,SHELL) are not of one isotropic material: "
+       "layers of solids are not read"},
+      {"ET,1,190\nSECTYPE,1,SHELL\nSECDATA,1,1\nSECDATA,1,2\n" + bad_nodes + "E,1,2,3,4,5,6,7,8\n" +
+           cdb_steel,
+       "13: element 1 (SOLSH190): its layers (SECTYPE,n,SHELL) are not of one isotropic material: "
+       "layers of solids are not read"},
       {"ET,1,21\nN,1\nE,1\n",
        " the file has 1 elements and none of them is a solid, a shell, a beam or a rod"},
       {bad_solid + cdb_steel + "CMBLOCK,A,NODE,2\n(8i10)\n         1         9\n",
@@ -219,6 +223,9 @@ TEST(BadAnsys, ShellsBeamsAndPoints) {
        "23: real constants 1: a moment of inertia of -2 for element 2 (MASS21), expected none "
        "below "
        "0"},
+      {bad_solid + cdb_steel + "ET,2,21\nTYPE,2\nR,1,1,1,1\nRMORE,,5\nE,1\n",
+       "23: real constants 1: a mass beside its node (constant 8 is 5) is not read; give it a node "
+       "of its own"},
       {bad_solid + cdb_steel + "ET,2,184\nKEYOPT,2,1,6\nTYPE,2\nE,1,2\n",
        "24: element 2 (MPC184): KEYOPT(1) = 6: joints are not read, they are joints of the model; "
        "rigid links (0) and beams (1) are"},

@@ -68,7 +68,7 @@ const AnsysType* AnsysBuild::type(const AnsysElement& e) {
         it->second.at,
         fmt::format("type {} is element {}, which is not read; read are SOLID45, 92, 95, "
                     "185, 186, 187, 285, SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, "
-                    "PIPE288, 289, LINK8, 180, COMBIN14, MASS21 and MPC184",
+                    "PIPE288, 289, LINK8, 180, COMBIN14, MATRIX27, MASS21 and MPC184",
                     e.type, it->second.number));
   }
   return nullptr;

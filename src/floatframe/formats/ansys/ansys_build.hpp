@@ -86,8 +86,11 @@ void set_ansys_principal(double Iyy, double Izz, double Iyz, AnsysBeam& beam);
 /// The node at the end of an arm, which is tied rigidly by `build_ansys_arms`.
 int ansys_arm_node(AnsysBuild& build, int node, const Vec3& arm, const FeSource& at);
 void build_ansys_arms(AnsysBuild& build);
+/// MATRIX27
+void build_ansys_matrix(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
+                        const std::vector<int>& nodes);
 // ansys_build_points.cpp
-/// COMBIN14, MPC184, CERIG, then MASS21.
+/// COMBIN14, MATRIX27, MPC184, CERIG, then MASS21.
 void build_ansys_springs(AnsysBuild& build);
 void build_ansys_rigid(AnsysBuild& build);
 void build_ansys_masses(AnsysBuild& build);

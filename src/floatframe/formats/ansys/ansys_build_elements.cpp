@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <span>
 
 #include "floatframe/fe/solid_shapes.hpp"
@@ -73,18 +74,34 @@ class AnsysElementBuilder {
     if (library.family == F::shell) {
       build_ansys_shell(b_, e, type, element);
     } else {
-      if (layered(type)) {
-        b_.error(e, "layers of solids (KEYOPT(3) = 1) are not read");
-        return false;
-      }
+      if (!layers(e, type, element)) return false;
       if (b_.model.materials[element.material].elasticity)
         element.orientation = b_.orientation(e.system, e.at, b_.label(e));
     }
     return true;
   }
 
-  static bool layered(const AnsysType& type) {
-    return (type.number == 185 || type.number == 186) && type.keyopt[3] != 0;
+  /// Solids with KEYOPT(3) = 1, and SOLSH190 with a section, have layers: they are read if all are
+  /// of one isotropic material.
+  bool layers(const AnsysElement& e, const AnsysType& type, Element& element) {
+    const bool layered = (type.number == 185 || type.number == 186) && type.keyopt[3] != 0;
+    const AnsysSection* section = b_.section(e, "SHEL");
+    if (!layered && (type.number != 190 || section == nullptr)) return true;
+    std::set<int> materials;
+    if (section != nullptr)
+      for (const std::vector<double>& row : section->rows)
+        if (ansys_value(row, 0) != 0.0) {
+          const int id = static_cast<int>(ansys_value(row, 1));
+          materials.insert(id == 0 ? e.material : id);
+        }
+    if (materials.size() == 1) {
+      element.material = b_.material(*materials.begin(), e);
+      if (!b_.model.materials[element.material].elasticity) return true;
+    }
+    b_.error(e,
+             "its layers (SECTYPE,n,SHELL) are not of one isotropic material: layers of solids "
+             "are not read");
+    return false;
   }
 
   /// An edge without its mid-side node is straight: a node of its own there moves as the mean of

@@ -144,6 +144,10 @@ void build_ansys_springs(AnsysBuild& b) {
          springs.one(e, type, nodes);
        });
   springs.notes();
+  each(b, F::matrix,
+       [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& nodes) {
+         build_ansys_matrix(b, e, type, nodes);
+       });
 }
 
 /// KEYOPT(1) of MPC184: 0 a rigid link, of which only the length is kept, 1 a rigid beam.
@@ -216,6 +220,12 @@ void build_ansys_masses(AnsysBuild& b) {
                                                     e.real, k < 3 ? "mass" : "moment of inertia",
                                                     real->value(k), b.label(e)));
     if (type.keyopt[3] == 0) {
+      for (std::size_t k = 7; k < 10; ++k)
+        if (real->value(k) != 0.0)
+          return b.source.error(
+              real->at, fmt::format("real constants {}: a mass beside its node (constant {} is "
+                                    "{:g}) is not read; give it a node of its own",
+                                    e.real, k + 1, real->value(k)));
       for (std::size_t k = 1; k < 3; ++k)
         if (std::abs(real->value(k) - m.mass) > 1e-9 * std::abs(m.mass))
           return b.source.error(

@@ -14,6 +14,7 @@ constexpr AnsysLibraryElement ansys_library[] = {
     {8, "LINK8", F::rod, 2},
     {14, "COMBIN14", F::spring, 2},
     {21, "MASS21", F::mass, 1},
+    {27, "MATRIX27", F::matrix, 2},
     {45, "SOLID45", F::brick, 8},
     {63, "SHELL63", F::shell, 4},
     {92, "SOLID92", F::tet, 10},

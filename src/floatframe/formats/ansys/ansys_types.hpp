@@ -20,6 +20,7 @@ enum class AnsysFamily {
   rod,         ///< 2 nodes
   mass,        ///< 1 node
   spring,      ///< 2 nodes
+  matrix,      ///< 2 nodes
   rigid,       ///< MPC184
   contact,     ///< CONTA171 to 178
   target,      ///< TARGE169, 170

@@ -1,0 +1,137 @@
+// ANSYS decks: MATRIX27 as springs, and solids whose layers are of one material.
+#include <gtest/gtest.h>
+
+#include "formats/ansys_deck.hpp"
+
+namespace floatframe::test {
+namespace {
+
+using Mat12 = Eigen::Matrix<double, 12, 12>;
+
+/// A stiffness as real constants: the upper triangle by rows, six in a line.
+std::string matrix_constants_of(const Mat12& K, int digits = 17) {
+  std::string text = "R,7";
+  int k = 0;
+  for (int i = 0; i < 12; ++i)
+    for (int j = i; j < 12; ++j, ++k) {
+      if (k > 0 && k % 6 == 0) text += "\nRMORE";
+      text += fmt::format(",{:.{}g}", K(i, j), digits);
+    }
+  return text + "\n";
+}
+
+/// Two nodes 5 apart along x, the second turned by 30 degrees about z, beside a brick.
+std::string matrix_deck(const std::string& constants, const std::string& options = "4") {
+  return "ET,1,185\nET,2,27\nKEYOPT,2,3," + options +
+         "\nN,1\nN,2,2\nN,3,2,1\nN,4,0,1\nN,5,0,0,1\nN,6,2,0,1\nN,7,2,1,1\nN,8,0,1,1\n"
+         "N,20,3,0,0\nN,21,8,0,0,30\nE,1,2,3,4,5,6,7,8\n" +
+         cdb_steel + constants + "TYPE,2\nREAL,7\nE,20,21\n";
+}
+
+Mat12 of_springs(const FeModel& m) {
+  Mat12 K = Mat12::Zero();
+  for (const Spring& s : m.springs) {
+    Eigen::Matrix<double, 12, 1> d;
+    d << s.directions[0], s.directions[1];
+    K += s.stiffness * d * d.transpose();
+  }
+  return K;
+}
+
+/// Bending in two planes, tension and torsion of a beam along x.
+Mat12 beam_matrix(double L, double EA, double GJ, double EIy, double EIz) {
+  Eigen::Matrix<double, 6, 12> B = Eigen::Matrix<double, 6, 12>::Zero();  // strains of the ends
+  B(0, 0) = B(1, 3) = -1;
+  B(0, 6) = B(1, 9) = 1;
+  for (int end = 0; end < 2; ++end) {  // rotations from the chord
+    B(2 + end, 1) = 1 / L;
+    B(2 + end, 7) = -1 / L;
+    B(2 + end, 5 + 6 * end) = 1;
+    B(4 + end, 2) = -1 / L;
+    B(4 + end, 8) = 1 / L;
+    B(4 + end, 4 + 6 * end) = 1;
+  }
+  Mat6 D = Mat6::Zero();
+  D(0, 0) = EA / L;
+  D(1, 1) = GJ / L;
+  D.block<2, 2>(2, 2) << 4 * EIz / L, 2 * EIz / L, 2 * EIz / L, 4 * EIz / L;
+  D.block<2, 2>(4, 4) << 4 * EIy / L, 2 * EIy / L, 2 * EIy / L, 4 * EIy / L;
+  return B.transpose() * D * B;
+}
+
+TEST(AnsysMatrices, StiffnessIsTheSumOfItsSprings) {
+  const Mat12 K = beam_matrix(5.0, 2e5, 3e4, 7e3, 9e3);
+  Mat12 T = Mat12::Identity();  // nodal axes of the second node
+  const Mat3 R = Eigen::AngleAxisd(EIGEN_PI / 6, Vec3::UnitZ()).toRotationMatrix();
+  T.block<3, 3>(6, 6) = T.block<3, 3>(9, 9) = R;
+  const FeModel m = ansys_of(matrix_deck(matrix_constants_of(T.transpose() * K * T)));
+  ASSERT_EQ(m.springs.size(), 6u);  // as many as strains
+  EXPECT_LE((of_springs(m) - K).norm(), 1e-9 * K.norm());
+  EXPECT_LE(((of_springs(m) - K).bottomRightCorner<3, 3>().norm()), 1e-9 * 9e3);
+  for (const Spring& s : m.springs) {
+    EXPECT_EQ(m.node_ids[s.nodes[0]], 20);
+    EXPECT_GT(s.stiffness, 0.0);
+  }
+  // With the nine digits that a file may have.
+  const FeModel rough = ansys_of(matrix_deck(matrix_constants_of(T.transpose() * K * T, 9)));
+  EXPECT_EQ(rough.springs.size(), 6u);
+  EXPECT_LE((of_springs(rough) - K).norm(), 1e-7 * K.norm());
+}
+
+/// The example of the manual: C1 = C58 = K, C7 = -K is a spring along x.
+TEST(AnsysMatrices, OneSpring) {
+  Mat12 K = Mat12::Zero();
+  K(0, 0) = K(6, 6) = 40.0;
+  K(0, 6) = K(6, 0) = -40.0;
+  std::string text = matrix_deck(matrix_constants_of(K));
+  text.replace(text.find("0,0,30"), 6, "0,0,00");
+  const FeModel m = ansys_of(text);
+  ASSERT_EQ(m.springs.size(), 1u);
+  EXPECT_EQ(m.springs[0].stiffness, 40.0);
+  EXPECT_LE((m.springs[0].directions[0] - Vec6::Unit(0)).norm(), 1e-15);
+  EXPECT_LE((m.springs[0].directions[1] + Vec6::Unit(0)).norm(), 1e-15);
+  EXPECT_TRUE(ansys_of(matrix_deck("R,7\n")).springs.empty());
+}
+
+TEST(AnsysMatrices, Errors) {
+  Mat12 K = Mat12::Zero();
+  K(3, 3) = K(9, 9) = 40.0;
+  K(3, 9) = K(9, 3) = -60.0;
+  const std::string constants = matrix_constants_of(K), at = "element 2 (MATRIX27): ";
+  EXPECT_EQ(ansys_error(matrix_deck(constants)),
+            "a.cdb:40: " + at + "its stiffness has negative eigenvalues, expected none below 0");
+  K.setZero();
+  K(1, 1) = 5.0;
+  EXPECT_EQ(ansys_error(matrix_deck(matrix_constants_of(K))),
+            "a.cdb:40: " + at +
+                "it holds its nodes to the ground: a translation of both has a force in it; only "
+                "stiffness between its nodes is read");
+  EXPECT_EQ(ansys_error(matrix_deck(constants, "2")),
+            "a.cdb:40: " + at +
+                "KEYOPT(2) = 0, KEYOPT(3) = 2: expected a symmetric stiffness (0, 4); matrices of "
+                "mass are not read, give MASS21");
+  EXPECT_EQ(ansys_error(matrix_deck(constants + "RMORE,3\n")),
+            "a.cdb:25: real constants 7: constant 79 is 3, expected 78 of a symmetric matrix");
+  EXPECT_EQ(ansys_error(matrix_deck("R,8,1\n")),
+            "a.cdb:28: " + at + "its real constants 7 are not in the file");
+  const FeModel damper = ansys_of(matrix_deck(constants, "5"));
+  EXPECT_TRUE(damper.springs.empty());
+  EXPECT_EQ(damper.notes.at(0), "a.cdb:40: " + at +
+                                    "its damping is passed over, the part has modal damping "
+                                    "(--damping)");
+}
+
+TEST(AnsysLayers, OfOneMaterial) {
+  const std::string nodes =
+      "N,1\nN,2,2\nN,3,2,1\nN,4,0,1\nN,5,0,0,1\nN,6,2,0,1\nN,7,2,1,1\nN,8,0,1,1\n";
+  for (const char* type : {"ET,1,185\nKEYOPT,1,3,1\n", "ET,1,190\n"}) {
+    const FeModel m = ansys_of(type + nodes + cdb_steel +
+                               "MP,EX,2,7e4\nMP,PRXY,2,.33\nMP,DENS,2,2.7e-9\nSECTYPE,1,SHELL\n"
+                               "SECDATA,.5,2\nSECDATA,0,1\nSECDATA,.5,2,45\nE,1,2,3,4,5,6,7,8\n");
+    ASSERT_EQ(m.elements.size(), 1u);
+    EXPECT_EQ(m.materials.at(m.elements[0].material).young, 7e4);
+  }
+}
+
+}  // namespace
+}  // namespace floatframe::test
