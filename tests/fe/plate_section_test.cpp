@@ -100,6 +100,12 @@ TEST(PlateSection, ThinWalls) {
   EXPECT_NEAR(c.center_y, -3.0 * b * b / (6.0 * b + h), 1e-3);
   EXPECT_NEAR(c.center_z, h / 2.0, 1e-9);
   EXPECT_NEAR(c.J, plate_sums(thin_channel).thin_J, 0.01 * c.J);
+  // Walls of 1: ends and corners count for less than 0.2 beside what thin plates have.
+  for (const double size : {1e2, 1e3, 9e3}) {
+    const Plates wide = {between(-size / 2, size / 2, 0, 1), between(-0.5, 0.5, 1, size - 1),
+                         between(-size / 2, size / 2, size - 1, size)};
+    EXPECT_NEAR(section_flow(wide).J, size - 2.0 / 3.0, 0.2 + 1e-3 * size) << size;
+  }
   const double a = 1.0;
   const Plates box = {
       between(-t / 2, a + t / 2, -t / 2, t / 2), between(-t / 2, a + t / 2, a - t / 2, a + t / 2),
@@ -136,6 +142,7 @@ TEST(PlateSection, PlaceAndDirectionDoNotMatter) {
 
 TEST(PlateSection, NoSection) {
   EXPECT_FALSE(section_flow(Plates{between(0, 1, 0, 1e-7)}).found);
+  EXPECT_FALSE(section_flow(Plates{between(0, 1e100, 0, 1e100)}).found);
   EXPECT_FALSE(section_flow(Plates{between(0, 1, 0, 1), between(2, 3, 0, 1)}).found);
 }
 

@@ -11,9 +11,10 @@
 namespace floatframe {
 namespace {
 
-constexpr double longest_side = 1e5;  ///< over the shortest one
+constexpr double thinnest = 1e-4;   ///< wall, of the size of the section
+constexpr double same_edge = 1e-5;  ///< edges nearer than this are one
 
-/// Edges of all plates along one axis, those that differ by rounding once.
+/// Edges of all plates along one axis, those that are nearly at one place once.
 std::vector<double> plate_edges(std::span<const SectionPlate> plates, bool along_y) {
   std::vector<double> all;
   for (const SectionPlate& p : plates) {
@@ -22,7 +23,7 @@ std::vector<double> plate_edges(std::span<const SectionPlate> plates, bool along
     all.push_back(middle + half);
   }
   std::sort(all.begin(), all.end());
-  const double same = 1e-9 * (all.back() - all.front());
+  const double same = same_edge * (all.back() - all.front());
   std::vector<double> edges;
   for (const double x : all)
     if (edges.empty() || x - edges.back() > same) edges.push_back(x);
@@ -129,7 +130,7 @@ class SectionGrid {
     if (factors.singular() >= 0) return flow;
     const MatX b = loads.bottomRows(nodes_ - 1), x = factors.solve(b);
     const Eigen::Matrix3d products = x.transpose() * b;
-    flow.J = s.Iy + s.Iz - products(0, 0);
+    flow.J = torsion(x.col(0), s);
     flow.shear_flexibility = products.bottomRightCorner<2, 2>();
     // The torque of tau about the centroid, of unit forces.
     flow.center_y = s.y - products(2, 0);
@@ -140,6 +141,33 @@ class SectionGrid {
   }
 
  private:
+  /// int (w,y - z)^2 + (w,z + y)^2: of thin walls Iy + Iz - int |grad w|^2 would leave nothing but
+  /// rounding.
+  double torsion(const VecX& warping, const PlateSums& s) const {
+    constexpr double gauss = 0.7745966692414834;  // sqrt(3/5)
+    constexpr std::array<double, 3> points{-gauss, 0.0, gauss}, weights{5.0 / 9, 8.0 / 9, 5.0 / 9};
+    double J = 0.0;
+    for (const auto& [i, j] : cells_) {
+      const double hy = y_[i + 1] - y_[i], hz = z_[j + 1] - z_[j];
+      Mat3 w;
+      for (int k = 0; k < 9; ++k) {
+        const int n = numbers_[place(i, j, k)];
+        w(k / 3, k % 3) = n == 0 ? 0.0 : warping(n - 1);
+      }
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+          const double y = y_[i] + 0.5 * (1.0 + points[a]) * hy - s.y,
+                       z = z_[j] + 0.5 * (1.0 + points[b]) * hz - s.z,
+                       xy = 2.0 / hy * slopes(points[a]).dot(w * shapes(points[b])) - z,
+                       xz = 2.0 / hz * shapes(points[a]).dot(w * slopes(points[b])) + y;
+          J += 0.25 * hy * hz * weights[a] * weights[b] * (xy * xy + xz * xz);
+        }
+    }
+    return J;
+  }
+  static Vec3 shapes(double x) { return {0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)}; }
+  static Vec3 slopes(double x) { return {x - 0.5, -2.0 * x, x + 0.5}; }
+
   struct Cell {
     std::size_t y, z;
   };
@@ -160,7 +188,8 @@ SectionFlow section_flow(std::span<const SectionPlate> plates) {
   const std::vector<double> y = plate_edges(plates, true), z = plate_edges(plates, false);
   const double size = std::max(y.back() - y.front(), z.back() - z.front()),
                least = std::min(shortest_step(y), shortest_step(z));
-  if (!(least * longest_side > size) || !std::isfinite(size)) return {};
+  for (const SectionPlate& p : plates)
+    if (!(std::min(p.height, p.width) >= thinnest * size)) return {};
   const double first = 0.125 * std::max(least, 0.01 * size);
   return SectionGrid(plates, graded_ends(y, first), graded_ends(z, first))
       .solve(plate_sums(plates));
