@@ -4,6 +4,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/force_kind.hpp"
 #include "floatframe/model/rules.hpp"
+#include "floatframe/model/sentences.hpp"
 #include "floatframe/model/validate.hpp"
 
 namespace floatframe::validation {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"

@@ -45,6 +45,7 @@ void read_placement(AbaqusLines& lines, AbaqusPlacement& place) {
 
 void read_abaqus_part(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
   const std::string name = abaqus_name(lines.required(keyword, "NAME"));
+  content.system.reset();
   AbaqusPart part;
   part.at = keyword.at;
   part.scope = content.parts.empty() ? AbaqusScope::part : new_scope(content);
@@ -65,11 +66,13 @@ void read_abaqus_end_part(AbaqusLines& lines, const AbaqusKeyword&, AbaqusConten
     it->second.end = abaqus_sizes(content);
   }
   content.scope = AbaqusScope::assembly;
+  content.system.reset();
   lines.skip_data();
 }
 
 void read_abaqus_assembly(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
   content.scope = AbaqusScope::assembly;
+  content.system.reset();
   lines.skip_data();
 }
 
@@ -118,6 +121,7 @@ void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword&, AbaqusCo
                  it->second.begin[1] < content.elements.size();
   }
   content.scope = AbaqusScope::assembly;
+  content.system.reset();
   lines.skip_data();
 }
 

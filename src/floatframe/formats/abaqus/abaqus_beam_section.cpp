@@ -1,7 +1,8 @@
-// *BEAM SECTION, and *BEAM GENERAL SECTION as CalculiX has it. Abaqus and CalculiX agree on RECT,
-// PIPE (radius, wall) and BOX. CIRC has a radius in Abaqus and one or two diameters in CalculiX
-// (two: an ellipse); a RECT with one number is a square in CalculiX. CalculiX takes CIRC for
-// elements of three nodes only, PIPE and BOX for B32R.
+// *BEAM SECTION, and *BEAM GENERAL SECTION as CalculiX has it (with a material) and as Abaqus has
+// it (with E and G in its lines; also SECTION=GENERAL of given constants). Both programs agree on
+// RECT, PIPE (radius, wall) and BOX. CIRC has a radius in Abaqus and one or two diameters in
+// CalculiX (two: an ellipse); a RECT with one number is a square in CalculiX. CalculiX takes CIRC
+// for elements of three nodes only, PIPE and BOX for B32R.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -107,20 +108,127 @@ bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const Shape&
   return false;
 }
 
+/// A, I11, I12, I22, J of SECTION=GENERAL. Direction 1 is local y.
+bool read_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, BeamSection& beam) {
+  std::vector<std::string_view> fields;
+  lines.next_fields(fields);
+  if (fields.size() < 5) {
+    lines.error(keyword, fmt::format("has {} constants, expected A, I11, I12, I22, J",
+                                     fields.size() == 1 && fields[0].empty() ? 0 : fields.size()));
+    return false;
+  }
+  const std::size_t before = lines.source().errors();
+  beam.A = positive_real(lines, fields[0], "area A");
+  beam.Iy = positive_real(lines, fields[1], "moment I11");
+  if (const double I12 = lines.real_or(fields, 2, 0.0, "moment I12"); I12 != 0.0)
+    lines.source().error(
+        fmt::format("I12 is {:g}, expected 0: give the moments and direction 1 "
+                    "of the principal axes",
+                    I12));
+  beam.Iz = positive_real(lines, fields[3], "moment I22");
+  beam.J = positive_real(lines, fields[4], "torsion constant J");
+  for (std::size_t k = 5; k < fields.size(); ++k)
+    if (lines.real_or(fields, k, 0.0, "sectorial constant") != 0.0)
+      lines.source().error("sectorial moment and warping constant are not read: expected 0");
+  return lines.source().errors() == before;
+}
+
+/// Of the line at a place, which need not be the last one.
+void read_direction(AbaqusLines& lines, const std::vector<std::string_view>& fields,
+                    const FeSource& at, AbaqusSection& section) {
+  section.n1.setZero();
+  for (std::size_t k = 0; k < std::min<std::size_t>(fields.size(), 3); ++k) {
+    if (fields[k].empty()) continue;
+    const std::optional<double> value = parse_real(fields[k]);
+    if (!value)
+      return lines.source().error(at, "direction 1 of the section: " + not_a_real(fields[k]));
+    section.n1[static_cast<Eigen::Index>(k)] = *value;
+  }
+  if (!(section.n1.stableNorm() > 0.0))
+    lines.source().error(at, "direction 1 of the section is zero");
+}
+
+/// E, G: the material of a section that has none.
+void add_material(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
+                  const std::vector<std::string_view>& fields, const std::string& name) {
+  AbaqusMaterial material;
+  material.at = keyword.at;
+  const std::size_t before = lines.source().errors();
+  material.young = positive_real(lines, fields[0], "E");
+  const double G = positive_real(lines, fields[1], "G");
+  if (keyword.has("DENSITY")) {
+    const auto density = parse_real(keyword.value("DENSITY"));
+    if (!density || *density < 0.0)
+      lines.error(keyword, fmt::format("has the density {}, expected a number from 0",
+                                       shown(keyword.value("DENSITY"))));
+    material.density = density;
+  }
+  if (lines.source().errors() > before) return;
+  material.poisson = *material.young / (2.0 * G) - 1.0;
+  if (!(*material.poisson > -1.0 && *material.poisson < 0.5))
+    lines.error(keyword, fmt::format("has E = {:g} and G = {:g}, which no isotropic material has: "
+                                     "expected G from E/3 on",
+                                     *material.young, G));
+  if (content.materials.emplace(name, material).second) content.material_order.push_back(name);
+}
+
+/// Direction 1, which may be missing, then E and G.
+void read_direction_and_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                 AbaqusContent& content, AbaqusSection& section) {
+  std::vector<std::string> texts;
+  FeSource first;
+  std::string_view line;
+  while (lines.next_data(line)) {
+    if (texts.empty()) first = lines.source().here();
+    if (texts.size() < 3) texts.emplace_back(line);
+  }
+  if (texts.empty() || texts.size() > 2) {
+    lines.error(keyword, texts.empty() ? "has no line with E and G behind its dimensions"
+                                       : "depends on temperature or fields (a second line of E and "
+                                         "G), which is not supported");
+    return;
+  }
+  std::vector<std::string_view> fields;
+  if (texts.size() == 2) {
+    split_commas(texts[0], fields);
+    read_direction(lines, fields, first, section);
+  }
+  split_commas(texts.back(), fields);
+  if (fields.size() < 2) {
+    lines.error(keyword, "has one number in its last line, expected E and G");
+    return;
+  }
+  add_material(lines, keyword, content, fields, section.material);
+}
+
+void read_general_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
+                          AbaqusSection& section) {
+  if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::beam, section)) return;
+  if (!read_constants(lines, keyword, section.beam)) return lines.skip_data();
+  read_direction_and_material(lines, keyword, content, section);
+  content.sections.push_back(section);
+}
+
 }  // namespace
 
 void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
                               AbaqusContent& content) {
   AbaqusSection section;
   lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "SECTION", "OFFSET1", "OFFSET2",
-                             "TEMPERATURE", "POISSON"});
+                             "TEMPERATURE", "POISSON", "DENSITY", "LUMPED", "ZERO"});
   no_offset(lines, keyword);
-  if (keyword.name == "BEAMGENERALSECTION" && !keyword.has("MATERIAL")) {
-    lines.error(keyword,
-                "has no MATERIAL, as in Abaqus, which is not supported: use *BEAM SECTION");
-    return lines.skip_data();
+  const bool own_material = keyword.name == "BEAMGENERALSECTION" && !keyword.has("MATERIAL");
+  if (own_material) {
+    section.material = fmt::format("{}, line {}", keyword.shown, keyword.at.line);
+    content.clues.add(DeckDialect::abaqus, keyword.shown + " without MATERIAL", keyword.at);
+  } else if (keyword.has("DENSITY")) {
+    lines.error(keyword, "has MATERIAL and DENSITY: leave the density to the material");
   }
-  section.shape = abaqus_name(lines.required(keyword, "SECTION"));
+  section.shape = own_material && !keyword.has("SECTION")
+                      ? "GENERAL"
+                      : abaqus_name(lines.required(keyword, "SECTION"));
+  if (own_material && section.shape == "GENERAL")
+    return read_general_section(lines, keyword, content, section);
   // RECTANGULAR as well.
   const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const Shape& s) {
     return section.shape.starts_with(s.name);
@@ -153,14 +261,10 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   } else {
     section.beam = box(lines, d[0], d[1], {d[2], d[3], d[4], d[5]});
   }
-  std::vector<std::string_view> fields;
-  if (lines.next_fields(fields)) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      section.n1[static_cast<Eigen::Index>(k)] =
-          lines.real_or(fields, k, 0.0, "direction 1 of the section");
-    }
-    if (!(section.n1.stableNorm() > 0.0))
-      lines.source().error("direction 1 of the section is zero");
+  if (own_material) {
+    read_direction_and_material(lines, keyword, content, section);
+  } else if (std::vector<std::string_view> fields; lines.next_fields(fields)) {
+    read_direction(lines, fields, lines.source().here(), section);
   }
   content.sections.push_back(section);
 }

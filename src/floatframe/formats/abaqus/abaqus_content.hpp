@@ -197,6 +197,12 @@ struct AbaqusPlacement {
   Vec3 at(const Vec3& p) const { return R * (p + t - a) + a; }
 };
 
+/// *SYSTEM: axes in which coordinates of nodes are given.
+struct AbaqusCoordinates {
+  Mat3 axes = Mat3::Identity();  ///< columns in the axes of the part
+  Vec3 origin = Vec3::Zero();
+};
+
 /// How much of each kind has been read: nodes, elements and the lists of things.
 using AbaqusSizes = std::array<std::size_t, 10>;
 
@@ -251,6 +257,7 @@ struct AbaqusContent {
   std::string part;                         ///< the last one
   std::map<AbaqusScope, AbaqusInstance> instances;
   std::map<std::string, AbaqusScope> scope_of_instance;
+  std::optional<AbaqusCoordinates> system;
   int scopes = 2;        ///< how many there are
   std::string material;  ///< the last *MATERIAL
 
@@ -281,6 +288,8 @@ void read_abaqus_elements(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_node_set(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_element_set(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_surface(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_coordinates.cpp
+void read_abaqus_system(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_generate.cpp
 void read_abaqus_generated_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_filled_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);

@@ -216,6 +216,10 @@ void read_abaqus_generated_nodes(AbaqusLines& lines, const AbaqusKeyword& keywor
       !is_one_of(lines, keyword, "LINE", {"C"}, "C or none; parabolas are not read"))
     return;
   const bool round = keyword.has("LINE");
+  if (round && content.system) {
+    lines.error(keyword, "has LINE=C while *SYSTEM holds: put *SYSTEM without lines before it");
+    return lines.skip_data();
+  }
   Generated out(lines, content, keyword.value("NSET"), {});
   std::vector<std::string_view> fields;
   while (lines.next_fields(fields)) {
@@ -292,6 +296,8 @@ void read_abaqus_copied_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
     return lines.skip_data();
   }
   lines.allow_only(keyword, {"CHANGENUMBER", "OLDSET", "NEWSET", "SHIFT", "MULTIPLE"});
+  if (content.system)
+    lines.error(keyword, "shifts while *SYSTEM holds: put *SYSTEM without lines before it");
   const std::string_view change = lines.required(keyword, "CHANGE NUMBER"),
                          old = lines.required(keyword, "OLD SET");
   if (change.empty() || old.empty()) return lines.skip_data();

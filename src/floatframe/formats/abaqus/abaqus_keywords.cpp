@@ -26,7 +26,7 @@ const Refused refused[] = {
     {"contact has no place in a linear part",
      {"CONTACT", "CLEARANCE", "SLIDE LINE", "RIGID SURFACE"}},
     {"take the cut and its tension out of the deck", {"PRE-TENSION SECTION"}},
-    {"write the deck in global directions", {"SYSTEM", "NORMAL"}},
+    {"write the deck in global directions", {"NORMAL"}},
     {"write the deck with all nodes and elements",
      {"NMAP", "SYMMETRIC MODEL GENERATION", "IMPERFECTION", "IMPORT", "MODEL CHANGE", "ADJUST"}},
     {"write the deck with numbers", {"PARAMETER"}},
@@ -123,6 +123,7 @@ const std::initializer_list<const char*> definitions = {
 /// *CHANGE SOLID SECTION belong into a step and change it.
 const std::initializer_list<const char*> of_the_part = {"NODE",
                                                         "NGEN",
+                                                        "SYSTEM",
                                                         "NFILL",
                                                         "NCOPY",
                                                         "ELGEN",

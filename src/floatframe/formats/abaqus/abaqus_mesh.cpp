@@ -1,6 +1,9 @@
 // Nodes, elements, sets and surfaces of Abaqus decks.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/abaqus/abaqus_content.hpp"
@@ -190,9 +193,10 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
 
 void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
   lines.allow_only(keyword, {"NSET", "SYSTEM", "INPUT"});
-  if (keyword.has("SYSTEM") && !same_word(keyword.value("SYSTEM"), "R")) {
-    lines.error(keyword, "has coordinates that are not rectangular, which is not supported");
-  }
+  const bool round = same_word(keyword.value("SYSTEM"), "C");
+  if (keyword.has("SYSTEM") && !round && !same_word(keyword.value("SYSTEM"), "R"))
+    lines.error(keyword, fmt::format("has SYSTEM={}, expected R (rectangular) or C (cylindrical)",
+                                     shown(keyword.value("SYSTEM"))));
   AbaqusSet* const set = set_of_parameter(content.node_sets, keyword, "NSET", content);
   lines.take_input(keyword);
   std::vector<std::string_view> fields;
@@ -221,6 +225,11 @@ void read_abaqus_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusC
       }
       node.p[static_cast<Eigen::Index>(k) - 1] = *value;
     }
+    if (round) {
+      const double angle = node.p.y() * std::numbers::pi / 180.0, r = node.p.x();
+      node.p.head<2>() << r * std::cos(angle), r * std::sin(angle);
+    }
+    if (content.system) node.p = content.system->axes * node.p + content.system->origin;
     const auto [it, added] = content.node_of_label.emplace(AbaqusContent::label(content.scope, *id),
                                                            static_cast<int>(content.nodes.size()));
     if (!added) {

@@ -73,7 +73,7 @@ bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaq
   section.elements.scope = content.scope;
   section.elements.at = keyword.at;
   if (family == Family::solid || family == Family::shell || family == Family::beam) {
-    if (!keyword.has("COMPOSITE"))
+    if (!keyword.has("COMPOSITE") && section.material.empty())
       section.material = abaqus_name(lines.required(keyword, "MATERIAL"));
   }
   if (keyword.has("ORIENTATION")) {
@@ -120,6 +120,9 @@ void read_abaqus_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
     const SourceMark first = lines.source().mark(it->second.at);
     lines.error(keyword, fmt::format("names the material {} a second time ({}:{})", shown(name),
                                      first.file, first.line));
+    // What follows belongs to a material that nothing names.
+    content.material = fmt::format("{} (line {})", name, keyword.at.line);
+    content.materials.emplace(content.material, AbaqusMaterial{});
   } else {
     it->second.at = keyword.at;
     content.material_order.push_back(name);

@@ -26,6 +26,7 @@ struct Known {
 constexpr std::array handlers{
     Known{"HEADING", skip},
     Known{"NODE", read_abaqus_nodes},
+    Known{"SYSTEM", read_abaqus_system},
     Known{"ELEMENT", read_abaqus_elements},
     Known{"NGEN", read_abaqus_generated_nodes},
     Known{"NFILL", read_abaqus_filled_nodes},

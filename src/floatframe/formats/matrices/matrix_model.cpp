@@ -162,7 +162,8 @@ std::vector<DofLabel> read_dof_labels(TextSource& source) {
     }
     labels.push_back({*node, *direction, source.here()});
   });
-  if (labels.empty()) source.error(FeSource{0, 0}, "there are no degrees of freedom in the file");
+  if (labels.empty() && source.errors() == 0)
+    source.error(FeSource{0, 0}, "there are no degrees of freedom in the file");
   return labels;
 }
 
@@ -204,7 +205,8 @@ FeModel read_node_table(TextSource& source) {
     model.node_ids.push_back(*id);
     model.node_sources.push_back(source.here());
   });
-  if (model.positions.empty()) source.error(FeSource{0, 0}, "there are no nodes in the file");
+  if (model.positions.empty() && source.errors() == 0)
+    source.error(FeSource{0, 0}, "there are no nodes in the file");
   source.throw_if_any();
   model.files = source.files();
   return model;
