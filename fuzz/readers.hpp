@@ -213,6 +213,7 @@ inline void history(std::string_view bytes) {
 struct Reader {
   const char* name;
   void (*read)(std::string_view bytes);
+  double bytes = 2e6;  ///< of memory that it may take of any input
 };
 
 inline constexpr Reader readers[] = {
@@ -227,7 +228,7 @@ inline constexpr Reader readers[] = {
     {"nastran", nastran},
     {"unv", unv},
     {"dmig", dmig},
-    {"sid", sid},
+    {"sid", sid, 16e6},  // matrices of up to 500 modes
     {"body_file", body_file},
     {"geometry", geometry},
     {"udp", udp},

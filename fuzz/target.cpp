@@ -25,6 +25,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 #endif
   const Judge judge;
   run(*reader, std::string_view(reinterpret_cast<const char*>(data), size));
-  judge.judge(size, {});
+  Allowance allowance;
+  allowance.bytes = reader->bytes;
+  judge.judge(size, allowance);
   return 0;
 }

@@ -167,6 +167,27 @@ class Info(unittest.TestCase):
         self.assertEqual(len(text["bad_elements"]), 1)
         self.assertNotIn("floatframe reduce part.inp", self.expect(0, "info", "part.inp").stdout)
 
+    def test_mechanisms_are_said(self):
+        # The upper brick hangs on one equation of the lower one.
+        loose = HEAD.replace("2, 5,6,7,8,9,10,11,12", "2, 15,16,17,18,9,10,11,12").replace(
+            "*ELEMENT, TYPE=C3D8, ELSET=LOW", "15, 0,0,1\n16, 1,0,1\n17, 1,1,1\n18, 0,1,1\n*ELEMENT, TYPE=C3D8, ELSET=LOW"
+        )
+        facts = self.facts(loose + "*EQUATION\n2\n15, 3, 1., 5, 3, -1.\n")
+        self.assertIn("without resistance", facts["obstacle"])
+        text = self.expect(0, "info", "part.inp").stdout
+        self.assertNotIn("Interfaces that", text)
+        self.assertNotIn("floatframe reduce part.inp", text)
+
+    def test_a_rigid_bar_between_two_nodes_of_a_solid_is_no_interface(self):
+        facts = self.facts(HEAD + "*MPC\nBEAM, 9, 11\n")
+        self.assertNotIn("node:9", facts["possible_interfaces"])
+
+    def test_bars_of_no_use_say_why(self):
+        bars = "*NODE\n1, 0,0,0\n2, 0,0,1\n*ELEMENT, TYPE=B31, ELSET=B\n1, 1,2\n*MATERIAL, NAME=S\n*ELASTIC\n1., .3\n"
+        self.facts(bars + "*BEAM SECTION, ELSET=B, MATERIAL=S, SECTION=RECT\n.1, .1\n0., 0., 1.\n")
+        text = self.expect(0, "info", "part.inp").stdout
+        self.assertIn("WARNING: 1 element is of no use: element 1 (beam2); the first one has a reference vector parallel", text)
+
     def test_a_hinge_is_no_interface(self):
         # Two nodes that a spider holds without their rotations leave a turn free.
         facts = self.facts(HEAD.replace("9, 10, 11, 12\n", "9, 11\n") + SPIDER)

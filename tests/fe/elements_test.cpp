@@ -43,12 +43,13 @@ ElementInput distorted(ElementType type, Random& random) {
   if (brick(kernel)) p = hex, corners = 8;
   if (wedge(kernel)) p = prism, corners = 6;
   if (pyramid(kernel)) p = pyramid5, corners = 5;
-  if (kernel.family == ElementFamily::shell || is_panel(type))
-    p = hex, corners = kernel.nodes % 3 == 0 ? 3 : 4;
+  if (has_shell_section(type)) p = hex, corners = kernel.nodes % 3 == 0 ? 3 : 4;
   if (is_beam(type)) p = kernel.nodes == 3 ? bar : tet;
   corners = std::min(kernel.nodes, corners);
   for (int a = 0; a < corners; ++a) {
-    in.p[a] = R * (p[a] + random.vec3(0.12)) + Vec3(1, 2, 3);
+    Vec3 moved = p[a] + random.vec3(0.12);
+    if (is_membrane(type)) moved(2) = 0.0;
+    in.p[a] = R * moved + Vec3(1, 2, 3);
   }
   for (const FaceNodes& face : kernel.shape.faces) {
     for (int i = face.corners; i < face.count; ++i) {
@@ -94,7 +95,8 @@ double volume(ElementInput in, ElementType type) {
   };
   const double h = in.shell.thickness;
   if (type == ElementType::tri3 || type == ElementType::tri6) return h * area(0, 1, 2);
-  if (type == ElementType::quad4 || type == ElementType::shear4)
+  if (is_membrane(type) && kernel.nodes % 3 == 0) return h * area(0, 1, 2);
+  if (type == ElementType::quad4 || type == ElementType::shear4 || is_membrane(type))
     return h * quadrilateral(0, 1, 2, 3);
   if (type == ElementType::quad8) in.p[8].setZero();
   for (int a = 0; a < 8 && type == ElementType::quad8; ++a)
@@ -135,10 +137,12 @@ TEST(Elements, RigidMotionsGiveNoForceAndTheMassIsRhoV) {
       EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-12 * K.maxCoeff());
       EXPECT_LT((K * R).cwiseAbs().maxCoeff(), 2e-12 * K.cwiseAbs().maxCoeff());
       // 8 points of 6 strains leave a reduced brick six zero-energy modes of its own.
-      const int zero = type == ElementType::hex20r ? 12
-                       : is_rod(type)              ? 5
-                       : is_panel(type)            ? 11
-                                                   : 6;
+      const int zero = type == ElementType::hex20r       ? 12
+                       : is_rod(type)                    ? 5
+                       : is_panel(type)                  ? 11
+                       : type == ElementType::membrane8r ? 12
+                       : is_membrane(type)               ? kernel.nodes + 3
+                                                         : 6;
       const VecX lambda = symmetric_eigenvalues(K);
       EXPECT_GT(lambda(zero), 1e-9 * K.maxCoeff());
       EXPECT_GT(lambda(0), -1e-12 * K.maxCoeff());

@@ -189,9 +189,9 @@ TEST(BadLayers, NastranDecks) {
        "deck.bdf:8: PCOMP 3: the thickness of ply 2 is -2, expected more than 0"},
       {"2,2.,0.\n", "2,2.,a\n", "deck.bdf:9: PCOMP 3: the angle of ply 2: 'a' is not a number"},
       {"2,2.,0.\n", "5,2.,0.\n", "deck.bdf:8: PCOMP: material 5 is not in the file"},
-      {"PCOMP,3\n", "PCOMP,3,,,,,,,MEM\n",
-       "deck.bdf:8: PCOMP 3: LAM is 'MEM', expected blank, SYM or SMEAR (MEM and BEND have no "
-       "stiffness in bending or in the plane)"},
+      {"PCOMP,3\n", "PCOMP,3,,,,,,,BEND\n",
+       "deck.bdf:8: PCOMP 3: LAM is 'BEND', expected blank, SYM, MEM or SMEAR (BEND has no "
+       "stiffness in the plane)"},
       {"CQUAD4,1,3,1,2,3,4,10.", "CQUAD4,1,3,1,2,3,4,9",
        "deck.bdf:7: coordinate system 9 is not in the file"},
       {"CQUAD4,1,3,1,2,3,4,10.", "CORD2C,9,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCQUAD4,1,3,1,2,3,4,9",
@@ -200,8 +200,11 @@ TEST(BadLayers, NastranDecks) {
       {"CQUAD4,1,3,1,2,3,4,10.\nPCOMP,3\n", "CQUAD4,1,3,1,2,3,4,10.,.5\nPCOMP,3,-1.\n",
        "deck.bdf:7: CQUAD4 1: it has an offset ZOFFS, and its PCOMP 3 a Z0 of -1: give one of "
        "them"},
-      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.\n",
-       "deck.bdf:8: PSHELL 3: MID2 is blank: a membrane without bending stiffness is not "
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,,,1\n",
+       "deck.bdf:8: PSHELL 3: MID3 is '1', but MID2 is blank: a membrane has neither bending nor "
+       "transverse shear"},
+      {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,,1.,1\n",
+       "deck.bdf:8: PSHELL 3: MID1 is blank: a plate without stiffness in its plane is not "
        "supported"},
       {"PCOMP,3\n,1,1.,0.,YES,2,2.,0.\n", "PSHELL,3,1,1.,1,-2.\n",
        "deck.bdf:8: PSHELL 3: 12I/T**3 is -2, expected more than 0"},

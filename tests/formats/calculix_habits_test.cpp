@@ -75,14 +75,5 @@ TEST(CalculixHabits, GeneralSectionsAndWholeWords) {
   EXPECT_EQ(word.sections[0].width, 1.0);
 }
 
-TEST(CalculixHabits, GeneralSectionsOfAbaqusAreRefused) {
-  const std::string error =
-      error_of([] { bar_with("*BEAM GENERAL SECTION, SECTION=PIPE, ELSET=E\n1, 0.2"); });
-  EXPECT_NE(error.find(":7: *BEAM GENERAL SECTION has no MATERIAL, as in Abaqus, which is not "
-                       "supported: use *BEAM SECTION"),
-            std::string::npos)
-      << error;
-}
-
 }  // namespace
 }  // namespace floatframe::test

@@ -71,10 +71,11 @@ FeModel single_element(ElementType type) {
     corners = {place(0, 0, 0), place(1, 0.2, 0.1)};
     model.sections = {BeamSection::rectangle(0.02, 0.03)};
     e.reference = Vec3(0.1, 0.2, 1.0).normalized();
-  } else if (kernel.family == ElementFamily::shell) {
+  } else if (has_shell_section(type)) {
     corners = {place(0, 0, 0), place(1, 0, 0), place(1, 1, 0)};
     if (kernel.nodes == 4 || kernel.nodes == 8) corners.push_back(place(0, 1, 0));
     model.shells = {{.thickness = 0.02, .shear = 0.02 * 5.0 / 6.0, .offset = 0.005}};
+    if (is_membrane(type)) model.shells[0].offset = 0.0;
     for (Vec3& p : corners) p(2) = 0.1 * p(0);
   } else if (kernel.nodes == 4 || kernel.nodes == 10) {
     corners = {place(0, 0, 0), place(1, 0, 0), place(0, 1, 0), place(0, 0, 1)};
@@ -92,7 +93,7 @@ FeModel single_element(ElementType type) {
   if (type == ElementType::beam3) {
     model.positions[2] = corners[1];
     model.positions[1] = 0.5 * (corners[0] + corners[1]);
-  } else if (kernel.family == ElementFamily::shell) {
+  } else if (has_shell_section(type)) {
     const std::size_t n = corners.size();
     for (std::size_t k = n; k < model.positions.size(); ++k)
       model.positions[k] = 0.5 * (corners[k - n] + corners[(k - n + 1) % n]);
@@ -116,6 +117,13 @@ TEST(MeshWriter, DecksOfEveryElement) {
     SCOPED_TRACE(element_type_name(type));
     if (type == ElementType::shear4) continue;  // CalculiX has none
     const FeModel model = single_element(type);
+    if (is_membrane(type)) {
+      const std::string text = written(model, ".inp").bytes;
+      EXPECT_NE(text.find("*ELEMENT, TYPE=M3D"), std::string::npos);
+      EXPECT_NE(text.find("*MEMBRANE SECTION, ELSET=SECTION_1, MATERIAL=STEEL\n0.02\n"),
+                std::string::npos);
+      continue;
+    }
     const FeModel again = there_and_back(model, ".inp");
     if (type == ElementType::pyramid5 || type == ElementType::pyramid13) {
       // A brick with one upper node has the volume of the pyramid.
@@ -358,7 +366,8 @@ TEST(MeshWriter, WhatADeckWouldFalsifyIsRefused) {
             "beams");
   FeModel bare = single_element(ElementType::tet4);
   bare.materials.clear();
-  EXPECT_EQ(refusal(bare), "element 70 (tet4) has no material, which a deck needs");
+  EXPECT_EQ(refusal(bare),
+            "the file has no material, which a deck needs: give one (--material E,NU,RHO)");
   EXPECT_EQ(error_of([] { mesh_format_of("part.stl"); }),
             "part.stl: found the ending '.stl', expected one of: CalculiX deck (.inp); Gmsh mesh, "
             "format 4.1 (.msh); VTK unstructured grid, for ParaView (.vtu)");

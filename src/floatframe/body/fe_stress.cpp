@@ -59,6 +59,7 @@ StressRecovery::StressRecovery(const FeModel& model, const std::vector<int>& sur
         add_solid(e, point_of);
         break;
       case ElementFamily::shell:
+      case ElementFamily::membrane:
         add_shell(e, point_of);
         break;
       case ElementFamily::beam:
@@ -86,8 +87,9 @@ int StressRecovery::group_of(const Element& element) {
   group_keys_.push_back(key);
   const Material& m = model_.materials[element.material];
   const auto named = static_cast<std::size_t>(element.material) < model_.material_names.size();
-  const bool isotropic =
-      family == ElementFamily::shell ? is_plain(model_.shells[element.section], m) : !m.elasticity;
+  const bool isotropic = family == ElementFamily::shell || family == ElementFamily::membrane
+                             ? is_plain(model_.shells[element.section], m)
+                             : !m.elasticity;
   layout_.groups.push_back({named ? model_.material_names[element.material] : std::string(),
                             isotropic ? m.young : 0.0, isotropic ? m.poisson : 0.0});
   return static_cast<int>(group_keys_.size()) - 1;

@@ -35,8 +35,9 @@ struct StressedPoint {
   MatX gradient;  ///< 9 x dofs: du_i/dx_j in row 3 i + j
 };
 
-/// Which section an element has: a beam's (rods too), a shell's (panels too), or none.
-enum class ElementFamily { beam, shell, solid, rod, panel };
+/// Which section an element has: a beam's (rods too), a shell's (panels and membranes too), or
+/// none.
+enum class ElementFamily { beam, shell, solid, rod, panel, membrane };
 
 struct ElementKernel {
   ElementFamily family;
@@ -52,11 +53,12 @@ struct ElementKernel {
   void (*scalar_mass)(const ElementInput&, MatX&);
   /// Strains (xx, yy, zz, xy, yz, zx; engineering shear) at the nodes, 6 rows per node, from the
   /// displacements of the nodes: taken at the points where they are best and carried to the nodes.
-  /// Null for beams and shells.
+  /// Null for beams, shells and membranes.
   void (*nodal_strains)(const ElementInput&, MatX&) = nullptr;
   void (*stressed_points)(const ElementInput&, std::vector<StressedPoint>&) = nullptr;
-  /// Shells: stresses (xx, yy, zz, xy, yz, zx) in body axes at the nodes, 12 rows per node: on the
-  /// side of the normal (top), then on the other (bottom), from the displacements of the nodes.
+  /// Shells, membranes: stresses (xx, yy, zz, xy, yz, zx) in body axes at the nodes, 12 rows per
+  /// node: on the side of the normal (top), then on the other (bottom), from the displacements of
+  /// the nodes.
   void (*layer_stresses)(const ElementInput&, MatX&) = nullptr;
   ElementShape shape = {};
 };
@@ -76,6 +78,15 @@ inline bool is_shell(ElementType type) noexcept {
 inline bool is_panel(ElementType type) noexcept {
   return element_kernel(type).family == ElementFamily::panel;
 }
+inline bool is_membrane(ElementType type) noexcept {
+  return element_kernel(type).family == ElementFamily::membrane;
+}
+/// In FeModel::shells is its section.
+inline bool has_shell_section(ElementType type) noexcept {
+  return is_shell(type) || is_panel(type) || is_membrane(type);
+}
+/// Of a shell or membrane.
+ShellLayers layers_of(const ElementInput& in);
 
 ElementInput gather(const FeModel& model, const Element& element,
                     Integration integration = Integration::exact);

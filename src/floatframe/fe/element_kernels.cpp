@@ -39,7 +39,7 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
       element.orientation < 0 ? nullptr : &model.orientations[element.orientation];
   if (kernel.family == ElementFamily::solid && orientation) input.orientation = *orientation;
   if (kernel.family == ElementFamily::panel) input.shell = model.shells[section];
-  if (kernel.family == ElementFamily::shell) {
+  if (kernel.family == ElementFamily::shell || kernel.family == ElementFamily::membrane) {
     input.shell = model.shells[section];
     if (!is_plain(input.shell, input.material)) {
       input.layers = shell_layers(input.shell, input.material, model.materials);
@@ -48,6 +48,10 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
     }
   }
   return input;
+}
+
+ShellLayers layers_of(const ElementInput& in) {
+  return in.layers ? *in.layers : plain_layers(in.shell, in.material);
 }
 
 Mat6 elasticity_at(const ElementInput& in, const Vec3& p) {

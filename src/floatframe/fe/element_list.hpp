@@ -16,6 +16,12 @@
   entry(tri6)     /* 6-node shell, divided into four of 3 nodes; edges 12 23 31 */          \
   entry(quad8)    /* 8-node shell, divided into triangles; edges 12 23 34 41 */             \
   entry(shear4)   /* 4-node shear panel: shear flow of its edges only */                    \
+  entry(membrane3)  /* 3-node membrane: forces in its plane only */                        \
+  entry(membrane4)  /* 4-node membrane, full integration */                                \
+  entry(membrane4s) /* the same, shear strain of its middle (good in plane bending) */     \
+  entry(membrane6)  /* 6-node membrane; edges 12 23 31 */                                  \
+  entry(membrane8)  /* 8-node membrane; edges 12 23 34 41 */                               \
+  entry(membrane8r) /* the same, 2 x 2 points */                                           \
   entry(tet4)     /* linear tetrahedron */                                                  \
   entry(tet10)    /* quadratic tetrahedron; edges 12 23 13 14 24 34 */                      \
   entry(hex8)     /* trilinear brick, full integration */                                   \

@@ -7,7 +7,8 @@ namespace {
 
 bool has_mid_nodes(const ElementKernel& kernel) noexcept {
   if (kernel.family == ElementFamily::beam) return kernel.nodes > 2;
-  if (kernel.family == ElementFamily::shell) return kernel.nodes > 4;
+  if (kernel.family == ElementFamily::shell || kernel.family == ElementFamily::membrane)
+    return kernel.nodes > 4;
   const std::size_t corners = kernel.shape.neighbours.size();
   return corners > 0 && static_cast<std::size_t>(kernel.nodes) > corners;
 }

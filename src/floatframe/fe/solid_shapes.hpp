@@ -1,5 +1,5 @@
 #pragma once
-// Shapes of the solid elements that several kernels share.
+// Shapes of solids, shells and membranes that several kernels share.
 #include <numbers>
 
 #include "floatframe/fe/element_shape.hpp"
@@ -65,5 +65,15 @@ inline constexpr double pyramid_regular_corner = 0.5 * std::numbers::sqrt2;
 inline constexpr ElementShape pyramid5{pyramid5_faces, pyramid_neighbours, pyramid_regular_corner};
 inline constexpr ElementShape pyramid13{pyramid13_faces, pyramid_neighbours,
                                         pyramid_regular_corner};
+
+// Shells and membranes: both sides.
+inline constexpr std::array<Edge, 3> tri_edges{{{0, 1}, {1, 2}, {2, 0}}};
+inline constexpr std::array<Edge, 4> quad_edges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+inline constexpr std::array<Corners, 2> tri_corners{{{0, 1, 2, -1}, {0, 2, 1, -1}}};
+inline constexpr std::array<Corners, 2> quad_corners{{{0, 1, 2, 3}, {0, 3, 2, 1}}};
+inline constexpr auto tri3_faces = linear(tri_corners);
+inline constexpr auto quad4_faces = linear(quad_corners);
+inline constexpr auto tri6_faces = quadratic(tri_corners, tri_edges, 3);
+inline constexpr auto quad8_faces = quadratic(quad_corners, quad_edges, 4);
 
 }  // namespace floatframe::shape

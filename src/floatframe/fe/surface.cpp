@@ -45,7 +45,7 @@ Surface outer_surface(const FeModel& model) {
       for (int i = 0; i + 1 < count; ++i) {
         surface.lines.push_back({element.nodes[i], element.nodes[i + 1]});
       }
-    } else if (is_shell(element.type) || is_panel(element.type)) {
+    } else if (has_shell_section(element.type)) {
       divide(element, faces[0], surface.triangles);
     } else {
       for (std::size_t f = 0; f < faces.size(); ++f) {

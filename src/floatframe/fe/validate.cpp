@@ -156,7 +156,7 @@ void check_elements(const FeModel& model, LimitedErrors& errors) {
     }
     const bool line = is_beam(element.type) || is_rod(element.type);
     const std::size_t sections = line ? model.sections.size() : model.shells.size();
-    const bool surface = is_shell(element.type) || is_panel(element.type);
+    const bool surface = has_shell_section(element.type);
     if ((line || surface) && !in_range(element.section, sections)) {
       add("elements without section",
           element.section < 0 ? " has no section"

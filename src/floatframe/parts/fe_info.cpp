@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
@@ -24,7 +25,8 @@ using Json = nlohmann::ordered_json;
 /// Masses of the materials of one element: shares by the thickness of plies, and what its section
 /// has besides.
 void share(const FeModel& model, const Element& element, double volume, double mass, FeFacts& out) {
-  const ShellSection* shell = is_shell(element.type) ? &model.shells[element.section] : nullptr;
+  const ShellSection* shell =
+      has_shell_section(element.type) ? &model.shells[element.section] : nullptr;
   if (shell == nullptr || shell->plies.empty()) {
     const double own = volume * model.materials[element.material].density;
     out.material_masses[element.material] += own;
@@ -57,7 +59,8 @@ void measure(FeModel model, FeFacts& out) {
     if (!in_range(material)) element.material = 0;
     const ElementInput input = gather(model, element);
     const ElementKernel& kernel = element_kernel(element.type);
-    if (!kernel.error(input).empty()) {
+    if (const std::string error = kernel.error(input); !error.empty()) {
+      if (out.bad_elements.empty()) out.bad_reason = error;
       out.bad_elements.push_back(model.element_label(static_cast<int>(e)));
       continue;
     }
@@ -113,14 +116,13 @@ std::string way_of(const InterfaceDescription& d) {
 }
 
 std::string proposal_text(const ReduceProposal& p) {
+  if (!p.obstacle.empty()) return fmt::format("\n`reduce` would refuse this: {}\n", p.obstacle);
   std::string text;
   if (!p.interfaces.empty()) {
     std::vector<std::string> ways;
     for (const InterfaceDescription& d : p.interfaces) ways.push_back(way_of(d));
     text += fmt::format("\nInterfaces that `reduce` takes together: {}\n", fmt::join(ways, ", "));
   }
-  if (!p.obstacle.empty())
-    return text + fmt::format("\n`reduce` would refuse this: {}\n", p.obstacle);
   return text + fmt::format("\nTo reduce it, with the interfaces that you need\n  {}\n", p.command);
 }
 
@@ -251,10 +253,11 @@ std::string fe_info_text(const PartJob& job, const FeModel& model) {
   if (!f.bad_elements.empty()) {
     const std::size_t shown = std::min<std::size_t>(f.bad_elements.size(), 10);
     text +=
-        fmt::format("\nWARNING: {} elements are inverted or flat: {}{}\n", f.bad_elements.size(),
+        fmt::format("\nWARNING: {} of no use: {}{}; the first one {}\n",
+                    plural(static_cast<long>(f.bad_elements.size()), "element is", "elements are"),
                     fmt::join(f.bad_elements.begin(),
                               f.bad_elements.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                    shown < f.bad_elements.size() ? ", ..." : "");
+                    shown < f.bad_elements.size() ? ", ..." : "", f.bad_reason);
   }
   if (f.bad_elements.empty()) text += proposal_text(f.proposal);
   return text;

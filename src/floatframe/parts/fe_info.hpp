@@ -21,6 +21,7 @@ struct FeFacts {
   std::vector<double> material_masses;           ///< of each material
   double point_mass = 0.0, other_mass = 0.0;     ///< and that of sections per length or area
   std::vector<std::string> bad_elements;         ///< labels of elements that are inverted or flat
+  std::string bad_reason;                        ///< of the first of them
   struct Set {
     std::string name, kind;  ///< "nodes", "elements", "surface"
     int size = 0;            ///< nodes, elements, faces

@@ -9,6 +9,8 @@
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/springs.hpp"
+#include "floatframe/fe/unit_system.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/parts/part_options.hpp"
@@ -152,13 +154,16 @@ class Trial {
             A += motion.row(axis).transpose() * motion.row(axis);
       }
     }
-    if (!rigid || is_used_by_elements(node)) return true;
+    if (!rigid || is_used_by_elements(node, true)) return true;
+    if (is_used_by_elements(node, false)) A.topLeftCorner<3, 3>() += Mat3::Identity();
     const VecX e = symmetric_eigenvalues(A);
     return e(0) > 1e-10 * e(5);
   }
 
-  bool is_used_by_elements(int node) const {
+  /// `turning`: by beams or shells.
+  bool is_used_by_elements(int node, bool turning) const {
     return std::any_of(model_.elements.begin(), model_.elements.end(), [&](const Element& e) {
+      if (turning && !is_beam(e.type) && !is_shell(e.type)) return false;
       const auto last = e.nodes.begin() + element_nodes(e.type);
       return std::find(e.nodes.begin(), last, node) != last;
     });
@@ -250,10 +255,9 @@ std::string shell_word(const std::string& text) {
   return out + "'";
 }
 
-/// `inner`: degrees of freedom for normal modes.
 std::string command_of(const PartJob& job, const FeModel& model,
                        const std::vector<std::string>& likely_units,
-                       const std::vector<InterfaceDescription>& interfaces, int inner) {
+                       const std::vector<InterfaceDescription>& interfaces, int modes) {
   std::string text = "floatframe reduce " + shell_word(job.file.string());
   const auto add = [&](const std::string& option, const std::string& value) {
     text += " --" + option + (value.empty() ? "" : " " + shell_word(value));
@@ -273,8 +277,40 @@ std::string command_of(const PartJob& job, const FeModel& model,
   if (grounded) add("grounded-springs", "ignore");
   if (interfaces.empty()) add("method", "free_free");
   for (const InterfaceDescription& d : interfaces) add("interface", interface_text(d));
-  if (inner <= default_modes) add("modes", std::to_string(inner / 2));
+  if (modes < default_modes) add("modes", std::to_string(modes));
   return text;
+}
+
+/// Large models are not tried: what a file holds is to be said before much is computed.
+constexpr int most_tried_nodes = 600;
+
+/// Reduces a small model with the interfaces; with fewer normal modes if its mass allows no more.
+/// What refuses it for any number of modes; empty if it is accepted.
+std::string refusal_of(FeModel model, const PartJob& job, const std::string& units,
+                       const std::vector<InterfaceDescription>& interfaces, int& modes) {
+  if (model.nodes() > most_tried_nodes || (model.materials.empty() && !model.matrices)) return "";
+  for (const auto& [material, where] : model.without_density)
+    model.materials[material].density = 1000.0;
+  model.without_density.clear();
+  remove_grounded_springs(model);
+  to_si(model, unit_system(units));
+  PartOptions options;
+  options.interfaces = interfaces;
+  options.integration = job.options.integration;
+  options.check_free_modes = options.stresses = false;
+  if (interfaces.empty()) options.method = ModeMethod::free_free;
+  std::string refusal;
+  for (int n = modes;; n /= 2) {
+    options.modes = n;
+    try {
+      reduce_part(model, options);
+      modes = n;
+      return "";
+    } catch (const InputError& error) {
+      if (refusal.empty()) refusal = error.errors().front().message;
+    }
+    if (n == 0) return refusal;
+  }
 }
 
 }  // namespace
@@ -285,8 +321,12 @@ ReduceProposal propose_reduction(const PartJob& job, const FeModel& model,
   ReduceProposal out;
   out.interfaces = trial.accepted();
   const int inner = inner_dofs(trial.model(), out.interfaces.size());
-  out.command = command_of(job, model, likely_units, out.interfaces, inner);
+  int modes = inner <= default_modes ? inner / 2 : default_modes;
   out.obstacle = obstacle_of(trial.model());
+  if (out.obstacle.empty())
+    out.obstacle = refusal_of(model, job, likely_units.empty() ? "si" : likely_units.front(),
+                              out.interfaces, modes);
+  out.command = command_of(job, model, likely_units, out.interfaces, modes);
   return out;
 }
 

@@ -19,7 +19,9 @@ struct ReduceProposal {
   /// file does not say stands there in capitals: UNITS, RHO, E,NU,RHO. Free modes if there is no
   /// interface.
   std::string command;
-  /// Why it would be refused for the mesh itself, pieces that nothing joins; empty if it is not.
+  /// Why it would be refused for the mesh itself: pieces that nothing joins, a mechanism; empty if
+  /// it is not. The reduction of models of up to 600 nodes is tried; of larger ones is only looked
+  /// whether the pieces are joined.
   std::string obstacle;
 };
 

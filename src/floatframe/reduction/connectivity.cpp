@@ -7,6 +7,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_faces.hpp"
+#include "floatframe/fe/flat_nodes.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
 
 namespace floatframe {
@@ -82,7 +83,10 @@ void check_connected(const FeModel& model) {
   for (int k = 0; k < model.nodes(); ++k)
     if (pieces.used(k)) of_root[pieces.root(k)].push_back(k);
   std::erase_if(of_root, [](const auto& nodes) { return nodes.empty(); });
-  if (of_root.size() < 2) return;
+  if (of_root.size() < 2) {
+    if (const std::string flat = flat_nodes(model); !flat.empty()) throw InputError(flat);
+    return;
+  }
   std::stable_sort(of_root.begin(), of_root.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
   ErrorList errors;

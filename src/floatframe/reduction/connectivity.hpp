@@ -9,7 +9,8 @@
 
 namespace floatframe {
 
-/// Throws InputError that names the nodes of the smaller pieces if there are several.
+/// Throws InputError that names the nodes of the smaller pieces if there are several; of one piece
+/// the nodes that nothing holds across flat sheets (fe/flat_nodes.hpp).
 void check_connected(const FeModel& model);
 
 /// "node 12, node 13, node 17 and 4 more".

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "floatframe/fe/shell_triangle.hpp"
+#include "floatframe/fe/solid_shapes.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
 
@@ -73,10 +74,6 @@ std::array<Vec3, 3> corners(const ElementInput& in, const Part& part) {
   std::array<Vec3, 3> p;
   for (std::size_t i = 0; i < 3; ++i) p[i] = in.p[part.nodes[i]];
   return p;
-}
-
-ShellLayers layers_of(const ElementInput& in) {
-  return in.layers ? *in.layers : plain_layers(in.shell, in.material);
 }
 
 template <int nodes>
@@ -255,15 +252,6 @@ void layer_stresses(const ElementInput& given, MatX& out) {
   condense(following<nodes>(in), out);
 }
 
-constexpr std::array<shape::Corners, 2> tri_corners{{{0, 1, 2, -1}, {0, 2, 1, -1}}};
-constexpr std::array<shape::Corners, 2> quad_corners{{{0, 1, 2, 3}, {0, 3, 2, 1}}};
-constexpr std::array<shape::Edge, 3> tri_edges{{{0, 1}, {1, 2}, {2, 0}}};
-constexpr std::array<shape::Edge, 4> quad_edges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
-constexpr auto tri_faces = shape::linear(tri_corners);
-constexpr auto quad_faces = shape::linear(quad_corners);
-constexpr auto tri6_faces = shape::quadratic(tri_corners, tri_edges, 3);
-constexpr auto quad8_faces = shape::quadratic(quad_corners, quad_edges, 4);
-
 template <int count>
 constexpr ElementKernel shell_kernel(std::span<const FaceNodes> faces) {
   return {.family = ElementFamily::shell,
@@ -280,9 +268,9 @@ constexpr ElementKernel shell_kernel(std::span<const FaceNodes> faces) {
 
 }  // namespace
 
-constinit const ElementKernel tri3_kernel = shell_kernel<3>(tri_faces);
-constinit const ElementKernel quad4_kernel = shell_kernel<4>(quad_faces);
-constinit const ElementKernel tri6_kernel = shell_kernel<6>(tri6_faces);
-constinit const ElementKernel quad8_kernel = shell_kernel<8>(quad8_faces);
+constinit const ElementKernel tri3_kernel = shell_kernel<3>(shape::tri3_faces);
+constinit const ElementKernel quad4_kernel = shell_kernel<4>(shape::quad4_faces);
+constinit const ElementKernel tri6_kernel = shell_kernel<6>(shape::tri6_faces);
+constinit const ElementKernel quad8_kernel = shell_kernel<8>(shape::quad8_faces);
 
 }  // namespace floatframe

@@ -67,6 +67,27 @@ void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
 /// Axes of the material of an element whose nodes are known.
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e);
+// abaqus_nodal_thickness.cpp
+/// Sections of shells with the thickness of their nodes.
+class AbaqusNodalThickness {
+ public:
+  explicit AbaqusNodalThickness(AbaqusBuild& build);
+  /// The element gets a section of its thickness.
+  void apply(const AbaqusSection& section, Element& e);
+  void notes();
+
+ private:
+  void missing(const AbaqusSection& section, const Element& e, int node);
+
+  AbaqusBuild& b_;
+  std::vector<double> at_node_;
+  std::map<std::pair<int, double>, int> sections_;  // of a section and a thickness
+  std::set<int> given_;                             // sections with one
+  bool used_ = false;
+  long uneven_ = 0, missing_ = 0;
+  double unevenness_ = 0.0;
+  FeSource first_uneven_;
+};
 // abaqus_build_mesh.cpp
 void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);

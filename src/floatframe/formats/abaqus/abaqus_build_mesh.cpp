@@ -220,6 +220,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   const bool has_shells =
       std::any_of(c.sections.begin(), c.sections.end(),
                   [](const AbaqusSection& s) { return s.family == Family::shell; });
+  AbaqusNodalThickness thickness(build);
   ElementCounts counts;
   Renumbered renumbered(build, "element");
   std::unordered_set<int> taken;
@@ -255,8 +256,10 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     if (type.remark != nullptr) counts.read_as[&type].add(element.at);
     auto result = element_of(build, element, section < 0 ? given : properties[section]);
     if (!result) continue;
-    if (section >= 0)
+    if (section >= 0) {
       orient_abaqus_element(build, c.sections[section], properties[section], *result);
+      thickness.apply(c.sections[section], *result);
+    }
     build.element_index[e] = static_cast<int>(model.elements.size());
     if (scopes && !taken.insert(result->id).second && ++free_number <= largest_id) {
       renumbered.add(element.scope, result->id, static_cast<int>(free_number), element.at);
@@ -267,6 +270,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
           fmt::format("element {}{} ({})", c.prefix(element.scope), element.id, type.name);
     model.elements.push_back(*result);
   }
+  thickness.notes();
   note_elements(build, counts);
   renumbered.note();
   if (mesh_only && !options.material && counts.structural.number > 0) {

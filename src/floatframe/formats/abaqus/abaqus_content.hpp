@@ -115,7 +115,8 @@ struct AbaqusSection {
   std::string material;
   std::string orientation;  ///< name; empty: none
   double thickness = 0.0;
-  double offset = 0.0;  ///< of shells: of the nodes from the middle, in thicknesses
+  bool nodal_thickness = false;  ///< of shells: that of *NODAL THICKNESS
+  double offset = 0.0;           ///< of shells: of the nodes from the middle, in thicknesses
   struct Ply {
     double thickness = 0.0;
     std::string material;
@@ -132,6 +133,13 @@ struct AbaqusSection {
   Vec3 n1 = -Vec3::UnitZ();
   double mass = 0.0;  ///< of *MASS
   Mat3 J = Mat3::Zero();
+  FeSource at;
+};
+
+/// *NODAL THICKNESS
+struct AbaqusThickness {
+  AbaqusReference nodes;
+  double value = 0.0;
   FeSource at;
 };
 
@@ -204,7 +212,7 @@ struct AbaqusCoordinates {
 };
 
 /// How much of each kind has been read: nodes, elements and the lists of things.
-using AbaqusSizes = std::array<std::size_t, 10>;
+using AbaqusSizes = std::array<std::size_t, 11>;
 
 struct AbaqusPart {
   AbaqusScope scope = AbaqusScope::part;
@@ -241,6 +249,7 @@ struct AbaqusContent {
   std::vector<AbaqusTie> ties;
   std::vector<AbaqusSpring> springs;
   std::vector<AbaqusTransform> transforms;
+  std::vector<AbaqusThickness> thicknesses;
   std::vector<std::string> notes;
   void note(const SourceMark& mark, const std::string& text);
   DeckContact contact = DeckContact::refuse;  ///< as the user says
@@ -325,6 +334,8 @@ bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaq
 double positive_real(AbaqusLines& lines, std::string_view field, std::string_view what);
 // abaqus_shell_section.cpp
 void read_abaqus_shell_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_nodal_thickness.cpp
+void read_abaqus_nodal_thickness(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_anisotropic.cpp
 void read_abaqus_orientation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 /// Is it a type of *ELASTIC that is read but not isotropic?
@@ -350,6 +361,7 @@ void read_abaqus_mpc(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_ties.cpp
 void read_abaqus_tie(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_contact_pair(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_general_contact(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_springs.cpp
 void read_abaqus_spring(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_gap(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);

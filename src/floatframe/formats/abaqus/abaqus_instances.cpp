@@ -28,6 +28,7 @@ class ScopeChange {
   void operator()(AbaqusSection& s) const { (*this)(s.elements); }
   void operator()(AbaqusSpring& s) const { (*this)(s.elements); }
   void operator()(AbaqusSupport& s) const { (*this)(s.nodes); }
+  void operator()(AbaqusThickness& t) const { (*this)(t.nodes); }
   void operator()(AbaqusTie& t) const {
     (*this)(t.slave);
     (*this)(t.master);
@@ -54,6 +55,7 @@ class ScopeChange {
 AbaqusScope scope_of(const AbaqusSection& s) { return s.elements.scope; }
 AbaqusScope scope_of(const AbaqusSpring& s) { return s.elements.scope; }
 AbaqusScope scope_of(const AbaqusSupport& s) { return s.nodes.scope; }
+AbaqusScope scope_of(const AbaqusThickness& t) { return t.nodes.scope; }
 AbaqusScope scope_of(const AbaqusTie& t) { return t.slave.scope; }
 AbaqusScope scope_of(const AbaqusTransform& t) { return t.scope; }
 AbaqusScope scope_of(const AbaqusSpider& s) { return s.reference.scope; }
@@ -73,6 +75,7 @@ void each_list(Content& c, Use use) {
   use(c.ties, place++);
   use(c.springs, place++);
   use(c.transforms, place++);
+  use(c.thicknesses, place++);
 }
 
 /// Entries of a scope; the keys begin with it.

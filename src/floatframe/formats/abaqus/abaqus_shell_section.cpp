@@ -49,16 +49,24 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                AbaqusContent& content) {
   constexpr std::size_t most_plies = 10000;
   AbaqusSection section;
-  lines.allow_only(keyword,
-                   {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET", "SECTIONINTEGRATION",
-                    "TEMPERATURE", "POISSON", "COMPOSITE", "SYMMETRIC", "LAYUP", "STACKDIRECTION"});
+  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET",
+                             "SECTIONINTEGRATION", "TEMPERATURE", "POISSON", "COMPOSITE",
+                             "SYMMETRIC", "LAYUP", "STACKDIRECTION", "NODALTHICKNESS"});
   const bool composite = keyword.has("COMPOSITE");
   read_shell_offset(lines, keyword, section);
   section.symmetric = keyword.has("SYMMETRIC");
   if (section.symmetric && !composite) lines.error(keyword, "is SYMMETRIC without COMPOSITE");
   if (composite && keyword.has("MATERIAL"))
     lines.error(keyword, "has COMPOSITE and a material: those of the plies are in its lines");
+  section.nodal_thickness = keyword.has("NODALTHICKNESS");
+  if (composite && section.nodal_thickness)
+    lines.error(keyword, "has COMPOSITE and NODAL THICKNESS, which is not supported together");
   if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::shell, section)) return;
+  if (section.nodal_thickness) {
+    section.thickness = 1.0;  // in place of what *NODAL THICKNESS says
+    content.sections.push_back(section);
+    return lines.skip_data();
+  }
   std::vector<std::string_view> fields;
   if (!lines.next_fields(fields))
     return lines.error(keyword, composite ? "has no plies" : "has no thickness");

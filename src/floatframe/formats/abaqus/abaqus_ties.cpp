@@ -2,6 +2,8 @@
 // (fe/surface_ties.hpp).
 #include <fmt/format.h>
 
+#include <unordered_set>
+
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/surface_ties.hpp"
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
@@ -41,10 +43,13 @@ std::vector<int> nodes_of_surface(AbaqusBuild& build, const AbaqusSurface& surfa
     }
     return nodes;
   }
+  std::unordered_set<int> known;
   for (const ElementFace& f : build.model.surfaces.at(name)) {
     const Element& element = build.model.elements[f.element];
     const FaceNodes& face = element_faces(element.type)[f.face];
-    for (int k = 0; k < face.count; ++k) nodes.push_back(element.nodes[face.nodes[k]]);
+    for (int k = 0; k < face.count; ++k)
+      if (const int node = element.nodes[face.nodes[k]]; known.insert(node).second)
+        nodes.push_back(node);
   }
   return nodes;
 }
@@ -73,7 +78,8 @@ void build_tie(AbaqusBuild& build, const AbaqusTie& raw, std::vector<char>& take
   std::string text = fmt::format("{}: {} of {} nodes of {} are tied to {} (within {:.3g})", word,
                                  done.tied, done.tied + static_cast<int>(done.free.size()),
                                  shown(slave_name), shown(master_name), done.distance);
-  if (done.moved > 0.0) text += fmt::format("; they were moved by up to {:.3g}", done.moved);
+  if (done.moved > 1e-9 * done.distance)
+    text += fmt::format("; they were moved by up to {:.3g}", done.moved);
   if (!done.free.empty())
     text += fmt::format("; not tied: {}{}", build.model.node_label(done.free.front()),
                         done.free.size() > 1 ? ", ..." : "");
@@ -105,6 +111,26 @@ void read_abaqus_tie(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCon
   tie.adjust = !same_word(keyword.value("ADJUST"), "NO");
   tie.rotations = !keyword.has("NOROTATION");
   read_pairs(lines, keyword, content, tie);
+}
+
+/// General contact names no pairs to tie.
+void read_abaqus_general_contact(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                 AbaqusContent& content) {
+  lines.skip_data();
+  if (content.only_nodes) return;
+  if (content.contact != DeckContact::ignore) {
+    lines.error(keyword,
+                content.contact == DeckContact::tied
+                    ? "is general contact, which names no surfaces to tie: use *TIE, or --contact "
+                      "ignore (key `contact`), which leaves all surfaces free"
+                    : "is not linear: --contact ignore (key `contact`) leaves all surfaces free");
+    return;
+  }
+  const SourceMark mark = lines.source().mark(keyword.at);
+  content.notes.push_back(
+      fmt::format("{}:{}: {} is passed over, as the options say: its surfaces "
+                  "are free",
+                  mark.file, mark.line, keyword.shown));
 }
 
 void read_abaqus_contact_pair(AbaqusLines& lines, const AbaqusKeyword& keyword,

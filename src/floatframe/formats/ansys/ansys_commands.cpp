@@ -25,6 +25,9 @@ void set_number(AnsysFields& f, AnsysContent& c) {
 
 void set_parameter(AnsysFields& f, AnsysContent&) { f.set_parameter(f.text(1), f.number(2)); }
 
+/// Its value is not known: an error where it is used.
+void get_parameter(AnsysFields& f, AnsysContent&) { f.set_parameter(f.text(1), {}); }
+
 /// Of CDWRITE: *IF,_CDRDOFF,EQ,1,THEN / *ELSE / *ENDIF around NUMOFF; its *ELSE is read.
 void begin_branch(AnsysFields& f, AnsysContent& c) {
   if (f.word(1) != "_CDRDOFF")
@@ -87,6 +90,7 @@ constexpr AnsysCommand ansys_commands[] = {
     {"D", read_ansys_support},
     {"LUMPM", set_lumped},
     {"*SET", set_parameter},
+    {"*GET", get_parameter},
     {"*IF", begin_branch},
     {"*ELSE", turn_branch},
     {"*ENDIF", turn_branch},
@@ -101,33 +105,38 @@ constexpr AnsysCommand ansys_commands[] = {
 
 /// Loads, solutions, files, pictures: passed over without a word.
 constexpr std::array ansys_silent = {
-    "/PREP7",     "/NOPR",    "/GOPR",      "/GO",       "/TITLE",  "/SOLU",   "/SOL",
-    "/POST1",     "/POST26",  "/BATCH",     "/CONFIG",   "/SHOW",   "/OUTPUT", "/STITLE",
-    "/NERR",      "/GST",     "/FILNAME",   "/CLEAR",    "/WB",     "/VIEW",   "/ESHAPE",
-    "/COLOR",     "/PBC",     "/PNUM",      "/REPLOT",   "/NUMBER", "/AUX15",  "/DEVICE",
-    "/GRAPHICS",  "/EXIT",    "/DELETE",    "/UIS",      "FINISH",  "NUMOFF",  "DOF",
-    "CSCIR",      "CMGRP",    "CMSEL",      "ALLSEL",    "EXTOPT",  "SHPP",    "CHECK",
-    "SAVE",       "TBTEMP",   "TBFIELD",    "TBPT",      "TBEO",    "FC",      "ANTYPE",
-    "MODOPT",     "MXPAND",   "EMUNIT",     "TOFFST",    "STEF",    "TRNOPT",  "THOPT",
-    "DMPOPT",     "EQSLV",    "HROPT",      "BUCOPT",    "LVSCALE", "MSAVE",   "SOLVE",
-    "NLGEOM",     "PSTRES",   "SSTIF",      "OUTPR",     "OUTRES",  "ERESX",   "TREF",
-    "TUNIF",      "BFUNIF",   "IRLF",       "ACEL",      "OMEGA",   "DOMEGA",  "CGLOC",
-    "CGOMGA",     "DCGOMG",   "CMOMEGA",    "KUSE",      "TIME",    "ALPHAD",  "BETAD",
-    "DMPRAT",     "DMPSTR",   "CRPLIM",     "NCNV",      "NEQIT",   "AUTOTS",  "KBC",
-    "DELTIM",     "NSUBST",   "CNVTOL",     "LNSRCH",    "PRED",    "TIMINT",  "TINTP",
-    "NROPT",      "RATE",     "RESCONTROL", "F",         "SF",      "SFE",     "BF",
-    "BFE",        "FDELE",    "DDELE",      "LSWRITE",   "LSCLEAR", "NSEL",    "ESEL",
-    "NSLE",       "ESLN",     "SHSD",       "PRNSOL",    "SET",     "EPLOT",   "NPLOT",
-    "STAOPT",     "SBCLIM",   "BCSOPTION",  "DSPOPTION", "NLDIAG",  "RSTOFF",  "OPNCONTROL",
-    "CUTCONTROL", "MONITOR",  "SOLCONTROL", "GRP",       "SPOPT",   "CINT",    "GAUGE",
-    "IC",         "_CDRDOFF", "_BUTTON",    "_RETURN",   "*DIM",    "*STATUS", "TBDELE",
-    "TALLOW",     "DMP",      "ETCONTROL",  "WPSTYLE",   "WPCSYS",  "MPAMOD",
+    "/PREP7",     "/NOPR",    "/GOPR",      "/GO",       "/TITLE",   "/SOLU",   "/SOL",
+    "/POST1",     "/POST26",  "/BATCH",     "/CONFIG",   "/SHOW",    "/OUTPUT", "/STITLE",
+    "/NERR",      "/GST",     "/FILNAME",   "/CLEAR",    "/WB",      "/VIEW",   "/ESHAPE",
+    "/COLOR",     "/PBC",     "/PNUM",      "/REPLOT",   "/NUMBER",  "/AUX15",  "/DEVICE",
+    "/GRAPHICS",  "/EXIT",    "/DELETE",    "/UIS",      "FINISH",   "NUMOFF",  "DOF",
+    "CSCIR",      "CMGRP",    "CMSEL",      "ALLSEL",    "EXTOPT",   "SHPP",    "CHECK",
+    "SAVE",       "TBTEMP",   "TBFIELD",    "TBPT",      "TBEO",     "FC",      "ANTYPE",
+    "MODOPT",     "MXPAND",   "EMUNIT",     "TOFFST",    "STEF",     "TRNOPT",  "THOPT",
+    "DMPOPT",     "EQSLV",    "HROPT",      "BUCOPT",    "LVSCALE",  "MSAVE",   "SOLVE",
+    "NLGEOM",     "PSTRES",   "SSTIF",      "OUTPR",     "OUTRES",   "ERESX",   "TREF",
+    "TUNIF",      "BFUNIF",   "IRLF",       "ACEL",      "OMEGA",    "DOMEGA",  "CGLOC",
+    "CGOMGA",     "DCGOMG",   "CMOMEGA",    "KUSE",      "TIME",     "ALPHAD",  "BETAD",
+    "DMPRAT",     "DMPSTR",   "CRPLIM",     "NCNV",      "NEQIT",    "AUTOTS",  "KBC",
+    "DELTIM",     "NSUBST",   "CNVTOL",     "LNSRCH",    "PRED",     "TIMINT",  "TINTP",
+    "NROPT",      "RATE",     "RESCONTROL", "F",         "SF",       "SFE",     "BF",
+    "BFE",        "FDELE",    "DDELE",      "LSWRITE",   "LSCLEAR",  "NSEL",    "ESEL",
+    "NSLE",       "ESLN",     "SHSD",       "PRNSOL",    "SET",      "EPLOT",   "NPLOT",
+    "STAOPT",     "SBCLIM",   "BCSOPTION",  "DSPOPTION", "NLDIAG",   "RSTOFF",  "OPNCONTROL",
+    "CUTCONTROL", "MONITOR",  "SOLCONTROL", "GRP",       "SPOPT",    "CINT",    "GAUGE",
+    "IC",         "_CDRDOFF", "_BUTTON",    "_RETURN",   "*DIM",     "*STATUS", "TBDELE",
+    "TALLOW",     "DMP",      "ETCONTROL",  "WPSTYLE",   "WPCSYS",   "MPAMOD",  "/NOLIST",
+    "/GOLIST",    "/AUTO",    "/DIST",      "/ANGLE",    "/TYPE",    "/FOCUS",  "/LINE",
+    "/RGB",       "/TRIAD",   "/PLOPTS",    "/EDGE",     "/INQUIRE", "/XML",    "/STATUS",
+    "/HEADER",    "/PAGE",    "/FORMAT",    "*ABSET",    "*ABCHECK", "*ABFINI", "KEYW",
+    "TBLIST",     "MPLIST",   "ETLIST",     "NLIST",     "ELIST",    "CM",      "*VWRITE",
+    "*CFOPEN",    "*CFCLOS",  "*MSG",       "*DEL",      "SLIST",
 };
 
 /// What to do instead, of commands that are met in decks of a session.
 constexpr std::array<std::pair<const char*, const char*>, 24> ansys_refused = {{
     {"*DO", "loops are not read: write the model with CDWRITE"},
-    {"*GET", "values of the session are not known: write the model with CDWRITE"},
+    {"PSMESH", "take the cut and its tension out of the model"},
     {"*USE", "macros are not read: write the model with CDWRITE"},
     {"/INPUT", "further files are not read: write the model with CDWRITE"},
     {"K", "geometry is not meshed here: write the mesh with CDWRITE"},

@@ -125,6 +125,10 @@ bool AnsysFields::block_line(std::string_view& line) {
     source_.put_back();
     return false;
   }
+  if (command_ == "NBLOCK" || command_ == "EBLOCK")
+    source_.stop(source_.here(), fmt::format("the file ends within {}, which begins in line {} and "
+                                             "ends with -1: it is cut short",
+                                             command_, at_.line));
   return false;
 }
 

@@ -27,6 +27,15 @@ int add_node(AnsysFields& f, AnsysContent& c, int id, const Vec3& p, const FeSou
   return it->second;
 }
 
+/// A block that says another number of nodes or elements than follow.
+void note_count(AnsysFields& f, AnsysContent& c, double said, std::size_t found, const char* what) {
+  if (!(said > 0.0) || said == static_cast<double>(found)) return;
+  c.model.notes.push_back(
+      fmt::format("{}:{}: {} says {:.0f} {}, {} follow: if the file is not cut "
+                  "short, nothing is missing",
+                  f.source().files()[f.at().file], f.at().line, f.command(), said, what, found));
+}
+
 void set_angles(AnsysContent& c, int index, const Vec3& angles) {
   if (!angles.isZero(0.0)) c.node_angles[index] = angles;
 }
@@ -111,6 +120,8 @@ void read_ansys_node_block(AnsysFields& f, AnsysContent& c) {
         "NBLOCK: its format has no column for the number of the node or not three for its "
         "coordinates");
   std::vector<std::string_view> cells;
+  const double said = f.number(4).value_or(0.0);
+  const std::size_t before = c.model.positions.size();
   while (f.row(format, cells)) {
     const FeSource at = f.source().here();
     const int id = f.cell_integer(cells, 0, "the number of the node");
@@ -121,6 +132,7 @@ void read_ansys_node_block(AnsysFields& f, AnsysContent& c) {
     }
     set_angles(c, add_node(f, c, id, p, at), angles);
   }
+  note_count(f, c, said, c.model.positions.size() - before, "nodes");
 }
 
 /// EN,R5.5,ATTR,... and EN,R5.5,NODE,...; EN,number,nodes; E,nodes.
@@ -177,6 +189,8 @@ void read_ansys_element_block(AnsysFields& f, AnsysContent& c) {
   if (format.integers() != format.columns.size() || format.columns.size() <= lead)
     f.stop(fmt::format("EBLOCK: its format has {} columns of whole numbers, expected more than {}",
                        format.integers(), lead));
+  const double said = f.number(4).value_or(0.0);
+  const std::size_t before = c.elements.size();
   std::vector<std::string_view> cells;
   while (f.row(format, cells)) {
     AnsysElement e = with_attributes(c, f.source().here());
@@ -210,6 +224,7 @@ void read_ansys_element_block(AnsysFields& f, AnsysContent& c) {
     e.nodes = count;
     add_element(f, c, e);
   }
+  note_count(f, c, said, c.elements.size() - before, "elements");
 }
 
 void read_ansys_component(AnsysFields& f, AnsysContent& c) {

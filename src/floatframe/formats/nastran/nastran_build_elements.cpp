@@ -112,6 +112,7 @@ class ElementBuilder {
       }
       // A PCOMP has its nonstructural mass in its section.
       const double t = thickness(e, *p);
+      if (p->membrane) result.type = membrane_of(e.type);
       result.material =
           materials_.index(*p, p->plies.empty() ? p->nonstructural / std::max(t, 1e-300) : 0.0);
       result.section = shell(e, *p, t);
@@ -141,6 +142,19 @@ class ElementBuilder {
         b_.model.element_sets[name].push_back(static_cast<int>(b_.model.elements.size()));
       }
     b_.model.elements.push_back(result);
+  }
+
+  static ElementType membrane_of(ElementType shell) {
+    switch (shell) {
+      case ElementType::tri3:
+        return ElementType::membrane3;
+      case ElementType::quad4:  // its shear is that of the middle in Nastran too
+        return ElementType::membrane4s;
+      case ElementType::tri6:
+        return ElementType::membrane6;
+      default:
+        return ElementType::membrane8;
+    }
   }
 
   int section(int id, const NastranProperty& p) {

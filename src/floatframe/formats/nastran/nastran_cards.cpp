@@ -99,6 +99,7 @@ void NastranCards::command(std::string_view line) {
     if (id && control_.mpc.size() < most_commands) control_.mpc.emplace_back(*id, source_.here());
     return;
   }
+  if (same_word(word.substr(0, word.find('(')), "STATSUB")) control_.preload = source_.here();
   for (const char* known : {"K2GG", "M2GG", "K2PP", "M2PP", "A2GG", "NSM", "MFLUID"}) {
     if (!same_word(word, known) || same_word(value, "NONE")) continue;
     if (control_.additions.size() < most_commands) {
@@ -154,7 +155,9 @@ void NastranCards::split(std::string_view text, Line& line) {
     line.large = line.name.ends_with('*') || line.name.starts_with('*');
     const std::size_t width = line.large ? 4 : 8;
     while (fields.size() > width + 2 && fields.back().empty()) fields.pop_back();
-    if (fields.size() > width + 2) {
+    // A line that is put back comes again.
+    if (fields.size() > width + 2 &&
+        std::exchange(too_long_, source_.here().line) != source_.here().line) {
       source_.error(fmt::format("the line has {} fields; a line in free field has at most {}",
                                 fields.size(), width + 2));
     }
@@ -234,7 +237,8 @@ bool NastranCards::one(NastranCard& card) {
     }
     break;
   }
-  if (begins_with(text, "ENDDATA")) return false;
+  ended_ = begins_with(text, "ENDDATA");
+  if (ended_) return false;
   Line line;
   split(text, line);
   if (is_continuation(line.name)) {

@@ -5,6 +5,7 @@
 // part is kept: PARAM entries come as cards, matrices and sets that are selected are in `control`.
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@ struct NastranControl {
   std::vector<std::pair<int, FeSource>> mpc;
   /// Commands that add stiffness or mass: "K2GG = STIF".
   std::vector<std::pair<std::string, FeSource>> additions;
+  std::optional<FeSource> preload;            ///< STATSUB
   std::vector<std::string> missing_includes;  ///< of the executive control
 };
 
@@ -32,6 +34,8 @@ class NastranCards {
   /// left it: cards may repeat the one before.
   bool next(NastranCard& card);
 
+  /// ENDDATA was met.
+  bool ended() const { return ended_; }
   const NastranControl& control() const { return control_; }
   /// Names that pre-processors leave in comments, by number.
   const std::map<int, std::string>& property_names() const { return property_names_; }
@@ -55,6 +59,8 @@ class NastranCards {
 
   TextSource& source_;
   bool begun_ = false;  // BEGIN BULK was there
+  bool ended_ = false;  // so was ENDDATA
+  int too_long_ = 0;    // the last line with too many fields
   NastranControl control_;
   std::deque<NastranCard> cards_of_control_;
   // Lines of the card and of the one before that had tabs.

@@ -85,6 +85,13 @@ class ContentReader {
       NastranFields fields(source_, card);
       one(fields);
     }
+    if (const auto& at = c_.control.preload)
+      c_.notes.push_back(
+          fmt::format("{}:{}: STATSUB is passed over: the part is free of the stress "
+                      "of a preload, the frequencies of Nastran are not",
+                      source_.files()[at->file], at->line));
+    if (has_control && !cards.ended())
+      c_.notes.emplace_back("the file has no ENDDATA: if it is not cut short, nothing is missing");
     finish();
     c_.property_names = cards.property_names();
     c_.material_names = cards.material_names();
@@ -241,7 +248,7 @@ class ContentReader {
     }
     for (const auto& [name, factor] : factors_) {
       const double value = factor.value;
-      if (name == "WTMASS" || value == 1.0) continue;
+      if (value == 1.0) continue;
       c_.notes.push_back(fmt::format("PARAM {}: the {} of the part is multiplied by {:g}", name,
                                      name == "CK1" ? "stiffness" : "mass", value));
     }

@@ -99,6 +99,7 @@ struct NastranProperty {
   bool full_integration = false;     ///< PSOLID: of CHEXA with 8 nodes
   int material_system = 0;           ///< PSOLID: CORDM
   double thickness = 0.0;            ///< PSHELL, PCOMP
+  bool membrane = false;             ///< PSHELL without MID2, PCOMP with LAM = MEM
   int bending = 0, coupling = 0;     ///< PSHELL: MID2, MID4; 0: none
   double bending_factor = 1.0;       ///< PSHELL: 12I/T**3
   std::vector<NastranPly> plies;     ///< PCOMP, from the bottom

@@ -26,19 +26,27 @@ void note_shells(NastranBuild& build) {
     std::string_view card;
     ElementType type;
     const char* text;
+    bool bends = false;  // said of shells only
     int count = 0;
     FeSource at = {};
   };
   Kind kinds[] = {
-      {"CTRIA6", ElementType::tri6, "CTRIA6 elements are four flat triangles each"},
-      {"CQUAD8", ElementType::quad8, "CQUAD8 elements are flat triangles between all their nodes"},
+      {"CTRIA6", ElementType::tri6, "CTRIA6 elements are four flat triangles each", true},
+      {"CQUAD8", ElementType::quad8, "CQUAD8 elements are flat triangles between all their nodes",
+       true},
       {"CTRIA6", ElementType::tri3, "CTRIA6 elements without mid-side nodes are read as CTRIA3"},
       {"CQUAD8", ElementType::quad4, "CQUAD8 elements without mid-side nodes are read as CQUAD4"},
       {"CTRIAR", ElementType::tri3, "CTRIAR elements are read as CTRIA3"},
       {"CQUADR", ElementType::quad4, "CQUADR elements are read as CQUAD4"}};
+  const auto membrane = [&](const NastranElement& e) {
+    const auto property = build.content.properties.find(e.property);
+    return property != build.content.properties.end() && property->second.membrane;
+  };
   for (const NastranElement& e : build.content.elements)
     for (Kind& k : kinds)
-      if (e.surface && e.type == k.type && e.card == k.card && k.count++ == 0) k.at = e.at;
+      if (e.surface && e.type == k.type && e.card == k.card && !(k.bends && membrane(e)) &&
+          k.count++ == 0)
+        k.at = e.at;
   for (const Kind& k : kinds)
     if (k.count > 0) build.note(k.at, fmt::format("{} {}", k.count, k.text));
 }

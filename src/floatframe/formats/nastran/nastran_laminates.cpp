@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <utility>
 
 #include "floatframe/formats/nastran/nastran_content.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
@@ -38,21 +39,29 @@ bool read_lam(NastranFields& f, NastranProperty& p) {
   const std::string_view lam = f.text(7);
   if (same_word(lam, "SYM")) return true;
   p.smeared = same_word(lam, "SMEAR");
-  if (lam.empty() || p.smeared) return false;
-  f.error(
-      fmt::format("LAM is {}, expected blank, SYM or SMEAR (MEM and BEND have no stiffness in "
-                  "bending or in the plane)",
-                  shown(lam)));
+  p.membrane = same_word(lam, "MEM");
+  if (lam.empty() || p.smeared || p.membrane) return false;
+  f.error(fmt::format(
+      "LAM is {}, expected blank, SYM, MEM or SMEAR (BEND has no stiffness in the plane)",
+      shown(lam)));
   return false;
 }
 
 }  // namespace
 
 void read_nastran_pshell(NastranFields& f, NastranProperty& p) {
+  if (f.blank(1) && !f.blank(3))
+    return f.error("MID1 is blank: a plate without stiffness in its plane is not supported");
   p.material = f.label(1, "the material");
   p.thickness = f.real(2, "the thickness");
-  if (f.blank(3)) {
-    f.error("MID2 is blank: a membrane without bending stiffness is not supported");
+  p.membrane = f.blank(3);
+  if (p.membrane) {
+    for (const auto& [at, name] : {std::pair{5, "MID3"}, std::pair{10, "MID4"}})
+      if (!f.blank(at))
+        f.error(
+            fmt::format("{} is {}, but MID2 is blank: a membrane has neither bending nor "
+                        "transverse shear",
+                        name, shown(f.text(at))));
   } else if (f.text(3) == "-1") {
     f.error("MID2 is -1: plane strain is not supported");
   } else {
@@ -61,14 +70,14 @@ void read_nastran_pshell(NastranFields& f, NastranProperty& p) {
   p.bending_factor = f.real(4, "12I/T**3", 1.0);
   if (!(p.bending_factor > 0.0))
     f.error(fmt::format("12I/T**3 is {:g}, expected more than 0", p.bending_factor));
-  if (!f.blank(5)) {
+  if (!f.blank(5) && !p.membrane) {
     p.shear_material = f.label(5, "MID3");
     p.shell_shear = f.real(6, "TS/T", 5.0 / 6.0) * p.thickness;
     if (!(p.shell_shear > 0.0))
       f.error(fmt::format("TS/T is {}, expected more than 0", shown(f.text(6))));
   }
   p.nonstructural = f.real(7, "the nonstructural mass", 0.0);
-  if (!f.blank(10)) p.coupling = f.label(10, "MID4");
+  if (!f.blank(10) && !p.membrane) p.coupling = f.label(10, "MID4");
 }
 
 void read_nastran_pcomp(NastranFields& f, NastranProperty& p) {

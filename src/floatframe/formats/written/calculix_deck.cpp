@@ -29,6 +29,18 @@ const char* calculix_type(ElementType type) {
       return "S6";
     case ElementType::quad8:
       return "S8";
+    case ElementType::membrane3:
+      return "M3D3";
+    case ElementType::membrane4:
+      return "M3D4";
+    case ElementType::membrane4s:
+      return "M3D4R";
+    case ElementType::membrane6:
+      return "M3D6";
+    case ElementType::membrane8:
+      return "M3D8";
+    case ElementType::membrane8r:
+      return "M3D8R";
     case ElementType::tet4:
       return "C3D4";
     case ElementType::tet10:
@@ -92,7 +104,8 @@ void add_elements(CalculixText& deck) {
     add_calculix_numbers(deck.text, numbers, true);
     pyramids += element.type == ElementType::pyramid5 || element.type == ElementType::pyramid13;
     spread += element.mass_form != MassForm::consistent;
-    expanded += is_beam(element.type) || is_shell(element.type) || is_rod(element.type);
+    expanded += is_beam(element.type) || is_shell(element.type) || is_rod(element.type) ||
+                is_membrane(element.type);
   }
   const auto note = [&](std::size_t count, const char* what) {
     if (count > 0)
@@ -102,7 +115,8 @@ void add_elements(CalculixText& deck) {
        "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node");
   note(spread, "of lumped mass: CalculiX takes consistent mass");
   note(expanded,
-       "are beams, rods or shells: CalculiX makes solid elements of them, its frequencies differ");
+       "are beams, rods, shells or membranes: CalculiX makes solid elements of them, its "
+       "frequencies differ");
 }
 
 void add_set(CalculixText& deck, const char* keyword, const std::string& name,

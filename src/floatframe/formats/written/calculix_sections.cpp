@@ -33,6 +33,10 @@ class SectionWriter {
   explicit SectionWriter(CalculixText& deck) : deck_(deck), model_(deck.model) {}
 
   void add() {
+    if (model_.materials.empty() && !model_.elements.empty())
+      return deck_.errors.add({model_.files.empty() ? std::string() : model_.files.front()},
+                              "the file has no material, which a deck needs: give one (--material "
+                              "E,NU,RHO)");
     std::map<SectionKey, std::vector<int>> sets;
     for (std::size_t e = 0; e < model_.elements.size(); ++e) {
       const Element& element = model_.elements[e];
@@ -69,13 +73,13 @@ class SectionWriter {
       what = "has no material, which a deck needs";
     else if (is_panel(e.type))
       what = "is a shear panel, which CalculiX has not (.vtu and .msh show the mesh)";
-    else if (is_shell(e.type) && in(e.section, model_.shells))
+    else if ((is_shell(e.type) || is_membrane(e.type)) && in(e.section, model_.shells))
       what = shell_error(e);
     else if (is_beam(e.type) && in(e.section, model_.sections))
       what = beam_error(e);
     else if (is_rod(e.type) && in(e.section, model_.sections))
       what = material(e.material).elasticity ? "is a rod of a material with axes" : "";
-    else if (is_shell(e.type) || is_beam(e.type) || is_rod(e.type))
+    else if (has_shell_section(e.type) || is_beam(e.type) || is_rod(e.type))
       what = "has no section";
     if (what.empty()) return true;
     refuse(e, index, what);
@@ -191,7 +195,8 @@ class SectionWriter {
   }
 
   void add_section(const SectionKey& key, const std::string& set) {
-    const bool is_of_shell = key.family == ElementFamily::shell;
+    const bool is_of_shell =
+        key.family == ElementFamily::shell || key.family == ElementFamily::membrane;
     const std::string of_material =
         material_name(key.material, is_of_shell ? further_density(shell(key.section)) : 0.0);
     const std::string axes = orientation_word(key);
@@ -206,8 +211,9 @@ class SectionWriter {
       const std::string offset =
           s.offset == 0.0 ? ""
                           : fmt::format(", OFFSET={}", calculix_number(s.offset / s.thickness));
-      deck_.text +=
-          fmt::format("*SHELL SECTION, {}{}\n{}\n", words, offset, calculix_number(s.thickness));
+      deck_.text += fmt::format("*{} SECTION, {}{}\n{}\n",
+                                key.family == ElementFamily::shell ? "SHELL" : "MEMBRANE", words,
+                                offset, calculix_number(s.thickness));
     } else {
       const BeamSection& s = beam(key.section);
       const bool rectangle = s.outline == BeamSection::Outline::rectangle;

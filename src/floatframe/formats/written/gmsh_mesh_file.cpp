@@ -28,13 +28,19 @@ int gmsh_number(ElementType type) {
     case ElementType::beam3:
       return 8;
     case ElementType::tri3:
+    case ElementType::membrane3:
       return 2;
     case ElementType::quad4:
     case ElementType::shear4:
+    case ElementType::membrane4:
+    case ElementType::membrane4s:
       return 3;
     case ElementType::tri6:
+    case ElementType::membrane6:
       return 9;
     case ElementType::quad8:
+    case ElementType::membrane8:
+    case ElementType::membrane8r:
       return 16;
     case ElementType::tet4:
       return 4;

@@ -24,13 +24,19 @@ std::uint8_t vtk_cell_of(ElementType type) {
     case ElementType::beam3:
       return 21;
     case ElementType::tri3:
+    case ElementType::membrane3:
       return 5;
     case ElementType::quad4:
     case ElementType::shear4:
+    case ElementType::membrane4:
+    case ElementType::membrane4s:
       return 9;
     case ElementType::tri6:
+    case ElementType::membrane6:
       return 22;
     case ElementType::quad8:
+    case ElementType::membrane8:
+    case ElementType::membrane8r:
       return 23;
     case ElementType::tet4:
       return 10;
@@ -94,7 +100,7 @@ void add_element_cells(const FeModel& model, const WrittenNumbers& numbers, VtkG
     const auto m = static_cast<std::size_t>(element.material);
     const auto s = static_cast<std::size_t>(element.section);
     const bool known = element.material >= 0 && m < model.materials.size();
-    const bool shell = is_shell(element.type) && s < model.shells.size();
+    const bool shell = has_shell_section(element.type) && s < model.shells.size();
     cells.add(numbers.element[e], static_cast<int>(element.type), known ? element.material : -1,
               known ? model.materials[m] : Material{}, shell ? model.shells[s].thickness : 0.0);
   }
