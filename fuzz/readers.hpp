@@ -219,7 +219,7 @@ struct Reader {
 inline constexpr Reader readers[] = {
     {"text", text},
     {"abaqus", abaqus},
-    {"ansys", ansys},
+    {"ansys", ansys, 64e6},  // beam sections are solved with finite elements, one at a time
     {"calculix_matrices", calculix_matrices},
     {"abaqus_matrices", abaqus_matrices},
     {"matrix_market", matrix_market},

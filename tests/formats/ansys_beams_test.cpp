@@ -254,6 +254,22 @@ TEST(AnsysBeamShapes, Errors) {
             at + "(RECT): a centroid or shear centre of its own (SECOFFSET) is not read");
 }
 
+TEST(AnsysBeamShapes, ManySectionsAreNotComputed) {
+  const auto deck = [](int count) {
+    std::string text =
+        "ET,1,188\nMP,EX,1,2.1e5\nMP,PRXY,1,0.3\nMP,DENS,1,7.8e-9\nN,1\nN,2,100\nN,3,0,1\n";
+    for (int k = 1; k <= count; ++k)
+      text += fmt::format("SECTYPE,{},BEAM,L\nSECDATA,20,20,10,10\n", k);
+    for (int k = 1; k <= count; ++k) text += fmt::format("SECNUM,{}\nE,1,2,3\n", k);
+    return text;
+  };
+  EXPECT_EQ(ansys_of(deck(200)).elements.size(), 200u);
+  EXPECT_EQ(
+      ansys_error(deck(201)),
+      "a.cdb:408: section 201 (L): the torsion of more than 200 sections is not computed: give "
+      "their constants (SECTYPE,n,BEAM,ASEC)");
+}
+
 TEST(AnsysBeamShapes, ErrorsOfPipes) {
   const auto error = [](const std::string& data) {
     return ansys_error("ET,1,288\nN,1\nN,2,1\nSECTYPE,1,PIPE\nSECDATA," + data + "\n" + cdb_steel +

@@ -12,6 +12,8 @@
 namespace floatframe {
 namespace {
 
+constexpr int most_solved_sections = 200;
+
 using BeamPlates = std::vector<SectionPlate>;
 using ShapeRow = std::vector<double>;
 
@@ -212,6 +214,12 @@ class BeamShape {
     if ((s_.shape == "HREC" && !(d_[4] + d_[5] < d_[1])) ||
         (s_.shape == "CHAN" && !(d_[3] + d_[4] < d_[2])))
       return fail("its walls are thicker than it is high");
+    // A few bytes of deck would take 0.01 to 0.1 s each.
+    if (++b_.solved_sections > most_solved_sections)
+      return fail(
+          fmt::format("the torsion of more than {} sections is not computed: give their "
+                      "constants (SECTYPE,n,BEAM,ASEC)",
+                      most_solved_sections));
     const PlateSums sums = plate_sums(plates);
     const SectionFlow flow = section_flow(plates);
     if (!flow.found)

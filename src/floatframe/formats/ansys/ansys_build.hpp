@@ -64,6 +64,7 @@ struct AnsysBuild {
   std::map<std::pair<int, double>, int> materials = {};
   std::map<int, int> orientations = {};
   std::map<int, std::optional<AnsysBeam>> beams = {};  ///< by section; none: with an error
+  int solved_sections = 0;                             ///< shapes whose torsion has been computed
   std::vector<AnsysArm> arms = {};
   std::map<std::array<double, 4>, int> arm_nodes = {};
   int largest_node = 0;        ///< number, once a node has been added
