@@ -208,5 +208,51 @@ TEST(LayeredDecks, SolidsInBothLanguages) {
   EXPECT_LT((x.K - y.K).norm(), 1e-9 * x.K.norm());
 }
 
+// The whole of A, B and D of a deck from the energies of constant strains and curvatures, against
+// classical laminate theory.
+TEST(LayeredDecks, PcompAgainstLaminateTheory) {
+  const FeModel m = layered_bdf(
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\nGRID,4,,0.,1.,0.\nGRID,5,,3.,.5,0.\n"
+      "CORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nMAT8,1,1.4+5,1.+4,.3,5000.,,,1.6-9\n"
+      "CQUAD4,1,3,1,2,3,4,7\nCTRIA3,2,3,2,5,3,7\n"
+      "PCOMP,3,-.03\n,1,.01,0.,YES,1,.02,90.\n,1,.015,45.,YES,1,.01,-30.\n");
+  struct Ply {
+    double thickness, degrees;
+  };
+  const double E1 = 1.4e5, E2 = 1e4, nu12 = 0.3, G12 = 5000.0, part = 1.0 - nu12 * nu12 * E2 / E1;
+  Mat3 Q;
+  Q << E1 / part, nu12 * E2 / part, 0.0, nu12 * E2 / part, E2 / part, 0.0, 0.0, 0.0, G12;
+  Mat6 abd = Mat6::Zero();
+  double z = -0.03;
+  for (const Ply& ply : {Ply{0.01, 0.0}, Ply{0.02, 90.0}, Ply{0.015, 45.0}, Ply{0.01, -30.0}}) {
+    const double a = ply.degrees * std::numbers::pi / 180.0, c = std::cos(a), s = std::sin(a);
+    Mat3 T;  // strain in the axes of the ply
+    T << c * c, s * s, c * s, s * s, c * c, -c * s, -2 * c * s, 2 * c * s, c * c - s * s;
+    const Mat3 q = T.transpose() * Q * T;
+    const double top = z + ply.thickness;
+    abd.topLeftCorner<3, 3>() += q * (top - z);
+    abd.topRightCorner<3, 3>() += q * (top * top - z * z) / 2.0;
+    abd.bottomRightCorner<3, 3>() += q * (top * top * top - z * z * z) / 3.0;
+    z = top;
+  }
+  abd.bottomLeftCorner<3, 3>() = abd.topRightCorner<3, 3>().transpose();
+  // u = e x, w = -kappa x^2/2, theta = (w_y, -w_x).
+  MatX fields = MatX::Zero(6 * m.nodes(), 6);
+  for (int n = 0; n < m.nodes(); ++n) {
+    const double x = m.positions[n].x(), y = m.positions[n].y();
+    auto row = fields.middleRows<6>(6 * n);
+    row(0, 0) = x;
+    row(1, 1) = y;
+    row(0, 2) = y / 2.0, row(1, 2) = x / 2.0;
+    row(2, 3) = -x * x / 2.0, row(4, 3) = x;
+    row(2, 4) = -y * y / 2.0, row(3, 4) = -y;
+    row(2, 5) = -x * y / 2.0, row(3, 5) = -x / 2.0, row(4, 5) = y / 2.0;
+  }
+  const Mat6 found = fields.transpose() * assemble(m).K * fields / 2.5;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j)
+      EXPECT_NEAR(found(i, j), abd(i, j), 1e-9 * std::sqrt(abd(i, i) * abd(j, j))) << i << j;
+}
+
 }  // namespace
 }  // namespace floatframe::test
