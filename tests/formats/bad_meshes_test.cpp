@@ -10,7 +10,7 @@
 namespace floatframe::test {
 namespace {
 
-struct FaultyMesh {
+struct InvalidMesh {
   std::string text, sentence;
 };
 
@@ -22,7 +22,7 @@ TEST(BadMeshes, GmshFramesAndCounts) {
   const std::string nodes4 =
       "$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n";
   ASSERT_EQ(error_of([&] { parse_gmsh(form + nodes + elements, "a.msh", {}); }), "no error");
-  const FaultyMesh meshes[] = {
+  const InvalidMesh meshes[] = {
       {"$MeshFormat\n4.1 0\n",
        "a.msh:2: found '4.1 0', expected the version, 0 (ASCII) or 1 (binary) and the size of a "
        "number, as in '4.1 0 8'"},
@@ -47,14 +47,14 @@ TEST(BadMeshes, GmshFramesAndCounts) {
       {form4 + nodes4 + "$Elements\n1 2 1 2\n3 1 4 1\n1 1 2 3 4\n$EndElements\n",
        "a.msh:17: section $Elements says 2 elements, its blocks have 1"},
   };
-  for (const FaultyMesh& mesh : meshes) {
+  for (const InvalidMesh& mesh : meshes) {
     SCOPED_TRACE(mesh.text);
     EXPECT_EQ(error_of([&] { parse_gmsh(mesh.text, "a.msh", {}); }), mesh.sentence);
   }
 }
 
 /// A stiffness with its mass, its degrees of freedom and its nodes.
-struct FaultyMatrices {
+struct InvalidMatrices {
   std::string stiffness, mass, dofs, nodes, sentence;
 };
 
@@ -63,7 +63,7 @@ TEST(BadMeshes, MatrixMarketWithTables) {
       "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 2.\n2 2 2.\n3 3 2.\n";
   const std::string banner = "%%MatrixMarket matrix coordinate real symmetric\n";
   const std::string map = "1 1\n1 2\n1 3\n", table = "1, 0, 0, 0\n";
-  const FaultyMatrices all[] = {
+  const InvalidMatrices all[] = {
       {good, good, map, table, "no error"},
       {banner, good, map, table,
        "K.mtx:1: the line with rows, columns and number of entries is missing"},
@@ -93,7 +93,7 @@ TEST(BadMeshes, MatrixMarketWithTables) {
       {good, good, map, "1, 0, 0, 0\n1, 1, 0, 0\n",
        "nodes.csv:2: node 1 is there already (line 1)"},
   };
-  for (const FaultyMatrices& m : all) {
+  for (const InvalidMatrices& m : all) {
     SCOPED_TRACE(m.sentence);
     TemporaryFolder folder;
     FeReadOptions options;

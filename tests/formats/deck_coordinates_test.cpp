@@ -20,7 +20,7 @@ FeModel deck_read(const std::string& text) {
   return read_abaqus(source, options);
 }
 
-std::string deck_fault(const std::string& text) {
+std::string coordinate_deck_error(const std::string& text) {
   return error_of([&] { validate(deck_read(text)); });
 }
 
@@ -150,6 +150,13 @@ TEST(DeckCoordinates, Errors) {
       {beams(general + "1., 1., 0., 1., 1.\n3., .5\n"),
        "deck.inp:8: *BEAM GENERAL SECTION has E = 3 and G = 0.5, which no isotropic material has: "
        "expected G from E/3 on"},
+      {beams("*BEAM GENERAL SECTION, ELSET=BEAM, DENSITY=1., LUMPED=NO\n1., 1., 0., 1., 1.\n1., "
+             ".4\n"),
+       "deck.inp:8: *BEAM GENERAL SECTION has LUMPED='NO', expected YES: leave it out, and read "
+       "the "
+       "deck with --mass-form consistent"},
+      {beams("*BEAM GENERAL SECTION, ELSET=BEAM, DENSITY=nan\n1., 1., 0., 1., 1.\n1., .4\n"),
+       "deck.inp:8: *BEAM GENERAL SECTION has the density 'nan', expected a number from 0"},
       {beams("*BEAM GENERAL SECTION, ELSET=BEAM, DENSITY=heavy\n1., 1., 0., 1., 1.\n1., .4\n"),
        "deck.inp:8: *BEAM GENERAL SECTION has the density 'heavy', expected a number from 0"},
       {beams("*MATERIAL, NAME=M\n*ELASTIC\n1., .3\n*BEAM SECTION, ELSET=BEAM, MATERIAL=M, "
@@ -163,7 +170,7 @@ TEST(DeckCoordinates, Errors) {
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);
-    const std::string found = deck_fault(c.text);
+    const std::string found = coordinate_deck_error(c.text);
     EXPECT_EQ(found.substr(0, found.find('\n')), c.message);
     if (c.message.find("a second time") != std::string::npos) {
       EXPECT_EQ(found.find("another"), std::string::npos) << found;

@@ -253,7 +253,7 @@ std::string fe_info_text(const PartJob& job, const FeModel& model) {
   if (!f.bad_elements.empty()) {
     const std::size_t shown = std::min<std::size_t>(f.bad_elements.size(), 10);
     text +=
-        fmt::format("\nWARNING: {} of no use: {}{}; the first one {}\n",
+        fmt::format("\nWARNING: {} invalid: {}{}; the first one {}\n",
                     plural(static_cast<long>(f.bad_elements.size()), "element is", "elements are"),
                     fmt::join(f.bad_elements.begin(),
                               f.bad_elements.begin() + static_cast<std::ptrdiff_t>(shown), ", "),

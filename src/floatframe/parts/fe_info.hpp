@@ -20,7 +20,7 @@ struct FeFacts {
   double mass = 0.0;                             ///< of all, known as far as densities are
   std::vector<double> material_masses;           ///< of each material
   double point_mass = 0.0, other_mass = 0.0;     ///< and that of sections per length or area
-  std::vector<std::string> bad_elements;         ///< labels of elements that are inverted or flat
+  std::vector<std::string> bad_elements;         ///< labels of invalid elements
   std::string bad_reason;                        ///< of the first of them
   struct Set {
     std::string name, kind;  ///< "nodes", "elements", "surface"

@@ -108,38 +108,36 @@ Special material() {
       [](PartJob& job, const std::string& text) { job.read.material = material_argument(text); }};
 }
 
+template <auto member>
+Texts named_numbers(const PartJob& job) {
+  Texts out;
+  for (const auto& [name, number] : job.read.*member)
+    out.push_back(named_number_text(name, number));
+  return out;
+}
+
+void add_once(std::map<std::string, double>& numbers, const std::pair<std::string, double>& given,
+              const char* twice, const char* all, const char* kind) {
+  if (!numbers.insert(given).second)
+    throw InputError(fmt::format(
+        "{} for {}", twice,
+        given.first.empty() ? std::string(all) : fmt::format("the {} '{}'", kind, given.first)));
+}
+
 Special densities() {
-  return {Special::What::densities,
-          [](const PartJob& job) {
-            Texts out;
-            for (const auto& [name, density] : job.read.densities)
-              out.push_back(named_number_text(name, density));
-            return out;
-          },
+  return {Special::What::densities, named_numbers<&FeReadOptions::densities>,
           [](PartJob& job, const std::string& text) {
-            auto [name, density] = density_argument(text);
-            if (!job.read.densities.emplace(name, density).second)
-              throw InputError(fmt::format(
-                  "--density: two densities for {}",
-                  name.empty() ? "all materials" : fmt::format("the material '{}'", name)));
+            add_once(job.read.densities, density_argument(text), "--density: two densities",
+                     "all materials", "material");
           },
           true};
 }
 
 Special thicknesses() {
-  return {Special::What::thicknesses,
-          [](const PartJob& job) {
-            Texts out;
-            for (const auto& [name, thickness] : job.read.thicknesses)
-              out.push_back(named_number_text(name, thickness));
-            return out;
-          },
+  return {Special::What::thicknesses, named_numbers<&FeReadOptions::thicknesses>,
           [](PartJob& job, const std::string& text) {
-            auto [name, thickness] = thickness_argument(text);
-            if (!job.read.thicknesses.emplace(name, thickness).second)
-              throw InputError(
-                  fmt::format("--thickness: two thicknesses for {}",
-                              name.empty() ? "all shells" : fmt::format("the group '{}'", name)));
+            add_once(job.read.thicknesses, thickness_argument(text), "--thickness: two thicknesses",
+                     "all shells", "group");
           },
           true};
 }

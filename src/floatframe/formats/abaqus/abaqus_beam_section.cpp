@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "floatframe/formats/abaqus/abaqus_content.hpp"
@@ -158,7 +159,7 @@ void add_material(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusConten
   const double G = positive_real(lines, fields[1], "G");
   if (keyword.has("DENSITY")) {
     const auto density = parse_real(keyword.value("DENSITY"));
-    if (!density || *density < 0.0)
+    if (!density || !(*density >= 0.0) || !std::isfinite(*density))
       lines.error(keyword, fmt::format("has the density {}, expected a number from 0",
                                        shown(keyword.value("DENSITY"))));
     material.density = density;
@@ -217,6 +218,10 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "SECTION", "OFFSET1", "OFFSET2",
                              "TEMPERATURE", "POISSON", "DENSITY", "LUMPED", "ZERO"});
   no_offset(lines, keyword);
+  if (keyword.has("LUMPED") && !same_word(keyword.value("LUMPED"), "YES"))
+    lines.error(keyword, fmt::format("has LUMPED={}, expected YES: leave it out, and read the deck "
+                                     "with --mass-form consistent",
+                                     shown(keyword.value("LUMPED"))));
   const bool own_material = keyword.name == "BEAMGENERALSECTION" && !keyword.has("MATERIAL");
   if (own_material) {
     section.material = fmt::format("{}, line {}", keyword.shown, keyword.at.line);

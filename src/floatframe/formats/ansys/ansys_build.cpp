@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
 
@@ -156,6 +157,17 @@ int AnsysBuild::orientation(int id, const FeSource& at, const std::string& who) 
 Mat3 AnsysBuild::nodal_axes(int node) const {
   const auto it = content.node_angles.find(node);
   return it == content.node_angles.end() ? Mat3::Identity() : ansys_rotation(it->second);
+}
+
+std::vector<char> AnsysBuild::nodes_with_rotations() const {
+  std::vector<char> rotates(model.positions.size(), 0);
+  for (const Element& e : model.elements) {
+    const ElementKernel& kernel = element_kernel(e.type);
+    for (int k = 0; k < kernel.nodes; ++k)
+      if (kernel.dofs_per_node == 6) rotates[e.nodes[k]] = 1;
+  }
+  for (const Spider& s : model.spiders) rotates[s.reference] = 1;
+  return rotates;
 }
 
 void AnsysBuild::error(const AnsysElement& e, const std::string& text) {

@@ -58,6 +58,8 @@ struct AnsysBuild {
   int orientation(int id, const FeSource& at, const std::string& who);
   /// Axes of the nodal system of a node; columns in body axes.
   Mat3 nodal_axes(int node) const;
+  /// 1 for nodes of beams and shells and references of spiders.
+  std::vector<char> nodes_with_rotations() const;
   void error(const AnsysElement& e, const std::string& text);
   void note(const FeSource& at, const std::string& text);
 

@@ -1,6 +1,5 @@
 // Beams whose centroid is not at their nodes (SECOFFSET): an end is a node of its own, tied
 // rigidly: u' = u + theta x d, theta' = theta.
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/ansys/ansys_build.hpp"
 
 namespace floatframe {
@@ -33,13 +32,7 @@ int ansys_arm_node(AnsysBuild& b, int node, const Vec3& arm, const FeSource& at)
 
 /// Nodes with rotations by equations; to others a spider gives them.
 void build_ansys_arms(AnsysBuild& b) {
-  std::vector<char> rotates(b.model.positions.size(), 0);
-  for (const Element& e : b.model.elements) {
-    const ElementKernel& kernel = element_kernel(e.type);
-    for (int k = 0; k < kernel.nodes; ++k)
-      if (kernel.dofs_per_node == 6) rotates[e.nodes[k]] = 1;
-  }
-  for (const Spider& s : b.model.spiders) rotates[s.reference] = 1;
+  const std::vector<char> rotates = b.nodes_with_rotations();
   std::map<int, std::size_t> spiders;
   for (const AnsysArm& a : b.arms) {
     if (rotates[a.node] != 0) {

@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 
-#include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/ansys/ansys_build.hpp"
 
 namespace floatframe {
@@ -192,13 +191,7 @@ void build_ansys_rigid(AnsysBuild& b) {
 
 /// MASS21: KEYOPT(3) = 0 masses of the three directions, then moments of inertia; 2 a mass.
 void build_ansys_masses(AnsysBuild& b) {
-  std::vector<char> rotates(b.model.positions.size(), 0);
-  for (const Element& e : b.model.elements) {
-    const ElementKernel& kernel = element_kernel(e.type);
-    for (int k = 0; k < kernel.nodes; ++k)
-      if (kernel.dofs_per_node == 6) rotates[e.nodes[k]] = 1;
-  }
-  for (const Spider& s : b.model.spiders) rotates[s.reference] = 1;
+  const std::vector<char> rotates = b.nodes_with_rotations();
   each(b, F::mass, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
     const AnsysReal* real = b.real(e);
     if (real == nullptr)

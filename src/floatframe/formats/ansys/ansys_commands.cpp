@@ -129,8 +129,8 @@ constexpr std::array ansys_silent = {
     "/GOLIST",    "/AUTO",    "/DIST",      "/ANGLE",    "/TYPE",    "/FOCUS",  "/LINE",
     "/RGB",       "/TRIAD",   "/PLOPTS",    "/EDGE",     "/INQUIRE", "/XML",    "/STATUS",
     "/HEADER",    "/PAGE",    "/FORMAT",    "*ABSET",    "*ABCHECK", "*ABFINI", "KEYW",
-    "TBLIST",     "MPLIST",   "ETLIST",     "NLIST",     "ELIST",    "CM",      "*VWRITE",
-    "*CFOPEN",    "*CFCLOS",  "*MSG",       "*DEL",      "SLIST",
+    "TBLIST",     "MPLIST",   "ETLIST",     "NLIST",     "ELIST",    "CM",      "*CFOPEN",
+    "*CFCLOS",    "*DEL",     "SLIST",
 };
 
 /// What to do instead, of commands that are met in decks of a session.

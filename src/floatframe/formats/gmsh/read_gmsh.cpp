@@ -86,7 +86,7 @@ class GmshModel {
   /// The element's nodes as indices, in the order of the file; false if there is an error, which is
   /// said once.
   bool gather(const GmshElement& e, std::vector<int>& nodes) {
-    if (faulty_.contains(e.first)) return false;
+    if (invalid_.contains(e.first)) return false;
     nodes.clear();
     for (int k = 0; k < e.type->nodes; ++k) {
       const int id = mesh_.element_nodes[e.first + k];
@@ -94,7 +94,7 @@ class GmshModel {
       if (it == index_.end()) {
         error(e.at, fmt::format("element {} ({}) has node {}, which is not in the file", e.id,
                                 e.type->name, id));
-        faulty_.insert(e.first);
+        invalid_.insert(e.first);
         return false;
       }
       nodes.push_back(it->second);
@@ -328,7 +328,7 @@ class GmshModel {
   std::unordered_map<int, int> index_;  // of a node number
   std::vector<int> element_index_;      // in the model, of each element of the mesh
   std::map<std::pair<int, int>, std::string> names_;
-  std::unordered_set<std::size_t> faulty_;  // GmshElement::first
+  std::unordered_set<std::size_t> invalid_;  // GmshElement::first
   int material_ = -1;
   SurfaceThickness thickness_;
   std::vector<int> section_;  // of each element of the mesh that is a shell; empty: no thicknesses

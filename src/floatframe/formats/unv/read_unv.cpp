@@ -44,9 +44,9 @@ class UnvBuild {
   /// The nodes of an element as indices, in the order of the file; false if there is an error,
   /// which is said once.
   bool gather(const UnvElement& e, std::vector<int>& nodes) {
-    if (faulty_.contains(e.first)) return false;
+    if (invalid_.contains(e.first)) return false;
     if (look_up(e, nodes)) return true;
-    faulty_.insert(e.first);
+    invalid_.insert(e.first);
     return false;
   }
 
@@ -276,7 +276,7 @@ class UnvBuild {
   SurfaceThickness thickness_;
   std::unordered_map<int, std::vector<std::string>> groups_of_;  // of elements, by their numbers
   std::unordered_set<int> once_;
-  std::unordered_set<std::size_t> faulty_;  // UnvElement::first
+  std::unordered_set<std::size_t> invalid_;  // UnvElement::first
   std::unordered_map<int, int> joined_;  // of the nodes of rigid elements, to be followed to a root
   std::vector<std::pair<int, const UnvElement*>>
       in_order_;  // each such node with its first element
