@@ -74,9 +74,9 @@ class Resolver {
     owner_[dof] = owner;
   }
 
-  /// sum of terms = 0, solved for `first` if it is still free, else for the dof with the largest
-  /// factor. Nothing is left to solve if other equations say the same.
-  void add_equation(int owner, int first, const Terms& terms) {
+  /// sum of terms = 0, solved for `first` if it is still free (and, unless `for_first`, its factor not
+  /// small), else for the dof with the largest factor. Nothing is left to solve if other equations say the same.
+  void add_equation(int owner, int first, bool for_first, const Terms& terms) {
     double scale = 0.0;
     for (const auto& [dof, factor] : terms) scale = std::max(scale, std::abs(factor));
     Terms reduced = reduce(terms);
@@ -88,8 +88,8 @@ class Resolver {
     auto pivot = std::find_if(reduced.begin(), reduced.end(),
                               [&](const auto& t) { return t.first == first; });
     const auto largest = std::max_element(reduced.begin(), reduced.end(), smaller);
-    if (pivot == reduced.end() || std::abs(pivot->second) < 1e-3 * std::abs(largest->second))
-      pivot = largest;
+    const double least = for_first ? 0.0 : 1e-3 * std::abs(largest->second);
+    if (pivot == reduced.end() || std::abs(pivot->second) < least) pivot = largest;
     const auto [dof, factor] = *pivot;
     reduced.erase(pivot);
     for (auto& [other, f] : reduced) f /= -factor;
@@ -299,7 +299,7 @@ void add_equation(const FeModel& model, const DofTable& table, const LinearEquat
     }
     terms.emplace_back(dof, t.factor);
   }
-  resolver.add_equation(owner, table.index(first.node, first.axis), terms);
+  resolver.add_equation(owner, table.index(first.node, first.axis), equation.for_first, terms);
 }
 
 }  // namespace

@@ -177,6 +177,9 @@ struct LinearEquation {
   };
   std::vector<Term> terms;
   FeSource source;
+  /// Solved for its first term however small its factor: a rotation that follows displacements, whose
+  /// factors are of another unit.
+  bool for_first = false;
 };
 
 /// A support in the user's file. Not applied: a hint where the part is held.

@@ -327,9 +327,10 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   validate(model);
   health.nodes = model.nodes();
   health.elements = static_cast<int>(model.elements.size());
-  health.notes = model.notes;
   std::vector<MarkerPlace> markers = place_markers(model, options);
   std::vector<InterfacePlace> interfaces = place_interfaces(model, options);
+  tie_turns(model, interfaces);
+  health.notes = model.notes;
   check_connected(model);
   stages.done("model");
 

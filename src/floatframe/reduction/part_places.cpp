@@ -8,6 +8,7 @@
 #include <set>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/fe/free_turns.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
@@ -116,6 +117,22 @@ std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& 
   }
   errors.throw_if_any();
   return places;
+}
+
+void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces) {
+  const std::vector<FreeTurn> turns = free_turns(model);
+  ErrorList errors;
+  for (const FreeTurn& turn : turns)
+    for (const InterfacePlace& place : interfaces)
+      if ((place.mask & 56u) != 0 &&
+          std::binary_search(turn.group.begin(), turn.group.end(), place.node))
+        errors.add(
+            model.mark(turn.source),
+            fmt::format("interface '{}': {} is held by nodes without rotations {}, so nothing "
+                        "resists its turn; give the interface only ux uy uz",
+                        place.name, turn.label, turn.every_way ? "in one point" : "on one line"));
+  errors.throw_if_any();
+  tie_free_turns(model, turns);
 }
 
 void find_rows(const FeModel& model, const FeSystem& system,

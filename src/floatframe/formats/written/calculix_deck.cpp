@@ -6,6 +6,7 @@
 #include "floatframe/core/plural.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/free_turns.hpp"
 #include "floatframe/formats/written/calculix_text.hpp"
 #include "floatframe/formats/written/mesh_writers.hpp"
 
@@ -198,7 +199,14 @@ void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bo
 WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options) {
   if (model.elements.empty())
     throw InputError("the model has no elements, expected a mesh (matrices make no deck)");
-  CalculixText deck(model);
+  FeModel tied;  // only if needed: what nothing resists is singular there too
+  const std::vector<FreeTurn> turns = free_turns(model);
+  if (!turns.empty()) {
+    tied = model;
+    tie_free_turns(tied, turns);
+  }
+  CalculixText deck(turns.empty() ? model : tied);
+  if (!turns.empty()) deck.notes.push_back(tied.notes.back());
   deck.text = "*HEADING\nWritten by Floatframe\n";
   add_nodes(deck);
   add_elements(deck);
