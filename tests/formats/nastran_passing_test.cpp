@@ -83,7 +83,6 @@ TEST(NastranPassing, SentencesOfWhatIsRefused) {
       {"CFAST", "fasteners are not supported; replace them with RBE3 and CBUSH"},
       {"CWELD", "welds are not supported; replace them with RBE3 and CBUSH"},
       {"CSEAM", "seam welds are not supported; replace them with RBE3 and CBUSH"},
-      {"CMASS3", "masses of scalar points (SPOINT) are not supported; give CONM2"},
       {"PBMSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBEAM"},
       {"PBRSECT", "sections of any outline are not supported; give A, I1, I2 and J with PBAR"},
       {"TF", "transfer functions add stiffness and mass; take them out"},
@@ -117,10 +116,11 @@ TEST(NastranPassing, WhatIsNotSelected) {
   EXPECT_EQ(passing_error("SOL 101\nCEND\nBEGIN BULK\n" + tetra + cards), "no error");
   EXPECT_EQ(passing_error(tetra + cards),
             "arm.bdf:9: DMIG is not read and may change stiffness or mass\n"
-            "arm.bdf:8: NSM1 is not read and may change stiffness or mass");
-  EXPECT_EQ(
-      passing_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards),
-      "arm.bdf:2: the case control has NSM = 3, which adds stiffness or mass and is not read");
+            "arm.bdf:8: NSM1 is not read: only a case control selects it (CEND, NSM = n, BEGIN "
+            "BULK), and the file has none");
+  EXPECT_EQ(passing_error("CEND\nNSM=3\nBEGIN BULK\n" + tetra + cards),
+            "arm.bdf:11: NSM1 3: the type is 'PSOLID', expected PSHELL, PCOMP, PBAR, PBARL, PBEAM, "
+            "PBEAML, PROD, CONROD, PTUBE, PSHEAR or ELEMENT; others are not read");
 }
 
 TEST(NastranPassing, FormsOfCards) {

@@ -186,7 +186,8 @@ TEST(NastranSprings, Rods) {
 TEST(NastranSprings, Errors) {
   const std::pair<std::string, const char*> wrong[] = {
       {"CELAS2,3,5.,91,1", "CELAS2 3 ties node 91 to the ground, which a part that floats cannot"},
-      {"CELAS2,3,5.,91,1,92", "CELAS2 3: the component of node 92 is missing; scalar points"},
+      {"CELAS2,3,5.,91,1,92",
+       "CELAS2 3: the component of node 92 is missing, expected one of 1 to 6"},
       {"CELAS2,3,5.,91,12,92,1", "CELAS2 3: the component is '12', expected one of 1 to 6"},
       {"CELAS2,3,,91,1,92,1", "CELAS2 3: K is missing"},
       {"CELAS2,3,-5.,91,1,92,1", "CELAS2 3: found the stiffness -5, expected no negative number"},
@@ -195,7 +196,6 @@ TEST(NastranSprings, Errors) {
       {"CELAS2,3,5.,91,1,97,1", "CELAS2 3 has node 97, which is not in the file"},
       {"CELAS2,3,5.,91,1,92,1\nCELAS2,3,5.,91,1,93,1",
        "CELAS2 3: this element number is in the file twice, first in line 8"},
-      {"CELAS4,3,5.,1,2", "CELAS4 3: springs between scalar points (SPOINT) are not supported"},
       {"CBUSH,3,8,91,92,0.,0.,1.", "CBUSH 3: property 8 (PBUSH) is not in the file"},
       {"CBUSH,3,8,91,92\nPBUSH,8,K,1.,2.",
        "CBUSH 3: it has stiffness across its axis, but no orientation; give GO, a vector or CID"},

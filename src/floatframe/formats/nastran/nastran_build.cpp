@@ -80,11 +80,10 @@ int NastranBuild::node(int id, const FeSource& at, const std::string& who) {
   const auto it = node_of.find(id);
   if (it != node_of.end()) return it->second;
   if (id > 0) {
-    source.error(at, content.scalar_points.contains(id)
-                         ? fmt::format("{} has the scalar point {} (SPOINT); scalar points are not "
-                                       "read",
-                                       who, id)
-                         : fmt::format("{} has node {}, which is not in the file", who, id));
+    source.error(at,
+                 content.scalar_points.contains(id)
+                     ? fmt::format("{} has the scalar point {}, expected a node (GRID)", who, id)
+                     : fmt::format("{} has node {}, which is not in the file", who, id));
   }
   return -1;
 }

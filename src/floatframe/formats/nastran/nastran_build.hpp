@@ -48,6 +48,7 @@ struct NastranBuild {
   std::map<int, int> orientation_of;     ///< index in FeModel::orientations of a system
   std::vector<char> turned;              ///< nodes whose displacements are in a turned system
   NastranEquations equations;            ///< what goes to the model at the end
+  NastranScalarPoints scalars;
 
   NastranBuild(const NastranContent& c, TextSource& s) : content(c), source(s) {}
   /// Index of a node; an error and -1 if it is not there.
@@ -156,9 +157,23 @@ void give_nastran_rigid_rotations(NastranBuild& build);
 /// An RBE3 that is no mean spider of displacements; after all other constraints.
 void build_nastran_mean(NastranBuild& build, const NastranSpider& s);
 // nastran_build_constraints.cpp
+/// Node of a term of an MPC; an error and -1 if it has none.
+int nastran_node_of_term(NastranBuild& build, const NastranEquation& e,
+                         const NastranEquation::Term& term);
+/// Adds a term of a node in basic axes.
+void add_nastran_term(const NastranBuild& build, int node, const NastranEquation::Term& term,
+                      LinearEquation& equation);
 void build_nastran_constraints(NastranBuild& build);
 void build_nastran_supports(NastranBuild& build);
+// nastran_nonstructural.cpp
+/// Mass that the case control selects (NSM), after the elements.
+void build_nastran_nonstructural(NastranBuild& build);
 // nastran_build_sets.cpp
+/// The set that the case control selects, or those that an ADD card of its number joins; an error
+/// if it selects two. `what`: MPC, NSM.
+std::set<int> selected_nastran_sets(NastranBuild& build,
+                                    const std::vector<std::pair<int, FeSource>>& selected,
+                                    const std::map<int, std::vector<int>>& added, const char* what);
 void build_nastran_sets(NastranBuild& build, bool only_nodes);
 
 /// Numbers with their index, to look up ranges.

@@ -42,6 +42,7 @@ class ConstraintBuilder {
     give_nastran_rigid_rotations(b_);
     for (const NastranMass& m : b_.content.masses) mass(m);
     for (const NastranMass& m : nastran_rigid_masses(b_)) mass(m);
+    check_nastran_scalar_masses(b_);
     equations();
     build_nastran_rigids(b_);
     for (const NastranSpider* s : general_) build_nastran_mean(b_, *s);
@@ -183,46 +184,13 @@ class ConstraintBuilder {
     return fresh;
   }
 
-  /// The sets that the case control selects, with those that MPCADD joins.
-  std::set<int> selected_sets() {
-    std::set<int> sets;
-    const auto& selected = b_.content.control.mpc;
-    for (const auto& [id, at] : selected) {
-      if (id != selected.front().first) {
-        b_.source.error(at, fmt::format("the case control selects MPC sets {} and {}; only one can "
-                                        "be read, remove the other",
-                                        selected.front().first, id));
-        return sets;
-      }
-      const auto added = b_.content.added_mpc_sets.find(id);
-      if (added == b_.content.added_mpc_sets.end()) {
-        sets.insert(id);
-      } else {
-        sets.insert(added->second.begin(), added->second.end());
-      }
-    }
-    return sets;
-  }
-
-  /// A term in basic axes.
-  void add_term(int node, const NastranEquation::Term& term, LinearEquation& equation) {
-    if (b_.turned[index(node)] == 0) {
-      equation.terms.push_back({node, term.component, term.factor});
-      return;
-    }
-    const Vec3 axis = b_.axes(node).col(term.component % 3);
-    for (int k = 0; k < 3; ++k) {
-      const double factor = term.factor * axis(k);
-      if (std::abs(factor) > 1e-15 * std::abs(term.factor))
-        equation.terms.push_back({node, term.component >= 3 ? 3 + k : k, factor});
-    }
-  }
-
   void equations() {
     const bool by_control = b_.content.control.there;
-    const std::set<int> selected = by_control ? selected_sets() : std::set<int>{};
+    const std::set<int> selected =
+        selected_nastran_sets(b_, b_.content.control.mpc, b_.content.added_mpc_sets, "MPC");
     int set = 0, passed_over = 0, applied = 0;
     FeSource first;
+    std::vector<const NastranEquation*> of_scalar_points;
     for (const NastranEquation& e : b_.content.equations) {
       if (by_control && !selected.contains(e.set)) {
         if (passed_over++ == 0) first = e.at;
@@ -235,12 +203,19 @@ class ConstraintBuilder {
         return;
       }
       set = e.set;
+      ++applied;
+      if (std::any_of(e.terms.begin(), e.terms.end(), [&](const NastranEquation::Term& t) {
+            return b_.content.scalar_points.contains(t.node);
+          })) {
+        of_scalar_points.push_back(&e);
+        continue;
+      }
       LinearEquation equation;
       equation.source = e.at;
       for (const NastranEquation::Term& term : e.terms) {
-        const int node = b_.node(term.node, e.at, fmt::format("MPC {}", e.set));
+        const int node = nastran_node_of_term(b_, e, term);
         if (node < 0) return;
-        add_term(node, term, equation);
+        add_nastran_term(b_, node, term, equation);
       }
       const int dependent = b_.node_of.at(e.terms[0].node);
       if (b_.turned[index(dependent)] != 0) {
@@ -248,8 +223,8 @@ class ConstraintBuilder {
       } else {
         b_.model.equations.push_back(std::move(equation));
       }
-      ++applied;
     }
+    build_nastran_scalar_equations(b_, of_scalar_points);
     if (passed_over > 0) {
       b_.note(first, fmt::format("{} MPC equations are in sets that the case control does not "
                                  "select: they are not applied",
@@ -283,6 +258,30 @@ unsigned held_in_basic(const Mat3& axes, unsigned mask) {
 
 }  // namespace
 
+int nastran_node_of_term(NastranBuild& build, const NastranEquation& e,
+                         const NastranEquation::Term& term) {
+  const int node = build.node(term.node, e.at, fmt::format("MPC {}", e.set));
+  if (node < 0 || term.component >= 0) return node;
+  build.source.error(e.at, fmt::format("MPC {}: the component of node {} is missing, expected one "
+                                       "of 1 to 6",
+                                       e.set, term.node));
+  return -1;
+}
+
+void add_nastran_term(const NastranBuild& build, int node, const NastranEquation::Term& term,
+                      LinearEquation& equation) {
+  if (build.turned[static_cast<std::size_t>(node)] == 0) {
+    equation.terms.push_back({node, term.component, term.factor});
+    return;
+  }
+  const Vec3 axis = build.axes(node).col(term.component % 3);
+  for (int k = 0; k < 3; ++k) {
+    const double factor = term.factor * axis(k);
+    if (std::abs(factor) > 1e-15 * std::abs(term.factor))
+      equation.terms.push_back({node, term.component >= 3 ? 3 + k : k, factor});
+  }
+}
+
 void build_nastran_constraints(NastranBuild& build) { ConstraintBuilder(build).build(); }
 
 void build_nastran_supports(NastranBuild& build) {
@@ -290,10 +289,11 @@ void build_nastran_supports(NastranBuild& build) {
   std::vector<int> nodes;
   for (const NastranSupport& s : build.content.supports) {
     nodes.clear();
+    const bool points = build.content.scalar_points.overlaps(s.first, s.last);
     if (s.first == s.last) {
-      const int node = build.node(s.first, s.at, "a support (SPC)");
+      const int node = points ? -1 : build.node(s.first, s.at, "a support (SPC)");
       if (node >= 0) nodes.push_back(node);
-    } else if (!numbers.append(s.first, s.last, nodes)) {
+    } else if (!numbers.append(s.first, s.last, nodes) && !points) {
       build.source.error(s.at,
                          fmt::format("SPC1: there is no node from {} to {}", s.first, s.last));
     }

@@ -20,6 +20,28 @@ bool NastranNumbers::append(int first, int last, std::vector<int>& indices) cons
   return indices.size() > before;
 }
 
+std::set<int> selected_nastran_sets(NastranBuild& build,
+                                    const std::vector<std::pair<int, FeSource>>& selected,
+                                    const std::map<int, std::vector<int>>& added,
+                                    const char* what) {
+  std::set<int> sets;
+  for (const auto& [id, at] : selected) {
+    if (id != selected.front().first) {
+      build.source.error(at, fmt::format("the case control selects {} sets {} and {}; only one can "
+                                         "be read, remove the other",
+                                         what, selected.front().first, id));
+      return sets;
+    }
+    const auto joined = added.find(id);
+    if (joined == added.end()) {
+      sets.insert(id);
+    } else {
+      sets.insert(joined->second.begin(), joined->second.end());
+    }
+  }
+  return sets;
+}
+
 void build_nastran_sets(NastranBuild& build, bool only_nodes) {
   const NastranContent& c = build.content;
   const NastranNumbers nodes({build.node_of.begin(), build.node_of.end()});
@@ -38,7 +60,7 @@ void build_nastran_sets(NastranBuild& build, bool only_nodes) {
       const std::size_t before = members.size();
       const bool found = (set.elements ? elements : nodes).append(first, last, members);
       build.spend(members.size() - before, set.at);
-      if (found) continue;
+      if (found || (!set.elements && c.scalar_points.overlaps(first, last))) continue;
       complete = false;
       if (!set.strict || first == 0) continue;
       build.source.error(

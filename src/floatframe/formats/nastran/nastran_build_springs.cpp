@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/formats/nastran/nastran_build.hpp"
@@ -50,9 +51,44 @@ class SpringBuilder {
     return out[0] >= 0;
   }
 
+  /// One end in the model; -1: the ground. False with an error.
+  bool scalar_end(const NastranSpring& s, int end, int& node, Vec6& direction) {
+    node = -1;
+    direction.setZero();
+    const int id = s.nodes[end], c = s.components[end];
+    const double sign = end == 0 ? -1.0 : 1.0;
+    if (id == 0) return true;
+    if (b_.content.scalar_points.contains(id)) {
+      if (c > 0) {
+        error(s, fmt::format("the component is {}, but {} is a scalar point, which has one only (0 "
+                             "or blank)",
+                             c + 1, id));
+        return false;
+      }
+      const NastranScalarPoint* point = b_.scalars.find(id);
+      if (point == nullptr) return true;
+      node = point->node;
+      direction(point->axis) = sign;
+      return true;
+    }
+    node = b_.node(id, s.at, label(s));
+    if (node < 0) return false;
+    if (c < 0) {
+      error(s, fmt::format("the component of node {} is missing, expected one of 1 to 6", id));
+      return false;
+    }
+    direction.segment<3>(c < 3 ? 0 : 3) = sign * b_.axes(node).col(c % 3);
+    return true;
+  }
+
   void scalar(const NastranSpring& s) {
     Spring spring;
-    if (!nodes(s, spring.nodes)) return;
+    for (int end = 0; end < 2; ++end)
+      if (!scalar_end(s, end, spring.nodes[end], spring.directions[end])) return;
+    if (spring.nodes[0] < 0) {  // the ground comes second
+      std::swap(spring.nodes[0], spring.nodes[1]);
+      std::swap(spring.directions[0], spring.directions[1]);
+    }
     spring.name = label(s);
     spring.source = s.at;
     double k = s.stiffness.value_or(0.0);
@@ -65,15 +101,11 @@ class SpringBuilder {
       k = it->second.first;
     }
     spring.stiffness = k * b_.content.stiffness_factor;
-    for (int end = 0; end < 2; ++end) {
-      if (spring.nodes[end] < 0) continue;
-      const int c = s.components[end];
-      const Vec3 t = (end == 0 ? -1.0 : 1.0) * b_.axes(spring.nodes[end]).col(c % 3);
-      spring.directions[end].segment<3>(c < 3 ? 0 : 3) = t;
-    }
+    if (spring.nodes[0] < 0) return;           // points that are held
     if (spring.nodes[0] == spring.nodes[1]) {  // two directions of one node
       spring.directions[0] += spring.directions[1];
       spring.directions[1].setZero();
+      if (spring.directions[0].isZero(0.0)) return;
     }
     if (k != 0.0) b_.model.springs.push_back(std::move(spring));
   }

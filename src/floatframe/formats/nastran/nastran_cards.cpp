@@ -94,9 +94,14 @@ void NastranCards::command(std::string_view line) {
   const std::size_t equals = line.find('=');
   if (equals == std::string_view::npos) return;
   const std::string_view value = trimmed(line.substr(equals + 1));
+  const auto id = parse_label(value);
   if (same_word(word, "MPC")) {
-    const auto id = parse_label(value);
     if (id && control_.mpc.size() < most_commands) control_.mpc.emplace_back(*id, source_.here());
+    return;
+  }
+  if (same_word(word, "NSM") && id) {
+    if (control_.nonstructural.size() < most_commands)
+      control_.nonstructural.emplace_back(*id, source_.here());
     return;
   }
   if (same_word(word.substr(0, word.find('(')), "STATSUB")) control_.preload = source_.here();

@@ -186,8 +186,8 @@ void read_nastran_mpc(NastranFields& f, NastranContent& c) {
     if (i % 8 == 7) i += 2;  // field 9 and the first of the next line are blank
     if (f.blank(i)) continue;
     const unsigned mask = f.components(i + 1, "the component");
-    int component = 0;
-    while (component < 6 && mask != (1u << component)) ++component;
+    int component = mask == 0 ? -1 : 0;  // none: of a scalar point
+    while (component >= 0 && component < 6 && mask != (1u << component)) ++component;
     if (component == 6) {
       f.error(fmt::format("the component is {}, expected one of 1 to 6", shown(f.text(i + 1))));
       return;

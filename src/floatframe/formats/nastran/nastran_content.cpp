@@ -38,6 +38,8 @@ const std::map<std::string_view, NastranCardReader>& card_readers() {
       {"CONM1", read_nastran_mass_matrix},
       {"CMASS1", read_nastran_scalar_mass},
       {"CMASS2", read_nastran_scalar_mass},
+      {"CMASS3", read_nastran_mass_of_points},
+      {"CMASS4", read_nastran_mass_of_points},
       {"PMASS", read_nastran_pmass},
       {"MAT2", read_nastran_anisotropic},
       {"MAT8", read_nastran_anisotropic},
@@ -53,8 +55,13 @@ const std::map<std::string_view, NastranCardReader>& card_readers() {
       {"MPCADD", read_nastran_mpc_add},
       {"CELAS1", read_nastran_celas},
       {"CELAS2", read_nastran_celas},
-      {"CELAS3", read_nastran_scalar},
-      {"CELAS4", read_nastran_scalar},
+      {"CELAS3", read_nastran_scalar_spring},
+      {"CELAS4", read_nastran_scalar_spring},
+      {"NSM", read_nastran_nonstructural},
+      {"NSM1", read_nastran_nonstructural},
+      {"NSML", read_nastran_nonstructural},
+      {"NSML1", read_nastran_nonstructural},
+      {"NSMADD", read_nastran_nonstructural_add},
       {"PELAS", read_nastran_pelas},
       {"CBUSH", read_nastran_bush},
       {"PBUSH", read_nastran_pbush},
@@ -123,7 +130,8 @@ class ContentReader {
       return;
     }
     const auto reader = card_readers().find(name);
-    if (reader != card_readers().end()) return reader->second(f, c_);
+    const bool mass = name.starts_with("NSM") && c_.control.nonstructural.empty();
+    if (reader != card_readers().end() && !mass) return reader->second(f, c_);
     if (name == "PARAM") return parameter(f);
     if (name == "SET" || name == "SET1" || name == "SET3") return set(f);
     NastranProperty property;
@@ -229,6 +237,7 @@ class ContentReader {
       if (held != 0) c_.supports.push_back({g.id, g.id, held, g.at});
     }
     complete_nastran_bars(c_, source_);
+    c_.scalar_points.finish();
     if (!only_nodes_) {
       for (const auto& [command, at] : c_.control.additions) {
         source_.error(at, fmt::format("the case control has {}, which adds stiffness or mass and "

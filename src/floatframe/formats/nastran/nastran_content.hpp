@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/formats/nastran/nastran_scalar_points.hpp"
 #include "floatframe/formats/nastran/nastran_springs.hpp"
 
 namespace floatframe {
@@ -125,6 +126,21 @@ struct NastranMassMatrix {
   FeSource at;
 };
 
+/// NSM, NSM1, NSML, NSML1; of NSM and NSML one for each number.
+struct NastranNonstructural {
+  struct Range {
+    int first = 0, last = 0, step = 1;
+    bool several = false;  ///< some of them may be missing
+  };
+  const char* card = "";
+  std::string type;     ///< the card of the properties, or ELEMENT
+  bool lumped = false;  ///< `value` is the mass of all together
+  int set = 0;
+  double value = 0.0;  ///< over length or area
+  std::vector<Range> ranges;
+  FeSource at;
+};
+
 struct NastranMass {
   const char* card = "CONM2";
   int id = 0, node = 0, system = 0;
@@ -166,7 +182,7 @@ struct NastranRigidRod {
 struct NastranEquation {
   int set = 0;
   struct Term {
-    int node = 0, component = 0;
+    int node = 0, component = 0;  ///< -1: none, of a scalar point
     double factor = 0.0;
   };
   std::vector<Term> terms;
@@ -197,12 +213,13 @@ struct NastranContent {
   std::vector<NastranElement> elements;
   std::vector<NastranBarEnds> bar_ends;
   std::map<std::string, NastranBarDefault> bar_defaults;  ///< by CBAR and CBEAM
-  std::set<int> scalar_points;                            ///< SPOINT
+  NastranRanges scalar_points;  ///< SPOINT, and those of elements of scalar points
   std::map<int, NastranMaterial> materials;
   std::map<int, NastranProperty> properties;
   std::vector<NastranMass> masses;
   std::vector<NastranMassMatrix> mass_matrices;
   std::map<int, std::pair<double, FeSource>> pmass;
+  std::vector<NastranScalarMass> scalar_masses;
   NastranSprings springs;
   std::vector<NastranSpider> spiders;
   std::vector<NastranRigid> rigids;
@@ -211,6 +228,8 @@ struct NastranContent {
   std::vector<NastranSupport> supports;
   std::vector<NastranSet> sets;
   std::map<int, std::vector<int>> added_mpc_sets;  ///< MPCADD
+  std::vector<NastranNonstructural> nonstructural;
+  std::map<int, std::vector<int>> added_mass_sets;  ///< NSMADD
   NastranControl control;
   double mass_factor = 1.0;       ///< PARAM,WTMASS times PARAM,CM1
   double stiffness_factor = 1.0;  ///< PARAM,CK1
@@ -241,7 +260,6 @@ void read_nastran_grid(NastranFields&, NastranContent&);
 void read_nastran_grid_default(NastranFields&, NastranContent&);
 void read_nastran_system(NastranFields&, NastranContent&);
 void read_nastran_node_system(NastranFields&, NastranContent&);
-void read_nastran_scalar_points(NastranFields&, NastranContent&);
 void read_nastran_solid(NastranFields&, NastranContent&);
 void read_nastran_surface(NastranFields&, NastranContent&);
 void read_nastran_panel(NastranFields&, NastranContent&);
@@ -251,6 +269,9 @@ void read_nastran_mass(NastranFields&, NastranContent&);
 void read_nastran_mass_matrix(NastranFields&, NastranContent&);  ///< CONM1
 void read_nastran_scalar_mass(NastranFields&, NastranContent&);  ///< CMASS1, CMASS2
 void read_nastran_pmass(NastranFields&, NastranContent&);
+// nastran_nonstructural.cpp
+void read_nastran_nonstructural(NastranFields&, NastranContent&);  ///< NSM, NSM1, NSML, NSML1
+void read_nastran_nonstructural_add(NastranFields&, NastranContent&);
 // nastran_materials.cpp
 /// MAT2, MAT8, MAT9
 void read_nastran_anisotropic(NastranFields&, NastranContent&);

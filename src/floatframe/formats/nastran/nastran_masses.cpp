@@ -44,8 +44,16 @@ void read_nastran_scalar_mass(NastranFields& f, NastranContent& c) {
     m.property = f.blank(1) ? m.id : f.label(1, "the property");
   }
   const auto there = [&](std::size_t i) { return !f.blank(i) && f.text(i) != "0"; };
-  if (there(2) && there(4))
-    return f.error("a mass between two nodes is not supported; give CONM2 at each");
+  const auto point = [&](std::size_t i) { return there(i) && !there(i + 1); };
+  const bool both = there(2) && there(4);
+  if ((both && point(2) && point(4)) ||
+      (!both && (point(2) || point(4)))) {  // an end without component is a scalar point
+    NastranScalarMass s{m.card, m.id, m.property, {}, mass, m.at};
+    for (std::size_t end = 0; end < 2; ++end)
+      if (point(2 + 2 * end)) s.points[end] = f.label(2 + 2 * end, "the node");
+    return c.scalar_masses.push_back(s);
+  }
+  if (both) return f.error("a mass between two nodes is not supported; give CONM2 at each");
   const std::size_t end = there(2) ? 2 : 4;
   m.node = f.label(end, "the node");
   const unsigned mask = f.components(end + 1, "the component");

@@ -95,21 +95,6 @@ void read_nastran_node_system(NastranFields& f, NastranContent& c) {
   }
 }
 
-void read_nastran_scalar_points(NastranFields& f, NastranContent& c) {
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    if (f.blank(i)) continue;
-    const int first = f.label(i, "a scalar point");
-    c.scalar_points.insert(first);
-    if (!same_word(f.text(i + 1), "THRU")) continue;
-    const int last = f.label(i + 2, "the last scalar point");
-    if (last > first && last - first > 1'000'000) {
-      return f.error(fmt::format("{} scalar points are too many", last - first));
-    }
-    for (int id = first + 1; id <= last; ++id) c.scalar_points.insert(id);
-    i += 2;
-  }
-}
-
 void read_nastran_solid(NastranFields& f, NastranContent& c) {
   const bool tetra = f.name() == "CTETRA", hexa = f.name() == "CHEXA",
              pyramid = f.name().starts_with("CPYRA");

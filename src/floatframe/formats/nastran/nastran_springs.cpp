@@ -17,19 +17,16 @@ void damping(NastranFields& f, std::size_t i, NastranContent& c) {
   if (f.real(i, "the damping", 0.0) != 0.0 && !c.springs.damping) c.springs.damping = f.at();
 }
 
-/// A node and one of its components; none: the ground.
+/// A node and one of its components, or a scalar point; none: the ground.
 void spring_end(NastranFields& f, std::size_t i, int end, NastranSpring& s) {
   if (f.blank(i) || f.text(i) == "0") return;
   s.nodes[end] = f.label(i, end == 0 ? "node G1" : "node G2");
   const unsigned mask = f.components(i + 1, "the component");
+  int& component = s.components[end];
   if (mask == 0) {
-    f.error(
-        fmt::format("the component of node {} is missing; scalar points (SPOINT), which have "
-                    "none, are not read",
-                    s.nodes[end]));
+    component = -1;
     return;
   }
-  int& component = s.components[end];
   while (component < 5 && mask != (1u << component)) ++component;
   if (mask != (1u << component))
     f.error(fmt::format("the component is {}, expected one of 1 to 6", shown(f.text(i + 1))));
@@ -75,12 +72,6 @@ void read_nastran_celas(NastranFields& f, NastranContent& c) {
     return;
   }
   c.springs.list.push_back(s);
-}
-
-void read_nastran_scalar(NastranFields& f, NastranContent&) {
-  f.error(
-      "springs between scalar points (SPOINT) are not supported; give CELAS1 or CELAS2 between "
-      "components of nodes");
 }
 
 void read_nastran_pelas(NastranFields& f, NastranContent& c) {

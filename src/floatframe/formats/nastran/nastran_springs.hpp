@@ -8,13 +8,13 @@
 
 namespace floatframe {
 
-/// CELAS1, CELAS2, CBUSH.
+/// CELAS1 to 4, CBUSH.
 struct NastranSpring {
   const char* card = "";
   int id = 0, property = 0;
   std::array<int, 2> nodes{};       ///< second 0: the ground
-  std::array<int, 2> components{};  ///< CELAS: 0 to 5
-  std::optional<double> stiffness;  ///< CELAS2
+  std::array<int, 2> components{};  ///< CELAS: 0 to 5; -1: none, of a scalar point
+  std::optional<double> stiffness;  ///< CELAS2, CELAS4
   // CBUSH
   int system = -1;                  ///< CID; -1: by the line of its nodes
   int orientation_node = 0;         ///< GO
@@ -39,8 +39,7 @@ void read_nastran_celas(NastranFields&, NastranContent&);
 void read_nastran_pelas(NastranFields&, NastranContent&);
 void read_nastran_bush(NastranFields&, NastranContent&);
 void read_nastran_pbush(NastranFields&, NastranContent&);
-void read_nastran_rod(NastranFields&, NastranContent&);     ///< CROD, CTUBE, CONROD
-void read_nastran_scalar(NastranFields&, NastranContent&);  ///< CELAS3, CELAS4
+void read_nastran_rod(NastranFields&, NastranContent&);  ///< CROD, CTUBE, CONROD
 
 void build_nastran_springs(NastranBuild& build);
 /// GJ/L of rods; after what gives rotations to nodes.

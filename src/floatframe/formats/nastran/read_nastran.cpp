@@ -37,8 +37,11 @@ FeModel read_nastran(TextSource& source, bool has_control, const FeReadOptions& 
   build_nastran_nodes(build);
   source.throw_if_any();
   if (part == NastranPart::all) {
+    build.scalars.build(build);
+    source.throw_if_any();
     build_nastran_elements(build, options);
     nastran_mass_forms(build);
+    if (source.errors() == 0) build_nastran_nonstructural(build);
     build_nastran_springs(build);
     build_nastran_constraints(build);
     if (source.errors() == 0) build_nastran_torsion(build);
