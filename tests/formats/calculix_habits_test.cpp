@@ -75,5 +75,35 @@ TEST(CalculixHabits, GeneralSectionsAndWholeWords) {
   EXPECT_EQ(word.sections[0].width, 1.0);
 }
 
+TEST(CalculixHabits, SurfacesOpenedAgainGrow) {
+  const std::string deck =
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, TYPE=C3D4, ELSET=E\n"
+      "7, 1, 2, 3, 4\n*SOLID SECTION, ELSET=E, MATERIAL=STEEL\n*SURFACE, NAME=S\n7, S1\n"
+      "*SURFACE, NAME=S\n7, S3\n" +
+      std::string(steel_of_deck);
+  const FeModel model = habit_deck(deck);
+  ASSERT_EQ(model.surfaces.at("S").size(), 2u);
+  EXPECT_EQ(model.surfaces.at("S")[1].face, 2);
+  EXPECT_TRUE(habit_noted(model,
+                          "deck.inp:11: *SURFACE has 'S' again (deck.inp:9): what it names is "
+                          "added, as in CalculiX"));
+  // Nodes and faces are two surfaces there, of which those of faces have more to say.
+  for (const char* both : {"*SURFACE, NAME=T, TYPE=NODE\n1\n*SURFACE, NAME=T\n7, S2\n",
+                           "*SURFACE, NAME=T\n7, S2\n*SURFACE, NAME=T, TYPE=NODE\n1\n"}) {
+    const FeModel faces = habit_deck(deck + both);
+    ASSERT_EQ(faces.surfaces.at("T").size(), 1u);
+    EXPECT_FALSE(faces.node_sets.contains("T"));
+    EXPECT_EQ(faces.notes[1].substr(13),
+              "*SURFACE has 'T' again (deck.inp:18): of nodes and of faces those of faces count");
+  }
+  EXPECT_EQ(error_of([&] {
+              TextSource source(deck, "deck.inp");
+              FeReadOptions options;
+              options.dialect = DeckDialect::abaqus;
+              read_abaqus(source, options);
+            }),
+            "deck.inp:11: *SURFACE names the surface 'S' a second time");
+}
+
 }  // namespace
 }  // namespace floatframe::test

@@ -39,8 +39,6 @@ TEST(DeckKeywords, UnknownOnesStop) {
 
 TEST(DeckKeywords, ThoseThatMatterStopWithAdvice) {
   const std::pair<const char*, const char*> cases[] = {
-      {"*PRE-TENSION SECTION, SURFACE=S, NODE=4\n",
-       "*PRE-TENSION SECTION is not supported: take the cut and its tension out of the deck"},
       {"*REBAR, ELEMENT=CONTINUUM, MATERIAL=STEEL, NAME=R\nBODY, 1.\n",
        "*REBAR is not supported: use elements of their own"},
       {"*Surface Section, elset=BODY, density=0.1\n",
@@ -59,6 +57,16 @@ TEST(DeckKeywords, ThoseThatMatterStopWithAdvice) {
       {"*DENSITY\n1.\n", "*DENSITY is given a second time for its material"}};
   for (const auto& [keyword, sentence] : cases)
     EXPECT_EQ(error(tetrahedron + keyword), std::string("deck.inp:14: ") + sentence);
+}
+
+TEST(DeckKeywords, BoltsWithoutTheirPreload) {
+  const FeModel model =
+      parsed(tetrahedron +
+             "*SURFACE, NAME=S\n1, S1\n*PRE-TENSION SECTION, SURFACE=S, NODE=4\n1., 0., 0.\n");
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_EQ(model.notes[0],
+            "deck.inp:16: *PRE-TENSION SECTION is passed over: the bolt is whole and without its "
+            "preload");
 }
 
 TEST(DeckKeywords, SurfaceSectionWithoutMassIsNoted) {

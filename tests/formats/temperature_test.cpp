@@ -4,6 +4,7 @@
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
 #include "floatframe/formats/temperature_table.hpp"
 #include "floatframe/formats/text/text_source.hpp"
+#include "support/error_of.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -59,6 +60,58 @@ TEST(Temperature, TablesOfOrthotropicMaterials) {
                     head = "*DENSITY\n5e-10\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n";
   const Mat6 D = *warm(head + middle, {}).materials[0].elasticity;
   EXPECT_LE((*warm(head + cold + hot, 50).materials[0].elasticity - D).norm(), 1e-13 * D.norm());
+}
+
+const std::string table_of_steel =
+    "*ELASTIC\n2.1e5, .3, 20.\n1.9e5, .32, 220.\n*DENSITY\n8e-9, 20.\n7e-9, 220.\n";  // 9 to 14
+
+/// The sections stand behind the initial temperatures.
+FeModel initially(const std::string& conditions, std::optional<double> T = {}) {
+  return warm(table_of_steel + conditions, T);
+}
+
+TEST(Temperature, InitialTemperaturesOfTheDeck) {
+  const FeModel m = initially("*NSET, NSET=NALL\n1, 2, 3, 4\n"
+                              "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 70.\n2, 70., 0.\n");
+  EXPECT_NEAR(m.materials[0].young, 2.05e5, 1e-9);
+  EXPECT_NEAR(m.materials[0].density, 7.75e-9, 1e-23);
+  ASSERT_EQ(m.notes.size(), 3u);
+  EXPECT_EQ(m.notes[0],
+            "a.inp:18: materials are taken at 70, the initial temperature of the deck "
+            "(--temperature, key `temperature`, is another one)");
+  EXPECT_EQ(m.notes[1],
+            "a.inp:9: *ELASTIC of material 'STEEL' is taken at the temperature 70 (its table goes "
+            "from 20 to 220)");
+  // What the user says counts.
+  const FeModel hot = initially("*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 70.\n", 220.0);
+  EXPECT_EQ(hot.materials[0].young, 1.9e5);
+  EXPECT_EQ(hot.notes.back(),
+            "a.inp:16: *INITIAL CONDITIONS, TYPE=TEMPERATURE is passed over");
+  // Constants that do not depend on it need none.
+  EXPECT_EQ(warm("*ELASTIC\n2.1e5, .3\n*DENSITY\n8e-9\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\n"
+                 "1, 70.\n2, 80.\n",
+                 {})
+                .materials[0]
+                .young,
+            2.1e5);
+}
+
+TEST(Temperature, InitialTemperaturesThatSayNone) {
+  const auto error = [](const std::string& conditions) {
+    const std::string text = error_of([&] { initially(conditions); });
+    return text.substr(0, text.find('\n'));
+  };
+  const std::string depends =
+      "a.inp:9: *ELASTIC depends on the temperature (20 to 220): say at which one with "
+      "--temperature (key `temperature`)";
+  const std::string none = depends + "; the initial temperatures of the deck say none: ",
+                    begin = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n";
+  EXPECT_EQ(error(""), depends);
+  EXPECT_EQ(error("*INITIAL CONDITIONS, TYPE=VELOCITY\n1, 1, 70.\n"), depends);
+  EXPECT_EQ(error(begin + "1, 70.\n2, 80.\n"), none + "they are 70 and 80 (a.inp:17)");
+  EXPECT_EQ(error(begin + "1, 70.\n2, 70.\n4, 70.\n"), none + "node 3 has none");
+  EXPECT_EQ(error(begin + "1, 70.\n2, 70., 5.\n"),
+            none + "those of a.inp:17 differ across the section");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "floatframe/fe/elasticity.hpp"
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -79,6 +79,33 @@ bool next_constants(AbaqusLines& lines, const AbaqusKeyword& keyword, std::size_
   return true;
 }
 
+const ElasticType& elastic_type(const AbaqusKeyword& keyword) {
+  const std::string name = abaqus_name(keyword.value("TYPE"));
+  return *std::find_if(std::begin(elastic_types), std::end(elastic_types),
+                       [&](const ElasticType& t) { return name == t.name; });
+}
+
+void use_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusMaterial& material,
+                     const std::vector<double>& c) {
+  const ElasticType& type = elastic_type(keyword);
+  std::string error;
+  if (type.form == Form::engineering || type.form == Form::lamina) {
+    const bool lamina = type.form == Form::lamina;
+    const EngineeringConstants e =
+        lamina ? EngineeringConstants{c[0], c[1], 0.0, c[2], 0.0, 0.0, c[3], c[4], c[5]}
+               : EngineeringConstants{c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]};
+    error = engineering_error(e, lamina);
+    if (error.empty()) material.elasticity = lamina ? lamina_elasticity(e) : elasticity_of(e);
+    material.plane = lamina;
+  } else {
+    const Mat6 D = constants_matrix(c, type.form);
+    error = elasticity_error(D, false, constant_name);
+    if (error.empty()) material.elasticity = D;
+  }
+  if (!error.empty()) lines.error(keyword, fmt::format("TYPE={}: {}", type.name, error));
+  material.young = c[0];
+}
+
 }  // namespace
 
 bool is_abaqus_anisotropic(std::string_view type) {
@@ -88,9 +115,7 @@ bool is_abaqus_anisotropic(std::string_view type) {
 
 void read_abaqus_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword,
                              AbaqusContent& content, AbaqusMaterial* material) {
-  const std::string name = abaqus_name(keyword.value("TYPE"));
-  const ElasticType& type = *std::find_if(std::begin(elastic_types), std::end(elastic_types),
-                                          [&](const ElasticType& t) { return name == t.name; });
+  const ElasticType& type = elastic_type(keyword);
   const std::size_t before = lines.source().errors();
   if (keyword.has("DEPENDENCIES") && !same_word(keyword.value("DEPENDENCIES"), "0"))
     lines.error(keyword, "depends on field variables (DEPENDENCIES), which is not supported");
@@ -101,27 +126,7 @@ void read_abaqus_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword,
   lines.skip_data();
   if (material == nullptr || lines.source().errors() != before) return;
   if (material->young) return lines.error(keyword, "is given a second time for its material");
-  const std::vector<double> c = abaqus_at_temperature(lines, keyword, content, rows);
-  if (c.empty()) {
-    material->young = 1.0;  // the error is known
-    return;
-  }
-  std::string error;
-  if (type.form == Form::engineering || type.form == Form::lamina) {
-    const bool lamina = type.form == Form::lamina;
-    const EngineeringConstants e =
-        lamina ? EngineeringConstants{c[0], c[1], 0.0, c[2], 0.0, 0.0, c[3], c[4], c[5]}
-               : EngineeringConstants{c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]};
-    error = engineering_error(e, lamina);
-    if (error.empty()) material->elasticity = lamina ? lamina_elasticity(e) : elasticity_of(e);
-    material->plane = lamina;
-  } else {
-    const Mat6 D = constants_matrix(c, type.form);
-    error = elasticity_error(D, false, constant_name);
-    if (error.empty()) material->elasticity = D;
-  }
-  if (!error.empty()) lines.error(keyword, fmt::format("TYPE={}: {}", type.name, error));
-  material->young = c[0];
+  take_abaqus_constants(lines, keyword, content, *material, rows, use_anisotropic);
 }
 
 void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,

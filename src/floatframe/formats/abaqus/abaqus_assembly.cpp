@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -7,83 +7,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_beam_shapes.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
 
-BeamSection pipe(AbaqusLines& lines, double radius, double wall) {
-  if (wall > radius) {
-    lines.source().error(
-        fmt::format("the wall of the pipe ({:g}) is thicker than its radius ({:g})", wall, radius));
-  }
-  return BeamSection::hollow_round(2.0 * radius, 2.0 * (radius - wall));
-}
-
-/// Closed thin-walled box, a along direction 1, b along direction 2; the torsion constant is that
-/// of Bredt, 4 A_m^2 / (closed integral of ds / t).
-BeamSection box(AbaqusLines& lines, double a, double b, const std::array<double, 4>& t) {
-  if (t[0] != t[2] || t[1] != t[3]) {
-    lines.source().error(
-        "opposite walls of the box differ, so that its centroid is not at the "
-        "node, which is not supported");
-  }
-  const double inner_a = a - t[0] - t[2], inner_b = b - t[1] - t[3];
-  if (inner_a < 0.0 || inner_b < 0.0) lines.source().error("the walls of the box overlap");
-  BeamSection s;
-  s.A = a * b - inner_a * inner_b;
-  s.Iy = (a * b * b * b - inner_a * inner_b * inner_b * inner_b) / 12.0;
-  s.Iz = (b * a * a * a - inner_b * inner_a * inner_a * inner_a) / 12.0;
-  const double mid_a = a - 0.5 * (t[0] + t[2]), mid_b = b - 0.5 * (t[1] + t[3]);
-  s.J = 4.0 * mid_a * mid_a * mid_b * mid_b /
-        (mid_a / t[1] + mid_a / t[3] + mid_b / t[0] + mid_b / t[2]);
-  return s;
-}
-
-/// Diameters a along direction 1 (local y), b along direction 2. Torsion: J = pi a^3 b^3 /
-/// (16 (a^2 + b^2)), St. Venant's solution.
-BeamSection ellipse(double a, double b) {
-  constexpr double pi = std::numbers::pi;
-  BeamSection s;
-  s.A = pi * a * b / 4.0;
-  s.Iy = pi * a * b * b * b / 64.0;
-  s.Iz = pi * a * a * a * b / 64.0;
-  s.J = pi * a * a * a * b * b * b / (16.0 * (a * a + b * b));
-  return s;
-}
-
-/// How many numbers a section has: in both programs, and in CalculiX alone (0: none). What they
-/// are.
-struct Shape {
-  const char* name;
-  std::size_t numbers, calculix;
-  std::array<const char*, 6> what;
-};
-constexpr const char* wall_of_box = "thickness of a wall of the box";
-constexpr std::array shapes{
-    Shape{"RECT", 2, 1, {"width of the rectangle", "height of the rectangle"}},
-    Shape{"CIRC", 1, 2, {"size of the circle", "second diameter of the ellipse"}},
-    Shape{"PIPE", 2, 0, {"outer radius", "thickness of the wall"}},
-    Shape{"BOX",
-          6,
-          0,
-          {"width of the box", "height of the box", wall_of_box, wall_of_box, wall_of_box,
-           wall_of_box}}};
-
-void no_offset(AbaqusLines& lines, const AbaqusKeyword& keyword) {
-  for (const char* offset : {"OFFSET1", "OFFSET2"}) {
-    if (keyword.has(offset) && parse_real(keyword.value(offset)).value_or(1.0) != 0.0) {
-      lines.error(keyword, fmt::format("has an offset ({}), which is not supported", offset));
+/// OFFSET1, OFFSET2 of CalculiX: of the node from the centroid, in thicknesses along 1 and 2.
+Eigen::Vector2d offsets_of(AbaqusLines& lines, const AbaqusKeyword& keyword) {
+  Eigen::Vector2d out(0.0, 0.0);
+  int k = 0;
+  for (const char* name : {"OFFSET1", "OFFSET2"}) {
+    double& value = out(k++);
+    if (!keyword.has(name)) continue;
+    const auto number = parse_real(keyword.value(name));
+    if (number && std::isfinite(*number)) {
+      value = *number;
+    } else {
+      lines.error(keyword, fmt::format("has {}={}, expected a number", name,
+                                       shown(keyword.value(name))));
     }
   }
+  return out;
 }
 
 /// The numbers of the section; false and an error if there are not as many as the shape has, or one
-/// is not positive.
-bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const Shape& shape,
+/// is not positive that must be.
+bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const AbaqusBeamShape& shape,
                   DeckDialect dialect, std::vector<double>& numbers) {
   std::vector<std::string_view> fields;
   lines.next_fields(fields);
@@ -102,7 +54,8 @@ bool read_numbers(AbaqusLines& lines, const AbaqusKeyword& keyword, const Shape&
   }
   const std::size_t before = lines.source().errors();
   for (std::size_t k = 0; k < n; ++k) {
-    numbers.push_back(positive_real(lines, fields[k], shape.what[k]));
+    numbers.push_back((shape.any >> k & 1u) != 0 ? lines.real(fields[k], shape.what[k])
+                                                 : positive_real(lines, fields[k], shape.what[k]));
   }
   if (lines.source().errors() == before) return true;
   lines.skip_data();
@@ -217,7 +170,8 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   AbaqusSection section;
   lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "SECTION", "OFFSET1", "OFFSET2",
                              "TEMPERATURE", "POISSON", "DENSITY", "LUMPED", "ZERO"});
-  no_offset(lines, keyword);
+  const Eigen::Vector2d offsets = offsets_of(lines, keyword);
+  section.calculix_offset = !offsets.isZero(0.0);
   if (keyword.has("LUMPED") && !same_word(keyword.value("LUMPED"), "YES"))
     lines.error(keyword, fmt::format("has LUMPED={}, expected YES: leave it out, and read the deck "
                                      "with --mass-form consistent",
@@ -232,19 +186,17 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   section.shape = own_material && !keyword.has("SECTION")
                       ? "GENERAL"
                       : abaqus_name(lines.required(keyword, "SECTION"));
+  if (own_material && section.shape == "GENERAL" && section.calculix_offset)
+    lines.error(keyword, "has OFFSET1 or OFFSET2, which constants do not have");
   if (own_material && section.shape == "GENERAL")
     return read_general_section(lines, keyword, content, section);
-  // RECTANGULAR as well.
-  const auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const Shape& s) {
-    return section.shape.starts_with(s.name);
-  });
-  if (shape != shapes.end()) section.shape = shape->name;
-  if (shape == shapes.end() && !section.shape.empty()) {
-    lines.error(keyword, fmt::format("has the section {}, expected RECT, CIRC, PIPE or BOX",
-                                     shown(section.shape)));
-  }
+  const AbaqusBeamShape* const shape = find_abaqus_beam_shape(section.shape);
+  if (shape != nullptr) section.shape = shape->name;
+  if (shape == nullptr && !section.shape.empty())
+    lines.error(keyword, fmt::format("has the section {}, {}", shown(section.shape),
+                                     unread_abaqus_shape(section.shape)));
   if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::beam, section) ||
-      shape == shapes.end()) {
+      shape == nullptr) {
     return lines.skip_data();
   }
   std::vector<double> d;
@@ -256,15 +208,14 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                   d.size(), d.size() == 1 ? "" : "s"),
                       keyword.at);
   }
-  if (section.shape == "RECT") {
-    section.beam = BeamSection::rectangle(d[0], d.size() > 1 ? d[1] : d[0]);
-  } else if (section.shape == "CIRC") {
-    if (d.size() == 1) section.round = d[0];
-    if (d.size() == 2) section.beam = ellipse(d[0], d[1]);
-  } else if (section.shape == "PIPE") {
-    section.beam = pipe(lines, d[0], d[1]);
-  } else {
-    section.beam = box(lines, d[0], d[1], {d[2], d[3], d[4], d[5]});
+  set_abaqus_beam(lines, d, offsets, section);
+  if (section.shape == "I") {
+    content.clues.add(DeckDialect::abaqus, keyword.shown + ", SECTION=I", keyword.at);
+    content.note(lines.source().mark(keyword.at),
+                 fmt::format("{}, SECTION=I: area and moments are those of its rectangles, the "
+                             "torsion constant is the sum of b t^3/3, about the centroid; Abaqus "
+                             "integrates along the middle of the walls",
+                             keyword.shown));
   }
   if (own_material) {
     read_direction_and_material(lines, keyword, content, section);
@@ -272,6 +223,52 @@ void read_abaqus_beam_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
     read_direction(lines, fields, lines.source().here(), section);
   }
   content.sections.push_back(section);
+}
+
+namespace {
+
+/// x1, x2 of a line behind a beam section; no section and an error if there is none.
+AbaqusSection* place_in_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                AbaqusContent& content, bool constants, Eigen::Vector2d& place) {
+  std::vector<std::string_view> fields;
+  const std::size_t before = lines.source().errors();
+  if (!lines.next_fields(fields)) lines.error(keyword, "has no data line");
+  for (std::size_t k = 0; k < 2; ++k)
+    place(static_cast<Eigen::Index>(k)) = lines.real_or(fields, k, 0.0, "place in the section");
+  lines.skip_data();
+  AbaqusSection* const section =
+      content.sections.empty() ? nullptr : &content.sections.back();
+  if (section == nullptr || section->family != AbaqusType::Family::beam ||
+      (section->shape == "GENERAL") != constants) {
+    if (lines.source().errors() == before)
+      lines.error(keyword, constants ? "does not follow a *BEAM GENERAL SECTION of given constants"
+                                     : "does not follow a beam section with a shape");
+    return nullptr;
+  }
+  return section;
+}
+
+}  // namespace
+
+void read_abaqus_beam_section_offset(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                     AbaqusContent& content) {
+  Eigen::Vector2d place;
+  if (AbaqusSection* const s = place_in_section(lines, keyword, content, false, place))
+    s->arm += place;
+}
+
+void read_abaqus_centroid(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                          AbaqusContent& content) {
+  Eigen::Vector2d place;
+  if (AbaqusSection* const s = place_in_section(lines, keyword, content, true, place))
+    s->arm = place;
+}
+
+void read_abaqus_shear_center(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                              AbaqusContent& content) {
+  Eigen::Vector2d place;
+  if (AbaqusSection* const s = place_in_section(lines, keyword, content, true, place))
+    s->shear_center = place;
 }
 
 }  // namespace floatframe

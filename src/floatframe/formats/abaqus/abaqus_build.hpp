@@ -5,6 +5,7 @@
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/abaqus/abaqus_resolve.hpp"
 #include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/rigid_arms.hpp"
 
 namespace floatframe {
 
@@ -15,6 +16,7 @@ struct AbaqusBuild {
   AbaqusResolver nodes, elements;
   std::vector<int> element_index;  ///< of each element of the deck: in the model, -1 if it has none
   FeModel model;
+  RigidArms arms;      ///< of beams beside their nodes
   DialectClues clues;  ///< of the deck, and of what its sections are used for
   /// In FeModel::orientations, of names and what uses them; in FeModel::shells, of sections whose
   /// plies have orientations of their own.
@@ -67,6 +69,14 @@ void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
 /// Axes of the material of an element whose nodes are known.
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e);
+// abaqus_build_beams.cpp
+/// Direction 1 of a beam towards the further node of its element, if it has one; its ends at the
+/// centroid of its section, as nodes of their own.
+void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const AbaqusElement& deck,
+                      Element& e);
+/// OFFSET1 and OFFSET2 in a deck of Abaqus are an error, and so is a shear centre beside the
+/// centroid.
+void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section);
 // abaqus_nodal_thickness.cpp
 /// Sections of shells with the thickness of their nodes.
 class AbaqusNodalThickness {

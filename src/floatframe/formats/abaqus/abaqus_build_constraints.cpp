@@ -315,6 +315,7 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
   }
   check_turned_spiders(build, axes);
   if (!only_nodes && build.source.errors() == 0) build_abaqus_ties(build);
+  build.arms.tie(build.model);
 }
 
 }  // namespace floatframe

@@ -102,7 +102,7 @@ int with_angles(AbaqusBuild& build, int section, const std::vector<double>& angl
 }  // namespace
 
 int abaqus_orientation(AbaqusBuild& build, const std::string& name, const AbaqusSection& section) {
-  const bool shell = section.family == Family::shell;
+  const bool shell = is_abaqus_sheet(section.family);
   const AbaqusScope scope = section.elements.scope;
   const auto [place, fresh] = build.orientation_index.try_emplace(
       fmt::format("{}*{}*{}", name, shell ? "SHELL" : "SOLID", static_cast<int>(scope)), -1);
@@ -143,7 +143,7 @@ ShellSection abaqus_shell_section(AbaqusBuild& build, const AbaqusSection& secti
   }
   out.shear = 5.0 / 6.0 * out.thickness;
   out.offset = -section.offset * out.thickness;
-  if (section.family == Family::shell)
+  if (is_abaqus_sheet(section.family))
     for (const AbaqusSection::Ply& ply : section.plies)
       if (!ply.orientation.empty()) abaqus_orientation(build, ply.orientation, section);
   return out;
@@ -165,7 +165,7 @@ void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
 void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
                            const AbaqusProperties& p, Element& e) {
   e.orientation = p.orientation;
-  if (section.family != Family::shell || !p.directional) return;
+  if (!is_abaqus_sheet(section.family) || !p.directional) return;
   const std::vector<Vec3> corners = corners_of(build, e);
   if (p.orientation < 0) e.orientation = default_orientation(build, shell_normal(corners));
   const bool own = std::any_of(section.plies.begin(), section.plies.end(),

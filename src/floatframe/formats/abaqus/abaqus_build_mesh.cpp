@@ -145,6 +145,10 @@ void build_abaqus_nodes(AbaqusBuild& build) {
 
 namespace {
 
+bool is_skin_without_section(Family family) noexcept {
+  return family == Family::skin || family == Family::rod || family == Family::membrane;
+}
+
 /// Elements of one kind, for a note.
 struct ElementCounts {
   std::map<const AbaqusType*, Count> skins, read_as;
@@ -234,7 +238,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     const AbaqusType& type = *element.type;
     const int section = section_of[e];
     // Shells are skins of a solid unless the deck has shells.
-    const bool skin = section < 0 && (type.family == Family::skin || type.family == Family::rod ||
+    const bool skin = section < 0 && (is_skin_without_section(type.family) ||
                                       (type.family == Family::shell && !has_shells));
     if (skin) counts.skins[&type].add(element.at);
     if (type.family == Family::spring) counts.structural.add(element.at);
@@ -259,6 +263,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
     if (section >= 0) {
       orient_abaqus_element(build, c.sections[section], properties[section], *result);
       thickness.apply(c.sections[section], *result);
+      move_abaqus_beam(build, c.sections[section], element, *result);
     }
     build.element_index[e] = static_cast<int>(model.elements.size());
     if (scopes && !taken.insert(result->id).second && ++free_number <= largest_id) {
@@ -302,8 +307,7 @@ void build_abaqus_sets(AbaqusBuild& build, bool only_nodes) {
       const Family family = c.elements[e].type->family;
       if (index >= 0) {
         list.push_back(index);
-      } else if (only_nodes || family == Family::skin || family == Family::shell ||
-                 family == Family::rod) {
+      } else if (only_nodes || is_skin_without_section(family) || family == Family::shell) {
         skins.push_back(e);
       }
     }

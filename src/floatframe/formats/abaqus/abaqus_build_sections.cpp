@@ -93,7 +93,7 @@ void check_turned_instance(AbaqusBuild& build, const AbaqusSection& section,
   if (instance == c.instances.end() || instance->second.place.R.isIdentity(1e-12)) return;
   const Material& m = build.model.materials[p.material];
   const bool directional =
-      section.family == Family::shell ? p.directional : m.elasticity.has_value();
+      is_abaqus_sheet(section.family) ? p.directional : m.elasticity.has_value();
   if (directional && section.orientation.empty())
     build.source.error(section.at, fmt::format("{} of the turned instance {} has a material with "
                                                "directions and no orientation",
@@ -188,6 +188,7 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
     if (section.family == Family::beam) {
       p.section = static_cast<int>(model.sections.size());
       check_form(build, section);
+      check_abaqus_beam_offset(build, section);
       model.sections.push_back(section.round > 0.0 ? round_section(build, section) : section.beam);
       BeamSection& beam = model.sections.back();
       beam.shear_y = beam.shear_z = abaqus_shear_factor(section.shape) * beam.A;
@@ -195,7 +196,7 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
     } else if (section.family == Family::solid && section.thickness > 0.0) {  // of rods
       p.section = static_cast<int>(model.sections.size());
       model.sections.push_back({section.thickness, 0.0, 0.0, 0.0});
-    } else if (section.family == Family::shell) {
+    } else if (is_abaqus_sheet(section.family)) {
       p.section = static_cast<int>(model.shells.size());
       const ShellSection shell = abaqus_shell_section(build, section, material);
       p.directional = !is_plain(shell, model.materials[p.material]);

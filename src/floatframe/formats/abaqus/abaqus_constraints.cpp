@@ -1,7 +1,7 @@
 // Rigid bodies, couplings, equations and supports of Abaqus decks.
 #include <fmt/format.h>
 
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -30,6 +30,7 @@ struct AbaqusType {
     rotary,    ///< ROTARYI
     coupling,  ///< DCOUP3D: names the reference of a distributing coupling
     rod,       ///< T3D2: harmless without a section, as a skin
+    membrane,  ///< M3D: the same
     spring,    ///< SPRINGA, SPRING1, SPRING2
     damper,    ///< DASHPOTA, ...: passed over
     gap        ///< GAPUNI: *GAP says what becomes of it
@@ -40,6 +41,11 @@ struct AbaqusType {
   ElementType type = ElementType::beam2;  ///< of solids, shells and beams
   const char* remark = nullptr;           ///< how it is read if that is not the same
 };
+
+/// Shells and membranes: their sections have a thickness.
+constexpr bool is_abaqus_sheet(AbaqusType::Family family) noexcept {
+  return family == AbaqusType::Family::shell || family == AbaqusType::Family::membrane;
+}
 
 /// Null if the type is not known.
 const AbaqusType* find_abaqus_type(std::string_view name) noexcept;
@@ -62,6 +68,7 @@ struct AbaqusElement {
   AbaqusScope scope = AbaqusScope::part;
   const AbaqusType* type = nullptr;
   std::size_t first = 0;  ///< in AbaqusContent::element_nodes
+  bool directed = false;  ///< of beams: a further node gives direction 1
   FeSource at;
 };
 
@@ -115,7 +122,7 @@ struct AbaqusSection {
   std::string material;
   std::string orientation;  ///< name; empty: none
   double thickness = 0.0;
-  bool nodal_thickness = false;  ///< of shells: that of *NODAL THICKNESS
+  bool nodal_thickness = false;  ///< of sheets: that of *NODAL THICKNESS
   double offset = 0.0;           ///< of shells: of the nodes from the middle, in thicknesses
   struct Ply {
     double thickness = 0.0;
@@ -131,9 +138,19 @@ struct AbaqusSection {
       0.0;  ///< of CIRC with one number: that number, whose meaning depends on the dialect
   bool calculix_form = false;  ///< fewer or more numbers than Abaqus takes
   Vec3 n1 = -Vec3::UnitZ();
+  Eigen::Vector2d arm = {0.0, 0.0};  ///< of beams: the centroid from the node, in directions 1, 2
+  bool calculix_offset = false;      ///< OFFSET1, OFFSET2
+  Eigen::Vector2d shear_center = {0.0, 0.0};  ///< of beams of given constants, from the node
   double mass = 0.0;  ///< of *MASS
   Mat3 J = Mat3::Zero();
   FeSource at;
+};
+
+/// *INITIAL CONDITIONS, TYPE=TEMPERATURE
+struct AbaqusInitialTemperature {
+  AbaqusReference nodes;
+  double value = 0.0;
+  bool gradient = false;  ///< of shells and beams: it differs across the section
 };
 
 /// *NODAL THICKNESS
@@ -211,6 +228,17 @@ struct AbaqusCoordinates {
   Vec3 origin = Vec3::Zero();
 };
 
+struct AbaqusContent;
+/// Constants of a material for which the deck says a temperature later, or not at all.
+struct AbaqusPendingConstants {
+  using Use = void (*)(AbaqusLines&, const AbaqusKeyword&, AbaqusMaterial&,
+                       const std::vector<double>&);
+  AbaqusKeyword keyword;
+  std::string material;
+  std::vector<TemperatureRow> rows;
+  Use use = nullptr;
+};
+
 /// How much of each kind has been read: nodes, elements and the lists of things.
 using AbaqusSizes = std::array<std::size_t, 11>;
 
@@ -250,6 +278,8 @@ struct AbaqusContent {
   std::vector<AbaqusSpring> springs;
   std::vector<AbaqusTransform> transforms;
   std::vector<AbaqusThickness> thicknesses;
+  std::vector<AbaqusInitialTemperature> initial_temperatures;
+  std::vector<AbaqusPendingConstants> pending;
   std::vector<std::string> notes;
   void note(const SourceMark& mark, const std::string& text);
   DeckContact contact = DeckContact::refuse;  ///< as the user says
@@ -287,90 +317,5 @@ struct AbaqusContent {
   /// "node 12" or "node set 'BALL'" with `what` = "node".
   std::string text(const AbaqusReference& reference, std::string_view what) const;
 };
-
-/// A keyword's handler: reads its data lines into the content.
-using AbaqusHandler = void (*)(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-
-// abaqus_mesh.cpp
-void read_abaqus_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_elements(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_node_set(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_element_set(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_surface(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_coordinates.cpp
-void read_abaqus_system(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_generate.cpp
-void read_abaqus_generated_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_filled_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_copied_nodes(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_generated_elements(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_copied_elements(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_assembly.cpp
-void read_abaqus_part(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_end_part(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_assembly(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_instance(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_end_instance(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-/// At the end of the deck: parts without an instance go.
-void finish_abaqus_assembly(AbaqusContent& content, TextSource& source);
-// abaqus_instances.cpp
-AbaqusSizes abaqus_sizes(const AbaqusContent& content);
-/// What a part has once more, for an instance of it. Throws if instances make too much.
-void copy_abaqus_part(AbaqusContent& content, const AbaqusPart& part, AbaqusScope to,
-                      TextSource& source);
-void remove_abaqus_scopes(AbaqusContent& content, const std::set<AbaqusScope>& scopes);
-// abaqus_properties.cpp
-void read_abaqus_material(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_elastic(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_density(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_solid_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_surface_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_mass(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_rotary_inertia(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-/// What all sections have; false if the section cannot be used.
-bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
-                          AbaqusType::Family family, AbaqusSection& section);
-/// The value; one error at the last line if it is no positive number.
-double positive_real(AbaqusLines& lines, std::string_view field, std::string_view what);
-// abaqus_shell_section.cpp
-void read_abaqus_shell_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_nodal_thickness.cpp
-void read_abaqus_nodal_thickness(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_anisotropic.cpp
-void read_abaqus_orientation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-/// Is it a type of *ELASTIC that is read but not isotropic?
-bool is_abaqus_anisotropic(std::string_view type);
-void read_abaqus_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                             AbaqusContent& content, AbaqusMaterial* material);
-/// Of a table the values at the temperature that the user says, with a note; empty and an error if
-/// that is not known.
-std::vector<double> abaqus_at_temperature(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                                          AbaqusContent& content,
-                                          const std::vector<TemperatureRow>& rows);
-// abaqus_beam_section.cpp
-void read_abaqus_beam_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_constraints.cpp
-void read_abaqus_rigid_body(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_kinematic_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_distributing_coupling(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_equation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_boundary(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_mpc.cpp
-void read_abaqus_mpc(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_ties.cpp
-void read_abaqus_tie(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_contact_pair(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_general_contact(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_springs.cpp
-void read_abaqus_spring(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-void read_abaqus_gap(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-// abaqus_transforms.cpp
-void read_abaqus_transform(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
-
-/// Degrees of freedom "first, last" (1..6; `last` may be missing) of the fields from `index` on, as
-/// a mask; 0 and an error if they are none.
-unsigned abaqus_dofs(AbaqusLines& lines, const std::vector<std::string_view>& fields,
-                     std::size_t index, std::string_view what);
 
 }  // namespace floatframe

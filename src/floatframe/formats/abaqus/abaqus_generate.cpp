@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -55,6 +55,9 @@ class Generated {
 
   /// An element like another one with other numbers.
   void element(const AbaqusElement& like, std::int64_t id, std::int64_t node_increment) {
+    if (like.directed)
+      return lines_.source().error(fmt::format(
+          "element {} has a node for its orientation, which copies do not have", like.id));
     if (!is_number(id, "element")) return;
     const int number = static_cast<int>(id);
     const auto [it, added] = content_.element_of_label.emplace(

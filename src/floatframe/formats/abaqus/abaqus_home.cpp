@@ -57,7 +57,7 @@ double abaqus_shear_factor(std::string_view shape) noexcept {
     double factor;
   };
   constexpr std::array factors{Factor{"RECT", 0.85}, Factor{"CIRC", 0.89}, Factor{"PIPE", 0.53},
-                               Factor{"BOX", 0.44}};
+                               Factor{"BOX", 0.44}, Factor{"I", 0.44}};
   const auto it = std::find_if(factors.begin(), factors.end(),
                                [&](const Factor& f) { return f.shape == shape; });
   return it == factors.end() ? 1.0 : it->factor;

@@ -4,7 +4,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 
 namespace floatframe {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/suggest.hpp"
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -273,25 +273,30 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
       lines.source().error(at, "element number: " + not_an_integer(fields[0]));
       continue;
     }
-    const bool third_node = type->family == AbaqusType::Family::beam && fields.size() == count + 1;
-    if (third_node) {
+    const bool directed = type->family == AbaqusType::Family::beam && fields.size() == count + 1;
+    if (directed && content.dialect == DeckDialect::calculix) {
       lines.source().error(at, fmt::format("element {} ({}) has a node for its orientation, which "
-                                           "is not supported: give the direction in *BEAM SECTION",
+                                           "CalculiX does not know: give the direction in *BEAM "
+                                           "SECTION",
                                            *id, type->name));
       continue;
     }
+    if (directed)
+      content.clues.add(DeckDialect::abaqus,
+                        fmt::format("a node for the orientation of element {}", *id), at);
     if (fields.size() > count && type->family == AbaqusType::Family::solid) {
       if (further++ == 0) first_further = at;
       fields.resize(count);
     }
-    if (fields.size() != count) {
+    if (fields.size() != count + directed) {
       lines.source().error(at, fmt::format("element {} ({}) has {} nodes, expected {}", *id,
                                            type->name, fields.size() - 1, type->nodes));
       continue;
     }
-    AbaqusElement element{*id, content.scope, type, content.element_nodes.size(), at};
+    AbaqusElement element{
+        *id, content.scope, type, content.element_nodes.size(), directed, at};
     bool valid = true;
-    for (std::size_t k = 1; k < count && valid; ++k) {
+    for (std::size_t k = 1; k < count + directed && valid; ++k) {
       const std::optional<int> node = parse_label(fields[k]);
       if (!node) {
         lines.source().error(
@@ -340,11 +345,23 @@ void read_abaqus_surface(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
   }
   if (name.empty()) return lines.skip_data();
   AbaqusSurface& surface = content.surfaces[{content.scope, content.intern(abaqus_name(name))}];
-  if (surface.at.line != 0) {
+  if (surface.at.line != 0 && content.dialect == DeckDialect::abaqus) {
     lines.error(keyword, fmt::format("names the surface {} a second time", shown(name)));
     return lines.skip_data();
   }
-  surface.at = keyword.at;
+  if (surface.at.line != 0) {
+    // CalculiX adds to the first one, or keeps nodes and faces of one name beside each other.
+    const SourceMark first = lines.source().mark(surface.at);
+    const bool both = surface.of_nodes != of_nodes;
+    content.note(lines.source().mark(keyword.at),
+                 fmt::format("*SURFACE has {} again ({}:{}): {}", shown(name), first.file,
+                             first.line,
+                             both ? "of nodes and of faces those of faces count"
+                                  : "what it names is added, as in CalculiX"));
+    if (both && of_nodes) return lines.skip_data();
+    if (both) surface = {};
+  }
+  if (surface.at.line == 0) surface.at = keyword.at;
   surface.of_nodes = of_nodes;
   surface.internal = keyword.has("INTERNAL");
   std::vector<std::string_view> fields;

@@ -3,7 +3,7 @@
 // Source: Abaqus Keywords Guide, *MPC; the first node or set depends on the second one.
 #include <fmt/format.h>
 
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -1,6 +1,6 @@
-// *NODAL THICKNESS: of the shells whose section has the parameter NODAL THICKNESS, as in Abaqus and
-// CalculiX; the thickness of their sections does not count then. A shell has the mean of its
-// corners.
+// *NODAL THICKNESS: of the shells and membranes whose section has the parameter NODAL THICKNESS, as
+// in Abaqus and CalculiX; the thickness of their sections does not count then. Each has the mean of
+// its corners.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -46,7 +47,7 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
   if (!section.nodal_thickness) return;
   used_ = true;
   const int nodes = element_kernel(e.type).nodes;
-  const int corners = e.type == ElementType::tri3 || e.type == ElementType::tri6 ? 3 : 4;
+  const int corners = nodes % 3 == 0 ? 3 : 4;
   double sum = 0.0, least = HUGE_VAL, most = 0.0;
   for (int k = 0; k < nodes; ++k) {
     const double t = at_node_.empty() ? 0.0 : at_node_[e.nodes[k]];

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -60,6 +60,25 @@ std::vector<TemperatureRow> table_of(AbaqusLines& lines, const AbaqusKeyword& ke
   return rows;
 }
 
+void use_isotropic(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusMaterial& material,
+                   const std::vector<double>& values) {
+  material.young = values[0];
+  material.poisson = values[1];
+  if (!(values[0] > 0.0))
+    lines.error(keyword, fmt::format("has Young's modulus {:g}, expected more than 0", values[0]));
+  if (!(values[1] > -1.0 && values[1] < 0.5))
+    lines.error(keyword,
+                fmt::format("has Poisson's ratio {:g}, expected more than -1 and less than 0.5",
+                            values[1]));
+}
+
+void use_density(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusMaterial& material,
+                 const std::vector<double>& values) {
+  material.density = values[0];
+  if (!(values[0] >= 0.0))
+    lines.error(keyword, fmt::format("is {:g}, expected no negative density", values[0]));
+}
+
 }  // namespace
 
 bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content,
@@ -72,13 +91,13 @@ bool begin_abaqus_section(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaq
   section.elements.name = content.intern(abaqus_name(elements));
   section.elements.scope = content.scope;
   section.elements.at = keyword.at;
-  if (family == Family::solid || family == Family::shell || family == Family::beam) {
+  if (family == Family::solid || is_abaqus_sheet(family) || family == Family::beam) {
     if (!keyword.has("COMPOSITE") && section.material.empty())
       section.material = abaqus_name(lines.required(keyword, "MATERIAL"));
   }
   if (keyword.has("ORIENTATION")) {
     section.orientation = abaqus_name(keyword.value("ORIENTATION"));
-    if (family != Family::solid && family != Family::shell)
+    if (family != Family::solid && !is_abaqus_sheet(family))
       lines.error(keyword, "has the parameter 'ORIENTATION', which is not supported");
   }
   if (lines.source().errors() == before) return true;
@@ -92,23 +111,6 @@ double positive_real(AbaqusLines& lines, std::string_view field, std::string_vie
   if (!(value > 0.0) && lines.source().errors() == before)
     lines.source().error(fmt::format("{} is {:g}, expected more than 0", what, value));
   return value;
-}
-
-std::vector<double> abaqus_at_temperature(AbaqusLines& lines, const AbaqusKeyword& keyword,
-                                          AbaqusContent& content,
-                                          const std::vector<TemperatureRow>& rows) {
-  AtTemperature found = at_temperature(rows, content.temperature);
-  if (!found.error.empty()) {
-    lines.error(keyword, found.error);
-    return {};
-  }
-  if (found.chosen)
-    content.note(lines.source().mark(keyword.at),
-                 fmt::format("{} of material {} is taken at the temperature {:g} (its table goes "
-                             "from {:g} to {:g})",
-                             keyword.shown, shown(content.material), *content.temperature,
-                             rows.front().temperature, rows.back().temperature));
-  return found.values;
 }
 
 void read_abaqus_material(AbaqusLines& lines, const AbaqusKeyword& keyword,
@@ -150,20 +152,7 @@ void read_abaqus_elastic(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
     lines.error(keyword, "is given a second time for its material");
     return;
   }
-  const std::vector<double> values = abaqus_at_temperature(lines, keyword, content, rows);
-  material->young = values.empty() ? 1.0 : values[0];  // an error is known
-  material->poisson = values.empty() ? 0.0 : values[1];
-  if (lines.source().errors() != before) return;
-  if (!(*material->young > 0.0)) {
-    lines.error(keyword,
-                fmt::format("has Young's modulus {:g}, expected more than 0", *material->young));
-  }
-  if (!(*material->poisson > -1.0 && *material->poisson < 0.5)) {
-    lines.error(keyword,
-                fmt::format("has Poisson's ratio {:g}, expected more than -1 and less than "
-                            "0.5",
-                            *material->poisson));
-  }
+  take_abaqus_constants(lines, keyword, content, *material, rows, use_isotropic);
 }
 
 void read_abaqus_density(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
@@ -177,11 +166,7 @@ void read_abaqus_density(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
     lines.error(keyword, "is given a second time for its material");
     return;
   }
-  const std::vector<double> values = abaqus_at_temperature(lines, keyword, content, rows);
-  material->density = values.empty() ? 0.0 : values[0];
-  if (!(*material->density >= 0.0)) {
-    lines.error(keyword, fmt::format("is {:g}, expected no negative density", *material->density));
-  }
+  take_abaqus_constants(lines, keyword, content, *material, rows, use_density);
 }
 
 void read_abaqus_solid_section(AbaqusLines& lines, const AbaqusKeyword& keyword,

@@ -1,10 +1,11 @@
 // *SHELL SECTION: one material, or layers from the bottom to the top (the side of the normal).
+// *MEMBRANE SECTION: one material; membranes have no rotations, so none that is beside its nodes.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -88,6 +89,29 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
     lines.skip_data();
   }
   content.sections.push_back(section);
+}
+
+void read_abaqus_membrane_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                                  AbaqusContent& content) {
+  AbaqusSection section;
+  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET", "POISSON",
+                             "NODALTHICKNESS", "STACKDIRECTION"});
+  read_shell_offset(lines, keyword, section);
+  if (section.offset != 0.0)
+    lines.error(keyword,
+                "has an offset, but membranes have no rotations that would carry it: put the nodes "
+                "into the middle, or use *SHELL SECTION");
+  section.nodal_thickness = keyword.has("NODALTHICKNESS");
+  if (!begin_abaqus_section(lines, keyword, content, AbaqusType::Family::membrane, section)) return;
+  if (std::vector<std::string_view> fields; section.nodal_thickness) {
+    section.thickness = 1.0;  // in place of what *NODAL THICKNESS says
+  } else if (lines.next_fields(fields)) {
+    section.thickness = positive_real(lines, fields[0], "thickness of the membrane");
+  } else {
+    lines.error(keyword, "has no thickness");
+  }
+  content.sections.push_back(section);
+  lines.skip_data();
 }
 
 }  // namespace floatframe

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -7,6 +7,7 @@
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/surface_ties.hpp"
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

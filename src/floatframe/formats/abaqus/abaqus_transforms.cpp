@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {

@@ -15,6 +15,8 @@ constexpr const char* full =
     "with full integration as in CalculiX (Abaqus takes the change of volume at the centre)";
 constexpr const char* with_shear = "as Timoshenko beams with the shear factors of Abaqus";
 
+constexpr const char* middle_shear =
+    "with four points and the shear strain of their middle (Abaqus and CalculiX take one point)";
 constexpr const char* triangles =
     "as flat triangles between all their nodes, twice as fine as their corners";
 
@@ -28,6 +30,10 @@ constexpr AbaqusType skin(const char* name, int nodes) {
 constexpr AbaqusType shell(const char* name, int nodes, ElementType type,
                            const char* remark = nullptr) {
   return {name, Family::shell, nodes, type, remark};
+}
+constexpr AbaqusType membrane(const char* name, int nodes, ElementType type,
+                              const char* remark = nullptr) {
+  return {name, Family::membrane, nodes, type, remark};
 }
 constexpr AbaqusType beam(const char* name, int nodes, ElementType type,
                           const char* remark = nullptr) {
@@ -105,12 +111,12 @@ constexpr std::array types_of_abaqus{
     skin("CAX4", 4),
     skin("CAX6", 6),
     skin("CAX8", 8),
-    skin("M3D3", 3),
-    skin("M3D4", 4),
-    skin("M3D4R", 4),
-    skin("M3D6", 6),
-    skin("M3D8", 8),
-    skin("M3D8R", 8),
+    membrane("M3D3", 3, ElementType::membrane3),
+    membrane("M3D4", 4, ElementType::membrane4),
+    membrane("M3D4R", 4, ElementType::membrane4s, middle_shear),
+    membrane("M3D6", 6, ElementType::membrane6),
+    membrane("M3D8", 8, ElementType::membrane8),
+    membrane("M3D8R", 8, ElementType::membrane8r),
     skin("SFM3D3", 3),
     skin("SFM3D4", 4),
     skin("SFM3D6", 6),

@@ -9,7 +9,7 @@
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
-#include "floatframe/formats/abaqus/abaqus_content.hpp"
+#include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/abaqus/abaqus_keywords.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
@@ -17,6 +17,15 @@ namespace floatframe {
 namespace {
 
 void skip(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent&) { lines.skip_data(); }
+
+/// The mesh is one piece there; its preload belongs to a step.
+void read_abaqus_pre_tension(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                             AbaqusContent& content) {
+  content.note(lines.source().mark(keyword.at),
+               fmt::format("{} is passed over: the bolt is whole and without its preload",
+                           keyword.shown));
+  lines.skip_data();
+}
 
 struct Known {
   const char* name;
@@ -45,12 +54,17 @@ constexpr std::array handlers{
     Known{"MATERIAL", read_abaqus_material},
     Known{"ELASTIC", read_abaqus_elastic},
     Known{"DENSITY", read_abaqus_density},
+    Known{"INITIAL CONDITIONS", read_abaqus_initial_conditions},
     Known{"ORIENTATION", read_abaqus_orientation},
     Known{"SOLID SECTION", read_abaqus_solid_section},
     Known{"SHELL SECTION", read_abaqus_shell_section},
+    Known{"MEMBRANE SECTION", read_abaqus_membrane_section},
     Known{"NODAL THICKNESS", read_abaqus_nodal_thickness},
     Known{"BEAM SECTION", read_abaqus_beam_section},
     Known{"BEAM GENERAL SECTION", read_abaqus_beam_section},
+    Known{"BEAM SECTION OFFSET", read_abaqus_beam_section_offset},
+    Known{"CENTROID", read_abaqus_centroid},
+    Known{"SHEAR CENTER", read_abaqus_shear_center},
     Known{"SURFACE SECTION", read_abaqus_surface_section},
     Known{"MASS", read_abaqus_mass},
     Known{"ROTARY INERTIA", read_abaqus_rotary_inertia},
@@ -64,6 +78,7 @@ constexpr std::array handlers{
     Known{"CONTACT PAIR", read_abaqus_contact_pair},
     Known{"CONTACT", read_abaqus_general_contact},
     Known{"MPC", read_abaqus_mpc},
+    Known{"PRE-TENSION SECTION", read_abaqus_pre_tension},
     Known{"SPRING", read_abaqus_spring},
     Known{"GAP", read_abaqus_gap},
     Known{"TRANSFORM", read_abaqus_transform},
@@ -204,6 +219,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   AbaqusLines lines(source);
   DeckReader(lines, content).read();
   finish_abaqus_assembly(content, source);
+  finish_abaqus_constants(lines, content);
   if (content.nodes.empty() && source.errors() == 0) {
     source.error({0, 0}, "the deck has no nodes");
   }

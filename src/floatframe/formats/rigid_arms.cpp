@@ -1,0 +1,69 @@
+#include "floatframe/formats/rigid_arms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "floatframe/fe/dependent_dofs.hpp"
+
+namespace floatframe {
+namespace {
+
+void add_arm_equations(FeModel& model, int end, int node, const FeSource& at) {
+  const Vec3 arm = model.positions[end] - model.positions[node];
+  for (int k = 0; k < 3; ++k) {
+    LinearEquation move, turn;
+    move.source = turn.source = at;
+    turn.terms = {{end, 3 + k, 1.0}, {node, 3 + k, -1.0}};
+    move.terms = {{end, k, 1.0}, {node, k, -1.0}};
+    const Vec3 lever = arm.cross(Vec3::Unit(k));  // e_k . (theta x d) = theta . (d x e_k)
+    for (int i = 0; i < 3; ++i)
+      if (lever(i) != 0.0) move.terms.push_back({node, 3 + i, -lever(i)});
+    model.equations.push_back(std::move(move));
+    model.equations.push_back(std::move(turn));
+  }
+}
+
+}  // namespace
+
+int RigidArms::end(FeModel& model, TextSource& source, int node, const Vec3& arm,
+                   const FeSource& at) {
+  const auto [it, fresh] = end_of_.try_emplace({double(node), arm(0), arm(1), arm(2)}, -1);
+  if (!fresh) return it->second;
+  if (largest_id_ == 0)
+    largest_id_ = *std::max_element(model.node_ids.begin(), model.node_ids.end());
+  if (largest_id_ == std::numeric_limits<int>::max())
+    source.stop(at, fmt::format("a node of its own is needed here, but there is no number above {}",
+                                largest_id_));
+  it->second = model.nodes();
+  model.positions.push_back(model.positions[node] + arm);
+  model.node_ids.push_back(++largest_id_);
+  model.node_sources.push_back(at);
+  if (!model.node_names.empty()) model.node_names.emplace_back();
+  arms_.push_back({it->second, node, at});
+  return it->second;
+}
+
+void RigidArms::tie(FeModel& model) const {
+  if (arms_.empty()) return;
+  const std::vector<int> dofs = dofs_without_springs(model);
+  std::map<int, std::size_t> spiders;
+  for (const Arm& a : arms_) {
+    if (dofs[a.node + 1] == 6) {
+      add_arm_equations(model, a.end, a.node, a.at);
+      continue;
+    }
+    const auto [it, fresh] = spiders.try_emplace(a.node, model.spiders.size());
+    if (fresh) {
+      Spider s;
+      s.name = fmt::format("beams of {}", model.node_label(a.node));
+      s.reference = a.node;
+      s.source = a.at;
+      model.spiders.push_back(std::move(s));
+    }
+    model.spiders[it->second].nodes.push_back(a.end);
+  }
+}
+
+}  // namespace floatframe
