@@ -210,7 +210,7 @@ class SectionWriter {
       const ShellSection& s = shell(key.section);
       const std::string offset =
           s.offset == 0.0 ? ""
-                          : fmt::format(", OFFSET={}", calculix_number(s.offset / s.thickness));
+                          : fmt::format(", OFFSET={}", calculix_number(-s.offset / s.thickness));
       deck_.text += fmt::format("*{} SECTION, {}{}\n{}\n",
                                 key.family == ElementFamily::shell ? "SHELL" : "MEMBRANE", words,
                                 offset, calculix_number(s.thickness));
