@@ -1,6 +1,11 @@
-// ANSYS decks: MATRIX27 as springs, and solids whose layers are of one material.
+// ANSYS decks: MATRIX27 as springs, and solids of layers.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/model_checks.hpp"
 #include "formats/ansys_deck.hpp"
 
 namespace floatframe::test {
@@ -130,6 +135,68 @@ TEST(AnsysLayers, OfOneMaterial) {
                                "SECDATA,.5,2\nSECDATA,0,1\nSECDATA,.5,2,45\nE,1,2,3,4,5,6,7,8\n");
     ASSERT_EQ(m.elements.size(), 1u);
     EXPECT_EQ(m.materials.at(m.elements[0].material).young, 7e4);
+    EXPECT_EQ(m.elements[0].layup, -1);
+    EXPECT_EQ(m.elements[0].type, ElementType::hex8i);
+  }
+}
+
+const std::string layer_materials =
+    cdb_steel +
+    "MP,EX,2,7e4\nMP,EY,2,9e3\nMP,EZ,2,8e3\nMP,PRXY,2,.3\nMP,PRYZ,2,.3\nMP,PRXZ,2,.25\n"
+    "MP,GXY,2,5e3\nMP,GYZ,2,3e3\nMP,GXZ,2,4e3\nMP,DENS,2,1.6e-9\n";
+const std::string layers_of_three =
+    "SECTYPE,1,SHELL\nSECDATA,.25,2,30\nSECDATA,0,1\nSECDATA,1,,\nSECDATA,.75,2,-45,5\n"
+    "SECOFFSET,MID\n";
+
+TEST(AnsysLayers, OfSeveralMaterials) {
+  struct Kind {
+    const char* type;
+    std::string nodes;
+    ElementType element;
+  };
+  const std::string corners =
+      "N,1\nN,2,2\nN,3,2,1\nN,4,0,1\nN,5,0,0,1\nN,6,2,0,1\nN,7,2,1,1\nN,8,0,1,1\n";
+  const std::string middles =
+      "N,9,1\nN,10,2,.5\nN,11,1,1\nN,12,0,.5\nN,13,1,0,1\nN,14,2,.5,1\nN,15,1,1,1\n"
+      "N,16,0,.5,1\nN,17,0,0,.5\nN,18,2,0,.5\nN,19,2,1,.5\nN,20,0,1,.5\n";
+  const std::string all =
+      "EN,1,1,2,3,4,5,6,7,8\nEMORE,9,10,11,12,13,14,15,16\n"
+      "EMORE,17,18,19,20\n";
+  for (const Kind& kind :
+       {Kind{"ET,1,185\nKEYOPT,1,3,1\n", "E,1,2,3,4,5,6,7,8\n", ElementType::hex8i},
+        Kind{"ET,1,185\nKEYOPT,1,3,1\n", "E,1,2,3,3,5,6,7,7\n", ElementType::wedge6},
+        Kind{"ET,1,190\n", "E,1,2,3,4,5,6,7,8\n", ElementType::hex8i},
+        Kind{"ET,1,186\nKEYOPT,1,3,1\n", middles + all, ElementType::hex20r},
+        Kind{"ET,1,186\nKEYOPT,1,3,1\nKEYOPT,1,2,1\n", middles + all, ElementType::hex20}}) {
+    for (const bool turned : {false, true}) {
+      const FeModel m =
+          ansys_of(kind.type + corners + layer_materials + layers_of_three +
+                   (turned ? "LOCAL,11,0,0,0,0,90\nCSYS,0\nESYS,11\n" : "") + kind.nodes);
+      ASSERT_EQ(m.elements.size(), 1u);
+      const Element& e = m.elements[0];
+      EXPECT_EQ(e.type, kind.element);
+      ASSERT_EQ(e.layup, 0);
+      const std::vector<ShellPly>& plies = m.layups.at(0).plies;
+      ASSERT_EQ(plies.size(), 3u);
+      const double thickness[] = {0.25, 1.0, 0.75}, angle[] = {30, 0, -45};
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(plies[k].thickness, thickness[k]);
+        EXPECT_NEAR(plies[k].angle * 180 / std::numbers::pi, angle[k], 1e-13);
+        EXPECT_EQ(m.material_names.at(plies[k].material), k == 1 ? "1" : "2");
+      }
+      ASSERT_NO_THROW(validate(m));
+      // The block is 1 thick, so the plies are halves of what the section says.
+      const double mass =
+          (kind.element == ElementType::wedge6 ? 1.0 : 2.0) * (0.5 * 1.6e-9 + 0.5 * 7.85e-9);
+      EXPECT_NEAR(volume_times_density(m), mass, 1e-12 * mass);
+      // Axis 1 of the first ply: x, or y of the turned system, and 30 degrees.
+      const NodalPly at = element_kernel(e.type).nodal_ply(gather(m, e), 0);
+      const Mat3 R =
+          Eigen::AngleAxisd((turned ? 120 : 30) * std::numbers::pi / 180.0, Vec3::UnitZ())
+              .toRotationMatrix();
+      const Mat6 D = turned_elasticity(*m.materials[plies[0].material].elasticity, R);
+      EXPECT_LE((at.D - D).norm(), 1e-12 * D.norm());
+    }
   }
 }
 

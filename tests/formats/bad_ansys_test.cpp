@@ -10,6 +10,19 @@ const std::string bad_nodes =
     "N,1,0,0,0\nN,2,2,0,0\nN,3,2,1,0\nN,4,0,1,0\nN,5,0,0,1\nN,6,2,0,1\nN,7,2,1,1\nN,8,0,1,1\n";
 const std::string bad_solid = "ET,1,185\n" + bad_nodes + "E,1,2,3,4,5,6,7,8\n";
 
+std::string bad_layers(const std::string& layers,
+                       const std::string& elements = "E,1,2,3,4,5,6,7,8\n") {
+  return "ET,1,190\n" + bad_nodes + elements + cdb_steel + "SECTYPE,1,SHELL\n" + layers;
+}
+const std::string bad_two_layers =
+    "SECDATA,1,1\nSECDATA,1,2\nMP,EX,2,7e4\nMP,PRXY,2,.3\nMP,DENS,2,1\n"
+    "LOCAL,11,0,0,0,0,0,0,90\n";
+std::string bad_many_layers(int count) {
+  std::string text;
+  for (int k = 0; k < count; ++k) text += "SECDATA,1,1\n";
+  return text;
+}
+
 struct BadAnsysDeck {
   std::string text, message;
 };
@@ -115,12 +128,24 @@ TEST(BadAnsys, NodesAndElements) {
       {"ET,1,185\n" + bad_nodes + "EN,1,1,2,3,4,5,6,7,8,1\n",
        "10: element 1 (SOLID185): it has 9 nodes, at most 8 are expected"},
       {"ET,1,185\nKEYOPT,1,3,1\n" + bad_nodes + "E,1,2,3,4,5,6,7,8\n" + cdb_steel,
-       "11: element 1 (SOLID185): its layers (SECTYPE,n,SHELL) are not of one isotropic material: "
-       "layers of solids are not read"},
-      {"ET,1,190\nSECTYPE,1,SHELL\nSECDATA,1,1\nSECDATA,1,2\n" + bad_nodes + "E,1,2,3,4,5,6,7,8\n" +
-           cdb_steel,
-       "13: element 1 (SOLSH190): its layers (SECTYPE,n,SHELL) are not of one isotropic material: "
-       "layers of solids are not read"},
+       "11: element 1 (SOLID185): it has layers (KEYOPT(3) = 1), but its section 1 is no "
+       "SECTYPE,1,SHELL"},
+      {bad_layers("SECDATA,-1,1\n"), "21: section 1: a layer is -1 thick, expected more than 0"},
+      {bad_layers("SECDATA,1,1e30\n"),
+       "21: section 1: a layer is of material 1e+30, which is no number of a material"},
+      {bad_layers("SECDATA,0,1\n"), "21: section 1 has no layer with a thickness (SECDATA)"},
+      {bad_layers("SECDATA,1,1\nSECOFFSET,TOP\n"),
+       "21: section 1: SECOFFSET,TOP of layers of solids is not read: they fill their element"},
+      {bad_layers("SECDATA,1,1\nSECCONTROL,1\n"),
+       "21: section 1: SECCONTROL of layers of solids is not read"},
+      {bad_layers(bad_many_layers(251)),
+       "21: section 1 has 251 layers, expected at most 250 in a solid"},
+      {bad_layers(bad_two_layers, "E,1,2,3,4,5,5,5,5\n"),
+       "10: element 1 (SOLSH190): its layers are those of a pyramid or tetrahedron, expected a "
+       "brick or a wedge"},
+      {bad_layers(bad_two_layers, "ESYS,11\nE,1,2,3,4,5,6,7,8\n"),
+       "11: element 1 (SOLSH190): the x axis of its coordinate system 11 is nearer to the normal "
+       "of its layers than 45 degrees"},
       {"ET,1,21\nN,1\nE,1\n",
        " the file has 1 elements and none of them is a solid, a shell, a beam or a rod"},
       {bad_solid + cdb_steel + "CMBLOCK,A,NODE,2\n(8i10)\n         1         9\n",

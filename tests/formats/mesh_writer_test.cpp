@@ -359,6 +359,12 @@ TEST(MeshWriter, WhatADeckWouldFalsifyIsRefused) {
   EXPECT_EQ(refusal(shell),
             "element 70 (quad4) has layers or bending of its own, which are not written as a "
             "CalculiX deck (.vtu and .msh show the mesh)");
+  FeModel solid = single_element(ElementType::hex20);
+  solid.layups = {{{{0, 1.0, 0.0}, {0, 1.0, 0.5}}}};
+  solid.elements[0].layup = 0;
+  EXPECT_EQ(refusal(solid),
+            "element 70 (hex20) is a solid with plies, which is not written as a CalculiX deck "
+            "(.vtu and .msh show the mesh)");
   FeModel beam = single_element(ElementType::beam2);
   beam.sections[0] = BeamSection::solid_round(0.01);
   EXPECT_EQ(refusal(beam),

@@ -78,31 +78,39 @@ int StressRecovery::number_of(int node) const {
   return model_.node_ids.empty() ? node + 1 : model_.node_ids[node];
 }
 
-int StressRecovery::group_of(const Element& element) {
+int StressRecovery::group_of(const Element& element, int ply) {
   const ElementFamily family = element_kernel(element.type).family;
-  const std::array<int, 3> key{element.material, static_cast<int>(family),
-                               family == ElementFamily::solid ? 0 : element.section};
+  const int material =
+      ply < 0 ? element.material : model_.layups[element.layup].plies[ply].material;
+  const int section = family == ElementFamily::solid ? element.layup : element.section;
+  const std::array<int, 4> key{material, static_cast<int>(family), section, ply};
   const auto it = std::find(group_keys_.begin(), group_keys_.end(), key);
   if (it != group_keys_.end()) return static_cast<int>(it - group_keys_.begin());
   group_keys_.push_back(key);
-  const Material& m = model_.materials[element.material];
-  const auto named = static_cast<std::size_t>(element.material) < model_.material_names.size();
+  const Material& m = model_.materials[material];
+  const auto named = static_cast<std::size_t>(material) < model_.material_names.size();
   const bool isotropic = family == ElementFamily::shell || family == ElementFamily::membrane
                              ? is_plain(model_.shells[element.section], m)
                              : !m.elasticity;
-  layout_.groups.push_back({named ? model_.material_names[element.material] : std::string(),
+  layout_.groups.push_back({named ? model_.material_names[material] : std::string(),
                             isotropic ? m.young : 0.0, isotropic ? m.poisson : 0.0});
   return static_cast<int>(group_keys_.size()) - 1;
 }
 
 void StressRecovery::add_solid(int e, const std::vector<int>& point_of) {
   const Element& element = model_.elements[e];
-  const int nodes = element_kernel(element.type).nodes;
+  const ElementKernel& kernel = element_kernel(element.type);
+  ElementInput in;  // of an element of plies
   int group = -1;
-  for (int a = 0; a < nodes; ++a) {
+  for (int a = 0; a < kernel.nodes; ++a) {
     const int point = point_of[element.nodes[a]];
     if (point < 0) continue;
-    if (group < 0) group = group_of(element);
+    if (element.layup >= 0) {
+      if (in.plies.empty()) in = gather(model_, element);
+      group = group_of(element, kernel.nodal_ply(in, a).ply);
+    } else if (group < 0) {
+      group = group_of(element);
+    }
     std::vector<int>& known = solids_[point];
     auto it = std::find_if(known.begin(), known.end(),
                            [&](int place) { return layout_.places[place].group == group; });
@@ -200,8 +208,11 @@ void StressRecovery::recover_surface(int e, const StressFields& fields, MatX& su
     }
   } else {
     kernel.nodal_strains(in, B);
-    for (const Share& s : shares_[e])
-      add(s.place, elasticity_at(in, in.p[s.local]) * B.middleRows<6>(6 * s.local));
+    for (const Share& s : shares_[e]) {
+      const Mat6 D =
+          in.plies.empty() ? elasticity_at(in, in.p[s.local]) : kernel.nodal_ply(in, s.local).D;
+      add(s.place, D * B.middleRows<6>(6 * s.local));
+    }
   }
 }
 

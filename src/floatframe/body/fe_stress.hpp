@@ -4,8 +4,9 @@
 //
 // Solids: strains where they are best, carried to the nodes (ElementKernel::nodal_strains). Shells:
 // both sides at the corners (layer_stresses). Both are averaged over the elements at a node that
-// are of one material (shells: of one section too, and whose normals differ by less than 20
-// degrees; at a node the normals tell the sides, whatever way round its elements are numbered).
+// are of one material (of plies, the ply at the node; shells: of one section too, and whose
+// normals differ by less than 20 degrees; at a node the normals tell the sides, whatever way round
+// its elements are numbered).
 // Beams: section forces of the ends, f_e = K_e u_e - M_e a_e with a_e the field that loads the
 // element inside: exact for the loads of fe/body_loads.hpp, not those of the middle of the element.
 // Body frame, SI units. Load time.
@@ -45,7 +46,8 @@ class StressRecovery {
     int local, place, other;  ///< other: of a shell the bottom, else -1
   };
   int number_of(int node) const;
-  int group_of(const Element& element);
+  /// `ply`: of a solid's layup; -1: it has none.
+  int group_of(const Element& element, int ply = -1);
   void add_shell(int e, const std::vector<int>& point_of);
   void add_solid(int e, const std::vector<int>& point_of);
   void add_beam(int e);
@@ -55,10 +57,11 @@ class StressRecovery {
   const FeModel& model_;
   ElementMass mass_;
   BodyStress layout_;
-  std::vector<int> elements_at_;                ///< of each place
-  std::vector<std::vector<Share>> shares_;      ///< of each element
-  std::vector<int> first_section_;              ///< of each element; -1: no beam
-  std::vector<std::array<int, 3>> group_keys_;  ///< material, shell or beam or none, section
+  std::vector<int> elements_at_;            ///< of each place
+  std::vector<std::vector<Share>> shares_;  ///< of each element
+  std::vector<int> first_section_;          ///< of each element; -1: no beam
+  /// Material, shell or beam or none, section or layup, ply.
+  std::vector<std::array<int, 4>> group_keys_;
 
   struct ShellSide {
     int place;  ///< top; the next one is the bottom

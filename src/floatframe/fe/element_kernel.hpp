@@ -9,6 +9,7 @@
 #include "floatframe/fe/elasticity.hpp"
 #include "floatframe/fe/element_shape.hpp"
 #include "floatframe/fe/fe_system.hpp"
+#include "floatframe/fe/layup.hpp"
 #include "floatframe/fe/shell_layers.hpp"
 
 namespace floatframe {
@@ -24,6 +25,8 @@ struct ElementInput {
   MassForm mass_form = MassForm::consistent;
   std::optional<Orientation> orientation = {};  ///< solids: axes of the material; none: the body's
   std::optional<ShellLayers> layers = {};       ///< shells that are not of one isotropic material
+  std::vector<LayupPly> plies = {};             ///< solids that have them
+  const Orientation* axes() const noexcept { return orientation ? &*orientation : nullptr; }
 };
 
 /// Where the stress of a load works on strains of second order, 1/2 grad u^T grad u: its share of
@@ -33,6 +36,12 @@ struct StressedPoint {
   /// volume of the point [N m]; of a shell the membrane stress, of a beam its axial stress.
   MatX stress;
   MatX gradient;  ///< 9 x dofs: du_i/dx_j in row 3 i + j
+};
+
+/// The ply of a solid at a node.
+struct NodalPly {
+  int ply = 0;
+  Mat6 D = Mat6::Zero();  ///< elasticity there, in body axes [Pa]
 };
 
 /// Which section an element has: a beam's (rods too), a shell's (panels and membranes too), or
@@ -60,6 +69,8 @@ struct ElementKernel {
   /// node: on the side of the normal (top), then on the other (bottom), from the displacements of
   /// the nodes.
   void (*layer_stresses)(const ElementInput&, MatX&) = nullptr;
+  /// Solids that may have plies; null: it may have none.
+  NodalPly (*nodal_ply)(const ElementInput&, int node) = nullptr;
   ElementShape shape = {};
 };
 

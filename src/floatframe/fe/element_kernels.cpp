@@ -37,7 +37,10 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
   input.mass_form = element.mass_form;
   const Orientation* const orientation =
       element.orientation < 0 ? nullptr : &model.orientations[element.orientation];
-  if (kernel.family == ElementFamily::solid && orientation) input.orientation = *orientation;
+  if (kernel.family == ElementFamily::solid) {
+    if (orientation) input.orientation = *orientation;
+    if (element.layup >= 0) input.plies = layup_plies(model.layups[element.layup], model.materials);
+  }
   if (kernel.family == ElementFamily::panel) input.shell = model.shells[section];
   if (kernel.family == ElementFamily::shell || kernel.family == ElementFamily::membrane) {
     input.shell = model.shells[section];

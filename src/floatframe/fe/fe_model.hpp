@@ -101,12 +101,13 @@ struct Element {
   /// material along the side 1-2. Of an orientation a shell takes the first axis, projected.
   int orientation = -1;
   double angle = 0.0;  ///< shells: turns that axis about the normal [rad]
+  int layup = -1;      ///< solids: their plies, in FeModel::layups; -1: one material
   std::string name;    ///< for messages; empty: by its number
   int id = 0;          ///< the number in the user's file; 0: none
   FeSource source;
 };
 
-/// A layer of a shell.
+/// A layer of a shell or a solid.
 struct ShellPly {
   int material = 0;
   double thickness = 0.0;  ///< [m]
@@ -130,6 +131,12 @@ struct ShellSection {
   int bending = -1;
   double bending_factor = 1.0;
   Mat3 coupling = Mat3::Zero();
+};
+
+/// Plies of solids, across their third natural direction. The thicknesses are shares of that of the
+/// element.
+struct Layup {
+  std::vector<ShellPly> plies;  ///< from the face of the first nodes
 };
 
 /// A linear spring. Its force is stiffness times elongation, the elongation
@@ -212,6 +219,7 @@ struct FeModel {
   std::vector<Material> materials;
   std::vector<BeamSection> sections;
   std::vector<ShellSection> shells;
+  std::vector<Layup> layups;
   std::vector<Orientation> orientations;
   std::vector<Element> elements;
   std::vector<PointMass> masses;

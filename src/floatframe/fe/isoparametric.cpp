@@ -1,6 +1,7 @@
 #include "floatframe/fe/isoparametric.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "floatframe/fe/solid_element.hpp"
 #include "floatframe/math/dense.hpp"
@@ -20,18 +21,40 @@ bool positive(const SampledRule& rule, const Positions& P, double limit) {
   return true;
 }
 
+Mat3 jacobian(const SampledRule& rule, int q, const Positions& P) {
+  return P * rule.dN.middleCols<3>(3 * q);  // J(i, j) = dx_i / dxi_j
+}
+
 /// int B^T D B dV, with the axes of the material at each point.
-void anisotropic_stiffness(const SampledRule& rule, const ElementInput& in, const Positions& P,
-                           MatX& out) {
+void anisotropic_stiffness(const IsoparametricElement& element, const SampledRule& rule,
+                           const ElementInput& in, const Positions& P, MatX& out) {
   out = MatX::Zero(P.size(), P.size());
-  for (int q = 0; q < rule.size(); ++q) {
+  each_point(element, rule, in, [&](const SampledRule& points, int q, const LayupPly* ply) {
     double detJ = 0.0;
-    const Strain B = strain_matrix(gradients(rule, q, P, detJ));
-    const Mat6 D = rule.weight(q) * detJ * elasticity_at(in, P * rule.N.col(q));
+    const Strain B = strain_matrix(gradients(points, q, P, detJ));
+    const Mat6 D = points.weight(q) * detJ * elasticity_at(in, points, q, ply, P);
     const Strain DB = D * B;
     out.noalias() += B.transpose() * DB;
-  }
+  });
   out = (0.5 * (out + out.transpose())).eval();
+}
+
+SampledRule at_nodes(const IsoparametricElement& element, int first, int count) {
+  QuadratureRule places;
+  for (int a = first; a < first + count; ++a) places.push_back({element.at[a], 1.0});
+  return sample(element.nodes, element.functions, places);
+}
+
+/// Axis 1 of the layers is along the thickness at a node.
+bool no_layer_axis(const IsoparametricElement& element, const ElementInput& in,
+                   const Positions& P) {
+  const bool needed = std::any_of(in.plies.begin(), in.plies.end(),
+                                  [](const LayupPly& ply) { return ply.directional; });
+  if (!needed || in.axes() == nullptr) return false;
+  const SampledRule nodes = at_nodes(element, 0, element.nodes);
+  for (int a = 0; a < nodes.size(); ++a)
+    if (layer_axis(jacobian(nodes, a, P), in.axes(), P.col(a)).isZero(0.0)) return true;
+  return false;
 }
 
 }  // namespace
@@ -43,7 +66,7 @@ Positions positions(const ElementInput& in, int nodes) {
 }
 
 ShapeGradients gradients(const SampledRule& rule, int q, const Positions& P, double& detJ) {
-  const Mat3 J = P * rule.dN.middleCols<3>(3 * q);  // J(i, j) = dx_i / dxi_j
+  const Mat3 J = jacobian(rule, q, P);
   detJ = J.determinant();
   return J.inverse().transpose() * rule.dN.middleCols<3>(3 * q).transpose();
 }
@@ -79,6 +102,7 @@ IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
                                    const StressRule& stress) {
   IsoparametricElement element;
   element.nodes = nodes;
+  element.functions = functions;
   for (std::size_t i = 0; i < 2; ++i) {
     element.stiffness[i] = sample(nodes, functions, stiffness[i]);
     element.mass[i] = sample(nodes, functions, mass[i]);
@@ -93,13 +117,35 @@ IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
     at_nodes.row(a) = stress.functions(stress.nodes[a]);
   }
   element.to_nodes = at_nodes * LeastNorm(at_points).pseudo_inverse();
+  element.at = stress.nodes;
   return element;
+}
+
+SampledRule in_ply(const IsoparametricElement& element, const SampledRule& rule,
+                   const LayupPly& ply) {
+  const double half = 0.5 * (ply.top - ply.bottom), middle = 0.5 * (ply.top + ply.bottom);
+  QuadratureRule squeezed;
+  squeezed.reserve(rule.points.size());
+  for (int q = 0; q < rule.size(); ++q) {
+    const Vec3& xi = rule.points[q];
+    squeezed.push_back({Vec3(xi(0), xi(1), middle + half * xi(2)), half * rule.weight(q)});
+  }
+  return sample(element.nodes, element.functions, squeezed);
+}
+
+Mat6 elasticity_at(const ElementInput& in, const SampledRule& rule, int q, const LayupPly* ply,
+                   const Positions& P) {
+  const Vec3 p = P * rule.N.col(q);
+  if (ply == nullptr) return floatframe::elasticity_at(in, p);
+  return ply_elasticity(*ply, jacobian(rule, q, P), in.axes(), p);
 }
 
 std::string error(const IsoparametricElement& element, const ElementInput& in) {
   const Positions P = positions(in, element.nodes);
   const double size = (P.colwise() - P.col(0)).colwise().norm().maxCoeff();
   const double limit = 1e-12 * size * size * size;
+  if (!in.plies.empty() && no_layer_axis(element, in, P))
+    return "has plies, and axis 1 of its orientation is along its thickness";
   if (element.check.size() > 0) {
     if (positive(element.check, P, limit)) return {};
     return "is inverted or flat (its Jacobian is not positive at every corner)";
@@ -115,7 +161,8 @@ void stiffness(const IsoparametricElement& element, const ElementInput& in, MatX
   const SampledRule& rule = select(element.stiffness, in);
   const int n = element.nodes, nq = rule.size();
   const Positions P = positions(in, n);
-  if (in.material.elasticity) return anisotropic_stiffness(rule, in, P, out);
+  if (in.material.elasticity || !in.plies.empty())
+    return anisotropic_stiffness(element, rule, in, P, out);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 60, 27> g(3 * n, nq),
       weighted(3 * n, nq);
   for (int q = 0; q < nq; ++q) {
@@ -141,8 +188,29 @@ void stiffness(const IsoparametricElement& element, const ElementInput& in, MatX
   }
 }
 
+namespace {
+
+void ply_masses(const IsoparametricElement& element, const SampledRule& rule,
+                const ElementInput& in, MatX& out) {
+  const Positions P = positions(in, element.nodes);
+  out = MatX::Zero(element.nodes, element.nodes);
+  for (const LayupPly& ply : in.plies) {
+    if (ply.density == 0.0) continue;
+    const SampledRule points = in_ply(element, rule, ply);
+    for (int q = 0; q < points.size(); ++q) {
+      const VecX N = points.N.col(q);
+      const double dm = ply.density * points.weight(q) * jacobian(points, q, P).determinant();
+      out.noalias() += (dm * N) * N.transpose();
+    }
+  }
+  out = (0.5 * (out + out.transpose())).eval();
+}
+
+}  // namespace
+
 void scalar_mass(const IsoparametricElement& element, const ElementInput& in, MatX& out) {
   const SampledRule& rule = select(element.mass, in);
+  if (!in.plies.empty()) return ply_masses(element, rule, in, out);
   const Mat3X J = positions(in, element.nodes) * rule.dN;
   VecX dm(rule.size());
   for (int q = 0; q < rule.size(); ++q) {
@@ -174,15 +242,21 @@ void nodal_strains(const IsoparametricElement& element, const ElementInput& in, 
 void stressed_points(const IsoparametricElement& element, const ElementInput& in,
                      std::vector<StressedPoint>& points) {
   const Positions P = positions(in, element.nodes);
-  points.resize(element.stress.size());
-  for (int q = 0; q < element.stress.size(); ++q) {
+  points.clear();
+  each_point(element, element.stress, in, [&](const SampledRule& rule, int q, const LayupPly* ply) {
     double detJ = 0.0;
-    const Gradients g = gradients(element.stress, q, P, detJ);
-    const Mat6 weighted =
-        element.stress.weight(q) * detJ * elasticity_at(in, P * element.stress.N.col(q));
-    points[q].stress.noalias() = weighted * strain_matrix(g);
-    set_gradient(g, points[q].gradient);
-  }
+    const Gradients g = gradients(rule, q, P, detJ);
+    const Mat6 weighted = rule.weight(q) * detJ * elasticity_at(in, rule, q, ply, P);
+    StressedPoint& point = points.emplace_back();
+    point.stress.noalias() = weighted * strain_matrix(g);
+    set_gradient(g, point.gradient);
+  });
+}
+
+NodalPly nodal_ply(const IsoparametricElement& element, const ElementInput& in, int node) {
+  const int k = ply_at(in.plies, element.at[node](2));
+  const Positions P = positions(in, element.nodes);
+  return {k, elasticity_at(in, at_nodes(element, node, 1), 0, &in.plies[k], P)};
 }
 
 }  // namespace floatframe::solid

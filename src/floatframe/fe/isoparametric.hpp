@@ -2,7 +2,8 @@
 // What the isoparametric solid elements share. Displacement u = sum_a N_a(xi) u_a, geometry with
 // the same functions; H = int g g^T dV of the stacked gradients g_a = dN_a/dx gives
 //   K_ab = lambda H_ab + mu (H_ab^T + tr(H_ab) I),   M_ab = int rho N_a N_b dV I;
-// of a material that is not isotropic K = int B^T D B dV, with its axes at each point.
+// of a material that is not isotropic K = int B^T D B dV, with its axes at each point. Of an
+// element of plies (fe/layup.hpp) all are sums of integrals over the plies.
 #include <array>
 #include <string>
 
@@ -39,11 +40,13 @@ VecX trilinear(const Vec3& xi);
 
 struct IsoparametricElement {
   int nodes = 0;
+  ShapeFunctions functions = nullptr;
   /// Indexed by Integration.
   std::array<SampledRule, 2> stiffness, mass;
   SampledRule stress;
-  MatX to_nodes;      ///< nodes x stress points
-  SampledRule check;  ///< where the Jacobian must be positive; empty: at the integration points
+  MatX to_nodes;         ///< nodes x stress points
+  std::vector<Vec3> at;  ///< local coordinates of the nodes
+  SampledRule check;     ///< where the Jacobian must be positive; empty: at the integration points
 };
 IsoparametricElement isoparametric(int nodes, ShapeFunctions functions,
                                    const std::array<QuadratureRule, 2>& stiffness,
@@ -56,6 +59,26 @@ Positions positions(const ElementInput& in, int nodes);
 /// dN/dx of all shape functions at point q, 3 x nodes; `detJ` as well.
 ShapeGradients gradients(const SampledRule& rule, int q, const Positions& P, double& detJ);
 
+/// The points of a rule in a ply.
+SampledRule in_ply(const IsoparametricElement& element, const SampledRule& rule,
+                   const LayupPly& ply);
+
+/// Calls `use(rule, q, ply)` for the points of a rule: of an element of plies in each of them, else
+/// with `ply` null.
+template <class Use>
+void each_point(const IsoparametricElement& element, const SampledRule& rule,
+                const ElementInput& in, Use use) {
+  for (const LayupPly& ply : in.plies) {
+    const SampledRule points = in_ply(element, rule, ply);
+    for (int q = 0; q < points.size(); ++q) use(points, q, &ply);
+  }
+  if (!in.plies.empty()) return;
+  for (int q = 0; q < rule.size(); ++q) use(rule, q, nullptr);
+}
+/// Elasticity at point q, in body axes.
+Mat6 elasticity_at(const ElementInput& in, const SampledRule& rule, int q, const LayupPly* ply,
+                   const Positions& P);
+
 std::string error(const IsoparametricElement& element, const ElementInput& in);
 void stiffness(const IsoparametricElement& element, const ElementInput& in, MatX& out);
 void scalar_mass(const IsoparametricElement& element, const ElementInput& in, MatX& out);
@@ -65,6 +88,7 @@ void nodal_strains(const IsoparametricElement& element, const ElementInput& in, 
 /// At the points where stresses are taken.
 void stressed_points(const IsoparametricElement& element, const ElementInput& in,
                      std::vector<StressedPoint>& points);
+NodalPly nodal_ply(const IsoparametricElement& element, const ElementInput& in, int node);
 
 /// The entry of the list for an isoparametric element.
 template <const IsoparametricElement& (*element)()>
@@ -82,6 +106,15 @@ constexpr ElementKernel kernel(int nodes, const ElementShape& shape) {
                 stressed_points(element(), in, points);
               },
           .shape = shape};
+}
+
+/// The same with plies.
+template <const IsoparametricElement& (*element)()>
+constexpr ElementKernel layered(ElementKernel kernel) {
+  kernel.nodal_ply = [](const ElementInput& in, int node) {
+    return nodal_ply(element(), in, node);
+  };
+  return kernel;
 }
 
 }  // namespace floatframe::solid

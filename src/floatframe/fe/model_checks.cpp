@@ -87,6 +87,7 @@ double integral(const FeModel& model, bool density) {
     if (!density) {
       in.material.density = 1.0;
       in.shell.mass = 0.0;
+      for (LayupPly& ply : in.plies) ply.density = 1.0;
       if (in.layers) in.layers->mass = in.shell.thickness;
     }
     element_kernel(e.type).scalar_mass(in, scalar);

@@ -104,6 +104,8 @@ void to_si(FeModel& model, const UnitSystem& units) {
     s.coupling *= units.pressure();
     for (ShellPly& ply : s.plies) ply.thickness *= l;
   }
+  for (Layup& layup : model.layups)
+    for (ShellPly& ply : layup.plies) ply.thickness *= l;
   for (Orientation& o : model.orientations) o.origin *= l;
   // k e^2 is an energy. With translations e is a length, and rotations count with lengths.
   for (Spring& s : model.springs) {

@@ -4,40 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <set>
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/limited_errors.hpp"
 #include "floatframe/fe/springs.hpp"
 
 namespace floatframe {
 namespace {
-
-constexpr int most_of_a_kind = 20;
-
-/// Errors, at most 20 of a kind, then their number.
-class LimitedErrors {
- public:
-  void add(const char* kind, const SourceMark& mark, std::string text) {
-    if (++count_[kind] <= most_of_a_kind) errors_.add(mark, std::move(text));
-  }
-  bool empty() const { return errors_.empty(); }
-  void throw_if_any() {
-    for (const auto& [kind, count] : count_) {
-      if (count > most_of_a_kind) {
-        const int more = count - most_of_a_kind;
-        errors_.add({}, fmt::format("and {} more {}", more, kind), more);
-      }
-    }
-    errors_.throw_if_any();
-  }
-
- private:
-  ErrorList errors_;
-  std::map<std::string, int> count_;
-};
 
 bool in_range(int i, std::size_t size) { return i >= 0 && static_cast<std::size_t>(i) < size; }
 
@@ -105,11 +81,22 @@ void check_shells(const FeModel& model, LimitedErrors& errors) {
   }
 }
 
+void check_layups(const FeModel& model, LimitedErrors& errors) {
+  for (std::size_t i = 0; i < model.layups.size(); ++i) {
+    const std::string error = layup_error(model.layups[i], model.materials);
+    if (!error.empty()) errors.add("layups of solids", {}, fmt::format("layup {} {}", i, error));
+  }
+}
+
 /// What does not go with the material of an element; empty if all does.
 std::string material_misfit(const FeModel& model, const Element& element) {
   if (!in_range(element.orientation + 1, model.orientations.size() + 1))
     return fmt::format(": there is no orientation {}", element.orientation);
   const Material& material = model.materials[element.material];
+  if (!in_range(element.layup + 1, model.layups.size() + 1))
+    return fmt::format(": there is no layup {}", element.layup);
+  if (element.layup >= 0 && element_kernel(element.type).nodal_ply == nullptr)
+    return " cannot have plies: only hex8, hex8i, hex20, hex20r, wedge6 and wedge15 can";
   const ElementFamily family = element_kernel(element.type).family;
   if (family == ElementFamily::beam && material.elasticity)
     return " is a beam, whose material must be isotropic";
@@ -386,6 +373,7 @@ void validate(const FeModel& model) {
   check_nodes(model, errors);
   check_materials(model, errors);
   check_shells(model, errors);
+  check_layups(model, errors);
   check_elements(model, errors);
   check_masses(model, errors);
   check_springs(model, errors);

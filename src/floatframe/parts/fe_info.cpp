@@ -22,9 +22,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Masses of the plies of a solid, each without the others.
+void share_plies(const FeModel& model, const Element& element, FeFacts& out) {
+  const ElementInput given = gather(model, element);
+  ElementInput one = given;
+  MatX M;
+  for (std::size_t k = 0; k < given.plies.size(); ++k) {
+    for (LayupPly& ply : one.plies) ply.density = 0.0;
+    one.plies[k].density = given.plies[k].density;
+    element_kernel(element.type).scalar_mass(one, M);
+    out.material_masses[model.layups[element.layup].plies[k].material] += M.sum();
+  }
+}
+
 /// Masses of the materials of one element: shares by the thickness of plies, and what its section
 /// has besides.
 void share(const FeModel& model, const Element& element, double volume, double mass, FeFacts& out) {
+  if (element.layup >= 0) return share_plies(model, element, out);
   const ShellSection* shell =
       has_shell_section(element.type) ? &model.shells[element.section] : nullptr;
   if (shell == nullptr || shell->plies.empty()) {

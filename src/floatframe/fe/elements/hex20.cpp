@@ -60,7 +60,9 @@ const solid::IsoparametricElement& reduced() {
 
 }  // namespace
 
-constinit const ElementKernel hex20_kernel = solid::kernel<full>(20, shape::hex20);
-constinit const ElementKernel hex20r_kernel = solid::kernel<reduced>(20, shape::hex20);
+constinit const ElementKernel hex20_kernel =
+    solid::layered<full>(solid::kernel<full>(20, shape::hex20));
+constinit const ElementKernel hex20r_kernel =
+    solid::layered<reduced>(solid::kernel<reduced>(20, shape::hex20));
 
 }  // namespace floatframe

@@ -80,15 +80,16 @@ void incompatible(const ElementInput& in, MatX& K, Modes& amplitudes) {
   const solid::Positions P = solid::positions(in, 8);
   const Mat3 J0 = centre_jacobian(P);
   Eigen::Matrix<double, 33, 33> all = Eigen::Matrix<double, 33, 33>::Zero();
-  for (int q = 0; q < rule.size(); ++q) {
+  const auto add = [&](const solid::SampledRule& points, int q, const LayupPly* ply) {
     double detJ = 0.0;
     Eigen::Matrix<double, 6, 33> B;
-    B.leftCols<24>() = solid::strain_matrix(solid::gradients(rule, q, P, detJ));
-    B.rightCols<9>() = incompatible_strains(J0, rule.points[q], detJ);
-    const Mat6 D = elasticity_at(in, P * rule.N.col(q));
-    const Eigen::Matrix<double, 6, 33> DB = (rule.weight(q) * detJ) * (D * B);
+    B.leftCols<24>() = solid::strain_matrix(solid::gradients(points, q, P, detJ));
+    B.rightCols<9>() = incompatible_strains(J0, points.points[q], detJ);
+    const Mat6 D = solid::elasticity_at(in, points, q, ply, P);
+    const Eigen::Matrix<double, 6, 33> DB = (points.weight(q) * detJ) * (D * B);
     all.noalias() += B.transpose() * DB;
-  }
+  };
+  solid::each_point(element(), rule, in, add);
   const MatX modes = all.bottomRightCorner<9, 9>(), load = all.bottomLeftCorner<9, 24>();
   amplitudes = -ldlt_solve(modes, load);
   K = all.topLeftCorner<24, 24>() + all.topRightCorner<24, 9>() * amplitudes;
@@ -125,14 +126,16 @@ void stressed_points_i(const ElementInput& in, std::vector<StressedPoint>& point
   const solid::SampledRule& rule = element().stress;
   const solid::Positions P = solid::positions(in, 8);
   const Mat3 J0 = centre_jacobian(P);
-  for (int q = 0; q < rule.size(); ++q) {
+  std::size_t k = 0;
+  const auto add = [&](const solid::SampledRule& at, int q, const LayupPly* ply) {
     double detJ = 0.0;
-    solid::gradients(rule, q, P, detJ);
+    solid::gradients(at, q, P, detJ);
     const Eigen::Matrix<double, 6, 24> more =
-        incompatible_strains(J0, rule.points[q], detJ) * amplitudes;
-    const Mat6 D = elasticity_at(in, P * rule.N.col(q));
-    points[q].stress += (rule.weight(q) * detJ) * (D * more);
-  }
+        incompatible_strains(J0, at.points[q], detJ) * amplitudes;
+    const Mat6 D = solid::elasticity_at(in, at, q, ply, P);
+    points[k++].stress += (at.weight(q) * detJ) * (D * more);
+  };
+  solid::each_point(element(), rule, in, add);
 }
 
 /// Gradients of the shape functions averaged over the volume.
@@ -216,9 +219,10 @@ constexpr ElementKernel with(ElementKernel kernel, void (*stiffness)(const Eleme
 
 }  // namespace
 
-constinit const ElementKernel hex8_kernel = solid::kernel<element>(8, shape::hex8);
-constinit const ElementKernel hex8i_kernel = with(
-    solid::kernel<element>(8, shape::hex8), &stiffness_i, &nodal_strains_i, &stressed_points_i);
+constinit const ElementKernel hex8_kernel =
+    solid::layered<element>(solid::kernel<element>(8, shape::hex8));
+constinit const ElementKernel hex8i_kernel = solid::layered<element>(with(
+    solid::kernel<element>(8, shape::hex8), &stiffness_i, &nodal_strains_i, &stressed_points_i));
 constinit const ElementKernel hex8r_kernel = with(
     solid::kernel<element>(8, shape::hex8), &stiffness_r, &nodal_strains_r, &stressed_points_r);
 

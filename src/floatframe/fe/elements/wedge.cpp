@@ -103,7 +103,9 @@ const solid::IsoparametricElement& wedge15() {
 
 }  // namespace
 
-constinit const ElementKernel wedge6_kernel = solid::kernel<wedge6>(6, shape::wedge6);
-constinit const ElementKernel wedge15_kernel = solid::kernel<wedge15>(15, shape::wedge15);
+constinit const ElementKernel wedge6_kernel =
+    solid::layered<wedge6>(solid::kernel<wedge6>(6, shape::wedge6));
+constinit const ElementKernel wedge15_kernel =
+    solid::layered<wedge15>(solid::kernel<wedge15>(15, shape::wedge15));
 
 }  // namespace floatframe

@@ -65,6 +65,7 @@ struct AnsysBuild {
 
   std::map<std::pair<int, double>, int> materials = {};
   std::map<int, int> orientations = {};
+  std::map<std::pair<int, int>, int> layups = {};  ///< by section and material; -1: with an error
   std::map<int, std::optional<AnsysBeam>> beams = {};  ///< by section; none: with an error
   int solved_sections = 0;                             ///< shapes whose torsion has been computed
   std::vector<AnsysArm> arms = {};
@@ -78,6 +79,10 @@ void build_ansys_elements(AnsysBuild& build);
 /// Elements of those families; `nodes`: indices in the order of the deck.
 void build_ansys_shell(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
                        Element& element);
+// ansys_build_layers.cpp: solids with layers; the latter false with an error.
+bool ansys_has_layers(const AnsysBuild& build, const AnsysElement& e, const AnsysType& type);
+bool build_ansys_layers(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
+                        Element& element);
 bool build_ansys_line(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
                       const std::vector<int>& nodes, Element& element);
 /// BEAM and PIPE sections; none with an error.

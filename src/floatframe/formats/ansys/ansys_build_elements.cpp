@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <span>
 
 #include "floatframe/fe/solid_shapes.hpp"
@@ -70,38 +69,15 @@ class AnsysElementBuilder {
     element.type = shape->type;
     for (int k = 0; k < shape->count; ++k) element.nodes[k] = shape->nodes[k] - 1;
     middles(e, *shape, element);
+    if (library.family != F::shell && ansys_has_layers(b_, e, type))
+      return build_ansys_layers(b_, e, type, element);
     element.material = b_.material(e.material, e);
     if (library.family == F::shell) {
       build_ansys_shell(b_, e, type, element);
-    } else {
-      if (!layers(e, type, element)) return false;
-      if (b_.model.materials[element.material].elasticity)
-        element.orientation = b_.orientation(e.system, e.at, b_.label(e));
+    } else if (b_.model.materials[element.material].elasticity) {
+      element.orientation = b_.orientation(e.system, e.at, b_.label(e));
     }
     return true;
-  }
-
-  /// Solids with KEYOPT(3) = 1, and SOLSH190 with a section, have layers: they are read if all are
-  /// of one isotropic material.
-  bool layers(const AnsysElement& e, const AnsysType& type, Element& element) {
-    const bool layered = (type.number == 185 || type.number == 186) && type.keyopt[3] != 0;
-    const AnsysSection* section = b_.section(e, "SHEL");
-    if (!layered && (type.number != 190 || section == nullptr)) return true;
-    std::set<int> materials;
-    if (section != nullptr)
-      for (const std::vector<double>& row : section->rows)
-        if (ansys_value(row, 0) != 0.0) {
-          const int id = static_cast<int>(ansys_value(row, 1));
-          materials.insert(id == 0 ? e.material : id);
-        }
-    if (materials.size() == 1) {
-      element.material = b_.material(*materials.begin(), e);
-      if (!b_.model.materials[element.material].elasticity) return true;
-    }
-    b_.error(e,
-             "its layers (SECTYPE,n,SHELL) are not of one isotropic material: layers of solids "
-             "are not read");
-    return false;
   }
 
   /// An edge without its mid-side node is straight: a node of its own there moves as the mean of

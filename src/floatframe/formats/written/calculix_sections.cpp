@@ -71,6 +71,10 @@ class SectionWriter {
     std::string what;
     if (!in(e.material, model_.materials))
       what = "has no material, which a deck needs";
+    else if (e.layup >= 0)
+      what =
+          "is a solid with plies, which is not written as a CalculiX deck (.vtu and .msh show "
+          "the mesh)";
     else if (is_panel(e.type))
       what = "is a shear panel, which CalculiX has not (.vtu and .msh show the mesh)";
     else if ((is_shell(e.type) || is_membrane(e.type)) && in(e.section, model_.shells))
