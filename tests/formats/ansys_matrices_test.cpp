@@ -111,10 +111,10 @@ TEST(AnsysMatrices, Errors) {
             "a.cdb:40: " + at +
                 "it holds its nodes to the ground: a translation of both has a force in it; only "
                 "stiffness between its nodes is read");
-  EXPECT_EQ(ansys_error(matrix_deck(constants, "2")),
+  EXPECT_EQ(ansys_error(matrix_deck(constants, "3")),
             "a.cdb:40: " + at +
-                "KEYOPT(2) = 0, KEYOPT(3) = 2: expected a symmetric stiffness (0, 4); matrices of "
-                "mass are not read, give MASS21");
+                "KEYOPT(2) = 0, KEYOPT(3) = 3: expected a symmetric stiffness (0, 4) or mass (0, "
+                "2)");
   EXPECT_EQ(ansys_error(matrix_deck(constants + "RMORE,3\n")),
             "a.cdb:25: real constants 7: constant 79 is 3, expected 78 of a symmetric matrix");
   EXPECT_EQ(ansys_error(matrix_deck("R,8,1\n")),
@@ -124,6 +124,64 @@ TEST(AnsysMatrices, Errors) {
   EXPECT_EQ(damper.notes.at(0), "a.cdb:40: " + at +
                                     "its damping is passed over, the part has modal damping "
                                     "(--damping)");
+}
+
+/// Masses of rigid points; directions are those of the nodes, the second turned by 30 degrees.
+TEST(AnsysMatrices, MassesOfPoints) {
+  const auto deck = [](const Mat12& M) {
+    // A beam between the nodes, so that they have rotations.
+    return matrix_deck(matrix_constants_of(M), "2") +
+           "ET,3,188\nSECTYPE,3,BEAM,CSOLID\nSECDATA,1\nTYPE,3\nSECNUM,3\nE,20,21\n";
+  };
+  Mat3 J;
+  J << 5, 1, 0.5, 1, 7, -0.25, 0.5, -0.25, 9;
+  Mat12 M = Mat12::Zero();
+  M.diagonal() << 2, 2, 2, 3, 4, 5, 6, 6, 6, 0, 0, 0;
+  M.block<3, 3>(9, 9) = J;
+  const FeModel m = ansys_of(deck(M));
+  ASSERT_EQ(m.masses.size(), 2u);
+  EXPECT_EQ(m.node_ids[m.masses[0].node], 20);
+  EXPECT_EQ(m.node_ids[m.masses[1].node], 21);
+  EXPECT_EQ(m.masses[0].mass, 2.0);
+  EXPECT_EQ(m.masses[1].mass, 6.0);
+  EXPECT_LE((m.masses[0].J - Mat3(Vec3(3, 4, 5).asDiagonal())).norm(), 1e-14);
+  const Mat3 R = Eigen::AngleAxisd(EIGEN_PI / 6, Vec3::UnitZ()).toRotationMatrix();
+  EXPECT_LE((m.masses[1].J - R * J * R.transpose()).norm(), 1e-13);
+  EXPECT_TRUE(m.springs.empty());
+  Mat12 one = Mat12::Zero();
+  one.diagonal().head<3>().setConstant(4.0);
+  EXPECT_EQ(ansys_of(deck(one)).masses.size(), 1u);
+
+  const std::string wrong =
+      "a.cdb:40: element 2 (MATRIX27): its mass is not that of a rigid point at each node: "
+      "expected "
+      "equal masses in three directions, moments of inertia and nothing between the nodes, or "
+      "between displacements and rotations";
+  Mat12 bad = M;
+  bad(1, 1) = 2.5;
+  EXPECT_EQ(ansys_error(deck(bad)), wrong);
+  bad = M;
+  bad(0, 4) = bad(4, 0) = 0.5;
+  EXPECT_EQ(ansys_error(deck(bad)), wrong);
+  bad = M;
+  bad(0, 6) = bad(6, 0) = 0.5;
+  EXPECT_EQ(ansys_error(deck(bad)), wrong);
+  bad = -M;
+  EXPECT_EQ(
+      ansys_error(deck(bad)),
+      "a.cdb:40: element 2 (MATRIX27): its mass has a negative term on its diagonal, expected "
+      "none below 0");
+}
+
+/// A node that only a spring turns keeps its inertia.
+TEST(AnsysMatrices, InertiaOnASpring) {
+  const FeModel m =
+      ansys_of(matrix_deck("R,7\n") +
+               "ET,3,14\nKEYOPT,3,2,4\nR,8,50\nET,4,21\nR,9,1,1,1,2,3,4\nTYPE,3\nREAL,8\nE,20,1\n"
+               "TYPE,4\nREAL,9\nE,20\nE,2\n");
+  ASSERT_EQ(m.masses.size(), 2u);
+  EXPECT_EQ(m.masses[0].J.diagonal(), Vec3(2, 3, 4));
+  EXPECT_TRUE(m.masses[1].J.isZero(0.0));
 }
 
 TEST(AnsysLayers, OfOneMaterial) {

@@ -167,6 +167,9 @@ std::vector<char> AnsysBuild::nodes_with_rotations() const {
       if (kernel.dofs_per_node == 6) rotates[e.nodes[k]] = 1;
   }
   for (const Spider& s : model.spiders) rotates[s.reference] = 1;
+  for (const Spring& s : model.springs)
+    for (int end = 0; end < 2; ++end)
+      if (s.nodes[end] >= 0 && !s.directions[end].tail<3>().isZero(0.0)) rotates[s.nodes[end]] = 1;
   return rotates;
 }
 

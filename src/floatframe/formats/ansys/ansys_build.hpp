@@ -58,7 +58,7 @@ struct AnsysBuild {
   int orientation(int id, const FeSource& at, const std::string& who);
   /// Axes of the nodal system of a node; columns in body axes.
   Mat3 nodal_axes(int node) const;
-  /// 1 for nodes of beams and shells and references of spiders.
+  /// 1 for nodes of beams and shells, references of spiders and ends of springs that turn.
   std::vector<char> nodes_with_rotations() const;
   void error(const AnsysElement& e, const std::string& text);
   void note(const FeSource& at, const std::string& text);
@@ -69,6 +69,7 @@ struct AnsysBuild {
   std::map<int, std::optional<AnsysBeam>> beams = {};  ///< by section; none: with an error
   int solved_sections = 0;                             ///< shapes whose torsion has been computed
   std::vector<AnsysArm> arms = {};
+  std::vector<char> rotates = {};  ///< for masses: `nodes_with_rotations`
   std::map<std::array<double, 4>, int> arm_nodes = {};
   int largest_node = 0;        ///< number, once a node has been added
   std::vector<int> said = {};  ///< types with an error
@@ -97,6 +98,8 @@ void build_ansys_arms(AnsysBuild& build);
 /// MATRIX27
 void build_ansys_matrix(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
                         const std::vector<int>& nodes);
+/// A point mass of an element; inertia of a node without rotations is left out, with a note.
+void add_ansys_mass(AnsysBuild& build, const AnsysElement& e, PointMass mass);
 // ansys_build_points.cpp
 /// COMBIN14, MATRIX27, MPC184, CERIG, then MASS21.
 void build_ansys_springs(AnsysBuild& build);

@@ -1,4 +1,5 @@
-// MATRIX27: a stiffness between two nodes, as springs. With pivot k and column c of it,
+// MATRIX27: a mass of rigid points at its nodes, or a stiffness between them, as springs. With
+// pivot k and column c of it,
 //   K = c c^T/k + rest,
 // so a spring of stiffness k along c/k is a part of it, and the rest has one pivot less. The
 // displacements come first: what is left then is of rotations alone.
@@ -35,11 +36,11 @@ class AnsysMatrix {
                      fmt::format("{}: its damping is passed over, the part has modal damping "
                                  "(--damping)",
                                  b_.label(e_)));
-    if (type.keyopt[2] != 0 || type.keyopt[3] != 4)
-      return b_.error(e_,
-                      fmt::format("KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
-                                  "stiffness (0, 4); matrices of mass are not read, give MASS21",
-                                  type.keyopt[2], type.keyopt[3]));
+    const bool mass = type.keyopt[3] == 2;
+    if (type.keyopt[2] != 0 || (type.keyopt[3] != 4 && !mass))
+      return b_.error(e_, fmt::format("KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
+                                      "stiffness (0, 4) or mass (0, 2)",
+                                      type.keyopt[2], type.keyopt[3]));
     for (std::size_t k = matrix_constants; k < real->values.size(); ++k)
       if (real->values[k] != 0.0)
         return b_.source.error(real->at, fmt::format("real constants {}: constant {} is {:g}, "
@@ -49,7 +50,10 @@ class AnsysMatrix {
       return b_.error(e_, "it has no two different nodes");
     nodes_ = {nodes[0], nodes[1]};
     fill(*real);
-    split();
+    if (mass)
+      masses();
+    else
+      split();
   }
 
  private:
@@ -65,6 +69,33 @@ class AnsysMatrix {
       double& s = scale_[of_displacement(i) ? 0 : 1];
       s = std::max(s, std::abs(K_(i, i)));
     }
+  }
+
+  /// Of each node the mass of a rigid point, m I and J; a part may have no other mass.
+  void masses() {
+    std::array<PointMass, 2> points;
+    Mat12 rest = K_;
+    for (int k = 0; k < 2; ++k) {
+      PointMass& point = points[k];
+      point.node = nodes_[k];
+      point.mass = K_.diagonal().segment<3>(6 * k).mean();
+      point.J = K_.block<3, 3>(6 * k + 3, 6 * k + 3);
+      rest.block<3, 3>(6 * k, 6 * k) -= point.mass * Mat3::Identity();
+      rest.block<3, 3>(6 * k + 3, 6 * k + 3).setZero();
+    }
+    for (int i = 0; i < 12; ++i)
+      for (int j = 0; j < 12; ++j)
+        if (std::abs(rest(i, j)) > matrix_rounding * std::sqrt(size_of(i) * size_of(j)) &&
+            rest(i, j) != 0.0)
+          return b_.error(e_,
+                          "its mass is not that of a rigid point at each node: expected equal "
+                          "masses in three directions, moments of inertia and nothing between "
+                          "the nodes, or between displacements and rotations");
+    for (const PointMass& point : points) {
+      if (point.mass < 0.0 || Vec3(point.J.diagonal()).minCoeff() < 0.0)
+        return b_.error(e_, "its mass has a negative term on its diagonal, expected none below 0");
+    }
+    for (PointMass& point : points) add_ansys_mass(b_, e_, point);
   }
 
   double size_of(int i) const { return scale_[of_displacement(i) ? 0 : 1]; }

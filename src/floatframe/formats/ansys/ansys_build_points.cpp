@@ -145,7 +145,7 @@ void build_ansys_springs(AnsysBuild& b) {
   springs.notes();
   each(b, F::matrix,
        [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& nodes) {
-         build_ansys_matrix(b, e, type, nodes);
+         if (type.keyopt[3] != 2) build_ansys_matrix(b, e, type, nodes);
        });
 }
 
@@ -189,9 +189,20 @@ void build_ansys_rigid(AnsysBuild& b) {
   }
 }
 
+void add_ansys_mass(AnsysBuild& b, const AnsysElement& e, PointMass m) {
+  if (m.mass == 0.0 && m.J.isZero(0.0)) return;
+  if (!m.J.isZero(0.0) && b.rotates[m.node] == 0) {
+    b.note(e.at, fmt::format("{}: node {} has no rotations, so the inertia has no effect and is "
+                             "left out",
+                             b.label(e), b.model.node_ids[m.node]));
+    m.J.setZero();
+  }
+  b.model.masses.push_back(std::move(m));
+}
+
 /// MASS21: KEYOPT(3) = 0 masses of the three directions, then moments of inertia; 2 a mass.
 void build_ansys_masses(AnsysBuild& b) {
-  const std::vector<char> rotates = b.nodes_with_rotations();
+  b.rotates = b.nodes_with_rotations();
   each(b, F::mass, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
     const AnsysReal* real = b.real(e);
     if (real == nullptr)
@@ -230,15 +241,11 @@ void build_ansys_masses(AnsysBuild& b) {
         const Mat3 R = b.nodal_axes(n[0]);
         m.J = R * m.J * R.transpose();
       }
-      if (!m.J.isZero(0.0) && rotates[n[0]] == 0) {
-        b.note(e.at,
-               fmt::format("{}: node {} has no rotations, so the inertia has no effect and is "
-                           "left out",
-                           b.label(e), b.model.node_ids[n[0]]));
-        m.J.setZero();
-      }
     }
-    b.model.masses.push_back(m);
+    add_ansys_mass(b, e, m);
+  });
+  each(b, F::matrix, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
+    if (type.keyopt[3] == 2) build_ansys_matrix(b, e, type, n);
   });
 }
 
