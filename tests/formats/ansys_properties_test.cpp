@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "floatframe/fe/elasticity.hpp"
@@ -355,7 +356,45 @@ TEST(AnsysContact, RemotePoints) {
   EXPECT_EQ(mean.spiders.at(0).kind, Spider::Kind::mean);
   EXPECT_EQ(mean.notes.at(0),
             "a.cdb:29: the remote point of real constants 4: node 50 moves as the mean of 4 nodes, "
-            "all of the same weight; ANSYS weighs them by their share of the surface");
+            "weighed by their shares of the area of the faces");
+  for (const double w : mean.spiders[0].weights) EXPECT_DOUBLE_EQ(w, 0.25);
+}
+
+/// Faces of different size and kind, with and without mid-side nodes.
+TEST(AnsysContact, WeightsOfRemotePoints) {
+  const auto weights = [](const std::string& faces, const char* number) {
+    const FeModel m = ansys_of(
+        cdb_brick + cdb_steel +
+        "N,31,10\nN,32,14\nN,33,14,1\nN,34,10,1\nN,35,16\nN,36,12\nN,37,14,.5\nN,38,12,1\n"
+        "N,39,10,.5\nN,40,15\nN,41,15,.5\nN,50,5,0,0\nET,2,170\nET,3," +
+        std::string(number) +
+        "\nKEYOPT,3,2,2\nKEYOPT,3,4,1\nKEYOPT,3,12,5\nREAL,4\nTYPE,2\nE,50\nTYPE,3\n" + faces);
+    std::map<int, double> out;
+    const Spider& s = m.spiders.at(0);
+    for (std::size_t k = 0; k < s.nodes.size(); ++k)
+      out[m.node_ids[s.nodes[k]]] = s.weights.empty() ? -1.0 : s.weights[k];
+    return out;
+  };
+  const auto expect = [](const std::map<int, double>& found, const std::map<int, double>& right) {
+    ASSERT_EQ(found.size(), right.size());
+    for (const auto& [node, weight] : right) EXPECT_NEAR(found.at(node), weight, 1e-14) << node;
+  };
+  // A rectangle of 4 and a triangle of 1: a third of the triangle for each of its corners.
+  expect(weights("E,31,32,33,34\nE,32,35,33,33\n", "173"),
+         {{31, 1}, {32, 4.0 / 3}, {33, 4.0 / 3}, {34, 1}, {35, 1.0 / 3}});
+  // int N_k^2 dA: 3/76 at the corners, 16/76 in the middles of a quadrilateral.
+  const double c = 4 * 3.0 / 76, m = 4 * 16.0 / 76;
+  expect(weights("E,31,32,33,34,36,37,38,39\n", "174"),
+         {{31, c}, {32, c}, {33, c}, {34, c}, {36, m}, {37, m}, {38, m}, {39, m}});
+  // One middle is not there.
+  expect(weights("E,31,32,33,34,36,0,38,39\n", "174"),
+         {{31, c}, {32, c + m / 2}, {33, c + m / 2}, {34, c}, {36, m}, {38, m}, {39, m}});
+  // 1/19 and 16/57 of a triangle.
+  const double tc = 1.0 / 19, tm = 1.0 / 3 - 1.0 / 19;
+  expect(weights("E,32,35,33,33,40,41,33,37\n", "174"),
+         {{32, tc}, {35, tc}, {33, tc}, {40, tm}, {41, tm}, {37, tm}});
+  // Nodes alone.
+  expect(weights("E,31\nE,32\nE,33\n", "175"), {{31, -1}, {32, -1}, {33, -1}});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/face_weights.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -45,19 +46,6 @@ class NodeList {
  private:
   std::vector<int> place_, excluded_;
 };
-
-double face_area(const FeModel& model, const Element& element, const FaceNodes& face) {
-  const auto p = [&](int k) { return model.positions[element.nodes[face.nodes[k]]]; };
-  if (face.corners == 3) return 0.5 * (p(1) - p(0)).cross(p(2) - p(0)).norm();
-  return 0.5 * (p(2) - p(0)).cross(p(3) - p(1)).norm();
-}
-
-/// Share of a face's area that a corner has: in proportion to the diagonal of int N N^T dA, which
-/// is positive for the faces of quadratic elements, too. The mid-side nodes have the rest.
-double corner_share(const FaceNodes& face) noexcept {
-  if (face.count == face.corners) return 1.0 / face.corners;
-  return face.corners == 3 ? 1.0 / 19.0 : 3.0 / 76.0;
-}
 
 /// The name in the model, with that of the instance where others have the same.
 std::string surface_name(const AbaqusContent& c, const AbaqusContent::Key& key) {
@@ -115,11 +103,11 @@ void add_surface(AbaqusBuild& build, const AbaqusSpider& spider, NodeList& list)
   for (const ElementFace& f : model.surfaces.at(name)) {
     const Element& element = model.elements[f.element];
     const FaceNodes& face = element_faces(element.type)[f.face];
-    const double area = face_area(model, element, face), corner = corner_share(face);
-    const double middle = 1.0 / face.corners - corner;
-    for (int k = 0; k < face.count; ++k) {
-      list.add(element.nodes[face.nodes[k]], area * (k < face.corners ? corner : middle));
-    }
+    std::vector<Vec3> corners;
+    for (int k = 0; k < face.corners; ++k)
+      corners.push_back(model.positions[element.nodes[face.nodes[k]]]);
+    const std::vector<double> weights = face_weights(corners, face.count);
+    for (int k = 0; k < face.count; ++k) list.add(element.nodes[face.nodes[k]], weights[k]);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/surface_ties.hpp"
 #include "floatframe/formats/ansys/ansys_build.hpp"
+#include "floatframe/formats/face_weights.hpp"
 
 namespace floatframe {
 namespace {
@@ -107,18 +108,55 @@ class ContactBuilder {
     s.name = who;
     s.reference = pilot(p);
     s.source = p.at;
+    std::map<int, double> weights;
+    if (mean && surface) weights = area_weights(p);
     for (const int node : nodes_of(p.contacts)) {
       if (node == s.reference || (rigid && taken_[node] != 0)) continue;
       s.nodes.push_back(node);
+      if (!weights.empty()) s.weights.push_back(weights[node]);
       if (rigid) taken_[node] = 1;
     }
     b_.note(p.at, fmt::format("{}: node {} {} {} nodes{}", who, b_.model.node_ids[s.reference],
                               rigid ? "holds" : "moves as the mean of", s.nodes.size(),
-                              rigid ? ""
-                                    : ", all of the same weight; ANSYS weighs them by their "
-                                      "share of the surface"));
+                              rigid     ? ""
+                              : surface ? ", weighed by their shares of the area of the faces"
+                                        : ", all of the same weight"));
     if (s.nodes.empty()) return;
     b_.model.spiders.push_back(std::move(s));
+  }
+
+  /// By node; empty if the faces have no area.
+  std::map<int, double> area_weights(const ContactPair& p) {
+    std::map<int, double> out;
+    double area = 0.0;
+    std::vector<int> nodes;
+    for (const AnsysElement* e : p.contacts) {
+      if (!b_.nodes_of(*e, nodes) || nodes.size() < 3) continue;
+      nodes.resize(8, -1);
+      const bool triangle = nodes[3] < 0 || nodes[2] == nodes[3];
+      std::vector<int> face(nodes.begin(), nodes.begin() + (triangle ? 3 : 4));
+      if (std::any_of(face.begin(), face.end(), [](int n) { return n < 0; })) continue;
+      const std::size_t corners = face.size();
+      std::vector<Vec3> at;
+      for (const int n : face) at.push_back(b_.model.positions[n]);
+      for (const std::size_t k : {4u, 5u, 6u, 7u})
+        if (!triangle || k != 6) face.push_back(nodes[k]);
+      const auto absent = std::count(face.begin() + static_cast<int>(corners), face.end(), -1);
+      if (absent == static_cast<std::ptrdiff_t>(corners)) face.resize(corners);
+      const std::vector<double> shares = face_weights(at, face.size());
+      for (std::size_t k = 0; k < face.size(); ++k) {
+        area += shares[k];
+        if (face[k] >= 0) {
+          out[face[k]] += shares[k];
+          continue;
+        }
+        // A straight edge without its mid-side node: its ends have the share.
+        out[face[k - corners]] += 0.5 * shares[k];
+        out[face[(k - corners + 1) % corners]] += 0.5 * shares[k];
+      }
+    }
+    if (!(area > 0.0)) out.clear();
+    return out;
   }
 
   void one(int id, const ContactPair& p) {
