@@ -11,6 +11,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 
 namespace floatframe {
