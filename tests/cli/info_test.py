@@ -151,6 +151,19 @@ class Info(unittest.TestCase):
         self.assertEqual(len(names), 2)
         self.assertFalse((self.folder / "no").exists())
 
+    def test_names_in_latin_1(self):
+        deck = HEAD + "*NSET, NSET=\"Füße\"\n1, 2, 3, 4\n"
+        (self.folder / "old.inp").write_bytes(deck.encode("latin-1"))
+        facts = json.loads(self.expect(0, "info", "old.inp", "--json").stdout)
+        self.assertIn("set:Füße", facts["possible_interfaces"])
+        self.assertIn("Füße", [s["name"] for s in facts["sets"]])
+        self.pasted(facts["command"])
+        self.assertEqual(self.facts(deck)["possible_interfaces"], facts["possible_interfaces"])
+        # As a terminal of that time gives the name.
+        command = [BINARY, "reduce", "old.inp", "--units", "mm-t-s", "--modes", "2", "--quiet", "-o", "old.ffb", "--interface"]
+        done = subprocess.run([*command, "A=set:Füße".encode("latin-1")], cwd=self.folder, capture_output=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_what_reduce_would_refuse(self):
         loose = HEAD.replace("2, 5,6,7,8,9,10,11,12", "2, 15,16,17,18,9,10,11,12").replace(
             "*ELEMENT, TYPE=C3D8, ELSET=LOW", "15, 0,0,1.5\n16, 1,0,1.5\n17, 1,1,1.5\n18, 0,1,1.5\n*ELEMENT, TYPE=C3D8, ELSET=LOW"

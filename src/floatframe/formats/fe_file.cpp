@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/core/utf8_text.hpp"
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
 #include "floatframe/formats/ansys/read_ansys.hpp"
@@ -130,6 +131,30 @@ void choose(const FeReadOptions& options, FeModel& model) {
   if (std::string note = home_note(model); !note.empty()) model.notes.push_back(std::move(note));
 }
 
+template <class Map>
+void names_as_utf8(Map& map) {
+  Map named;
+  for (auto& [name, value] : map) {
+    const bool fresh = named.try_emplace(utf8_text(name), std::move(value)).second;
+    if (!fresh) named.try_emplace(name, std::move(value));  // the name is taken: its bytes stay
+  }
+  map = std::move(named);
+}
+
+/// Names of a file in Latin-1 become what JSON, pages and terminals show.
+void names_as_utf8(FeModel& model) {
+  names_as_utf8(model.node_sets);
+  names_as_utf8(model.element_sets);
+  names_as_utf8(model.surfaces);
+  for (std::string& name : model.material_names) name = utf8_text(name);
+  for (std::string& name : model.node_names) name = utf8_text(name);
+  for (std::string& note : model.notes) note = utf8_text(note);
+  for (Spider& spider : model.spiders) spider.name = utf8_text(spider.name);
+  for (Spring& spring : model.springs) spring.name = utf8_text(spring.name);
+  for (Element& element : model.elements)
+    if (!element.name.empty()) element.name = utf8_text(element.name);
+}
+
 /// Gives materials without a density what the options say.
 void fill_densities(const std::filesystem::path& file, const FeReadOptions& options,
                     FeModel& model) {
@@ -200,6 +225,7 @@ FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& opt
                                  "the file: leave it out",
                                  chosen.name));
   FeModel model = chosen.read(file, options);
+  names_as_utf8(model);
   fill_densities(file, options, model);
   choose(options, model);
   if (model.notes.size() > most_notes) {

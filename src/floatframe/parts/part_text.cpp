@@ -9,6 +9,7 @@
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/core/utf8_text.hpp"
 #include "floatframe/parts/node_ways.hpp"
 
 namespace floatframe {
@@ -31,7 +32,8 @@ std::vector<std::string> split(const std::string& text, char at) {
 /// One occurrence of --interface or --marker, taken apart.
 class PlaceArgument {
  public:
-  PlaceArgument(std::string option, const std::string& text) : option_(std::move(option)) {
+  PlaceArgument(std::string option, const std::string& given) : option_(std::move(option)) {
+    const std::string text = utf8_text(given);  // as names of files are
     const std::size_t equal = text.find('=');
     const std::size_t colon = text.find(':', equal == std::string::npos ? 0 : equal);
     if (equal == std::string::npos || equal == 0 || colon == std::string::npos)
