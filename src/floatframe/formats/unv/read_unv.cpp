@@ -75,9 +75,9 @@ class UnvBuild {
     c_.model.shells = thickness_.sections();
     std::vector<int> nodes, ordered;
     for (const UnvElement& e : c_.elements) {
-      if (!e.type->solid || !gather(e, nodes)) continue;
+      if (!e.type->solid() || !gather(e, nodes)) continue;
       put_in_order(*e.type, nodes, ordered);
-      thickness_.add_solid(*e.type->solid, ordered);
+      thickness_.add_solid(*e.type->element, ordered);
     }
     for (const UnvGroup& group : c_.groups)
       for (const auto& [kind, number] : group.members)
@@ -126,14 +126,15 @@ class UnvBuild {
       if (e.type->use == UnvUse::left) ++dampers_;
       if (e.type->use == UnvUse::rigid && gather(e, nodes)) join(e, nodes);
       int section = -1;
-      if (thickness_.any() && e.type->shell && gather(e, nodes)) section = shell_section(e, nodes);
-      if (!e.type->solid && section < 0) {
+      if (thickness_.any() && e.type->shell() && gather(e, nodes))
+        section = shell_section(e, nodes);
+      if (!e.type->solid() && section < 0) {
         skins_ += e.type->use == UnvUse::mesh ? 1 : 0;
         continue;
       }
       if (section < 0 && !gather(e, nodes)) continue;
       Element element;
-      element.type = section < 0 ? *e.type->solid : *e.type->shell;
+      element.type = *e.type->element;
       element.section = std::max(section, 0);
       for (std::size_t k = 0; k < nodes.size(); ++k) element.nodes[k] = nodes[e.type->order[k]];
       element.material = material_;
@@ -221,7 +222,7 @@ class UnvBuild {
         }
         const UnvElement& e = c_.elements[element->second];
         if (e.index >= 0) element_set.push_back(e.index);
-        if (!e.type->solid && gather(e, nodes)) {
+        if (!e.type->solid() && gather(e, nodes)) {
           node_set.insert(node_set.end(), nodes.begin(), nodes.end());
         }
       }

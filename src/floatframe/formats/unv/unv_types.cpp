@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "floatframe/fe/element_kernel.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -19,50 +21,22 @@ const UnvType unv_types[] = {
     {22, "tapered beam", 0, true, {}, {}},
     {23, "curved beam", 0, true, {}, {}},
     {24, "parabolic beam", 3, true, {}, {}},
-    {41, "plane stress triangle", 3, false, {}, as_in_unv, UnvUse::mesh, U::tri3},
-    {42,
-     "parabolic plane stress triangle",
-     6,
-     false,
-     {},
-     parabolic_triangle,
-     UnvUse::mesh,
-     U::tri6},
-    {44, "plane stress quadrilateral", 4, false, {}, as_in_unv, UnvUse::mesh, U::quad4},
-    {45,
-     "parabolic plane stress quadrilateral",
-     8,
-     false,
-     {},
-     parabolic_quadrilateral,
-     UnvUse::mesh,
-     U::quad8},
+    {41, "plane stress triangle", 3, false, U::tri3, as_in_unv},
+    {42, "parabolic plane stress triangle", 6, false, U::tri6, parabolic_triangle},
+    {44, "plane stress quadrilateral", 4, false, U::quad4, as_in_unv},
+    {45, "parabolic plane stress quadrilateral", 8, false, U::quad8, parabolic_quadrilateral},
     {51, "plane strain triangle", 3, false, {}, {}},
     {52, "parabolic plane strain triangle", 6, false, {}, {}},
     {54, "plane strain quadrilateral", 4, false, {}, {}},
     {55, "parabolic plane strain quadrilateral", 8, false, {}, {}},
-    {61, "plate triangle", 3, false, {}, as_in_unv, UnvUse::mesh, U::tri3},
-    {62, "parabolic plate triangle", 6, false, {}, parabolic_triangle, UnvUse::mesh, U::tri6},
-    {64, "plate quadrilateral", 4, false, {}, as_in_unv, UnvUse::mesh, U::quad4},
-    {65,
-     "parabolic plate quadrilateral",
-     8,
-     false,
-     {},
-     parabolic_quadrilateral,
-     UnvUse::mesh,
-     U::quad8},
-    {91, "thin shell triangle", 3, false, {}, as_in_unv, UnvUse::mesh, U::tri3},
-    {92, "parabolic thin shell triangle", 6, false, {}, parabolic_triangle, UnvUse::mesh, U::tri6},
-    {94, "thin shell quadrilateral", 4, false, {}, as_in_unv, UnvUse::mesh, U::quad4},
-    {95,
-     "parabolic thin shell quadrilateral",
-     8,
-     false,
-     {},
-     parabolic_quadrilateral,
-     UnvUse::mesh,
-     U::quad8},
+    {61, "plate triangle", 3, false, U::tri3, as_in_unv},
+    {62, "parabolic plate triangle", 6, false, U::tri6, parabolic_triangle},
+    {64, "plate quadrilateral", 4, false, U::quad4, as_in_unv},
+    {65, "parabolic plate quadrilateral", 8, false, U::quad8, parabolic_quadrilateral},
+    {91, "thin shell triangle", 3, false, U::tri3, as_in_unv},
+    {92, "parabolic thin shell triangle", 6, false, U::tri6, parabolic_triangle},
+    {94, "thin shell quadrilateral", 4, false, U::quad4, as_in_unv},
+    {95, "parabolic thin shell quadrilateral", 8, false, U::quad8, parabolic_quadrilateral},
     {111, "solid linear tetrahedron", 4, false, U::tet4, as_in_unv},
     {112, "solid linear wedge", 6, false, U::wedge6, as_in_unv},
     {113,
@@ -87,6 +61,10 @@ const UnvType unv_types[] = {
 };
 
 }  // namespace
+
+bool UnvType::solid() const noexcept {
+  return element && element_kernel(*element).family == ElementFamily::solid;
+}
 
 const UnvType* unv_type(int number) noexcept {
   const auto* it = std::find_if(std::begin(unv_types), std::end(unv_types),

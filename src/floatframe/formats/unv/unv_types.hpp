@@ -19,11 +19,14 @@ struct UnvType {
   int number = 0;
   const char* name = "";
   int nodes = 0;
-  bool beam = false;                 ///< a record of orientation and end sections comes first
-  std::optional<ElementType> solid;  ///< the solid element that it is, if there is one
-  std::array<int, 20> order{};       ///< of solids and shells: node k is node order[k] of the file
+  bool beam = false;  ///< a record of orientation and end sections comes first
+  /// A solid, or the shell that it is if a thickness is given to it.
+  std::optional<ElementType> element;
+  std::array<int, 20> order{};  ///< of these: node k is node order[k] of the file
   UnvUse use = UnvUse::mesh;
-  std::optional<ElementType> shell = {};  ///< that it is if a thickness is given to it
+
+  bool solid() const noexcept;
+  bool shell() const noexcept { return element && !solid(); }
 };
 
 /// Null if the number is not known.
