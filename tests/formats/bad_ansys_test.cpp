@@ -116,6 +116,9 @@ TEST(BadAnsys, NodesAndElements) {
       {"EN,R5.5,NODE,1\n", "1: EN: nodes, but no line ATTR before them"},
       {"EN,R5.5,WHAT,1\n", "1: EN: expected ATTR or NODE, found 'WHAT'"},
       {bad_nodes + "E,1,2,3,4,5,6,7,8\n", "9: element 1 is of type 1, which no ET gives"},
+      {"ET,1,179\n" + bad_nodes + "E,1,2,3\n",
+       "1: type 1 is PRETS179: the mesh is cut there, and what holds it together is the preload of "
+       "an analysis; write the mesh without the cut"},
       {"ET,1,42\n" + bad_nodes + "E,1,2,3,4\n",
        "1: type 1 is element 42, which is not read; read are SOLID45, 92, 95, 185, 186, 187, 285, "
        "SOLSH190, SHELL63, 93, 181, 281, BEAM4, 188, 189, PIPE288, 289, LINK8, 180, COMBIN14, "

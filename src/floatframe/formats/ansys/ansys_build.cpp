@@ -64,6 +64,12 @@ const AnsysType* AnsysBuild::type(const AnsysElement& e) {
   said.push_back(e.type);
   if (it == content.types.end()) {
     source.error(e.at, fmt::format("element {} is of type {}, which no ET gives", e.id, e.type));
+  } else if (it->second.number == 179) {
+    source.error(
+        it->second.at,
+        fmt::format("type {} is PRETS179: the mesh is cut there, and what holds it together "
+                    "is the preload of an analysis; write the mesh without the cut",
+                    e.type));
   } else {
     source.error(
         it->second.at,
