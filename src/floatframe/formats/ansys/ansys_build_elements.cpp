@@ -134,6 +134,13 @@ class AnsysElementBuilder {
       b_.model.notes.push_back(
           fmt::format("{}: {} edges without their mid-side node are kept straight, by equations",
                       b_.source.files()[0], middles_.size()));
+    const auto layered = std::count_if(b_.model.elements.begin(), b_.model.elements.end(),
+                                       [](const Element& e) { return e.layup >= 0; });
+    if (layered > 0)
+      b_.model.notes.push_back(
+          fmt::format("{}: {} solids have layers: each layer has the points of its element here, "
+                      "in ANSYS as many through its thickness as SECDATA says",
+                      b_.source.files()[0], layered));
     if (b_.content.materials.empty() && !b_.options.material)
       b_.model.notes.push_back(fmt::format("{}: the file has no material", b_.source.files()[0]));
   }
