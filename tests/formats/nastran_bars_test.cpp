@@ -316,19 +316,68 @@ TEST(NastranBars, DefaultsOfBars) {
             "arm.bdf:7: BAROR: it is in the file twice, first in line 6");
 }
 
-TEST(NastranBars, Tapers) {
+// Bars without bending stiffness are rods, with torsion if they have a J.
+TEST(NastranBars, BarsWithoutBending) {
   const std::string nodes =
-      "GRID,1,,0.,0.,0.\nGRID,2,,10.,0.,0.\nMAT1,1,100.,,.25,2.\nCBEAM,1,1,1,2,0.,1.,0.\n";
-  const auto with = [&](const char* station) {
-    return nodes + "PBEAM,1,1,1.,2.,3.,,4.\n,NO,1.0," + station + "\n";
+      "GRID,1,,0.,0.,0.\nGRID,2,,10.,0.,0.\nMAT1,1,100.,,.25,2.\n"
+      "CBEAM,9,9,1,2,0.,1.,0.\nPBEAM,9,1,1.,2.,3.,,4.\n";
+  const auto same = [&](const std::string& bar, const std::string& rod) {
+    const FeModel a = bars_of(nodes + bar), b = bars_of(nodes + rod);
+    const FeSystem x = assemble(a), y = assemble(b);
+    ASSERT_EQ(x.size(), y.size());
+    EXPECT_LT((x.K - y.K).norm(), 1e-14 * y.K.norm()) << bar;
+    EXPECT_LT((x.M - y.M).norm(), 1e-14 * y.M.norm()) << bar;
   };
-  EXPECT_DOUBLE_EQ(bars_of(with("1.0005,2.,3.,,4.")).sections.at(0).Iz, 2.0);
-  EXPECT_TRUE(bars_of(with("1.0005,2.,3.,,4.")).sections.at(0).A - 1.0 < 1e-15);
-  const FeModel mean = bars_of(with("1.,2.2,3.,,4."));
-  EXPECT_DOUBLE_EQ(mean.sections.at(0).Iz, 2.1);
-  EXPECT_EQ(bars_error(with("1.,3.,3.,,4.")),
-            "arm.bdf:5: PBEAM 1: a tapered beam is not supported: I1 is '2.' at end A and '3.' at "
-            "a station; divide it into beams of constant section");
+  same("CBAR,1,1,1,2,0.,1.,0.\nPBAR,1,1,.5\n", "CROD,1,1,1,2\nPROD,1,1,.5\n");
+  same("CBAR,1,1,1,2,0.,1.,0.\n,456,56\nPBAR,1,1,.5,,,.3,.7\n",
+       "CROD,1,1,1,2\nPROD,1,1,.5,.3,,.7\n");
+  same("CBEAM,1,1,1,2,0.,1.,0.\nPBEAM,1,1,.5,0.,0.,,.3\n", "CROD,1,1,1,2\nPROD,1,1,.5,.3\n");
+  const FeModel model = bars_of(nodes + "CBAR,1,1,1,2,0.,1.,0.\nPBAR,1,1,.5,,,.3\n");
+  EXPECT_EQ(model.notes.at(0),
+            "arm.bdf:7: PBAR 1: without I1, I2 its elements are rods with torsion");
+  // Beside the line of its nodes: a force of 1 turns them, which the beam resists.
+  const FeModel beside =
+      bars_of(nodes + "CBAR,1,1,1,2,0.,1.,0.\n,,,0.,2.,0.,0.,2.,0.\nPBAR,1,1,.5\n");
+  const double axial = 10. / 100, k = 100 * .5 / 10, turn = 10. / (100 * 2.);
+  // K of u and rz of node 2, rz of the other plane's stiffness EI/L: with f = k (u - 2 rz)
+  Eigen::Matrix2d K;
+  K << 1 / axial + k, -2 * k, -2 * k, 4 * k + 1 / turn;
+  EXPECT_NEAR(compliance(beside, 1, 0), K.inverse()(0, 0), 1e-9);
+}
+
+// Beside a beam that holds all rotations: as the beam with second moments that are nearly zero.
+TEST(NastranBars, BarsWithoutSomeOfTheirStiffness) {
+  const std::string nodes =
+      "GRID,1,,0.,0.,0.\nGRID,2,,3.,4.,12.\nMAT1,1,100.,30.,.25,2.\n"
+      "CBEAM,9,9,1,2,0.,1.,0.\nPBEAM,9,1,1.,2.,3.,,4.\nCBAR,1,1,1,2,1.,1.,0.\n";
+  for (const std::string shear : {"", "\n,\n,.5,.4"}) {
+    for (const auto& [weak, full] :
+         {std::pair{".5,.2,,", ".5,.2,1.-13,1.-13"}, std::pair{".5,,.2,.3", ".5,1.-13,.2,.3"},
+          std::pair{".5,.2,.3,", ".5,.2,.3,1.-13"}}) {
+      const FeModel a = bars_of(nodes + "PBAR,1,1," + weak + shear + "\n"),
+                    b = bars_of(nodes + "PBAR,1,1," + full + shear + "\n");
+      const MatX x = assemble(a).K, y = assemble(b).K;
+      ASSERT_EQ(x.rows(), y.rows());
+      EXPECT_LT((x - y).norm(), 1e-11 * y.norm()) << weak;
+      EXPECT_EQ(a.elements.at(1).type, ElementType::rod2);
+    }
+  }
+  // Alone: a supported beam of two, 48 EI/l^3; rotations are condensed.
+  const std::string row =
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,4.,0.,0.\nMAT1,1,100.,,.25,2.\n"
+      "CBAR,1,1,1,2,0.,1.,0.\nCBAR,2,1,2,3,0.,1.,0.\nPBAR,1,1,.5,.2\n";
+  const FeModel model = bars_of(row);
+  const FeSystem system = assemble(model);
+  ASSERT_EQ(system.size(), 9);
+  EXPECT_NEAR(system.K.coeff(system.row(1, 1), system.row(1, 1)), 48 * 100 * .2 / 64, 1e-9);
+  EXPECT_EQ(model.notes.at(0),
+            "arm.bdf:7: PBAR 1: without I2, J its elements are rods and springs that bend as the "
+            "beam does (without rotary inertia, stress and stress stiffness of bending)");
+  EXPECT_EQ(bars_error(nodes + "PBAR,1,1,.5,.2,-.3,.4\n"),
+            "arm.bdf:7: PBAR 1: I2 is -0.3, expected more than 0");
+  std::string pinned = nodes + "PBAR,1,1,.5,.2,.3\n";
+  EXPECT_EQ(bars_error(pinned.insert(pinned.find("PBAR"), ",45\n")),
+            "arm.bdf:8: PBAR 1: J is 0, expected more than 0");
 }
 
 }  // namespace

@@ -42,33 +42,34 @@ double mass_of(const FeModel& model) {
 }
 
 /// What the cards add, over WTMASS.
-double added(const std::string& cards) {
+double mass_added(const std::string& cards) {
   const double plain = mass_of(heavy_deck(with_mass("", "")));
   return (mass_of(heavy_deck(with_mass(cards))) - plain) / .5;
 }
 
 TEST(NastranNonstructural, ClosedForms) {
-  EXPECT_NEAR(added("NSM1,5,PBAR,7.,1\n"), 7. * 2, 1e-12);
-  EXPECT_NEAR(added("NSM1,5,PBARL,7.,1\n"), 7. * 2, 1e-12);  // the same bars
-  EXPECT_NEAR(added("NSM1,5,PBEAM,7.,2\n"), 7. * 2, 1e-12);
-  EXPECT_NEAR(added("NSM1,5,PROD,7.,3\n"), 7. * 3, 1e-12);
-  EXPECT_NEAR(added("NSM1,5,CONROD,7.,14\n"), 7. * 3, 1e-12);
-  EXPECT_NEAR(added("NSM1,5,PTUBE,7.,ALL\n"), 7. * 3, 1e-12);
-  EXPECT_NEAR(added("NSM1,5,PSHELL,7.,6\n"), 7. * 6, 1e-12);
-  EXPECT_NEAR(added("NSM1,5,PCOMP,7.,7\n"), 7. * 6, 1e-12);
-  EXPECT_NEAR(added("NSM1,5,PSHEAR,7.,8\n"), 7. * 6, 1e-12);
-  EXPECT_NEAR(added("NSM1,5,ELEMENT,7.,11,THRU,18,BY,2\n"), 7. * (2 + 3 + 3 + 6), 1e-12);
-  EXPECT_NEAR(added("NSM1,5,ELEMENT,7.,ALL\n"), 7. * (2 + 2 + 9 + 18), 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,PBAR,7.,1\n"), 7. * 2, 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,PBARL,7.,1\n"), 7. * 2, 1e-12);  // the same bars
+  EXPECT_NEAR(mass_added("NSM1,5,PBEAM,7.,2\n"), 7. * 2, 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,PROD,7.,3\n"), 7. * 3, 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,CONROD,7.,14\n"), 7. * 3, 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,PTUBE,7.,ALL\n"), 7. * 3, 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,PSHELL,7.,6\n"), 7. * 6, 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,PCOMP,7.,7\n"), 7. * 6, 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,PSHEAR,7.,8\n"), 7. * 6, 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,ELEMENT,7.,11,THRU,18,BY,2\n"), 7. * (2 + 3 + 3 + 6), 1e-12);
+  EXPECT_NEAR(mass_added("NSM1,5,ELEMENT,7.,ALL\n"), 7. * (2 + 2 + 9 + 18), 1e-12);
   // Pairs over lines; cards of one set add up, elements of a list count once.
-  EXPECT_NEAR(added("NSM,5,ELEMENT,11,1.,12,10.,13,100.\n,14,1000.\n"), 2 + 20 + 300 + 3000, 1e-9);
-  EXPECT_NEAR(added("NSM,5,PBAR,1,3.\nNSM1,5,ELEMENT,4.,11,11,10,THRU,11\n"), 2 * 7., 1e-12);
-  EXPECT_NEAR(added("NSMADD,5,6,7\nNSM1,6,PROD,1.,3\nNSM1,7,PROD,10.,3\nNSM1,8,PROD,100.,3\n"), 33.,
-              1e-12);
+  EXPECT_NEAR(mass_added("NSM,5,ELEMENT,11,1.,12,10.,13,100.\n,14,1000.\n"), 2 + 20 + 300 + 3000,
+              1e-9);
+  EXPECT_NEAR(mass_added("NSM,5,PBAR,1,3.\nNSM1,5,ELEMENT,4.,11,11,10,THRU,11\n"), 2 * 7., 1e-12);
+  EXPECT_NEAR(mass_added("NSMADD,5,6,7\nNSM1,6,PROD,1.,3\nNSM1,7,PROD,10.,3\nNSM1,8,PROD,100.,3\n"),
+              33., 1e-12);
   // Totals, spread over what they are for.
-  EXPECT_NEAR(added("NSML,5,ELEMENT,11,1.,16,10.\n"), 11., 1e-12);
-  EXPECT_NEAR(added("NSML1,5,ELEMENT,10.,11,13\n"), 10., 1e-12);
-  EXPECT_NEAR(added("NSML1,5,PSHELL,10.,6\n"), 10., 1e-12);
-  EXPECT_NEAR(added("NSML1,5,PCOMP,10.,7\nNSML,5,PSHEAR,8,4.\n"), 14., 1e-12);
+  EXPECT_NEAR(mass_added("NSML,5,ELEMENT,11,1.,16,10.\n"), 11., 1e-12);
+  EXPECT_NEAR(mass_added("NSML1,5,ELEMENT,10.,11,13\n"), 10., 1e-12);
+  EXPECT_NEAR(mass_added("NSML1,5,PSHELL,10.,6\n"), 10., 1e-12);
+  EXPECT_NEAR(mass_added("NSML1,5,PCOMP,10.,7\nNSML,5,PSHEAR,8,4.\n"), 14., 1e-12);
 }
 
 TEST(NastranNonstructural, SpreadByLength) {
@@ -103,7 +104,7 @@ TEST(NastranNonstructural, LikeThatOfTheProperty) {
 TEST(NastranNonstructural, Notes) {
   const FeModel model = heavy_deck(with_mass("NSM1,5,PROD,7.,3,33,1\n"));
   EXPECT_EQ(model.notes.at(model.notes.size() - 4),
-            "arm.bdf:26: 2 numbers of nonstructural mass (NSM) are no elements or properties of "
+            "arm.bdf:27: 2 numbers of nonstructural mass (NSM) are no elements or properties of "
             "their type in the file: they are passed over, as in Nastran");
   EXPECT_EQ(model.notes.at(model.notes.size() - 3),
             "arm.bdf:3: the nonstructural mass of set 5 (NSM) is added, 10.5 in all");

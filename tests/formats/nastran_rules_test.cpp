@@ -175,6 +175,27 @@ TEST(NastranRules, TheCaseControlSelectsEquations) {
             "the other");
 }
 
+TEST(NastranRules, NodesThatAreThereTwice) {
+  const FeModel model = read_deck(bulk + "GRID,3,,0.,1.,0.\nGRID,3,,0.,1.,0.\n");
+  EXPECT_EQ(model.nodes(), 4);
+  EXPECT_EQ(model.notes.back(),
+            "arm.bdf: 2 nodes are in the file twice with the same numbers, first in line 10: each "
+            "is one, as in Nastran");
+  EXPECT_EQ(error_in(bulk + "GRID,3,,0.,1.,.1\n"),
+            "arm.bdf:10: node 3 is in the file twice, first in line 3");
+}
+
+TEST(NastranRules, WholeNumbersForRealOnes) {
+  const FeModel model = read_deck(bulk + "CONM2,5,2,,3\nCONM2,6,2,,4,\n");
+  EXPECT_EQ(model.masses.at(0).mass, 3.0);
+  EXPECT_EQ(
+      model.notes.at(0),
+      "arm.bdf:10: CONM2 5: the mass is '3', a whole number where a real one is expected, and "
+      "1 more such fields: Nastran stops there; they are read as real ones");
+  for (const std::string& note : read_deck(bulk).notes)
+    EXPECT_EQ(note.find("a whole number"), std::string::npos) << note;
+}
+
 TEST(NastranRules, SectionsThatAreNotWhatTheyLook) {
   const FeModel other =
       read_deck(bulk + "MAT1,2,1.+9,,.25,8000.\nCTRIA3,3,3,1,2,3\nPSHELL,3,1,.01,1,,2,.4\n");

@@ -22,7 +22,7 @@ std::string points_error(const std::string& text) {
 }
 
 /// Two tetrahedra, with displacements of node 8 about a cylinder, and two bodies with rotations.
-const std::string two_blocks =
+const std::string two_tetrahedra =
     "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"    // 1 to 4
     "GRID,5,,3.,0.,0.\nGRID,6,,4.,0.,0.\nGRID,7,,3.,1.,0.\nGRID,8,,3.,4.,1.,5\n"  // 5 to 8
     "CORD2C,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"                                    // 9, 10
@@ -48,10 +48,10 @@ MatX stiffness_of(FeModel model, double length = 1.0) {
 
 /// The same stiffness, in the units of the file and in SI; what other dofs there are is none.
 void expect_same_stiffness(const std::string& points, const std::string& nodes) {
-  const FeModel a = points_deck(two_blocks + points), b = points_deck(two_blocks + nodes);
+  const FeModel a = points_deck(two_tetrahedra + points), b = points_deck(two_tetrahedra + nodes);
   EXPECT_EQ(assemble(a).size(), assemble(b).size()) << points;
   EXPECT_LT((assemble(a).M - assemble(b).M).norm(), 1e-15 * assemble(b).M.norm()) << points;
-  const MatX plain = stiffness_of(points_deck(two_blocks));
+  const MatX plain = stiffness_of(points_deck(two_tetrahedra));
   for (const double length : {1.0, 1e-3}) {
     const MatX K = stiffness_of(a, length), expected = stiffness_of(b, length);
     EXPECT_LT((K - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff())
@@ -90,16 +90,16 @@ TEST(NastranScalarPoints, Star) {
 
 TEST(NastranScalarPoints, HeldPointsAreTheGround) {
   for (const std::string held : {"SPC1,1,,21\n", "SPC,1,21,1\n", "SPC1,1,0,20,THRU,30\n"}) {
-    const std::string chain = two_blocks + "SPOINT,21\nCELAS2,11,2.+5,1,1,21\n" + held;
+    const std::string chain = two_tetrahedra + "SPOINT,21\nCELAS2,11,2.+5,1,1,21\n" + held;
     EXPECT_EQ(points_error(chain),
               "arm.bdf:24: CELAS2 11 ties node 1 to the ground, which a part that floats cannot be "
               "tied to: take it out, end it at a node that becomes an interface, or leave all such "
               "springs out (--grounded-springs ignore, key `grounded_springs`)");
     FeModel model = points_deck(chain + "CELAS4,12,3.,21\nCELAS4,13,3.,21,21\n");
     EXPECT_EQ(remove_grounded_springs(model), 1);
-    EXPECT_EQ(stiffness_of(model), stiffness_of(points_deck(two_blocks)));
+    EXPECT_EQ(stiffness_of(model), stiffness_of(points_deck(two_tetrahedra)));
   }
-  EXPECT_NE(points_error(two_blocks + "CELAS4,11,2.+5,21\nCELAS2,12,3.,1,1,21\n")
+  EXPECT_NE(points_error(two_tetrahedra + "CELAS4,11,2.+5,21\nCELAS2,12,3.,1,1,21\n")
                 .find("CELAS4 11 ties node 21 to the ground"),
             std::string::npos);
 }
@@ -175,8 +175,9 @@ TEST(NastranScalarPoints, Errors) {
        "needs an equation with nodes of its own"},
   };
   for (const auto& [card, sentence] : wrong)
-    EXPECT_EQ(points_error(two_blocks + card + "\n"), sentence) << card;
-  const FeModel held = points_deck(two_blocks + "CMASS4,11,2.,21\nSPC1,1,,21\nCMASS4,12,0.,22\n");
+    EXPECT_EQ(points_error(two_tetrahedra + card + "\n"), sentence) << card;
+  const FeModel held =
+      points_deck(two_tetrahedra + "CMASS4,11,2.,21\nSPC1,1,,21\nCMASS4,12,0.,22\n");
   EXPECT_EQ(held.notes.back(),
             "arm.bdf:23: 1 masses of scalar points that are held (SPC) or of the ground are left "
             "out");
@@ -184,7 +185,7 @@ TEST(NastranScalarPoints, Errors) {
 
 // A few bytes name very many points, again and again.
 TEST(NastranScalarPoints, VeryManyInFewBytes) {
-  std::string text = two_blocks;
+  std::string text = two_tetrahedra;
   for (int i = 0; i < 2000; ++i) text += "SPOINT,100,THRU,2000000000\n";
   const FeModel model = points_deck(text + "CELAS2,11,5.,1,1,1999999999\n");
   EXPECT_EQ(model.nodes(), 11);

@@ -139,6 +139,28 @@ TEST(NastranSprings, Bushings) {
             std::string::npos);
 }
 
+// Along the line of the nodes, or axis 1 of CID.
+TEST(NastranSprings, BushingsOfOneDirection) {
+  const auto direction = [](const std::string& card, const std::string& more = "") {
+    const FeModel model =
+        spring_deck(block +
+                    "GRID,1,,0.,0.,0.\nGRID,2,,3.,4.,0.\nCONM2,51,1,,1.\nCONM2,52,2,,1.\n"
+                    "CORD2R,7,,0.,0.,0.,1.,0.,0.\n,0.,0.,1.\n" +
+                    card + "\nPBUSH1D,8,50." + more + "\n");
+    validate(model);
+    return MatX(between(model, 4, 5, 3) / 50.0);
+  };
+  VecX d(6);
+  d << -.6, -.8, 0, .6, .8, 0;
+  EXPECT_LT((direction("CBUSH1D,3,8,1,2") - d * d.transpose()).norm(), 1e-13);
+  EXPECT_LT((direction("CBUSH1D,3,8,1,2", ",7.\n,SHOCKA,TABLE,1.") - d * d.transpose()).norm(),
+            1e-13);
+  d << 0, 0, -1, 0, 0, 1;
+  EXPECT_LT((direction("CBUSH1D,3,8,1,2,7") - d * d.transpose()).norm(), 1e-13);
+  d << -1, 0, 0, 1, 0, 0;
+  EXPECT_LT((direction("CBUSH1D,3,8,1,2,0") - d * d.transpose()).norm(), 1e-13);
+}
+
 /// A row of n rods of length 0.5 from node 1 on, along y.
 std::string rods_of(const std::string& kind, int n, const std::string& property) {
   std::string text = "MAT1,1,2.1+11,,.3,7800.\n" + property + "\nGRID,1,,0.,0.,0.\n";
@@ -205,6 +227,13 @@ TEST(NastranSprings, Errors) {
        "CBUSH 3: it ends at the ground and has no axes; give a coordinate system CID"},
       {"GRID,95,,10.,0.,0.\nCBUSH,3,8,91,95\nPBUSH,8,K,1.,2.",
        "CBUSH 3: its nodes are at one place, so it has no axis; give a coordinate system CID"},
+      {"CBUSH1D,3,8,91,92", "CBUSH1D 3: property 8 (PBUSH1D) is not in the file"},
+      {"CBUSH1D,3,8,91\nPBUSH1D,8,1.",
+       "CBUSH1D 3: it has no line from node to node; give a coordinate system CID"},
+      {"CBUSH1D,3,8,91,,0\nPBUSH1D,8,1.", "CBUSH1D 3 ties node 91 to the ground"},
+      {"PBUSH1D,8,1.,,2.", "PBUSH1D 8: the mass M is '2.', which is not supported"},
+      {"PBUSH1D,8,1.\n,SPRING,TABLE,4",
+       "PBUSH1D 8: SPRING gives a stiffness that is not linear; give its slope at rest as K"},
       {"PBUSH,8,M,1.", "PBUSH 8: found the line 'M', expected K, B, GE or RCV"},
       {"PBUSH,8,K,RIGID", "PBUSH 8: RIGID is not a stiffness"},
       {"CROD,3,9,91,92", "CROD 3: property 9 is not in the file"},

@@ -14,6 +14,8 @@
 
 namespace floatframe {
 
+struct NastranPiece;
+
 /// Axes of a coordinate system in basic coordinates: x = origin + R x_local.
 struct NastranFrame {
   Mat3 R = Mat3::Identity();
@@ -111,6 +113,8 @@ class NastranMaterials {
   /// Index of a material; one with nonstructural mass (over volume) is a material of its own.
   int index(const NastranProperty& p, double nonstructural);
   int index(const NastranProperty& p, double nonstructural, int id, bool weighs);
+  /// Of a piece of a tapered beam, whose section for the stiffness has less area than its mass.
+  int of_taper(const NastranProperty& p, const NastranPiece& piece);
   /// The same as another without density.
   int massless(int material);
   /// G of a material over that of its E and NU: bars twist and shear by the G of the card, whatever
@@ -124,14 +128,25 @@ class NastranMaterials {
   const NastranContent& c_;
   std::map<std::tuple<int, double, bool>, int> indices_;
   std::map<int, int> massless_;
+  std::map<std::tuple<int, double, double>, int> tapered_;
   std::set<int> inconsistent_, checked_;
 };
+// nastran_build_weak_bars.cpp
+/// Is it a bar with zeros among I1, I2 and J that can be a rod with springs? Null: plain ends.
+bool is_weak_nastran_bar(const NastranProperty& p, const NastranBarEnds* ends);
+std::string weak_nastran_bar_note(const NastranProperty& p);
+/// Springs that bend as the beam does; the rod has its material and reference vector.
+void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSection& section,
+                         double shear_modulus, const std::string& who);
 // nastran_build_bars.cpp
+/// Columns x along the bar, y in the plane of x and v; zero where there is no direction.
+Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v);
 /// Orientation and ends of bars. `finish` ties the ends to their nodes.
 class NastranBars {
  public:
   explicit NastranBars(NastranBuild& build) : b_(build) {}
-  /// The element has its nodes; `turn`: of the principal axes of its section.
+  /// The element has its nodes, and is a rod if it does not bend; `turn`: of the principal axes of
+  /// its section.
   bool place(const NastranElement& e, double turn, Element& element);
   void finish();
 

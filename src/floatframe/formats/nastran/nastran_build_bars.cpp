@@ -12,15 +12,6 @@
 namespace floatframe {
 namespace {
 
-/// Columns x along the bar, y in the plane of x and v.
-Mat3 axes_of_bar(const Vec3& along, const Vec3& v) {
-  Mat3 T;
-  T.col(0) = along.normalized();
-  T.col(2) = along.cross(v).normalized();
-  T.col(1) = T.col(2).cross(T.col(0));
-  return T;
-}
-
 /// One of two equal releases that a bar has at both ends: 1, 4, and in each plane what is more than
 /// two of the deflections and slopes.
 void without_double_releases(unsigned& a, unsigned& b) {
@@ -36,6 +27,14 @@ void without_double_releases(unsigned& a, unsigned& b) {
 }
 
 }  // namespace
+
+Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v) {
+  Mat3 T;
+  T.col(0) = along.normalized();
+  T.col(2) = along.cross(v).normalized();
+  T.col(1) = T.col(2).cross(T.col(0));
+  return T;
+}
 
 bool NastranBars::place(const NastranElement& e, double turn, Element& element) {
   static const NastranBarEnds plain;
@@ -54,12 +53,12 @@ bool NastranBars::place(const NastranElement& e, double turn, Element& element) 
   if (e.ends < 0 && turn == 0.0) return true;
   Vec3 arm[2], end[2];
   for (int k = 0; k < 2; ++k) {
-    const Mat3 T =
-        ends.axes[1 + k] == 'G' ? b_.axes(node[k]) : axes_of_bar(p[1] - p[0], element.reference);
+    const Mat3 T = ends.axes[1 + k] == 'G' ? b_.axes(node[k])
+                                           : nastran_bar_axes(p[1] - p[0], element.reference);
     arm[k] = ends.offset[k] == Vec3::Zero() ? Vec3::Zero() : Vec3(T * ends.offset[k]);
     end[k] = p[k] + arm[k];
   }
-  const Mat3 T = axes_of_bar(end[1] - end[0], element.reference);
+  const Mat3 T = nastran_bar_axes(end[1] - end[0], element.reference);
   if (!(T.squaredNorm() > 2.5)) {  // a column without length is zero
     b_.source.error(e.at,
                     fmt::format("{}: it has no length, or its orientation vector is along its "
@@ -70,6 +69,8 @@ bool NastranBars::place(const NastranElement& e, double turn, Element& element) 
   element.reference = std::cos(turn) * T.col(1) + std::sin(turn) * T.col(2);
   unsigned pins[2] = {ends.pins[0], ends.pins[1]};
   without_double_releases(pins[0], pins[1]);
+  const bool rod = element.type == ElementType::rod2;
+  if (rod) pins[0] &= 7u, pins[1] &= 7u;
   for (int k = 0; k < 2; ++k) {
     if (pins[k] == 0 && arm[k].isZero(0.0)) continue;
     int* shared = nullptr;
@@ -85,7 +86,7 @@ bool NastranBars::place(const NastranElement& e, double turn, Element& element) 
     t.node = node[k];
     t.arm = arm[k];
     if (pins[k] != 0) t.axes = T;
-    t.mask = 63u & ~pins[k];
+    t.mask = (rod ? 7u : 63u) & ~pins[k];
     t.at = e.at;
     element.nodes[k] = t.fresh;
     if (shared != nullptr) *shared = t.fresh;

@@ -6,6 +6,7 @@
 #include "floatframe/fe/elasticity.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/formats/nastran/nastran_build.hpp"
+#include "floatframe/formats/nastran/nastran_tapers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -14,7 +15,12 @@ namespace {
 class ElementBuilder {
  public:
   ElementBuilder(NastranBuild& build, const FeReadOptions& options)
-      : b_(build), c_(build.content), options_(options), bars_(build), materials_(build) {}
+      : b_(build),
+        c_(build.content),
+        options_(options),
+        bars_(build),
+        materials_(build),
+        tapers_(build) {}
 
   void build() {
     mesh_only_ = c_.properties.empty() && c_.materials.empty() && c_.other_materials.empty();
@@ -121,7 +127,11 @@ class ElementBuilder {
       const bool bar = e.card == std::string_view("CBAR");
       const NastranProperty* p =
           bar ? property(e, {"PBAR", "PBARL"}) : property(e, {"PBEAM", "PBEAML"});
-      if (p == nullptr || !bars_.place(e, p->turn, result)) return;
+      if (p == nullptr) return;
+      if (!p->stations.empty()) return tapered(e, *p, result);
+      if (is_weak_nastran_bar(*p, e.ends < 0 ? nullptr : &c_.bar_ends[e.ends]))
+        return weak(e, *p, result);
+      if (!bars_.place(e, p->turn, result)) return;
       result.material = materials_.index(*p, p->nonstructural / std::max(p->section.A, 1e-300));
       result.section = section(e.property, *p);
     } else if (e.type == ElementType::rod2) {
@@ -137,11 +147,62 @@ class ElementBuilder {
       orient_nastran_solid(b_, *p, result);
       if (e.type == ElementType::hex8 && !p->full_integration) result.type = ElementType::hex8i;
     }
+    add(e, result);
+  }
+
+  void add(const NastranElement& e, const Element& result) {
     if (e.property > 0)  // a CONROD has none
       for (const std::string& name : set_names(e.property)) {
         b_.model.element_sets[name].push_back(static_cast<int>(b_.model.elements.size()));
       }
     b_.model.elements.push_back(result);
+  }
+
+  /// A bar without some of its stiffness: a rod, and springs where it bends.
+  void weak(const NastranElement& e, const NastranProperty& p, Element& result) {
+    const bool bends = p.section.Iy > 0.0 || p.section.Iz > 0.0;
+    if (!bends) result.type = ElementType::rod2;
+    if (!bars_.place(e, bends ? p.turn : 0.0, result)) return;
+    result.type = ElementType::rod2;
+    result.material = materials_.index(p, p.nonstructural / p.section.A);
+    result.section = rod_section(e.property, p);
+    if (weak_.insert(e.property).second)
+      b_.note(p.at, fmt::format("{} {}: {}", p.card, e.property, weak_nastran_bar_note(p)));
+    const double shear =
+        b_.model.materials[result.material].shear() * materials_.own_shear(p.material);
+    if (bends) add_nastran_bending(b_, result, p.section, shear, label(e));
+    add(e, result);
+  }
+
+  /// A chain of beams of constant section between the ends of a tapered one.
+  void tapered(const NastranElement& e, const NastranProperty& p, Element& whole) {
+    if (!bars_.place(e, 0.0, whole)) return;
+    const std::vector<NastranPiece>& pieces = tapers_.pieces(e.property);
+    const Vec3 a = b_.model.positions[whole.nodes[0]], b = b_.model.positions[whole.nodes[1]];
+    const Mat3 T = nastran_bar_axes(b - a, whole.reference);
+    int last = whole.nodes[0];
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const NastranPiece& piece = pieces[k];
+      Element part = whole;
+      part.nodes[0] = last;
+      if (k + 1 < pieces.size())
+        part.nodes[1] = b_.add_node(a + piece.to * (b - a), e.at, label(e));
+      last = part.nodes[1];
+      part.reference = std::cos(piece.turn) * T.col(1) + std::sin(piece.turn) * T.col(2);
+      part.material = materials_.of_taper(p, piece);
+      part.section = piece_section(e.property, p, piece, k);
+      add(e, part);
+    }
+  }
+
+  int piece_section(int id, const NastranProperty& p, const NastranPiece& piece, std::size_t k) {
+    std::vector<int>& known = piece_sections_[id];
+    if (k < known.size()) return known[k];
+    if (k == 0) judge_section(p, id);
+    known.push_back(static_cast<int>(b_.model.sections.size()));
+    b_.model.sections.push_back(piece.section);
+    own_shear(p, b_.model.sections.back());
+    return known.back();
   }
 
   static ElementType membrane_of(ElementType shell) {
@@ -160,16 +221,24 @@ class ElementBuilder {
   int section(int id, const NastranProperty& p) {
     const auto [it, fresh] = sections_.try_emplace(id, static_cast<int>(b_.model.sections.size()));
     if (!fresh) return it->second;
+    judge_section(p, id);
+    b_.model.sections.push_back(p.section);
+    own_shear(p, b_.model.sections.back());
+    return it->second;
+  }
+
+  /// What is wrong with a section of bars, and what is approximated.
+  void judge_section(const NastranProperty& p, int id) {
     const std::pair<const char*, double> values[] = {
         {"A", p.section.A}, {"I1", p.section.Iz}, {"I2", p.section.Iy}, {"J", p.section.J}};
     for (const auto& [name, value] : values) must_be_positive(p, id, name, value);
     for (const std::string& remark : p.remarks)
       b_.note(p.at, fmt::format("{} {}: {}", p.card, id, remark));
-    b_.model.sections.push_back(p.section);
-    BeamSection& own = b_.model.sections.back();
+  }
+
+  void own_shear(const NastranProperty& p, BeamSection& own) {
     const double ratio = materials_.own_shear(p.material);
     for (double* x : {&own.J, &own.shear_y, &own.shear_z}) *x *= ratio;
-    return it->second;
   }
 
   int rod_section(int id, const NastranProperty& p) {
@@ -293,10 +362,12 @@ class ElementBuilder {
   const FeReadOptions& options_;
   NastranBars bars_;
   NastranMaterials materials_;
+  NastranTapers tapers_;
+  std::map<int, std::vector<int>> piece_sections_;
   bool mesh_only_ = false;
   int skins_ = 0;
   FeSource first_skin_;
-  std::set<int> missing_;
+  std::set<int> missing_, weak_;
   std::map<std::string, std::set<int>> members_;
   std::map<int, int> sections_, panels_;
   std::map<std::tuple<int, double, double>, int> shells_;

@@ -24,6 +24,8 @@ class SpringBuilder {
                              it->second.line));
       if (s.card == std::string_view("CBUSH")) {
         bushing(s);
+      } else if (s.card == std::string_view("CBUSH1D")) {
+        line_bushing(s);
       } else {
         scalar(s);
       }
@@ -130,6 +132,35 @@ class SpringBuilder {
       at += s.place * (position(n[1]) - at);
     }
     add_bushing(b_.model, n[0], n[1], at, axes, k, label(s), s.at);
+  }
+
+  /// Along the line of its nodes, or axis 1 of CID at GA.
+  void line_bushing(const NastranSpring& s) {
+    Spring spring;
+    if (!nodes(s, spring.nodes)) return;
+    const auto it = springs_.pbush1d.find(s.property);
+    if (it == springs_.pbush1d.end()) {
+      error(s, fmt::format("property {} (PBUSH1D) is not in the file", s.property));
+      return;
+    }
+    const Vec3 a = position(spring.nodes[0]);
+    Vec3 x = Vec3::UnitX();
+    if (s.system > 0) {
+      x = nastran_axes_at(b_.frame(s.system, s.at), a).col(0);
+    } else if (s.system < 0) {
+      const Vec3 d = spring.nodes[1] < 0 ? Vec3(Vec3::Zero()) : Vec3(position(spring.nodes[1]) - a);
+      if (!(d.norm() > 1e-9 * a.norm())) {
+        error(s, "it has no line from node to node; give a coordinate system CID");
+        return;
+      }
+      x = d.normalized();
+    }
+    spring.directions[0].head<3>() = -x;
+    if (spring.nodes[1] >= 0) spring.directions[1].head<3>() = x;
+    spring.stiffness = it->second.first * b_.content.stiffness_factor;
+    spring.name = label(s);
+    spring.source = s.at;
+    if (spring.stiffness != 0.0) b_.model.springs.push_back(std::move(spring));
   }
 
   bool bushing_axes(const NastranSpring& s, const std::array<int, 2>& n, const Vec6& k,

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include "floatframe/formats/nastran/nastran_fields.hpp"
@@ -65,6 +66,8 @@ const std::map<std::string_view, NastranCardReader>& card_readers() {
       {"PELAS", read_nastran_pelas},
       {"CBUSH", read_nastran_bush},
       {"PBUSH", read_nastran_pbush},
+      {"CBUSH1D", read_nastran_bush1d},
+      {"PBUSH1D", read_nastran_pbush1d},
       {"CROD", read_nastran_rod},
       {"CTUBE", read_nastran_rod},
       {"CONROD", read_nastran_rod},
@@ -89,7 +92,7 @@ class ContentReader {
     c_.control = cards.control();
     NastranCard card;
     while (cards.next(card)) {
-      NastranFields fields(source_, card);
+      NastranFields fields(source_, card, &c_.whole_numbers);
       one(fields);
     }
     if (const auto& at = c_.control.preload)
@@ -236,6 +239,7 @@ class ContentReader {
       const unsigned held = g.held.value_or(c_.grid_default.held.value_or(0u));
       if (held != 0) c_.supports.push_back({g.id, g.id, held, g.at});
     }
+    once_each_grid();
     complete_nastran_bars(c_, source_);
     c_.scalar_points.finish();
     if (!only_nodes_) {
@@ -280,6 +284,31 @@ class ContentReader {
       c_.notes.push_back(
           fmt::format("cards that change neither stiffness nor mass are passed over: {}", list));
     }
+  }
+
+  /// Nodes that are in the file twice with the same numbers are one, as in Nastran.
+  void once_each_grid() {
+    std::unordered_map<int, std::size_t> first;
+    std::size_t kept = 0, twice = 0;
+    FeSource at;
+    for (std::size_t i = 0; i < c_.grids.size(); ++i) {
+      const NastranGrid& g = c_.grids[i];
+      const auto [it, fresh] = first.try_emplace(g.id, kept);
+      const NastranGrid& other = c_.grids[fresh ? i : it->second];
+      if (!fresh && g.id > 0 && g.cp == other.cp && g.cd == other.cd && g.held == other.held &&
+          g.x == other.x) {
+        if (twice++ == 0) at = g.at;
+        continue;
+      }
+      if (kept != i) c_.grids[kept] = g;
+      ++kept;
+    }
+    c_.grids.resize(kept);
+    if (twice > 0)
+      c_.notes.push_back(
+          fmt::format("{} nodes are in the file twice with the same numbers, first in "
+                      "line {}: each is one, as in Nastran",
+                      twice, at.line));
   }
 
   TextSource& source_;

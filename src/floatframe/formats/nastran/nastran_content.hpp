@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "floatframe/formats/nastran/nastran_cards.hpp"
+#include "floatframe/formats/nastran/nastran_fields.hpp"
 #include "floatframe/formats/nastran/nastran_scalar_points.hpp"
 #include "floatframe/formats/nastran/nastran_springs.hpp"
 
@@ -94,23 +95,33 @@ struct NastranSection {
   double A = 0.0, I1 = 0.0, I2 = 0.0, I12 = 0.0, J = 0.0;
 };
 
+/// A place along a tapered beam.
+struct NastranStation {
+  double x = 0.0;  ///< of the length
+  NastranSection section;
+  double nonstructural = 0.0;
+  BeamSection shape;  ///< shear areas, and of PBEAML the outline
+};
+
 struct NastranProperty {
   const char* card = "";
   int material = 0;
-  bool full_integration = false;     ///< PSOLID: of CHEXA with 8 nodes
-  int material_system = 0;           ///< PSOLID: CORDM
-  double thickness = 0.0;            ///< PSHELL, PCOMP
-  bool membrane = false;             ///< PSHELL without MID2, PCOMP with LAM = MEM
-  int bending = 0, coupling = 0;     ///< PSHELL: MID2, MID4; 0: none
-  double bending_factor = 1.0;       ///< PSHELL: 12I/T**3
-  std::vector<NastranPly> plies;     ///< PCOMP, from the bottom
-  std::optional<double> z0;          ///< PCOMP: of the bottom from the nodes
-  bool smeared = false;              ///< PCOMP: LAM = SMEAR
-  double shell_shear = 0.0;          ///< PSHELL with MID3, PCOMP
-  double edge_factors[2] = {0, 0};   ///< PSHEAR: F1 and F2, rods along the edges
-  int shear_material = 0;            ///< PSHELL: MID3
-  BeamSection section;               ///< PBAR, PBARL, PBEAM, PBEAML: about its principal axes
-  double turn = 0.0;                 ///< of these from y of the element towards z [rad]
+  bool full_integration = false;    ///< PSOLID: of CHEXA with 8 nodes
+  int material_system = 0;          ///< PSOLID: CORDM
+  double thickness = 0.0;           ///< PSHELL, PCOMP
+  bool membrane = false;            ///< PSHELL without MID2, PCOMP with LAM = MEM
+  int bending = 0, coupling = 0;    ///< PSHELL: MID2, MID4; 0: none
+  double bending_factor = 1.0;      ///< PSHELL: 12I/T**3
+  std::vector<NastranPly> plies;    ///< PCOMP, from the bottom
+  std::optional<double> z0;         ///< PCOMP: of the bottom from the nodes
+  bool smeared = false;             ///< PCOMP: LAM = SMEAR
+  double shell_shear = 0.0;         ///< PSHELL with MID3, PCOMP
+  double edge_factors[2] = {0, 0};  ///< PSHEAR: F1 and F2, rods along the edges
+  int shear_material = 0;           ///< PSHELL: MID3
+  BeamSection section;              ///< PBAR, PBARL, PBEAM, PBEAML: about its principal axes
+  double turn = 0.0;                ///< of these from y of the element towards z [rad]
+  /// PBEAM, PBEAML: of a taper, from end A to end B; empty: `section` is that of the whole beam.
+  std::vector<NastranStation> stations;
   std::vector<std::string> remarks;  ///< what is approximated
   double nonstructural = 0.0;        ///< mass over length or area
   FeSource at;
@@ -231,6 +242,7 @@ struct NastranContent {
   std::vector<NastranNonstructural> nonstructural;
   std::map<int, std::vector<int>> added_mass_sets;  ///< NSMADD
   NastranControl control;
+  NastranWholeNumbers whole_numbers;
   double mass_factor = 1.0;       ///< PARAM,WTMASS times PARAM,CM1
   double stiffness_factor = 1.0;  ///< PARAM,CK1
   bool coupled_mass = false;      ///< PARAM,COUPMASS

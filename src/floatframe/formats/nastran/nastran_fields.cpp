@@ -41,6 +41,12 @@ double NastranFields::real(std::size_t i, const char* what, double otherwise) {
   if (blank(i)) return otherwise;
   const auto value = parse_real(card_.field(i));
   if (!value) error_in(i, fmt::format("{}: {}", what, not_a_real(card_.field(i))));
+  if (value && whole_ != nullptr && parse_integer(card_.field(i)) && whole_->count++ == 0) {
+    const std::string_view id = card_.field(0);
+    whole_->first = fmt::format("{}{}{}: {} is {}", card_.name, parse_label(id) ? " " : "",
+                                parse_label(id) ? id : "", what, shown(card_.field(i)));
+    whole_->at = card_.place(i);
+  }
   return value.value_or(otherwise);
 }
 

@@ -8,9 +8,17 @@
 
 namespace floatframe {
 
+/// Whole numbers where real ones are expected: Nastran stops there.
+struct NastranWholeNumbers {
+  int count = 0;
+  std::string first;  ///< "GRID 3: a coordinate is '3'"
+  FeSource at;
+};
+
 class NastranFields {
  public:
-  NastranFields(TextSource& source, const NastranCard& card) : source_(source), card_(card) {}
+  NastranFields(TextSource& source, const NastranCard& card, NastranWholeNumbers* whole = nullptr)
+      : source_(source), card_(card), whole_(whole) {}
 
   bool blank(std::size_t i) const { return card_.field(i).empty(); }
   std::size_t size() const { return card_.fields.size(); }
@@ -40,6 +48,7 @@ class NastranFields {
 
   TextSource& source_;
   const NastranCard& card_;
+  NastranWholeNumbers* whole_;
 };
 
 }  // namespace floatframe

@@ -45,8 +45,8 @@ const char* const harmless_cards[] = {
     // dampers
     "CVISC", "PVISC", "CDAMP*", "PDAMP",
     // properties of elements that are refused, or of what depends on frequency
-    "PELAST", "PBUSHT", "PBUSH1D", "PBUSH2D", "PDAMPT", "PDAMP5", "PGAP", "PFAST", "PWELD", "PSEAM",
-    "PAABSF", "PACABS", "PACBAR", "PACINF", "PBEND", "PCONEAX", "PLPLANE", "PRAC2D", "PRAC3D",
+    "PELAST", "PBUSHT", "PBUSH2D", "PDAMPT", "PDAMP5", "PGAP", "PFAST", "PWELD", "PSEAM", "PAABSF",
+    "PACABS", "PACBAR", "PACINF", "PBEND", "PCONEAX", "PLPLANE", "PRAC2D", "PRAC3D",
     // aeroelasticity, also of ZAERO and ASTROS
     "AERO*", "CAERO*", "PAERO*", "SPLINE*", "AEFACT", "AELIST*", "AESTAT", "AESURF*", "AEPARM",
     "AELINK", "AECOMP*", "AEFORCE", "AEPRESS", "AEQUAD4", "AETRIA3", "AEGRID", "AEROS", "AEDW",
@@ -61,7 +61,6 @@ const std::pair<const char*, const char*> refused_cards[] = {
     {"RSPLINE", "interpolation along a spline is not supported; use RBE3 or MPC"},
     {"RSSCON", "connections of shells to solids are not supported; use RBE3 or MPC"},
     {"RTRPLT1", "rigid triangles with nodes that follow only in part are not supported; use RBE2"},
-    {"CBUSH1D", "bushings of one direction with tables are not supported; give CBUSH or CELAS1"},
     {"CBUSH2D", "bushings of two directions are not supported; give CBUSH"},
     {"CGAP", "gaps are not linear; replace those that are closed with CELAS2 or RBE2"},
     {"GENEL", "general elements are not supported"},

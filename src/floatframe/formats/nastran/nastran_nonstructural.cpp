@@ -42,7 +42,7 @@ const MassType* type_called(std::string_view name) {
   return it == std::end(mass_types) ? nullptr : it;
 }
 
-bool is_one_of(const MassType& type, std::string_view card) {
+bool is_card_of(const MassType& type, std::string_view card) {
   return std::any_of(type.cards.begin(), type.cards.end(),
                      [&](const char* c) { return c != nullptr && card == c; });
 }
@@ -160,7 +160,7 @@ class NonstructuralBuilder {
       if (property == c_.properties.end() || !elements_of_.contains(e.id)) continue;
       const std::string_view card = property->second.card;
       const bool own = type == "ELEMENT" || type == "CONROD";
-      if (type == "ELEMENT" ? card == "PSOLID" : !is_one_of(t, card)) continue;
+      if (type == "ELEMENT" ? card == "PSOLID" : !is_card_of(t, card)) continue;
       list.emplace_back(own ? e.id : e.property, static_cast<int>(&e - c_.elements.data()));
     }
     return numbers_.try_emplace(type, std::move(list)).first->second;

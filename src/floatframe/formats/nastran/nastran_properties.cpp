@@ -5,14 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "floatframe/formats/nastran/nastran_content.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
+#include "floatframe/formats/nastran/nastran_tapers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 namespace {
+
+constexpr std::size_t most_stations = 50;
 
 void psolid(NastranFields& f, NastranProperty& p) {
   p.material = f.label(1, "the material");
@@ -41,49 +46,52 @@ void pbar(NastranFields& f, NastranProperty& p) {
   shear_factors(f, 16, 0.0, p.section);
 }
 
-/// End A and stations. Those of a taper within 20 % become their mean along the beam (remark).
+/// End A and stations. What end B leaves blank is as at end A, what others leave blank lies between
+/// the ends.
 void pbeam(NastranFields& f, NastranProperty& p) {
   p.material = f.label(1, "the material");
   const char* const names[] = {"A", "I1", "I2", "I12", "J", "NSM"};
-  double first[6], last[6], mean[6] = {}, last_x = 0.0, most = 0.0;
-  for (std::size_t k = 0; k < 6; ++k) {
-    first[k] = last[k] = k < 3 ? f.real(2 + k, names[k]) : f.real(2 + k, names[k], 0.0);
-  }
-  // Stress points of end A are on the next line, unless it begins with a station.
-  const auto station = [&f](std::size_t i) {
+  const auto word = [&f](std::size_t i) {
     return same_word(f.text(i), "YES") || same_word(f.text(i), "YESA") ||
            same_word(f.text(i), "NO");
   };
-  std::size_t i = station(8) ? 8 : 16;
-  for (; station(i); i += same_word(f.text(i), "YES") ? 16 : 8) {
-    const double x = f.real(i + 1, "X/XB", 1.0);
-    for (std::size_t k = 0; k < 6; ++k) {
-      const double here = f.real(i + 2 + k, names[k], first[k]);
-      const double away = std::abs(here - first[k]);
-      mean[k] += 0.5 * (x - last_x) * (here + last[k]);
-      last[k] = here;
-      if (away <= 1e-3 * std::abs(first[k])) continue;
-      most = std::max(most, away / std::max(std::abs(first[k]), 1e-300));
-      if (away <= 0.2 * std::abs(first[k])) continue;
-      f.error(
-          fmt::format("a tapered beam is not supported: {} is {} at end A and {} at a station; "
-                      "divide it into beams of constant section",
-                      names[k], shown(f.text(2 + k)), shown(f.text(i + 2 + k))));
-      return;
-    }
-    last_x = x;
+  struct Place {
+    double x = 0.0;
+    std::optional<double> values[6];
+  };
+  std::vector<Place> places(1);
+  for (std::size_t k = 0; k < 6; ++k)
+    places[0].values[k] = k < 3 ? f.real(2 + k, names[k]) : f.real(2 + k, names[k], 0.0);
+  // Stress points of end A are on the next line, unless it begins with a station.
+  std::size_t i = word(8) ? 8 : 16, end = 0;
+  for (; word(i); i += same_word(f.text(i), "YES") ? 16 : 8) {
+    if (places.size() > most_stations) return f.error("it has too many stations");
+    Place& place = places.emplace_back();
+    place.x = f.real(i + 1, "X/XB", 1.0);
+    if (place.x == 1.0) end = places.size() - 1;
+    for (std::size_t k = 0; k < 6; ++k)
+      if (!f.blank(i + 2 + k)) place.values[k] = f.real(i + 2 + k, names[k]);
   }
-  if (most > 0.0) {
-    for (std::size_t k = 0; k < 6; ++k) mean[k] += 0.5 * (1.0 - last_x) * (last[k] + first[k]);
-    p.remarks.push_back(
-        fmt::format("its section changes by {:.1f} % along the beam: it is read with "
-                    "its mean",
-                    100.0 * most));
-    std::copy(std::begin(mean), std::end(mean), std::begin(first));
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double a = *places[0].values[k], b = places[end].values[k].value_or(a);
+    for (Place& place : places)
+      if (!place.values[k]) place.values[k] = place.x == 1.0 ? b : a + place.x * (b - a);
   }
-  set_nastran_section(p, {first[0], first[1], first[2], first[3], first[4]});
-  p.nonstructural = first[5];
+  std::vector<NastranStation> stations;
+  const double k1 = f.real(i, "K1", 1.0), k2 = f.real(i + 1, "K2", 1.0);
+  for (const Place& place : places) {
+    NastranStation& s = stations.emplace_back();
+    const auto value = [&](std::size_t k) { return *place.values[k]; };
+    s.x = place.x;
+    s.section = {value(0), value(1), value(2), value(3), value(4)};
+    s.nonstructural = value(5);
+    s.shape.shear_y = k1 * value(0);
+    s.shape.shear_z = k2 * value(0);
+  }
+  set_nastran_section(p, stations[0].section);
+  p.nonstructural = stations[0].nonstructural;
   shear_factors(f, i, 1.0, p.section);
+  if (stations.size() > 1) read_nastran_beam_stations(f, p, std::move(stations));
   // K1 K2 S1 S2 NSI(A) NSI(B) CW(A) CW(B), then offsets of mass and neutral axis.
   f.must_be_zero(i + 4, "the nonstructural inertia NSI");
   f.must_be_zero(i + 6, "the warping coefficient CW");

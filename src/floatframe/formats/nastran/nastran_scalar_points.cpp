@@ -140,7 +140,7 @@ class ScalarPointBuilder {
 
   void build() {
     for (const NastranSpring& s : c_.springs.list) {
-      if (s.card == std::string_view("CBUSH")) continue;
+      if (std::string_view(s.card).starts_with("CBUSH")) continue;
       for (const int id : s.nodes)
         if (NastranScalarPoint* point = use(id, s.at)) point->sprung = true;
     }

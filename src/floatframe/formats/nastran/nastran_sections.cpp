@@ -12,6 +12,7 @@
 #include "floatframe/fe/plate_section.hpp"
 #include "floatframe/formats/nastran/nastran_content.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
+#include "floatframe/formats/nastran/nastran_tapers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -145,12 +146,17 @@ std::size_t dimensions_of(std::string_view type) {
   return it == plate_sections().end() ? 0 : it->second.dimensions;
 }
 
-void named_shape(NastranFields& f, NastranProperty& p, const std::string& type, Dimensions d) {
+/// The raw section about y and z of the element goes to `raw`.
+void named_shape(NastranFields& f, NastranProperty& p, const std::string& type, Dimensions d,
+                 NastranSection& raw) {
   if ((type == "TUBE" || type == "TUBE2") && d[1] > d[0]) {
     f.error(fmt::format("the {} of the {} is more than its outer radius",
                         type == "TUBE" ? "inner radius" : "wall", type));
   }
-  if (plain_section(type, d, p.section)) return nastran_shear_of_shape(type, d, p.section);
+  if (plain_section(type, d, p.section)) {
+    raw = {p.section.A, p.section.Iz, p.section.Iy, 0.0, p.section.J};
+    return nastran_shear_of_shape(type, d, p.section);
+  }
   const double box[6] = {d[0], d[1], d[2], d[2], d[3], d[3]};
   const bool closed = type == "BOX" || type == "BOX1";
   const double* const of_box = type == "BOX" ? box : d;
@@ -176,6 +182,7 @@ void named_shape(NastranFields& f, NastranProperty& p, const std::string& type, 
                     "of its plates, {:.6g}; warping and shear deformation are left out",
                     type, s.J));
   }
+  raw = s;
   set_nastran_section(p, s);
   nastran_shear_of_shape(type, d, p.section);
   if (f.name() == "PBEAML" && !made.centred && type != "BOX") {
@@ -186,25 +193,39 @@ void named_shape(NastranFields& f, NastranProperty& p, const std::string& type, 
   }
 }
 
-/// Stations of a PBEAML: SO, X/XB, dimensions, nonstructural mass; they must repeat end A.
-void check_stations(NastranFields& f, std::size_t count, Dimensions d) {
+/// Stations of a PBEAML: SO, X/XB, dimensions, nonstructural mass; what end B leaves blank is as at
+/// end A.
+void named_stations(NastranFields& f, NastranProperty& p, const std::string& type,
+                    std::size_t count, Dimensions d, const NastranStation& first) {
   const auto is_word = [&f](std::size_t i) {
     return same_word(f.text(i), "YES") || same_word(f.text(i), "NO");
   };
+  std::vector<NastranStation> stations{first};
   for (std::size_t i = 9 + count; i < f.size(); i += count + 3) {
     if (!is_word(i)) {
       return f.error(fmt::format("found {} after the section, expected YES or NO of a station",
                                  shown(f.text(i))));
     }
+    if (stations.size() > 50) return f.error("it has too many stations");
+    NastranStation s;
+    s.x = f.real(i + 1, "X/XB", 1.0);
+    double here[6] = {};
     for (std::size_t k = 0; k < count; ++k) {
-      const double here = f.real(i + 2 + k, "a dimension of a station", d[k]);
-      if (std::abs(here - d[k]) <= 1e-3 * std::abs(d[k])) continue;
-      return f.error(
-          fmt::format("a tapered beam is not supported: dimension {} is {:g} at end A and "
-                      "{:g} at a station; divide it into beams of constant section",
-                      k + 1, d[k], here));
+      if (f.blank(i + 2 + k) && s.x != 1.0)
+        return f.error(
+            fmt::format("dimension {} of the station at X/XB = {:g} is missing", k + 1, s.x));
+      here[k] = f.real(i + 2 + k, "a dimension of a station", d[k]);
+      if (here[k] < 0.0) return f.error("a dimension of a station is negative");
     }
+    NastranProperty other;
+    other.card = p.card;
+    named_shape(f, other, type, here, s.section);
+    if (!(s.section.A > 0.0) || !(first.section.A > 0.0)) return;  // an error, here or later
+    s.nonstructural = f.real(i + 2 + count, "the nonstructural mass", first.nonstructural);
+    s.shape = other.section;
+    stations.push_back(s);
   }
+  if (stations.size() > 1) read_nastran_beam_stations(f, p, std::move(stations));
 }
 
 }  // namespace
@@ -239,8 +260,11 @@ void read_nastran_named_section(NastranFields& f, NastranProperty& p) {
     if (d[i] < 0.0) return f.error("a dimension of the section is negative");
   }
   p.nonstructural = f.real(8 + count, "the nonstructural mass", 0.0);
-  named_shape(f, p, type, d);
-  check_stations(f, count, d);
+  NastranStation first;
+  named_shape(f, p, type, d, first.section);
+  first.nonstructural = p.nonstructural;
+  first.shape = p.section;
+  named_stations(f, p, type, count, d, first);
 }
 
 }  // namespace floatframe

@@ -133,6 +133,36 @@ void read_nastran_pbush(NastranFields& f, NastranContent& c) {
   if (!fresh && id > 0) nastran_twice(f, it->second.second);
 }
 
+void read_nastran_bush1d(NastranFields& f, NastranContent& c) {
+  NastranSpring s;
+  s.card = "CBUSH1D";
+  s.at = f.at();
+  s.id = f.label(0, "the number of the element");
+  s.property = f.blank(1) ? s.id : f.label(1, "the property");
+  s.nodes[0] = f.label(2, "node GA");
+  s.nodes[1] = f.blank(3) ? 0 : f.label(3, "node GB");
+  s.system = f.integer(4, "the coordinate system CID", -1);
+  c.springs.list.push_back(s);
+}
+
+/// K, C and M, then lines of what is not linear: dampers do not count, springs would.
+void read_nastran_pbush1d(NastranFields& f, NastranContent& c) {
+  const int id = f.label(0, "the number of the property");
+  const double k = f.real(1, "K", 0.0);
+  damping(f, 2, c);
+  f.must_be_zero(3, "the mass M");
+  for (std::size_t i = 8; i < f.size(); i += 8) {
+    const std::string_view word = f.text(i);
+    const bool damper = same_word(word, "SHOCKA") || same_word(word, "DAMPER");
+    if (damper && !c.springs.damping) c.springs.damping = f.at();
+    if (same_word(word, "SPRING") || same_word(word, "GENER"))
+      f.error(fmt::format("{} gives a stiffness that is not linear; give its slope at rest as K",
+                          upper_case(word)));
+  }
+  const auto [it, fresh] = c.springs.pbush1d.try_emplace(id, std::pair{k, f.at()});
+  if (!fresh && id > 0) nastran_twice(f, it->second.second);
+}
+
 void read_nastran_rod(NastranFields& f, NastranContent& c) {
   NastranElement e;
   const bool own = f.name() == "CONROD";

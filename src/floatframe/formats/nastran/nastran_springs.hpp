@@ -8,7 +8,7 @@
 
 namespace floatframe {
 
-/// CELAS1 to 4, CBUSH.
+/// CELAS1 to 4, CBUSH, CBUSH1D.
 struct NastranSpring {
   const char* card = "";
   int id = 0, property = 0;
@@ -29,6 +29,7 @@ struct NastranSprings {
   std::vector<NastranSpring> list;
   std::map<int, std::pair<double, FeSource>> pelas;
   std::map<int, std::pair<Vec6, FeSource>> pbush;
+  std::map<int, std::pair<double, FeSource>> pbush1d;
   std::optional<FeSource> damping;  ///< the first GE or B
 };
 
@@ -39,6 +40,8 @@ void read_nastran_celas(NastranFields&, NastranContent&);
 void read_nastran_pelas(NastranFields&, NastranContent&);
 void read_nastran_bush(NastranFields&, NastranContent&);
 void read_nastran_pbush(NastranFields&, NastranContent&);
+void read_nastran_bush1d(NastranFields&, NastranContent&);
+void read_nastran_pbush1d(NastranFields&, NastranContent&);
 void read_nastran_rod(NastranFields&, NastranContent&);  ///< CROD, CTUBE, CONROD
 
 void build_nastran_springs(NastranBuild& build);
