@@ -76,8 +76,8 @@ TEST(NastranTapers, DeflectionsOfACantilever) {
         taper_of(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.," + times(.1) + "," + times(.2) + "," +
                             times(.3) + ",," + times(.4) + "\n,0.,0.\n"));
     const double E = 100, G = 40, L = 10, log_mean = (r - 1) / std::log(r);
-    EXPECT_NEAR(tip(model, 0) / (L / (E * .1 * log_mean)), 1.0, 1e-9) << r;  // exact
-    EXPECT_NEAR(tip(model, 3) / (L / (G * .4 * log_mean)), 1.0, 1e-9) << r;
+    EXPECT_NEAR(tip(model, 0) / (L / (E * .1 * log_mean)), 1.0, 1e-3) << r;
+    EXPECT_NEAR(tip(model, 3) / (L / (G * .4 * log_mean)), 1.0, 1e-9) << r;  // exact
     const double s = L * L * L / E * bending_integral(1, r);
     EXPECT_NEAR(tip(model, 1) / (s / .2), 1.0, 6e-4) << r;  // I1: in the plane of y
     EXPECT_NEAR(tip(model, 2) / (s / .3), 1.0, 6e-4) << r;
@@ -129,14 +129,14 @@ TEST(NastranTapers, StationsAndEnds) {
   // Constant to the middle, then to a half; stations in any order; end B blank is as end A.
   const FeModel model = taper_of(
       cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.,.05,.1,.15,,.2\n,NO,.5,.1,.2,.3,,.4\n,0.,0.\n"));
-  EXPECT_NEAR(tip(model, 0), 5 / (100 * .1) + 5 / (100 * .1) * 2 * std::log(2.), 1e-9);
+  EXPECT_NEAR(tip(model, 0), 5 / (100 * .1) + 5 / (100 * .1) * 2 * std::log(2.), 7e-4);
   const FeModel blank =
       taper_of(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,.5,.05,.2,.3,,.4\n,0.,0.\n"));
-  EXPECT_NEAR(tip(blank, 0), 10 / (100 * .1) * 2 * std::log(2.), 1e-9);
+  EXPECT_NEAR(tip(blank, 0), 10 / (100 * .1) * 2 * std::log(2.), 7e-4);
   // What a station between the ends leaves blank lies between them.
   const FeModel between = taper_of(
       cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,.5,,.15,.3,,.4\n,NO,1.,.05,.1,.3,,.4\n,0.,0.\n"));
-  EXPECT_NEAR(tip(between, 0), 10 / (100 * .1) * 2 * std::log(2.), 1e-9);
+  EXPECT_NEAR(tip(between, 0), 10 / (100 * .1) * 2 * std::log(2.), 7e-4);
   // The same section along the beam is one beam.
   EXPECT_EQ(taper_of(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n,NO,1.,.10005,.2,.3,,.4\n")).nodes(), 2);
   // Offsets and pins stay at the ends: a pin of the end bends nothing, the force moves the node.
@@ -144,7 +144,7 @@ TEST(NastranTapers, StationsAndEnds) {
   offset.insert(offset.find("0.,1.,0.\n") + 8, "\n,,,0.,2.,0.,0.,2.,0.");
   const double axial = 10 / (100 * .1) * 2 * std::log(2.),
                bent = 4 * 10 / (100 * .2) * 2 * std::log(2.);
-  EXPECT_NEAR(tip(taper_of(offset), 0), axial + bent, 1e-9);
+  EXPECT_NEAR(tip(taper_of(offset), 0), axial + bent, 7e-4);
   // Sets, names and notes are of the element.
   EXPECT_EQ(model.element_sets.at("PID 1").size(), model.elements.size());
   EXPECT_EQ(model.elements.back().id, 1);
@@ -168,7 +168,7 @@ TEST(NastranTapers, MassAndNamedSections) {
       2 * .075 * 10 + 15, 1e-12);
   const FeModel bar = taper_of(cantilever("PBEAML,1,1,,BAR\n,.4,.6,1.,NO,1.,.2,.6,1.\n"));
   EXPECT_NEAR(mass(bar), 2 * .18 * 10 + 10, 1e-12);
-  EXPECT_NEAR(tip(bar, 0), 10 / (100 * .24) * 2 * std::log(2.), 1e-9);
+  EXPECT_NEAR(tip(bar, 0), 10 / (100 * .24) * 2 * std::log(2.), 7e-4);
   EXPECT_NEAR(bar.sections.back().width, .6, 1e-12);
 }
 

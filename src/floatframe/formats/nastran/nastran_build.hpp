@@ -14,8 +14,6 @@
 
 namespace floatframe {
 
-struct NastranPiece;
-
 /// Axes of a coordinate system in basic coordinates: x = origin + R x_local.
 struct NastranFrame {
   Mat3 R = Mat3::Identity();
@@ -113,8 +111,6 @@ class NastranMaterials {
   /// Index of a material; one with nonstructural mass (over volume) is a material of its own.
   int index(const NastranProperty& p, double nonstructural);
   int index(const NastranProperty& p, double nonstructural, int id, bool weighs);
-  /// Of a piece of a tapered beam, whose section for the stiffness has less area than its mass.
-  int of_taper(const NastranProperty& p, const NastranPiece& piece);
   /// The same as another without density.
   int massless(int material);
   /// G of a material over that of its E and NU: bars twist and shear by the G of the card, whatever
@@ -128,8 +124,8 @@ class NastranMaterials {
   const NastranContent& c_;
   std::map<std::tuple<int, double, bool>, int> indices_;
   std::map<int, int> massless_;
-  std::map<std::tuple<int, double, double>, int> tapered_;
   std::set<int> inconsistent_, checked_;
+  std::set<std::pair<int, int>> noted_;  // properties whose nonstructural mass is said, by line
 };
 // nastran_build_weak_bars.cpp
 /// Is it a bar with zeros among I1, I2 and J that can be a rod with springs? Null: plain ends.

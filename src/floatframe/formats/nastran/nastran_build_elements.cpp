@@ -189,7 +189,7 @@ class ElementBuilder {
         part.nodes[1] = b_.add_node(a + piece.to * (b - a), e.at, label(e));
       last = part.nodes[1];
       part.reference = std::cos(piece.turn) * T.col(1) + std::sin(piece.turn) * T.col(2);
-      part.material = materials_.of_taper(p, piece);
+      part.material = materials_.index(p, piece.nonstructural / std::max(piece.section.A, 1e-300));
       part.section = piece_section(e.property, p, piece, k);
       add(e, part);
     }

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "floatframe/fe/elasticity.hpp"
 #include "floatframe/formats/nastran/nastran_build.hpp"
-#include "floatframe/formats/nastran/nastran_tapers.hpp"
 
 namespace floatframe {
 
@@ -32,23 +30,6 @@ int NastranMaterials::massless(int material) {
   return it->second;
 }
 
-int NastranMaterials::of_taper(const NastranProperty& p, const NastranPiece& piece) {
-  const int base = index(p, 0.0, p.material, false);
-  const double A = std::max(piece.section.A, 1e-300), over = piece.mass_area / A,
-               added = piece.nonstructural / A;
-  const auto [it, fresh] =
-      tapered_.try_emplace({base, over, added}, static_cast<int>(b_.model.materials.size()));
-  if (!fresh) return it->second;
-  Material own = b_.model.materials[base];
-  own.density = own.density * over + added * c_.mass_factor;
-  const auto found = c_.materials.find(p.material);
-  if (found != c_.materials.end() && !found->second.density && added == 0.0)
-    b_.model.without_density[it->second] = {found->second.at, c_.mass_factor * over};
-  b_.model.materials.push_back(own);
-  b_.model.material_names.push_back(b_.model.material_names[base]);
-  return it->second;
-}
-
 int NastranMaterials::index(const NastranProperty& p, double nonstructural) {
   return index(p, nonstructural, p.material, true);
 }
@@ -69,7 +50,7 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
     if (!found->second.density && nonstructural == 0.0 && weighs)
       b_.model.without_density[static_cast<int>(b_.model.materials.size())] = {found->second.at,
                                                                                c_.mass_factor};
-    if (nonstructural != 0.0) {
+    if (nonstructural != 0.0 && noted_.insert({p.at.file, p.at.line}).second) {
       b_.note(p.at, fmt::format("{}: its nonstructural mass is added to the density of its "
                                 "material",
                                 p.card));

@@ -68,7 +68,6 @@ NastranPiece piece_between(const NastranStation& a, const NastranStation& b) {
   const NastranStation middle = between_stations(a, b, 0.5 * (a.x + b.x));
   NastranSection s = middle.section;
   const bool straight = a.section.I12 == 0.0 && b.section.I12 == 0.0;
-  s.A = harmonic(a.section.A, b.section.A);
   s.J = harmonic(a.section.J, b.section.J);
   if (straight) {  // turned principal axes turn along the piece: those of its
                    // middle
@@ -88,7 +87,6 @@ NastranPiece piece_between(const NastranStation& a, const NastranStation& b) {
   piece.section.shear_y = harmonic(a.shape.shear_y, b.shape.shear_y);
   piece.section.shear_z = harmonic(a.shape.shear_z, b.shape.shear_z);
   piece.turn = p.turn;
-  piece.mass_area = middle.section.A;
   piece.nonstructural = middle.nonstructural;
   return piece;
 }
