@@ -105,5 +105,17 @@ TEST(CalculixHabits, SurfacesOpenedAgainGrow) {
             "deck.inp:11: *SURFACE names the surface 'S' a second time");
 }
 
+TEST(CalculixHabits, TheLastSectionOfAnElementCounts) {
+  const FeModel model = habit_deck(
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, TYPE=C3D4, ELSET=E\n"
+      "7, 1, 2, 3, 4\n*SOLID SECTION, ELSET=E, MATERIAL=STEEL\n"
+      "*SOLID SECTION, ELSET=E, MATERIAL=AL\n*MATERIAL, NAME=AL\n*ELASTIC\n70000, .3\n" +
+      std::string(steel_of_deck));
+  EXPECT_EQ(model.materials[static_cast<std::size_t>(model.elements[0].material)].young, 70000);
+  EXPECT_TRUE(habit_noted(model,
+                          "deck.inp:9: *SOLID SECTION is the second one of element 7 (C3D4): the "
+                          "last one counts, as in CalculiX"));
+}
+
 }  // namespace
 }  // namespace floatframe::test

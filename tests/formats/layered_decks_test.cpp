@@ -254,5 +254,26 @@ TEST(LayeredDecks, PcompAgainstLaminateTheory) {
       EXPECT_NEAR(found(i, j), abd(i, j), 1e-9 * std::sqrt(abd(i, i) * abd(j, j))) << i << j;
 }
 
+// With a material or layers *SHELL GENERAL SECTION is *SHELL SECTION.
+TEST(LayeredDecks, GeneralSections) {
+  for (const std::string rest :
+       {"ELSET=SKIN, MATERIAL=CORE, OFFSET=SPOS\n.5\n",
+        "ELSET=SKIN, COMPOSITE, OFFSET=.1\n1., , PLY, 30.\n2., , CORE\n"}) {
+    const FeModel general = layered_inp(abaqus_mesh + "*SHELL GENERAL SECTION, " + rest),
+                  plain = layered_inp(abaqus_mesh + "*SHELL SECTION, " + rest);
+    expect_same(general, plain);
+    EXPECT_EQ(general.elements[0].mass_form, plain.elements[0].mass_form);
+  }
+  const auto error = [](const std::string& text) {
+    return error_of([&] { layered_inp(abaqus_mesh + text); });
+  };
+  EXPECT_EQ(error("*SHELL GENERAL SECTION, ELSET=SKIN, DENSITY=3.\n1., 0., 1., 0., 0., 1.\n"),
+            "deck.inp:21: *SHELL GENERAL SECTION gives forces from strains, which is not read: "
+            "give its layers (COMPOSITE) or its MATERIAL");
+  EXPECT_EQ(error("*SHELL GENERAL SECTION, ELSET=SKIN, COMPOSITE, SMEAR ALL LAYERS\n1., , PLY\n")
+                .substr(0, 73),
+            "deck.inp:21: *SHELL GENERAL SECTION has the parameter 'SMEARALLLAYERS', w");
+}
+
 }  // namespace
 }  // namespace floatframe::test

@@ -108,6 +108,9 @@ void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
 double abaqus_shear_factor(std::string_view shape) noexcept;
 /// Mass and shear of the elements as the program of the deck has them.
 void as_in_home_program(AbaqusBuild& build);
+// abaqus_nonstructural_mass.cpp
+/// Once all elements have their sections.
+void build_abaqus_nonstructural_mass(AbaqusBuild& build);
 // abaqus_springs.cpp
 void build_abaqus_springs(AbaqusBuild& build);
 // abaqus_ties.cpp

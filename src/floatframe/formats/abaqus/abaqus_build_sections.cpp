@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <unordered_map>
+#include <utility>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
@@ -115,9 +116,12 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
                                       const std::vector<AbaqusSection>& sections) {
   const AbaqusContent& c = build.content;
   std::vector<int> section_of(c.elements.size(), -1);
+  const bool in_calculix =
+      c.dialect == DeckDialect::calculix ||
+      (c.dialect == DeckDialect::by_content && build.clues.calculix && !build.clues.abaqus);
   for (std::size_t s = 0; s < sections.size(); ++s) {
     const AbaqusSection& section = sections[s];
-    bool reported = false;
+    bool reported = false, noted = false;
     for (const int e : build.elements.resolve(section.elements)) {
       const AbaqusElement& element = c.elements[e];
       int& at = section_of[e];
@@ -141,6 +145,11 @@ std::vector<int> sections_of_elements(AbaqusBuild& build,
                           section.shown, abaqus_label(element))
                     : fmt::format("{} names {}, for which it is not supported", section.shown,
                                   abaqus_label(element));
+      } else if (at >= 0 && in_calculix) {
+        if (at != static_cast<int>(s) && !std::exchange(noted, true))
+          build.note(section.at, fmt::format("{} is the second one of {}: the last one counts, as "
+                                             "in CalculiX",
+                                             section.shown, abaqus_label(element)));
       } else if (at >= 0) {
         const SourceMark first = build.source.mark(sections[at].at);
         error = fmt::format("{} names {}, which has one already ({}:{})", section.shown,

@@ -228,6 +228,16 @@ struct AbaqusCoordinates {
   Vec3 origin = Vec3::Zero();
 };
 
+/// *NONSTRUCTURAL MASS
+struct AbaqusNonstructuralMass {
+  enum class Units { total, volume, area, length };
+  AbaqusReference elements;
+  Units units = Units::total;
+  bool by_volume = false;  ///< of a total: in proportion to the volume, not the mass
+  double value = 0.0;
+  FeSource at;
+};
+
 struct AbaqusContent;
 /// Constants of a material for which the deck says a temperature later, or not at all.
 struct AbaqusPendingConstants {
@@ -240,7 +250,7 @@ struct AbaqusPendingConstants {
 };
 
 /// How much of each kind has been read: nodes, elements and the lists of things.
-using AbaqusSizes = std::array<std::size_t, 11>;
+using AbaqusSizes = std::array<std::size_t, 12>;
 
 struct AbaqusPart {
   AbaqusScope scope = AbaqusScope::part;
@@ -278,6 +288,7 @@ struct AbaqusContent {
   std::vector<AbaqusSpring> springs;
   std::vector<AbaqusTransform> transforms;
   std::vector<AbaqusThickness> thicknesses;
+  std::vector<AbaqusNonstructuralMass> nonstructural;
   std::vector<AbaqusInitialTemperature> initial_temperatures;
   std::vector<AbaqusPendingConstants> pending;
   std::vector<std::string> notes;

@@ -57,6 +57,8 @@ void read_abaqus_shell_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent
 void read_abaqus_membrane_section(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_nodal_thickness.cpp
 void read_abaqus_nodal_thickness(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+// abaqus_nonstructural_mass.cpp
+void read_abaqus_nonstructural_mass(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 // abaqus_anisotropic.cpp
 void read_abaqus_orientation(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 /// Is it a type of *ELASTIC that is read but not isotropic?

@@ -29,6 +29,7 @@ class ScopeChange {
   void operator()(AbaqusSpring& s) const { (*this)(s.elements); }
   void operator()(AbaqusSupport& s) const { (*this)(s.nodes); }
   void operator()(AbaqusThickness& t) const { (*this)(t.nodes); }
+  void operator()(AbaqusNonstructuralMass& m) const { (*this)(m.elements); }
   void operator()(AbaqusTie& t) const {
     (*this)(t.slave);
     (*this)(t.master);
@@ -56,6 +57,7 @@ AbaqusScope scope_of(const AbaqusSection& s) { return s.elements.scope; }
 AbaqusScope scope_of(const AbaqusSpring& s) { return s.elements.scope; }
 AbaqusScope scope_of(const AbaqusSupport& s) { return s.nodes.scope; }
 AbaqusScope scope_of(const AbaqusThickness& t) { return t.nodes.scope; }
+AbaqusScope scope_of(const AbaqusNonstructuralMass& m) { return m.elements.scope; }
 AbaqusScope scope_of(const AbaqusTie& t) { return t.slave.scope; }
 AbaqusScope scope_of(const AbaqusTransform& t) { return t.scope; }
 AbaqusScope scope_of(const AbaqusSpider& s) { return s.reference.scope; }
@@ -76,6 +78,7 @@ void each_list(Content& c, Use use) {
   use(c.springs, place++);
   use(c.transforms, place++);
   use(c.thicknesses, place++);
+  use(c.nonstructural, place++);
 }
 
 /// Entries of a scope; the keys begin with it.

@@ -1,4 +1,5 @@
 // *SHELL SECTION: one material, or layers from the bottom to the top (the side of the normal).
+// *SHELL GENERAL SECTION of Abaqus with a material or layers means the same in a linear part.
 // *MEMBRANE SECTION: one material; membranes have no rotations, so none that is beside its nodes.
 #include <fmt/format.h>
 
@@ -50,9 +51,23 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                AbaqusContent& content) {
   constexpr std::size_t most_plies = 10000;
   AbaqusSection section;
-  lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET",
-                             "SECTIONINTEGRATION", "TEMPERATURE", "POISSON", "COMPOSITE",
-                             "SYMMETRIC", "LAYUP", "STACKDIRECTION", "NODALTHICKNESS"});
+  const bool general = keyword.name == "SHELLGENERALSECTION";
+  if (general && !keyword.has("MATERIAL") && !keyword.has("COMPOSITE")) {
+    lines.error(keyword,
+                "gives forces from strains, which is not read: give its layers (COMPOSITE) or its "
+                "MATERIAL");
+    return lines.skip_data();
+  }
+  if (general) {
+    content.clues.add(DeckDialect::abaqus, keyword.shown, keyword.at);
+    lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET", "POISSON",
+                               "THICKNESSMODULUS", "COMPOSITE", "SYMMETRIC", "LAYUP",
+                               "STACKDIRECTION", "NODALTHICKNESS"});
+  } else {
+    lines.allow_only(keyword, {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET",
+                               "SECTIONINTEGRATION", "TEMPERATURE", "POISSON", "COMPOSITE",
+                               "SYMMETRIC", "LAYUP", "STACKDIRECTION", "NODALTHICKNESS"});
+  }
   const bool composite = keyword.has("COMPOSITE");
   read_shell_offset(lines, keyword, section);
   section.symmetric = keyword.has("SYMMETRIC");
@@ -85,7 +100,7 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
   section.thickness = positive_real(lines, fields[0], "thickness of the shell");
   std::string_view more;
   if (lines.next_data(more)) {
-    lines.source().error("*SHELL SECTION has a second line, which is not supported");
+    lines.source().error(keyword.shown + " has a second line, which is not supported");
     lines.skip_data();
   }
   content.sections.push_back(section);

@@ -58,6 +58,7 @@ constexpr std::array handlers{
     Known{"ORIENTATION", read_abaqus_orientation},
     Known{"SOLID SECTION", read_abaqus_solid_section},
     Known{"SHELL SECTION", read_abaqus_shell_section},
+    Known{"SHELL GENERAL SECTION", read_abaqus_shell_section},
     Known{"MEMBRANE SECTION", read_abaqus_membrane_section},
     Known{"NODAL THICKNESS", read_abaqus_nodal_thickness},
     Known{"BEAM SECTION", read_abaqus_beam_section},
@@ -67,6 +68,7 @@ constexpr std::array handlers{
     Known{"SHEAR CENTER", read_abaqus_shear_center},
     Known{"SURFACE SECTION", read_abaqus_surface_section},
     Known{"MASS", read_abaqus_mass},
+    Known{"NONSTRUCTURAL MASS", read_abaqus_nonstructural_mass},
     Known{"ROTARY INERTIA", read_abaqus_rotary_inertia},
     Known{"RIGID BODY", read_abaqus_rigid_body},
     Known{"COUPLING", read_abaqus_coupling},
@@ -231,6 +233,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   build_abaqus_nodes(build);
   if (!only_nodes) build_abaqus_elements(build, options);
   if (!only_nodes) as_in_home_program(build);
+  if (!only_nodes) build_abaqus_nonstructural_mass(build);
   build_abaqus_sets(build, only_nodes);
   build_abaqus_constraints(build, only_nodes);
   if (!only_nodes && source.errors() == 0) build_abaqus_springs(build);
