@@ -126,8 +126,8 @@ const Case decks[] = {
      "bad.inp:15: surface 'A' does not exist\nbad.inp:15: surface 'B' does not exist"},
     {"spring", "+*SPRING, ELSET=S\n\n100.\n", "bad.inp:14: element set 'S' does not exist"},
     {"connector", "+*CONNECTOR SECTION, ELSET=S\nHINGE\n",
-     "bad.inp:14: *CONNECTOR SECTION is not supported: put springs, dampers and "
-     "connectors into the multibody model"},
+     "bad.inp:14: *CONNECTOR SECTION is not supported: cut the deck there: each body is a part of "
+     "its own, and the joint is one of the model"},
     {"transform", "+*TRANSFORM, NSET=A\n1., 0., 0., 0., 1., 0.\n",
      "bad.inp:14: node set 'A' does not exist"},
     {"mistyped_keyword", "13: *SOLD SECTION, ELSET=BODY, MATERIAL=STEEL",

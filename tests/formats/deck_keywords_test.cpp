@@ -48,8 +48,11 @@ TEST(DeckKeywords, ThoseThatMatterStopWithAdvice) {
        "*FOUNDATION is not supported: put springs, dampers and connectors into the multibody "
        "model"},
       {"*CONNECTOR DAMPING, COMPONENT=1\n3.\n",
-       "*CONNECTOR DAMPING is not supported: put springs, dampers and connectors into the "
-       "multibody model"},
+       "*CONNECTOR DAMPING is not supported: cut the deck there: each body is a part of its own, "
+       "and the joint is one of the model"},
+      {"*ELEMENT, TYPE=CONN3D2, ELSET=HINGE\n2, 1, 2\n",
+       "*ELEMENT has the type 'CONN3D2', which is not supported: cut the deck there, each body is "
+       "a part of its own, and the joint is one of the model"},
       {"*TRANSVERSE SHEAR STIFFNESS\n1., 1., 1.\n",
        "*TRANSVERSE SHEAR STIFFNESS is not supported: the stiffness in shear follows from the "
        "section"},

@@ -255,8 +255,11 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
   if (type_name.empty()) return lines.skip_data();
   const AbaqusType* const type = find_abaqus_type(type_name);
   if (type == nullptr) {
+    const bool connector = abaqus_name(type_name).starts_with("CONN");
     lines.error(keyword, fmt::format("has the type {}, which is not supported{}", shown(type_name),
-                                     did_you_mean(type_name, abaqus_type_names())));
+                                     connector ? ": cut the deck there, each body is a part of its "
+                                                 "own, and the joint is one of the model"
+                                               : did_you_mean(type_name, abaqus_type_names())));
     return lines.skip_data();
   }
   content.clues.look_at_type(type->name, keyword.at);
