@@ -26,8 +26,9 @@ FeModel stick_deck(const std::string& text, DeckDialect dialect = DeckDialect::b
 /// One or two beams of two elements along x on the same nodes; sections of SET1 and SET2.
 std::string sticks(const std::string& type, const std::string& sections, bool both = true) {
   const bool three = type.starts_with("B32");
-  std::string text = "*NODE\n1, 0., 0., 0.\n2, .25, 0., 0.\n3, .5, 0., 0.\n4, .75, 0., 0.\n"
-                     "5, 1., 0., 0.\n";
+  std::string text =
+      "*NODE\n1, 0., 0., 0.\n2, .25, 0., 0.\n3, .5, 0., 0.\n4, .75, 0., 0.\n"
+      "5, 1., 0., 0.\n";
   for (const char* set : {"1", "2"}) {
     if (!both && *set == '2') break;
     text += "*ELEMENT, TYPE=" + type + ", ELSET=SET" + set + "\n";
@@ -61,8 +62,10 @@ double energy(const FeModel& m, double curvature, double stretch, double twist) 
 // CalculiX 2.20 expands this beam about (0, -0.2, -5): nodes 4 to 27 of its results.
 TEST(DeckBeamOffsets, WhereCalculixHasTheCentroid) {
   const FeModel m = stick_deck(
-      sticks("B32", "*BEAM SECTION, ELSET=SET1, MATERIAL=M, SECTION=RECT, OFFSET1=10, OFFSET2=100\n"
-                    ".02, .05\n0., 1., 0.\n", false));
+      sticks("B32",
+             "*BEAM SECTION, ELSET=SET1, MATERIAL=M, SECTION=RECT, OFFSET1=10, OFFSET2=100\n"
+             ".02, .05\n0., 1., 0.\n",
+             false));
   ASSERT_EQ(m.nodes(), 10);
   for (std::size_t k = 0; k < 5; ++k)
     EXPECT_LE((m.positions[5 + k] - m.positions[k] - Vec3(0, -.2, -5.)).norm(), 1e-14);
@@ -74,10 +77,9 @@ TEST(DeckBeamOffsets, WhereCalculixHasTheCentroid) {
 TEST(DeckBeamOffsets, TwoBeamsAreOneOfDoubleHeight) {
   for (const std::string type : {"B32", "B32R", "B33"}) {
     SCOPED_TRACE(type);
-    const FeModel m = stick_deck(
-        sticks(type,
-               stick_section("SET1", ", OFFSET2=-.5") + stick_section("SET2", ", OFFSET2=.5")),
-        DeckDialect::calculix);
+    const FeModel m = stick_deck(sticks(type, stick_section("SET1", ", OFFSET2=-.5") +
+                                                  stick_section("SET2", ", OFFSET2=.5")),
+                                 DeckDialect::calculix);
     const double I = .05 * std::pow(.16, 3) / 12;
     EXPECT_NEAR(energy(m, 1, 0, 0), 7e10 * I, 1e-9 * 7e10 * I);
     EXPECT_NEAR(energy(m, 0, 1, 0), 7e10 * .05 * .16, 1e-3);
@@ -94,9 +96,9 @@ TEST(DeckBeamOffsets, CouplesBendingAndStretch) {
         std::tuple{"PIPE", ".04, .04", std::numbers::pi * .0016,
                    std::numbers::pi * std::pow(.04, 4) / 4, -.02}}) {
     SCOPED_TRACE(shape);
-    const FeModel m = stick_deck(
-        sticks("B32R", stick_section("SET1", ", OFFSET2=.25", shape, size), false),
-        DeckDialect::calculix);
+    const FeModel m =
+        stick_deck(sticks("B32R", stick_section("SET1", ", OFFSET2=.25", shape, size), false),
+                   DeckDialect::calculix);
     const double EA = 7e10 * A, EI = 7e10 * I;
     // The centroid stretches by 1 - e with the curvature 1 and the stretch 1.
     EXPECT_NEAR(energy(m, 1, 1, 0), EI + EA * (1 - e) * (1 - e), 1e-9 * EA);
@@ -109,8 +111,7 @@ TEST(DeckBeamOffsets, OnShells) {
       "*NODE\n11, 0., 1., 0.\n13, .5, 1., 0.\n15, 1., 1., 0.\n*ELEMENT, TYPE=S4, ELSET=PLATE\n"
       "101, 1, 3, 13, 11\n102, 3, 5, 15, 13\n*SHELL SECTION, ELSET=PLATE, MATERIAL=M\n.01\n";
   const FeModel beside = stick_deck(
-      sticks("B31", stick_section("SET1", ", OFFSET2=-.5") + shells, false),
-      DeckDialect::calculix);
+      sticks("B31", stick_section("SET1", ", OFFSET2=-.5") + shells, false), DeckDialect::calculix);
   EXPECT_TRUE(beside.spiders.empty());
   EXPECT_EQ(beside.equations.size(), 18u);
   const FeModel alone =

@@ -42,9 +42,10 @@ TEST(DeckBeamShapes, IOfEqualFlanges) {
   EXPECT_EQ(m.nodes(), 3);  // the node is in the middle
   bool noted = false;
   for (const std::string& note : m.notes)
-    noted = noted || note == "girder.inp:10: *BEAM SECTION, SECTION=I: area and moments are those "
-                             "of its rectangles, the torsion constant is the sum of b t^3/3, about "
-                             "the centroid; Abaqus integrates along the middle of the walls";
+    noted = noted || note ==
+                         "girder.inp:10: *BEAM SECTION, SECTION=I: area and moments are those "
+                         "of its rectangles, the torsion constant is the sum of b t^3/3, about "
+                         "the centroid; Abaqus integrates along the middle of the walls";
   EXPECT_TRUE(noted);
 }
 
@@ -61,8 +62,8 @@ TEST(DeckBeamShapes, TAndItsPlace) {
   ASSERT_EQ(m.nodes(), 5);
   EXPECT_LE((m.positions[3] - Vec3(0, 0, z)).norm(), 1e-15);  // direction 2 = x cross y
   EXPECT_LE((m.positions[4] - Vec3(2, 0, z)).norm(), 1e-15);
-  const FeModel moved = girder(i_of("0., .1, 0., .1, 0., .01, .008") +
-                               "*BEAM SECTION OFFSET\n.02, -.03\n");
+  const FeModel moved =
+      girder(i_of("0., .1, 0., .1, 0., .01, .008") + "*BEAM SECTION OFFSET\n.02, -.03\n");
   EXPECT_LE((moved.positions[3] - Vec3(0, .02, z - .03)).norm(), 1e-15);
   // Upside down it is the other T.
   const FeModel other = girder(i_of(".1, .1, .1, 0., .01, 0., .008"));
@@ -98,8 +99,9 @@ TEST(DeckBeamShapes, FurtherNodes) {
   EXPECT_EQ(girder_error(section, "1, 1, 2, 3", DeckDialect::calculix),
             "girder.inp:6: element 1 (B33) has a node for its orientation, which CalculiX does not "
             "know: give the direction in *BEAM SECTION");
-  EXPECT_EQ(girder_error(section, "1, 1, 2, 3\n*ELCOPY, OLD SET=SET, NEW SET=NEW, SHIFT NODES=0, "
-                                  "ELEMENT SHIFT=10"),
+  EXPECT_EQ(girder_error(section,
+                         "1, 1, 2, 3\n*ELCOPY, OLD SET=SET, NEW SET=NEW, SHIFT NODES=0, "
+                         "ELEMENT SHIFT=10"),
             "girder.inp:7: element 1 has a node for its orientation, which copies do not have");
 }
 
@@ -121,10 +123,12 @@ TEST(DeckBeamShapes, SaysWhatIsWrong) {
   EXPECT_EQ(shape("L"),
             "girder.inp:10: *BEAM SECTION has the section 'L', which is not read: give its area, "
             "moments of inertia and torsion constant (*BEAM GENERAL SECTION, SECTION=GENERAL)");
-  EXPECT_EQ(shape("T"), "girder.inp:10: *BEAM SECTION has the section 'T', expected SECTION=I with "
-                        "b1 = t1 = 0 or b2 = t2 = 0");
-  EXPECT_EQ(shape("STAR"), "girder.inp:10: *BEAM SECTION has the section 'STAR', expected RECT, "
-                           "CIRC, PIPE, BOX or I");
+  EXPECT_EQ(shape("T"),
+            "girder.inp:10: *BEAM SECTION has the section 'T', expected SECTION=I with "
+            "b1 = t1 = 0 or b2 = t2 = 0");
+  EXPECT_EQ(shape("STAR"),
+            "girder.inp:10: *BEAM SECTION has the section 'STAR', expected RECT, "
+            "CIRC, PIPE, BOX or I");
 }
 
 }  // namespace

@@ -71,8 +71,9 @@ FeModel initially(const std::string& conditions, std::optional<double> T = {}) {
 }
 
 TEST(Temperature, InitialTemperaturesOfTheDeck) {
-  const FeModel m = initially("*NSET, NSET=NALL\n1, 2, 3, 4\n"
-                              "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 70.\n2, 70., 0.\n");
+  const FeModel m = initially(
+      "*NSET, NSET=NALL\n1, 2, 3, 4\n"
+      "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 70.\n2, 70., 0.\n");
   EXPECT_NEAR(m.materials[0].young, 2.05e5, 1e-9);
   EXPECT_NEAR(m.materials[0].density, 7.75e-9, 1e-23);
   ASSERT_EQ(m.notes.size(), 3u);
@@ -85,8 +86,7 @@ TEST(Temperature, InitialTemperaturesOfTheDeck) {
   // What the user says counts.
   const FeModel hot = initially("*INITIAL CONDITIONS, TYPE=TEMPERATURE\n1, 70.\n", 220.0);
   EXPECT_EQ(hot.materials[0].young, 1.9e5);
-  EXPECT_EQ(hot.notes.back(),
-            "a.inp:16: *INITIAL CONDITIONS, TYPE=TEMPERATURE is passed over");
+  EXPECT_EQ(hot.notes.back(), "a.inp:16: *INITIAL CONDITIONS, TYPE=TEMPERATURE is passed over");
   // Constants that do not depend on it need none.
   EXPECT_EQ(warm("*ELASTIC\n2.1e5, .3\n*DENSITY\n8e-9\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\n"
                  "1, 70.\n2, 80.\n",

@@ -26,8 +26,8 @@ Eigen::Vector2d offsets_of(AbaqusLines& lines, const AbaqusKeyword& keyword) {
     if (number && std::isfinite(*number)) {
       value = *number;
     } else {
-      lines.error(keyword, fmt::format("has {}={}, expected a number", name,
-                                       shown(keyword.value(name))));
+      lines.error(keyword,
+                  fmt::format("has {}={}, expected a number", name, shown(keyword.value(name))));
     }
   }
   return out;
@@ -236,8 +236,7 @@ AbaqusSection* place_in_section(AbaqusLines& lines, const AbaqusKeyword& keyword
   for (std::size_t k = 0; k < 2; ++k)
     place(static_cast<Eigen::Index>(k)) = lines.real_or(fields, k, 0.0, "place in the section");
   lines.skip_data();
-  AbaqusSection* const section =
-      content.sections.empty() ? nullptr : &content.sections.back();
+  AbaqusSection* const section = content.sections.empty() ? nullptr : &content.sections.back();
   if (section == nullptr || section->family != AbaqusType::Family::beam ||
       (section->shape == "GENERAL") != constants) {
     if (lines.source().errors() == before)

@@ -27,8 +27,7 @@ void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& 
   const int id = c.element_nodes[deck.first + static_cast<std::size_t>(deck.type->nodes)];
   const auto it = c.node_of_label.find(AbaqusContent::label(deck.scope, id));
   if (it == c.node_of_label.end()) {
-    build.source.error(deck.at,
-                       fmt::format("{}: node {} does not exist", abaqus_label(deck), id));
+    build.source.error(deck.at, fmt::format("{}: node {} does not exist", abaqus_label(deck), id));
     return;
   }
   const FeModel& m = build.model;
@@ -65,12 +64,12 @@ void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const Ab
 void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section) {
   const bool constants = section.shape == "GENERAL";
   if (constants && (section.arm - section.shear_center).norm() > 1e-9 * section.arm.norm())
-    build.source.error(
-        section.at, fmt::format("{}: its centroid is at ({:g}, {:g}) of the node and its shear "
-                                "centre at ({:g}, {:g}), expected both at one place (*CENTROID, "
-                                "*SHEAR CENTER)",
-                                section.shown, section.arm(0), section.arm(1),
-                                section.shear_center(0), section.shear_center(1)));
+    build.source.error(section.at,
+                       fmt::format("{}: its centroid is at ({:g}, {:g}) of the node and its shear "
+                                   "centre at ({:g}, {:g}), expected both at one place (*CENTROID, "
+                                   "*SHEAR CENTER)",
+                                   section.shown, section.arm(0), section.arm(1),
+                                   section.shear_center(0), section.shear_center(1)));
   if (!section.calculix_offset || build.content.dialect == DeckDialect::calculix) return;
   const DialectClues& clues = build.clues;
   if (build.content.dialect == DeckDialect::abaqus) {

@@ -141,7 +141,7 @@ struct AbaqusSection {
   Eigen::Vector2d arm = {0.0, 0.0};  ///< of beams: the centroid from the node, in directions 1, 2
   bool calculix_offset = false;      ///< OFFSET1, OFFSET2
   Eigen::Vector2d shear_center = {0.0, 0.0};  ///< of beams of given constants, from the node
-  double mass = 0.0;  ///< of *MASS
+  double mass = 0.0;                          ///< of *MASS
   Mat3 J = Mat3::Zero();
   FeSource at;
 };

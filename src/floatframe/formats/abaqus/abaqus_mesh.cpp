@@ -296,8 +296,7 @@ void read_abaqus_elements(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                            type->name, fields.size() - 1, type->nodes));
       continue;
     }
-    AbaqusElement element{
-        *id, content.scope, type, content.element_nodes.size(), directed, at};
+    AbaqusElement element{*id, content.scope, type, content.element_nodes.size(), directed, at};
     bool valid = true;
     for (std::size_t k = 1; k < count + directed && valid; ++k) {
       const std::optional<int> node = parse_label(fields[k]);
@@ -356,11 +355,11 @@ void read_abaqus_surface(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqu
     // CalculiX adds to the first one, or keeps nodes and faces of one name beside each other.
     const SourceMark first = lines.source().mark(surface.at);
     const bool both = surface.of_nodes != of_nodes;
-    content.note(lines.source().mark(keyword.at),
-                 fmt::format("*SURFACE has {} again ({}:{}): {}", shown(name), first.file,
-                             first.line,
-                             both ? "of nodes and of faces those of faces count"
-                                  : "what it names is added, as in CalculiX"));
+    content.note(
+        lines.source().mark(keyword.at),
+        fmt::format("*SURFACE has {} again ({}:{}): {}", shown(name), first.file, first.line,
+                    both ? "of nodes and of faces those of faces count"
+                         : "what it names is added, as in CalculiX"));
     if (both && of_nodes) return lines.skip_data();
     if (both) surface = {};
   }

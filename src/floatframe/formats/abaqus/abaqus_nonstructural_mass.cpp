@@ -31,8 +31,9 @@ class SmearedMass {
     if (raw.units == Units::total)
       for (const int e : list) sum += raw.by_volume ? size(e).volume : size(e).mass;
     if (raw.units == Units::total && !(sum > 0.0))
-      return error(raw, "shares a mass among elements without mass: give their materials *DENSITY, "
-                        "or DISTRIBUTION=VOLUME PROPORTIONAL");
+      return error(raw,
+                   "shares a mass among elements without mass: give their materials *DENSITY, "
+                   "or DISTRIBUTION=VOLUME PROPORTIONAL");
     for (const int e : list) {
       const Size& s = size(e);
       const std::size_t k = static_cast<std::size_t>(e);

@@ -12,8 +12,8 @@
 namespace floatframe {
 namespace {
 
-void use_at_temperature(AbaqusLines& lines, AbaqusContent& content,
-                        const AbaqusPendingConstants& p, const AtTemperature& found) {
+void use_at_temperature(AbaqusLines& lines, AbaqusContent& content, const AbaqusPendingConstants& p,
+                        const AtTemperature& found) {
   const auto material = content.materials.find(p.material);
   if (material == content.materials.end()) return;
   if (found.chosen)
@@ -63,8 +63,8 @@ void read_abaqus_initial_conditions(AbaqusLines& lines, const AbaqusKeyword& key
   const std::string type = abaqus_name(keyword.value("TYPE"));
   if (type != "TEMPERATURE" || keyword.has("FILE")) {
     content.note(lines.source().mark(keyword.at),
-                 fmt::format("{}{}{} is passed over", keyword.shown, type.empty() ? "" : ", TYPE=",
-                             keyword.value("TYPE")));
+                 fmt::format("{}{}{} is passed over", keyword.shown,
+                             type.empty() ? "" : ", TYPE=", keyword.value("TYPE")));
     return lines.skip_data();
   }
   lines.take_input(keyword);

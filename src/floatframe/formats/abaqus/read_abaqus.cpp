@@ -21,9 +21,9 @@ void skip(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent&) { lines.skip
 /// The mesh is one piece there; its preload belongs to a step.
 void read_abaqus_pre_tension(AbaqusLines& lines, const AbaqusKeyword& keyword,
                              AbaqusContent& content) {
-  content.note(lines.source().mark(keyword.at),
-               fmt::format("{} is passed over: the bolt is whole and without its preload",
-                           keyword.shown));
+  content.note(
+      lines.source().mark(keyword.at),
+      fmt::format("{} is passed over: the bolt is whole and without its preload", keyword.shown));
   lines.skip_data();
 }
 

@@ -113,6 +113,18 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
   return it->second;
 }
 
+std::optional<int> AnsysBuild::layer_material(double number, const AnsysElement& e,
+                                              const FeSource& at) {
+  if (!(std::abs(number) < 1e9)) {
+    source.error(at, fmt::format("section {}: a layer is of material {:g}, which is no number of a "
+                                 "material",
+                                 e.section, number));
+    return std::nullopt;
+  }
+  const int id = static_cast<int>(number);
+  return material(id == 0 ? e.material : id, e);
+}
+
 std::optional<Orientation> AnsysBuild::system(int id, const FeSource& at, const std::string& who) {
   if (id == 0) return std::nullopt;
   Orientation o;

@@ -52,6 +52,8 @@ struct AnsysBuild {
   const AnsysSection* section(const AnsysElement& e, const char* kind) const;
   /// Index of a material by its number, with a mass besides its own over the volume.
   int material(int id, const AnsysElement& e, double more_density = 0.0);
+  /// That of a layer, 0: of the element; nothing and an error if the number is none of a material.
+  std::optional<int> layer_material(double number, const AnsysElement& e, const FeSource& at);
   /// Axes of a coordinate system; none of the global rectangular one. An error if it is not read.
   std::optional<Orientation> system(int id, const FeSource& at, const std::string& who);
   /// Index in FeModel::orientations; -1: body axes.

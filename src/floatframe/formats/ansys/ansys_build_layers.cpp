@@ -31,13 +31,9 @@ std::vector<ShellPly> solid_plies(AnsysBuild& b, const AnsysSection& section,
     if (!row.empty() && t == 0.0) continue;  // a layer that is dropped
     if (!(t > 0.0) || !std::isfinite(t))
       return refuse(fmt::format(": a layer is {:g} thick, expected more than 0", t));
-    const double number = ansys_value(row, 1);
-    if (!(std::abs(number) < 1e9))
-      return refuse(
-          fmt::format(": a layer is of material {:g}, which is no number of a material", number));
-    const int id = static_cast<int>(number);
-    plies.push_back({b.material(id == 0 ? e.material : id, e), t,
-                     ansys_value(row, 2) * std::numbers::pi / 180.0});
+    const std::optional<int> material = b.layer_material(ansys_value(row, 1), e, section.at);
+    if (!material) return {};
+    plies.push_back({*material, t, ansys_value(row, 2) * std::numbers::pi / 180.0});
   }
   if (plies.empty()) return refuse(" has no layer with a thickness (SECDATA)");
   if (plies.size() > most_layers)

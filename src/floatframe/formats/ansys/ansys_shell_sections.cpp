@@ -51,8 +51,10 @@ class AnsysShell {
         b_.source.error(section.at, fmt::format("section {}: a layer is {:g} thick, expected more "
                                                 "than 0",
                                                 e_.section, t));
-      const int id = static_cast<int>(ansys_value(row, 1));
-      const int material = id == 0 ? element_.material : b_.material(id, e_);
+      const int material =
+          ansys_value(row, 1) == 0.0
+              ? element_.material
+              : b_.layer_material(ansys_value(row, 1), e_, section.at).value_or(element_.material);
       const double angle = ansys_value(row, 2) * std::numbers::pi / 180.0;
       s.thickness += t;
       if (one) {
