@@ -12,10 +12,10 @@ cd "$(dirname "$0")/.."
 clang=$(command -v clang++ || true)
 if [[ -z "$clang" ]]; then
   if [[ $EUID -eq 0 ]] && command -v apt-get >/dev/null; then
-    apt-get update && apt-get install --yes --no-install-recommends clang
+    apt-get update && apt-get install --yes --no-install-recommends clang libclang-rt-dev
     clang=$(command -v clang++)
   else
-    echo "clang++ with libFuzzer is missing; on Debian: sudo apt-get install clang" >&2
+    echo "clang++ with libFuzzer is missing; on Debian: sudo apt-get install clang libclang-rt-dev" >&2
     exit 2
   fi
 fi

@@ -1,4 +1,5 @@
-// Turns that nothing resists: rigid bars, spiders and straight beams between nodes without rotations.
+// Turns that nothing resists: rigid bars, spiders and straight beams between nodes that have no
+// rotations.
 #include "floatframe/fe/free_turns.hpp"
 
 #include <gtest/gtest.h>

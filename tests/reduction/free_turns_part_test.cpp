@@ -1,4 +1,5 @@
-// Parts with rigid bars and straight beams between nodes of solids: reduced in every way, interfaces there.
+// Parts with rigid bars and straight beams between nodes of solids: reduced in every way,
+// interfaces there.
 #include <gtest/gtest.h>
 
 #include <cmath>

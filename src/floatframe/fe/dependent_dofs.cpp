@@ -74,8 +74,9 @@ class Resolver {
     owner_[dof] = owner;
   }
 
-  /// sum of terms = 0, solved for `first` if it is still free (and, unless `for_first`, its factor not
-  /// small), else for the dof with the largest factor. Nothing is left to solve if other equations say the same.
+  /// sum of terms = 0, solved for `first` if it is still free (and, unless `for_first`, its factor
+  /// not small), else for the dof with the largest factor. Nothing is left to solve if other
+  /// equations say the same.
   void add_equation(int owner, int first, bool for_first, const Terms& terms) {
     double scale = 0.0;
     for (const auto& [dof, factor] : terms) scale = std::max(scale, std::abs(factor));

@@ -184,8 +184,8 @@ struct LinearEquation {
   };
   std::vector<Term> terms;
   FeSource source;
-  /// Solved for its first term however small its factor: a rotation that follows displacements, whose
-  /// factors are of another unit.
+  /// Solved for its first term however small its factor: a rotation that follows displacements,
+  /// whose factors are of another unit.
   bool for_first = false;
 };
 

@@ -1,9 +1,10 @@
 #pragma once
-// Turns that nothing resists. A rigid spider or a straight bar whose nodes belong to solid elements,
-// which have no rotations, is held by the places of these nodes. If all of them lie on one line,
-// nothing resists its turn about that line, and nothing feels it: the stiffness is singular there,
-// though the part is no mechanism. Nastran's AUTOSPC holds such a turn in space, which a part that
-// moves cannot be; here it follows the elements around a node that holds the group:
+// Turns that nothing resists. A rigid spider or a straight bar whose nodes belong to solid
+// elements, which have no rotations, is held by the places of these nodes. If all of them lie on
+// one line, nothing resists its turn about that line, and nothing feels it: the stiffness is
+// singular there, though the part is no mechanism. Nastran's AUTOSPC holds such a turn in space,
+// which a part that moves cannot be; here it follows the elements around a node that holds the
+// group:
 //   a . theta = a . J^-1 sum_i r_i x u_i,  J = sum_i (r_i^2 1 - r_i r_i^T)
 // with the nodes i of the elements and their places r_i about their centre. Rigid motions satisfy
 // it, and as nothing resists the turn no force comes of it. Whatever has mass beside the line makes

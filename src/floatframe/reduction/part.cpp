@@ -329,7 +329,6 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   health.elements = static_cast<int>(model.elements.size());
   std::vector<MarkerPlace> markers = place_markers(model, options);
   std::vector<InterfacePlace> interfaces = place_interfaces(model, options);
-  tie_turns(model, interfaces);
   health.notes = model.notes;
   check_connected(model);
   stages.done("model");

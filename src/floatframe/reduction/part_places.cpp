@@ -52,6 +52,22 @@ void append_errors(ErrorList& errors, const InputError& error) {
   for (const ErrorEntry& entry : error.errors()) errors.add(entry.mark, entry.message, entry.count);
 }
 
+void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces) {
+  const std::vector<FreeTurn> turns = free_turns(model);
+  ErrorList errors;
+  for (const FreeTurn& turn : turns)
+    for (const InterfacePlace& place : interfaces)
+      if ((place.mask & 56u) != 0 &&
+          std::binary_search(turn.group.begin(), turn.group.end(), place.node))
+        errors.add(
+            model.mark(turn.source),
+            fmt::format("interface '{}': {} is held by nodes without rotations {}, so nothing "
+                        "resists its turn; give the interface only ux uy uz",
+                        place.name, turn.label, turn.every_way ? "in one point" : "on one line"));
+  errors.throw_if_any();
+  tie_free_turns(model, turns);
+}
+
 }  // namespace
 
 std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options) {
@@ -90,6 +106,7 @@ std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& 
     }
   }
   errors.throw_if_any();
+  tie_turns(model, places);
   return places;
 }
 
@@ -117,22 +134,6 @@ std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& 
   }
   errors.throw_if_any();
   return places;
-}
-
-void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces) {
-  const std::vector<FreeTurn> turns = free_turns(model);
-  ErrorList errors;
-  for (const FreeTurn& turn : turns)
-    for (const InterfacePlace& place : interfaces)
-      if ((place.mask & 56u) != 0 &&
-          std::binary_search(turn.group.begin(), turn.group.end(), place.node))
-        errors.add(
-            model.mark(turn.source),
-            fmt::format("interface '{}': {} is held by nodes without rotations {}, so nothing "
-                        "resists its turn; give the interface only ux uy uz",
-                        place.name, turn.label, turn.every_way ? "in one point" : "on one line"));
-  errors.throw_if_any();
-  tie_free_turns(model, turns);
 }
 
 void find_rows(const FeModel& model, const FeSystem& system,

@@ -28,14 +28,11 @@ struct MarkerPlace {
   SparseRows translation, rotation;
 };
 
-/// Adds the interfaces to the model. Throws InputError with the errors of all of them.
+/// Adds the interfaces to the model and ties the turns that nothing resists (`free_turns`). Throws
+/// InputError with the errors of all of them, and if one of them is to hold such a turn.
 std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options);
 /// Throws InputError with the errors of all markers.
 std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& options);
-
-/// Ties the turns that nothing resists (`free_turns`), behind the interfaces. Throws InputError if an
-/// interface is to hold one.
-void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces);
 
 /// Completes the interfaces. Throws InputError if a dof does not exist or is given twice.
 void find_rows(const FeModel& model, const FeSystem& system,
