@@ -324,14 +324,43 @@ TEST(MeshWriter, SpringsOfAllDirections) {
   EXPECT_LT((la - lb).cwiseAbs().maxCoeff(), 1e-11 * la.maxCoeff());
   EXPECT_LT(std::abs(la(6) / lb(6) - 1.0), 1e-6);
 
-  // A node that only a spring in a direction of its own holds.
+  // A massless node between springs, and one that a spring alone holds: they are left out.
+  model.positions.emplace_back(12.0, 9.0, 9.0);
   model.positions.emplace_back(-5.0, 0.0, 0.0);
   model.node_ids.push_back(200);
+  model.node_ids.push_back(201);
+  const int between = model.nodes() - 2;
+  for (const int other : {6, 14, 15, 8}) {
+    Spring s;
+    s.nodes = {between, other};
+    const Vec3 e = (model.positions[other] - model.positions[between]).normalized();
+    s.directions[0].head<3>() = -e;
+    s.directions[1].head<3>() = e;
+    s.stiffness = 300.0 + other;
+    model.springs.push_back(s);
+  }
   model.springs[0].nodes[0] = model.nodes() - 1;
+  const VecX lc = eigenvalues(assemble(model, Integration::ccx));
+  const VecX ld = eigenvalues(assemble(there_and_back(model, ".inp"), Integration::ccx));
+  ASSERT_EQ(lc.size(), ld.size());
+  EXPECT_LT((lc - ld).cwiseAbs().maxCoeff(), 1e-11 * lc.maxCoeff());
+  EXPECT_LT(std::abs(lc(6) / ld(6) - 1.0), 1e-6);
+  EXPECT_NE(written_notes(model, ".inp")
+                .find("6 springs that massless nodes or rotations of solids have an end at: the "
+                      "stiffness between the others is written, as springs of further nodes\n"),
+            std::string::npos)
+      << written_notes(model, ".inp");
+
+  // A node that an equation moves.
+  for (int axis = 0; axis < 3; ++axis) {
+    LinearEquation equation;
+    equation.terms = {{model.nodes() - 1, axis, 1.0}, {0, axis, -1.0}};
+    model.equations.push_back(equation);
+  }
   EXPECT_EQ(error_of([&] { written(model, ".inp"); }),
             folder.path().string() +
                 "/sprung.inp:28: a spring that is neither along an axis nor along the line of its "
-                "nodes ends at node 200, which no element has: CalculiX would hold it there");
+                "nodes ends at node 201, which no element has: CalculiX would hold it there");
 }
 
 TEST(MeshWriter, SupportsAreComments) {

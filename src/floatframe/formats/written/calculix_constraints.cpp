@@ -2,13 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/springs.hpp"
 #include "floatframe/formats/written/calculix_text.hpp"
+#include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 namespace {
@@ -141,7 +146,7 @@ class Springs {
       else if (axis_of(d) >= 0)
         ends[end] = equations_.place(s.nodes[k], axis_of(d));
       else
-        ends[end] = further_node(s, s.nodes[k], d);
+        ends[end] = further_node(s.source, s.nodes[k], d);
     }
     const int number = ++deck_.numbers.last_element;
     const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
@@ -157,6 +162,48 @@ class Springs {
     }
     elements_ += fmt::format("\n*SPRING, ELSET={}\n{}\n{}\n", set, directions,
                              with_point(calculix_number(s.stiffness)));
+  }
+
+  /// Springs without their massless ends (spring_system): K = sum lambda v v^T. Each term is a
+  /// spring between two further nodes, whose first directions are the shares in v . q of one node
+  /// and of the others.
+  void add_condensed(const SpringBlock& block, const FeSource& source) {
+    const SymmetricEigen eigen = symmetric_eigen(block.K);
+    const Eigen::Index last = eigen.values.size() - 1;
+    for (Eigen::Index k = 0; k <= last; ++k) {
+      if (!(eigen.values(k) > 1e-12 * eigen.values(last))) continue;
+      std::map<int, Vec6> of_node;
+      for (std::size_t i = 0; i < block.dofs.size(); ++i) {
+        const double v = eigen.vectors(static_cast<Eigen::Index>(i), k);
+        if (std::abs(v) < 1e-13) continue;
+        of_node.try_emplace(block.dofs[i].node, Vec6::Zero()).first->second(block.dofs[i].axis) = v;
+      }
+      const auto first = of_node.begin(), second = std::next(first);
+      const bool alone = second == of_node.end();
+      std::vector<std::pair<int, int>> ends = {
+          further_node(source, first->first, alone ? first->second : Vec6(-first->second))};
+      if (!alone) {
+        std::map<int, double> sum;
+        for (auto it = second; it != of_node.end(); ++it) {
+          must_be_in_an_element(source, it->first);
+          for (const auto& [dof, factor] : equations_.independent(it->first, it->second))
+            sum[dof] += factor;
+        }
+        ends.push_back(further_node(source, second->first, second->second));
+        rows_[rows_.size() - 3].second = {sum.begin(), sum.end()};  // of its first direction
+      }
+      const int number = ++deck_.numbers.last_element;
+      const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
+      elements_ += alone ? fmt::format(
+                               "*ELEMENT, TYPE=SPRING1, ELSET={0}\n{1}, {2}\n*SPRING, "
+                               "ELSET={0}\n1\n",
+                               set, number, ends[0].first)
+                         : fmt::format(
+                               "*ELEMENT, TYPE=SPRING2, ELSET={0}\n{1}, {2}, {3}\n*SPRING, "
+                               "ELSET={0}\n1, 1\n",
+                               set, number, ends[0].first, ends[1].first);
+      elements_ += with_point(calculix_number(eigen.values(k))) + '\n';
+    }
   }
 
   void finish() {
@@ -202,13 +249,17 @@ class Springs {
     return in_elements_[static_cast<std::size_t>(node)] != 0;
   }
 
-  std::pair<int, int> further_node(const Spring& s, int node, const Vec6& direction) {
-    if (!is_in_an_element(node))
-      deck_.errors.add(deck_.model.mark(s.source),
-                       fmt::format("a spring that is neither along an axis nor along the line of "
-                                   "its nodes ends at {}, which no element has: CalculiX would "
-                                   "hold it there",
-                                   deck_.model.node_label(node)));
+  void must_be_in_an_element(const FeSource& source, int node) {
+    if (is_in_an_element(node)) return;
+    deck_.errors.add(deck_.model.mark(source),
+                     fmt::format("a spring that is neither along an axis nor along the line of "
+                                 "its nodes ends at {}, which no element has: CalculiX would "
+                                 "hold it there",
+                                 deck_.model.node_label(node)));
+  }
+
+  std::pair<int, int> further_node(const FeSource& source, int node, const Vec6& direction) {
+    must_be_in_an_element(source, node);
     const int number = ++deck_.numbers.last_node;
     const Vec3& p = deck_.model.positions[static_cast<std::size_t>(node)];
     nodes_ += fmt::format("{}, {}, {}, {}\n", number, calculix_number(p(0)), calculix_number(p(1)),
@@ -226,6 +277,41 @@ class Springs {
   std::vector<char> in_elements_;
   std::vector<std::pair<std::pair<int, int>, Terms>> rows_;
 };
+
+/// Does it end at a degree of freedom without mass that only springs hold?
+bool is_loose(const Spring& s, const std::set<std::pair<int, int>>& condensed) {
+  for (int end = 0; end < 2; ++end)
+    for (int axis = 0; axis < 6; ++axis)
+      if (s.directions[static_cast<std::size_t>(end)](axis) != 0.0 &&
+          condensed.contains({s.nodes[static_cast<std::size_t>(end)], axis}))
+        return true;
+  return false;
+}
+
+void add_springs(CalculixText& deck, Springs& springs) {
+  const FeModel& model = deck.model;
+  if (model.springs.empty()) return;
+  const DofTable table = dof_table(model);
+  std::set<std::pair<int, int>> condensed;
+  for (const Dof& dof : spring_system(model, table).condensed)
+    condensed.insert({dof.node, dof.axis});
+  std::vector<Spring> loose;
+  for (const Spring& s : model.springs) {
+    if (is_loose(s, condensed))
+      loose.push_back(s);
+    else
+      springs.add(s);
+  }
+  if (loose.empty()) return;
+  FeModel only = model;
+  only.springs = loose;
+  for (const SpringBlock& block : spring_system(only, table).blocks)
+    springs.add_condensed(block, loose.front().source);
+  deck.notes.push_back(
+      fmt::format("{} that massless nodes or rotations of solids have an end at: the stiffness "
+                  "between the others is written, as springs of further nodes",
+                  plural(static_cast<long>(loose.size()), "spring")));
+}
 
 void add_masses(CalculixText& deck) {
   int& number = deck.numbers.last_element;
@@ -250,7 +336,7 @@ void add_calculix_constraints(CalculixText& deck) {
   Equations equations(deck);
   equations.add_dependences();
   Springs springs(deck, equations);
-  for (const Spring& s : deck.model.springs) springs.add(s);
+  add_springs(deck, springs);
   springs.finish();
   equations.add_zeros();
   add_masses(deck);
