@@ -204,6 +204,22 @@ TEST(FreeTurns, WhatIsHeldHasNone) {
   EXPECT_TRUE(free_turns(model).empty());
 }
 
+/// Two bars in one element that is skew: the turn of one follows none that the other ties.
+TEST(FreeTurns, NeighbouringBars) {
+  FeModel model = bar_block();
+  for (Vec3& p : model.positions) p += Vec3(0.3 * p.y(), 0.2 * p.z(), 0.1 * p.x());
+  const int pairs[2][2] = {{block_node(0, 0, 0), block_node(1, 1, 1)},
+                           {block_node(0, 1, 0), block_node(1, 0, 1)}};
+  FeModel oracle = model;
+  for (const auto& [a, b] : pairs) {
+    keep_length(oracle, a, b);
+    add_rigid_spider(model, a, {b});
+  }
+  const VecX a = tied_eigenvalues(tied(model)), b = tied_eigenvalues(oracle);
+  ASSERT_EQ(a.size(), b.size());
+  for (int k = 6; k < 36; ++k) EXPECT_NEAR(a(k) / b(k), 1.0, 1e-9) << k;
+}
+
 /// Of a bar between balls only its axial force is felt; without mass it is a rod.
 TEST(FreeTurns, AStraightBarIsARod) {
   const int a = block_node(0, 1, 0), b = block_node(3, 0, 2);

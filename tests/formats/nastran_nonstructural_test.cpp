@@ -8,6 +8,7 @@
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 #include "floatframe/formats/nastran/read_nastran.hpp"
 #include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -111,6 +112,30 @@ TEST(NastranNonstructural, Notes) {
   // Without a selection they are not applied.
   const FeModel none = heavy_deck(with_mass("NSM1,5,PROD,7.,3\n", ""));
   EXPECT_NE(none.notes.back().find("are passed over: NSM1"), std::string::npos);
+}
+
+/// A material without density gets that of the options, and the nonstructural mass besides.
+TEST(NastranNonstructural, WithADensityOfTheOptions) {
+  const TemporaryFolder folder;
+  std::string text = with_mass("NSM1,5,PBAR,7.,1\n");
+  text.replace(text.find(",.25,2.\n"), 8, ",.25\n");
+  FeReadOptions options;
+  options.densities[""] = 4.;
+  const double plain = mass_of(heavy_deck(with_mass("", "")));
+  const FeModel model = read_fe_file(folder.write("arm.bdf", text), options);
+  EXPECT_NEAR(mass_of(model) / .5, 2. * plain / .5 + 14., 1e-9);  // 4 in place of 2
+}
+
+TEST(NastranNonstructural, JoinedSets) {
+  const auto error = [](const std::string& cards) {
+    return error_of([&] { heavy_deck(with_mass(cards)); });
+  };
+  EXPECT_NE(error("NSMADD,5,1,2\nNSM1,1,PBAR,7.,1\n")
+                .find("NSMADD 5 joins set 2, which is not in the file"),
+            std::string::npos);
+  EXPECT_NE(error("NSMADD,5,1\nNSM1,1,PBAR,7.,1\nNSM1,5,PBAR,7.,1\n")
+                .find("the set 5 is one of NSM cards and one of NSMADD, expected only one of both"),
+            std::string::npos);
 }
 
 TEST(NastranNonstructural, Errors) {

@@ -17,6 +17,11 @@ FeModel points_deck(const std::string& text) {
   return read_nastran(source, has_begin_bulk(text), {});
 }
 
+FeModel points_deck_without_check(const std::string& text) {
+  TextSource source(text, "arm.bdf");
+  return read_nastran(source, has_begin_bulk(text), {});
+}
+
 std::string points_error(const std::string& text) {
   return error_of([&] { validate(points_deck(text)); });
 }
@@ -102,6 +107,21 @@ TEST(NastranScalarPoints, HeldPointsAreTheGround) {
   EXPECT_NE(points_error(two_tetrahedra + "CELAS4,11,2.+5,21\nCELAS2,12,3.,1,1,21\n")
                 .find("CELAS4 11 ties node 21 to the ground"),
             std::string::npos);
+}
+
+/// Only supports that the case control selects hold points.
+TEST(NastranScalarPoints, SelectedSupports) {
+  const std::string bulk = two_tetrahedra +
+                           "SPOINT,21\nCELAS2,11,2.+5,1,1,21\nSPC1,9,,21\n"
+                           "SPCADD,4,9\n";
+  const auto grounded = [&](const std::string& control) {
+    FeModel model = points_deck_without_check("CEND\n" + control + "BEGIN BULK\n" + bulk);
+    return remove_grounded_springs(model);
+  };
+  EXPECT_EQ(grounded("SPC = 9\n"), 1);
+  EXPECT_EQ(grounded("SPC = 4\n"), 1);
+  EXPECT_EQ(grounded("SPC = 3\n"), 0);
+  EXPECT_EQ(grounded(""), 0);
 }
 
 TEST(NastranScalarPoints, Equations) {

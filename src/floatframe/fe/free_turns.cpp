@@ -176,11 +176,12 @@ void ascending_once(std::vector<int>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
-/// A node of the elements that holds the group, and those around it that show how they turn.
+/// A node of the elements that holds the group, and those around it that show how they turn: none
+/// that a spider ties, whose motion may come from another such turn.
 bool find_holder(const FeModel& model, const std::vector<std::vector<int>>& elements,
-                 const TurningGroup& group, FreeTurn& turn) {
+                 const std::vector<char>& tied, const TurningGroup& group, FreeTurn& turn) {
   const auto carried = [&](int k) {
-    return std::binary_search(turn.group.begin(), turn.group.end(), k) ||
+    return tied[k] != 0 || std::binary_search(turn.group.begin(), turn.group.end(), k) ||
            std::binary_search(group.points.begin(), group.points.end(), k);
   };
   for (const int node : group.points) {
@@ -227,6 +228,8 @@ std::vector<FreeTurn> free_turns(const FeModel& model) {
   const TurningGroups groups(model);
   std::vector<std::vector<int>> elements;
   const std::vector<char> follows = followers(model);
+  std::vector<char> tied = follows;
+  for (const Spider& s : model.spiders) tied[s.reference] = 1;
   for (const auto& [root, given] : groups.groups()) {
     TurningGroup group = given;
     ascending_once(group.points);
@@ -246,7 +249,7 @@ std::vector<FreeTurn> free_turns(const FeModel& model) {
     turn.label = group.label;
     turn.source = group.source;
     if (elements.empty()) elements = elements_at(model);
-    if (turn.node < 0 || !find_holder(model, elements, group, turn)) continue;
+    if (turn.node < 0 || !find_holder(model, elements, tied, group, turn)) continue;
     out.push_back(std::move(turn));
   }
   return out;

@@ -192,6 +192,9 @@ std::vector<char> nodes_with_rotations(const FeModel& model) {
   for (const Spring& s : model.springs)
     for (int end = 0; end < 2; ++end)
       if (!s.directions[end].tail<3>().isZero(0.0)) mark(s.nodes[end]);
+  for (const LinearEquation& e : model.equations)
+    for (const LinearEquation::Term& t : e.terms)
+      if (t.axis >= 3) mark(t.node);
   if (model.matrices) {
     for (const Dof& d : model.matrices->dofs) {
       if (d.axis >= 3) mark(d.node);

@@ -184,7 +184,7 @@ void fill_densities(const std::filesystem::path& file, const FeReadOptions& opti
       ++it;
       continue;
     }
-    model.materials[it->first].density = found->second * it->second.factor;
+    model.materials[it->first].density += found->second * it->second.factor;
     const SourceMark mark = model.mark(it->second.source);
     model.notes.push_back(
         fmt::format("{}:{}: material '{}' has no density: {:g} is taken, as the "

@@ -22,23 +22,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Masses of the plies of a solid, each without the others.
-void share_plies(const FeModel& model, const Element& element, FeFacts& out) {
-  const ElementInput given = gather(model, element);
-  ElementInput one = given;
-  MatX M;
-  for (std::size_t k = 0; k < given.plies.size(); ++k) {
-    for (LayupPly& ply : one.plies) ply.density = 0.0;
-    one.plies[k].density = given.plies[k].density;
-    element_kernel(element.type).scalar_mass(one, M);
-    out.material_masses[model.layups[element.layup].plies[k].material] += M.sum();
-  }
+/// Masses of the plies of a solid: its mass in proportion to their own, thickness times density.
+void share_plies(const FeModel& model, const Element& element, double mass, FeFacts& out) {
+  const std::vector<ShellPly>& plies = model.layups[element.layup].plies;
+  const auto weight = [&](const ShellPly& ply) {
+    return ply.thickness * model.materials[ply.material].density;
+  };
+  double sum = 0.0;
+  for (const ShellPly& ply : plies) sum += weight(ply);
+  if (!(sum > 0.0)) return;
+  for (const ShellPly& ply : plies) out.material_masses[ply.material] += mass * (weight(ply) / sum);
 }
 
 /// Masses of the materials of one element: shares by the thickness of plies, and what its section
 /// has besides.
 void share(const FeModel& model, const Element& element, double volume, double mass, FeFacts& out) {
-  if (element.layup >= 0) return share_plies(model, element, out);
+  if (element.layup >= 0) return share_plies(model, element, mass, out);
   const ShellSection* shell =
       has_shell_section(element.type) ? &model.shells[element.section] : nullptr;
   if (shell == nullptr || shell->plies.empty()) {

@@ -37,6 +37,10 @@ std::string initial_temperature(AbaqusLines& lines, AbaqusContent& content) {
       return fmt::format("they are {:g} and {:g} ({}:{})", first.value, t.value, mark.file,
                          mark.line);
   }
+  if (lines.source().errors() > 0) {  // elements may lack nodes
+    content.temperature = first.value;
+    return {};
+  }
   std::vector<char> has(content.nodes.size(), 0);
   AbaqusResolver nodes(content, lines.source(), AbaqusResolver::Of::nodes);
   for (const AbaqusInitialTemperature& t : all)

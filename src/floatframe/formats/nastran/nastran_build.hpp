@@ -181,10 +181,11 @@ void build_nastran_supports(NastranBuild& build);
 void build_nastran_nonstructural(NastranBuild& build);
 // nastran_build_sets.cpp
 /// The set that the case control selects, or those that an ADD card of its number joins; an error
-/// if it selects two. `what`: MPC, NSM.
+/// if it selects two, or if one that is joined is not `there`. `what`: MPC, NSM, SPC.
 std::set<int> selected_nastran_sets(NastranBuild& build,
                                     const std::vector<std::pair<int, FeSource>>& selected,
-                                    const std::map<int, std::vector<int>>& added, const char* what);
+                                    const std::map<int, std::vector<int>>& added,
+                                    const std::set<int>& there, const char* what);
 void build_nastran_sets(NastranBuild& build, bool only_nodes);
 
 /// Numbers with their index, to look up ranges.

@@ -186,8 +186,10 @@ class ConstraintBuilder {
 
   void equations() {
     const bool by_control = b_.content.control.there;
+    std::set<int> there;
+    for (const NastranEquation& e : b_.content.equations) there.insert(e.set);
     const std::set<int> selected =
-        selected_nastran_sets(b_, b_.content.control.mpc, b_.content.added_mpc_sets, "MPC");
+        selected_nastran_sets(b_, b_.content.control.mpc, b_.content.added_mpc_sets, there, "MPC");
     int set = 0, passed_over = 0, applied = 0;
     FeSource first;
     std::vector<const NastranEquation*> of_scalar_points;

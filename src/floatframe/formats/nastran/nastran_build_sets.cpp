@@ -23,7 +23,7 @@ bool NastranNumbers::append(int first, int last, std::vector<int>& indices) cons
 std::set<int> selected_nastran_sets(NastranBuild& build,
                                     const std::vector<std::pair<int, FeSource>>& selected,
                                     const std::map<int, std::vector<int>>& added,
-                                    const char* what) {
+                                    const std::set<int>& there, const char* what) {
   std::set<int> sets;
   for (const auto& [id, at] : selected) {
     if (id != selected.front().first) {
@@ -36,6 +36,15 @@ std::set<int> selected_nastran_sets(NastranBuild& build,
     if (joined == added.end()) {
       sets.insert(id);
     } else {
+      if (there.contains(id))
+        build.source.error(at, fmt::format("the set {} is one of {} cards and one of {}ADD, "
+                                           "expected only one of both",
+                                           id, what, what));
+      for (const int set : joined->second)
+        if (!there.contains(set))
+          build.source.error(
+              at, fmt::format("{}ADD {} joins set {}, which is not in the file", what, id, set));
+      if (build.source.errors() > 0) return {};
       sets.insert(joined->second.begin(), joined->second.end());
     }
   }

@@ -99,6 +99,10 @@ void NastranCards::command(std::string_view line) {
     if (id && control_.mpc.size() < most_commands) control_.mpc.emplace_back(*id, source_.here());
     return;
   }
+  if (same_word(word, "SPC")) {
+    if (id && control_.spc.size() < most_commands) control_.spc.emplace_back(*id, source_.here());
+    return;
+  }
   if (same_word(word, "NSM") && id) {
     if (control_.nonstructural.size() < most_commands)
       control_.nonstructural.emplace_back(*id, source_.here());

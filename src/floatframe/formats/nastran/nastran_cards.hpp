@@ -17,8 +17,8 @@ namespace floatframe {
 
 /// What the case control selects.
 struct NastranControl {
-  bool there = false;                                        ///< there is a case control
-  std::vector<std::pair<int, FeSource>> mpc, nonstructural;  ///< MPC = n, NSM = n
+  bool there = false;                                             ///< there is a case control
+  std::vector<std::pair<int, FeSource>> mpc, nonstructural, spc;  ///< MPC = n, NSM = n, SPC = n
   /// Commands that add stiffness or mass: "K2GG = STIF".
   std::vector<std::pair<std::string, FeSource>> additions;
   std::optional<FeSource> preload;            ///< STATSUB

@@ -208,15 +208,24 @@ void read_nastran_mpc_add(NastranFields& f, NastranContent& c) {
   }
 }
 
+void read_nastran_spc_add(NastranFields& f, NastranContent& c) {
+  std::vector<int>& sets = c.added_spc_sets[f.label(0, "the set")];
+  for (std::size_t i = 1; i < f.size(); ++i) {
+    if (!f.blank(i)) sets.push_back(f.label(i, "a set"));
+  }
+}
+
 void read_nastran_spc(NastranFields& f, NastranContent& c) {
+  const int set = f.label(0, "the set");
   for (std::size_t i = 1; i < 7; i += 3) {
     if (f.blank(i)) continue;
     const int node = f.label(i, "a node");
-    c.supports.push_back({node, node, f.components(i + 1, "the components"), f.at()});
+    c.supports.push_back({node, node, f.components(i + 1, "the components"), f.at(), set});
   }
 }
 
 void read_nastran_spc1(NastranFields& f, NastranContent& c) {
+  const int set = f.label(0, "the set");
   const unsigned mask = f.components(1, "the components");
   for (std::size_t i = 2; i < f.size(); ++i) {
     if (f.blank(i)) continue;
@@ -226,7 +235,7 @@ void read_nastran_spc1(NastranFields& f, NastranContent& c) {
       last = f.label(i + 2, "the last node");
       i += 2;
     }
-    c.supports.push_back({first, last, mask, f.at()});
+    c.supports.push_back({first, last, mask, f.at(), set});
   }
 }
 

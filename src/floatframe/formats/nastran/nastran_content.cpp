@@ -73,6 +73,7 @@ const std::map<std::string_view, NastranCardReader>& card_readers() {
       {"CONROD", read_nastran_rod},
       {"SPC", read_nastran_spc},
       {"SPC1", read_nastran_spc1},
+      {"SPCADD", read_nastran_spc_add},
       {"BAROR", read_nastran_bar_default},
       {"BEAMOR", read_nastran_bar_default},
       {"CORD1R", read_nastran_node_system},

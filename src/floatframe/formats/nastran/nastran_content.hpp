@@ -204,6 +204,7 @@ struct NastranSupport {
   int first = 0, last = 0;  ///< node, or a range in which some may be missing
   unsigned mask = 0;
   FeSource at;
+  int set = 0;  ///< SPC, SPC1; 0: PS of GRID
 };
 
 /// SET (OptiStruct), SET1, SET3: numbers and ranges of nodes or elements.
@@ -239,6 +240,7 @@ struct NastranContent {
   std::vector<NastranSupport> supports;
   std::vector<NastranSet> sets;
   std::map<int, std::vector<int>> added_mpc_sets;  ///< MPCADD
+  std::map<int, std::vector<int>> added_spc_sets;
   std::vector<NastranNonstructural> nonstructural;
   std::map<int, std::vector<int>> added_mass_sets;  ///< NSMADD
   NastranControl control;
@@ -306,6 +308,7 @@ void read_nastran_rtrplt(NastranFields&, NastranContent&);
 void read_nastran_rrod(NastranFields&, NastranContent&);
 void read_nastran_mpc(NastranFields&, NastranContent&);
 void read_nastran_mpc_add(NastranFields&, NastranContent&);
+void read_nastran_spc_add(NastranFields& f, NastranContent& c);
 void read_nastran_spc(NastranFields&, NastranContent&);
 void read_nastran_spc1(NastranFields&, NastranContent&);
 /// Says that a number is in the file twice.

@@ -35,6 +35,8 @@ class NastranFields {
   /// Components such as "123456"; 0 and blank: none.
   unsigned components(std::size_t i, const char* what);
 
+  /// Errors of the file so far.
+  std::size_t errors() const { return source_.errors(); }
   /// "CTETRA 12: ..." at the card, or at the line of a field.
   void error(const std::string& message) { error_at(card_.at, message); }
   /// Error if the field is neither blank nor zero.

@@ -11,11 +11,11 @@ namespace {
 const char* const harmless_cards[] = {
     // loads, methods, what is held
     "EIG*", "FORCE*", "MOMENT*", "MOMAX", "PLOAD*", "PRES*", "GRAV", "RFORCE*", "ACCEL*", "LOAD*",
-    "CLOAD", "TEMP*", "TTEMP", "SPCADD", "SPCD", "SPCR", "SPCAX", "SPCOFF*", "ASET*", "BSET*",
-    "BNDFIX*", "BNDFRE*", "CSET*", "QSET*", "USET*", "OMIT*", "SUPORT*", "SUPAX", "DAREA", "DELAY",
-    "DPHASE", "DLOAD", "LSEQ", "SLOAD", "DEFORM", "TIC*", "DYNRED", "SEQGP", "BOLT*", "RVDOF*",
-    "FREQ*", "RLOAD*", "TLOAD*", "TSTEP*", "TSTP*", "DAMPING", "DAMPGBL", "HYBDAMP", "EPOINT",
-    "ACSRCE", "ALOAD", "ACMODL", "DESC", "RSPEC", "RESPSPC", "MFREQ",
+    "CLOAD", "TEMP*", "TTEMP", "SPCD", "SPCR", "SPCAX", "SPCOFF*", "ASET*", "BSET*", "BNDFIX*",
+    "BNDFRE*", "CSET*", "QSET*", "USET*", "OMIT*", "SUPORT*", "SUPAX", "DAREA", "DELAY", "DPHASE",
+    "DLOAD", "LSEQ", "SLOAD", "DEFORM", "TIC*", "DYNRED", "SEQGP", "BOLT*", "RVDOF*", "FREQ*",
+    "RLOAD*", "TLOAD*", "TSTEP*", "TSTP*", "DAMPING", "DAMPGBL", "HYBDAMP", "EPOINT", "ACSRCE",
+    "ALOAD", "ACMODL", "DESC", "RSPEC", "RESPSPC", "MFREQ",
     // nonlinear solutions
     "NLPARM", "NLPCI", "NLSTEP", "NLOUT", "NLAUTO", "NLADAPT", "NLMOPTS", "NLSTRAT", "NLFREQ*",
     "NLHARM", "NOLIN*", "NLRGAP", "NLRSFD", "NLCNTL*", "MDLPRM", "PARAMARC", "ITER", "SOLVTYP",

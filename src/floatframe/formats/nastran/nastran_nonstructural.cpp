@@ -113,8 +113,10 @@ class NonstructuralBuilder {
   explicit NonstructuralBuilder(NastranBuild& build) : b_(build), c_(build.content) {}
 
   void build() {
+    std::set<int> there;
+    for (const NastranNonstructural& m : c_.nonstructural) there.insert(m.set);
     const std::set<int> selected =
-        selected_nastran_sets(b_, c_.control.nonstructural, c_.added_mass_sets, "NSM");
+        selected_nastran_sets(b_, c_.control.nonstructural, c_.added_mass_sets, there, "NSM");
     if (selected.empty()) return;
     for (std::size_t e = 0; e < b_.model.elements.size(); ++e)
       if (b_.model.elements[e].id > 0)
@@ -269,11 +271,14 @@ class NonstructuralBuilder {
       if (fresh) {
         model.materials.push_back(model.materials[e.material]);
         model.materials.back().density += mass / across;
+        if (const auto missing = model.without_density.find(e.material);
+            missing != model.without_density.end())
+          model.without_density[it->second] = MissingDensity(missing->second);
         model.material_names.push_back(model.material_names[e.material]);
       }
       e.material = it->second;
     }
-    // A material without density that only such elements have is one whose density is 0.
+    // Materials that no element has any more need no density.
     std::set<int> used;
     for (const Element& e : model.elements) used.insert(e.material);
     for (const ShellSection& s : model.shells)

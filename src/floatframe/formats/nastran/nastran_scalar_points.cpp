@@ -245,7 +245,16 @@ class ScalarPointBuilder {
 }  // namespace
 
 void NastranScalarPoints::build(NastranBuild& b) {
-  for (const NastranSupport& s : b.content.supports) held_.add(s.first, s.last);
+  std::set<int> there;
+  for (const NastranSupport& s : b.content.supports) there.insert(s.set);
+  // Without a case control all are in force.
+  const bool all = !b.content.control.there ||
+                   !b.content.scalar_points.overlaps(1, std::numeric_limits<int>::max());
+  const std::set<int> selected =
+      all ? there
+          : selected_nastran_sets(b, b.content.control.spc, b.content.added_spc_sets, there, "SPC");
+  for (const NastranSupport& s : b.content.supports)
+    if (selected.contains(s.set)) held_.add(s.first, s.last);
   held_.finish();
   ScalarPointBuilder(b, points_).build();
 }

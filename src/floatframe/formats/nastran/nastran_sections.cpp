@@ -219,8 +219,14 @@ void named_stations(NastranFields& f, NastranProperty& p, const std::string& typ
     }
     NastranProperty other;
     other.card = p.card;
+    const std::size_t before = f.errors();
     named_shape(f, other, type, here, s.section);
-    if (!(s.section.A > 0.0) || !(first.section.A > 0.0)) return;  // an error, here or later
+    if (!(first.section.A > 0.0)) return;  // an error later
+    if (!(s.section.A > 0.0)) {
+      if (f.errors() == before)
+        f.error(fmt::format("A is {:g} at X/XB = {:g}, expected more than 0", s.section.A, s.x));
+      return;
+    }
     s.nonstructural = f.real(i + 2 + count, "the nonstructural mass", first.nonstructural);
     s.shape = other.section;
     stations.push_back(s);

@@ -47,12 +47,17 @@ double harmonic(double a, double b) {
   return std::abs(d) < 1e-4 ? a * (1.0 + d / 2.0 - d * d / 12.0) : (b - a) / std::log1p(d);
 }
 
-/// Largest ratio of A, I1, I2 and J of two stations, as a logarithm.
+/// Largest ratio of A, I1, I2 and J of two stations, as a logarithm; of I12, which may be zero or
+/// change its sign, the change over the other moments; of NSM over the larger one.
 double taper(const NastranStation& a, const NastranStation& b) {
   double most = 0.0;
   const std::array<double, 6> p = values_of(a), q = values_of(b);
   for (const std::size_t k : {0, 1, 2, 4})
     if (p[k] > 0.0 && q[k] > 0.0) most = std::max(most, std::abs(std::log(q[k] / p[k])));
+  const double bending = std::sqrt(std::max(p[1] * p[2], q[1] * q[2]));
+  if (bending > 0.0) most = std::max(most, std::abs(q[3] - p[3]) / bending);
+  const double mass = std::max(std::abs(p[5]), std::abs(q[5]));
+  if (mass > 0.0) most = std::max(most, std::abs(q[5] - p[5]) / mass);
   return std::min(most, 3.2);
 }
 
@@ -127,6 +132,9 @@ void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
   const std::array<double, 6> first = values_of(stations.front());
   for (const NastranStation& s : stations) {
     const std::array<double, 6> here = values_of(s);
+    if (here[3] != 0.0 && here[3] * here[3] >= here[1] * here[2])
+      return f.error(fmt::format("I12 is {:g} at X/XB = {:g}, its square is not less than I1 I2",
+                                 here[3], s.x));
     for (std::size_t k = 0; k < 6; ++k) {
       same = same && std::abs(here[k] - first[k]) <= same_section * std::abs(first[k]);
       if (k == 3 || k == 5 || here[k] > 0.0 || (first[k] == 0.0 && here[k] == 0.0)) continue;
@@ -140,7 +148,7 @@ void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
 NastranTapers::NastranTapers(NastranBuild& build) {
   const NastranContent& c = build.content;
   // Pieces are nodes and elements: a file may have so many for its size.
-  const double most = 5000.0 + 8.0 * static_cast<double>(c.grids.size() + c.elements.size());
+  const double most = 1000.0 + static_cast<double>(c.grids.size() + c.elements.size());
   std::map<int, int> beams;
   double wanted = 0.0;
   for (const NastranElement& e : c.elements) {

@@ -66,8 +66,22 @@ class Equations {
 
   /// Dependent degrees of freedom by independent ones.
   void add_dependences() {
-    for (std::size_t dof = 0; dof < place_.size(); ++dof)
-      if (dependences_.dependent[dof] != 0) add(place_[dof], dependences_.terms[dof]);
+    // The fourth to sixth directions of a node are rotations of a beam or shell.
+    bool turns = false;
+    for (std::size_t dof = 0; dof < place_.size(); ++dof) {
+      if (dependences_.dependent[dof] == 0) continue;
+      const Terms& terms = dependences_.terms[dof];
+      turns = turns || (!terms.empty() && place_[dof].second > 3) ||
+              std::any_of(terms.begin(), terms.end(), [&](const auto& t) {
+                return place_[static_cast<std::size_t>(t.first)].second > 3;
+              });
+      add(place_[dof], terms);
+    }
+    if (turns)
+      deck_.notes.push_back(
+          "equations hold rotations of nodes of beams or shells, of which CalculiX makes solids: "
+          "it "
+          "does not keep all of them (offsets of beams came loose), so look at its rigid motions");
   }
 
   /// place = sum of `terms` in independent degrees of freedom; without a term it is zero.
