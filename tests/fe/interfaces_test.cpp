@@ -172,6 +172,17 @@ TEST(Interfaces, OneNode) {
   EXPECT_EQ(refusal(model, d),
             "interface 'BUSH': node 105 belongs to solid elements and has no rotations; an "
             "interface of one such node can only have ux uy uz");
+  FeModel rods = tube();
+  rods.sections = {BeamSection::solid_round(0.01)};
+  Element rod;
+  rod.type = ElementType::rod2;
+  rod.nodes = {0, 240};
+  rods.elements.push_back(rod);
+  NodeChoice end = number;
+  end.number = 999;
+  EXPECT_EQ(refusal(rods, interface(end)),
+            "interface 'BUSH': node 999 belongs to rods (bars whose I1, I2 or J is 0 are rods) and "
+            "has no rotations; an interface of one such node can only have ux uy uz");
   d.mask = 7;
   EXPECT_EQ(add_interface(model, d), 4);
   EXPECT_TRUE(model.spiders.empty());

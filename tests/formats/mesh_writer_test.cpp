@@ -16,43 +16,13 @@
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/math/dense.hpp"
 #include "formats/mesh_checks.hpp"
+#include "formats/written_mesh.hpp"
 #include "support/error_of.hpp"
 #include "support/fe_parts.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe::test {
 namespace {
-
-WrittenMesh written(const FeModel& model, const std::string& ending, int modes = 0) {
-  return mesh_format_of("part" + ending).write(model, {modes});
-}
-
-std::string written_notes(const FeModel& model, const std::string& ending) {
-  std::string text;
-  for (const std::string& note : written(model, ending, 5).notes) text += note + '\n';
-  return text;
-}
-
-FeModel there_and_back(const FeModel& model, const std::string& ending) {
-  const TemporaryFolder folder;
-  FeReadOptions options;
-  if (ending == ".inp") options.dialect = DeckDialect::calculix;
-  if (ending == ".msh") options.material = steel;
-  return read_fe_file(folder.write("part" + ending, written(model, ending).bytes), options);
-}
-
-/// Largest difference relative to the largest entry.
-double apart(const SparseMatrix& a, const SparseMatrix& b) {
-  if (a.rows() != b.rows()) return 1.0;
-  const SparseMatrix d = a - b;
-  return MatX(d).cwiseAbs().maxCoeff() / MatX(a).cwiseAbs().maxCoeff();
-}
-
-void expect_same_system(const FeModel& a, const FeModel& b) {
-  const FeSystem A = assemble(a, Integration::ccx), B = assemble(b, Integration::ccx);
-  EXPECT_LT(apart(A.K, B.K), 1e-11);  // 13 digits
-  EXPECT_LT(apart(A.M, B.M), 1e-11);
-}
 
 /// One element of a type, bent out of shape; numbers of nodes and elements as a user might have.
 FeModel single_element(ElementType type) {
@@ -270,97 +240,6 @@ TEST(MeshWriter, NotesSayWhatIsLost) {
   EXPECT_EQ(written_notes(model, ".vtu"),
             "the elements are numbered anew: their numbers are not all different\n"
             "1 surface of element faces is not written\n");
-}
-
-/// Two bricks with springs along lines, along axes and, of two different directions, between
-/// further nodes.
-constexpr const char* sprung_bricks =
-    "*NODE\n1,0,0,0\n2,10,0,0\n3,10,10,0\n4,0,10,0\n5,0,0,10\n6,10,0,10\n7,10,10,10\n8,0,10,10\n"
-    "11,13,2,1\n12,23,2,1\n13,23,12,1\n14,13,12,1\n15,13,2,11\n16,23,2,11\n17,23,12,11\n"
-    "18,13,12,11\n*ELEMENT, TYPE=C3D8, ELSET=E\n1,1,2,3,4,5,6,7,8\n2,11,12,13,14,15,16,17,18\n"
-    "*MATERIAL, NAME=S\n*ELASTIC\n210000.,0.3\n*DENSITY\n7.85e-9\n"
-    "*SOLID SECTION, ELSET=E, MATERIAL=S\n*ELEMENT, TYPE=SPRINGA, ELSET=A\n101,2,11\n102,3,14\n"
-    "103,6,15\n104,7,18\n105,7,11\n106,3,15\n107,2,14\n*SPRING, ELSET=A\n\n1000.\n"
-    "*ELEMENT, TYPE=SPRING2, ELSET=B\n121,2,11\n122,3,14\n*SPRING, ELSET=B\n2,2\n500.\n"
-    "*ELEMENT, TYPE=SPRING2, ELSET=C\n123,2,12\n*SPRING, ELSET=C\n3,2\n50.\n";
-
-TEST(MeshWriter, SpringsOfAllDirections) {
-  const TemporaryFolder folder;
-  FeReadOptions options;
-  options.dialect = DeckDialect::calculix;
-  FeModel model = read_fe_file(folder.write("sprung.inp", sprung_bricks), options);
-  ASSERT_EQ(model.springs.size(), 10u);
-  const FeModel same = there_and_back(model, ".inp");
-  EXPECT_EQ(same.springs.size(), 10u);
-  EXPECT_EQ(same.nodes(), model.nodes());
-  expect_same_system(model, same);
-  // CalculiX 2.20, the eigenvalues of the stiffness and mass that it stores of the written deck.
-  const FeSystem system = assemble(model, Integration::ccx);
-  const MatX K(system.K), M(system.M);
-  const VecX l =
-      Eigen::GeneralizedSelfAdjointEigenSolver<MatX>(K, M, Eigen::EigenvaluesOnly).eigenvalues();
-  const double calculix[] = {336.540262, 948.356671, 1937.163565, 3461.297428, 5011.390405};
-  for (int k = 0; k < 5; ++k)
-    EXPECT_NEAR(std::sqrt(l(k + 4)) / (2.0 * std::numbers::pi), calculix[k], 1e-6) << k;
-
-  // Any direction: as a bushing in its own axes has them, at nodes that rigid spiders move too.
-  model.springs[0].directions[0] << -0.36, -0.48, -0.8, 0.0, 0.0, 0.0;
-  model.springs[0].directions[1] << 0.36, 0.48, 0.8, 0.0, 0.0, 0.0;
-  model.springs[1].directions[1] << 0.0, 0.6, 0.8, 0.0, 0.0, 0.0;
-  model.spiders.push_back(
-      {.name = "R", .reference = 0, .nodes = {1, 2, 3}, .weights = {}, .source = {}});
-  model.springs[2].nodes = {0, 9};
-  model.springs[2].directions[0] << 0.0, 0.0, 0.0, 0.6, 0.8, 0.0;
-  const FeModel turned = there_and_back(model, ".inp");
-  EXPECT_GT(turned.nodes(), model.nodes());
-  const FeSystem a = assemble(model, Integration::ccx), b = assemble(turned, Integration::ccx);
-  const auto eigenvalues = [](const FeSystem& s) {
-    return VecX(
-        Eigen::GeneralizedSelfAdjointEigenSolver<MatX>(MatX(s.K), MatX(s.M), Eigen::EigenvaluesOnly)
-            .eigenvalues());
-  };
-  const VecX la = eigenvalues(a), lb = eigenvalues(b);
-  ASSERT_EQ(la.size(), lb.size());
-  EXPECT_LT((la - lb).cwiseAbs().maxCoeff(), 1e-11 * la.maxCoeff());
-  EXPECT_LT(std::abs(la(6) / lb(6) - 1.0), 1e-6);
-
-  // A massless node between springs, and one that a spring alone holds: they are left out.
-  model.positions.emplace_back(12.0, 9.0, 9.0);
-  model.positions.emplace_back(-5.0, 0.0, 0.0);
-  model.node_ids.push_back(200);
-  model.node_ids.push_back(201);
-  const int between = model.nodes() - 2;
-  for (const int other : {6, 14, 15, 8}) {
-    Spring s;
-    s.nodes = {between, other};
-    const Vec3 e = (model.positions[other] - model.positions[between]).normalized();
-    s.directions[0].head<3>() = -e;
-    s.directions[1].head<3>() = e;
-    s.stiffness = 300.0 + other;
-    model.springs.push_back(s);
-  }
-  model.springs[0].nodes[0] = model.nodes() - 1;
-  const VecX lc = eigenvalues(assemble(model, Integration::ccx));
-  const VecX ld = eigenvalues(assemble(there_and_back(model, ".inp"), Integration::ccx));
-  ASSERT_EQ(lc.size(), ld.size());
-  EXPECT_LT((lc - ld).cwiseAbs().maxCoeff(), 1e-11 * lc.maxCoeff());
-  EXPECT_LT(std::abs(lc(6) / ld(6) - 1.0), 1e-6);
-  EXPECT_NE(written_notes(model, ".inp")
-                .find("5 springs that massless nodes or rotations of solids have an end at: the "
-                      "stiffness between the others is written, as springs of further nodes\n"),
-            std::string::npos)
-      << written_notes(model, ".inp");
-
-  // A node that an equation moves.
-  for (int axis = 0; axis < 3; ++axis) {
-    LinearEquation equation;
-    equation.terms = {{model.nodes() - 1, axis, 1.0}, {0, axis, -1.0}};
-    model.equations.push_back(equation);
-  }
-  EXPECT_EQ(error_of([&] { written(model, ".inp"); }),
-            folder.path().string() +
-                "/sprung.inp:28: a spring that is neither along an axis nor along the line of its "
-                "nodes ends at node 201, which no element has: CalculiX would hold it there");
 }
 
 TEST(MeshWriter, SupportsAreComments) {

@@ -17,12 +17,12 @@
 namespace floatframe::test {
 namespace {
 
-const Material steel{2.1e5, 0.3, 7.85e-9};
+const Material sheet_steel{2.1e5, 0.3, 7.85e-9};
 
 /// A bent strip: two quadrilaterals and two triangles, linear or quadratic, of two thicknesses.
 FeModel strip(bool quadratic) {
   FeModel m;
-  m.materials = {steel};
+  m.materials = {sheet_steel};
   m.material_names = {""};
   for (const double t : {2.0, 3.5}) {
     ShellSection s;
@@ -95,7 +95,7 @@ FeModel read_unv_text(const std::string& text, const FeReadOptions& options) {
 
 FeReadOptions options_of(const std::map<std::string, double>& thicknesses) {
   FeReadOptions options;
-  options.material = steel;
+  options.material = sheet_steel;
   options.thicknesses = thicknesses;
   return options;
 }

@@ -108,5 +108,36 @@ TEST(FreeTurnsOfParts, AnInterfaceCannotHoldThem) {
   EXPECT_LT(part.health.rigid_residual, 1e-12);
 }
 
+/// A third node beside the line that holds the bar: nothing would resist a force there.
+TEST(FreeTurnsOfParts, AForceBesideTheLineCannotTurnThem) {
+  FeModel model = beam();
+  const auto [a, b] = two_nodes(model);
+  Spider s;
+  s.reference = model.nodes();
+  s.nodes = {a, b};
+  model.positions.push_back(model.positions[a] + Vec3(0.01, 0.3, 0.2));
+  model.spiders.push_back(s);
+  PartOptions options = both_ends(4);
+  InterfaceDescription d;
+  d.name = "ARM";
+  d.mask = 7;
+  d.choice.by = NodeChoice::By::node;
+  d.choice.number = model.nodes();
+  options.interfaces.push_back(d);
+  EXPECT_EQ(error_of([&] { reduce_part(model, options); }),
+            "interface 'ARM': the rigid spider of node 'ARM' is held by nodes without rotations on "
+            "one line, so nothing resists its turn; a force at node 'ARM', beside that line, would "
+            "turn it");
+  options.interfaces.pop_back();
+  options.markers.push_back({.name = "TIP", .choice = d.choice, .at = {}, .residual = true});
+  EXPECT_EQ(error_of([&] { reduce_part(model, options); }),
+            "residual marker 'TIP': the rigid spider of " + model.node_label(model.nodes() - 1) +
+                " is held by nodes without rotations on one line, so nothing resists its turn; a "
+                "force at " +
+                model.node_label(model.nodes() - 1) + ", beside that line, would turn it");
+  options.markers[0].residual = false;
+  EXPECT_LT(reduce_part(model, options).health.rigid_residual, 1e-12);
+}
+
 }  // namespace
 }  // namespace floatframe::test

@@ -121,6 +121,21 @@ TEST(SpringsPart, Errors) {
               reduce_part(grounded, held_at_the_end());
             }).find("CBUSH 7 ties node 40 to the ground"),
             std::string::npos);
+  // Too soft to be seen beside the stiffness of the part, not beside its bending.
+  FeModel beside = jointed();
+  Spring skew;
+  skew.name = "CELAS1 9";
+  skew.nodes = {0, 40};
+  skew.directions[0] = -Vec6::Unit(1);
+  skew.directions[1] = Vec6::Unit(1);
+  skew.stiffness = 1e6;
+  beside.springs.push_back(skew);
+  EXPECT_NE(
+      error_of([&] { reduce_part(beside, held_at_the_end()); })
+          .find("of the first elastic one instead of zero: CELAS1 9 does not act along the "
+                "line of its nodes, so it holds the part against turning; give it nodes at one "
+                "place or on its line"),
+      std::string::npos);
   // A bushing at a node without rotations turns with nothing.
   FeModel loose = jointed();
   loose.springs.resize(6);

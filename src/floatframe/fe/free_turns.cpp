@@ -239,10 +239,11 @@ std::vector<FreeTurn> free_turns(const FeModel& model) {
     if (size(1) > line_width * size(2)) continue;
     FreeTurn turn;
     turn.group = group.nodes;
-    double length = 0.0;  // of everything that turns, to tell a point from a line
+    // Of everything that turns, to tell a point from a line.
     for (const int k : group.nodes)
-      length = std::max(length, (model.positions[k] - model.positions[group.points[0]]).norm());
-    turn.every_way = group.points.size() == 1 || size(2) <= line_width * length * length;
+      turn.length =
+          std::max(turn.length, (model.positions[k] - model.positions[group.points[0]]).norm());
+    turn.every_way = group.points.size() == 1 || size(2) <= line_width * turn.length * turn.length;
     if (turn.every_way && group.bars) continue;
     turn.axis = form.eigenvectors().col(2);
     turn.node = leading_node(model, follows, group.nodes);
@@ -253,6 +254,13 @@ std::vector<FreeTurn> free_turns(const FeModel& model) {
     out.push_back(std::move(turn));
   }
   return out;
+}
+
+bool is_beside(const FeModel& model, const FreeTurn& turn, int node) {
+  if (!std::binary_search(turn.group.begin(), turn.group.end(), node)) return false;
+  Vec3 r = model.positions[node] - model.positions[turn.holder];
+  if (!turn.every_way) r -= r.dot(turn.axis) * turn.axis;
+  return r.squaredNorm() > line_width * turn.length * turn.length;
 }
 
 void tie_free_turns(FeModel& model, const std::vector<FreeTurn>& turns) {

@@ -20,6 +20,7 @@ struct FreeTurn {
   int node = -1;           ///< whose rotation is that of the group
   bool every_way = false;  ///< held in one point: about every axis, else about `axis`
   Vec3 axis = Vec3::UnitX();
+  double length = 0.0;      ///< farthest node of the group from what holds it [m]
   std::vector<int> group;   ///< nodes that turn together, ascending
   int holder = -1;          ///< node of elements that holds the group
   std::vector<int> around;  ///< nodes of these elements, without those that the group moves
@@ -29,6 +30,9 @@ struct FreeTurn {
 
 /// Those of a valid model. None of a model of matrices: what does not turn has no row there.
 std::vector<FreeTurn> free_turns(const FeModel& model);
+
+/// Is a node of the group beside the line or point that holds it? A force there turns the group.
+bool is_beside(const FeModel& model, const FreeTurn& turn, int node);
 
 /// Adds the equations, and one note that counts them.
 void tie_free_turns(FeModel& model, const std::vector<FreeTurn>& turns);

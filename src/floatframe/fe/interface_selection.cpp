@@ -212,6 +212,22 @@ void name_node(FeModel& model, int node, const std::string& name) {
   model.node_names[node] = name;
 }
 
+/// What a node without rotations belongs to; bars without a torsion constant are rods and springs.
+const char* elements_without_rotations(const FeModel& model, int node) {
+  bool rods = false, solids = false, membranes = false;
+  for (const Element& e : model.elements) {
+    if (std::find(e.nodes.begin(), e.nodes.begin() + element_nodes(e.type), node) ==
+        e.nodes.begin() + element_nodes(e.type))
+      continue;
+    rods = rods || is_rod(e.type);
+    membranes = membranes || is_membrane(e.type) || is_panel(e.type);
+    solids = solids || element_kernel(e.type).family == ElementFamily::solid;
+  }
+  if (solids) return "solid elements";
+  if (membranes) return "membranes or shear panels";
+  return rods ? "rods (bars whose I1, I2 or J is 0 are rods)" : "no element that turns";
+}
+
 /// A node that has six dofs of its own, or one alone.
 std::optional<int> existing_reference(const FeModel& model, const InterfaceDescription& d,
                                       const DofTable& table, const std::vector<int>& nodes) {
@@ -233,9 +249,9 @@ std::optional<int> existing_reference(const FeModel& model, const InterfaceDescr
   if (nodes.size() != 1) return std::nullopt;
   if (table.count(nodes[0]) == 3 && (d.mask & 56u) != 0) {
     throw InputError(fmt::format(
-        "{} belongs to solid elements and has no rotations; an interface of one such node can only "
-        "have ux uy uz",
-        model.node_label(nodes[0])));
+        "{} belongs to {} and has no rotations; an interface of one such node can only have ux uy "
+        "uz",
+        model.node_label(nodes[0]), elements_without_rotations(model, nodes[0])));
   }
   return nodes[0];
 }

@@ -222,7 +222,8 @@ Statics statics_of(const ModeBasis& basis, const std::optional<FreeStructure>& s
   return {basis.K.topLeftCorner(nb, nb), {}};
 }
 
-void free_frequencies(const VecX& reduced, const Eigenpairs* full, HealthReport& health) {
+void free_frequencies(const FeModel& model, const VecX& reduced, const Eigenpairs* full,
+                      HealthReport& health) {
   const Eigen::Index count =
       full ? full->lambda.size() - 6 : std::min<Eigen::Index>(reduced.size(), free_modes);
   for (Eigen::Index k = 0; k < std::min(count, reduced.size()); ++k) {
@@ -236,9 +237,8 @@ void free_frequencies(const VecX& reduced, const Eigenpairs* full, HealthReport&
   const double worst = health.rigid_eigenvalues->cwiseAbs().maxCoeff();
   if (worst > 1e-3)
     throw InputError(fmt::format(
-        "a rigid motion has an eigenvalue of {:.1e} of the first elastic one instead of zero: the "
-        "stiffness does not carry enough digits for such a slender part; use fewer elements",
-        worst));
+        "a rigid motion has an eigenvalue of {:.1e} of the first elastic one instead of zero: {}",
+        worst, hold_text(model, health.rigid_residual)));
 }
 
 /// What the model weighs, and whether its stiffness lets it move freely.
@@ -303,7 +303,7 @@ ElasticModes body_modes(const FeModel& model, const ModeBasis& basis, const Iner
 void check_free_modes(const FeModel& model, const FeSystem& system, const MatX& R,
                       const VecX& reduced, Eigen::Index fixed_modes, const PartOptions& options,
                       std::optional<FreeStructure>& structure, HealthReport& health) {
-  if (!options.check_free_modes) return free_frequencies(reduced, nullptr, health);
+  if (!options.check_free_modes) return free_frequencies(model, reduced, nullptr, health);
   if (!structure) {
     const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system);
     structure.emplace(system.K, system.M, R, 0.3 * first, options.solver,
@@ -314,7 +314,7 @@ void check_free_modes(const FeModel& model, const FeSystem& system, const MatX& 
   const Eigenpairs full = structure->modes(6 + count);
   if (full.shapes.cols() > 6)
     check_stiffness_of(model, system, full.shapes.rightCols(full.shapes.cols() - 6));
-  free_frequencies(reduced, &full, health);
+  free_frequencies(model, reduced, &full, health);
 }
 
 }  // namespace
@@ -328,7 +328,7 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   health.nodes = model.nodes();
   health.elements = static_cast<int>(model.elements.size());
   std::vector<MarkerPlace> markers = place_markers(model, options);
-  std::vector<InterfacePlace> interfaces = place_interfaces(model, options);
+  std::vector<InterfacePlace> interfaces = place_interfaces(model, options, markers);
   health.notes = model.notes;
   check_connected(model);
   stages.done("model");

@@ -52,25 +52,44 @@ void append_errors(ErrorList& errors, const InputError& error) {
   for (const ErrorEntry& entry : error.errors()) errors.add(entry.mark, entry.message, entry.count);
 }
 
-void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces) {
+void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces,
+               const std::vector<MarkerPlace>& markers) {
   const std::vector<FreeTurn> turns = free_turns(model);
   ErrorList errors;
-  for (const FreeTurn& turn : turns)
-    for (const InterfacePlace& place : interfaces)
-      if ((place.mask & 56u) != 0 &&
-          std::binary_search(turn.group.begin(), turn.group.end(), place.node))
-        errors.add(
-            model.mark(turn.source),
-            fmt::format("interface '{}': {} is held by nodes without rotations {}, so nothing "
-                        "resists its turn; give the interface only ux uy uz",
-                        place.name, turn.label, turn.every_way ? "in one point" : "on one line"));
+  for (const FreeTurn& turn : turns) {
+    const auto refuse = [&](const char* kind, const std::string& name, const std::string& advice) {
+      errors.add(model.mark(turn.source),
+                 fmt::format("{} '{}': {} is held by nodes without rotations {}, so nothing "
+                             "resists its turn; {}",
+                             kind, name, turn.label,
+                             turn.every_way ? "in one point" : "on one line", advice));
+    };
+    const auto beside = [&](int node) {
+      return fmt::format("a force at {}, beside {}, would turn it", model.node_label(node),
+                         turn.every_way ? "that point" : "that line");
+    };
+    for (const InterfacePlace& place : interfaces) {
+      if (is_beside(model, turn, place.node))
+        refuse("interface", place.name, beside(place.node));
+      else if ((place.mask & 56u) != 0 &&
+               std::binary_search(turn.group.begin(), turn.group.end(), place.node))
+        refuse("interface", place.name, "give the interface only ux uy uz");
+    }
+    for (const MarkerPlace& marker : markers) {
+      const auto node = std::find_if(marker.nodes.begin(), marker.nodes.end(),
+                                     [&](int k) { return is_beside(model, turn, k); });
+      if (marker.residual && node != marker.nodes.end())
+        refuse("residual marker", marker.name, beside(*node));
+    }
+  }
   errors.throw_if_any();
   tie_free_turns(model, turns);
 }
 
 }  // namespace
 
-std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options) {
+std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options,
+                                             const std::vector<MarkerPlace>& markers) {
   ErrorList errors;
   std::vector<InterfacePlace> places;
   for (const InterfaceDescription& d : options.interfaces) {
@@ -106,7 +125,7 @@ std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& 
     }
   }
   errors.throw_if_any();
-  tie_turns(model, places);
+  tie_turns(model, places, markers);
   return places;
 }
 

@@ -29,8 +29,10 @@ struct MarkerPlace {
 };
 
 /// Adds the interfaces to the model and ties the turns that nothing resists (`free_turns`). Throws
-/// InputError with the errors of all of them, and if one of them is to hold such a turn.
-std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options);
+/// InputError with the errors of all of them, and if one of them or of the residual markers is to
+/// hold such a turn.
+std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& options,
+                                             const std::vector<MarkerPlace>& markers = {});
 /// Throws InputError with the errors of all markers.
 std::vector<MarkerPlace> place_markers(const FeModel& model, const PartOptions& options);
 

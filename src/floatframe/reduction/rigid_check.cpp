@@ -90,6 +90,31 @@ std::string mechanism_text(const FeModel& model, const FeSystem& system, const V
       largest_nodes(model, of_node));
 }
 
+std::string hold_text(const FeModel& model, double residual) {
+  const Spring* holding = nullptr;
+  double largest = 0.0;
+  for (const Spring& s : model.springs) {
+    if (s.nodes[1] < 0) continue;  // refused before
+    // Its elongation in rotations about its first node: moments of its directions.
+    const Vec3 r = model.positions[s.nodes[1]] - model.positions[s.nodes[0]];
+    const Vec3 d = s.directions[1].head<3>();
+    const Vec3 moment = s.directions[0].tail<3>() + s.directions[1].tail<3>() + r.cross(d);
+    if (moment.norm() <= 1e-9 * (1.0 + r.norm()) * s.directions[1].norm()) continue;
+    const double energy = s.stiffness * moment.squaredNorm();
+    if (energy <= largest) continue;
+    largest = energy;
+    holding = &s;
+  }
+  if (holding != nullptr)
+    return fmt::format(
+        "{} does not act along the line of its nodes, so it holds the part against turning; give "
+        "it nodes at one place or on its line",
+        model.spring_label(static_cast<int>(holding - model.springs.data())));
+  if (residual > 1e-9)
+    return "a support, a spring to ground or a wrong linear equation is in the model";
+  return "the stiffness does not carry enough digits for such a slender part; use fewer elements";
+}
+
 void check_stiffness_of(const FeModel& model, const FeSystem& system, const MatX& shapes) {
   if (shapes.cols() == 0) return;
   const MatX force = system.K * shapes;

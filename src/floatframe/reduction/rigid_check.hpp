@@ -20,6 +20,10 @@ VecX row_lengths(const FeSystem& system, double size);
 double check_rigid_motions(const FeModel& model, const FeSystem& system);
 inline constexpr double largest_rigid_residual = 1e-3;
 
+/// What makes a rigid motion stiff although it is no more than that `residual`: a soft spring that
+/// does not act along the line of its nodes, else a support or the digits of the stiffness.
+std::string hold_text(const FeModel& model, double residual);
+
 /// Throws if a shape (n x k, the rigid motions are not among them) has no stiffness: its strain
 /// energy cannot be distinguished from the rounding of the entries of K,
 ///   x^T K x <= least |x|^T |K| |x|

@@ -1,4 +1,4 @@
-// Constraints, springs and point masses of a CalculiX deck.
+// Springs and point masses of a CalculiX deck, after its equations.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,127 +12,11 @@
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/springs.hpp"
-#include "floatframe/formats/written/calculix_text.hpp"
+#include "floatframe/formats/written/calculix_equations.hpp"
 #include "floatframe/math/dense.hpp"
 
 namespace floatframe {
 namespace {
-
-/// Numbers of the nodes whose displacements are the rotations of another node; 0: none.
-std::vector<int> add_rotation_nodes(CalculixText& deck, const DofTable& table) {
-  const FeModel& model = deck.model;
-  std::vector<char> bends(model.positions.size(), 0);
-  for (const Element& e : model.elements)
-    if (element_kernel(e.type).dofs_per_node == 6)
-      for (int k = 0; k < element_nodes(e.type); ++k)
-        bends[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
-  std::vector<int> out(model.positions.size(), 0);
-  for (const Spider& s : model.spiders)
-    if (s.rotation_node >= 0)
-      out[static_cast<std::size_t>(s.reference)] = deck.node(s.rotation_node);
-  std::string lines;
-  int& last = deck.numbers.last_node;
-  for (int n = 0; n < model.nodes(); ++n) {
-    const auto at = static_cast<std::size_t>(n);
-    if (table.count(n) < 6 || bends[at] != 0 || out[at] != 0) continue;
-    out[at] = ++last;
-    const Vec3& p = model.positions[at];
-    lines += fmt::format("{}, {}, {}, {}\n", last, calculix_number(p(0)), calculix_number(p(1)),
-                         calculix_number(p(2)));
-  }
-  if (!lines.empty()) deck.text += "** Their displacements are rotations of nodes\n*NODE\n" + lines;
-  return out;
-}
-
-using Terms = DependentDofs::Terms;
-
-/// Degrees of freedom by node and direction of the deck.
-class Equations {
- public:
-  explicit Equations(CalculixText& deck)
-      : deck_(deck),
-        table_(dof_table(deck.model)),
-        dependences_(resolve_dependences(deck.model, table_)),
-        place_(static_cast<std::size_t>(table_.size())) {
-    if (!dependences_.any && deck.model.springs.empty()) return;
-    const std::vector<int> rotations = add_rotation_nodes(deck, table_);
-    for (int n = 0; n < deck.model.nodes(); ++n)
-      for (int axis = 0; axis < table_.count(n); ++axis) {
-        const int turned = axis < 3 ? 0 : rotations[static_cast<std::size_t>(n)];
-        place_[static_cast<std::size_t>(table_.index(n, axis))] =
-            turned > 0 ? std::pair{turned, axis - 2} : std::pair{deck.node(n), axis + 1};
-      }
-  }
-
-  /// Dependent degrees of freedom by independent ones.
-  void add_dependences() {
-    // The fourth to sixth directions of a node are rotations of a beam or shell.
-    bool turns = false;
-    for (std::size_t dof = 0; dof < place_.size(); ++dof) {
-      if (dependences_.dependent[dof] == 0) continue;
-      const Terms& terms = dependences_.terms[dof];
-      turns = turns || (!terms.empty() && place_[dof].second > 3) ||
-              std::any_of(terms.begin(), terms.end(), [&](const auto& t) {
-                return place_[static_cast<std::size_t>(t.first)].second > 3;
-              });
-      add(place_[dof], terms);
-    }
-    if (turns)
-      deck_.notes.push_back(
-          "equations hold rotations of nodes of beams or shells, of which CalculiX makes solids: "
-          "it "
-          "does not keep all of them (offsets of beams came loose), so look at its rigid motions");
-  }
-
-  /// place = sum of `terms` in independent degrees of freedom; without a term it is zero.
-  void add(const std::pair<int, int>& place, const Terms& terms) {
-    const auto& [node, axis] = place;
-    if (terms.empty()) {
-      zeros_ += fmt::format("{}, {}, {}\n", node, axis, axis);
-      return;
-    }
-    deck_.text += fmt::format("*EQUATION\n{}\n{}, {}, -1", terms.size() + 1, node, axis);
-    int in_line = 1;
-    for (const auto& [other, factor] : terms) {
-      const auto& [there, direction] = place_[static_cast<std::size_t>(other)];
-      deck_.text += in_line++ % 4 == 0 ? ",\n" : ", ";
-      deck_.text += fmt::format("{}, {}, {}", there, direction, calculix_number(factor));
-    }
-    deck_.text += '\n';
-  }
-
-  void add_zeros() {
-    if (!zeros_.empty()) deck_.text += "*BOUNDARY\n" + zeros_;
-  }
-
-  /// A sum over degrees of freedom of one node in independent ones.
-  Terms independent(int node, const Vec6& factors) const {
-    std::map<int, double> sum;
-    for (int axis = 0; axis < 6; ++axis) {
-      const int dof = table_.index(node, axis);
-      if (factors(axis) == 0.0 || dof < 0) continue;
-      const std::size_t k = static_cast<std::size_t>(dof);
-      if (dependences_.dependent[k] == 0) sum[dof] += factors(axis);
-      for (const auto& [other, factor] : dependences_.terms[k])
-        sum[other] += factors(axis) * factor;
-    }
-    Terms out;
-    for (const auto& [dof, factor] : sum)
-      if (factor != 0.0) out.emplace_back(dof, factor);
-    return out;
-  }
-
-  const std::pair<int, int>& place(int node, int axis) const {
-    return place_[static_cast<std::size_t>(table_.index(node, axis))];
-  }
-
- private:
-  CalculixText& deck_;
-  DofTable table_;
-  DependentDofs dependences_;
-  std::vector<std::pair<int, int>> place_;
-  std::string zeros_;
-};
 
 /// CalculiX tells the line of the stiffness from that of the directions by its point.
 std::string with_point(std::string number) {
@@ -145,7 +29,7 @@ std::string with_point(std::string number) {
 /// share of the elongation, the others follow the spring's node, so that nothing is loose.
 class Springs {
  public:
-  Springs(CalculixText& deck, Equations& equations) : deck_(deck), equations_(equations) {}
+  Springs(CalculixText& deck, CalculixEquations& equations) : deck_(deck), equations_(equations) {}
 
   void add(const Spring& s) {
     const bool grounded = s.nodes[1] < 0, straight = !grounded && along_its_line(s);
@@ -158,7 +42,7 @@ class Springs {
       if (straight)
         ends[end].first = deck_.node(s.nodes[k]);
       else if (axis_of(d) >= 0)
-        ends[end] = equations_.place(s.nodes[k], axis_of(d));
+        ends[end] = equations_.place(s.nodes[k], axis_of(d), s.source);
       else
         ends[end] = further_node(s.source, s.nodes[k], d);
     }
@@ -204,7 +88,7 @@ class Springs {
             sum[dof] += factor;
         }
         ends.push_back(further_node(source, second->first, second->second));
-        rows_[rows_.size() - 3].second = {sum.begin(), sum.end()};  // of its first direction
+        rows_[rows_.size() - 3].terms = {sum.begin(), sum.end()};  // of its first direction
       }
       const int number = ++deck_.numbers.last_element;
       const std::string set = written_name(fmt::format("SPRING_{}", number), true, deck_.names);
@@ -224,7 +108,7 @@ class Springs {
     if (!nodes_.empty())
       deck_.text +=
           "** Ends of springs: the first direction is a share of the elongation\n*NODE\n" + nodes_;
-    for (const auto& [place, terms] : rows_) equations_.add(place, terms);
+    for (const Row& row : rows_) equations_.add(row.place, row.terms, row.source);
     deck_.text += elements_;
   }
 
@@ -278,18 +162,23 @@ class Springs {
     const Vec3& p = deck_.model.positions[static_cast<std::size_t>(node)];
     nodes_ += fmt::format("{}, {}, {}, {}\n", number, calculix_number(p(0)), calculix_number(p(1)),
                           calculix_number(p(2)));
-    rows_.emplace_back(std::pair{number, 1}, equations_.independent(node, direction));
+    rows_.push_back({{number, 1}, equations_.independent(node, direction), source});
     for (int axis = 1; axis < 3; ++axis)
-      rows_.emplace_back(std::pair{number, axis + 1},
-                         equations_.independent(node, Vec6::Unit(axis)));
+      rows_.push_back({{number, axis + 1}, equations_.independent(node, Vec6::Unit(axis)), source});
     return {number, 1};
   }
 
+  struct Row {
+    std::pair<int, int> place;
+    DependentDofs::Terms terms;
+    FeSource source;
+  };
+
   CalculixText& deck_;
-  Equations& equations_;
+  CalculixEquations& equations_;
   std::string nodes_, elements_;
   std::vector<char> in_elements_;
-  std::vector<std::pair<std::pair<int, int>, Terms>> rows_;
+  std::vector<Row> rows_;
 };
 
 /// Does it end at a degree of freedom without mass that only springs hold?
@@ -347,7 +236,7 @@ void add_masses(CalculixText& deck) {
 }  // namespace
 
 void add_calculix_constraints(CalculixText& deck) {
-  Equations equations(deck);
+  CalculixEquations equations(deck);
   equations.add_dependences();
   Springs springs(deck, equations);
   add_springs(deck, springs);

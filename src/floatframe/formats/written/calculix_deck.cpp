@@ -3,6 +3,9 @@
 // Source: CalculiX CrunchiX User's Manual 2.20, "Input deck format".
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "floatframe/core/plural.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
@@ -85,6 +88,7 @@ std::vector<int> deck_nodes(const CalculixText& deck, const Element& e) {
 void add_nodes(CalculixText& deck) {
   deck.text += "*NODE, NSET=NALL\n";
   for (int n = 0; n < deck.model.nodes(); ++n) {
+    if (deck.beside != nullptr && deck.beside->left_out[static_cast<std::size_t>(n)] != 0) continue;
     const Vec3& p = deck.model.positions[static_cast<std::size_t>(n)];
     deck.text += fmt::format("{}, {}, {}, {}\n", deck.node(n), calculix_number(p(0)),
                              calculix_number(p(1)), calculix_number(p(2)));
@@ -180,6 +184,19 @@ void add_step(CalculixText& deck, int modes) {
   deck.text += fmt::format("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", modes);
 }
 
+/// Turns of beams: CalculiX loses equations whose dependent term is the rotation of a beam.
+std::size_t leave_out_beams(const FeModel& model, std::vector<FreeTurn>& turns) {
+  std::vector<char> bends(model.positions.size(), 0);
+  for (const Element& e : model.elements)
+    if (is_beam(e.type))
+      for (int k = 0; k < element_nodes(e.type); ++k)
+        bends[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+  return std::erase_if(turns, [&](const FreeTurn& turn) {
+    return std::any_of(turn.group.begin(), turn.group.end(),
+                       [&](int k) { return bends[static_cast<std::size_t>(k)] != 0; });
+  });
+}
+
 }  // namespace
 
 std::string calculix_number(double value) { return fmt::format("{:.13g}", value); }
@@ -199,14 +216,23 @@ void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bo
 WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options) {
   if (model.elements.empty())
     throw InputError("the model has no elements, expected a mesh (matrices make no deck)");
+  const std::optional<OffsetBeams> beside = offset_beams(model);
+  const FeModel& given = beside ? beside->model : model;
   FeModel tied;  // only if needed: what nothing resists is singular there too
-  const std::vector<FreeTurn> turns = free_turns(model);
+  std::vector<FreeTurn> turns = free_turns(given);
+  const std::size_t bars = leave_out_beams(given, turns);
   if (!turns.empty()) {
-    tied = model;
+    tied = given;
     tie_free_turns(tied, turns);
   }
-  CalculixText deck(turns.empty() ? model : tied);
+  CalculixText deck(turns.empty() ? given : tied);
+  if (beside) deck.beside = &*beside;
   if (!turns.empty()) deck.notes.push_back(tied.notes.back());
+  if (bars > 0)
+    deck.notes.push_back(
+        fmt::format("{} of beams can turn about the line that holds them: nodes without rotations; "
+                    "that is a frequency of zero of each in CalculiX",
+                    plural(static_cast<long>(bars), "straight group")));
   deck.text = "*HEADING\nWritten by Floatframe\n";
   add_nodes(deck);
   add_elements(deck);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -19,12 +20,21 @@ double further_density(const ShellSection& s) {
   return s.thickness > 0.0 ? s.mass / s.thickness : 0.0;
 }
 
+std::string offset_words(const std::array<double, 2>& offsets) {
+  std::string out;
+  for (std::size_t k = 0; k < 2; ++k)
+    if (std::abs(offsets[k]) > 1e-12)
+      out += fmt::format(", OFFSET{}={}", k + 1, fmt::format("{:.10g}", offsets[k]));
+  return out;
+}
+
 /// What elements of one section share.
 struct SectionKey {
   ElementFamily family = ElementFamily::solid;
   int material = 0, section = 0, orientation = -1;
   int alone = -1;                     ///< axes that no other element has: the element
   std::array<double, 3> reference{};  ///< beams
+  std::string offset = {};            ///< beams: ", OFFSET1=..."
   auto operator<=>(const SectionKey&) const = default;
 };
 
@@ -122,6 +132,8 @@ class SectionWriter {
     if (key.family != ElementFamily::solid) key.section = e.section;
     if (key.family == ElementFamily::beam)
       key.reference = {e.reference(0), e.reference(1), e.reference(2)};
+    if (key.family == ElementFamily::beam && deck_.beside != nullptr)
+      key.offset = offset_words(deck_.beside->offsets[static_cast<std::size_t>(index)]);
     if (material(e.material).elasticity && e.orientation >= 0) {
       key.orientation = e.orientation;
       const Orientation& o = model_.orientations[static_cast<std::size_t>(e.orientation)];
@@ -228,12 +240,12 @@ class SectionWriter {
                             calculix_number(0.5 * (s.width - s.bore)))
               : fmt::format("{}, {}", calculix_number(s.width), calculix_number(s.width));
       deck_.text +=
-          fmt::format("*BEAM SECTION, {}, SECTION={}\n{}\n{}, {}, {}\n", words,
+          fmt::format("*BEAM SECTION, {}, SECTION={}{}\n{}\n{}, {}, {}\n", words,
                       rectangle      ? "RECT"
                       : s.bore > 0.0 ? "PIPE"
                                      : "CIRC",
-                      numbers, calculix_number(key.reference[0]), calculix_number(key.reference[1]),
-                      calculix_number(key.reference[2]));
+                      key.offset, numbers, calculix_number(key.reference[0]),
+                      calculix_number(key.reference[1]), calculix_number(key.reference[2]));
     }
   }
 

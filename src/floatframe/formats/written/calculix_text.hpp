@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
+#include "floatframe/formats/written/calculix_offsets.hpp"
 #include "floatframe/formats/written/written_numbers.hpp"
 
 namespace floatframe {
@@ -17,10 +18,16 @@ struct CalculixText {
   std::string text;
   std::vector<std::string> notes;
   ErrorList errors;
-  std::set<std::string> names;  ///< of sets, surfaces, materials and orientations
+  const OffsetBeams* beside = nullptr;  ///< if `model` is of it
+  std::set<std::string> names;          ///< of sets, surfaces, materials and orientations
 
   int node(int index) const { return numbers.node[static_cast<std::size_t>(index)]; }
   int element(std::size_t index) const { return numbers.element[index]; }
+  /// What would make it another model; the first 20.
+  void refuse(const FeSource& source, const std::string& what) {
+    if (++refused <= 20) errors.add(model.mark(source), what);
+  }
+  int refused = 0;
   SourceMark mark_of(const Element& e) const { return model.mark(e.source); }
 };
 
@@ -33,8 +40,7 @@ void add_calculix_numbers(std::string& text, const std::vector<int>& numbers, bo
 /// Materials, orientations and sections of all elements, in sets of their own.
 void add_calculix_sections(CalculixText& deck);
 
-/// Spiders and equations, as *EQUATION in degrees of freedom that depend on none; springs, point
-/// masses. Rotations of nodes without beams and shells are displacements of further nodes.
+/// Spiders and equations (CalculixEquations), springs, point masses.
 void add_calculix_constraints(CalculixText& deck);
 
 }  // namespace floatframe

@@ -1,0 +1,46 @@
+#pragma once
+// Equations of a CalculiX deck: spiders and linear equations in degrees of freedom that depend on
+// none. Rotations of nodes without beams and shells are displacements of further nodes.
+//
+// CalculiX makes solids of beams and shells. Equations with rotations of their nodes are in force
+// only where it joins several of them by a rigid knot, elsewhere it loses them silently: refused.
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "floatframe/fe/dependent_dofs.hpp"
+#include "floatframe/formats/written/calculix_text.hpp"
+
+namespace floatframe {
+
+class CalculixEquations {
+ public:
+  using Terms = DependentDofs::Terms;
+
+  explicit CalculixEquations(CalculixText& deck);
+
+  /// Dependent degrees of freedom by independent ones.
+  void add_dependences();
+  /// place = sum of `terms` in independent degrees of freedom; without a term it is zero.
+  void add(const std::pair<int, int>& place, const Terms& terms, const FeSource& source);
+  void add_zeros();
+
+  /// A sum over degrees of freedom of one node in independent ones.
+  Terms independent(int node, const Vec6& factors) const;
+
+  /// Number of the node and direction of the deck, for a spring.
+  std::pair<int, int> place(int node, int axis, const FeSource& source);
+
+ private:
+  void refuse(int node, const FeSource& source);
+
+  CalculixText& deck_;
+  DofTable table_;
+  DependentDofs dependences_;
+  std::vector<std::pair<int, int>> place_;
+  std::string zeros_;
+  std::set<int> refused_;  ///< numbers of nodes
+};
+
+}  // namespace floatframe
