@@ -55,22 +55,29 @@ class Spreading(Sweep):
         self.assertEqual(float(row["slider.x max [m]"]), max(slider))
 
     def test_a_process_that_dies_ends_the_study_and_it_continues(self):
-        options = self.launcher(2)
-        process = subprocess.Popen([*options["launcher"], BINARY, "sweep", CRANK, *LONG, "--threads", "1", "--out",
-                                    "out"], cwd=self.folder, env=options["environment"], text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.wait_for_runs(process, "out", 4)
-        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-        os.kill(int(children[-1]), signal.SIGKILL)
-        _, errors = process.communicate(timeout=60)
+        for attempt in range(5):  # where the processors are shared all runs can be done before the blow falls
+            out = f"out{attempt}"
+            process, errors = self.killed_under_mpirun(out)
+            if len(self.journal(out)) - 1 < 40:
+                break
         self.assertNotEqual(process.returncode, 0)
         self.assertTrue(errors)
-        finished = len(self.journal("out")) - 1
-        self.assertLess(finished, 40)
-        done = self.sweep(0, CRANK, *LONG, "--threads", 2, "--out", "out")
+        self.assertLess(len(self.journal(out)) - 1, 40)
+        done = self.sweep(0, CRANK, *LONG, "--threads", 2, "--out", out)
         self.assertRegex(done.stdout, r"\d+ were finished before")
         self.sweep(0, CRANK, *LONG, "--threads", 2, "--out", "whole", "--quiet")
-        self.assertEqual(self.table("out"), self.table("whole"))
+        self.assertEqual(self.table(out), self.table("whole"))
+
+    def killed_under_mpirun(self, out):
+        options = self.launcher(2)
+        process = subprocess.Popen([*options["launcher"], BINARY, "sweep", CRANK, *LONG, "--threads", "1", "--out",
+                                    out], cwd=self.folder, env=options["environment"], text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.wait_for_runs(process, out, 4)
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        if children:
+            os.kill(int(children[-1]), signal.SIGKILL)
+        return process, process.communicate(timeout=60)[1]
 
     def test_bad_input_under_mpirun_is_said_once(self):
         done = self.sweep(2, CRANK, "--vary", "rat=1,2", **self.launcher(2))

@@ -105,7 +105,7 @@ TEST(WrittenConnections, SpringsOfAllDirections) {
 }
 
 /// A frame of two legs of 0.6 m; the second has the offsets `words`.
-std::string frame(const std::string& words, const std::string& further = "") {
+std::string two_legs(const std::string& words, const std::string& further = "") {
   std::string text = "*NODE\n";
   for (int k = 0; k <= 12; ++k) text += fmt::format("{}, {}, 0., 0.\n", k + 1, 0.05 * k);
   for (int k = 1; k <= 12; ++k) text += fmt::format("{}, 0.6, {}, 0.\n", 13 + k, 0.05 * k);
@@ -121,11 +121,11 @@ std::string frame(const std::string& words, const std::string& further = "") {
   return text + further;
 }
 
-FeModel frame_model(const std::string& words, const std::string& further = "") {
+FeModel legs_model(const std::string& words, const std::string& further = "") {
   const TemporaryFolder folder;
   FeReadOptions options;
   options.dialect = DeckDialect::calculix;
-  return read_fe_file(folder.write("frame.inp", frame(words, further)), options);
+  return read_fe_file(folder.write("frame.inp", two_legs(words, further)), options);
 }
 
 int count_of(const std::string& text, const std::string& what) {
@@ -138,7 +138,7 @@ int count_of(const std::string& text, const std::string& what) {
 // CalculiX 2.20 finds the same frequencies in the deck and in the written one (57.05754, 229.0906,
 // 307.3343, 338.1722 Hz); with the arms as equations the legs came loose from each other.
 TEST(WrittenConnections, BeamsBesideTheirNodesAreThoseOfCalculix) {
-  const FeModel model = frame_model(", OFFSET1=2, OFFSET2=-1");
+  const FeModel model = legs_model(", OFFSET1=2, OFFSET2=-1");
   EXPECT_EQ(model.nodes(), 38);
   const std::string text = written(model, ".inp").bytes;
   EXPECT_EQ(count_of(text, "SECTION=RECT, OFFSET1=2, OFFSET2=-1\n"), 1);
@@ -148,12 +148,12 @@ TEST(WrittenConnections, BeamsBesideTheirNodesAreThoseOfCalculix) {
   EXPECT_EQ(same.nodes(), model.nodes());
   expect_same_system(model, same);
   // Beams without rotations of other nodes: by spiders.
-  const FeModel all = frame_model(", OFFSET2=0.25");
+  const FeModel all = legs_model(", OFFSET2=0.25");
   expect_same_system(all, there_and_back(all, ".inp"));
 }
 
 TEST(WrittenConnections, ArmsThatOffsetsCannotSayAreRefused) {
-  const FeModel model = frame_model(", OFFSET1=2");
+  const FeModel model = legs_model(", OFFSET1=2");
   const std::string lost =
       ", of a beam or shell; CalculiX, which makes solids of these, would lose it there (.vtu and "
       ".msh show the mesh)";
@@ -169,11 +169,11 @@ TEST(WrittenConnections, ArmsThatOffsetsCannotSayAreRefused) {
   weighted.masses.push_back({model.nodes() - 1, 2.0, Mat3::Zero()});
   EXPECT_NE(error_of([&] { written(weighted, ".inp"); }).find(lost), std::string::npos);
   // The rotation of a beam in an equation, a spider, a spring.
-  FeModel equation = frame_model("");
+  FeModel equation = legs_model("");
   equation.equations.push_back({.terms = {{0, 4, 1.0}, {5, 4, -1.0}}, .source = {}});
   const std::string error = error_of([&] { written(equation, ".inp"); });
   EXPECT_EQ(count_of(error, "an equation or spring has the rotation of node"), 2) << error;
-  FeModel spider = frame_model("");
+  FeModel spider = legs_model("");
   spider.positions.emplace_back(0.0, 0.0, 0.1);
   spider.node_ids.push_back(99);
   spider.node_sources.emplace_back();
@@ -183,7 +183,7 @@ TEST(WrittenConnections, ArmsThatOffsetsCannotSayAreRefused) {
   spider.spiders.push_back(arm);
   EXPECT_EQ(error_of([&] { written(spider, ".inp"); }),
             "an equation or spring has the rotation of node 1" + lost);
-  FeModel sprung = frame_model("");
+  FeModel sprung = legs_model("");
   Spring s;
   s.nodes = {0, 24};
   s.directions[0] = -Vec6::Unit(3);

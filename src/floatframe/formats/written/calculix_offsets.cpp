@@ -95,7 +95,7 @@ Vec3 tangent_of(const std::array<Vec3, 3>& p, int nodes, int k) {
 }
 
 /// OFFSET1 and OFFSET2 of a beam with ends of arms; none if its arms are not alike.
-std::optional<std::array<double, 2>> offsets_of(const FeModel& model, const Element& e,
+std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const Element& e,
                                                 const ArmEnds& ends) {
   const auto s = static_cast<std::size_t>(e.section);
   if (e.section < 0 || s >= model.sections.size()) return std::nullopt;
@@ -136,7 +136,7 @@ void keep_what_can_be_said(const FeModel& model, ArmEnds& ends) {
       if (!is_beam(e.type)) continue;
       const auto last = e.nodes.begin() + element_nodes(e.type);
       if (std::none_of(e.nodes.begin(), last, [&](int n) { return ends(n) >= 0; })) continue;
-      if (offsets_of(model, e, ends)) continue;
+      if (written_offsets(model, e, ends)) continue;
       std::for_each(e.nodes.begin(), last, [&](int n) { ends.leave_out(n); });
       changed = true;
     }
@@ -168,7 +168,7 @@ std::optional<OffsetBeams> offset_beams(const FeModel& model) {
       node = ends(node);
       beside = true;
     }
-    if (beside) out.offsets[i] = *offsets_of(model, model.elements[i], ends);
+    if (beside) out.offsets[i] = *written_offsets(model, model.elements[i], ends);
   }
   std::erase_if(out.model.equations, [&](const LinearEquation& e) {
     return !e.terms.empty() && moved.contains(e.terms.front().node);
