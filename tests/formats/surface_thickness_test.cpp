@@ -166,6 +166,19 @@ TEST(SurfaceThickness, NamedGroupsCountInFormat2) {
   }
 }
 
+// A group whose name the file has in Latin-1, however the user types it.
+TEST(SurfaceThickness, NamesInLatin1) {
+  std::string text = gmsh2("3\n1 3 2 1 1 1 2 3 4\n2 3 2 2 1 1 2 3 4\n3 2 2 1 1 2 5 3\n");
+  const std::string latin = "R\xE9", utf8 = "R\xC3\xA9";
+  text.replace(text.find("RIB"), 3, latin);
+  for (const std::string& name : {latin, utf8}) {
+    const FeModel m = parse_gmsh(text, "a.msh", options_of({{"", 1.0}, {name, 4.0}}));
+    ASSERT_EQ(m.elements.size(), 2u);
+    EXPECT_TRUE(m.shells[m.elements[0].section].thickness == 4.0 ||
+                m.shells[m.elements[1].section].thickness == 4.0);
+  }
+}
+
 TEST(SurfaceThickness, FacesOfSolidsStaySkinsUnlessNamed) {
   // A tetrahedron 1 2 4 6, a skin of it (LID) and a flange.
   const std::string text = gmsh2("3\n1 4 2 7 1 1 2 4 6\n2 2 2 3 1 2 1 4\n3 3 2 2 1 1 2 3 4\n");

@@ -168,7 +168,7 @@ void fill_densities(const std::filesystem::path& file, const FeReadOptions& opti
     if (missing.empty())
       throw InputError({file.string()},
                        "a density is given, but every material of the file has one: leave it out");
-    if (!name.empty() && std::none_of(missing.begin(), missing.end(), is(name)))
+    if (!name.empty() && std::none_of(missing.begin(), missing.end(), is(utf8_text(name))))
       throw InputError({file.string()},
                        fmt::format("a density is given for the material '{}', but no material "
                                    "without a density has this name{}",
@@ -178,7 +178,7 @@ void fill_densities(const std::filesystem::path& file, const FeReadOptions& opti
     const std::string& name = model.material_names[it->first];
     const auto& given = options.densities;
     auto found = std::find_if(given.begin(), given.end(),
-                              [&](const auto& d) { return same_word(d.first, name); });
+                              [&](const auto& d) { return same_word(utf8_text(d.first), name); });
     if (found == given.end()) found = given.find("");
     if (found == given.end()) {
       ++it;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/core/utf8_text.hpp"
 #include "floatframe/fe/element_faces.hpp"
 
 namespace floatframe {
@@ -19,7 +20,7 @@ SurfaceThickness::SurfaceThickness(const std::map<std::string, double>& given) {
     if (name.empty()) {
       others_ = section;
     } else {
-      groups_[name] = section;
+      groups_[utf8_text(name)] = section;
     }
   }
 }
@@ -44,7 +45,8 @@ SurfaceThickness::Choice SurfaceThickness::choose(std::span<const int> corners,
                                                   const std::vector<std::string>& groups) {
   Choice choice;
   std::string from;
-  for (const std::string& group : groups) {
+  for (const std::string& raw : groups) {
+    const std::string group = utf8_text(raw);
     const auto named = groups_.find(group);
     if (named == groups_.end()) continue;
     seen_.insert(group);
@@ -75,7 +77,8 @@ std::vector<std::string> SurfaceThickness::not_found(const std::vector<std::stri
         "groups with a thickness of their own: leave it out, or name a group");
   for (const auto& [name, section] : groups_)
     if (!seen_.contains(name)) {
-      const bool known = std::find(groups.begin(), groups.end(), name) != groups.end();
+      const bool known = std::any_of(groups.begin(), groups.end(),
+                                     [&](const std::string& g) { return utf8_text(g) == name; });
       out.push_back(
           fmt::format("a thickness is given for the group '{}', but no surface element "
                       "is in a group of this name{}",
