@@ -267,6 +267,13 @@ TEST(MeshWriter, WhatADeckWouldFalsifyIsRefused) {
   EXPECT_EQ(refusal(shell),
             "element 70 (quad4) has layers or bending of its own, which are not written as a "
             "CalculiX deck (.vtu and .msh show the mesh)");
+  for (int k = 1; k < 30; ++k) {
+    shell.elements.push_back(shell.elements[0]);
+    shell.elements.back().id += k;
+  }
+  EXPECT_EQ(refusal(shell),
+            "element 70 (quad4) has layers or bending of its own, which are not written as a "
+            "CalculiX deck (.vtu and .msh show the mesh); the same holds for 29 more elements");
   FeModel solid = single_element(ElementType::hex20);
   solid.layups = {{{{0, 1.0, 0.0}, {0, 1.0, 0.5}}}};
   solid.elements[0].layup = 0;

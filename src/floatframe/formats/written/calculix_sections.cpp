@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "floatframe/core/plural.hpp"
 #include "floatframe/fe/elasticity.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
@@ -53,6 +54,7 @@ class SectionWriter {
       if (!writable(element, e)) continue;
       sets[key_of(element, static_cast<int>(e))].push_back(deck_.element(e));
     }
+    say_refused();
     if (!deck_.errors.empty()) return;
     int number = 0;
     for (const auto& [key, elements] : sets) {
@@ -68,10 +70,18 @@ class SectionWriter {
   const ShellSection& shell(int s) const { return model_.shells[static_cast<std::size_t>(s)]; }
   const BeamSection& beam(int s) const { return model_.sections[static_cast<std::size_t>(s)]; }
 
-  void refuse(const Element& e, std::size_t index, const std::string& what) {
-    if (++refused_ <= 20)
-      deck_.errors.add(deck_.mark_of(e),
-                       fmt::format("{} {}", model_.element_label(static_cast<int>(index)), what));
+  /// The first element of each reason, and how many more there are.
+  void say_refused() {
+    for (const auto& [what, elements] : refused_) {
+      const Element& first = model_.elements[elements.first];
+      deck_.errors.add(
+          deck_.mark_of(first),
+          fmt::format("{} {}{}", model_.element_label(static_cast<int>(elements.first)), what,
+                      elements.more == 0
+                          ? ""
+                          : fmt::format("; the same holds for {}",
+                                        plural(elements.more, "more element", "more elements"))));
+    }
   }
 
   bool writable(const Element& e, std::size_t index) {
@@ -96,7 +106,8 @@ class SectionWriter {
     else if (has_shell_section(e.type) || is_beam(e.type) || is_rod(e.type))
       what = "has no section";
     if (what.empty()) return true;
-    refuse(e, index, what);
+    if (const auto [it, fresh] = refused_.try_emplace(what, Refused{index}); !fresh)
+      ++it->second.more;
     return false;
   }
 
@@ -251,7 +262,11 @@ class SectionWriter {
 
   CalculixText& deck_;
   const FeModel& model_;
-  int refused_ = 0;
+  struct Refused {
+    std::size_t first = 0;
+    long more = 0;
+  };
+  std::map<std::string, Refused> refused_;  // by the reason
   bool centre_noted_ = false;
   std::map<std::pair<int, double>, std::string> materials_;
   std::map<std::pair<int, int>, std::string> orientations_;
