@@ -206,6 +206,15 @@ class Info(unittest.TestCase):
         facts = self.facts(HEAD.replace("9, 10, 11, 12\n", "9, 11\n") + SPIDER)
         self.assertNotIn("node:20", facts["possible_interfaces"])
 
+    def test_a_set_that_would_take_the_nodes_of_others(self):
+        # The beam lies beside its nodes, which are references; NSET S would tie two of them.
+        beam = ("*NODE\n1\n2, 1.\n3, 2.\n*ELEMENT, TYPE=B32, ELSET=B\n1, 1, 2, 3\n*MATERIAL, NAME=M\n*ELASTIC\n"
+                "2.1e5, .3\n*DENSITY\n7.85e-9\n*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=RECT, OFFSET1=.5\n"
+                ".1, .2\n0., 1., 0.\n*NSET, NSET=S\n1, 2\n")
+        facts = self.facts(beam)
+        self.assertEqual(facts["possible_interfaces"], ["node:1", "node:2", "node:3"])
+        self.assertEqual(len(self.pasted(facts["command"])), 3)
+
     def test_matrices(self):
         for file in DECKS.glob("two_bricks*"):
             shutil.copy(file, self.folder)

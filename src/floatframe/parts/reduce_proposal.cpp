@@ -103,7 +103,7 @@ class Trial {
     }
     const bool added = model_.positions.size() > nodes;
     const auto known = std::find(nodes_.begin(), nodes_.end(), node);
-    if (known == nodes_.end() && has_own_dofs(node) && moves_something(node)) {
+    if (known == nodes_.end() && have_own_dofs(node) && moves_something(node)) {
       accepted_.push_back(std::move(d));
       nodes_.push_back(node);
       return true;
@@ -119,13 +119,17 @@ class Trial {
   const FeModel& model() const { return model_; }
 
  private:
-  bool has_own_dofs(int node) const {
+  /// The node, and those accepted before, which a spider of the new interface may have taken.
+  bool have_own_dofs(int node) const {
     const DofTable table = dof_table(model_);
-    if (table.count(node) != 6) return false;
     try {
       const DependentDofs dofs = resolve_dependences(model_, table);
-      const auto first = dofs.dependent.begin() + table.begin[node];
-      return std::none_of(first, first + 6, [](char dependent) { return dependent != 0; });
+      const auto own = [&](int k) {
+        const auto first = dofs.dependent.begin() + table.begin[k];
+        return table.count(k) == 6 &&
+               std::none_of(first, first + 6, [](char dependent) { return dependent != 0; });
+      };
+      return own(node) && std::all_of(nodes_.begin(), nodes_.end(), own);
     } catch (const InputError&) {
       return false;
     }
