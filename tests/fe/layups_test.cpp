@@ -11,6 +11,7 @@
 #include "support/error_of.hpp"
 #include "support/quadratic_mesh.hpp"
 #include "support/random_body.hpp"
+#include "support/solid_plies.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -18,28 +19,6 @@ namespace {
 constexpr ElementType layered_types[] = {ElementType::hex8,   ElementType::hex8i,
                                          ElementType::hex20,  ElementType::hex20r,
                                          ElementType::wedge6, ElementType::wedge15};
-
-bool is_wedge(ElementType type) {
-  return type == ElementType::wedge6 || type == ElementType::wedge15;
-}
-
-/// Natural coordinates of the nodes; those on edges in their middles.
-std::vector<Vec3> natural_nodes(ElementType type) {
-  const ElementKernel& kernel = element_kernel(type);
-  const Vec3 brick[8] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                         {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-  const Vec3 wedge[6] = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-  std::vector<Vec3> out(kernel.nodes, Vec3::Zero());
-  if (is_wedge(type))
-    std::copy(std::begin(wedge), std::end(wedge), out.begin());
-  else
-    std::copy(std::begin(brick), std::end(brick), out.begin());
-  for (const FaceNodes& face : kernel.shape.faces)
-    for (int i = face.corners; i < face.count; ++i)
-      out[face.nodes[i]] = 0.5 * (out[face.nodes[i - face.corners]] +
-                                  out[face.nodes[(i - face.corners + 1) % face.corners]]);
-  return out;
-}
 
 /// The functions that the shape functions of a type are made of, x^i y^j t^k.
 std::vector<std::array<int, 3>> monomials(ElementType type) {
@@ -77,16 +56,7 @@ MatX shapes_at(ElementType type, const std::vector<Vec3>& places) {
   return at * LeastNorm(V).pseudo_inverse();
 }
 
-const Material ply_material = anisotropic_material(elasticity_of({.E1 = 1.4e11,
-                                                                  .E2 = 1e10,
-                                                                  .E3 = 8e9,
-                                                                  .nu12 = 0.3,
-                                                                  .nu13 = 0.25,
-                                                                  .nu23 = 0.4,
-                                                                  .G12 = 5e9,
-                                                                  .G13 = 4e9,
-                                                                  .G23 = 3e9}),
-                                                   false, 1600.0);
+const Material ply_material = anisotropic_material(elasticity_of(fibres), false, fibres_density);
 const Material core{7e10, 0.33, 2700.0};
 
 /// A parallelepiped, or, sheared in no direction, a block.
@@ -242,30 +212,16 @@ TEST(Layups, LaminateTheory) {
 /// Free frequencies of a strip, one element through the thickness or one for each ply.
 TEST(Layups, OneElementOrOneForEachPly) {
   const auto strip = [](bool layered) {
-    FeModel model;
-    model.materials = {ply_material, core};
     const std::vector<ShellPly> plies = {{0, 0.01, 0.0}, {1, 0.02, 0.0}, {0, 0.01, 1.2}};
+    const std::vector<double> z =
+        layered ? std::vector<double>{0.0, 0.04} : std::vector<double>{0.0, 0.01, 0.03, 0.04};
+    FeModel model = brick_strip(6, 0.6, 0.08, z);
+    model.node_sets.clear();
+    model.materials = {ply_material, core};
     model.layups = {{plies}};
-    std::vector<double> z = {0.0, 0.04};
-    if (!layered) {
-      z = {0.0, 0.01, 0.03, 0.04};
-      for (const ShellPly& ply : plies) {
-        model.layups.push_back({{ply}});
-      }
-    }
-    const int nx = 6, rows = static_cast<int>(z.size());
-    for (int k = 0; k < rows; ++k)
-      for (int j = 0; j < 2; ++j)
-        for (int i = 0; i <= nx; ++i) model.positions.emplace_back(0.1 * i, 0.08 * j, z[k]);
-    for (int k = 0; k + 1 < rows; ++k)
-      for (int i = 0; i < nx; ++i) {
-        const int n = (nx + 1) * 2 * k + i, m = nx + 1, up = 2 * (nx + 1);
-        Element e;
-        e.type = ElementType::hex8;
-        e.nodes = {n, n + 1, n + m + 1, n + m, n + up, n + up + 1, n + up + m + 1, n + up + m};
-        e.layup = layered ? 0 : 1 + k;
-        model.elements.push_back(e);
-      }
+    for (const ShellPly& ply : plies) model.layups.push_back({{ply}});
+    for (std::size_t e = 0; e < model.elements.size(); ++e)
+      model.elements[e].layup = layered ? 0 : 1 + static_cast<int>(e % (z.size() - 1));
     model = hex20_of(std::move(model));
     validate(model);
     const FeSystem system = assemble(model);
@@ -289,7 +245,7 @@ TEST(Layups, MassVolumeStress) {
     model.elements[0].material = 0;
     const double volume_ = A.determinant() * (is_wedge(type) ? 1.0 : 8.0);
     EXPECT_NEAR(volume(model), volume_, 1e-12 * volume_);
-    const double mass = volume_ * (0.75 * 1600.0 + 0.25 * 2700.0);
+    const double mass = volume_ * (0.75 * fibres_density + 0.25 * 2700.0);
     EXPECT_NEAR(volume_times_density(model), mass, 1e-12 * mass);
     // Stress of constant strain, at nodes and over the volume.
     const ElementKernel& kernel = element_kernel(type);

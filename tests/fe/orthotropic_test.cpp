@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "floatframe/fe/element_kernel.hpp"
-#include "support/quadratic_mesh.hpp"
 #include "support/random_body.hpp"
+#include "support/solid_plies.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -41,19 +41,9 @@ Mat6 turned_tensor(const Mat6& D, const Mat3& R) {
 ElementInput skewed(ElementType type, Random& random) {
   const ElementKernel& kernel = element_kernel(type);
   ElementInput in;
-  // Corners from the faces of the unit shapes: bricks, wedges and tetrahedra begin alike.
-  const Vec3 brick[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                         {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-  const Vec3 wedge[6] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-  const Vec3 tet[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const bool is_brick = kernel.nodes == 8 || kernel.nodes == 20;
-  const bool is_wedge = kernel.nodes == 6 || kernel.nodes == 15;
-  const Vec3* p = is_brick ? brick : is_wedge ? wedge : tet;
-  for (int a = 0; a < (is_brick ? 8 : is_wedge ? 6 : 4); ++a) in.p[a] = p[a] + random.vec3(0.1);
-  for (const FaceNodes& face : kernel.shape.faces)
-    for (int i = face.corners; i < face.count; ++i)
-      in.p[face.nodes[i]] = 0.5 * (in.p[face.nodes[i - face.corners]] +
-                                   in.p[face.nodes[(i - face.corners + 1) % face.corners]]);
+  const std::vector<Vec3> corners = natural_corners(type);
+  for (std::size_t a = 0; a < corners.size(); ++a) in.p[a] = corners[a] + random.vec3(0.1);
+  set_middles(kernel, in.p);
   in.material = anisotropic_material(elasticity_of(wood), false, 600.0);
   in.orientation.emplace();
   in.orientation->axes = random.rotation();

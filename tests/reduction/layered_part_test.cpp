@@ -3,23 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/body/body_stress.hpp"
-#include "floatframe/fe/elasticity.hpp"
 #include "floatframe/reduction/part.hpp"
-#include "support/fe_parts.hpp"
 #include "support/shell_sheets.hpp"
+#include "support/solid_plies.hpp"
 
 namespace floatframe::test {
 namespace {
-
-constexpr EngineeringConstants fibres{.E1 = 1.4e11,
-                                      .E2 = 1e10,
-                                      .E3 = 9e9,
-                                      .nu12 = 0.3,
-                                      .nu13 = 0.3,
-                                      .nu23 = 0.4,
-                                      .G12 = 5e9,
-                                      .G13 = 5e9,
-                                      .G23 = 3e9};
 
 void check_layered(const FeModel& model) {
   PartOptions options;
@@ -46,7 +35,7 @@ void check_layered(const FeModel& model) {
 TEST(LayeredParts, Laminate) {
   FeModel model = sheet(
       ElementType::quad4, 12, 4, [](double x, double y) { return Vec3(0.4 * x, 0.1 * y, 0); },
-      anisotropic_material(lamina_elasticity(fibres), true, 1600.0), 0.001);
+      anisotropic_material(lamina_elasticity(fibres), true, fibres_density), 0.001);
   model.shells[0] = {.thickness = 0.003, .offset = 0.01};
   model.shells[0].plies = {{0, 0.001, 0.0}, {0, 0.002, 1.2}};
   for (int j = 0; j <= 4; ++j) {
@@ -58,7 +47,7 @@ TEST(LayeredParts, Laminate) {
 
 TEST(LayeredParts, OrthotropicSolid) {
   FeModel model = brick_beam(10, 2, 2, 0.4, 0.04);
-  model.materials = {anisotropic_material(elasticity_of(fibres), false, 1600.0)};
+  model.materials = {anisotropic_material(elasticity_of(fibres), false, fibres_density)};
   Orientation o;
   o.axes = Eigen::AngleAxisd(0.4, Vec3::UnitZ()).toRotationMatrix();
   model.orientations = {o};
