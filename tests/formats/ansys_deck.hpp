@@ -123,6 +123,10 @@ inline std::string cdb_material(int id, const std::vector<std::pair<std::string,
 
 inline const std::string cdb_steel = cdb_material(
     1, {{"EX", 2.1e5}, {"NUXY", 0.3}, {"DENS", 7.85e-9}, {"ALPX", 1e-5}, {"PRXY", 0.3}});
+/// Two opposite faces of a block.
+inline const std::string cdb_square =
+    "N,1,0,0,0\nN,2,2,0,0\nN,3,2,1,0\nN,4,0,1,0\nN,5,0,0,1\nN,6,2,0,1\nN,7,2,1,1\nN,8,0,1,1\n";
+inline const std::string cdb_brick = "ET,1,185\n" + cdb_square + "E,1,2,3,4,5,6,7,8\n";
 inline const std::string cdb_tail = "EXTOPT,ATTR,      0,      0,      0\n/GO\nFINISH\n";
 
 }  // namespace floatframe::test

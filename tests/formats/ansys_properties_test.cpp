@@ -1,9 +1,7 @@
-// ANSYS decks: materials, shells, beams, rods, springs, masses, rigid links, remote points,
-// contact, equations; each against what it means.
+// ANSYS decks: materials, shells, beams, rods, each against what it means.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "floatframe/fe/elasticity.hpp"
@@ -14,10 +12,6 @@ namespace floatframe::test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-
-const std::string cdb_square =
-    "N,1,0,0,0\nN,2,2,0,0\nN,3,2,1,0\nN,4,0,1,0\nN,5,0,0,1\nN,6,2,0,1\nN,7,2,1,1\nN,8,0,1,1\n";
-const std::string cdb_brick = "ET,1,185\n" + cdb_square + "E,1,2,3,4,5,6,7,8\n";
 
 const std::string cdb_ply = cdb_material(1, {{"EX", 1.3e5},
                                              {"EY", 9e3},
@@ -247,154 +241,6 @@ TEST(AnsysBeams, SectionsAndOrientation) {
   EXPECT_EQ(m.elements[6].type, ElementType::rod2);
   EXPECT_EQ(section(6).A, 6.0);
   EXPECT_EQ(section(7).A, 7.0);
-}
-
-TEST(AnsysPoints, SpringsMassesAndRigidLinks) {
-  const FeModel m =
-      ansys_of(cdb_brick + cdb_steel +
-               "N,20,5,0,0\nN,21,5,3,4,90\nN,22,6,0,0\nN,23,7,0,0\nN,24,8,1,0\nET,2,14\nET,3,"
-               "14\nKEYOPT,3,2,1\nET,4,14\n"
-               "KEYOPT,4,3,1\nET,5,21\nET,6,21\nKEYOPT,6,3,2\nET,7,184\nKEYOPT,7,1,1\nET,8,184\n"
-               "R,2,100,3\nR,5,2,2,2,3,4,5\nR,6,.5\nREAL,2\nTYPE,2\nEN,2,20,21\nTYPE,3\nEN,3,20,"
-               "21\nEN,4,20\n"
-               "TYPE,4\nEN,5,20,21\nREAL,5\nTYPE,5\nEN,6,20\nEN,7,1\nREAL,6\nTYPE,6\nEN,8,2\nTYPE,"
-               "7\nEN,9,20,2\n"
-               "EN,10,20,3\nEN,11,20,7\nTYPE,8\nEN,12,23,24\nCERIG,22,1,UXYZ\nCERIG,22,4,UXYZ\n");
-  ASSERT_EQ(m.springs.size(), 4u);
-  Vec6 d = Vec6::Zero();
-  d.head<3>() = Vec3(0, 0.6, 0.8);
-  EXPECT_LE((m.springs[0].directions[1] - d).norm() + (m.springs[0].directions[0] + d).norm(),
-            1e-15);
-  EXPECT_EQ(m.springs[0].stiffness, 100.0);
-  // UX of the second node, whose axes are turned by 90 degrees about z, is along y.
-  EXPECT_LE((m.springs[1].directions[0] + Vec6::Unit(0)).norm(), 1e-15);
-  EXPECT_LE((m.springs[1].directions[1] - Vec6::Unit(1)).norm(), 1e-15);
-  EXPECT_EQ(m.springs[2].nodes[1], -1);
-  EXPECT_NEAR(m.springs[3].directions[1](5), 0.8, 1e-15);
-  ASSERT_EQ(m.masses.size(), 3u);
-  EXPECT_EQ(m.masses[0].mass, 2.0);
-  EXPECT_EQ(m.masses[0].J(1, 1), 4.0);
-  EXPECT_TRUE(m.masses[1].J.isZero(0.0));  // a node of solids alone has no rotations
-  EXPECT_EQ(m.masses[2].mass, 0.5);
-  ASSERT_EQ(m.spiders.size(), 2u);
-  EXPECT_EQ(m.node_ids[m.spiders[0].reference], 20);
-  EXPECT_EQ(m.spiders[0].nodes, (std::vector<int>{1, 2, 6}));
-  EXPECT_EQ(m.spiders[1].mask, 7u);
-  EXPECT_EQ(m.spiders[1].nodes, (std::vector<int>{0, 3}));
-  ASSERT_EQ(m.equations.size(), 1u);  // the rigid link keeps its length
-  EXPECT_EQ(m.equations[0].terms.size(), 4u);
-  EXPECT_NEAR(m.equations[0].terms[0].factor, std::sqrt(0.5), 1e-15);
-}
-
-TEST(AnsysPoints, EquationsInTurnedAxes) {
-  for (const bool written : {true, false}) {
-    const FeModel m = ansys_of(
-        "ET,1,185\nN,1,0,0,0,90\n" + cdb_square.substr(cdb_square.find("N,2")) +
-        "E,1,2,3,4,5,6,7,8\n" + cdb_steel +
-        (written ? "CE,R5.0,DEFI,       1,       3,  0.00000000    \nCE,R5.0,NODE,      1,UX  ,  "
-                   "2.0    ,"
-                   "      2,UY  , -1.0\nCE,R5.0,NODE,      3,UZ  , -1.0\nCP,R5.0,DEFI,  1,  3,UZ\n"
-                   "CP,R5.0,NODE, 5, 6, 7\n"
-                 : "CE,1,0,1,UX,2,2,UY,-1\nCE,1,0,3,UZ,-1\nCP,NEXT,UZ,5,6,7\n"));
-    ASSERT_EQ(m.equations.size(), 3u);
-    const auto& terms = m.equations[0].terms;
-    ASSERT_EQ(terms.size(), 3u);
-    EXPECT_EQ(terms[0].axis, 1);
-    EXPECT_NEAR(terms[0].factor, 2.0, 1e-15);
-    EXPECT_EQ(terms[2].node, 2);
-    EXPECT_EQ(m.equations[2].terms[0].node, 6);
-    EXPECT_EQ(m.equations[2].terms[1].node, 4);
-    EXPECT_EQ(m.equations[2].terms[1].factor, -1.0);
-  }
-}
-
-/// Two bricks, one on the other; contact elements on the upper, a target on the lower.
-std::string two_bricks(int behaviour) {
-  return "ET,1,185\n" + cdb_square +
-         "N,11,0,0,1\nN,12,2,0,1\nN,13,2,1,1\nN,14,0,1,1\nN,15,0,0,2\nN,16,2,0,2\nN,17,2,1,2\n"
-         "N,18,0,1,2\nE,1,2,3,4,5,6,7,8\nE,11,12,13,14,15,16,17,18\n" +
-         cdb_steel +
-         fmt::format(
-             "ET,2,170\nET,3,174\nKEYOPT,3,12,{}\nR,4\nREAL,4\nTYPE,2\nE,5,6,7,8\nTYPE,3\n"
-             "E,11,14,13,12\n",
-             behaviour);
-}
-
-TEST(AnsysContact, BondedPairsAreTiedOthersAsTheOptionsSay) {
-  const FeModel bonded = ansys_of(two_bricks(5));
-  EXPECT_EQ(bonded.elements.size(), 2u);
-  ASSERT_EQ(bonded.equations.size(), 12u);
-  // The nodes lie on those of the target.
-  for (const LinearEquation& e : bonded.equations)
-    for (const auto& term : e.terms)
-      EXPECT_TRUE(std::abs(std::abs(term.factor) - 1.0) < 1e-12 || std::abs(term.factor) < 1e-12);
-  EXPECT_EQ(bonded.notes.at(0),
-            "a.cdb:36: bonded pair of real constants 4: 4 of 4 nodes are tied (within 0.0395)");
-  FeReadOptions options;
-  options.contact = DeckContact::ignore;
-  EXPECT_TRUE(ansys_of(two_bricks(0), options).equations.empty());
-  options.contact = DeckContact::tied;
-  EXPECT_EQ(ansys_of(two_bricks(0), options).equations.size(), 12u);
-  EXPECT_EQ(ansys_error(two_bricks(0)),
-            "a.cdb:36: the contact pair of real constants 4 is not linear: --contact ignore (key "
-            "`contact`) leaves its surfaces free, --contact tied joins them where they touch");
-}
-
-TEST(AnsysContact, RemotePoints) {
-  const auto deck = [](int option) {
-    return cdb_brick + cdb_steel +
-           fmt::format(
-               "N,50,5,0,0\nET,2,170\nET,3,174\nKEYOPT,3,2,2\nKEYOPT,3,4,{}\nKEYOPT,3,12,5\nREAL,"
-               "4\nTYPE,2\nE,50\nTYPE,3\nE,2,3,7,6\n",
-               option);
-  };
-  const FeModel rigid = ansys_of(deck(2)), mean = ansys_of(deck(1));
-  ASSERT_EQ(rigid.spiders.size(), 1u);
-  EXPECT_EQ(rigid.spiders[0].kind, Spider::Kind::rigid);
-  EXPECT_EQ(rigid.node_ids[rigid.spiders[0].reference], 50);
-  EXPECT_EQ(rigid.spiders[0].nodes, (std::vector<int>{1, 2, 5, 6}));
-  EXPECT_EQ(mean.spiders.at(0).kind, Spider::Kind::mean);
-  EXPECT_EQ(mean.notes.at(0),
-            "a.cdb:29: the remote point of real constants 4: node 50 moves as the mean of 4 nodes, "
-            "weighed by their shares of the area of the faces");
-  for (const double w : mean.spiders[0].weights) EXPECT_DOUBLE_EQ(w, 0.25);
-}
-
-/// Faces of different size and kind, with and without mid-side nodes.
-TEST(AnsysContact, WeightsOfRemotePoints) {
-  const auto weights = [](const std::string& faces, const char* number) {
-    const FeModel m = ansys_of(
-        cdb_brick + cdb_steel +
-        "N,31,10\nN,32,14\nN,33,14,1\nN,34,10,1\nN,35,16\nN,36,12\nN,37,14,.5\nN,38,12,1\n"
-        "N,39,10,.5\nN,40,15\nN,41,15,.5\nN,50,5,0,0\nET,2,170\nET,3," +
-        std::string(number) +
-        "\nKEYOPT,3,2,2\nKEYOPT,3,4,1\nKEYOPT,3,12,5\nREAL,4\nTYPE,2\nE,50\nTYPE,3\n" + faces);
-    std::map<int, double> out;
-    const Spider& s = m.spiders.at(0);
-    for (std::size_t k = 0; k < s.nodes.size(); ++k)
-      out[m.node_ids[s.nodes[k]]] = s.weights.empty() ? -1.0 : s.weights[k];
-    return out;
-  };
-  const auto expect = [](const std::map<int, double>& found, const std::map<int, double>& right) {
-    ASSERT_EQ(found.size(), right.size());
-    for (const auto& [node, weight] : right) EXPECT_NEAR(found.at(node), weight, 1e-14) << node;
-  };
-  // A rectangle of 4 and a triangle of 1: a third of the triangle for each of its corners.
-  expect(weights("E,31,32,33,34\nE,32,35,33,33\n", "173"),
-         {{31, 1}, {32, 4.0 / 3}, {33, 4.0 / 3}, {34, 1}, {35, 1.0 / 3}});
-  // int N_k^2 dA: 3/76 at the corners, 16/76 in the middles of a quadrilateral.
-  const double c = 4 * 3.0 / 76, m = 4 * 16.0 / 76;
-  expect(weights("E,31,32,33,34,36,37,38,39\n", "174"),
-         {{31, c}, {32, c}, {33, c}, {34, c}, {36, m}, {37, m}, {38, m}, {39, m}});
-  // One middle is not there.
-  expect(weights("E,31,32,33,34,36,0,38,39\n", "174"),
-         {{31, c}, {32, c + m / 2}, {33, c + m / 2}, {34, c}, {36, m}, {38, m}, {39, m}});
-  // 1/19 and 16/57 of a triangle.
-  const double tc = 1.0 / 19, tm = 1.0 / 3 - 1.0 / 19;
-  expect(weights("E,32,35,33,33,40,41,33,37\n", "174"),
-         {{32, tc}, {35, tc}, {33, tc}, {40, tm}, {41, tm}, {37, tm}});
-  // Nodes alone.
-  expect(weights("E,31\nE,32\nE,33\n", "175"), {{31, -1}, {32, -1}, {33, -1}});
 }
 
 }  // namespace

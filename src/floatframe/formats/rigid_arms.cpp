@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "floatframe/fe/dependent_dofs.hpp"
@@ -27,20 +28,29 @@ void add_arm_equations(FeModel& model, int end, int node, const FeSource& at) {
 
 }  // namespace
 
-int RigidArms::end(FeModel& model, TextSource& source, int node, const Vec3& arm,
-                   const FeSource& at) {
-  const auto [it, fresh] = end_of_.try_emplace({double(node), arm(0), arm(1), arm(2)}, -1);
-  if (!fresh) return it->second;
-  if (largest_id_ == 0)
-    largest_id_ = *std::max_element(model.node_ids.begin(), model.node_ids.end());
-  if (largest_id_ == std::numeric_limits<int>::max())
+int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSource& at,
+                 int& largest) {
+  largest = largest == 0 ? *std::max_element(model.node_ids.begin(), model.node_ids.end())
+                         : std::max(largest, model.node_ids.back());
+  if (largest == std::numeric_limits<int>::max())
     source.stop(at, fmt::format("a node of its own is needed here, but there is no number above {}",
-                                largest_id_));
-  it->second = model.nodes();
-  model.positions.push_back(model.positions[node] + arm);
-  model.node_ids.push_back(++largest_id_);
+                                largest));
+  model.positions.push_back(p);
+  model.node_ids.push_back(++largest);
   model.node_sources.push_back(at);
   if (!model.node_names.empty()) model.node_names.emplace_back();
+  return model.nodes() - 1;
+}
+
+int RigidArms::end(FeModel& model, TextSource& source, int node, const Vec3& arm,
+                   const FeSource& at) {
+  if (!std::isfinite(arm.squaredNorm()))  // stiffness about the node holds that square
+    source.stop(at, fmt::format("the end of a beam is ({:g}, {:g}, {:g}) from {}, expected numbers "
+                                "whose squares can be reckoned with",
+                                arm(0), arm(1), arm(2), model.node_label(node)));
+  const auto [it, fresh] = end_of_.try_emplace({double(node), arm(0), arm(1), arm(2)}, -1);
+  if (!fresh) return it->second;
+  it->second = add_own_node(model, source, model.positions[node] + arm, at, largest_id_);
   arms_.push_back({it->second, node, at});
   return it->second;
 }

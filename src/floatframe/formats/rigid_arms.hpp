@@ -9,6 +9,11 @@
 
 namespace floatframe {
 
+/// A node that no line of the file gives, with a number above all others. `largest`: that of the
+/// last one which this caller added, 0 before the first.
+int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSource& at,
+                 int& largest);
+
 class RigidArms {
  public:
   /// The node at `arm` [as the positions] from a node of the model; one for each node and arm.

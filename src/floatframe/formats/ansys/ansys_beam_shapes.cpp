@@ -107,7 +107,9 @@ class BeamShape {
     } else if (!solid()) {
       return std::nullopt;
     }
-    return place() ? std::optional(beam_) : std::nullopt;
+    if (!place()) return std::nullopt;
+    if (const std::string misfit = ansys_beam_misfit(beam_); !misfit.empty()) return wrong(misfit);
+    return beam_;
   }
 
  private:
@@ -297,6 +299,17 @@ class BeamShape {
 };
 
 }  // namespace
+
+std::string ansys_beam_misfit(const AnsysBeam& beam) {
+  const BeamSection& s = beam.section;
+  if (std::isfinite(s.A + beam.mass) && std::isfinite(s.Iy + s.Iz) && std::isfinite(s.J) &&
+      std::isfinite(s.shear_y + s.shear_z) && std::isfinite(beam.arm_y + beam.arm_z))
+    return {};
+  return fmt::format(
+      "its area is {:g}, its moments are {:g} and {:g}, its torsion constant is {:g}, its areas in "
+      "shear {:g} and {:g} and its centroid ({:g}, {:g}) from the node, expected finite numbers",
+      s.A, s.Iy, s.Iz, s.J, s.shear_y, s.shear_z, beam.arm_y, beam.arm_z);
+}
 
 void set_ansys_principal(double Iyy, double Izz, double Iyz, AnsysBeam& beam) {
   beam.section.Iy = Iyy;

@@ -4,11 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/formats/number_sizes.hpp"
 
 namespace floatframe {
 
@@ -25,17 +26,6 @@ int AnsysBuild::node(int id, const FeSource& at, const std::string& who) {
   if (it != content.node_index.end()) return it->second;
   source.error(at, fmt::format("{} has node {}, which is not in the file", who, id));
   return -1;
-}
-
-int AnsysBuild::add_node(const Vec3& p, const FeSource& at) {
-  if (largest_node == 0)
-    largest_node = *std::max_element(model.node_ids.begin(), model.node_ids.end());
-  if (largest_node == std::numeric_limits<int>::max())
-    source.stop(at, "a node of its own is needed here, but there is no number above 2147483647");
-  model.positions.push_back(p);
-  model.node_ids.push_back(++largest_node);
-  model.node_sources.push_back(at);
-  return model.nodes() - 1;
 }
 
 bool AnsysBuild::nodes_of(const AnsysElement& e, std::vector<int>& nodes) {
@@ -105,9 +95,15 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
   } else if (!content.materials.empty()) {
     error(e, fmt::format("it has material {}, which is not in the file", id));
   }
+  if (const std::string huge = huge_constant(m); own && !huge.empty())
+    source.error(found->second.at, fmt::format("material {}: {}", id, huge));
   if (own && !found->second.values.contains("DENS"))
     model.without_density[it->second] = {found->second.at, 1.0};
   m.density += more_density;
+  if (!std::isfinite(m.density))
+    error(e, fmt::format("the density of its material {} and its added mass make {:g}, expected a "
+                         "finite number",
+                         id, m.density));
   model.materials.push_back(std::move(m));
   model.material_names.push_back(fmt::format("{}", id));
   return it->second;
@@ -115,7 +111,7 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
 
 std::optional<int> AnsysBuild::layer_material(double number, const AnsysElement& e,
                                               const FeSource& at) {
-  if (!(std::abs(number) < 1e9)) {
+  if (!(number >= 0.0 && number < 1e9) || number != std::floor(number)) {
     source.error(at, fmt::format("section {}: a layer is of material {:g}, which is no number of a "
                                  "material",
                                  e.section, number));

@@ -10,6 +10,7 @@
 
 #include "floatframe/formats/ansys/ansys_content.hpp"
 #include "floatframe/formats/fe_file.hpp"
+#include "floatframe/formats/rigid_arms.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
@@ -22,13 +23,6 @@ struct AnsysBeam {
   double arm_y = 0.0, arm_z = 0.0;  ///< of the centroid from the node, before the turn
 };
 
-/// The end of a beam beside its node.
-struct AnsysArm {
-  int fresh = -1, node = -1;
-  Vec3 arm = Vec3::Zero();
-  FeSource at;
-};
-
 struct AnsysBuild {
   TextSource& source;
   AnsysContent& content;
@@ -38,8 +32,6 @@ struct AnsysBuild {
 
   /// Index of a node; an error and -1 if it is not there.
   int node(int id, const FeSource& at, const std::string& who);
-  /// A new node with a number of its own.
-  int add_node(const Vec3& p, const FeSource& at);
   /// The nodes of an element as indices, in the order of the deck, -1 for 0 and missing ones;
   /// false with an error.
   bool nodes_of(const AnsysElement& e, std::vector<int>& nodes);
@@ -70,11 +62,10 @@ struct AnsysBuild {
   std::map<std::pair<int, int>, int> layups = {};  ///< by section and material; -1: with an error
   std::map<int, std::optional<AnsysBeam>> beams = {};  ///< by section; none: with an error
   int solved_sections = 0;                             ///< shapes whose torsion has been computed
-  std::vector<AnsysArm> arms = {};
-  std::vector<char> rotates = {};  ///< for masses: `nodes_with_rotations`
-  std::map<std::array<double, 4>, int> arm_nodes = {};
-  int largest_node = 0;        ///< number, once a node has been added
-  std::vector<int> said = {};  ///< types with an error
+  RigidArms arms = {};                                 ///< of beams beside their nodes
+  std::vector<char> rotates = {};                      ///< for masses: `nodes_with_rotations`
+  int largest_node = 0;                                ///< of `add_own_node`
+  std::vector<int> said = {};                          ///< types with an error
 };
 
 /// Solids, shells, beams, rods.
@@ -82,6 +73,8 @@ void build_ansys_elements(AnsysBuild& build);
 /// Elements of those families; `nodes`: indices in the order of the deck.
 void build_ansys_shell(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
                        Element& element);
+/// Empty if all of a beam are finite numbers, else what they are.
+std::string ansys_beam_misfit(const AnsysBeam& beam);
 // ansys_build_layers.cpp: solids with layers; the latter false with an error.
 bool ansys_has_layers(const AnsysBuild& build, const AnsysElement& e, const AnsysType& type);
 bool build_ansys_layers(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
@@ -93,10 +86,6 @@ std::optional<AnsysBeam> ansys_beam_section(AnsysBuild& build, const AnsysSectio
                                             const AnsysElement& e);
 /// Iy, Iz of the principal axes and the turn, from moments about y and z.
 void set_ansys_principal(double Iyy, double Izz, double Iyz, AnsysBeam& beam);
-// ansys_build_arms.cpp
-/// The node at the end of an arm, which is tied rigidly by `build_ansys_arms`.
-int ansys_arm_node(AnsysBuild& build, int node, const Vec3& arm, const FeSource& at);
-void build_ansys_arms(AnsysBuild& build);
 /// MATRIX27
 void build_ansys_matrix(AnsysBuild& build, const AnsysElement& e, const AnsysType& type,
                         const std::vector<int>& nodes);

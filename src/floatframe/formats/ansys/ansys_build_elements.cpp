@@ -92,7 +92,8 @@ class AnsysElementBuilder {
       const auto [it, fresh] = middles_.try_emplace(std::minmax(a, b), b_.model.nodes());
       middle = it->second;
       if (!fresh) continue;
-      b_.add_node(0.5 * (b_.model.positions[a] + b_.model.positions[b]), e.at);
+      add_own_node(b_.model, b_.source, 0.5 * (b_.model.positions[a] + b_.model.positions[b]), e.at,
+                   b_.largest_node);
       for (int axis = 0; axis < 3; ++axis) {
         LinearEquation equation;
         equation.terms = {{middle, axis, 1.0}, {a, axis, -0.5}, {b, axis, -0.5}};

@@ -35,6 +35,16 @@ std::vector<ShellPly> solid_plies(AnsysBuild& b, const AnsysSection& section,
     if (!material) return {};
     plies.push_back({*material, t, ansys_value(row, 2) * std::numbers::pi / 180.0});
   }
+  double thick = 0.0, mass = 0.0;
+  for (const ShellPly& ply : plies) {
+    thick += ply.thickness;
+    mass += ply.thickness * b.model.materials[ply.material].density;
+  }
+  if (!std::isfinite(thick + mass))
+    return refuse(
+        fmt::format(": the thickness of its layers is {:g} and their mass over area {:g}, "
+                    "expected finite numbers",
+                    thick, mass));
   if (plies.empty()) return refuse(" has no layer with a thickness (SECDATA)");
   if (plies.size() > most_layers)
     return refuse(

@@ -46,6 +46,13 @@ class AnsysMatrix {
         return b_.source.error(real->at, fmt::format("real constants {}: constant {} is {:g}, "
                                                      "expected 78 of a symmetric matrix",
                                                      e_.real, k + 1, real->values[k]));
+    // What is left of the matrix is made of products of its constants.
+    for (std::size_t k = 0; k < real->values.size(); ++k)
+      if (const double x = real->values[k]; !std::isfinite(1e3 * x * x))
+        return b_.source.error(real->at, fmt::format("real constants {}: constant {} is {:g}, "
+                                                     "expected a number whose square can be "
+                                                     "reckoned with",
+                                                     e_.real, k + 1, x));
     if (nodes.size() < 2 || nodes[0] < 0 || nodes[1] < 0 || nodes[0] == nodes[1])
       return b_.error(e_, "it has no two different nodes");
     nodes_ = {nodes[0], nodes[1]};

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -191,6 +192,8 @@ void build_ansys_rigid(AnsysBuild& b) {
 
 void add_ansys_mass(AnsysBuild& b, const AnsysElement& e, PointMass m) {
   if (m.mass == 0.0 && m.J.isZero(0.0)) return;
+  if (!std::isfinite(m.mass) || !m.J.allFinite())
+    return b.error(e, "its mass or its inertia is no finite number");
   if (!m.J.isZero(0.0) && b.rotates[m.node] == 0) {
     b.note(e.at, fmt::format("{}: node {} has no rotations, so the inertia has no effect and is "
                              "left out",

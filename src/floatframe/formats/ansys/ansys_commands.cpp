@@ -44,6 +44,20 @@ void skip_with_block(AnsysFields& f, AnsysContent& c) {
   f.skip_block();
 }
 
+/// The shape of the targets that follow: those of nodes are told by their nodes, a pilot by having
+/// one.
+void check_target_shape(AnsysFields& f, AnsysContent&) {
+  constexpr std::array of_nodes = {"LINE", "PARA", "TRIA", "TRI6", "QUAD", "QUA8", "PILO", "POIN"};
+  const std::string shape = f.word(1);
+  if (shape.empty() || std::any_of(of_nodes.begin(), of_nodes.end(),
+                                   [&](const char* name) { return shape.starts_with(name); }))
+    return;
+  f.stop(
+      fmt::format("TSHAP: targets of the shape {} are not read, expected one of nodes (LINE, "
+                  "PARA, TRIA, TRI6, QUAD, QUA8, POINT) or a pilot node (PILO)",
+                  shown(f.text(1))));
+}
+
 void note_units(AnsysFields& f, AnsysContent& c) {
   c.model.notes.push_back(
       fmt::format("{}:{}: the file says that its units are {}; the units given with the file are "
@@ -88,6 +102,7 @@ constexpr AnsysCommand ansys_commands[] = {
     {"CP", read_ansys_coupling},
     {"CERIG", read_ansys_rigid},
     {"D", read_ansys_support},
+    {"TSHAP", check_target_shape},
     {"LUMPM", set_lumped},
     {"*SET", set_parameter},
     {"*GET", get_parameter},

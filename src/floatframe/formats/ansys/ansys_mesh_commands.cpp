@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "floatframe/formats/ansys/ansys_content.hpp"
+#include "floatframe/formats/number_sizes.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
@@ -21,6 +22,8 @@ int add_node(AnsysFields& f, AnsysContent& c, int id, const Vec3& p, const FeSou
                                      c.model.node_sources[it->second].line));
     return it->second;
   }
+  if (const std::string huge = huge_place(p); !huge.empty())
+    f.source().error(at, fmt::format("node {}: {}", id, huge));
   c.model.positions.push_back(p);
   c.model.node_ids.push_back(id);
   c.model.node_sources.push_back(at);

@@ -34,6 +34,10 @@ std::optional<AnsysBeam> beam_of_constants(AnsysBuild& b, const AnsysElement& e)
                                          e.real, s.A, s.Iz, s.Iy));
     return std::nullopt;
   }
+  if (const std::string misfit = ansys_beam_misfit(beam); !misfit.empty()) {
+    b.source.error(real->at, fmt::format("real constants {}: {}", e.real, misfit));
+    return std::nullopt;
+  }
   return beam;
 }
 
@@ -140,7 +144,7 @@ bool build_ansys_line(AnsysBuild& b, const AnsysElement& e, const AnsysType& typ
   const Vec3 arm = beam->arm_y * unit_y + beam->arm_z * z;
   if (!arm.isZero(0.0))
     for (std::size_t k = 0; k < count; ++k)
-      element.nodes[k] = ansys_arm_node(b, element.nodes[k], arm, e.at);
+      element.nodes[k] = b.arms.end(b.model, b.source, element.nodes[k], arm, e.at);
   return true;
 }
 

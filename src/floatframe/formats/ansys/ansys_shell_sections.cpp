@@ -7,6 +7,7 @@
 
 #include "floatframe/fe/shell_layers.hpp"
 #include "floatframe/formats/ansys/ansys_build.hpp"
+#include "floatframe/formats/number_sizes.hpp"
 
 namespace floatframe {
 namespace {
@@ -33,12 +34,20 @@ class AnsysShell {
     } else {
       constants(s);
     }
+    check_numbers(section == nullptr ? e_.at : section->at, s);
     s.shear = thin ? 0.0 : shell_shear * s.thickness;
     element_.section = index_of(s);
     orient();
   }
 
  private:
+  /// Thicknesses and densities may be finite, and their sums and products not.
+  void check_numbers(const FeSource& at, const ShellSection& s) {
+    const std::vector<Material>& all = b_.model.materials;
+    const std::string huge = huge_sheet(s, all[element_.material].density, all);
+    if (!huge.empty()) b_.source.error(at, fmt::format("{}: {}", b_.label(e_), huge));
+  }
+
   void layers(const AnsysSection& section, ShellSection& s) {
     std::vector<std::vector<double>> rows = section.rows;
     std::erase_if(rows, [](const std::vector<double>& row) {  // a layer that is dropped

@@ -44,7 +44,7 @@ FeModel read_ansys(TextSource& source, const FeReadOptions& options) {
   build_ansys_springs(build);
   build_ansys_rigid(build);
   build_ansys_contact(build);
-  build_ansys_arms(build);
+  build.arms.tie(build.model);
   build_ansys_masses(build);
   build_ansys_equations(build);
   build_ansys_supports(build);
