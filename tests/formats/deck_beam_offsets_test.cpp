@@ -164,5 +164,46 @@ TEST(DeckBeamOffsets, SaysWhatIsWrong) {
             "--dialect calculix");
 }
 
+TEST(DeckBeamOffsets, OneOffsetForOneSection) {
+  const auto error = [](const std::string& text, DeckDialect dialect = DeckDialect::by_content) {
+    return error_of([&] { stick_deck(sticks("B31", text, false), dialect); });
+  };
+  const std::string line = "*BEAM SECTION OFFSET\n.02, -.03\n";
+  EXPECT_EQ(error(stick_section("SET1", "") + line), "no error");
+  EXPECT_EQ(error(stick_section("SET1", "") + line + line),
+            "stick.inp:20: *BEAM SECTION OFFSET is given a second time for its section "
+            "(stick.inp:18)");
+  EXPECT_EQ(error(stick_section("SET1", ", OFFSET2=.5") + line),
+            "stick.inp:18: *BEAM SECTION OFFSET follows a section with OFFSET1 or OFFSET2 "
+            "(stick.inp:15), expected one of both: this line is one of Abaqus, those are of "
+            "CalculiX");
+  EXPECT_EQ(error(stick_section("SET1", "") + "*BEAM SECTION OFFSET\n.02, -.03, .04\n"),
+            "stick.inp:19: *BEAM SECTION OFFSET has the entry '.04' behind its 2 numbers, "
+            "expected no more");
+  EXPECT_EQ(error(stick_section("SET1", "") + line + ".01, .01\n"),
+            "stick.inp:20: *BEAM SECTION OFFSET has a second line, which is not supported");
+}
+
+// The line is one of Abaqus: it shows whose deck it is, and CalculiX would pass it over.
+TEST(DeckBeamOffsets, TheLineIsOneOfAbaqus) {
+  const std::string line = "*BEAM SECTION OFFSET\n.02, -.03\n";
+  const std::string text = sticks("B32", stick_section("SET1", "", "CIRC", ".03") + line, false);
+  const FeModel m = stick_deck(text);
+  EXPECT_NEAR(m.sections[0].A, std::numbers::pi * 9e-4, 1e-15);
+  EXPECT_EQ(m.notes.at(0),
+            "stick.inp:15: *BEAM SECTION, SECTION=CIRC: 0.03 is the radius, as in Abaqus (*BEAM "
+            "SECTION OFFSET in stick.inp:18)");
+  EXPECT_EQ(error_of([&] { stick_deck(text, DeckDialect::calculix); }),
+            "stick.inp:18: *BEAM SECTION OFFSET is a line that only Abaqus has: CalculiX has "
+            "OFFSET1 and OFFSET2 of *BEAM SECTION");
+  EXPECT_EQ(error_of([&] {
+              stick_deck(sticks(
+                  "B31", stick_section("SET1", "") + line + "*VALUES AT INFINITY\n1.\n", false));
+            }),
+            "stick.inp:18: *BEAM SECTION OFFSET is a line that only Abaqus has, but the deck has "
+            "*VALUES AT INFINITY (stick.inp:20), which only CalculiX has; if it is one of Abaqus "
+            "give --dialect abaqus");
+}
+
 }  // namespace
 }  // namespace floatframe::test

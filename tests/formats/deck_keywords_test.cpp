@@ -72,6 +72,12 @@ TEST(DeckKeywords, BoltsWithoutTheirPreload) {
             "preload");
 }
 
+TEST(DeckKeywords, BoltsOfASurfaceThatIsNotThere) {
+  EXPECT_EQ(error(tetrahedron +
+                  "*SURFACE, NAME=SHANK\n1, S1\n*PRE-TENSION SECTION, SURFACE=SHANC, NODE=4\n"),
+            "deck.inp:16: surface 'SHANC' does not exist, did you mean 'SHANK'?");
+}
+
 TEST(DeckKeywords, SurfaceSectionWithoutMassIsNoted) {
   const FeModel model = parsed(tetrahedron + "*SURFACE SECTION, ELSET=SKIN\n");
   ASSERT_EQ(model.notes.size(), 1u);

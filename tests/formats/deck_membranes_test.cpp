@@ -123,6 +123,8 @@ TEST(DeckMembranes, SaysWhatIsWrong) {
             "foil.inp:19: thickness of the membrane is -1, expected more than 0");
   EXPECT_EQ(error("*SHELL SECTION, ELSET=FOIL, MATERIAL=AL\n.002\n"),
             "foil.inp:18: *SHELL SECTION names element 1 (M3D4R), for which it is not supported");
+  EXPECT_EQ(error(begin + "\n.002\n.003\n"),
+            "foil.inp:20: *MEMBRANE SECTION has a second line, which is not supported");
   EXPECT_EQ(error(begin + ", COMPOSITE\n.002\n").substr(0, 50),
             "foil.inp:18: *MEMBRANE SECTION has the parameter '");
 }

@@ -92,6 +92,11 @@ TEST(NonstructuralMass, SaysWhatIsWrong) {
   EXPECT_EQ(error("ELSET=CUBE, UNITS=TOTAL MASS\n"), at + "has no data line");
   EXPECT_EQ(error("ELSET=CUBE, UNITS=TOTAL MASS\n-3.\n"),
             "mass.inp:36: nonstructural mass is -3, expected more than 0");
+  EXPECT_EQ(error("ELSET=CUBE, UNITS=TOTAL MASS\n3.\n4.\n"),
+            "mass.inp:37: *NONSTRUCTURAL MASS has a second line, which is not supported");
+  EXPECT_EQ(error("ELSET=CUBE, UNITS=TOTAL MASS\n3., 4.\n"),
+            "mass.inp:36: *NONSTRUCTURAL MASS has the entry '4.' behind its number, expected no "
+            "more");
   EXPECT_EQ(error("ELSET=SKIN, UNITS=TOTAL MASS\n3.\n*ELEMENT, TYPE=SFM3D4, ELSET=SKIN\n"
                   "9, 1, 2, 3, 4\n"),
             at + "names element 9 (SFM3D4), which has no section here");

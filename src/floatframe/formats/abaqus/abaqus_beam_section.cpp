@@ -235,7 +235,7 @@ AbaqusSection* place_in_section(AbaqusLines& lines, const AbaqusKeyword& keyword
   if (!lines.next_fields(fields)) lines.error(keyword, "has no data line");
   for (std::size_t k = 0; k < 2; ++k)
     place(static_cast<Eigen::Index>(k)) = lines.real_or(fields, k, 0.0, "place in the section");
-  lines.skip_data();
+  lines.no_more(keyword, fields, 2);
   AbaqusSection* const section = content.sections.empty() ? nullptr : &content.sections.back();
   if (section == nullptr || section->family != AbaqusType::Family::beam ||
       (section->shape == "GENERAL") != constants) {
@@ -252,8 +252,22 @@ AbaqusSection* place_in_section(AbaqusLines& lines, const AbaqusKeyword& keyword
 void read_abaqus_beam_section_offset(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                      AbaqusContent& content) {
   Eigen::Vector2d place;
-  if (AbaqusSection* const s = place_in_section(lines, keyword, content, false, place))
-    s->arm += place;
+  AbaqusSection* const s = place_in_section(lines, keyword, content, false, place);
+  if (s == nullptr) return;
+  if (s->offset_at) {
+    const SourceMark first = lines.source().mark(*s->offset_at);
+    return lines.error(keyword, fmt::format("is given a second time for its section ({}:{})",
+                                            first.file, first.line));
+  }
+  if (s->calculix_offset) {
+    const SourceMark mark = lines.source().mark(s->at);
+    return lines.error(keyword, fmt::format("follows a section with OFFSET1 or OFFSET2 ({}:{}), "
+                                            "expected one of both: this line is one of Abaqus, "
+                                            "those are of CalculiX",
+                                            mark.file, mark.line));
+  }
+  s->offset_at = keyword.at;
+  s->arm += place;
 }
 
 void read_abaqus_centroid(AbaqusLines& lines, const AbaqusKeyword& keyword,

@@ -64,6 +64,9 @@ int abaqus_orientation(AbaqusBuild& build, const std::string& name, const Abaqus
 /// `material`: index of one by its name.
 ShellSection abaqus_shell_section(AbaqusBuild& build, const AbaqusSection& section,
                                   const std::function<int(const std::string&)>& material);
+/// An error if thickness, offset or mass over area are too large.
+void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const ShellSection& shell,
+                        int material);
 void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,
                            const Material& material);
 /// Axes of the material of an element whose nodes are known.

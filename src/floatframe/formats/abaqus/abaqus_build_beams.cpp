@@ -39,23 +39,43 @@ void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& 
                                             abaqus_label(deck), id));
 }
 
+/// *BEAM SECTION OFFSET in a deck of CalculiX, which passes such a line over.
+void check_abaqus_offset_line(AbaqusBuild& build, const AbaqusSection& section) {
+  const DeckDialect dialect = build.content.dialect;
+  if (!section.offset_at || dialect == DeckDialect::abaqus) return;
+  const DialectClues& clues = build.clues;
+  if (dialect == DeckDialect::calculix) {
+    build.source.error(*section.offset_at,
+                       "*BEAM SECTION OFFSET is a line that only Abaqus has: CalculiX has OFFSET1 "
+                       "and OFFSET2 of *BEAM SECTION");
+  } else if (clues.calculix) {
+    const SourceMark mark = build.source.mark(clues.calculix->at);
+    build.source.error(*section.offset_at,
+                       fmt::format("*BEAM SECTION OFFSET is a line that only Abaqus has, but the "
+                                   "deck has {} ({}:{}), which only CalculiX has; if it is one of "
+                                   "Abaqus give --dialect abaqus",
+                                   clues.calculix->what, mark.file, mark.line));
+  }
+}
+
 }  // namespace
 
 void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const AbaqusElement& deck,
                       Element& e) {
   if (deck.directed) direct_abaqus_beam(build, deck, e);
   if (section.arm.isZero(0.0)) return;
+  if (!std::isfinite(section.arm.squaredNorm())) return;  // an error already
   const int nodes = element_kernel(e.type).nodes;
   std::array<Vec3, 3> arms{};
   for (int k = 0; k < nodes; ++k) {
-    const Vec3 t = tangent_at(build.model, e, nodes, k).normalized();
-    const Vec3 n2 = t.cross(e.reference).normalized();
+    const Vec3 t = tangent_at(build.model, e, nodes, k).stableNormalized();
+    const Vec3 n2 = t.cross(e.reference.stableNormalized()).normalized();
     // Without length or direction it is refused by `validate`, as one at its nodes.
     if (!t.allFinite() || !n2.allFinite() || n2.isZero(0.0)) return;
     Vec3& arm = arms[static_cast<std::size_t>(k)];
     arm = section.arm(0) * n2.cross(t) + section.arm(1) * n2;
     for (double& x : arm)
-      if (std::abs(x) < 1e-14 * section.arm.norm()) x = 0.0;
+      if (std::abs(x) < 1e-14 * section.arm.stableNorm()) x = 0.0;
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(nodes); ++k)
     e.nodes[k] = build.arms.end(build.model, build.source, e.nodes[k], arms[k], e.source);
@@ -63,6 +83,11 @@ void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const Ab
 
 void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section) {
   const bool constants = section.shape == "GENERAL";
+  if (!std::isfinite(section.arm.squaredNorm()))
+    return build.source.error(
+        section.at, fmt::format("{}: its centroid is at ({:g}, {:g}) of the node, expected numbers "
+                                "whose squares can be reckoned with",
+                                section.shown, section.arm(0) + 0.0, section.arm(1) + 0.0));
   if (constants && (section.arm - section.shear_center).norm() > 1e-9 * section.arm.norm())
     build.source.error(section.at,
                        fmt::format("{}: its centroid is at ({:g}, {:g}) of the node and its shear "
@@ -70,6 +95,7 @@ void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section) 
                                    "*SHEAR CENTER)",
                                    section.shown, section.arm(0), section.arm(1),
                                    section.shear_center(0), section.shear_center(1)));
+  check_abaqus_offset_line(build, section);
   if (!section.calculix_offset || build.content.dialect == DeckDialect::calculix) return;
   const DialectClues& clues = build.clues;
   if (build.content.dialect == DeckDialect::abaqus) {

@@ -280,6 +280,8 @@ void build_abaqus_constraints(AbaqusBuild& build, bool only_nodes) {
   const AbaqusContent& c = build.content;
   if (!only_nodes) {
     build_surfaces(build);
+    std::string name;
+    for (const AbaqusPreTension& p : c.pre_tensions) find_abaqus_surface(build, p.surface, name);
     build.source.throw_if_any();
   }
   NodeList list(c.nodes.size());

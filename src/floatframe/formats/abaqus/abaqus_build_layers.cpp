@@ -13,6 +13,7 @@
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/number_sizes.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -147,6 +148,13 @@ ShellSection abaqus_shell_section(AbaqusBuild& build, const AbaqusSection& secti
     for (const AbaqusSection::Ply& ply : section.plies)
       if (!ply.orientation.empty()) abaqus_orientation(build, ply.orientation, section);
   return out;
+}
+
+void check_abaqus_sheet(AbaqusBuild& build, const AbaqusSection& section, const ShellSection& shell,
+                        int material) {
+  const std::vector<Material>& all = build.model.materials;
+  const std::string huge = huge_sheet(shell, all[material].density, all);
+  if (!huge.empty()) build.source.error(section.at, fmt::format("{}: {}", section.shown, huge));
 }
 
 void check_abaqus_material(AbaqusBuild& build, const AbaqusSection& section,

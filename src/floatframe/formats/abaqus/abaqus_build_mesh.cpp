@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/number_sizes.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -122,6 +123,9 @@ void build_abaqus_nodes(AbaqusBuild& build) {
   Renumbered nodes(build, "node");
   for (const AbaqusNode& node : c.nodes) {
     model.positions.push_back(c.placement(node.scope).at(node.p));
+    if (const std::string huge = huge_place(model.positions.back()); !huge.empty())
+      build.source.error(node.at,
+                         fmt::format("node {}{}: {}", c.prefix(node.scope), node.id, huge));
     int id = node.id;
     // Numbers of one scope are different, so only several scopes can share one.
     if (!c.parts.empty() && !taken.insert(id).second) {
@@ -141,6 +145,7 @@ void build_abaqus_nodes(AbaqusBuild& build) {
                                      : std::string());
   }
   nodes.note();
+  build.source.throw_if_any();
 }
 
 namespace {

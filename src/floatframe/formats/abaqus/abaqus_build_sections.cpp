@@ -2,11 +2,13 @@
 // model. Round sections depend on whose deck it is.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <unordered_map>
 #include <utility>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
+#include "floatframe/formats/number_sizes.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -39,6 +41,8 @@ int material_of(AbaqusBuild& build, const AbaqusSection& section, const std::str
     material = m.elasticity ? anisotropic_material(*m.elasticity, m.plane, m.density.value_or(0.0))
                             : Material{m.young.value_or(0.0), m.poisson.value_or(0.0),
                                        m.density.value_or(0.0)};
+    if (const std::string huge = huge_constant(material); !huge.empty())
+      build.source.error(m.at, fmt::format("material {}: {}", shown(name), huge));
   }
   model.materials.push_back(material);
   model.material_names.push_back(name);
@@ -84,6 +88,18 @@ void check_form(AbaqusBuild& build, const AbaqusSection& section) {
       fmt::format("{}, SECTION={} has dimensions as in CalculiX, but the deck has {} ({}:{}), "
                   "which only Abaqus has; if it is one of CalculiX give --dialect calculix",
                   section.shown, section.shape, clues.abaqus->what, mark.file, mark.line));
+}
+
+/// Dimensions may be finite, and what follows from them not.
+void check_beam_numbers(AbaqusBuild& build, const AbaqusSection& section, const BeamSection& s,
+                        const Material& material) {
+  const double mass = s.A * material.density;
+  if (std::isfinite(mass + s.A) && std::isfinite(s.Iy + s.Iz) && std::isfinite(s.J)) return;
+  build.source.error(section.at,
+                     fmt::format("{}: its area is {:g}, its moments are {:g} and {:g}, its torsion "
+                                 "constant is {:g} and its mass over length {:g}, expected finite "
+                                 "numbers",
+                                 section.shown, s.A, s.Iy, s.Iz, s.J, mass));
 }
 
 /// Axes that no *ORIENTATION gives are global ones; whether an instance turns them is not said.
@@ -200,14 +216,17 @@ std::vector<AbaqusProperties> abaqus_properties(AbaqusBuild& build) {
       check_abaqus_beam_offset(build, section);
       model.sections.push_back(section.round > 0.0 ? round_section(build, section) : section.beam);
       BeamSection& beam = model.sections.back();
+      check_beam_numbers(build, section, beam, model.materials[p.material]);
       beam.shear_y = beam.shear_z = abaqus_shear_factor(section.shape) * beam.A;
       p.reference = build.content.placement(section.elements.scope).R * section.n1;
     } else if (section.family == Family::solid && section.thickness > 0.0) {  // of rods
       p.section = static_cast<int>(model.sections.size());
       model.sections.push_back({section.thickness, 0.0, 0.0, 0.0});
+      check_beam_numbers(build, section, model.sections.back(), model.materials[p.material]);
     } else if (is_abaqus_sheet(section.family)) {
       p.section = static_cast<int>(model.shells.size());
       const ShellSection shell = abaqus_shell_section(build, section, material);
+      if (!section.nodal_thickness) check_abaqus_sheet(build, section, shell, p.material);
       p.directional = !is_plain(shell, model.materials[p.material]);
       model.shells.push_back(shell);
     }

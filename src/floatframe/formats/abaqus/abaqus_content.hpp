@@ -138,8 +138,9 @@ struct AbaqusSection {
       0.0;  ///< of CIRC with one number: that number, whose meaning depends on the dialect
   bool calculix_form = false;  ///< fewer or more numbers than Abaqus takes
   Vec3 n1 = -Vec3::UnitZ();
-  Eigen::Vector2d arm = {0.0, 0.0};  ///< of beams: the centroid from the node, in directions 1, 2
-  bool calculix_offset = false;      ///< OFFSET1, OFFSET2
+  Eigen::Vector2d arm = {0.0, 0.0};   ///< of beams: the centroid from the node, in directions 1, 2
+  bool calculix_offset = false;       ///< OFFSET1, OFFSET2
+  std::optional<FeSource> offset_at;  ///< of *BEAM SECTION OFFSET, which Abaqus has
   Eigen::Vector2d shear_center = {0.0, 0.0};  ///< of beams of given constants, from the node
   double mass = 0.0;                          ///< of *MASS
   Mat3 J = Mat3::Zero();
@@ -238,6 +239,11 @@ struct AbaqusNonstructuralMass {
   FeSource at;
 };
 
+/// *PRE-TENSION SECTION of a surface, which must be there.
+struct AbaqusPreTension {
+  AbaqusReference surface;
+};
+
 struct AbaqusContent;
 /// Constants of a material for which the deck says a temperature later, or not at all.
 struct AbaqusPendingConstants {
@@ -250,7 +256,7 @@ struct AbaqusPendingConstants {
 };
 
 /// How much of each kind has been read: nodes, elements and the lists of things.
-using AbaqusSizes = std::array<std::size_t, 12>;
+using AbaqusSizes = std::array<std::size_t, 13>;
 
 struct AbaqusPart {
   AbaqusScope scope = AbaqusScope::part;
@@ -289,6 +295,7 @@ struct AbaqusContent {
   std::vector<AbaqusTransform> transforms;
   std::vector<AbaqusThickness> thicknesses;
   std::vector<AbaqusNonstructuralMass> nonstructural;
+  std::vector<AbaqusPreTension> pre_tensions;
   std::vector<AbaqusInitialTemperature> initial_temperatures;
   std::vector<AbaqusPendingConstants> pending;
   std::vector<std::string> notes;

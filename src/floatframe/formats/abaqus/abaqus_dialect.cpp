@@ -8,12 +8,27 @@
 namespace floatframe {
 namespace {
 
-constexpr std::array<std::string_view, 20> abaqus_keywords = {
-    "PART",           "ASSEMBLY",      "INSTANCE",    "PREPRINT",
-    "SYSTEM",         "ROTARYINERTIA", "MONITOR",     "SECTIONPOINTS",
-    "FILEFORMAT",     "FILEOUTPUT",    "PRINT",       "SECTIONCONTROLS",
-    "ENERGYOUTPUT",   "ENERGYPRINT",   "ENERGYFILE",  "INCREMENTATIONOUTPUT",
-    "SOLVERCONTROLS", "MODALOUTPUT",   "DISPLAYBODY", "NONSTRUCTURALMASS"};
+constexpr std::array<std::string_view, 21> abaqus_keywords = {"PART",
+                                                              "ASSEMBLY",
+                                                              "INSTANCE",
+                                                              "PREPRINT",
+                                                              "SYSTEM",
+                                                              "ROTARYINERTIA",
+                                                              "MONITOR",
+                                                              "SECTIONPOINTS",
+                                                              "FILEFORMAT",
+                                                              "FILEOUTPUT",
+                                                              "PRINT",
+                                                              "SECTIONCONTROLS",
+                                                              "ENERGYOUTPUT",
+                                                              "ENERGYPRINT",
+                                                              "ENERGYFILE",
+                                                              "INCREMENTATIONOUTPUT",
+                                                              "SOLVERCONTROLS",
+                                                              "MODALOUTPUT",
+                                                              "DISPLAYBODY",
+                                                              "NONSTRUCTURALMASS",
+                                                              "BEAMSECTIONOFFSET"};
 
 constexpr std::array<std::string_view, 17> calculix_keywords = {
     "VALUESATINFINITY",

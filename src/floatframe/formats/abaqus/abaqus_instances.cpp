@@ -30,6 +30,7 @@ class ScopeChange {
   void operator()(AbaqusSupport& s) const { (*this)(s.nodes); }
   void operator()(AbaqusThickness& t) const { (*this)(t.nodes); }
   void operator()(AbaqusNonstructuralMass& m) const { (*this)(m.elements); }
+  void operator()(AbaqusPreTension& p) const { (*this)(p.surface); }
   void operator()(AbaqusTie& t) const {
     (*this)(t.slave);
     (*this)(t.master);
@@ -58,6 +59,7 @@ AbaqusScope scope_of(const AbaqusSpring& s) { return s.elements.scope; }
 AbaqusScope scope_of(const AbaqusSupport& s) { return s.nodes.scope; }
 AbaqusScope scope_of(const AbaqusThickness& t) { return t.nodes.scope; }
 AbaqusScope scope_of(const AbaqusNonstructuralMass& m) { return m.elements.scope; }
+AbaqusScope scope_of(const AbaqusPreTension& p) { return p.surface.scope; }
 AbaqusScope scope_of(const AbaqusTie& t) { return t.slave.scope; }
 AbaqusScope scope_of(const AbaqusTransform& t) { return t.scope; }
 AbaqusScope scope_of(const AbaqusSpider& s) { return s.reference.scope; }
@@ -79,6 +81,7 @@ void each_list(Content& c, Use use) {
   use(c.transforms, place++);
   use(c.thicknesses, place++);
   use(c.nonstructural, place++);
+  use(c.pre_tensions, place++);
 }
 
 /// Entries of a scope; the keys begin with it.

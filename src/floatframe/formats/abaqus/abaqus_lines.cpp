@@ -169,6 +169,21 @@ void AbaqusLines::take_input(const AbaqusKeyword& keyword) {
   if (!file.empty()) source_.include(file, keyword.at);
 }
 
+void AbaqusLines::no_more(const AbaqusKeyword& keyword, const std::vector<std::string_view>& fields,
+                          std::size_t count) {
+  for (std::size_t k = count; k < fields.size(); ++k) {
+    if (fields[k].empty()) continue;
+    source_.error(fmt::format("{} has the entry {} behind {}, expected no more", keyword.shown,
+                              shown(fields[k]),
+                              count == 1 ? "its number" : fmt::format("its {} numbers", count)));
+    break;
+  }
+  std::string_view more;
+  if (!next_data(more)) return;
+  source_.error(keyword.shown + " has a second line, which is not supported");
+  skip_data();
+}
+
 double AbaqusLines::real(std::string_view field, std::string_view what) {
   const std::optional<double> value = parse_real(field);
   if (!value) source_.error(fmt::format("{}: {}", what, not_a_real(field)));

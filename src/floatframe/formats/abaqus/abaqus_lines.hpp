@@ -39,6 +39,9 @@ class AbaqusLines {
   /// Fields of the next data line, without the empty one after a comma at the end of the line.
   bool next_fields(std::vector<std::string_view>& fields);
   void skip_data();
+  /// An error if the last data line has more than `count` fields, or another one follows it.
+  void no_more(const AbaqusKeyword& keyword, const std::vector<std::string_view>& fields,
+               std::size_t count);
 
   /// The value of a parameter ("REF NODE") that must be there; an error and empty if it is not.
   std::string_view required(const AbaqusKeyword& keyword, std::string_view parameter);

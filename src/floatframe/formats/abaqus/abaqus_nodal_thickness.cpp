@@ -61,7 +61,7 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
   if (most - least > 1e-6 * mean) {
     if (uneven_++ == 0) first_uneven_ = e.source;
     unevenness_ = std::max(unevenness_, (most - least) / mean);
-  } else {
+  } else if (std::isfinite(mean)) {
     mean = most;
   }
   std::vector<ShellSection>& shells = b_.model.shells;
@@ -78,6 +78,7 @@ void AbaqusNodalThickness::apply(const AbaqusSection& section, Element& e) {
     shell.thickness = mean;
     shell.shear = 5.0 / 6.0 * mean;
     shell.offset = -section.offset * mean;
+    check_abaqus_sheet(b_, section, shell, e.material);
   }
   e.section = it->second;
 }

@@ -4,6 +4,7 @@
 // shells and membranes as mass over area in their middle.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
@@ -34,6 +35,11 @@ class SmearedMass {
       return error(raw,
                    "shares a mass among elements without mass: give their materials *DENSITY, "
                    "or DISTRIBUTION=VOLUME PROPORTIONAL");
+    if (!std::isfinite(sum))
+      return error(raw, fmt::format("shares a mass among elements whose {} is {:g}, expected a "
+                                    "finite number",
+                                    raw.by_volume ? "volume" : "mass", sum));
+    double mass = 0.0;
     for (const int e : list) {
       const Size& s = size(e);
       const std::size_t k = static_cast<std::size_t>(e);
@@ -46,13 +52,24 @@ class SmearedMass {
         more *= s.measure;
       }
       more_[k] += more;
+      mass += (s.density + more_[k]) * (s.volume / s.measure);
+      if (std::isfinite(s.density + more_[k])) continue;
+      return error(
+          raw, fmt::format("gives {} a {} of {:g}, expected a finite number", label_of(e),
+                           has_shell_section(m_.elements[k].type) ? "mass over area" : "density",
+                           s.density + more_[k]));
     }
+    if (!std::isfinite(mass))
+      return error(raw,
+                   fmt::format("gives its {} elements a mass of {:g}, expected a finite number",
+                               list.size(), mass));
     b_.note(raw.at, fmt::format("*NONSTRUCTURAL MASS is added to {} elements of {}", list.size(),
                                 b_.content.text(raw.elements, "element")));
   }
 
   /// Elements of one section get the same, so few new materials and sections are needed.
   void finish() {
+    if (b_.source.errors() > 0) return;
     for (std::size_t k = 0; k < more_.size(); ++k)
       if (more_[k] != 0.0) give(m_.elements[k], more_[k]);
   }
@@ -67,6 +84,12 @@ class SmearedMass {
 
   void error(const AbaqusNonstructuralMass& raw, const std::string& text) {
     b_.source.error(raw.at, "*NONSTRUCTURAL MASS " + text);
+  }
+
+  std::string label_of(int index) const {
+    const auto it = std::find(b_.element_index.begin(), b_.element_index.end(), index);
+    return abaqus_label(
+        b_.content.elements[static_cast<std::size_t>(it - b_.element_index.begin())]);
   }
 
   /// Indices in the model; an error if one cannot have such a mass.
@@ -131,7 +154,6 @@ class SmearedMass {
   }
 
   void give(Element& e, double more) {
-    if (!std::isfinite(more)) return;  // of elements without size, which `validate` refuses
     const bool sheet = has_shell_section(e.type);
     const auto [it, fresh] =
         sheet ? sections_.try_emplace({e.section, more}, static_cast<int>(m_.shells.size()))
@@ -186,6 +208,7 @@ void read_abaqus_nonstructural_mass(AbaqusLines& lines, const AbaqusKeyword& key
   std::vector<std::string_view> fields;
   if (lines.next_fields(fields)) {
     mass.value = positive_real(lines, fields[0], "nonstructural mass");
+    lines.no_more(keyword, fields, 1);
   } else {
     lines.error(keyword, "has no data line");
   }

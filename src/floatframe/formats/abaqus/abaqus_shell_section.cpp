@@ -98,11 +98,7 @@ void read_abaqus_shell_section(AbaqusLines& lines, const AbaqusKeyword& keyword,
     return lines.skip_data();
   }
   section.thickness = positive_real(lines, fields[0], "thickness of the shell");
-  std::string_view more;
-  if (lines.next_data(more)) {
-    lines.source().error(keyword.shown + " has a second line, which is not supported");
-    lines.skip_data();
-  }
+  lines.no_more(keyword, fields, fields.size());
   content.sections.push_back(section);
 }
 
@@ -122,6 +118,7 @@ void read_abaqus_membrane_section(AbaqusLines& lines, const AbaqusKeyword& keywo
     section.thickness = 1.0;  // in place of what *NODAL THICKNESS says
   } else if (lines.next_fields(fields)) {
     section.thickness = positive_real(lines, fields[0], "thickness of the membrane");
+    lines.no_more(keyword, fields, fields.size());
   } else {
     lines.error(keyword, "has no thickness");
   }

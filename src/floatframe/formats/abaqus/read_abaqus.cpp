@@ -24,6 +24,8 @@ void read_abaqus_pre_tension(AbaqusLines& lines, const AbaqusKeyword& keyword,
   content.note(
       lines.source().mark(keyword.at),
       fmt::format("{} is passed over: the bolt is whole and without its preload", keyword.shown));
+  if (keyword.has("SURFACE") && !content.only_nodes)
+    content.pre_tensions.push_back({content.named(keyword.value("SURFACE"), keyword.at)});
   lines.skip_data();
 }
 
