@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "floatframe/fe/plate_section.hpp"
 #include "formats/ansys_deck.hpp"
@@ -190,6 +191,20 @@ TEST(AnsysBeamShapes, ArmsOfNodesOfOtherBeams) {
       sum += t.factor * (t.axis < 3 ? shift + turn.cross(m.positions[t.node]) : turn)(t.axis % 3);
     EXPECT_NEAR(sum, 0.0, 1e-14);
     EXPECT_GE(q.terms[0].node, 4);
+  }
+}
+
+/// Ends of beams and middles of straight edges are added in turn.
+TEST(AnsysBeamShapes, NumbersOfNodesThatAreAdded) {
+  const std::string brick = "EN,1,1,2,3,4,5,6,7,8\nEMORE,9\n", beam = "TYPE,2\nEN,2,1,2\n";
+  for (const std::string& elements : {brick + beam, beam + "TYPE,1\n" + brick}) {
+    const FeModel m =
+        ansys_of("ET,1,186\nET,2,188\n" + cdb_square + "N,9,1\n" + cdb_steel +
+                 "SECTYPE,1,BEAM,RECT\nSECDATA,.2,.3\nSECOFFSET,USER,1,2\n" + elements);
+    EXPECT_EQ(m.nodes(), 9 + 11 + 2);
+    EXPECT_EQ(std::set<int>(m.node_ids.begin(), m.node_ids.end()).size(), 22u);
+    EXPECT_EQ(m.spiders.size(), 2u);
+    EXPECT_EQ(m.spiders.at(0).name, "beams of node 1");
   }
 }
 
