@@ -122,6 +122,16 @@ TEST(HugeNumbers, PlacesAndMaterials) {
             "a.cdb:11: material 1: its density is 1e+200" + square);
 }
 
+TEST(HugeNumbers, PointMasses) {
+  const std::string square = ", expected a number whose square can be reckoned with";
+  EXPECT_EQ(
+      huge_error(huge_stick("*BEAM SECTION, ELSET=S, MATERIAL=M, SECTION=RECT\n.1, .1\n0., 1., "
+                            "0.\n*ELEMENT, TYPE=MASS, ELSET=P\n2, 1\n*MASS, ELSET=P\n1e308\n")),
+      "huge.inp:16: *MASS of element 2 (MASS): its mass is 1e+308" + square);
+  EXPECT_EQ(ansys_error(cdb_brick + cdb_steel + "ET,2,21\nKEYOPT,2,3,2\nTYPE,2\nR,1,1e308\nE,1\n"),
+            "a.cdb:25: element 2 (MASS21): its mass is 1e+308" + square);
+}
+
 TEST(HugeNumbers, BeamsOfAnsys) {
   const std::string beam = "ET,1,188\n" + huge_block + "SECTYPE,1,BEAM,RECT\nSECDATA,";
   EXPECT_EQ(ansys_error(beam + "1e160,1\nE,1,2\n"),

@@ -41,6 +41,14 @@ std::string huge_sheet(const ShellSection& shell, double density,
   return {};
 }
 
+std::string huge_mass(double mass, const Mat3& J) {
+  const double inertia = J.cwiseAbs().maxCoeff();
+  const bool by_mass = !std::isfinite(mass * mass);
+  if (!by_mass && std::isfinite(inertia * inertia)) return {};
+  return fmt::format("its {} is {:g}, expected a number whose square can be reckoned with",
+                     by_mass ? "mass" : "moment of inertia", by_mass ? mass : inertia);
+}
+
 std::string huge_place(const Vec3& p) {
   const double size = p.cwiseAbs().sum();
   if (std::isfinite(size * size * size)) return {};

@@ -13,6 +13,8 @@ std::string huge_constant(const Material& material);
 /// its plies or of `density`.
 std::string huge_sheet(const ShellSection& shell, double density,
                        const std::vector<Material>& materials);
+/// The same of a point mass.
+std::string huge_mass(double mass, const Mat3& J);
 /// The same of a place, whose cubes are volumes.
 std::string huge_place(const Vec3& p);
 

@@ -79,6 +79,9 @@ void build_masses(AbaqusBuild& build) {
                                      c.element_nodes[element.first]));
       continue;
     }
+    if (const std::string huge = huge_mass(section.mass, section.J); !huge.empty())
+      build.source.error(section.at,
+                         fmt::format("{} of {}: {}", section.shown, abaqus_label(element), huge));
     const Mat3& R = c.placement(element.scope).R;
     build.model.masses.push_back({node->second, section.mass, R * section.J * R.transpose()});
   }

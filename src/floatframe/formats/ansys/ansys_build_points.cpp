@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "floatframe/formats/ansys/ansys_build.hpp"
+#include "floatframe/formats/number_sizes.hpp"
 
 namespace floatframe {
 namespace {
@@ -192,8 +193,7 @@ void build_ansys_rigid(AnsysBuild& b) {
 
 void add_ansys_mass(AnsysBuild& b, const AnsysElement& e, PointMass m) {
   if (m.mass == 0.0 && m.J.isZero(0.0)) return;
-  if (!std::isfinite(m.mass) || !m.J.allFinite())
-    return b.error(e, "its mass or its inertia is no finite number");
+  if (const std::string huge = huge_mass(m.mass, m.J); !huge.empty()) return b.error(e, huge);
   if (!m.J.isZero(0.0) && b.rotates[m.node] == 0) {
     b.note(e.at, fmt::format("{}: node {} has no rotations, so the inertia has no effect and is "
                              "left out",
