@@ -2,6 +2,9 @@
 // the properties.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/fe/model_checks.hpp"
 #include "floatframe/formats/fe_file.hpp"
@@ -124,6 +127,37 @@ TEST(NastranNonstructural, WithADensityOfTheOptions) {
   const double plain = mass_of(heavy_deck(with_mass("", "")));
   const FeModel model = read_fe_file(folder.write("arm.bdf", text), options);
   EXPECT_NEAR(mass_of(model) / .5, 2. * plain / .5 + 14., 1e-9);  // 4 in place of 2
+}
+
+/// So it does beside that of a property, which is no density by itself.
+TEST(NastranNonstructural, OfAPropertyWithoutDensity) {
+  const TemporaryFolder folder;
+  const auto bar = [](const std::string& density) {
+    return "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nCBAR,1,1,1,2,0.,1.,0.\n"
+           "PBAR,1,9,.1,.2,.3,.4,7.\nMAT1,9,100.,,.25" +
+           density + "\nPARAM,WTMASS,.5\n";
+  };
+  EXPECT_NEAR(mass_of(heavy_deck(bar(",0."))), .5 * 7. * 2., 1e-12);
+  EXPECT_EQ(error_of([&] { heavy_deck(bar("")); }),
+            "arm.bdf:5: material 'MAT1 9' has no density: give one in the file or as an option "
+            "(--density, key `density`; 0 if all mass is in point masses)");
+  const std::filesystem::path file = folder.write("arm.bdf", bar(""));
+  for (const double density : {0., 4.}) {
+    FeReadOptions options;
+    options.densities[""] = density;
+    EXPECT_NEAR(mass_of(read_fe_file(file, options)), .5 * (density * .1 + 7.) * 2., 1e-12);
+  }
+  // Once, whatever the mass of each property is.
+  const std::string two = bar("") + "CBAR,2,2,1,2,0.,1.,0.\nPBAR,2,9,.1,.2,.3,.4,8.\n";
+  EXPECT_EQ(error_of([&] { heavy_deck(two); }), error_of([&] { heavy_deck(bar("")); }));
+  FeReadOptions options;
+  options.densities[""] = 4.;
+  const FeModel model = read_fe_file(folder.write("two.bdf", two), options);
+  EXPECT_EQ(std::count_if(model.notes.begin(), model.notes.end(),
+                          [](const std::string& note) {
+                            return note.ends_with("has no density: 4 is taken, as the options say");
+                          }),
+            1);
 }
 
 TEST(NastranNonstructural, JoinedSets) {

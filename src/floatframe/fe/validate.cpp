@@ -62,11 +62,13 @@ void check_materials(const FeModel& model, LimitedErrors& errors) {
                              label, m.poisson));
     }
   }
+  std::set<std::pair<std::string, int>> said;  // with several nonstructural masses it is several
   for (const auto& [material, missing] : model.without_density)
-    errors.add("materials", model.mark(missing.source),
-               fmt::format("material '{}' has no density: give one in the file or as an option "
-                           "(--density, key `density`; 0 if all mass is in point masses)",
-                           model.material_names.at(material)));
+    if (said.emplace(model.material_names.at(material), missing.source.line).second)
+      errors.add("materials", model.mark(missing.source),
+                 fmt::format("material '{}' has no density: give one in the file or as an option "
+                             "(--density, key `density`; 0 if all mass is in point masses)",
+                             model.material_names.at(material)));
   if (model.materials.empty() && !model.elements.empty()) {
     errors.add("materials", {},
                "the model has no material: give one (Young's modulus, Poisson's ratio, density)");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/core/utf8_text.hpp"
@@ -174,6 +175,7 @@ void fill_densities(const std::filesystem::path& file, const FeReadOptions& opti
                                    "without a density has this name{}",
                                    name, did_you_mean(name, missing)));
   }
+  std::set<std::string> said;  // a material with several nonstructural masses is several
   for (auto it = model.without_density.begin(); it != model.without_density.end();) {
     const std::string& name = model.material_names[it->first];
     const auto& given = options.densities;
@@ -186,10 +188,10 @@ void fill_densities(const std::filesystem::path& file, const FeReadOptions& opti
     }
     model.materials[it->first].density += found->second * it->second.factor;
     const SourceMark mark = model.mark(it->second.source);
-    model.notes.push_back(
-        fmt::format("{}:{}: material '{}' has no density: {:g} is taken, as the "
-                    "options say",
-                    mark.file, mark.line, name, found->second));
+    std::string note =
+        fmt::format("{}:{}: material '{}' has no density: {:g} is taken, as the options say",
+                    mark.file, mark.line, name, found->second);
+    if (said.insert(note).second) model.notes.push_back(std::move(note));
     it = model.without_density.erase(it);
   }
 }

@@ -47,7 +47,7 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
                                         found->second.card, misfit));
     m = elastic(found->first, found->second);
     m.density = (found->second.density.value_or(0.0) + nonstructural) * c_.mass_factor;
-    if (!found->second.density && nonstructural == 0.0 && weighs)
+    if (!found->second.density && weighs)
       b_.model.without_density[static_cast<int>(b_.model.materials.size())] = {found->second.at,
                                                                                c_.mass_factor};
     if (nonstructural != 0.0 && noted_.insert({p.at.file, p.at.line}).second) {
