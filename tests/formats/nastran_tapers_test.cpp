@@ -191,6 +191,30 @@ TEST(NastranTapers, Errors) {
             "arm.bdf:5: PBEAML 1: dimension 2 of the station at X/XB = 0.5 is missing");
 }
 
+/// What is wrong with a card or an element is said once, not for each of its pieces.
+TEST(NastranTapers, ErrorsOnce) {
+  const std::string beam = "PBEAM,1,1,.1,.2,.3,,.4,1.\n,NO,1.,.05,.1,.15,,.2,2.\n,0.,0.\n";
+  const auto error = [&](const std::string& from, const std::string& to) {
+    std::string text = cantilever(beam);
+    text.replace(text.find(from), from.size(), to);
+    return error_of([&] { taper_of(text); });
+  };
+  EXPECT_EQ(error("MAT1,1", "MAT1,2"), "arm.bdf:5: PBEAM: material 1 is not in the file");
+  EXPECT_EQ(error("MAT1,1,100.,,.25,2.", "MAT8,1,100.,100.,.25,10."),
+            "arm.bdf:5: PBEAM: material 1 is a MAT8, expected a MAT1");
+  EXPECT_EQ(error("100.,,.25", "100.,,"),
+            "arm.bdf:3: MAT1 1: one of E, G and NU given, expected two");
+  EXPECT_EQ(error("100.,,.25", "100.,-1.,.25"),
+            "arm.bdf:3: MAT1 1: G is -1, expected more than 0 for bars");
+  EXPECT_EQ(error("0.,1.,0.\n", "1.,0.,0.\n"),
+            "arm.bdf:4: CBEAM 1: it has no length, or its orientation vector is along its axis");
+  EXPECT_EQ(error("GRID,2,,10.", "GRID,2,,0."),
+            "arm.bdf:4: CBEAM 1: it has no length, or its orientation vector is along its axis");
+  EXPECT_EQ(error("\n,0.,0.\n", "\n,nan,0.\n"), "arm.bdf:7: PBEAM 1: K1: 'nan' is not a number");
+  EXPECT_EQ(error("\n,0.,0.\n", "\n,1.,-1.\n"),
+            "arm.bdf:5: PBEAM 1: a shear factor (K1, K2) is negative");
+}
+
 // What changes alone.
 TEST(NastranTapers, NonstructuralMassAndI12) {
   const FeModel mass =

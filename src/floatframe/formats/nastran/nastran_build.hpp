@@ -124,7 +124,8 @@ class NastranMaterials {
   const NastranContent& c_;
   std::map<std::tuple<int, double, bool>, int> indices_;
   std::map<int, int> massless_;
-  std::set<int> inconsistent_, checked_;
+  std::set<int> inconsistent_, checked_, unfit_for_bars_;
+  std::set<std::tuple<int, int, int>> checked_properties_;  // file, line and material
   std::set<std::pair<int, int>> noted_;  // properties whose nonstructural mass is said, by line
 };
 // nastran_build_weak_bars.cpp
@@ -137,6 +138,8 @@ void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSect
 // nastran_build_bars.cpp
 /// Columns x along the bar, y in the plane of x and v; zero where there is no direction.
 Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v);
+/// The error of a bar for which there is no direction.
+void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std::string& who);
 /// Orientation and ends of bars. `finish` ties the ends to their nodes.
 class NastranBars {
  public:

@@ -36,6 +36,11 @@ Mat3 nastran_bar_axes(const Vec3& along, const Vec3& v) {
   return T;
 }
 
+void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std::string& who) {
+  build.source.error(
+      at, fmt::format("{}: it has no length, or its orientation vector is along its axis", who));
+}
+
 bool NastranBars::place(const NastranElement& e, double turn, Element& element) {
   static const NastranBarEnds plain;
   const NastranBarEnds& ends = e.ends < 0 ? plain : b_.content.bar_ends[e.ends];
@@ -60,10 +65,7 @@ bool NastranBars::place(const NastranElement& e, double turn, Element& element) 
   }
   const Mat3 T = nastran_bar_axes(end[1] - end[0], element.reference);
   if (!(T.squaredNorm() > 2.5)) {  // a column without length is zero
-    b_.source.error(e.at,
-                    fmt::format("{}: it has no length, or its orientation vector is along its "
-                                "axis",
-                                who));
+    nastran_bar_without_axes(b_, e.at, who);
     return false;
   }
   element.reference = std::cos(turn) * T.col(1) + std::sin(turn) * T.col(2);

@@ -180,6 +180,7 @@ class ElementBuilder {
     const std::vector<NastranPiece>& pieces = tapers_.pieces(e.property);
     const Vec3 a = b_.model.positions[whole.nodes[0]], b = b_.model.positions[whole.nodes[1]];
     const Mat3 T = nastran_bar_axes(b - a, whole.reference);
+    if (!(T.squaredNorm() > 2.5)) return nastran_bar_without_axes(b_, e.at, label(e));
     int last = whole.nodes[0];
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const NastranPiece& piece = pieces[k];

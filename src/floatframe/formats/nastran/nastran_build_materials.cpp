@@ -13,8 +13,9 @@ double NastranMaterials::own_shear(int id) {
   const NastranMaterial& m = it->second;
   if (!m.young || !m.shear || !m.poisson) return 1.0;
   if (!(*m.shear > 0.0)) {
-    b_.source.error(m.at,
-                    fmt::format("MAT1 {}: G is {:g}, expected more than 0 for bars", id, *m.shear));
+    if (unfit_for_bars_.insert(id).second)
+      b_.source.error(
+          m.at, fmt::format("MAT1 {}: G is {:g}, expected more than 0 for bars", id, *m.shear));
     return 1.0;
   }
   return *m.shear * 2.0 * (1.0 + *m.poisson) / *m.young;
@@ -39,10 +40,12 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
   const auto it = indices_.find(key);
   if (it != indices_.end()) return it->second;
   Material m;
+  // Pieces of a tapered beam and thicknesses of shells are several materials of one property.
+  const bool first = checked_properties_.insert({p.at.file, p.at.line, id}).second;
   const auto found = c_.materials.find(id);
   if (found != c_.materials.end()) {
     const std::string misfit = nastran_material_misfit(found->second, p.card);
-    if (!misfit.empty())
+    if (!misfit.empty() && first)
       b_.source.error(p.at, fmt::format("{}: material {} is a {}, expected a {}", p.card, id,
                                         found->second.card, misfit));
     m = elastic(found->first, found->second);
@@ -55,7 +58,7 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
                                 "material",
                                 p.card));
     }
-  } else {
+  } else if (first) {
     const auto other = c_.other_materials.find(id);
     b_.source.error(p.at, other == c_.other_materials.end()
                               ? fmt::format("{}: material {} is not in the file", p.card, id)
@@ -83,8 +86,9 @@ Material NastranMaterials::elastic(int id, const NastranMaterial& m) {
   if (m.card != std::string_view("MAT1")) return result;  // refused already
   const int given = (m.young ? 1 : 0) + (m.shear ? 1 : 0) + (m.poisson ? 1 : 0);
   if (given < 2) {
-    b_.source.error(m.at, fmt::format("MAT1 {}: {} of E, G and NU given, expected two", id,
-                                      given == 0 ? "none" : "one"));
+    if (checked_.insert(id).second)
+      b_.source.error(m.at, fmt::format("MAT1 {}: {} of E, G and NU given, expected two", id,
+                                        given == 0 ? "none" : "one"));
     return result;
   }
   result.young = m.young ? *m.young : 2.0 * (1.0 + *m.poisson) * *m.shear;

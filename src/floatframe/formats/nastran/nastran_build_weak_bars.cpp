@@ -40,12 +40,7 @@ void add_nastran_bending(NastranBuild& build, const Element& rod, const BeamSect
   FeModel& model = build.model;
   const Vec3 d = model.positions[rod.nodes[1]] - model.positions[rod.nodes[0]];
   const Mat3 T = nastran_bar_axes(d, rod.reference);
-  if (!(T.squaredNorm() > 2.5)) {
-    build.source.error(rod.source, fmt::format("{}: it has no length, or its orientation vector is "
-                                               "along its axis",
-                                               who));
-    return;
-  }
+  if (!(T.squaredNorm() > 2.5)) return nastran_bar_without_axes(build, rod.source, who);
   const double L = d.norm(), E = model.materials[rod.material].young;
   for (const bool xz : {false, true}) {
     const double EI = E * (xz ? s.Iy : s.Iz), area = xz ? s.shear_z : s.shear_y;

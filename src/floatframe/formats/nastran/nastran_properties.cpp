@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -31,11 +32,15 @@ void psolid(NastranFields& f, NastranProperty& p) {
 }
 
 /// K1 and K2 at a place; 0 is no shear deformation.
-void shear_factors(NastranFields& f, std::size_t at, double otherwise, BeamSection& s) {
+std::array<double, 2> shear_factors(NastranFields& f, std::size_t at, double otherwise) {
   const double k1 = f.real(at, "K1", otherwise), k2 = f.real(at + 1, "K2", otherwise);
   if (k1 < 0.0 || k2 < 0.0) f.error("a shear factor (K1, K2) is negative");
-  s.shear_y = k1 * s.A;
-  s.shear_z = k2 * s.A;
+  return {k1, k2};
+}
+
+void set_shear(const std::array<double, 2>& factors, double A, BeamSection& s) {
+  s.shear_y = factors[0] * A;
+  s.shear_z = factors[1] * A;
 }
 
 void pbar(NastranFields& f, NastranProperty& p) {
@@ -43,7 +48,7 @@ void pbar(NastranFields& f, NastranProperty& p) {
   set_nastran_section(p, {f.real(2, "A", 0.0), f.real(3, "I1", 0.0), f.real(4, "I2", 0.0),
                           f.real(18, "I12", 0.0), f.real(5, "J", 0.0)});
   p.nonstructural = f.real(6, "the nonstructural mass", 0.0);
-  shear_factors(f, 16, 0.0, p.section);
+  set_shear(shear_factors(f, 16, 0.0), p.section.A, p.section);
 }
 
 /// End A and stations. What end B leaves blank is as at end A, what others leave blank lies between
@@ -78,19 +83,18 @@ void pbeam(NastranFields& f, NastranProperty& p) {
       if (!place.values[k]) place.values[k] = place.x == 1.0 ? b : a + place.x * (b - a);
   }
   std::vector<NastranStation> stations;
-  const double k1 = f.real(i, "K1", 1.0), k2 = f.real(i + 1, "K2", 1.0);
+  const std::array<double, 2> factors = shear_factors(f, i, 1.0);
   for (const Place& place : places) {
     NastranStation& s = stations.emplace_back();
     const auto value = [&](std::size_t k) { return *place.values[k]; };
     s.x = place.x;
     s.section = {value(0), value(1), value(2), value(3), value(4)};
     s.nonstructural = value(5);
-    s.shape.shear_y = k1 * value(0);
-    s.shape.shear_z = k2 * value(0);
+    set_shear(factors, value(0), s.shape);
   }
   set_nastran_section(p, stations[0].section);
   p.nonstructural = stations[0].nonstructural;
-  shear_factors(f, i, 1.0, p.section);
+  set_shear(factors, p.section.A, p.section);
   if (stations.size() > 1) read_nastran_beam_stations(f, p, std::move(stations));
   // K1 K2 S1 S2 NSI(A) NSI(B) CW(A) CW(B), then offsets of mass and neutral axis.
   f.must_be_zero(i + 4, "the nonstructural inertia NSI");
