@@ -115,6 +115,13 @@ TEST(BadNastran, Decks) {
        "arm.bdf:9: PBAR 2: A is -0.001, expected more than 0\n"
        "arm.bdf:9: PBAR 2: I2 is 0, expected more than 0\n"
        "arm.bdf:9: PBAR 2: J is 0, expected more than 0"},
+      {"PBAR,2,1,1.-3,1.-7,1.-7,2.-7", "PBAR,2,1,1.,.2,.3,.4\n,\n,,,-.4",
+       "arm.bdf:9: PBAR 2: I12 is -0.4, I1 is 0.2 and I2 is 0.3, expected I1 and I2 of more than "
+       "0 and an I12^2 of less than I1 I2"},
+      {"CBAR,2,2,1,2,0.,0.,1.\nPSOLID,1,1\nPBAR,2,1,1.-3,1.-7,1.-7,2.-7",
+       "CBEAM,2,2,1,2,0.,0.,1.\nPSOLID,1,1\nPBEAM,2,1,1.,-.2,-.3,.1,.4",
+       "arm.bdf:9: PBEAM 2: I12 is 0.1, I1 is -0.2 and I2 is -0.3, expected I1 and I2 of more "
+       "than 0 and an I12^2 of less than I1 I2"},
       {"CTETRA,1,1,1,2,3,4", "CTETRA,1,1,1,2,3,4\nPSHELL,4,1,-.01,1\nCTRIA3,9,4,1,2,3",
        "arm.bdf:7: PSHELL 4: the thickness is -0.01, expected more than 0"},
       {"CONM2,7,2,,1.5", "CONM2,7,2,,-1.5",

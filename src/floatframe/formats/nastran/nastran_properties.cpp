@@ -43,10 +43,21 @@ void set_shear(const std::array<double, 2>& factors, double A, BeamSection& s) {
   s.shear_z = factors[1] * A;
 }
 
+/// I12 turns the principal axes, about which I1 and I2 would not be those of the card.
+void check_product(NastranFields& f, const NastranSection& s) {
+  if (s.I12 == 0.0 || (s.I1 > 0.0 && s.I2 > 0.0 && s.I12 * s.I12 < s.I1 * s.I2)) return;
+  f.error(
+      fmt::format("I12 is {:g}, I1 is {:g} and I2 is {:g}, expected I1 and I2 of more than 0 "
+                  "and an I12^2 of less than I1 I2",
+                  s.I12, s.I1, s.I2));
+}
+
 void pbar(NastranFields& f, NastranProperty& p) {
   p.material = f.label(1, "the material");
-  set_nastran_section(p, {f.real(2, "A", 0.0), f.real(3, "I1", 0.0), f.real(4, "I2", 0.0),
-                          f.real(18, "I12", 0.0), f.real(5, "J", 0.0)});
+  const double A = f.real(2, "A", 0.0), I1 = f.real(3, "I1", 0.0), I2 = f.real(4, "I2", 0.0);
+  const NastranSection section{A, I1, I2, f.real(18, "I12", 0.0), f.real(5, "J", 0.0)};
+  check_product(f, section);
+  set_nastran_section(p, section);
   p.nonstructural = f.real(6, "the nonstructural mass", 0.0);
   set_shear(shear_factors(f, 16, 0.0), p.section.A, p.section);
 }
@@ -95,6 +106,7 @@ void pbeam(NastranFields& f, NastranProperty& p) {
   set_nastran_section(p, stations[0].section);
   p.nonstructural = stations[0].nonstructural;
   set_shear(factors, p.section.A, p.section);
+  if (stations.size() == 1) check_product(f, stations[0].section);
   if (stations.size() > 1) read_nastran_beam_stations(f, p, std::move(stations));
   // K1 K2 S1 S2 NSI(A) NSI(B) CW(A) CW(B), then offsets of mass and neutral axis.
   f.must_be_zero(i + 4, "the nonstructural inertia NSI");
