@@ -88,6 +88,19 @@ TEST(NastranMasses, Errors) {
       "arm.bdf:8: CONM1 5: the mass matrix of node 1 is not that of a rigid body; give CONM2");
 }
 
+// What only the reduction refuses has the place of its card too.
+TEST(NastranMasses, NoBodies) {
+  const std::string inertia =
+      ": point mass 0 on node 2: the principal moments of inertia break the triangle inequality";
+  EXPECT_EQ(mass_error(bar + "CONM2,5,2,,3.\n,1.,,1.,,,3.\n"), "arm.bdf:8" + inertia);
+  EXPECT_EQ(mass_error(bar + "CMASS2,6,3.,2,4\n"), "arm.bdf:8" + inertia);
+  EXPECT_EQ(mass_error(bar + "PARAM,WTMASS,1.+9\nCONM2,5,2,,3.+300\n"),
+            "arm.bdf:9: point mass 0 on node 2: the mass must not be negative");
+  EXPECT_EQ(mass_error(bar + "PARAM,WTMASS,1.+9\nCONM2,5,2,,3.\n,1.+300,,1.+300\n"),
+            "arm.bdf:9: point mass 0 on node 2: the inertia must be finite and symmetric");
+  EXPECT_EQ(mass_error(bar + "CONM2,5,2,,3.\n,1.,,1.,,,2.\n"), "no error");  // a flat one
+}
+
 const std::string shell =
     "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
     "PSHELL,1,1,.01,1,,1,,2.\nMAT1,1,2.+11,,.3,8000.\n";

@@ -160,6 +160,33 @@ TEST(NastranNonstructural, OfAPropertyWithoutDensity) {
             1);
 }
 
+/// More than the structure weighs is refused where it stands.
+TEST(NastranNonstructural, Negative) {
+  const auto replaced = [](const std::string& from, const std::string& to) {
+    std::string text = with_mass("", "");
+    text.replace(text.find(from), from.size(), to);
+    return error_of([&] { heavy_deck(text); });
+  };
+  EXPECT_EQ(replaced("PBAR,1,9,.1,.2,.3,.4", "PBAR,1,9,.1,.2,.3,.4,-.1"), "no error");  // A RHO: .2
+  EXPECT_EQ(replaced("PBAR,1,9,.1,.2,.3,.4", "PBAR,1,9,.1,.2,.3,.4,-.3"),
+            "arm.bdf:9: PBAR: its nonstructural mass makes the density of material 9 -1, expected "
+            "no negative number");
+  EXPECT_EQ(replaced("PBAR,1,9,.1,.2,.3,.4", "PBAR,1,9,0.,.2,.3,.4,-.3"),
+            "arm.bdf:9: PBAR 1: A is 0, expected more than 0");
+  EXPECT_EQ(replaced("PCOMP,7", "PCOMP,7,,-7."),
+            "arm.bdf:20: PCOMP 7: the nonstructural mass is -7, expected no negative number");
+  const auto error = [](const std::string& cards) {
+    return error_of([&] { heavy_deck(with_mass(cards)); });
+  };
+  EXPECT_EQ(error("NSM1,5,PBAR,-.1,1"), "no error");
+  EXPECT_EQ(error("NSM1,5,PBAR,.1,1\nNSM1,5,PBAR,-.4,1"),
+            "arm.bdf:28: NSM1 5: its mass makes the density of element 11 -1, expected no negative "
+            "number");
+  EXPECT_EQ(error("NSM1,5,PCOMP,-.4,7"),
+            "arm.bdf:27: NSM1 5: its mass makes the mass beside its plies of element 17 -0.4, "
+            "expected no negative number");
+}
+
 TEST(NastranNonstructural, JoinedSets) {
   const auto error = [](const std::string& cards) {
     return error_of([&] { heavy_deck(with_mass(cards)); });

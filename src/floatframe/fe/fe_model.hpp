@@ -154,6 +154,7 @@ struct PointMass {
   int node = 0;
   double mass = 0.0;      ///< [kg]
   Mat3 J = Mat3::Zero();  ///< inertia about the node, body axes [kg m2]; needs nodes with rotations
+  FeSource source{};
 };
 
 /// Several nodes that move with a reference node, which gets six degrees of freedom.

@@ -210,7 +210,9 @@ void check_masses(const FeModel& model, LimitedErrors& errors) {
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     const PointMass& m = model.masses[i];
     const std::string label = "point mass " + std::to_string(i);
-    const auto add = [&](const std::string& text) { errors.add("point masses", {}, label + text); };
+    const auto add = [&](const std::string& text) {
+      errors.add("point masses", model.mark(m.source), label + text);
+    };
     if (!in_range(m.node, model.positions.size())) {
       add(": node index " + std::to_string(m.node) + " is out of range");
       continue;

@@ -126,7 +126,8 @@ class NastranMaterials {
   std::map<int, int> massless_;
   std::set<int> inconsistent_, checked_, unfit_for_bars_;
   std::set<std::tuple<int, int, int>> checked_properties_;  // file, line and material
-  std::set<std::pair<int, int>> noted_;  // properties whose nonstructural mass is said, by line
+  // Properties by line, whose nonstructural mass is said, and is too negative.
+  std::set<std::pair<int, int>> noted_, negative_;
 };
 // nastran_build_weak_bars.cpp
 /// Is it a bar with zeros among I1, I2 and J that can be a rod with springs? Null: plain ends.

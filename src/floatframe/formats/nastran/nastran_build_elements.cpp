@@ -12,6 +12,9 @@
 namespace floatframe {
 namespace {
 
+/// Of a mass over length or area; a size that is not positive is an error of its own.
+double density_of(double mass, double size) { return size > 0.0 ? mass / size : 0.0; }
+
 class ElementBuilder {
  public:
   ElementBuilder(NastranBuild& build, const FeReadOptions& options)
@@ -104,7 +107,7 @@ class ElementBuilder {
     } else if (e.type == ElementType::shear4) {
       const NastranProperty* p = property(e, {"PSHEAR"});
       if (p == nullptr) return;
-      result.material = materials_.index(*p, p->nonstructural / std::max(p->thickness, 1e-300));
+      result.material = materials_.index(*p, density_of(p->nonstructural, p->thickness));
       result.section = panel(e.property, *p);
       edge_rods(*p, result);
     } else if (e.surface) {
@@ -120,7 +123,7 @@ class ElementBuilder {
       const double t = thickness(e, *p);
       if (p->membrane) result.type = membrane_of(e.type);
       result.material =
-          materials_.index(*p, p->plies.empty() ? p->nonstructural / std::max(t, 1e-300) : 0.0);
+          materials_.index(*p, p->plies.empty() ? density_of(p->nonstructural, t) : 0.0);
       result.section = shell(e, *p, t);
       orient_nastran_shell(b_, e, result);
     } else if (e.type == ElementType::beam2) {
@@ -132,13 +135,13 @@ class ElementBuilder {
       if (is_weak_nastran_bar(*p, e.ends < 0 ? nullptr : &c_.bar_ends[e.ends]))
         return weak(e, *p, result);
       if (!bars_.place(e, p->turn, result)) return;
-      result.material = materials_.index(*p, p->nonstructural / std::max(p->section.A, 1e-300));
+      result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
       result.section = section(e.property, *p);
     } else if (e.type == ElementType::rod2) {
       const bool tube = e.card == std::string_view("CTUBE");
       const NastranProperty* p = property(e, {tube ? "PTUBE" : "PROD", "CONROD"});
       if (p == nullptr) return;
-      result.material = materials_.index(*p, p->nonstructural / std::max(p->section.A, 1e-300));
+      result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
       result.section = rod_section(e.property, *p);
     } else {
       const NastranProperty* p = property(e, {"PSOLID"});
@@ -190,7 +193,7 @@ class ElementBuilder {
         part.nodes[1] = b_.add_node(a + piece.to * (b - a), e.at, label(e));
       last = part.nodes[1];
       part.reference = std::cos(piece.turn) * T.col(1) + std::sin(piece.turn) * T.col(2);
-      part.material = materials_.index(p, piece.nonstructural / std::max(piece.section.A, 1e-300));
+      part.material = materials_.index(p, density_of(piece.nonstructural, piece.section.A));
       part.section = piece_section(e.property, p, piece, k);
       add(e, part);
     }

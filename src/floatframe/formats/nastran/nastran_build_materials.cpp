@@ -53,6 +53,11 @@ int NastranMaterials::index(const NastranProperty& p, double nonstructural, int 
     if (!found->second.density && weighs)
       b_.model.without_density[static_cast<int>(b_.model.materials.size())] = {found->second.at,
                                                                                c_.mass_factor};
+    if (m.density < 0.0 && nonstructural < 0.0 && found->second.density.value_or(-1.0) >= 0.0 &&
+        negative_.insert({p.at.file, p.at.line}).second)
+      b_.source.error(p.at, fmt::format("{}: its nonstructural mass makes the density of material "
+                                        "{} {:g}, expected no negative number",
+                                        p.card, id, m.density / c_.mass_factor));
     if (nonstructural != 0.0 && noted_.insert({p.at.file, p.at.line}).second) {
       b_.note(p.at, fmt::format("{}: its nonstructural mass is added to the density of its "
                                 "material",

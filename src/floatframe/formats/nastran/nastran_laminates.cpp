@@ -85,6 +85,9 @@ void read_nastran_pcomp(NastranFields& f, NastranProperty& p) {
   const bool global = f.name() == "PCOMPG";
   if (!f.blank(1)) p.z0 = f.real(1, "Z0");
   p.nonstructural = f.real(2, "the nonstructural mass", 0.0);
+  if (p.nonstructural < 0.0)
+    f.error(fmt::format("the nonstructural mass is {:g}, expected no negative number",
+                        p.nonstructural));
   const bool symmetric = read_lam(f, p);
   const std::size_t step = global ? 8 : 4, offset = global ? 1 : 0;
   for (std::size_t i = 8; i < f.size() && p.plies.size() < most; i += step) {

@@ -122,6 +122,7 @@ class NonstructuralBuilder {
       if (b_.model.elements[e].id > 0)
         elements_of_[b_.model.elements[e].id].push_back(static_cast<int>(e));
     extra_.assign(b_.model.elements.size(), 0.0);
+    negative_.assign(b_.model.elements.size(), nullptr);
     int applied = 0;
     for (const NastranNonstructural& m : c_.nonstructural) {
       if (!selected.contains(m.set)) continue;
@@ -241,8 +242,21 @@ class NonstructuralBuilder {
       return;
     }
     const double each = m.lumped ? m.value / sum : m.value;
-    for (const auto& [e, size] : found) extra_[e] += each;
+    for (const auto& [e, size] : found) {
+      extra_[e] += each;
+      if (each < 0.0) negative_[e] = &m;
+    }
     total_ += each * sum;
+  }
+
+  /// Of the material or the section of an element to which its mass is added.
+  void expect_mass(std::size_t i, const char* what, double found) {
+    const NastranNonstructural* m = negative_[i];
+    if (found < 0.0 && m != nullptr)
+      b_.source.error(
+          m->at, fmt::format("{}: its mass makes the {} of element {} {:g}, expected "
+                             "no negative number",
+                             label(*m), what, b_.model.elements[i].id, found / c_.mass_factor));
   }
 
   void apply() {
@@ -260,6 +274,7 @@ class NonstructuralBuilder {
         if (fresh) {
           model.shells.push_back(model.shells[e.section]);
           model.shells.back().mass += mass;
+          expect_mass(i, "mass beside its plies", model.shells.back().mass);
         }
         e.section = it->second;
         continue;
@@ -274,6 +289,8 @@ class NonstructuralBuilder {
         if (const auto missing = model.without_density.find(e.material);
             missing != model.without_density.end())
           model.without_density[it->second] = MissingDensity(missing->second);
+        else
+          expect_mass(i, "density", model.materials.back().density);
         model.material_names.push_back(model.material_names[e.material]);
       }
       e.material = it->second;
@@ -290,7 +307,8 @@ class NonstructuralBuilder {
   const NastranContent& c_;
   std::map<int, std::vector<int>> elements_of_;  // of the model, by their number
   std::map<std::string, NastranNumbers> numbers_;
-  std::vector<double> extra_;  // mass over length or area of each element
+  std::vector<double> extra_;                          // mass over length or area of each element
+  std::vector<const NastranNonstructural*> negative_;  // the last card that takes mass from it
   double total_ = 0.0;
   int missing_ = 0;
   FeSource first_missing_;
