@@ -130,6 +130,9 @@ TEST(BadNastran, Decks) {
        "arm.bdf:7: CBAR 2: the orientation vector is missing"},
       {"CONM2,7,2,,1.5", "CONM2,7,4,,1.5,.1", "no error"},
       {"RBE2,8,1,123456,3,4", "RBE2,8,1,123456", "arm.bdf:12: RBE2 8 has no nodes"},
+      {"RBE2,8,1,123456,3,4", "RBE2,8,3,123456,4,3",
+       "arm.bdf:12: RBE2 8: node 3 depends on itself"},
+      {"RBE2,8,1,123456,3,4", "RBAR,8,3,3,123456", "arm.bdf:12: RBAR 8: node 3 depends on itself"},
       {"RBE2,8,1,123456,3,4", "RBE3,8,,1,12,1.,23,3,4\n,2",
        "arm.bdf:12: RBE3 8: the components of its nodes do not define how component 1 of the "
        "reference moves"},

@@ -54,7 +54,7 @@ class ConstraintBuilder {
 
   /// Of a node with a turned system that follows only in some of its directions: equations.
   bool follows_turned(const NastranSpider& s, int reference, int node) {
-    if (b_.turned[index(node)] == 0 || any_axes(s.mask) || node == reference) return false;
+    if (b_.turned[index(node)] == 0 || any_axes(s.mask)) return false;
     const Mat3 axes = b_.axes(node);
     const Vec3 arm = b_.model.positions[index(node)] - b_.model.positions[index(reference)];
     for (int c = 0; c < 6; ++c) {
@@ -114,6 +114,8 @@ class ConstraintBuilder {
     for (const int id : s.nodes) {
       const int node = b_.node(id, s.at, who);
       if (node < 0) return;
+      if (s.kind == Spider::Kind::rigid && node == spider.reference)
+        return b_.source.error(s.at, fmt::format("{}: node {} depends on itself", who, id));
       if (s.kind == Spider::Kind::rigid && follows_turned(s, spider.reference, node)) continue;
       spider.nodes.push_back(node);
       if (s.kind == Spider::Kind::rigid) {
