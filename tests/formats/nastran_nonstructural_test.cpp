@@ -211,6 +211,8 @@ TEST(NastranNonstructural, Errors) {
       {"NSM1,5,PBAR,,1", "NSM1 5: the value is missing"},
       {"NSM1,5,PBAR,7.", "NSM1 5: it has no elements or properties"},
       {"NSM1,5,PBAR,7.,x", "NSM1 5: a number of the list is 'x', expected a whole number from 1"},
+      {"NSM1,5,ELEMENT,7.,18,THRU,11,BY,2",
+       "NSM1 5: found 18 THRU 11, expected the first to be at most the last"},
       {"NSM,5,PBAR,1", "NSM 5: the value of a number is missing"},
       {"NSML,5,PBAR,1,2.\n,DISTR,MASS", "NSML 5: DISTR is not read"},
       {"NSM1,5,PSHELL,7.,ALL",

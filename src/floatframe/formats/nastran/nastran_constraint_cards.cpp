@@ -229,12 +229,7 @@ void read_nastran_spc1(NastranFields& f, NastranContent& c) {
   const unsigned mask = f.components(1, "the components");
   for (std::size_t i = 2; i < f.size(); ++i) {
     if (f.blank(i)) continue;
-    const int first = f.label(i, "a node");
-    int last = first;
-    if (same_word(f.text(i + 1), "THRU")) {
-      last = f.label(i + 2, "the last node");
-      i += 2;
-    }
+    const auto [first, last] = f.range(i, "a node");
     c.supports.push_back({first, last, mask, f.at(), set});
   }
 }

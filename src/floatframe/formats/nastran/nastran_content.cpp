@@ -179,13 +179,7 @@ class ContentReader {
     }
     for (std::size_t i = f.name() == "SET" ? 8 : f.name() == "SET3" ? 2 : 1; i < f.size(); ++i) {
       if (f.blank(i) || same_word(f.text(i), "SKIN")) continue;
-      const int first = f.label(i, "a member");
-      int last = first;
-      if (same_word(f.text(i + 1), "THRU")) {
-        last = f.label(i + 2, "the last member");
-        i += 2;
-      }
-      s.ranges.emplace_back(first, last);
+      s.ranges.push_back(f.range(i, "a member"));
     }
     c_.sets.push_back(std::move(s));
   }

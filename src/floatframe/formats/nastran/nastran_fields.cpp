@@ -22,6 +22,17 @@ int NastranFields::label(std::size_t i, const char* what) {
   return value.value_or(0);
 }
 
+std::pair<int, int> NastranFields::range(std::size_t& i, const char* what) {
+  const int first = label(i, what);
+  if (!same_word(text(i + 1), "THRU")) return {first, first};
+  i += 2;
+  const int last = label(i, "the last number after THRU");
+  if (last == 0 || first <= last) return {first, last};
+  error_in(i,
+           fmt::format("found {} THRU {}, expected the first to be at most the last", first, last));
+  return {0, 0};
+}
+
 int NastranFields::integer(std::size_t i, const char* what, int otherwise) {
   if (blank(i)) return otherwise;
   const auto value = parse_integer(card_.field(i));

@@ -2,6 +2,7 @@
 // Fields of one Nastran card as numbers, with errors that name the card and what is expected.
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 #include "floatframe/math/types.hpp"
@@ -28,6 +29,8 @@ class NastranFields {
 
   /// A number that names something; 0 with an error if it is none.
   int label(std::size_t i, const char* what);
+  /// A number, or "FIRST THRU LAST", whose last field `i` then is; the numbers are 0 with an error.
+  std::pair<int, int> range(std::size_t& i, const char* what);
   int integer(std::size_t i, const char* what, int otherwise);
   double real(std::size_t i, const char* what);  ///< must be there
   double real(std::size_t i, const char* what, double otherwise);

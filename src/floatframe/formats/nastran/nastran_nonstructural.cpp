@@ -77,17 +77,16 @@ void read_nastran_nonstructural(NastranFields& f, NastranContent& c) {
     if (same_word(f.text(i), "DISTR")) return f.error("DISTR is not read");
     if (same_word(f.text(i), "ALL")) {
       m.ranges.push_back({1, everything, 1, true});
+    } else if (pairs) {
+      const int number = f.label(i, "a number of the list");
+      m.ranges.push_back({number, number, 1, false});
     } else {
-      const int first = f.label(i, "a number of the list");
-      m.ranges.push_back({first, first, 1, false});
-      if (!pairs && same_word(f.text(i + 1), "THRU")) {
-        m.ranges.back().last = f.label(i + 2, "the last number");
-        m.ranges.back().several = true;
+      const std::size_t before = i;
+      const auto [first, last] = f.range(i, "a number of the list");
+      m.ranges.push_back({first, last, 1, i > before});
+      if (i > before && same_word(f.text(i + 1), "BY")) {
+        m.ranges.back().step = f.label(i + 2, "the step BY");
         i += 2;
-        if (same_word(f.text(i + 1), "BY")) {
-          m.ranges.back().step = f.label(i + 2, "the step BY");
-          i += 2;
-        }
       }
     }
     if (!pairs) continue;

@@ -34,12 +34,7 @@ bool NastranRanges::overlaps(int first, int last) const {
 void read_nastran_scalar_points(NastranFields& f, NastranContent& c) {
   for (std::size_t i = 0; i < f.size(); ++i) {
     if (f.blank(i)) continue;
-    const int first = f.label(i, "a scalar point");
-    int last = first;
-    if (same_word(f.text(i + 1), "THRU")) {
-      last = f.label(i + 2, "the last scalar point");
-      i += 2;
-    }
+    const auto [first, last] = f.range(i, "a scalar point");
     if (first > 0) c.scalar_points.add(first, last);
   }
 }
