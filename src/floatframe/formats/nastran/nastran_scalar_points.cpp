@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 
 #include "floatframe/formats/nastran/nastran_build.hpp"
 #include "floatframe/formats/nastran/nastran_fields.hpp"
-#include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
 
@@ -39,45 +39,55 @@ void read_nastran_scalar_points(NastranFields& f, NastranContent& c) {
   }
 }
 
+namespace {
+
+/// A spring or mass between scalar points; point 0 is the ground.
+struct PointElement {
+  int id = 0, property = 0;     ///< 0: it has its own value
+  std::optional<double> value;  ///< K of a CELAS4, M of a CMASS4
+  std::array<int, 2> points{};
+};
+
+/// `value`: the name of its own value; null if it has a property.
+PointElement point_element(NastranFields& f, const char* value, NastranContent& c) {
+  PointElement e;
+  e.id = f.label(0, "the number of the element");
+  if (value != nullptr) {
+    e.value = f.real(1, value);
+  } else {
+    e.property = f.blank(1) ? e.id : f.label(1, "the property");
+  }
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (f.blank(2 + end) || f.text(2 + end) == "0") continue;
+    const int point = e.points[end] = f.label(2 + end, "a scalar point");
+    if (point > 0) c.scalar_points.add(point, point);
+  }
+  return e;
+}
+
+}  // namespace
+
 void read_nastran_scalar_spring(NastranFields& f, NastranContent& c) {
   NastranSpring s;
   const bool own = f.name() == "CELAS4";
   s.card = own ? "CELAS4" : "CELAS3";
   s.at = f.at();
-  s.id = f.label(0, "the number of the element");
-  if (own) {
-    s.stiffness = f.real(1, "K");
-  } else {
-    s.property = f.blank(1) ? s.id : f.label(1, "the property");
-  }
-  for (std::size_t end = 0; end < 2; ++end) {
-    s.components[end] = -1;
-    if (f.blank(2 + end) || f.text(2 + end) == "0") continue;
-    s.nodes[end] = f.label(2 + end, "a scalar point");
-    if (s.nodes[end] > 0) c.scalar_points.add(s.nodes[end], s.nodes[end]);
-  }
+  const PointElement e = point_element(f, own ? "K" : nullptr, c);
+  s.id = e.id;
+  s.property = e.property;
+  s.stiffness = e.value;
+  s.nodes = e.points;
+  s.components = {-1, -1};
   if (s.nodes[0] == 0) std::swap(s.nodes[0], s.nodes[1]);
   if (s.nodes[0] == 0) return f.error("it has no scalar point");
   c.springs.list.push_back(s);
 }
 
 void read_nastran_mass_of_points(NastranFields& f, NastranContent& c) {
-  NastranScalarMass m;
   const bool own = f.name() == "CMASS4";
-  m.card = own ? "CMASS4" : "CMASS3";
-  m.at = f.at();
-  m.id = f.label(0, "the number of the element");
-  if (own) {
-    m.mass = f.real(1, "M");
-  } else {
-    m.property = f.blank(1) ? m.id : f.label(1, "the property");
-  }
-  for (std::size_t end = 0; end < 2; ++end) {
-    if (f.blank(2 + end) || f.text(2 + end) == "0") continue;
-    m.points[end] = f.label(2 + end, "a scalar point");
-    if (m.points[end] > 0) c.scalar_points.add(m.points[end], m.points[end]);
-  }
-  c.scalar_masses.push_back(m);
+  const PointElement e = point_element(f, own ? "M" : nullptr, c);
+  c.scalar_masses.push_back(
+      {own ? "CMASS4" : "CMASS3", e.id, e.property, e.points, e.value.value_or(1.0), f.at()});
 }
 
 void check_nastran_scalar_masses(NastranBuild& build) {
