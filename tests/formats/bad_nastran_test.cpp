@@ -178,6 +178,13 @@ TEST(BadNastran, Decks) {
   }
 }
 
+TEST(BadNastran, WordsInLatin1) {
+  EXPECT_EQ(deck_error("GRID,1,,0.,0.,\xe4\n"),
+            "arm.bdf:1: GRID 1: a coordinate: '\xc3\xa4' is not a number");
+  EXPECT_EQ(deck_error("GRID,1,,0.,0.,0.\nTR\xc4GER,1\n"),
+            "arm.bdf:2: TR\xc3\x84GER is not read and may change stiffness or mass");
+}
+
 TEST(BadNastran, Lines) {
   EXPECT_EQ(deck_error("+A      1\n"), "arm.bdf:1: found a continuation '+A', expected a card");
   EXPECT_EQ(

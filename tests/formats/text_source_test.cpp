@@ -98,6 +98,42 @@ TEST(TextFields, WholeNumbers) {
   EXPECT_EQ(shown(std::string("a\0\x80z", 4)), "'a??z'");
 }
 
+TEST(TextFields, FieldsAreShownAsUtf8) {
+  const std::string a = "\xc3\xa4", latin = "\xe4";  // a with dots, and in Latin-1
+  EXPECT_EQ(shown("Tr" + a + "ger"), "'Tr" + a + "ger'");
+  EXPECT_EQ(shown("Tr" + latin + "ger"), "'Tr" + a + "ger'");
+  EXPECT_EQ(shown(latin + a), "'" + a + a + "'");
+  std::string long_one, long_latin, forty;
+  for (int i = 0; i < 40; ++i) forty += a;
+  for (int i = 0; i < 500; ++i) {
+    long_one += a;
+    long_latin += latin;
+  }
+  EXPECT_EQ(shown(forty), "'" + forty + "'");
+  EXPECT_EQ(shown(forty + "b"), "'" + forty + "...'");
+  EXPECT_EQ(shown(long_one), "'" + forty + "...'");
+  EXPECT_EQ(shown(long_latin), "'" + forty + "...'");
+  EXPECT_EQ(shown("b" + long_one), "'b" + forty.substr(2) + "...'");
+  EXPECT_EQ(message_text("a\xff\xc3"), "a\xc3\xbf\xc3\x83");
+}
+
+// Words of a file in Latin-1, in quotes or not.
+TEST(TextSource, ErrorsAreUtf8) {
+  const auto error = [](bool stops) -> std::string {
+    TextSource source("x\n", "a.inp");
+    try {
+      if (stops) source.stop({0, 1}, "the set Tr\xe4ger holds " + shown("\xe4"));
+      source.error({0, 1}, "the set Tr\xe4ger holds " + shown("\xe4"));
+      source.throw_if_any();
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error(false), "a.inp:1: the set Tr\xc3\xa4ger holds '\xc3\xa4'");
+  EXPECT_EQ(error(true), error(false));
+}
+
 TEST(TextSource, LinesEndingsAndPlaces) {
   TextSource source(
       "\xef\xbb\xbf"

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "floatframe/core/printable.hpp"
+#include "floatframe/core/utf8_text.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -165,11 +168,27 @@ std::string not_an_integer(std::string_view field) {
 }
 
 std::string shown(std::string_view field) {
-  constexpr std::size_t most = 40;
+  constexpr std::size_t most = 40, bytes = 4 * most;
+  const std::string whole = message_text(field.substr(0, bytes));
   std::string text = "'";
-  for (const char c : field.substr(0, most)) text += c >= ' ' && c <= '~' ? c : '?';
-  if (field.size() > most) text += "...";
+  std::size_t at = 0;
+  for (std::size_t count = 0; count < most && at < whole.size(); ++count) {
+    const std::size_t length = utf8_length(whole, at);
+    text += is_control(whole, at) ? "?" : whole.substr(at, length);
+    at += length;
+  }
+  if (at < whole.size() || field.size() > bytes) text += "...";
   return text + "'";
+}
+
+std::string message_text(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = std::max<std::size_t>(utf8_length(text, at), 1);
+    out += utf8_text(text.substr(at, length));
+    at += length;
+  }
+  return out;
 }
 
 }  // namespace floatframe

@@ -38,7 +38,10 @@ std::optional<int> parse_label(std::string_view field) noexcept;
 std::string not_a_real(std::string_view field);
 /// "'1.5' is not a whole number", "a number is missing".
 std::string not_an_integer(std::string_view field);
-/// In quotes, at most 40 characters, unprintable ones as '?'.
+/// In quotes, at most 40 characters as UTF-8, control characters as '?'.
 std::string shown(std::string_view field);
+/// UTF-8 of a text that may hold words of a file: bytes that are no UTF-8 are taken as those of
+/// Latin-1, also beside others that are UTF-8 (`utf8_text` takes all or none).
+std::string message_text(std::string_view text);
 
 }  // namespace floatframe

@@ -287,8 +287,8 @@ SourceMark TextSource::mark(const FeSource& source) const {
   return {names_[source.file], source.line, 0};
 }
 
-void TextSource::error(const FeSource& at, std::string message) {
-  errors_.add(mark(at), std::move(message));
+void TextSource::error(const FeSource& at, const std::string& message) {
+  errors_.add(mark(at), message_text(message));
   if (errors_.size() < most_errors) return;
   errors_.add({}, fmt::format("reading ends after {} errors", most_errors), 0);
   errors_.throw_if_any();
@@ -302,8 +302,8 @@ void TextSource::make(std::int64_t count) {
                             may_make_));
 }
 
-void TextSource::stop(const FeSource& at, std::string message) {
-  errors_.add(mark(at), std::move(message));
+void TextSource::stop(const FeSource& at, const std::string& message) {
+  errors_.add(mark(at), message_text(message));
   errors_.throw_if_any();
   std::abort();  // not reached: there is an error
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Text files of finite-element programs: read whole (decompressed if they are gzip), given line by
-// line with their place, through includes. Errors are collected with file and line.
+// line with their place, through includes. Errors are collected with file and line, as UTF-8.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -71,10 +71,10 @@ class TextSource {
 
   SourceMark mark(const FeSource& source) const;
   /// Collects an error; throws all of them when there are `most_errors`.
-  void error(const FeSource& at, std::string message);
+  void error(const FeSource& at, const std::string& message);
   /// Collects an error at the last line.
-  void error(std::string message) { error(here_, std::move(message)); }
-  [[noreturn]] void stop(const FeSource& at, std::string message);
+  void error(const std::string& message) { error(here_, message); }
+  [[noreturn]] void stop(const FeSource& at, const std::string& message);
   void throw_if_any() { errors_.throw_if_any(); }
   std::size_t errors() const noexcept { return errors_.size(); }
   static constexpr std::size_t most_errors = 50;
