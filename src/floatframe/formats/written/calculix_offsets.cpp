@@ -96,7 +96,7 @@ Vec3 tangent_of(const std::array<Vec3, 3>& p, int nodes, int k) {
 
 /// OFFSET1 and OFFSET2 of a beam with ends of arms; none if its arms are not alike.
 std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const Element& e,
-                                                const ArmEnds& ends) {
+                                                     const ArmEnds& ends) {
   const auto s = static_cast<std::size_t>(e.section);
   if (e.section < 0 || s >= model.sections.size()) return std::nullopt;
   const BeamSection& section = model.sections[s];
