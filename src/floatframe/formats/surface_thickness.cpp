@@ -75,7 +75,8 @@ std::vector<std::string> SurfaceThickness::not_found(const std::vector<std::stri
     out.emplace_back(
         "a thickness is given, but all surface elements are faces of solids or in "
         "groups with a thickness of their own: leave it out, or name a group");
-  for (const auto& [name, section] : groups_)
+  for (const auto& group : groups_) {
+    const std::string& name = group.first;
     if (!seen_.contains(name)) {
       const bool known = std::any_of(groups.begin(), groups.end(),
                                      [&](const std::string& g) { return utf8_text(g) == name; });
@@ -84,6 +85,7 @@ std::vector<std::string> SurfaceThickness::not_found(const std::vector<std::stri
                       "is in a group of this name{}",
                       name, known ? "" : did_you_mean(name, groups)));
     }
+  }
   return out;
 }
 
