@@ -1,6 +1,7 @@
 // Beams of decks whose centroid lies beside their nodes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "floatframe/fe/fe_system.hpp"
@@ -71,6 +72,12 @@ TEST(DeckBeamOffsets, WhereCalculixHasTheCentroid) {
     EXPECT_LE((m.positions[5 + k] - m.positions[k] - Vec3(0, -.2, -5.)).norm(), 1e-14);
   EXPECT_EQ(m.node_ids[5], 6);
   EXPECT_EQ(m.spiders.size(), 5u);
+  EXPECT_TRUE(std::any_of(m.notes.begin(), m.notes.end(), [](const std::string& note) {
+    return note.find(
+               "*BEAM SECTION has an offset: the nodes are rigidly beside the beam here; "
+               "CalculiX lets masses, springs, equations and other elements at these nodes "
+               "act on its middle") != std::string::npos;
+  }));
 }
 
 // Two beams on top of each other are one of double height: E (I_1 + I_2 + A_1 e^2 + A_2 e^2).

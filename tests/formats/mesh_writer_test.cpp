@@ -242,6 +242,17 @@ TEST(MeshWriter, NotesSayWhatIsLost) {
             "1 surface of element faces is not written\n");
 }
 
+TEST(MeshWriter, PipesAndIncompatibleModes) {
+  FeModel pipe = single_element(ElementType::beam3);
+  pipe.sections[0] = BeamSection::hollow_round(0.04, 0.03);
+  EXPECT_NE(written(pipe, ".inp").bytes.find("*ELEMENT, TYPE=B32R\n"), std::string::npos);
+  EXPECT_NE(written_notes(single_element(ElementType::hex8i), ".inp")
+                .find("1 element of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these "
+                      "modes mass, its frequencies are lower, by some percent where the mesh is "
+                      "coarse\n"),
+            std::string::npos);
+}
+
 TEST(MeshWriter, SupportsAreComments) {
   FeModel model = bricks_with(Spider::Kind::rigid);
   model.supports = {{0, 0b101, {}}};

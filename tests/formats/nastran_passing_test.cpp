@@ -123,6 +123,46 @@ TEST(NastranPassing, WhatIsNotSelected) {
             "PBEAML, PROD, CONROD, PTUBE, PSHEAR or ELEMENT; others are not read");
 }
 
+// A line BEGIN BULK alone is no case control that could select something.
+TEST(NastranPassing, BeginBulkIsNoCaseControl) {
+  EXPECT_EQ(passing_error("BEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\n"),
+            "arm.bdf:9: NSM1 is not read: only a case control selects it (CEND, NSM = n, BEGIN "
+            "BULK), and the file has none");
+  EXPECT_EQ(passing_deck("BEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.size(), 1u);
+  EXPECT_TRUE(
+      passing_deck("CEND\nBEGIN BULK\n" + tetra + "MPC,3,1,1,1.,2,1,-1.\n").equations.empty());
+}
+
+TEST(NastranPassing, NotesSayWhatIsPassedOver) {
+  const FeModel m =
+      passing_deck("CEND\nBEGIN BULK\n" + tetra + "NSM1,3,PSHELL,.2,1\nPBUSHT,9,K,3\n");
+  ASSERT_GE(m.notes.size(), 2u);
+  const auto has = [&](const std::string& note) {
+    return std::any_of(m.notes.begin(), m.notes.end(),
+                       [&](const std::string& n) { return n.find(note) != std::string::npos; });
+  };
+  EXPECT_TRUE(
+      has("tables of stiffness and damping over frequency or load are passed over, the part "
+          "has the constant ones: PBUSHT"));
+  EXPECT_TRUE(has("cards that the case control does not select are passed over: NSM1"));
+  EXPECT_FALSE(has("change neither stiffness nor mass"));
+}
+
+TEST(NastranPassing, MassesAndRigidElementsGivenTwice) {
+  for (const char* card : {"CONM2,9,1,,5.", "CMASS2,9,5.,1,1", "CONM1,9,1", "RBE2,9,1,123,2",
+                           "RBE3,9,,1,123,1.,123,2,3,4", "RBAR,9,1,2,123456"}) {
+    const std::string line = std::string(card) + "\n", name(card, std::string(card).find(','));
+    EXPECT_EQ(passing_error(tetra + line + line)
+                  .find("arm.bdf:9: " + name +
+                        " 9: this number is in "
+                        "the file twice, first in line 8"),
+              0u)
+        << passing_error(tetra + line + line);
+  }
+  // Masses and rigid elements have numbers of their own.
+  EXPECT_EQ(passing_error(tetra + "CONM2,9,1,,5.\nRBE2,9,1,123,2\n"), "no error");
+}
+
 TEST(NastranPassing, FormsOfCards) {
   const FeModel plain = passing_deck(tetra + "SPC1,1,123,1\n");
   const std::string spc[] = {"SPC1    1       1 2 3   1\n",  // blanks between components

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "floatframe/fe/fe_model.hpp"
@@ -187,7 +188,14 @@ TEST(SurfaceThickness, FacesOfSolidsStaySkinsUnlessNamed) {
   EXPECT_EQ(all.elements[1].type, ElementType::quad4);
   EXPECT_EQ(all.node_sets.at("LID").size(), 3u);
   EXPECT_EQ(all.element_sets.count("LID"), 0u);
+  const auto has_skins = [](const FeModel& m) {
+    return std::count(m.notes.begin(), m.notes.end(),
+                      "a.msh: 1 surface elements in no group with a thickness are skins: they make "
+                      "node sets and have no stiffness and no mass");
+  };
+  EXPECT_EQ(has_skins(all), 0);
   const FeModel coated = parse_gmsh(text, "a.msh", options_of({{"LID", 0.5}}));
+  EXPECT_EQ(has_skins(coated), 1);
   ASSERT_EQ(coated.elements.size(), 2u);
   EXPECT_EQ(coated.elements[1].type, ElementType::tri3);
   EXPECT_EQ(coated.shells[coated.elements[1].section].thickness, 0.5);

@@ -2,6 +2,8 @@
 // frequencies (B31, S3, S4, C3D4, C3D6, C3D8 and their kin), all others consistent mass, as all
 // have in CalculiX; B31 shears, B33 does not; S4R5, S8R5 and STRI are for thin shells. Shear
 // factors of B31 by the section: those that Abaqus documents.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -49,6 +51,18 @@ int without_shear(std::vector<Section>& sections, int section, std::map<int, int
   return it->second;
 }
 
+void note_offsets_of_calculix(AbaqusBuild& build) {
+  for (const AbaqusSection& s : build.content.sections) {
+    const bool shell = s.family == AbaqusType::Family::shell && s.offset != 0.0;
+    if (!shell && (s.family != AbaqusType::Family::beam || s.arm.isZero(0.0))) continue;
+    return build.note(
+        s.at, fmt::format("{} has an offset: the nodes are rigidly beside the {} here; CalculiX "
+                          "lets masses, springs, equations and other elements at these nodes act "
+                          "on its middle",
+                          s.shown, shell ? "shell" : "beam"));
+  }
+}
+
 }  // namespace
 
 double abaqus_shear_factor(std::string_view shape) noexcept {
@@ -68,6 +82,7 @@ void as_in_home_program(AbaqusBuild& build) {
   const AbaqusContent& c = build.content;
   if (c.sections.empty() || build.source.errors() > 0) return;
   model.home = home_of(build);
+  if (model.home == HomeProgram::calculix) note_offsets_of_calculix(build);
   if (model.home == HomeProgram::abaqus)
     for (BeamSection& s : model.sections)
       if (s.has_shear()) s.slenderness = slenderness_of_abaqus;

@@ -115,6 +115,7 @@ class GmshModel {
       thickness_.add_solid(*e.type->element, corners);
     }
     std::map<int, std::vector<std::string>> names;  // of a list of groups
+    int skins = 0;
     for (std::size_t i = 0; i < mesh_.elements.size(); ++i) {
       const GmshElement& e = mesh_.elements[i];
       if (e.type->dimension != 2 || !gather(e, nodes)) continue;
@@ -125,7 +126,13 @@ class GmshModel {
           std::span(nodes).first(static_cast<std::size_t>(surface_corners(*e.type))), list->second);
       if (!choice.error.empty()) error(e.at, fmt::format("element {} {}", e.id, choice.error));
       section_[i] = choice.section;
+      skins += choice.section < 0 ? 1 : 0;
     }
+    if (skins > 0 && thickness_.others() < 0)
+      model_.notes.push_back(
+          fmt::format("{}: {} surface elements in no group with a thickness are skins: they make "
+                      "node sets and have no stiffness and no mass",
+                      model_.files[0], skins));
     std::vector<std::string> known;
     for (const auto& [key, name] : names_)
       if (key.first == 2) known.push_back(name);

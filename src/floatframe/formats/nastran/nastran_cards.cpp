@@ -58,7 +58,6 @@ NastranCards::NastranCards(TextSource& source, bool has_control)
 }
 
 void NastranCards::read_control() {
-  control_.there = true;
   bool executive = true;  // before CEND: solution sequences and changes of them, which are not read
   std::string_view line;
   while (source_.next(line)) {
@@ -67,6 +66,7 @@ void NastranCards::read_control() {
     if (is_begin(line)) source_.stop(source_.here(), fmt::format(one_model, shown(line)));
     std::string_view rest = line;
     const std::string_view word = next_word(rest);
+    control_.there = control_.there || !(word.empty() || same_word(word, "INCLUDE"));
     if (same_word(word, "INCLUDE")) {
       include(line, executive);
     } else if (same_word(word, "CEND")) {

@@ -17,7 +17,7 @@ namespace floatframe {
 
 /// What the case control selects.
 struct NastranControl {
-  bool there = false;                                             ///< there is a case control
+  bool there = false;                                             ///< there is more than BEGIN BULK
   std::vector<std::pair<int, FeSource>> mpc, nonstructural, spc;  ///< MPC = n, NSM = n, SPC = n
   /// Commands that add stiffness or mass: "K2GG = STIF".
   std::vector<std::pair<std::string, FeSource>> additions;

@@ -135,7 +135,10 @@ class ContentReader {
     }
     const auto reader = card_readers().find(name);
     const bool mass = name.starts_with("NSM") && c_.control.nonstructural.empty();
-    if (reader != card_readers().end() && !mass) return reader->second(f, c_);
+    if (reader != card_readers().end() && !mass) {
+      reader->second(f, c_);
+      return once(f);
+    }
     if (name == "PARAM") return parameter(f);
     if (name == "SET" || name == "SET1" || name == "SET3") return set(f);
     NastranProperty property;
@@ -158,6 +161,18 @@ class ContentReader {
       if (const auto id = parse_label(f.text(0))) c_.other_materials[*id] = name;
     }
     pass(name, f.at());
+  }
+
+  /// Masses and rigid elements given twice would count twice.
+  void once(F& f) {
+    const std::string& name = f.name();
+    const bool mass = name.starts_with("CONM") || name.starts_with("CMASS");
+    if (!mass && !name.starts_with("RBE") && name != "RBAR" && name != "RROD" && name != "RTRPLT")
+      return;
+    const auto id = parse_label(f.text(0));
+    if (!id || *id <= 0) return;
+    const auto [it, fresh] = once_.try_emplace({mass, *id}, f.at());
+    if (!fresh) nastran_twice(f, it->second);
   }
 
   void pass(const std::string& name, const FeSource& at) {
@@ -266,12 +281,24 @@ class ContentReader {
                       "passed over: {}",
                       fmt::join(c_.control.missing_includes, ", ")));
     }
-    std::string list, dampers;
+    std::string list, dampers, nominal, unselected;
     for (const auto& [name, passed] : passed_) {
       if (name.starts_with("CDAMP") || name == "CVISC")
         dampers += fmt::format("{}{} {}", dampers.empty() ? "" : ", ", passed.number, name);
-      list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
+      const bool varies = name == "PELAST" || name == "PBUSHT" || name == "PDAMPT";
+      const bool by_control = name == "DMIG" || name == "DMIAX" || name.starts_with("NSM");
+      std::string& of = varies ? nominal : by_control ? unselected : list;
+      of += fmt::format("{}{}", of.empty() ? "" : ", ", name);
     }
+    if (!nominal.empty())
+      c_.notes.push_back(
+          fmt::format("tables of stiffness and damping over frequency or load are passed over, the "
+                      "part has the "
+                      "constant ones: {}",
+                      nominal));
+    if (!unselected.empty())
+      c_.notes.push_back(fmt::format(
+          "cards that the case control does not select are passed over: {}", unselected));
     if (!dampers.empty())
       c_.notes.push_back(fmt::format(
           "dampers are passed over, the part has modal damping (--damping): {}", dampers));
@@ -311,6 +338,7 @@ class ContentReader {
   NastranContent c_;
   static constexpr std::size_t most_passed = 300;
   std::map<std::string, Passed> passed_, unknown_;
+  std::map<std::pair<bool, int>, FeSource> once_;  ///< masses, rigid elements by their numbers
   std::map<std::string, Factor> factors_;
 };
 

@@ -242,6 +242,7 @@ void add_calculix_constraints(CalculixText& deck) {
   add_springs(deck, springs);
   springs.finish();
   equations.add_zeros();
+  equations.say_refused();
   add_masses(deck);
 }
 

@@ -97,17 +97,22 @@ void add_nodes(CalculixText& deck) {
 }
 
 void add_elements(CalculixText& deck) {
-  std::size_t pyramids = 0, spread = 0, expanded = 0;
-  ElementType last{};
+  std::size_t pyramids = 0, spread = 0, expanded = 0, modes = 0;
+  std::string last;
   for (std::size_t e = 0; e < deck.model.elements.size(); ++e) {
     const Element& element = deck.model.elements[e];
-    if (e == 0 || element.type != last)
-      deck.text += fmt::format("*ELEMENT, TYPE={}\n", calculix_type(element.type));
-    last = element.type;
+    // CalculiX has pipes in B32R only.
+    const auto s = static_cast<std::size_t>(element.section);
+    const bool pipe = element.type == ElementType::beam3 && s < deck.model.sections.size() &&
+                      deck.model.sections[s].bore > 0.0;
+    const std::string type = pipe ? "B32R" : calculix_type(element.type);
+    if (type != last) deck.text += fmt::format("*ELEMENT, TYPE={}\n", type);
+    last = type;
     std::vector<int> numbers = deck_nodes(deck, element);
     numbers.insert(numbers.begin(), deck.element(e));
     add_calculix_numbers(deck.text, numbers, true);
     pyramids += element.type == ElementType::pyramid5 || element.type == ElementType::pyramid13;
+    modes += element.type == ElementType::hex8i;
     spread += element.mass_form != MassForm::consistent;
     expanded += is_beam(element.type) || is_shell(element.type) || is_rod(element.type) ||
                 is_membrane(element.type);
@@ -120,8 +125,11 @@ void add_elements(CalculixText& deck) {
        "of 5 or 13 nodes: CalculiX has no pyramids, written as bricks with one upper node");
   note(spread, "of lumped mass: CalculiX takes consistent mass");
   note(expanded,
-       "are beams, rods, shells or membranes: CalculiX makes solid elements of them, its "
-       "frequencies differ");
+       "are beams, rods, shells or membranes: CalculiX makes solid elements of them, with all "
+       "integration points (B32, S8, not B32R, S8R), its frequencies differ");
+  note(modes,
+       "of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these modes mass, its "
+       "frequencies are lower, by some percent where the mesh is coarse");
 }
 
 void add_set(CalculixText& deck, const char* keyword, const std::string& name,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "floatframe/core/plural.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 
@@ -100,12 +101,24 @@ std::pair<int, int> CalculixEquations::place(int node, int axis, const FeSource&
 }
 
 void CalculixEquations::refuse(int node, const FeSource& source) {
-  if (!refused_.insert(node).second) return;
-  deck_.refuse(source,
-               fmt::format("an equation or spring has the rotation of node {}, of a beam or shell; "
-                           "CalculiX, which makes solids of these, would lose it there (.vtu and "
-                           ".msh show the mesh)",
-                           node));
+  if (!refused_.insert(node).second || refused_.size() > 1) return;
+  first_refused_ = node;
+  first_source_ = source;
+}
+
+void CalculixEquations::say_refused() {
+  if (refused_.empty()) return;
+  const auto more = static_cast<long>(refused_.size()) - 1;
+  deck_.errors.add(
+      deck_.model.mark(first_source_),
+      fmt::format(
+          "the rotation of node {}, of a beam or shell, is in an equation, a spring or the "
+          "arm of an end beside its node; CalculiX, which makes solids of beams and shells, "
+          "would lose it (.vtu and .msh show the mesh){}",
+          first_refused_,
+          more == 0
+              ? ""
+              : fmt::format("; the same holds for {}", plural(more, "more node", "more nodes"))));
 }
 
 void CalculixEquations::add_zeros() {

@@ -25,6 +25,8 @@ class CalculixEquations {
   /// place = sum of `terms` in independent degrees of freedom; without a term it is zero.
   void add(const std::pair<int, int>& place, const Terms& terms, const FeSource& source);
   void add_zeros();
+  /// One error for all rotations that would be lost.
+  void say_refused();
 
   /// A sum over degrees of freedom of one node in independent ones.
   Terms independent(int node, const Vec6& factors) const;
@@ -41,6 +43,8 @@ class CalculixEquations {
   std::vector<std::pair<int, int>> place_;
   std::string zeros_;
   std::set<int> refused_;  ///< numbers of nodes
+  int first_refused_ = 0;
+  FeSource first_source_;
 };
 
 }  // namespace floatframe

@@ -127,8 +127,85 @@ std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const
   return out;
 }
 
+/// What CalculiX would take for beams of one line, whose normals it averages.
+bool along_each_other(const FeModel& model, const Element& a, const Element& b) {
+  const auto axis = [&](const Element& e) {
+    const auto last = static_cast<std::size_t>(element_nodes(e.type)) - 1;
+    return Vec3(model.positions[e.nodes[last]] - model.positions[e.nodes[0]]).normalized();
+  };
+  return std::abs(axis(a).dot(axis(b))) > 0.9;
+}
+
+/// CalculiX has no arm: what else sits at a node acts on the beam beside it. So the nodes behind
+/// arms belong to beams alone, and beams in one line have one arm.
+class ArmNodes {
+ public:
+  explicit ArmNodes(const FeModel& model) : model_(model), taken_(model.positions.size(), 0) {
+    for (const PointMass& m : model.masses) taken_[m.node] = 1;
+    for (const Spring& s : model.springs)
+      for (const int node : s.nodes)
+        if (node >= 0) taken_[node] = 1;
+    for (const Element& e : model.elements)
+      if (!is_beam(e.type))
+        for (int k = 0; k < element_nodes(e.type); ++k)
+          taken_[e.nodes[static_cast<std::size_t>(k)]] = 1;
+  }
+
+  bool may_be(const ArmEnds& ends, int end) const {
+    const int node = ends(end);
+    if (taken_[node] != 0) return false;
+    for (const Spider& s : model_.spiders) {
+      if (s.reference != node && std::find(s.nodes.begin(), s.nodes.end(), node) == s.nodes.end())
+        continue;
+      if (s.reference != node ||
+          std::any_of(s.nodes.begin(), s.nodes.end(), [&](int n) { return ends(n) != node; }))
+        return false;
+    }
+    for (const LinearEquation& e : model_.equations) {
+      const bool has = std::any_of(e.terms.begin(), e.terms.end(),
+                                   [&](const LinearEquation::Term& t) { return t.node == node; });
+      if (has && ends(e.terms.front().node) != node) return false;
+    }
+    return true;
+  }
+
+ private:
+  const FeModel& model_;
+  std::vector<char> taken_;
+};
+
+/// The node of the model that `node` of a beam is at when its arm is gone.
+int foot(const ArmEnds& ends, int node) {
+  const int there = ends(node);
+  return there < 0 ? node : there;
+}
+
+/// Does a beam in the same line meet it with another arm?
+bool meets_another_arm(const FeModel& model, const ArmEnds& ends,
+                       const std::map<int, std::vector<int>>& beams_at, const Element& e) {
+  for (int k = 0; k < element_nodes(e.type); ++k) {
+    const int node = e.nodes[static_cast<std::size_t>(k)];
+    const auto at = beams_at.find(foot(ends, node));
+    if (at == beams_at.end()) continue;
+    for (const int i : at->second) {
+      const Element& other = model.elements[static_cast<std::size_t>(i)];
+      const auto last = other.nodes.begin() + element_nodes(other.type);
+      if (std::find(other.nodes.begin(), last, node) == last && along_each_other(model, e, other))
+        return true;
+    }
+  }
+  return false;
+}
+
 /// Leaves out ends of beams whose arms OFFSET1 and OFFSET2 do not say, and what hangs on these.
 void keep_what_can_be_said(const FeModel& model, ArmEnds& ends) {
+  const ArmNodes nodes(model);
+  std::map<int, std::vector<int>> beams_at;
+  for (std::size_t i = 0; i < model.elements.size(); ++i)
+    if (is_beam(model.elements[i].type))
+      for (int k = 0; k < element_nodes(model.elements[i].type); ++k)
+        beams_at[foot(ends, model.elements[i].nodes[static_cast<std::size_t>(k)])].push_back(
+            static_cast<int>(i));
   bool changed = true;
   while (changed) {
     changed = false;
@@ -136,7 +213,10 @@ void keep_what_can_be_said(const FeModel& model, ArmEnds& ends) {
       if (!is_beam(e.type)) continue;
       const auto last = e.nodes.begin() + element_nodes(e.type);
       if (std::none_of(e.nodes.begin(), last, [&](int n) { return ends(n) >= 0; })) continue;
-      if (written_offsets(model, e, ends)) continue;
+      if (std::all_of(e.nodes.begin(), last,
+                      [&](int n) { return ends(n) < 0 || nodes.may_be(ends, n); }) &&
+          !meets_another_arm(model, ends, beams_at, e) && written_offsets(model, e, ends))
+        continue;
       std::for_each(e.nodes.begin(), last, [&](int n) { ends.leave_out(n); });
       changed = true;
     }

@@ -23,11 +23,6 @@ struct CalculixText {
 
   int node(int index) const { return numbers.node[static_cast<std::size_t>(index)]; }
   int element(std::size_t index) const { return numbers.element[index]; }
-  /// What would make it another model; the first 20.
-  void refuse(const FeSource& source, const std::string& what) {
-    if (++refused <= 20) errors.add(model.mark(source), what);
-  }
-  int refused = 0;
   SourceMark mark_of(const Element& e) const { return model.mark(e.source); }
 };
 
