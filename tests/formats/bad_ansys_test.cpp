@@ -38,6 +38,7 @@ TEST(BadAnsys, Commands) {
        "1: 'HELLO' is not known: whether it changes stiffness or mass is not clear; remove it from "
        "the file if it does not"},
       {"/prep7\n*do,i,1,10\n", "2: *DO: loops are not read: write the model with CDWRITE"},
+      {"LUMPM,MAYBE\n", "1: LUMPM: expected ON or OFF, found 'MAYBE'"},
       {"vmesh,all\n", "1: VMESH: geometry is not meshed here: write the mesh with CDWRITE"},
       {"*if,a,eq,1,then\n",
        "1: *IF: branches are not read, but that of CDWRITE over _CDRDOFF; found 'a'"},

@@ -108,6 +108,7 @@ TEST(BadLayers, AbaqusDecks) {
        "D1212 D2323"},
       {"*ORIENTATION, NAME=O\n", "*ORIENTATION\n",
        "deck.inp:13: *ORIENTATION needs the parameter NAME"},
+      {"NAME=O\n", "NAME=O, NAME=P\n", "deck.inp:13: *ORIENTATION has the parameter NAME twice"},
       {"NAME=O\n", "NAME=O, SYSTEM=SPHERICAL\n",
        "deck.inp:13: *ORIENTATION has the system 'SPHERICAL', expected RECTANGULAR, Z RECTANGULAR "
        "or CYLINDRICAL"},

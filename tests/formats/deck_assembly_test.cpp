@@ -168,6 +168,10 @@ TEST(DeckAssembly, FaultyAssemblies) {
       {head + "*Instance, name=ONE, part=P\n0,0,0\n1,1,1,1,1,1,30\n",
        fmt::format("a.inp:{}: the two points of the axis of the instance's rotation are one",
                    n + 2)},
+      {head + "*Instance, name=ONE, part=P\n0,0,0\n1,1,1,1,1,2\n",
+       fmt::format("a.inp:{}: the rotation of the instance has 6 numbers, expected seven: two "
+                   "points of the axis and the angle",
+                   n + 2)},
       {head + "*Instance, name=ONE, part=P\n*Node\n20, 1, 1, 1\n*End Instance\n"
               "*Instance, name=TWO, part=P\n",
        fmt::format("a.inp:{}: *INSTANCE 'TWO' is a second one of the part 'P', whose first one has "

@@ -191,6 +191,16 @@ TEST(DeckBeamOffsets, OneOffsetForOneSection) {
             "stick.inp:20: *BEAM SECTION OFFSET has a second line, which is not supported");
 }
 
+// So is a system of axes that CalculiX takes as another one.
+TEST(DeckBeamOffsets, SystemsOfAbaqus) {
+  const std::string text = sticks("B32", stick_section("SET1", "", "CIRC", ".03"), false) +
+                           "*ORIENTATION, NAME=O, SYSTEM=Z RECTANGULAR\n1., 0., 0., 0., 1., 0.\n";
+  EXPECT_NEAR(stick_deck(text).sections[0].A, std::numbers::pi * 9e-4, 1e-15);
+  EXPECT_EQ(error_of([&] { stick_deck(text, DeckDialect::calculix); }),
+            "stick.inp:18: *ORIENTATION has the system Z RECTANGULAR of Abaqus, which CalculiX "
+            "takes as RECTANGULAR; expected RECTANGULAR or CYLINDRICAL");
+}
+
 // The line is one of Abaqus: it shows whose deck it is, and CalculiX would pass it over.
 TEST(DeckBeamOffsets, TheLineIsOneOfAbaqus) {
   const std::string line = "*BEAM SECTION OFFSET\n.02, -.03\n";

@@ -143,6 +143,10 @@ void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
     o.kind = AbaqusOrientation::Kind::cylindrical;
   } else if (system == "ZRECTANGULAR") {
     o.kind = AbaqusOrientation::Kind::z_rectangular;
+    if (content.dialect == DeckDialect::calculix)
+      lines.error(keyword,
+                  "has the system Z RECTANGULAR of Abaqus, which CalculiX takes as RECTANGULAR; "
+                  "expected RECTANGULAR or CYLINDRICAL");
   } else if (!system.empty() && system != "RECTANGULAR") {
     lines.error(keyword, fmt::format("has the system {}, expected RECTANGULAR, Z RECTANGULAR or "
                                      "CYLINDRICAL",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numbers>
 
 #include "floatframe/core/suggest.hpp"
@@ -29,6 +30,11 @@ void read_placement(AbaqusLines& lines, AbaqusPlacement& place) {
   };
   if (lines.next_fields(fields)) place.t = vector(0, "translation of the instance");
   if (!lines.next_fields(fields)) return;
+  if (fields.size() < 7 || fields[6].empty())
+    return lines.source().error(fmt::format(
+        "the rotation of the instance has {} numbers, expected seven: two points of the "
+        "axis and the angle",
+        std::min<std::size_t>(fields.size(), 6)));
   place.a = vector(0, "axis of the instance's rotation");
   const Vec3 axis = vector(3, "axis of the instance's rotation") - place.a;
   const double degrees = lines.real_or(fields, 6, 0.0, "angle of the instance's rotation");

@@ -55,7 +55,8 @@ struct Parameter {
   std::string_view name, value;
 };
 
-constexpr std::array<Parameter, 12> abaqus_parameters = {{{"STEP", "NAME", ""},
+constexpr std::array<Parameter, 13> abaqus_parameters = {{{"ORIENTATION", "SYSTEM", "ZRECTANGULAR"},
+                                                          {"STEP", "NAME", ""},
                                                           {"OUTPUT", "FIELD", ""},
                                                           {"OUTPUT", "HISTORY", ""},
                                                           {"NSET", "INTERNAL", ""},

@@ -152,6 +152,9 @@ void AbaqusLines::error(const AbaqusKeyword& keyword, std::string_view text) {
 std::string_view AbaqusLines::required(const AbaqusKeyword& keyword, std::string_view parameter) {
   const std::string_view value = keyword.value(without_blanks(parameter));
   if (value.empty()) error(keyword, fmt::format("needs the parameter {}", parameter));
+  if (std::count_if(keyword.parameters.begin(), keyword.parameters.end(),
+                    [&](const auto& p) { return p.name == without_blanks(parameter); }) > 1)
+    error(keyword, fmt::format("has the parameter {} twice", parameter));
   return value;
 }
 

@@ -37,7 +37,12 @@ void begin_branch(AnsysFields& f, AnsysContent& c) {
 }
 void turn_branch(AnsysFields&, AnsysContent& c) { c.branch = 0; }
 
-void set_lumped(AnsysFields& f, AnsysContent& c) { c.lumped = f.word(1) == "ON"; }
+void set_lumped(AnsysFields& f, AnsysContent& c) {
+  const std::string word = f.word(1);
+  c.lumped = word == "ON" || word == "1";
+  if (!c.lumped && !word.empty() && word != "OFF" && word != "0")
+    f.stop(fmt::format("LUMPM: expected ON or OFF, found {}", shown(f.text(1))));
+}
 
 void skip_with_block(AnsysFields& f, AnsysContent& c) {
   c.passed_over.try_emplace(f.command(), f.at());
