@@ -191,6 +191,21 @@ class Info(unittest.TestCase):
         self.assertNotIn("Interfaces that", text)
         self.assertNotIn("floatframe reduce part.inp", text)
 
+    def test_a_hinge_that_interfaces_on_both_sides_hold(self):
+        # Two bricks that share one edge; no fixed-interface mode shows that the one turns about it.
+        hinge = HEAD.replace("2, 5,6,7,8,9,10,11,12", "2, 5,6,17,18,9,10,11,12").replace(
+            "*ELEMENT, TYPE=C3D8, ELSET=LOW", "17, 1,1,1\n18, 0,1,1\n*ELEMENT, TYPE=C3D8, ELSET=LOW"
+        )
+        facts = self.facts(hinge + SETS)
+        self.assertEqual(facts["possible_interfaces"], ["set:FOOT", "set:TOP"])
+        self.assertIn("the part is a mechanism", facts["obstacle"])
+
+    def test_a_set_of_the_whole_part_is_none(self):
+        # Nodes that no element uses are not of the part.
+        spare = "".join(f"{100 + k}, {k}., 9., 9.\n" for k in range(40))
+        facts = self.facts(HEAD.replace("20, 0.5", spare + "20, 0.5") + "*NSET, NSET=ALL, GENERATE\n1, 12\n")
+        self.assertEqual(facts["possible_interfaces"], ["set:TOP"])
+
     def test_a_rigid_bar_between_two_nodes_of_a_solid_is_no_interface(self):
         facts = self.facts(HEAD + "*MPC\nBEAM, 9, 11\n")
         self.assertEqual([way for way in facts["possible_interfaces"] if way.startswith("node:")], [])

@@ -51,6 +51,14 @@ TEST(PartErrors, EachHasItsSentence) {
             "the part is in 2 pieces: node 117, node 118, node 119, node 120, node 121, node 122, "
             "node 123 and node 124 are not connected with the other 119 nodes");
 
+  FeModel huge = beam();
+  huge.materials[0].young = 1e308;
+  for (Vec3& p : huge.positions) p *= 1e3;
+  EXPECT_EQ(
+      message(huge, both_ends()),
+      "the stiffness has entries of inf, too large to reckon with: a size or a material is in "
+      "other units or mistyped");
+
   FeModel massless = beam();
   massless.materials[0].density = 0.0;
   EXPECT_EQ(message(massless, both_ends()), "the part has no mass: every density is zero");

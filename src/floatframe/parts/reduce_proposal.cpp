@@ -63,6 +63,9 @@ bool can_be_written(const InterfaceDescription& d) {
 /// Candidates of the first group, then those of a second one.
 std::vector<Candidate> candidates(const FeModel& model, bool elements) {
   std::vector<Candidate> out;
+  const DofTable table = dof_table(model);
+  std::size_t used = 0;  // nodes of the part
+  for (int k = 0; k < model.nodes(); ++k) used += table.count(k) > 0 ? 1 : 0;
   const auto add = [&](const std::string& name) {
     Candidate c{at_set(name)};
     try {
@@ -70,7 +73,7 @@ std::vector<Candidate> candidates(const FeModel& model, bool elements) {
     } catch (const InputError&) {  // an empty set
       return;
     }
-    if (2 * c.nodes <= model.positions.size()) out.push_back(std::move(c));
+    if (2 * c.nodes <= used) out.push_back(std::move(c));
   };
   if (elements) {
     for (const auto& [name, set] : model.element_sets) add(name);
@@ -301,7 +304,7 @@ std::string refusal_of(FeModel model, const PartJob& job, const std::string& uni
   PartOptions options;
   options.interfaces = interfaces;
   options.integration = job.options.integration;
-  options.check_free_modes = options.stresses = false;
+  options.stresses = false;
   if (interfaces.empty()) options.method = ModeMethod::free_free;
   std::string refusal;
   for (int n = modes;; n /= 2) {

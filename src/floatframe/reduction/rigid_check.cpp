@@ -67,6 +67,11 @@ double check_rigid_motions(const FeModel& model, const FeSystem& system) {
   const VecX force = s.cwiseInverse().cwiseProduct((system.K * R).cwiseAbs().rowwise().maxCoeff());
   const double residual = force.maxCoeff() / largest;
   if (residual <= largest_rigid_residual) return residual;
+  if (!std::isfinite(residual))
+    throw InputError(
+        fmt::format("the stiffness has entries of {:.1e}, too large to reckon with: a "
+                    "size or a material is in other units or mistyped",
+                    largest));
   VecX of_node = VecX::Zero(model.nodes());
   for (int row = 0; row < system.size(); ++row) {
     double& f = of_node(system.dofs[row].node);

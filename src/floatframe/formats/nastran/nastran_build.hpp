@@ -146,8 +146,8 @@ class NastranBars {
  public:
   explicit NastranBars(NastranBuild& build) : b_(build) {}
   /// The element has its nodes, and is a rod if it does not bend; `turn`: of the principal axes of
-  /// its section.
-  bool place(const NastranElement& e, double turn, Element& element);
+  /// its section; `bends`: across both axes.
+  bool place(const NastranElement& e, double turn, bool bends, Element& element);
   void finish();
 
  private:
@@ -157,11 +157,15 @@ class NastranBars {
     Mat3 axes = Mat3::Identity();
     unsigned mask = 63u;  ///< what is tied, in the axes
     FeSource at;
+    std::vector<int> others;  ///< of offset ends: the nodes of the file that its bars go to
+    bool bends = true;        ///< all of these across both axes, without pins
+    int turning = -1;         ///< what it turns with: the node, or another stiffener's end there
   };
   void tie(const Tie& t, bool rotates);
+  void free_stiffeners();
   NastranBuild& b_;
   std::vector<Tie> ties_;
-  std::map<std::array<double, 4>, int> offset_nodes_;
+  std::map<std::array<double, 4>, std::size_t> offset_ties_;
   std::map<int, int> spiders_;
 };
 // nastran_build_rigid.cpp

@@ -1,6 +1,7 @@
 // Ends of bars. An offset end is a node of its own, tied rigidly: u' = u + theta x d, theta' =
 // theta. A pinned end is a node of its own too, tied only in the components that are not pinned, in
-// the axes of the element. What two pins of a bar release twice is released once, else nothing
+// the axes of the element. The end of a stiffener turns by itself about the normal of its shell
+// (formats/stiffeners.hpp). What two pins of a bar release twice is released once, else nothing
 // would hold the end.
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/nastran/nastran_build.hpp"
+#include "floatframe/formats/stiffeners.hpp"
 
 namespace floatframe {
 namespace {
@@ -41,7 +43,7 @@ void nastran_bar_without_axes(NastranBuild& build, const FeSource& at, const std
       at, fmt::format("{}: it has no length, or its orientation vector is along its axis", who));
 }
 
-bool NastranBars::place(const NastranElement& e, double turn, Element& element) {
+bool NastranBars::place(const NastranElement& e, double turn, bool bends, Element& element) {
   static const NastranBarEnds plain;
   const NastranBarEnds& ends = e.ends < 0 ? plain : b_.content.bar_ends[e.ends];
   const std::string who = fmt::format("{} {}", e.card, e.id);
@@ -75,29 +77,51 @@ bool NastranBars::place(const NastranElement& e, double turn, Element& element) 
   if (rod) pins[0] &= 7u, pins[1] &= 7u;
   for (int k = 0; k < 2; ++k) {
     if (pins[k] == 0 && arm[k].isZero(0.0)) continue;
-    int* shared = nullptr;
-    if (pins[k] == 0) {
-      shared = &offset_nodes_[{double(node[k]), arm[k](0), arm[k](1), arm[k](2)}];
-      if (*shared > 0) {
-        element.nodes[k] = *shared;
-        continue;
-      }
+    std::size_t tie = ties_.size();
+    if (pins[k] == 0)
+      tie = offset_ties_.try_emplace({double(node[k]), arm[k](0), arm[k](1), arm[k](2)}, tie)
+                .first->second;
+    if (tie == ties_.size()) {
+      Tie t;
+      t.fresh = b_.add_node(end[k], e.at, who);
+      t.node = t.turning = node[k];
+      t.arm = arm[k];
+      if (pins[k] != 0) t.axes = T;
+      t.mask = (rod ? 7u : 63u) & ~pins[k];
+      t.at = e.at;
+      ties_.push_back(t);
     }
-    Tie t;
-    t.fresh = b_.add_node(end[k], e.at, who);
-    t.node = node[k];
-    t.arm = arm[k];
-    if (pins[k] != 0) t.axes = T;
-    t.mask = (rod ? 7u : 63u) & ~pins[k];
-    t.at = e.at;
-    element.nodes[k] = t.fresh;
-    if (shared != nullptr) *shared = t.fresh;
-    ties_.push_back(t);
+    element.nodes[k] = ties_[tie].fresh;
+    ties_[tie].others.push_back(node[1 - k]);
+    ties_[tie].bends &= bends && (pins[0] | pins[1]) == 0;
   }
   return true;
 }
 
+/// Ends of stiffeners turn about the normal of their shells by themselves.
+void NastranBars::free_stiffeners() {
+  std::vector<char> wanted(b_.model.positions.size(), 0);
+  for (const Tie& t : ties_) wanted[t.node] = 1;
+  const ShellsAtNodes shells(b_.model, wanted);
+  std::map<int, int> stiffener_at;  // the end with a turn of its own, with which others turn
+  for (Tie& t : ties_) {
+    if (t.mask != 63u || !t.bends) continue;
+    const std::optional<Vec3> normal = shells.normal_along(t.node, t.others);
+    if (!normal) continue;
+    const auto [first, fresh] = stiffener_at.try_emplace(t.node, t.fresh);
+    if (!fresh) {
+      t.turning = first->second;
+      continue;
+    }
+    t.axes.col(2) = *normal;
+    t.axes.col(0) = normal->unitOrthogonal();
+    t.axes.col(1) = normal->cross(t.axes.col(0));
+    t.mask = 31u;
+  }
+}
+
 void NastranBars::finish() {
+  if (!ties_.empty()) free_stiffeners();
   std::vector<char> dofs(b_.model.positions.size(), 0);
   for (const Element& e : b_.model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
@@ -147,7 +171,7 @@ void NastranBars::tie(const Tie& t, bool rotates) {
     for (int k = 0; k < 3; ++k) {
       if (axis(k) == 0.0) continue;
       e.terms.push_back({t.fresh, first + k, axis(k)});
-      e.terms.push_back({t.node, first + k, -axis(k)});
+      e.terms.push_back({rotation ? t.turning : t.node, first + k, -axis(k)});
     }
     for (int k = 0; k < 3 && !rotation; ++k) {
       if (lever(k) != 0.0) e.terms.push_back({t.node, 3 + k, -lever(k)});

@@ -134,7 +134,7 @@ class ElementBuilder {
       if (!p->stations.empty()) return tapered(e, *p, result);
       if (is_weak_nastran_bar(*p, e.ends < 0 ? nullptr : &c_.bar_ends[e.ends]))
         return weak(e, *p, result);
-      if (!bars_.place(e, p->turn, result)) return;
+      if (!bars_.place(e, p->turn, true, result)) return;
       result.material = materials_.index(*p, density_of(p->nonstructural, p->section.A));
       result.section = section(e.property, *p);
     } else if (e.type == ElementType::rod2) {
@@ -165,7 +165,7 @@ class ElementBuilder {
   void weak(const NastranElement& e, const NastranProperty& p, Element& result) {
     const bool bends = p.section.Iy > 0.0 || p.section.Iz > 0.0;
     if (!bends) result.type = ElementType::rod2;
-    if (!bars_.place(e, bends ? p.turn : 0.0, result)) return;
+    if (!bars_.place(e, bends ? p.turn : 0.0, false, result)) return;
     result.type = ElementType::rod2;
     result.material = materials_.index(p, p.nonstructural / p.section.A);
     result.section = rod_section(e.property, p);
@@ -179,7 +179,7 @@ class ElementBuilder {
 
   /// A chain of beams of constant section between the ends of a tapered one.
   void tapered(const NastranElement& e, const NastranProperty& p, Element& whole) {
-    if (!bars_.place(e, 0.0, whole)) return;
+    if (!bars_.place(e, 0.0, true, whole)) return;
     const std::vector<NastranPiece>& pieces = tapers_.pieces(e.property);
     const Vec3 a = b_.model.positions[whole.nodes[0]], b = b_.model.positions[whole.nodes[1]];
     const Mat3 T = nastran_bar_axes(b - a, whole.reference);
