@@ -153,7 +153,8 @@ TEST(BarFrames, Errors) {
   EXPECT_EQ(message(f), "material 0: found Young's modulus 0, expected a positive number");
   f = good;
   f.masses = {{"b", -1.0}};
-  EXPECT_EQ(message(f), "point mass 0 on node 'b': the mass must not be negative");
+  EXPECT_EQ(message(f),
+            "point mass 0 on node 'b': the mass is -1, expected a finite number from 0");
 }
 
 }  // namespace

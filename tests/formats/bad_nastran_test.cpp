@@ -129,6 +129,12 @@ TEST(BadNastran, Decks) {
       {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2",
        "arm.bdf:7: CBAR 2: the orientation vector is missing"},
       {"CONM2,7,2,,1.5", "CONM2,7,4,,1.5,.1", "no error"},
+      {"CBAR,2,2,1,2,0.,0.,1.", "CBAR,2,2,1,2,3.,0.,0.",
+       "arm.bdf:7: CBAR 2: it has no length, or its orientation vector is along its axis"},
+      {"RBE2,8,1,123456,3,4", "RBE2,8,1,123456,3,THRU,4",
+       "arm.bdf:12: RBE2 8: its list of nodes has THRU, which RBE2 does not know; expected each "
+       "node "
+       "by its number"},
       {"RBE2,8,1,123456,3,4", "RBE2,8,1,123456", "arm.bdf:12: RBE2 8 has no nodes"},
       {"RBE2,8,1,123456,3,4", "RBE2,8,3,123456,4,3",
        "arm.bdf:12: RBE2 8: node 3 depends on itself"},

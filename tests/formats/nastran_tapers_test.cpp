@@ -177,9 +177,9 @@ TEST(NastranTapers, Errors) {
     return error_of([&] { taper_of(cantilever("PBEAM,1,1,.1,.2,.3,,.4\n," + stations)); });
   };
   EXPECT_EQ(error("NO,1.5,.1,.1,.15,,.2\n"),
-            "arm.bdf:5: PBEAM 1: a station is at X/XB = 1.5, expected more than 0 and at most 1");
+            "arm.bdf:6: PBEAM 1: a station is at X/XB = 1.5, expected more than 0 and at most 1");
   EXPECT_EQ(error("NO,.5,.1,.1,.15,,.2\n,NO,.5,.1,.1,.15,,.2\n"),
-            "arm.bdf:5: PBEAM 1: it has two stations at X/XB = 0.5");
+            "arm.bdf:7: PBEAM 1: a second station is at X/XB = 0.5, expected one at a place");
   EXPECT_EQ(error("NO,1.,.1,-.1,.15,,.2\n"),
             "arm.bdf:5: PBEAM 1: I1 is -0.1 at X/XB = 1, expected more than 0");
   std::string many;

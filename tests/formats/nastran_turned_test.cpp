@@ -163,7 +163,7 @@ TEST(NastranTurned, OrientationAndOffsetsOfBars) {
       "GRID,1,,0.,0.,0.\nGRID,2,,3.,0.,0.\nMAT1,1,100.,,.25,2.\nPBAR,1,1,.1,.2,.3,.4\n";
   const std::string turned =
       "CORD2R,7,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\nGRID,5,,3.,1.,0.,7\nGRID,6,,6.,1.,0.,7\n"
-      "GRID,7,,9.,1.,0.\nCBAR,2,1,6,7,0.,0.,1.\n";
+      "GRID,7,,9.,1.,0.\nCBAR,2,1,6,7,0.,1.,0.\n";
   // x of system 7 is Y, its y is Z and its z is X.
   const FeModel model = turned_deck(bar + turned +
                                     "CBAR,1,1,5,6,.6,.8,0.\n,,,.1,.2,.3,.4,.5,.6\n"

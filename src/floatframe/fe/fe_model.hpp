@@ -155,6 +155,7 @@ struct PointMass {
   double mass = 0.0;      ///< [kg]
   Mat3 J = Mat3::Zero();  ///< inertia about the node, body axes [kg m2]; needs nodes with rotations
   FeSource source{};
+  std::string name{};  ///< for messages: "CONM2 7"; may be empty
 };
 
 /// Several nodes that move with a reference node, which gets six degrees of freedom.

@@ -209,7 +209,7 @@ void check_masses(const FeModel& model, LimitedErrors& errors) {
   const std::vector<char> rotations = nodes_with_rotations(model);
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     const PointMass& m = model.masses[i];
-    const std::string label = "point mass " + std::to_string(i);
+    const std::string label = m.name.empty() ? "point mass " + std::to_string(i) : m.name;
     const auto add = [&](const std::string& text) {
       errors.add("point masses", model.mark(m.source), label + text);
     };
@@ -218,7 +218,8 @@ void check_masses(const FeModel& model, LimitedErrors& errors) {
       continue;
     }
     const std::string at = " on " + model.node_label(m.node);
-    if (!(m.mass >= 0.0) || !std::isfinite(m.mass)) add(at + ": the mass must not be negative");
+    if (!(m.mass >= 0.0) || !std::isfinite(m.mass))
+      add(at + fmt::format(": the mass is {:g}, expected a finite number from 0", m.mass));
     if (!m.J.allFinite() ||
         (m.J - m.J.transpose()).cwiseAbs().maxCoeff() > 1e-12 * m.J.cwiseAbs().maxCoeff()) {
       add(at + ": the inertia must be finite and symmetric");

@@ -57,7 +57,14 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
     element.reference = e.orientation;
     if (ends.axes[0] == 'G') element.reference = b_.axes(node[0]) * e.orientation;
   }
-  if (e.ends < 0 && turn == 0.0) return true;
+  if (e.ends < 0 && turn == 0.0) {
+    const Vec3 along = p[1] - p[0];
+    const double size = along.stableNorm() * element.reference.stableNorm();
+    // As `validate` has it.
+    if (!(size > 0.0) || !(along.cross(element.reference).stableNorm() < 1e-6 * size)) return true;
+    nastran_bar_without_axes(b_, e.at, who);
+    return false;
+  }
   Vec3 arm[2], end[2];
   for (int k = 0; k < 2; ++k) {
     const Mat3 T = ends.axes[1 + k] == 'G' ? b_.axes(node[k])

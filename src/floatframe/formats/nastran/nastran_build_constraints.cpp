@@ -145,6 +145,7 @@ class ConstraintBuilder {
     PointMass point;
     point.node = node;
     point.source = m.at;
+    point.name = who;
     point.mass = m.mass * b_.content.mass_factor;
     point.J = b_.content.mass_factor * axes.R * m.J * axes.R.transpose();
     const Vec3 p = b_.model.positions[index(node)];

@@ -48,6 +48,10 @@ void read_nastran_rbe2(NastranFields& f, NastranContent& c) {
   s.mask = f.components(2, "the components CM");
   for (std::size_t i = 3; i < f.size(); ++i) {
     if (i + 1 == f.size() && is_real(f.text(i))) break;  // ALPHA
+    if (same_word(f.text(i), "THRU"))
+      return f.error_in(i,
+                        "its list of nodes has THRU, which RBE2 does not know; expected each node "
+                        "by its number");
     if (!f.blank(i)) s.nodes.push_back(f.label(i, "a node GM"));
   }
   c.spiders.push_back(std::move(s));

@@ -100,7 +100,8 @@ struct NastranStation {
   double x = 0.0;  ///< of the length
   NastranSection section;
   double nonstructural = 0.0;
-  BeamSection shape;  ///< shear areas, and of PBEAML the outline
+  BeamSection shape;      ///< shear areas, and of PBEAML the outline
+  std::size_t field = 0;  ///< of X/XB on the card
 };
 
 struct NastranProperty {

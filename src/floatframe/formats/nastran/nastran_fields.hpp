@@ -42,14 +42,14 @@ class NastranFields {
   std::size_t errors() const { return source_.errors(); }
   /// "CTETRA 12: ..." at the card, or at the line of a field.
   void error(const std::string& message) { error_at(card_.at, message); }
+  void error_in(std::size_t field, const std::string& message) {
+    error_at(card_.place(field), message);
+  }
   /// Error if the field is neither blank nor zero.
   void must_be_zero(std::size_t i, const char* what);
 
  private:
   void error_at(const FeSource& at, const std::string& message);
-  void error_in(std::size_t field, const std::string& message) {
-    error_at(card_.place(field), message);
-  }
 
   TextSource& source_;
   const NastranCard& card_;

@@ -74,6 +74,7 @@ void pbeam(NastranFields& f, NastranProperty& p) {
   struct Place {
     double x = 0.0;
     std::optional<double> values[6];
+    std::size_t field = 0;
   };
   std::vector<Place> places(1);
   for (std::size_t k = 0; k < 6; ++k)
@@ -83,6 +84,7 @@ void pbeam(NastranFields& f, NastranProperty& p) {
   for (; word(i); i += same_word(f.text(i), "YES") ? 16 : 8) {
     if (places.size() > most_stations) return f.error("it has too many stations");
     Place& place = places.emplace_back();
+    place.field = i + 1;
     place.x = f.real(i + 1, "X/XB", 1.0);
     if (place.x == 1.0) end = places.size() - 1;
     for (std::size_t k = 0; k < 6; ++k)
@@ -99,6 +101,7 @@ void pbeam(NastranFields& f, NastranProperty& p) {
     NastranStation& s = stations.emplace_back();
     const auto value = [&](std::size_t k) { return *place.values[k]; };
     s.x = place.x;
+    s.field = place.field;
     s.section = {value(0), value(1), value(2), value(3), value(4)};
     s.nonstructural = value(5);
     set_shear(factors, value(0), s.shape);

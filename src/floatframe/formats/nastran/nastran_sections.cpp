@@ -208,6 +208,7 @@ void named_stations(NastranFields& f, NastranProperty& p, const std::string& typ
     }
     if (stations.size() > 50) return f.error("it has too many stations");
     NastranStation s;
+    s.field = i + 1;
     s.x = f.real(i + 1, "X/XB", 1.0);
     double here[6] = {};
     for (std::size_t k = 0; k < count; ++k) {

@@ -119,10 +119,14 @@ void read_nastran_beam_stations(NastranFields& f, NastranProperty& p,
                    [](const NastranStation& a, const NastranStation& b) { return a.x < b.x; });
   for (std::size_t k = 1; k < stations.size(); ++k) {
     if (!(stations[k].x > 0.0) || stations[k].x > 1.0)
-      return f.error(fmt::format("a station is at X/XB = {:g}, expected more than 0 and at most 1",
-                                 stations[k].x));
+      return f.error_in(
+          stations[k].field,
+          fmt::format("a station is at X/XB = {:g}, expected more than 0 and at most 1",
+                      stations[k].x));
     if (stations[k].x == stations[k - 1].x)
-      return f.error(fmt::format("it has two stations at X/XB = {:g}", stations[k].x));
+      return f.error_in(stations[k].field,
+                        fmt::format("a second station is at X/XB = {:g}, expected one at a place",
+                                    stations[k].x));
   }
   if (stations.back().x < 1.0) {  // end B is as end A
     stations.push_back(stations.front());
