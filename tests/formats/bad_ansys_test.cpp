@@ -155,7 +155,11 @@ TEST(BadAnsys, NodesAndElements) {
       {bad_solid + cdb_steel + "CMBLOCK,A,NODE,2\n(8i10)\n         1         9\n",
        "21: component A has node 9, which is not in the file"},
       {bad_solid + cdb_steel + "CMBLOCK,A,ELEM,2\n(8i10)\n        10       -20\n",
-       "21: component A has element 10 to 20, which are not in the file"},
+       "21: component A has elements 10 to 20, of which element 10 is not in the file"},
+      {bad_solid + cdb_steel + "CMBLOCK,A,NODE,2\n(8i10)\n         1       -99\n",
+       "21: component A has nodes 1 to 99, of which node 99 is not in the file"},
+      {bad_solid + cdb_steel + "CMBLOCK,A,NODE,2\n(8i10)\n         5        -3\n",
+       "21: component A has nodes 5 to 3, expected numbers that rise"},
       {"CMBLOCK,A,NODE,3\n(8i10)\n         1         2\n/GO\n",
        "1: CMBLOCK: component A has 3 members in its first line, but 2 are listed"},
       {"CMBLOCK,,NODE,3\n", "1: CMBLOCK: the name of the component is missing"},
@@ -193,6 +197,11 @@ TEST(BadAnsys, Materials) {
        "11: material 1: TB,ANEL has 3 constants, expected 21"},
       {bad_solid + "TB,ANEL,1\nTBDATA,7,1,2,3\n",
        "12: TB,ANEL: constants from place 7, expected from 1"},
+      {bad_solid + "TB,ELASTIC,1,2,2\nTBTEMP,100\nTBDATA,1,1e5,.3\nTBTEMP,20\nTBDATA,1,2e5,.3\n",
+       "11: material 1: its EX depends on the temperature (20 to 100): say at which one with "
+       "--temperature (key `temperature`)"},
+      {bad_solid + "TB,ELASTIC,1,2,2\nTBFIELD,FREQ,100\nTBDATA,1,1e5,.3\n",
+       "12: TBFIELD: TB,ELAS of material 1 depends on 'FREQ', only temperatures (TEMP) are read"},
       {bad_solid + "TB,ELASTIC,1\nTBDATA,1,1,2,3\n",
        "12: TB,ELASTIC: 3 constants in a line, expected 2 of an isotropic material"},
   });
@@ -235,8 +244,17 @@ TEST(BadAnsys, ShellsBeamsAndPoints) {
       {beam + "SECTYPE,1,BEAM,RECT\nSECDATA,1,1\nN,9,1\nE,1,2,9\n",
        "23: element 1 (BEAM188): its node for the orientation is on its axis"},
       {"ET,1,180\n" + bad_nodes + cdb_steel + "E,1,2\n",
-       "20: element 1 (LINK180): neither its section (SECTYPE,n,LINK) nor its real constants give "
-       "an area above 0"},
+       "20: element 1 (LINK180): neither its section 1 (SECTYPE,1,LINK) nor its real constants 1 "
+       "give an area above 0"},
+      {beam + "E,1,2\nE,2,3\nSECNUM,2\nE,3,4\n",
+       "20: element 1 (BEAM188): its section 1 is no SECTYPE,1,BEAM; the same holds for 1 other "
+       "element\na.cdb:23: element 3 (BEAM188): its section 2 is no SECTYPE,2,BEAM"},
+      {shell + "R,1,2,3,2,2\nE,1,2,3,4\nE,2,3,4,5\n",
+       "20: real constants 1: the thickness is 2 at one corner and 3 at another, expected one"},
+      {"ET,1,4\n" + bad_nodes + cdb_steel + "E,1,2\nE,2,3\nE,3,4\n",
+       "20: element 1 (BEAM4): its real constants 1 are not in the file; the same holds for 2 "
+       "other "
+       "elements"},
       {"ET,1,180\n" + bad_nodes + cdb_steel + "R,1,2,0,1\nE,1,2\n",
        "21: element 1 (LINK180): it is for tension or compression alone (TENSKEY), which is not "
        "linear"},

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/plural.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/number_sizes.hpp"
 
@@ -112,9 +113,9 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
 std::optional<int> AnsysBuild::layer_material(double number, const AnsysElement& e,
                                               const FeSource& at) {
   if (!(number >= 0.0 && number < 1e9) || number != std::floor(number)) {
-    source.error(at, fmt::format("section {}: a layer is of material {:g}, which is no number of a "
-                                 "material",
-                                 e.section, number));
+    error_once(at, fmt::format("section {}: a layer is of material {:g}, which is no number of a "
+                               "material",
+                               e.section, number));
     return std::nullopt;
   }
   const int id = static_cast<int>(number);
@@ -189,6 +190,25 @@ std::vector<char> AnsysBuild::nodes_with_rotations() const {
 
 void AnsysBuild::error(const AnsysElement& e, const std::string& text) {
   source.error(e.at, fmt::format("{}: {}", label(e), text));
+}
+
+void AnsysBuild::shared_error(const AnsysElement& e, const std::string& text) {
+  const auto [it, fresh] = shared.try_emplace({e.type, text}, Shared{e});
+  if (!fresh) ++it->second.others;
+}
+
+void AnsysBuild::report_shared() {
+  for (const auto& [key, s] : shared) {
+    std::string text = key.second;
+    if (s.others > 0) text += "; the same holds for " + plural(s.others, "other element");
+    error(s.first, text);
+  }
+  shared.clear();
+}
+
+void AnsysBuild::error_once(const FeSource& at, const std::string& text) {
+  if (said_once.insert(fmt::format("{}:{}: {}", at.file, at.line, text)).second)
+    source.error(at, text);
 }
 
 void AnsysBuild::note(const FeSource& at, const std::string& text) {

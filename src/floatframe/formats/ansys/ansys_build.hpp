@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -55,6 +56,11 @@ struct AnsysBuild {
   /// 1 for nodes of beams and shells, references of spiders and ends of springs that turn.
   std::vector<char> nodes_with_rotations() const;
   void error(const AnsysElement& e, const std::string& text);
+  /// An error that elements of the same type share: `report_shared` says it with the first of them.
+  void shared_error(const AnsysElement& e, const std::string& text);
+  void report_shared();
+  /// An error of what many elements have; equal ones are one.
+  void error_once(const FeSource& at, const std::string& text);
   void note(const FeSource& at, const std::string& text);
 
   std::map<std::pair<int, double>, int> materials = {};
@@ -66,6 +72,12 @@ struct AnsysBuild {
   std::vector<char> rotates = {};                      ///< for masses: `nodes_with_rotations`
   int largest_node = 0;                                ///< of `add_own_node`
   std::vector<int> said = {};                          ///< types with an error
+  struct Shared {
+    AnsysElement first;
+    long others = 0;
+  };
+  std::map<std::pair<int, std::string>, Shared> shared = {};  ///< by type and text
+  std::set<std::string> said_once = {};
 };
 
 /// Solids, shells, beams, rods.

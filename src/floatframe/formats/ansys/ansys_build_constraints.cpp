@@ -27,20 +27,36 @@ class AnsysMembers {
       : sorted_(std::move(number_and_index)) {
     std::sort(sorted_.begin(), sorted_.end());
   }
-  /// False if none of a range, or a single number, is there.
-  bool append(int first, int last, std::vector<int>& out) const {
+  /// An end that is not there, 0 if both are; between them there may be gaps.
+  int append(int first, int last, std::vector<int>& out) const {
     auto it = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{first, -1});
-    bool any = false;
+    if (it == sorted_.end() || it->first != first) return first;
+    int reached = 0;
     for (; it != sorted_.end() && it->first <= last; ++it) {
       if (it->second >= 0) out.push_back(it->second);
-      any = true;
+      reached = it->first;
     }
-    return any;
+    return reached == last ? 0 : last;
   }
 
  private:
   std::vector<std::pair<int, int>> sorted_;
 };
+
+/// Of a range or alone; `missing`: the one that is not there.
+void refuse_member(AnsysBuild& b, const AnsysComponent& component, int first, int last,
+                   int missing) {
+  const char* const what = component.elements ? "element" : "node";
+  std::string text = fmt::format("component {} has ", component.name);
+  if (last != first) text += fmt::format("{}s {} to {}, ", what, first, last);
+  if (last < first) {
+    text += "expected numbers that rise";
+  } else {
+    text += fmt::format("{}{} {}{} is not in the file", last != first ? "of which " : "", what,
+                        missing, last != first ? "" : ", which");
+  }
+  b.source.error(component.at, text);
+}
 
 }  // namespace
 
@@ -120,11 +136,8 @@ void build_ansys_components(AnsysBuild& b) {
       const int first = members[k];
       const bool range = k + 1 < members.size() && members[k + 1] < 0;
       const int last = range ? -members[++k] : first;
-      if (first < 1 || last < first || !all.append(first, last, found))
-        b.source.error(component.at,
-                       fmt::format("component {} has {} {}{}, which {} not in the file",
-                                   component.name, component.elements ? "element" : "node", first,
-                                   range ? fmt::format(" to {}", last) : "", range ? "are" : "is"));
+      const int missing = first < 1 || last < first ? first : all.append(first, last, found);
+      if (missing != 0) refuse_member(b, component, first, last, missing);
       if (spent + found.size() > most)
         b.source.stop(component.at, fmt::format("the components have more than {} members in all, "
                                                 "too many for a file of {} nodes and {} elements",

@@ -21,6 +21,7 @@ class AnsysElementBuilder {
     const auto& elements = b_.content.elements;
     b_.index.assign(elements.size(), -1);
     for (std::size_t k = 0; k < elements.size(); ++k) one(elements[k], b_.index[k]);
+    b_.report_shared();
     if (b_.model.elements.empty() && b_.source.errors() == 0)
       b_.source.stop({0, 0}, fmt::format("the file has {} elements and none of them is a solid, a "
                                          "shell, a beam or a rod",

@@ -28,7 +28,7 @@ class AnsysMatrix {
   void add(const AnsysType& type, const std::vector<int>& nodes) {
     const AnsysReal* real = b_.real(e_);
     if (real == nullptr)
-      return b_.error(e_, fmt::format("its real constants {} are not in the file", e_.real));
+      return b_.shared_error(e_, fmt::format("its real constants {} are not in the file", e_.real));
     if (std::all_of(real->values.begin(), real->values.end(), [](double x) { return x == 0.0; }))
       return;
     if (type.keyopt[3] == 5)
@@ -38,21 +38,21 @@ class AnsysMatrix {
                                  b_.label(e_)));
     const bool mass = type.keyopt[3] == 2;
     if (type.keyopt[2] != 0 || (type.keyopt[3] != 4 && !mass))
-      return b_.error(e_, fmt::format("KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
-                                      "stiffness (0, 4) or mass (0, 2)",
-                                      type.keyopt[2], type.keyopt[3]));
+      return b_.shared_error(e_, fmt::format("KEYOPT(2) = {}, KEYOPT(3) = {}: expected a symmetric "
+                                             "stiffness (0, 4) or mass (0, 2)",
+                                             type.keyopt[2], type.keyopt[3]));
     for (std::size_t k = matrix_constants; k < real->values.size(); ++k)
       if (real->values[k] != 0.0)
-        return b_.source.error(real->at, fmt::format("real constants {}: constant {} is {:g}, "
-                                                     "expected 78 of a symmetric matrix",
-                                                     e_.real, k + 1, real->values[k]));
+        return b_.error_once(real->at, fmt::format("real constants {}: constant {} is {:g}, "
+                                                   "expected 78 of a symmetric matrix",
+                                                   e_.real, k + 1, real->values[k]));
     // What is left of the matrix is made of products of its constants.
     for (std::size_t k = 0; k < real->values.size(); ++k)
       if (const double x = real->values[k]; !std::isfinite(1e3 * x * x))
-        return b_.source.error(real->at, fmt::format("real constants {}: constant {} is {:g}, "
-                                                     "expected a number whose square can be "
-                                                     "reckoned with",
-                                                     e_.real, k + 1, x));
+        return b_.error_once(real->at, fmt::format("real constants {}: constant {} is {:g}, "
+                                                   "expected a number whose square can be "
+                                                   "reckoned with",
+                                                   e_.real, k + 1, x));
     if (nodes.size() < 2 || nodes[0] < 0 || nodes[1] < 0 || nodes[0] == nodes[1])
       return b_.error(e_, "it has no two different nodes");
     nodes_ = {nodes[0], nodes[1]};

@@ -37,22 +37,24 @@ class AnsysSprings {
   void one(const AnsysElement& e, const AnsysType& type, const std::vector<int>& nodes) {
     const AnsysReal* real = b_.real(e);
     if (real == nullptr)
-      return b_.error(e, fmt::format("its real constants {} are not in the file", e.real));
+      return b_.shared_error(e, fmt::format("its real constants {} are not in the file", e.real));
     if (real->value(1) != 0.0 || real->value(2) != 0.0) ++dampers_;
     Spring s;
     s.stiffness = real->value(0);
     if (s.stiffness == 0.0) return;
     if (s.stiffness < 0.0)
-      return b_.error(e, fmt::format("its stiffness is {:g}, expected none below 0", s.stiffness));
+      return b_.shared_error(
+          e, fmt::format("its stiffness is {:g}, expected none below 0", s.stiffness));
     s.name = b_.label(e);
     s.source = e.at;
     if (nodes.empty() || nodes[0] < 0) return b_.error(e, "it has no node");
     s.nodes = {nodes[0], nodes.size() > 1 ? nodes[1] : -1};
     const int direction = type.keyopt[2];
     if (direction < 0 || direction > 6 || type.keyopt[1] != 0)
-      return b_.error(e, fmt::format("KEYOPT(1) = {}, KEYOPT(2) = {}: expected a linear spring of "
-                                     "its line or of UX to ROTZ",
-                                     type.keyopt[1], direction));
+      return b_.shared_error(
+          e, fmt::format("KEYOPT(1) = {}, KEYOPT(2) = {}: expected a linear spring of "
+                         "its line or of UX to ROTZ",
+                         type.keyopt[1], direction));
     if (direction > 0) {
       for (int end = 0; end < 2; ++end)
         if (s.nodes[end] >= 0)
@@ -75,7 +77,8 @@ class AnsysSprings {
  private:
   bool along(const AnsysElement& e, const AnsysType& type, Spring& s) {
     if (type.keyopt[3] != 0 && type.keyopt[3] != 1) {
-      b_.error(e, fmt::format("KEYOPT(3) = {}: springs in a plane are not read", type.keyopt[3]));
+      b_.shared_error(
+          e, fmt::format("KEYOPT(3) = {}: springs in a plane are not read", type.keyopt[3]));
       return false;
     }
     if (s.nodes[1] < 0) {
@@ -156,9 +159,10 @@ void build_ansys_rigid(AnsysBuild& b) {
   RigidBodies bodies(b.model.nodes());
   each(b, F::rigid, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
     if (type.keyopt[1] > 1)
-      return b.error(e, fmt::format("KEYOPT(1) = {}: joints are not read, they are joints of the "
-                                    "model; rigid links (0) and beams (1) are",
-                                    type.keyopt[1]));
+      return b.shared_error(
+          e, fmt::format("KEYOPT(1) = {}: joints are not read, they are joints of the "
+                         "model; rigid links (0) and beams (1) are",
+                         type.keyopt[1]));
     if (n.size() < 2 || n[0] < 0 || n[1] < 0 || n[0] == n[1])
       return b.error(e, "it has no two different nodes");
     if (type.keyopt[1] == 1) return bodies.join(n[0], n[1], e.at, b.label(e));
@@ -200,6 +204,8 @@ void add_ansys_mass(AnsysBuild& b, const AnsysElement& e, PointMass m) {
                              b.label(e), b.model.node_ids[m.node]));
     m.J.setZero();
   }
+  m.source = e.at;
+  m.name = b.label(e);
   b.model.masses.push_back(std::move(m));
 }
 
@@ -209,7 +215,7 @@ void build_ansys_masses(AnsysBuild& b) {
   each(b, F::mass, [&](const AnsysElement& e, const AnsysType& type, const std::vector<int>& n) {
     const AnsysReal* real = b.real(e);
     if (real == nullptr)
-      return b.error(e, fmt::format("its real constants {} are not in the file", e.real));
+      return b.shared_error(e, fmt::format("its real constants {} are not in the file", e.real));
     if (n.empty() || n[0] < 0) return b.error(e, "it has no node");
     if (type.keyopt[1] != 0 || (type.keyopt[3] != 0 && type.keyopt[3] != 2))
       return b.error(e,

@@ -102,6 +102,8 @@ constexpr AnsysCommand ansys_commands[] = {
     {"MPTEMP", read_ansys_temperatures},
     {"MPDATA", read_ansys_material_data},
     {"TB", read_ansys_table},
+    {"TBTEMP", read_ansys_table_temperature},
+    {"TBFIELD", read_ansys_table_field},
     {"TBDATA", read_ansys_table_data},
     {"CE", read_ansys_equation},
     {"CP", read_ansys_coupling},
@@ -125,32 +127,32 @@ constexpr AnsysCommand ansys_commands[] = {
 
 /// Loads, solutions, files, pictures: passed over without a word.
 constexpr std::array ansys_silent = {
-    "/PREP7",     "/NOPR",    "/GOPR",      "/GO",       "/TITLE",   "/SOLU",   "/SOL",
-    "/POST1",     "/POST26",  "/BATCH",     "/CONFIG",   "/SHOW",    "/OUTPUT", "/STITLE",
-    "/NERR",      "/GST",     "/FILNAME",   "/CLEAR",    "/WB",      "/VIEW",   "/ESHAPE",
-    "/COLOR",     "/PBC",     "/PNUM",      "/REPLOT",   "/NUMBER",  "/AUX15",  "/DEVICE",
-    "/GRAPHICS",  "/EXIT",    "/DELETE",    "/UIS",      "FINISH",   "NUMOFF",  "DOF",
-    "CSCIR",      "CMGRP",    "CMSEL",      "ALLSEL",    "EXTOPT",   "SHPP",    "CHECK",
-    "SAVE",       "TBTEMP",   "TBFIELD",    "TBPT",      "TBEO",     "FC",      "ANTYPE",
-    "MODOPT",     "MXPAND",   "EMUNIT",     "TOFFST",    "STEF",     "TRNOPT",  "THOPT",
-    "DMPOPT",     "EQSLV",    "HROPT",      "BUCOPT",    "LVSCALE",  "MSAVE",   "SOLVE",
-    "NLGEOM",     "PSTRES",   "SSTIF",      "OUTPR",     "OUTRES",   "ERESX",   "TREF",
-    "TUNIF",      "BFUNIF",   "IRLF",       "ACEL",      "OMEGA",    "DOMEGA",  "CGLOC",
-    "CGOMGA",     "DCGOMG",   "CMOMEGA",    "KUSE",      "TIME",     "ALPHAD",  "BETAD",
-    "DMPRAT",     "DMPSTR",   "CRPLIM",     "NCNV",      "NEQIT",    "AUTOTS",  "KBC",
-    "DELTIM",     "NSUBST",   "CNVTOL",     "LNSRCH",    "PRED",     "TIMINT",  "TINTP",
-    "NROPT",      "RATE",     "RESCONTROL", "F",         "SF",       "SFE",     "BF",
-    "BFE",        "FDELE",    "DDELE",      "LSWRITE",   "LSCLEAR",  "NSEL",    "ESEL",
-    "NSLE",       "ESLN",     "SHSD",       "PRNSOL",    "SET",      "EPLOT",   "NPLOT",
-    "STAOPT",     "SBCLIM",   "BCSOPTION",  "DSPOPTION", "NLDIAG",   "RSTOFF",  "OPNCONTROL",
-    "CUTCONTROL", "MONITOR",  "SOLCONTROL", "GRP",       "SPOPT",    "CINT",    "GAUGE",
-    "IC",         "_CDRDOFF", "_BUTTON",    "_RETURN",   "*DIM",     "*STATUS", "TBDELE",
-    "TALLOW",     "DMP",      "ETCONTROL",  "WPSTYLE",   "WPCSYS",   "MPAMOD",  "/NOLIST",
-    "/GOLIST",    "/AUTO",    "/DIST",      "/ANGLE",    "/TYPE",    "/FOCUS",  "/LINE",
-    "/RGB",       "/TRIAD",   "/PLOPTS",    "/EDGE",     "/INQUIRE", "/XML",    "/STATUS",
-    "/HEADER",    "/PAGE",    "/FORMAT",    "*ABSET",    "*ABCHECK", "*ABFINI", "KEYW",
-    "TBLIST",     "MPLIST",   "ETLIST",     "NLIST",     "ELIST",    "CM",      "*CFOPEN",
-    "*CFCLOS",    "*DEL",     "SLIST",
+    "/PREP7",     "/NOPR",     "/GOPR",    "/GO",     "/TITLE",     "/SOLU",      "/SOL",
+    "/POST1",     "/POST26",   "/BATCH",   "/CONFIG", "/SHOW",      "/OUTPUT",    "/STITLE",
+    "/NERR",      "/GST",      "/FILNAME", "/CLEAR",  "/WB",        "/VIEW",      "/ESHAPE",
+    "/COLOR",     "/PBC",      "/PNUM",    "/REPLOT", "/NUMBER",    "/AUX15",     "/DEVICE",
+    "/GRAPHICS",  "/EXIT",     "/DELETE",  "/UIS",    "FINISH",     "NUMOFF",     "DOF",
+    "CSCIR",      "CMGRP",     "CMSEL",    "ALLSEL",  "EXTOPT",     "SHPP",       "CHECK",
+    "SAVE",       "TBPT",      "TBEO",     "FC",      "ANTYPE",     "MODOPT",     "MXPAND",
+    "EMUNIT",     "TOFFST",    "STEF",     "TRNOPT",  "THOPT",      "DMPOPT",     "EQSLV",
+    "HROPT",      "BUCOPT",    "LVSCALE",  "MSAVE",   "SOLVE",      "NLGEOM",     "PSTRES",
+    "SSTIF",      "OUTPR",     "OUTRES",   "ERESX",   "TREF",       "TUNIF",      "BFUNIF",
+    "IRLF",       "ACEL",      "OMEGA",    "DOMEGA",  "CGLOC",      "CGOMGA",     "DCGOMG",
+    "CMOMEGA",    "KUSE",      "TIME",     "ALPHAD",  "BETAD",      "DMPRAT",     "DMPSTR",
+    "CRPLIM",     "NCNV",      "NEQIT",    "AUTOTS",  "KBC",        "DELTIM",     "NSUBST",
+    "CNVTOL",     "LNSRCH",    "PRED",     "TIMINT",  "TINTP",      "NROPT",      "RATE",
+    "RESCONTROL", "F",         "SF",       "SFE",     "BF",         "BFE",        "FDELE",
+    "DDELE",      "LSWRITE",   "LSCLEAR",  "NSEL",    "ESEL",       "NSLE",       "ESLN",
+    "SHSD",       "PRNSOL",    "SET",      "EPLOT",   "NPLOT",      "STAOPT",     "SBCLIM",
+    "BCSOPTION",  "DSPOPTION", "NLDIAG",   "RSTOFF",  "OPNCONTROL", "CUTCONTROL", "MONITOR",
+    "SOLCONTROL", "GRP",       "SPOPT",    "CINT",    "GAUGE",      "IC",         "_CDRDOFF",
+    "_BUTTON",    "_RETURN",   "*DIM",     "*STATUS", "TBDELE",     "TALLOW",     "DMP",
+    "ETCONTROL",  "WPSTYLE",   "WPCSYS",   "MPAMOD",  "/NOLIST",    "/GOLIST",    "/AUTO",
+    "/DIST",      "/ANGLE",    "/TYPE",    "/FOCUS",  "/LINE",      "/RGB",       "/TRIAD",
+    "/PLOPTS",    "/EDGE",     "/INQUIRE", "/XML",    "/STATUS",    "/HEADER",    "/PAGE",
+    "/FORMAT",    "*ABSET",    "*ABCHECK", "*ABFINI", "KEYW",       "TBLIST",     "MPLIST",
+    "ETLIST",     "NLIST",     "ELIST",    "CM",      "*CFOPEN",    "*CFCLOS",    "*DEL",
+    "SLIST",
 };
 
 /// What to do instead, of commands that are met in decks of a session.
@@ -184,9 +186,9 @@ constexpr std::array<std::pair<const char*, const char*>, 24> ansys_refused = {{
 }};
 
 /// Silent ones that need not be told.
-constexpr std::array ansys_untold = {"FINISH", "NUMOFF", "DOF",     "CSCIR",  "CMGRP", "CMSEL",
-                                     "ALLSEL", "EXTOPT", "SHPP",    "CHECK",  "SAVE",  "TBTEMP",
-                                     "GRP",    "*DIM",   "_BUTTON", "_RETURN"};
+constexpr std::array ansys_untold = {"FINISH", "NUMOFF", "DOF",    "CSCIR",   "CMGRP",
+                                     "CMSEL",  "ALLSEL", "EXTOPT", "SHPP",    "CHECK",
+                                     "SAVE",   "GRP",    "*DIM",   "_BUTTON", "_RETURN"};
 
 class AnsysReader {
  public:

@@ -117,6 +117,7 @@ struct AnsysContent {
   std::vector<double> temperatures;
   std::string table;  ///< of TB, with its material
   int table_material = 0;
+  double table_temperature = 0.0;     ///< of TBTEMP
   int real_set = 0, section_set = 0;  ///< of R, SECTYPE
   int constraint = 0;                 ///< number of the last CE or CP
   int highest_element = 0;
@@ -158,6 +159,8 @@ void read_ansys_material(AnsysFields&, AnsysContent&);
 void read_ansys_temperatures(AnsysFields&, AnsysContent&);
 void read_ansys_material_data(AnsysFields&, AnsysContent&);
 void read_ansys_table(AnsysFields&, AnsysContent&);
+void read_ansys_table_temperature(AnsysFields&, AnsysContent&);
+void read_ansys_table_field(AnsysFields&, AnsysContent&);
 void read_ansys_table_data(AnsysFields&, AnsysContent&);
 /// The material in the units of the deck; its density is 0 if there is none.
 Material ansys_material(const AnsysMaterial& m, int id, std::optional<double> temperature,

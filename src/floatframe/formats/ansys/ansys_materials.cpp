@@ -254,7 +254,14 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
       f.stop("TB,ANEL: several temperatures; leave one in the file");
     return;
   }
-  if (c.table == "ELAS" || c.table == "DENS") return;
+  c.table_temperature = 0.0;
+  if (c.table == "ELAS" || c.table == "DENS") {  // in place of what was there
+    AnsysMaterial& m = c.materials[c.table_material];
+    if (m.at.file < 0) m.at = f.at();
+    for (const char* label : {"EX", "PRXY", "DENS"})
+      if ((c.table == "DENS") == (std::string_view(label) == "DENS")) m.values.erase(label);
+    return;
+  }
   if (holds(harmless_tables, c.table)) return;
   if (holds(linear_beside, c.table)) {
     c.model.notes.push_back(fmt::format(
@@ -268,9 +275,47 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
                   f.word(1)));
 }
 
+namespace {
+
+bool is_elastic_table(const AnsysContent& c) {
+  return c.table == "ANEL" || c.table == "ELAS" || c.table == "DENS";
+}
+
+/// Entries in the order of their temperatures.
+void put_at(std::vector<std::pair<double, double>>& table, double T, double value) {
+  const auto it = std::lower_bound(table.begin(), table.end(), T,
+                                   [](const auto& entry, double t) { return entry.first < t; });
+  if (it != table.end() && it->first == T) {
+    it->second = value;
+  } else {
+    table.insert(it, {T, value});
+  }
+}
+
+}  // namespace
+
+void read_ansys_table_temperature(AnsysFields& f, AnsysContent& c) {
+  if (!is_elastic_table(c)) return;
+  const std::size_t at = f.command() == "TBFIELD" ? 2 : 1;
+  c.table_temperature = f.real(at, "the temperature");
+  if (c.table == "ANEL" && !c.materials[c.table_material].anisotropic.empty())
+    f.stop("TB,ANEL: several temperatures; leave one in the file");
+}
+
+/// TBFIELD,TEMP,20 is TBTEMP,20.
+void read_ansys_table_field(AnsysFields& f, AnsysContent& c) {
+  if (!is_elastic_table(c)) return;
+  if (f.word(1) != "TEMP")
+    f.stop(
+        fmt::format("TBFIELD: TB,{} of material {} depends on {}, only temperatures (TEMP) are "
+                    "read",
+                    c.table, c.table_material, shown(f.text(1))));
+  read_ansys_table_temperature(f, c);
+}
+
 /// TBDATA,start,C1,...,C6
 void read_ansys_table_data(AnsysFields& f, AnsysContent& c) {
-  if (c.table != "ANEL" && c.table != "ELAS" && c.table != "DENS") return;
+  if (!is_elastic_table(c)) return;
   AnsysMaterial& m = c.materials[c.table_material];
   if (m.at.file < 0) m.at = f.at();
   std::vector<double> values;
@@ -279,15 +324,15 @@ void read_ansys_table_data(AnsysFields& f, AnsysContent& c) {
   if (c.table == "DENS") {
     if (values.size() != 1)
       f.stop(fmt::format("TB,DENS: {} constants in a line, expected 1", values.size()));
-    m.values["DENS"] = {{0.0, values[0]}};
+    put_at(m.values["DENS"], c.table_temperature, values[0]);
     return;
   }
   if (c.table == "ELAS") {
     if (values.size() != 2)
       f.stop(fmt::format("TB,ELASTIC: {} constants in a line, expected 2 of an isotropic material",
                          values.size()));
-    m.values["EX"] = {{0.0, values[0]}};
-    m.values["PRXY"] = {{0.0, values[1]}};
+    put_at(m.values["EX"], c.table_temperature, values[0]);
+    put_at(m.values["PRXY"], c.table_temperature, values[1]);
     return;
   }
   const std::size_t place = m.anisotropic.size() + 1;

@@ -14,7 +14,7 @@ namespace {
 std::optional<AnsysBeam> beam_of_constants(AnsysBuild& b, const AnsysElement& e) {
   const AnsysReal* real = b.real(e);
   if (real == nullptr) {
-    b.error(e, fmt::format("its real constants {} are not in the file", e.real));
+    b.shared_error(e, fmt::format("its real constants {} are not in the file", e.real));
     return std::nullopt;
   }
   AnsysBeam beam;
@@ -29,13 +29,13 @@ std::optional<AnsysBeam> beam_of_constants(AnsysBuild& b, const AnsysElement& e)
   beam.turn = r(5) * std::numbers::pi / 180.0;
   beam.mass = r(11);
   if (!(s.A > 0.0 && s.Iz > 0.0 && s.Iy > 0.0)) {
-    b.source.error(real->at, fmt::format("real constants {}: AREA, IZZ and IYY are {:g}, {:g} and "
-                                         "{:g}, expected more than 0",
-                                         e.real, s.A, s.Iz, s.Iy));
+    b.error_once(real->at, fmt::format("real constants {}: AREA, IZZ and IYY are {:g}, {:g} and "
+                                       "{:g}, expected more than 0",
+                                       e.real, s.A, s.Iz, s.Iy));
     return std::nullopt;
   }
   if (const std::string misfit = ansys_beam_misfit(beam); !misfit.empty()) {
-    b.source.error(real->at, fmt::format("real constants {}: {}", e.real, misfit));
+    b.error_once(real->at, fmt::format("real constants {}: {}", e.real, misfit));
     return std::nullopt;
   }
   return beam;
@@ -47,7 +47,8 @@ std::optional<AnsysBeam> beam_section_of(AnsysBuild& b, const AnsysElement& e,
   const char* const kind = type.number == 288 || type.number == 289 ? "PIPE" : "BEAM";
   const AnsysSection* s = b.section(e, kind);
   if (s == nullptr) {
-    b.error(e, fmt::format("its section {} is no SECTYPE,{},{}", e.section, e.section, kind));
+    b.shared_error(e,
+                   fmt::format("its section {} is no SECTYPE,{},{}", e.section, e.section, kind));
     return std::nullopt;
   }
   return ansys_beam_section(b, *s, e);
@@ -89,11 +90,13 @@ bool rod(AnsysBuild& b, const AnsysElement& e, const AnsysType& type, Element& e
     one_way = type.number == 180 && real->value(2) != 0.0;
   }
   if (one_way) {
-    b.error(e, "it is for tension or compression alone (TENSKEY), which is not linear");
+    b.shared_error(e, "it is for tension or compression alone (TENSKEY), which is not linear");
     return false;
   }
   if (!(s.A > 0.0)) {
-    b.error(e, "neither its section (SECTYPE,n,LINK) nor its real constants give an area above 0");
+    b.shared_error(e, fmt::format("neither its section {} (SECTYPE,{},LINK) nor its real constants "
+                                  "{} give an area above 0",
+                                  e.section, e.section, e.real));
     return false;
   }
   element.type = ElementType::rod2;

@@ -46,6 +46,7 @@ FeModel read_ansys(TextSource& source, const FeReadOptions& options) {
   build_ansys_contact(build);
   build.arms.tie(build.model);
   build_ansys_masses(build);
+  build.report_shared();
   build_ansys_equations(build);
   build_ansys_supports(build);
   build_ansys_components(build);
