@@ -10,6 +10,7 @@
 #include "floatframe/fe/springs.hpp"
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
 #include "floatframe/formats/ansys/read_ansys.hpp"
+#include "floatframe/formats/equation_checks.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"
 #include "floatframe/formats/home_notes.hpp"
 #include "floatframe/formats/matrices/read_dmig.hpp"
@@ -230,6 +231,7 @@ FeModel read_fe_file(const std::filesystem::path& file, const FeReadOptions& opt
   names_as_utf8(model);
   fill_densities(file, options, model);
   choose(options, model);
+  look_at_equations(model);
   if (model.notes.size() > most_notes) {
     const std::size_t more = model.notes.size() - most_notes;
     model.notes.resize(most_notes);
