@@ -164,7 +164,8 @@ TEST(DeckAssembly, FaultyAssemblies) {
        fmt::format("a.inp:{}: *INSTANCE 'ONE' is of the part 'Q', which does not exist", n)},
       {head + "*Instance, name=ONE, part=P\n*End Instance\n*Instance, name=ONE, part=P\n",
        fmt::format("a.inp:{}: *INSTANCE 'ONE' is there already", n + 2)},
-      {head + "*Part, name=P\n", fmt::format("a.inp:{}: *PART 'P' is there already (a.inp:1)", n)},
+      {head + "*End Assembly\n*Part, name=P\n",
+       fmt::format("a.inp:{}: *PART 'P' is there already (a.inp:1)", n + 1)},
       {head + "*Instance, name=ONE, part=P\n0,0,0\n1,1,1,1,1,1,30\n",
        fmt::format("a.inp:{}: the two points of the axis of the instance's rotation are one",
                    n + 2)},
@@ -205,9 +206,34 @@ TEST(DeckAssembly, FaultyAssemblies) {
       {"*Part, name=A\n" + brick_lines + "*End Part\n*Part, name=B\n*End Part\n" + wood,
        fmt::format("a.inp:{}: the deck has 2 parts and no instance of any (*INSTANCE)", n - 1)}};
   for (const auto& [text, expected] : cases) {
-    const std::string found = assembly_error(text);
+    const bool assembly = text.find("*Assembly") != std::string::npos;
+    const std::string found = assembly_error(text + (assembly ? "*End Assembly\n" : ""));
     EXPECT_EQ(found.substr(0, found.find('\n')), expected) << text;
   }
+}
+
+/// Without them things would be of the last instance, or of the assembly.
+TEST(DeckAssembly, EveryBlockHasAnEnd) {
+  const std::string part = "*Part, name=P\n" + brick_lines, end = "*End Part\n",
+                    one = "*Assembly, name=X\n*Instance, name=ONE, part=P\n",
+                    two = "*Instance, name=TWO, part=P\n", ends = "*End Instance\n",
+                    all = "*End Assembly\n", step = "*Step\n*End Step\n";
+  const std::map<std::string, std::string> cases = {
+      {part + end + one + ends + all + wood, ""},
+      {part + wood, "a.inp:1: *PART 'P' has no end, expected *END PART before the end of the deck"},
+      {part + one + ends + all + wood,
+       "a.inp:1: *PART 'P' has no end, expected *END PART before *ASSEMBLY"},
+      {part + "*Part, name=Q\n" + end + one + ends + all + wood,
+       "a.inp:1: *PART 'P' has no end, expected *END PART before the next *PART"},
+      {part + end + one + all + wood,
+       "a.inp:30: *INSTANCE 'ONE' has no end, expected *END INSTANCE before *END ASSEMBLY"},
+      {part + end + one + two + ends + all + wood,
+       "a.inp:30: *INSTANCE 'ONE' has no end, expected *END INSTANCE before the next *INSTANCE"},
+      {part + end + one + ends + wood + step,
+       "a.inp:29: *ASSEMBLY 'X' has no end, expected *END ASSEMBLY before *STEP"},
+      {part + end + end + one + ends + all + wood,
+       "a.inp:29: *END PART ends no *PART, expected one before it"}};
+  for (const auto& [text, expected] : cases) EXPECT_EQ(assembly_error(text), expected) << text;
 }
 
 /// A short deck may not fill the memory, nor take long.
@@ -221,6 +247,8 @@ TEST(DeckAssembly, InstancesAreLimited) {
     deck += instance;
     many += instance;
   }
+  deck += "*End Assembly\n";
+  many += "*End Assembly\n";
   EXPECT_NE(assembly_error(deck).find("the lines that generate, copy or repeat make more than"),
             std::string::npos);
   EXPECT_NE(assembly_error(many).find("the deck has more than 2000 instances"), std::string::npos);

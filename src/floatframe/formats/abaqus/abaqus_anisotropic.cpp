@@ -143,10 +143,8 @@ void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
     o.kind = AbaqusOrientation::Kind::cylindrical;
   } else if (system == "ZRECTANGULAR") {
     o.kind = AbaqusOrientation::Kind::z_rectangular;
-    if (content.dialect == DeckDialect::calculix)
-      lines.error(keyword,
-                  "has the system Z RECTANGULAR of Abaqus, which CalculiX takes as RECTANGULAR; "
-                  "expected RECTANGULAR or CYLINDRICAL");
+    if (!content.clues.axes)
+      content.clues.axes = {"*ORIENTATION, SYSTEM=Z RECTANGULAR", keyword.at};
   } else if (!system.empty() && system != "RECTANGULAR") {
     lines.error(keyword, fmt::format("has the system {}, expected RECTANGULAR, Z RECTANGULAR or "
                                      "CYLINDRICAL",
@@ -166,9 +164,11 @@ void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
     (*points[k / 3])(static_cast<Eigen::Index>(k % 3)) =
         lines.real_or(fields, k, 0.0, "coordinate of the orientation");
   if (lines.next_fields(fields)) {
-    o.axis = fields[0].empty() ? 1 : lines.integer(fields[0], "axis of the additional rotation");
-    if (o.axis < 1 || o.axis > 3)
-      lines.error(keyword, fmt::format("turns about axis {}, expected 1, 2 or 3", o.axis));
+    const std::optional<int> axis = fields[0].empty() ? 1 : parse_integer(fields[0]);
+    if (!axis || *axis < 1 || *axis > 3)
+      lines.error(keyword, fmt::format("turns about axis {}, expected 1, 2 or 3",
+                                       axis ? std::to_string(*axis) : shown(fields[0])));
+    o.axis = axis.value_or(1);
     o.angle = lines.real_or(fields, 1, 0.0, "additional rotation") * std::numbers::pi / 180.0;
   }
   lines.skip_data();

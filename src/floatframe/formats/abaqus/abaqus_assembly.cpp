@@ -17,6 +17,29 @@ namespace {
 /// A name without an instance is looked for in all of them.
 constexpr std::size_t most_instances = 2000;
 
+void open_block(const AbaqusKeyword& keyword, AbaqusContent& content) {
+  content.open.push_back({keyword.name, abaqus_name(keyword.value("NAME")), keyword.at});
+}
+
+void close_last(AbaqusContent& content, TextSource& source, const std::string& where) {
+  const AbaqusOpenBlock block = std::move(content.open.back());
+  content.open.pop_back();
+  source.error(block.at, fmt::format("*{} {} has no end, expected *END {} {}", block.keyword,
+                                     shown(block.name), block.keyword, where));
+}
+
+/// Those inside of it that are still open have no end; an error if it has not begun.
+void close_block(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  const std::string begin = keyword.name.substr(3);  // "ENDPART"
+  const bool begun = std::any_of(content.open.begin(), content.open.end(),
+                                 [&](const AbaqusOpenBlock& b) { return b.keyword == begin; });
+  if (!begun)
+    return lines.error(keyword, fmt::format("ends no *{}, expected one before it", begin));
+  while (content.open.back().keyword != begin)
+    close_last(content, lines.source(), "before " + keyword.shown);
+  content.open.pop_back();
+}
+
 AbaqusScope new_scope(AbaqusContent& content) { return static_cast<AbaqusScope>(content.scopes++); }
 
 void read_placement(AbaqusLines& lines, AbaqusPlacement& place) {
@@ -38,6 +61,7 @@ void read_placement(AbaqusLines& lines, AbaqusPlacement& place) {
   place.a = vector(0, "axis of the instance's rotation");
   const Vec3 axis = vector(3, "axis of the instance's rotation") - place.a;
   const double degrees = lines.real_or(fields, 6, 0.0, "angle of the instance's rotation");
+  if (lines.misread()) return;
   if (!(axis.stableNorm() > 0.0) || !std::isfinite(axis.stableNorm())) {
     lines.source().error("the two points of the axis of the instance's rotation are one");
     return;
@@ -49,7 +73,13 @@ void read_placement(AbaqusLines& lines, AbaqusPlacement& place) {
 
 }  // namespace
 
+void close_abaqus_blocks(AbaqusContent& content, TextSource& source, const std::string& where) {
+  while (!content.open.empty()) close_last(content, source, where);
+}
+
 void read_abaqus_part(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& content) {
+  close_abaqus_blocks(content, lines.source(), "before the next *PART");
+  open_block(keyword, content);
   const std::string name = abaqus_name(lines.required(keyword, "NAME"));
   content.system.reset();
   AbaqusPart part;
@@ -67,7 +97,9 @@ void read_abaqus_part(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusCo
   lines.skip_data();
 }
 
-void read_abaqus_end_part(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
+void read_abaqus_end_part(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                          AbaqusContent& content) {
+  close_block(lines, keyword, content);
   if (const auto it = content.parts.find(content.part); it != content.parts.end()) {
     it->second.end = abaqus_sizes(content);
   }
@@ -76,7 +108,18 @@ void read_abaqus_end_part(AbaqusLines& lines, const AbaqusKeyword&, AbaqusConten
   lines.skip_data();
 }
 
-void read_abaqus_assembly(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
+void read_abaqus_assembly(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                          AbaqusContent& content) {
+  close_abaqus_blocks(content, lines.source(), "before *ASSEMBLY");
+  open_block(keyword, content);
+  content.scope = AbaqusScope::assembly;
+  content.system.reset();
+  lines.skip_data();
+}
+
+void read_abaqus_end_assembly(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                              AbaqusContent& content) {
+  close_block(lines, keyword, content);
   content.scope = AbaqusScope::assembly;
   content.system.reset();
   lines.skip_data();
@@ -85,6 +128,9 @@ void read_abaqus_assembly(AbaqusLines& lines, const AbaqusKeyword&, AbaqusConten
 void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
                           AbaqusContent& content) {
   lines.allow_only(keyword, {"NAME", "PART"});
+  while (!content.open.empty() && content.open.back().keyword != "ASSEMBLY")
+    close_last(content, lines.source(), "before the next *INSTANCE");
+  open_block(keyword, content);
   const std::string name = abaqus_name(lines.required(keyword, "NAME"));
   const std::string part = abaqus_name(lines.required(keyword, "PART"));
   const auto it = content.parts.find(part);
@@ -120,7 +166,9 @@ void read_abaqus_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
   content.scope = scope;
 }
 
-void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword&, AbaqusContent& content) {
+void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword& keyword,
+                              AbaqusContent& content) {
+  close_block(lines, keyword, content);
   if (const auto it = content.instances.find(content.scope); it != content.instances.end()) {
     AbaqusPart& part = content.parts.at(it->second.part);
     part.grown = part.grown || it->second.begin[0] < content.nodes.size() ||
@@ -132,6 +180,7 @@ void read_abaqus_end_instance(AbaqusLines& lines, const AbaqusKeyword&, AbaqusCo
 }
 
 void finish_abaqus_assembly(AbaqusContent& content, TextSource& source) {
+  close_abaqus_blocks(content, source, "before the end of the deck");
   if (content.parts.size() > 1 && content.instances.empty())
     source.error(std::next(content.parts.begin())->second.at,
                  fmt::format("the deck has {} parts and no instance of any (*INSTANCE)",

@@ -22,6 +22,8 @@ struct AbaqusBuild {
   /// plies have orientations of their own.
   std::map<std::string, int> orientation_index;
   std::map<std::vector<long>, int> turned_sections;
+  /// Of sections: elements along their direction 1, the first in words.
+  std::map<const AbaqusSection*, std::pair<std::string, long>> along_direction;
 
   AbaqusBuild(const AbaqusContent& c, TextSource& s)
       : content(c),
@@ -77,6 +79,8 @@ void orient_abaqus_element(AbaqusBuild& build, const AbaqusSection& section,
 /// centroid of its section, as nodes of their own.
 void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const AbaqusElement& deck,
                       Element& e);
+/// An error for each section with elements along its direction 1.
+void report_abaqus_directions(AbaqusBuild& build);
 /// OFFSET1 and OFFSET2 in a deck of Abaqus are an error, and so is a shear centre beside the
 /// centroid.
 void check_abaqus_beam_offset(AbaqusBuild& build, const AbaqusSection& section);
@@ -106,6 +110,9 @@ void build_abaqus_nodes(AbaqusBuild& build);
 void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options);
 /// With `only_nodes` element sets become node sets.
 void build_abaqus_sets(AbaqusBuild& build, bool only_nodes);
+// abaqus_curved_offsets.cpp
+/// Before sections are copied.
+void note_abaqus_curved_offsets(AbaqusBuild& build);
 // abaqus_home.cpp
 /// Of a 2-node beam: its shear area over the area of the section.
 double abaqus_shear_factor(std::string_view shape) noexcept;

@@ -7,19 +7,12 @@
 
 #include <cmath>
 
+#include "floatframe/core/plural.hpp"
+#include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
 
 namespace floatframe {
 namespace {
-
-/// Along the axis at node k; of three nodes that of the quadratic shapes.
-Vec3 tangent_at(const FeModel& model, const Element& e, int nodes, int k) {
-  const auto p = [&](int i) { return model.positions[e.nodes[static_cast<std::size_t>(i)]]; };
-  if (nodes == 2) return p(1) - p(0);
-  if (k == 0) return -1.5 * p(0) + 2.0 * p(1) - 0.5 * p(2);
-  if (k == 2) return 0.5 * p(0) - 2.0 * p(1) + 1.5 * p(2);
-  return 0.5 * (p(2) - p(0));
-}
 
 /// Direction 1 towards the further node of the element.
 void direct_abaqus_beam(AbaqusBuild& build, const AbaqusElement& deck, Element& e) {
@@ -58,17 +51,46 @@ void check_abaqus_offset_line(AbaqusBuild& build, const AbaqusSection& section) 
   }
 }
 
+/// As `validate` has it, which refuses beams without length too.
+bool is_along(const Vec3& tangent, const Vec3& direction) {
+  const double size = tangent.stableNorm() * direction.stableNorm();
+  return std::isfinite(size) && size > 0.0 && tangent.cross(direction).stableNorm() < 1e-6 * size;
+}
+
 }  // namespace
+
+void report_abaqus_directions(AbaqusBuild& build) {
+  for (const auto& [section, elements] : build.along_direction) {
+    const auto& [first, count] = elements;
+    const std::string others =
+        count == 1 ? std::string() : fmt::format(" and {}", plural(count - 1, "other element"));
+    build.source.error(
+        section->at,
+        fmt::format("{}: its direction 1 is ({:g}, {:g}, {:g}), along the axis of {}{}; expected a "
+                    "direction across it in the second line",
+                    section->shown, section->n1(0) + 0.0, section->n1(1) + 0.0,
+                    section->n1(2) + 0.0, first, others));
+  }
+}
 
 void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const AbaqusElement& deck,
                       Element& e) {
+  if (section.family != AbaqusType::Family::beam) return;
   if (deck.directed) direct_abaqus_beam(build, deck, e);
+  const int nodes = element_kernel(e.type).nodes;
+  std::array<Vec3, 3> arms{}, p{};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(nodes); ++k)
+    p[k] = build.model.positions[e.nodes[k]];
+  for (int k = 0; k < nodes && !deck.directed; ++k) {
+    if (!is_along(beam_tangent(p, nodes, k), e.reference)) continue;
+    auto& [first, count] = build.along_direction[&section];
+    if (++count == 1) first = abaqus_label(deck);
+    return;
+  }
   if (section.arm.isZero(0.0)) return;
   if (!std::isfinite(section.arm.squaredNorm())) return;  // an error already
-  const int nodes = element_kernel(e.type).nodes;
-  std::array<Vec3, 3> arms{};
   for (int k = 0; k < nodes; ++k) {
-    const Vec3 t = tangent_at(build.model, e, nodes, k).stableNormalized();
+    const Vec3 t = beam_tangent(p, nodes, k).stableNormalized();
     const Vec3 n2 = t.cross(e.reference.stableNormalized()).normalized();
     // Without length or direction it is refused by `validate`, as one at its nodes.
     if (!t.allFinite() || !n2.allFinite() || n2.isZero(0.0)) return;

@@ -22,16 +22,37 @@ namespace {
 using Family = AbaqusType::Family;
 using Kind = AbaqusOrientation::Kind;
 
-Orientation placed(const AbaqusOrientation& o, const AbaqusPlacement& place) {
+/// Z RECTANGULAR in the program of the deck: CalculiX passes the Z over. A note where it is not
+/// sure that the user knows.
+Kind axes_kind(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name) {
+  const DialectClues& clues = build.clues;
+  const DeckDialect given = build.content.dialect;
+  if (o.kind != Kind::z_rectangular || given == DeckDialect::abaqus) return o.kind;
+  const std::string what =
+      fmt::format("orientation {}: SYSTEM=Z RECTANGULAR is taken ", shown(name));
+  if (given == DeckDialect::by_content && (!clues.calculix || clues.abaqus)) {
+    if (clues.by_axes || clues.calculix)
+      build.note(o.at, what +
+                           "as in Abaqus; if the deck is one of CalculiX, which takes it as "
+                           "RECTANGULAR, give --dialect calculix");
+    return o.kind;
+  }
+  build.note(o.at, what +
+                       "as RECTANGULAR, as CalculiX does; if the deck is one of Abaqus give "
+                       "--dialect abaqus");
+  return Kind::rectangular;
+}
+
+Orientation placed(const AbaqusOrientation& o, Kind kind, const AbaqusPlacement& place) {
   Orientation out;
   Vec3 x = o.a - o.c, z;
-  if (o.kind == Kind::cylindrical) {
+  if (kind == Kind::cylindrical) {
     out.kind = Orientation::Kind::cylindrical;
     z = o.b - o.a;
     Eigen::Index least = 0;
     z.cwiseAbs().minCoeff(&least);
     x = Vec3::Unit(least);
-  } else if (o.kind == Kind::z_rectangular) {
+  } else if (kind == Kind::z_rectangular) {
     z = o.a - o.c;
     x = o.b - o.c;
   } else {
@@ -40,7 +61,7 @@ Orientation placed(const AbaqusOrientation& o, const AbaqusPlacement& place) {
   z.normalize();
   x = (x - z * z.dot(x)).normalized();
   out.axes << x, z.cross(x), z;
-  out.origin = o.kind == Kind::cylindrical ? o.a : o.c;
+  out.origin = kind == Kind::cylindrical ? o.a : o.c;
   out.axes = (place.R * out.axes).eval();
   out.origin = place.at(out.origin);
   if (o.axis > 0) out.turn = Eigen::AngleAxisd(o.angle, Vec3::Unit(o.axis - 1)).toRotationMatrix();
@@ -118,7 +139,8 @@ int abaqus_orientation(AbaqusBuild& build, const std::string& name, const Abaqus
                                    section.shown, shown(name), did_you_mean(name, known)));
     return -1;
   }
-  Orientation o = placed(*found, build.content.placement(found->scope));
+  Orientation o =
+      placed(*found, axes_kind(build, *found, name), build.content.placement(found->scope));
   if (shell) {
     const int normal = normal_axis(build, *found, name);
     Mat3 permuted = Mat3::Zero();

@@ -83,7 +83,9 @@ void build_masses(AbaqusBuild& build) {
       build.source.error(section.at,
                          fmt::format("{} of {}: {}", section.shown, abaqus_label(element), huge));
     const Mat3& R = c.placement(element.scope).R;
-    build.model.masses.push_back({node->second, section.mass, R * section.J * R.transpose()});
+    build.model.masses.push_back({node->second, section.mass, R * section.J * R.transpose(),
+                                  section.at,
+                                  fmt::format("{} of {}", section.shown, abaqus_label(element))});
   }
 }
 
@@ -178,6 +180,13 @@ void note_elements(AbaqusBuild& build, const ElementCounts& counts) {
   }
 }
 
+void note_materials(AbaqusBuild& build, const ElementCounts& counts, bool mesh_only, bool given) {
+  if (mesh_only && !given && counts.structural.number > 0)
+    build.note(counts.structural.at, "the deck has no material");
+  if (!mesh_only && given)
+    build.note({0, 1}, "the deck has materials of its own; the one given is not used");
+}
+
 void no_section(AbaqusBuild& build, const AbaqusElement& element) {
   const Family family = element.type->family;
   build.source.error(
@@ -235,7 +244,7 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
   AbaqusNodalThickness thickness(build);
   ElementCounts counts;
   Renumbered renumbered(build, "element");
-  std::unordered_set<int> taken;
+  std::unordered_set<int> taken, without_area;
   const bool scopes = !c.parts.empty();
   constexpr std::int64_t largest_id = std::numeric_limits<int>::max();
   std::int64_t free_number = 0;
@@ -259,10 +268,12 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
       continue;
     }
     if (type.family == Family::rod && !(c.sections[section].thickness > 0.0)) {
-      build.source.error(c.sections[section].at,
-                         fmt::format("*SOLID SECTION names {}, which needs the area of its section "
-                                     "in the line below",
-                                     abaqus_label(element)));
+      if (without_area.insert(section).second)
+        build.source.error(
+            c.sections[section].at,
+            fmt::format("*SOLID SECTION names {}, which needs the area of its section "
+                        "in the line below",
+                        abaqus_label(element)));
       continue;
     }
     if (type.remark != nullptr) counts.read_as[&type].add(element.at);
@@ -283,15 +294,11 @@ void build_abaqus_elements(AbaqusBuild& build, const FeReadOptions& options) {
           fmt::format("element {}{} ({})", c.prefix(element.scope), element.id, type.name);
     model.elements.push_back(*result);
   }
+  report_abaqus_directions(build);
   thickness.notes();
   note_elements(build, counts);
   renumbered.note();
-  if (mesh_only && !options.material && counts.structural.number > 0) {
-    build.note(counts.structural.at, "the deck has no material");
-  }
-  if (!mesh_only && options.material) {
-    build.note({0, 1}, "the deck has materials of its own; the one given is not used");
-  }
+  note_materials(build, counts, mesh_only, options.material.has_value());
   build_masses(build);
 }
 

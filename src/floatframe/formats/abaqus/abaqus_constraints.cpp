@@ -161,12 +161,8 @@ void read_abaqus_distributing_coupling(AbaqusLines& lines, const AbaqusKeyword& 
   std::vector<std::string_view> fields;
   while (lines.next_fields(fields)) {
     spider.nodes.push_back(content.reference(fields[0], lines.source().here()));
-    const double weight = lines.real_or(fields, 1, 1.0, "weight of a node");
-    if (!(weight > 0.0)) {
-      lines.source().error(
-          fmt::format("the weight of a node is {:g}, expected more than 0", weight));
-    }
-    spider.weights.push_back(weight);
+    const bool given = fields.size() > 1 && !fields[1].empty();
+    spider.weights.push_back(given ? positive_real(lines, fields[1], "the weight of a node") : 1.0);
   }
   if (spider.nodes.empty()) return lines.error(keyword, "has no nodes");
   if (elements.empty()) return;
@@ -183,6 +179,7 @@ void read_abaqus_equation(AbaqusLines& lines, const AbaqusKeyword& keyword,
   while (lines.next_fields(fields)) {
     AbaqusEquation equation;
     equation.at = lines.source().here();
+    const std::size_t before = lines.source().errors();
     const std::optional<int> count = parse_integer(fields[0]);
     if (!count || *count < 1 || *count > most_terms || fields.size() != 1) {
       lines.source().error(fmt::format("*EQUATION: {} is no number of terms", shown(fields[0])));
@@ -201,16 +198,17 @@ void read_abaqus_equation(AbaqusLines& lines, const AbaqusKeyword& keyword,
       for (std::size_t k = 0; k + 2 < fields.size(); k += 3) {
         AbaqusEquation::Term term;
         term.nodes = content.reference(fields[k], lines.source().here());
-        term.axis = lines.integer(fields[k + 1], "degree of freedom") - 1;
-        term.factor = lines.real(fields[k + 2], "factor");
-        if (term.axis < 0 || term.axis > 5) {
+        const std::optional<int> dof = parse_integer(fields[k + 1]);
+        if (!dof || *dof < 1 || *dof > 6) {
           lines.source().error(fmt::format(
               "*EQUATION: the degree of freedom is {}, expected 1 to 6", shown(fields[k + 1])));
-          term.axis = 0;
         }
+        term.axis = dof.value_or(1) - 1;
+        term.factor = lines.real(fields[k + 2], "factor");
         equation.terms.push_back(term);
       }
     }
+    if (lines.source().errors() != before) continue;
     if (equation.terms.front().factor == 0.0) {
       lines.source().error(equation.at, "*EQUATION: the factor of the first term is zero");
     }

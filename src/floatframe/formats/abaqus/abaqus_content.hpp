@@ -272,6 +272,13 @@ struct AbaqusInstance {
   AbaqusSizes begin{};  ///< where a mesh inside of it would begin
 };
 
+/// *PART, *ASSEMBLY or *INSTANCE that has not ended.
+struct AbaqusOpenBlock {
+  std::string keyword;  ///< "PART"
+  std::string name;
+  FeSource at;
+};
+
 struct AbaqusContent {
   using Key = std::pair<AbaqusScope, int>;  ///< scope, index in `names`
 
@@ -315,6 +322,7 @@ struct AbaqusContent {
   std::map<AbaqusScope, AbaqusInstance> instances;
   std::map<std::string, AbaqusScope> scope_of_instance;
   std::optional<AbaqusCoordinates> system;
+  std::vector<AbaqusOpenBlock> open;
   int scopes = 2;        ///< how many there are
   std::string material;  ///< the last *MATERIAL
 

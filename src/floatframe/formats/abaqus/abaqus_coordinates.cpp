@@ -21,6 +21,7 @@ void read_abaqus_system(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqus
           lines.real_or(fields, first + k, 0.0, "coordinate of *SYSTEM");
     return p;
   };
+  const std::size_t before = lines.source().errors();
   AbaqusCoordinates system;
   system.origin = point(0);
   content.system = system;
@@ -35,6 +36,7 @@ void read_abaqus_system(AbaqusLines& lines, const AbaqusKeyword& keyword, Abaqus
     in_plane = Vec3::UnitZ().cross(x);
   }
   lines.skip_data();
+  if (lines.source().errors() != before) return;
   const Vec3 z = x.cross(in_plane);
   const double size = x.stableNorm() * in_plane.stableNorm();
   if (!(z.stableNorm() > 1e-9 * size) || !std::isfinite(size)) {

@@ -55,8 +55,7 @@ struct Parameter {
   std::string_view name, value;
 };
 
-constexpr std::array<Parameter, 13> abaqus_parameters = {{{"ORIENTATION", "SYSTEM", "ZRECTANGULAR"},
-                                                          {"STEP", "NAME", ""},
+constexpr std::array<Parameter, 12> abaqus_parameters = {{{"STEP", "NAME", ""},
                                                           {"OUTPUT", "FIELD", ""},
                                                           {"OUTPUT", "HISTORY", ""},
                                                           {"NSET", "INTERNAL", ""},
@@ -137,6 +136,11 @@ void DialectClues::look_at_type(const char* type, const FeSource& at) {
   if (std::find(abaqus_types.begin(), abaqus_types.end(), type) != abaqus_types.end()) {
     add(DeckDialect::abaqus, std::string("elements of type ") + type, at);
   }
+}
+
+void DialectClues::settle() {
+  by_axes = axes && !abaqus && !calculix;
+  if (by_axes) abaqus = axes;
 }
 
 const char* program_of(DeckDialect dialect) noexcept {

@@ -17,12 +17,17 @@ struct DialectClues {
     FeSource at;
   };
   std::optional<Clue> abaqus, calculix;
+  /// SYSTEM=Z RECTANGULAR is of Abaqus too, but CalculiX takes it without a word as RECTANGULAR.
+  std::optional<Clue> axes;
+  bool by_axes = false;  ///< nothing else shows whose deck it is
 
   void add(DeckDialect of, std::string what, const FeSource& at);
   /// Looks at a keyword, in a step or before it, and at its parameters.
   void look_at(const AbaqusKeyword& keyword);
   /// Looks at a type of elements.
   void look_at_type(const char* type, const FeSource& at);
+  /// All of the deck has been looked at.
+  void settle();
 };
 
 /// "Abaqus", "CalculiX"

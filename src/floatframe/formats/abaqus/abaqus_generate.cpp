@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "floatframe/formats/abaqus/abaqus_arc.hpp"
 #include "floatframe/formats/abaqus/abaqus_handlers.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
@@ -159,35 +160,13 @@ int integer_or(AbaqusLines& lines, const std::vector<std::string_view>& fields, 
   return lines.integer(fields[index], what);
 }
 
-/// An arc about a centre from a to b, of less than half a turn.
-struct Arc {
-  Vec3 centre, a, normal;
-  double angle;
-  Vec3 at(double t) const { return centre + Eigen::AngleAxisd(t * angle, normal) * (a - centre); }
-};
-
-std::optional<Arc> arc_of(AbaqusLines& lines, const Vec3& centre, const Vec3& a, const Vec3& b) {
-  const Vec3 ra = a - centre, rb = b - centre, n = ra.cross(rb);
-  const double r = ra.norm();
-  if (std::abs(rb.norm() - r) > 1e-3 * r || !(r > 0.0)) {
-    lines.source().error(
-        fmt::format("the ends are {:.6g} and {:.6g} from the centre of the arc, "
-                    "expected the same",
-                    r, rb.norm()));
-    return std::nullopt;
-  }
-  const double angle = std::atan2(n.norm(), ra.dot(rb));
-  if (!(n.norm() > 1e-9 * r * r) || angle > 0.999 * std::numbers::pi) {
-    lines.source().error("the arc is half a turn or has no length; arcs of less are read");
-    return std::nullopt;
-  }
-  return Arc{centre, a, n.normalized(), angle};
-}
-
 /// Centre of the arc of *NGEN: a node (field 4) or coordinates (fields 5 to 7).
 std::optional<Vec3> arc_centre(AbaqusLines& lines, Generated& out,
                                const std::vector<std::string_view>& fields) {
-  if (fields.size() > 3 && !fields[3].empty()) return out.place(lines.integer(fields[3], "node"));
+  if (fields.size() > 3 && !fields[3].empty()) {
+    const int node = lines.integer(fields[3], "node");
+    return lines.misread() ? std::nullopt : out.place(node);
+  }
   if (fields.size() < 5) {
     lines.source().error("LINE=C needs the centre of the arc: a node or three coordinates");
     return std::nullopt;
@@ -232,6 +211,7 @@ void read_abaqus_generated_nodes(AbaqusLines& lines, const AbaqusKeyword& keywor
     }
     const int first = lines.integer(fields[0], "node"), last = lines.integer(fields[1], "node");
     const std::int64_t step = integer_or(lines, fields, 2, 1, "increment");
+    if (lines.misread()) continue;
     const std::int64_t span = static_cast<std::int64_t>(last) - first;
     const auto a = out.place(first), b = out.place(last);
     if (!a || !b) continue;
@@ -242,10 +222,10 @@ void read_abaqus_generated_nodes(AbaqusLines& lines, const AbaqusKeyword& keywor
     }
     const std::int64_t count = span / step;
     lines.source().make(count);
-    std::optional<Arc> arc;
+    std::optional<AbaqusArc> arc;
     if (round) {
       const auto centre = arc_centre(lines, out, fields);
-      if (centre) arc = arc_of(lines, *centre, *a, *b);
+      if (centre && !lines.misread()) arc = abaqus_arc(lines, *centre, *a, *b);
       if (!arc) continue;
     }
     for (std::int64_t k = 0; k <= count; ++k) {
@@ -268,6 +248,7 @@ void read_abaqus_filled_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
     }
     const int intervals = integer_or(lines, fields, 2, 1, "number of intervals");
     const std::int64_t step = integer_or(lines, fields, 3, 1, "increment");
+    if (lines.misread()) continue;
     const std::vector<int> first = out.numbers(fields[0], true),
                            last = out.numbers(fields[1], true);
     if (first.empty() || last.empty()) continue;
@@ -307,6 +288,7 @@ void read_abaqus_copied_nodes(AbaqusLines& lines, const AbaqusKeyword& keyword,
   const std::int64_t step = lines.integer(change, "CHANGE NUMBER");
   const std::string_view multiple = keyword.value("MULTIPLE");
   const int times = multiple.empty() ? 1 : lines.integer(multiple, "MULTIPLE");
+  if (lines.misread()) return lines.skip_data();
   Generated out(lines, content, keyword.value("NEWSET"), {});
   const std::vector<int> numbers = out.numbers(old, true);
   lines.source().make(static_cast<std::int64_t>(numbers.size()) * std::max(times, 0));
@@ -350,7 +332,8 @@ void read_abaqus_generated_elements(AbaqusLines& lines, const AbaqusKeyword& key
   Generated out(lines, content, {}, keyword.value("ELSET"));
   std::vector<std::string_view> fields;
   while (lines.next_fields(fields)) {
-    const AbaqusElement* const found = out.find_element(lines.integer(fields[0], "element"));
+    const int id = lines.integer(fields[0], "element");
+    const AbaqusElement* const found = lines.misread() ? nullptr : out.find_element(id);
     if (found == nullptr) continue;
     const AbaqusElement master = *found;  // the list grows
     std::array<std::int64_t, 3> count{}, node{}, element{};
@@ -363,6 +346,7 @@ void read_abaqus_generated_elements(AbaqusLines& lines, const AbaqusKeyword& key
       valid = valid && count[d] >= 1;
       all = valid ? std::min(all * count[d], 2 * TextSource::most_made) : all;
     }
+    if (lines.misread()) continue;
     if (!valid) {
       lines.source().error("the numbers of elements of *ELGEN must be at least 1");
       continue;
@@ -389,6 +373,7 @@ void read_abaqus_copied_elements(AbaqusLines& lines, const AbaqusKeyword& keywor
   Generated out(lines, content, {}, keyword.value("NEWSET"));
   const std::int64_t step = lines.integer(shift, "ELEMENT SHIFT"),
                      node_step = lines.integer(nodes, "SHIFT NODES");
+  if (lines.misread()) return;
   const std::vector<int> numbers = out.numbers(old, false);
   lines.source().make(static_cast<std::int64_t>(numbers.size()));
   for (const int id : numbers) {

@@ -29,8 +29,11 @@ void read_abaqus_copied_elements(AbaqusLines&, const AbaqusKeyword&, AbaqusConte
 void read_abaqus_part(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_end_part(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_assembly(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+void read_abaqus_end_assembly(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_instance(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
 void read_abaqus_end_instance(AbaqusLines&, const AbaqusKeyword&, AbaqusContent&);
+/// An error for each part, assembly and instance that has not ended; `where`: "before *STEP".
+void close_abaqus_blocks(AbaqusContent& content, TextSource& source, const std::string& where);
 /// At the end of the deck: parts without an instance go.
 void finish_abaqus_assembly(AbaqusContent& content, TextSource& source);
 // abaqus_instances.cpp

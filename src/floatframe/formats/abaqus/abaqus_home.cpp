@@ -83,6 +83,7 @@ void as_in_home_program(AbaqusBuild& build) {
   if (c.sections.empty() || build.source.errors() > 0) return;
   model.home = home_of(build);
   if (model.home == HomeProgram::calculix) note_offsets_of_calculix(build);
+  if (model.home != HomeProgram::abaqus) note_abaqus_curved_offsets(build);
   if (model.home == HomeProgram::abaqus)
     for (BeamSection& s : model.sections)
       if (s.has_shear()) s.slenderness = slenderness_of_abaqus;

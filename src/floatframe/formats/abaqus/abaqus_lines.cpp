@@ -119,6 +119,7 @@ bool AbaqusLines::next_keyword(AbaqusKeyword& keyword) {
   while (next_line(line)) {
     if (line.front() != '*') continue;
     parse_keyword(line, keyword);
+    errors_before_ = source_.errors();
     return true;
   }
   return false;
@@ -134,6 +135,7 @@ bool AbaqusLines::next_data(std::string_view& line) {
 bool AbaqusLines::next_fields(std::vector<std::string_view>& fields) {
   std::string_view line;
   if (!next_data(line)) return false;
+  errors_before_ = source_.errors();
   split_commas(line, fields);
   if (fields.size() > 1 && fields.back().empty()) fields.pop_back();
   return true;

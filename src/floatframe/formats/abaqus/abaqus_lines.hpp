@@ -56,6 +56,9 @@ class AbaqusLines {
                  std::string_view what);
   int integer(std::string_view field, std::string_view what);
 
+  /// Is there an error in what was read since the last keyword or fields of a line?
+  bool misread() const noexcept { return source_.errors() != errors_before_; }
+
   TextSource& source() noexcept { return source_; }
   /// An error at a keyword: "*SOLID SECTION " + text.
   void error(const AbaqusKeyword& keyword, std::string_view text);
@@ -65,6 +68,7 @@ class AbaqusLines {
   void parse_keyword(std::string_view line, AbaqusKeyword& keyword);
 
   TextSource& source_;
+  std::size_t errors_before_ = 0;
 };
 
 }  // namespace floatframe

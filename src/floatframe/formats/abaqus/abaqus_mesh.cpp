@@ -164,6 +164,7 @@ void read_set(AbaqusLines& lines, const AbaqusKeyword& keyword, AbaqusContent& c
       range.step = fields.size() == 3 ? lines.integer(fields[2], "increment") : 1;
       range.scope = scope;
       range.at = at;
+      if (lines.misread()) continue;
       if (range.first < 1 || range.last < range.first || range.step < 1) {
         lines.source().error(fmt::format("GENERATE from {} to {} by {} gives no numbers",
                                          range.first, range.last, range.step));

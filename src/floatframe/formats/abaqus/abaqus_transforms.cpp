@@ -49,12 +49,14 @@ void read_abaqus_transform(AbaqusLines& lines, const AbaqusKeyword& keyword,
                                      shown(type)));
     return lines.skip_data();
   }
+  const std::size_t before = lines.source().errors();
   double x[6] = {};
   std::vector<std::string_view> fields;
   std::size_t count = 0;
   while (lines.next_fields(fields))
     for (const std::string_view field : fields)
       if (count < 6) x[count++] = lines.real(field, "coordinate of *TRANSFORM");
+  if (lines.source().errors() != before) return;
   t.a = {x[0], x[1], x[2]};
   t.b = {x[3], x[4], x[5]};
   const double size = t.a.norm() + t.b.norm();

@@ -50,7 +50,7 @@ constexpr std::array handlers{
     Known{"PART", read_abaqus_part},
     Known{"END PART", read_abaqus_end_part},
     Known{"ASSEMBLY", read_abaqus_assembly},
-    Known{"END ASSEMBLY", read_abaqus_assembly},
+    Known{"END ASSEMBLY", read_abaqus_end_assembly},
     Known{"INSTANCE", read_abaqus_instance},
     Known{"END INSTANCE", read_abaqus_end_instance},
     Known{"MATERIAL", read_abaqus_material},
@@ -132,6 +132,7 @@ class DeckReader {
       return handler(lines_, keyword, content_);
     }
     if (keyword.name == "STEP") {
+      close_abaqus_blocks(content_, lines_.source(), "before *STEP");
       note(keyword, "and what follows up to *END STEP is passed over");
       return step(keyword);
     }
@@ -229,6 +230,7 @@ FeModel read_abaqus(TextSource& source, const FeReadOptions& options, DeckPart p
   }
   source.throw_if_any();
   const bool only_nodes = content.only_nodes;
+  content.clues.settle();
   AbaqusBuild build(content, source);
   build.element_index.assign(content.elements.size(), -1);
   build.model.notes = content.notes;

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 
@@ -86,14 +87,6 @@ class ArmEnds {
   std::map<int, int> node_of_;
 };
 
-/// Along the axis at node k of `p`; of three nodes that of the quadratic shapes.
-Vec3 tangent_of(const std::array<Vec3, 3>& p, int nodes, int k) {
-  if (nodes == 2) return p[1] - p[0];
-  if (k == 0) return -1.5 * p[0] + 2.0 * p[1] - 0.5 * p[2];
-  if (k == 2) return 0.5 * p[0] - 2.0 * p[1] + 1.5 * p[2];
-  return 0.5 * (p[2] - p[0]);
-}
-
 /// OFFSET1 and OFFSET2 of a beam with ends of arms; none if its arms are not alike.
 std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const Element& e,
                                                      const ArmEnds& ends) {
@@ -114,7 +107,7 @@ std::optional<std::array<double, 2>> written_offsets(const FeModel& model, const
   std::array<double, 2> out{};
   for (int k = 0; k < count; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const Vec3 t = tangent_of(at, count, k).normalized();
+    const Vec3 t = beam_tangent(at, count, k).normalized();
     const Vec3 n2 = t.cross(e.reference).normalized(), n1 = n2.cross(t);
     const std::array<double, 2> of_node{-arm[i].dot(n1) / thickness[0],
                                         -arm[i].dot(n2) / thickness[1]};

@@ -1,0 +1,17 @@
+#pragma once
+// Axes of beams at their nodes.
+#include <array>
+
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+/// Along the axis of a beam at node k of `p`; of three nodes that of the quadratic shapes.
+inline Vec3 beam_tangent(const std::array<Vec3, 3>& p, int nodes, int k) {
+  if (nodes == 2) return p[1] - p[0];
+  if (k == 0) return -1.5 * p[0] + 2.0 * p[1] - 0.5 * p[2];
+  if (k == 2) return 0.5 * p[0] - 2.0 * p[1] + 1.5 * p[2];
+  return 0.5 * (p[2] - p[0]);
+}
+
+}  // namespace floatframe
