@@ -37,6 +37,28 @@ TEST(DeckKeywords, UnknownOnesStop) {
             "constraints: take it out of the deck if it does not");
 }
 
+TEST(DeckKeywords, MeansOfRotations) {
+  const auto deck = [](const std::string& parameter) {
+    return tetrahedron +
+           "*NODE\n9, .1, .1, 2.\n*SURFACE, NAME=S\nBODY, S1\n*COUPLING, REF NODE=9, "
+           "SURFACE=S, CONSTRAINT NAME=C\n*DISTRIBUTING" +
+           parameter + "\n";
+  };
+  const auto said = [&](const std::string& parameter) {
+    for (const std::string& note : parsed(deck(parameter)).notes)
+      if (note.find("*DISTRIBUTING") != std::string::npos) return note;
+    return std::string();
+  };
+  EXPECT_EQ(said(""), "");
+  EXPECT_EQ(said(", COUPLING=CONTINUUM"), "");
+  EXPECT_EQ(said(", COUPLING=STRUCTURAL"),
+            "deck.inp:19: *DISTRIBUTING, COUPLING=STRUCTURAL is taken as CONTINUUM: the reference "
+            "follows the displacements of its nodes, rotations of nodes of shells and beams do not "
+            "count");
+  EXPECT_EQ(error(deck(", COUPLING=BOTH")),
+            "deck.inp:19: *DISTRIBUTING has COUPLING='BOTH', expected CONTINUUM or STRUCTURAL");
+}
+
 TEST(DeckKeywords, ThoseThatMatterStopWithAdvice) {
   const std::pair<const char*, const char*> cases[] = {
       {"*REBAR, ELEMENT=CONTINUUM, MATERIAL=STEEL, NAME=R\nBODY, 1.\n",

@@ -19,6 +19,20 @@ std::string_view reference_node(AbaqusLines& lines, const AbaqusKeyword& keyword
   return lines.required(keyword, "REF NODE");
 }
 
+/// COUPLING=STRUCTURAL: the mean is one of rotations too, where nodes have them.
+void check_rotations_of_nodes(AbaqusLines& lines, const AbaqusKeyword& kind,
+                              AbaqusContent& content) {
+  const std::string_view found = kind.value("COUPLING");
+  if (found.empty() || same_word(found, "CONTINUUM")) return;
+  if (!same_word(found, "STRUCTURAL"))
+    return lines.error(
+        kind, fmt::format("has COUPLING={}, expected CONTINUUM or STRUCTURAL", shown(found)));
+  content.note(
+      lines.source().mark(kind.at),
+      "*DISTRIBUTING, COUPLING=STRUCTURAL is taken as CONTINUUM: the reference follows the "
+      "displacements of its nodes, rotations of nodes of shells and beams do not count");
+}
+
 }  // namespace
 
 unsigned abaqus_dofs(AbaqusLines& lines, const std::vector<std::string_view>& fields,
@@ -112,6 +126,7 @@ void read_abaqus_coupling(AbaqusLines& lines, const AbaqusKeyword& keyword,
     if (!method.empty() && !same_word(method, "UNIFORM")) {
       lines.error(kind, fmt::format("has the weighting {}, expected UNIFORM", shown(method)));
     }
+    check_rotations_of_nodes(lines, kind, content);
     if (mask != 63u) {
       const SourceMark mark = lines.source().mark(kind.at);
       content.notes.push_back(
