@@ -13,16 +13,25 @@
 namespace floatframe {
 namespace {
 
-/// Factors of the degrees of freedom that are left once equal ones are added.
-std::map<std::pair<int, int>, double> added_up(const LinearEquation& e) {
-  std::map<std::pair<int, int>, double> sums;
+/// Adds terms of equal degrees of freedom up and leaves out those that cancel. There may be
+/// millions of equations, so `terms` is used again.
+void add_up(const LinearEquation& e, std::vector<LinearEquation::Term>& terms) {
+  const auto place = [](const LinearEquation::Term& t) { return std::pair{t.node, t.axis}; };
+  terms = e.terms;
+  std::sort(terms.begin(), terms.end(),
+            [&](const auto& a, const auto& b) { return place(a) < place(b); });
   double scale = 0.0;
-  for (const LinearEquation::Term& t : e.terms) {
-    sums[{t.node, t.axis}] += t.factor;
+  std::size_t count = 0;
+  for (const LinearEquation::Term& t : terms) {
     scale = std::max(scale, std::abs(t.factor));
+    if (count > 0 && place(terms[count - 1]) == place(t)) {
+      terms[count - 1].factor += t.factor;
+    } else {
+      terms[count++] = t;
+    }
   }
-  std::erase_if(sums, [&](const auto& s) { return std::abs(s.second) <= 1e-12 * scale; });
-  return sums;
+  terms.resize(count);
+  std::erase_if(terms, [&](const auto& t) { return std::abs(t.factor) <= 1e-12 * scale; });
 }
 
 /// Equations of one line for a set of nodes have one note.
@@ -43,13 +52,14 @@ void look_at_equations(FeModel& model) {
   const std::vector<int> dofs = dofs_without_springs(model);
   std::map<std::pair<int, int>, long> empty;  // by file and line
   LimitedErrors errors;
+  std::vector<LinearEquation::Term> sums;
   std::erase_if(model.equations, [&](const LinearEquation& e) {
-    const auto sums = added_up(e);
+    add_up(e, sums);
     if (sums.empty()) {
       ++empty[{e.source.file, e.source.line}];
       return true;
     }
-    const auto& [node, axis] = sums.begin()->first;
+    const auto& [node, axis, factor] = sums.front();
     if (sums.size() == 1 && axis < dofs[node + 1])
       errors.add("equations", model.mark(e.source),
                  fmt::format("the equation holds {} of {} to the ground, to which a part that "
