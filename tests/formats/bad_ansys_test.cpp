@@ -266,9 +266,9 @@ TEST(BadAnsys, ShellsBeamsAndPoints) {
        "24: element 2 (COMBIN14): it has one node, and no direction (KEYOPT(2))"},
       {bad_solid + cdb_steel + "ET,2,14\nTYPE,2\nR,1,-5\nE,1,2\n",
        "24: element 2 (COMBIN14): its stiffness is -5, expected none below 0"},
-      {bad_solid + cdb_steel + "ET,2,21\nTYPE,2\nR,1,1,2,1\nE,1\n",
+      {bad_solid + cdb_steel + "ET,2,21\nTYPE,2\nR,1,1,2,1\nE,1\nE,2\n",
        "23: real constants 1: masses of 1, 2 and 1 in the three directions; a part has one"},
-      {bad_solid + cdb_steel + "ET,2,21\nKEYOPT,2,3,2\nTYPE,2\nR,1,-5\nE,1\n",
+      {bad_solid + cdb_steel + "ET,2,21\nKEYOPT,2,3,2\nTYPE,2\nR,1,-5\nE,1\nE,2\n",
        "24: real constants 1: a mass of -5 for element 2 (MASS21), expected none below 0"},
       {bad_solid + cdb_steel + "ET,2,21\nTYPE,2\nR,1,1,1,1,0,-2\nE,1\n",
        "23: real constants 1: a moment of inertia of -2 for element 2 (MASS21), expected none "

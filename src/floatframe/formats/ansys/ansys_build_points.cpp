@@ -226,22 +226,25 @@ void build_ansys_masses(AnsysBuild& b) {
     m.node = n[0];
     m.mass = real->value(0);
     const std::size_t inertias = type.keyopt[3] == 0 ? 6 : 1;
-    for (std::size_t k = 0; k < inertias; ++k)
-      if (real->value(k) < 0.0)
-        return b.source.error(real->at, fmt::format("real constants {}: a {} of {:g} for {}, "
-                                                    "expected none below 0",
-                                                    e.real, k < 3 ? "mass" : "moment of inertia",
-                                                    real->value(k), b.label(e)));
+    for (std::size_t k = 0; k < inertias; ++k) {
+      if (!(real->value(k) < 0.0)) continue;
+      if (b.said_once.insert(fmt::format("mass of real constants {}", e.real)).second)
+        b.source.error(real->at, fmt::format("real constants {}: a {} of {:g} for {}, "
+                                             "expected none below 0",
+                                             e.real, k < 3 ? "mass" : "moment of inertia",
+                                             real->value(k), b.label(e)));
+      return;
+    }
     if (type.keyopt[3] == 0) {
       for (std::size_t k = 7; k < 10; ++k)
         if (real->value(k) != 0.0)
-          return b.source.error(
+          return b.error_once(
               real->at, fmt::format("real constants {}: a mass beside its node (constant {} is "
                                     "{:g}) is not read; give it a node of its own",
                                     e.real, k + 1, real->value(k)));
       for (std::size_t k = 1; k < 3; ++k)
         if (std::abs(real->value(k) - m.mass) > 1e-9 * std::abs(m.mass))
-          return b.source.error(
+          return b.error_once(
               real->at, fmt::format("real constants {}: masses of {:g}, {:g} and {:g} in the three "
                                     "directions; a part has one",
                                     e.real, m.mass, real->value(1), real->value(2)));
