@@ -41,7 +41,7 @@ class Springs {
       const Vec6 d = end == 0 && !grounded ? Vec6(-s.directions[k]) : s.directions[k];
       if (straight)
         ends[end].first = deck_.node(s.nodes[k]);
-      else if (axis_of(d) >= 0)
+      else if (axis_of(d) >= 0 && !equations_.is_turn_of_knot(s.nodes[k], axis_of(d)))
         ends[end] = equations_.place(s.nodes[k], axis_of(d), s.source);
       else
         ends[end] = further_node(s.source, s.nodes[k], d);

@@ -132,10 +132,28 @@ void add_elements(CalculixText& deck) {
        "frequencies are lower, by some percent where the mesh is coarse");
 }
 
+/// What CalculiX makes of a shell at a node lies on its normal, about which it turns freely.
+void note_beams_on_shells(CalculixText& deck) {
+  std::vector<unsigned> at(deck.model.positions.size(), 0);
+  for (const Element& e : deck.model.elements) {
+    const unsigned kind = is_beam(e.type) ? 1 : is_shell(e.type) ? 2 : 0;
+    for (int k = 0; k < element_nodes(e.type); ++k)
+      at[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] |= kind;
+  }
+  const auto first = std::find(at.begin(), at.end(), 3u);
+  if (first == at.end()) return;
+  deck.notes.push_back(fmt::format(
+      "beams and shells share {}: a shell of CalculiX does not resist that a beam turns "
+      "there about the normal of the shell, which is a frequency of zero where nothing "
+      "else does; first: {}",
+      plural(std::count(at.begin(), at.end(), 3u), "node"),
+      deck.model.node_label(static_cast<int>(first - at.begin()))));
+}
+
 void add_set(CalculixText& deck, const char* keyword, const std::string& name,
              const std::vector<int>& members) {
   if (members.empty()) return;
-  deck.text += fmt::format("*{0}, {0}={1}\n", keyword, written_name(name, true, deck.names));
+  deck.text += fmt::format("*{0}, {0}={1}\n", keyword, deck.name_of(name));
   add_calculix_numbers(deck.text, members, false);
 }
 
@@ -164,8 +182,7 @@ void add_sets(CalculixText& deck) {
         ++skins;
     }
     if (!lines.empty())
-      deck.text +=
-          fmt::format("*SURFACE, NAME={}\n{}", written_name(name, true, deck.names), lines);
+      deck.text += fmt::format("*SURFACE, NAME={}\n{}", deck.name_of(name), lines);
   }
   if (skins > 0)
     deck.notes.push_back(fmt::format("{} of surfaces left out: they are not faces of solids",
@@ -188,6 +205,14 @@ void add_step(CalculixText& deck, int modes) {
     deck.notes.push_back(
         "no step of vibration: the density of a material is not known (--density RHO)");
     return;
+  }
+  // Its Lanczos vectors, five times the modes, must not be more than its degrees of freedom.
+  if (const int most = static_cast<int>(std::max(1L, deck.dofs / 5)); modes > most) {
+    modes = most;
+    deck.notes.push_back(fmt::format(
+        "the step asks for {}, a fifth of the {} of the deck: asked for more than it can "
+        "find, CalculiX prints zeros",
+        plural(most, "mode"), plural(deck.dofs, "degree of freedom", "degrees of freedom")));
   }
   deck.text += fmt::format("*STEP\n*FREQUENCY\n{}\n*NODE FILE\nU\n*END STEP\n", modes);
 }
@@ -244,10 +269,12 @@ WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options)
   deck.text = "*HEADING\nWritten by Floatframe\n";
   add_nodes(deck);
   add_elements(deck);
+  note_beams_on_shells(deck);
   add_sets(deck);
   add_calculix_sections(deck);
   add_calculix_constraints(deck);
   add_supports(deck);
+  deck.renamed.note(deck.notes);
   add_step(deck, options.modes);
   deck.errors.throw_if_any();
   return {std::move(deck.text), std::move(deck.notes)};

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
+#include "floatframe/formats/written/calculix_knots.hpp"
 
 namespace floatframe {
 namespace {
@@ -49,6 +52,42 @@ FeSource source_of_tie(const FeModel& model, int node) {
   return {};
 }
 
+/// Nodes that have no stiffness and no mass of their own.
+std::vector<char> bare_nodes(const FeModel& model) {
+  std::vector<char> out(model.positions.size(), 1);
+  const auto leave_out = [&](int node) {
+    if (node >= 0) out[static_cast<std::size_t>(node)] = 0;
+  };
+  for (const Element& e : model.elements)
+    for (int k = 0; k < element_nodes(e.type); ++k) leave_out(e.nodes[static_cast<std::size_t>(k)]);
+  for (const PointMass& m : model.masses) leave_out(m.node);
+  for (const Spring& s : model.springs)
+    for (const int node : s.nodes) leave_out(node);
+  return out;
+}
+
+/// Those of some sparse columns that are sums of the ones before them.
+std::vector<std::size_t> repeated_columns(const std::array<std::map<int, double>, 6>& columns) {
+  std::map<int, int> rows;
+  for (const auto& column : columns)
+    for (const auto& [row, value] : column) rows.try_emplace(row, static_cast<int>(rows.size()));
+  std::vector<std::size_t> out;
+  std::vector<VecX> basis;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    VecX x = VecX::Zero(static_cast<Eigen::Index>(rows.size()));
+    for (const auto& [row, value] : columns[k]) x(rows.at(row)) = value;
+    const double size = x.norm();
+    if (size == 0.0) continue;  // in no equation
+    for (int again = 0; again < 2; ++again)
+      for (const VecX& q : basis) x -= q.dot(x) * q;
+    if (x.norm() > 1e-9 * size)
+      basis.push_back(x.normalized());
+    else
+      out.push_back(k);
+  }
+  return out;
+}
+
 }  // namespace
 
 CalculixEquations::CalculixEquations(CalculixText& deck)
@@ -56,8 +95,10 @@ CalculixEquations::CalculixEquations(CalculixText& deck)
       table_(dof_table(deck.model)),
       dependences_(resolve_dependences(deck.model, table_)),
       place_(static_cast<std::size_t>(table_.size())) {
+  deck.dofs = std::count(dependences_.dependent.begin(), dependences_.dependent.end(), 0);
   if (!dependences_.any && deck.model.springs.empty()) return;
   const std::vector<int> rotations = add_rotation_nodes(deck, table_);
+  knots_ = calculix_knots(deck);
   for (int n = 0; n < deck.model.nodes(); ++n)
     for (int axis = 0; axis < table_.count(n); ++axis) {
       const int turned = axis < 3 ? 0 : rotations[static_cast<std::size_t>(n)];
@@ -67,12 +108,49 @@ CalculixEquations::CalculixEquations(CalculixText& deck)
 }
 
 void CalculixEquations::add_dependences() {
+  const std::vector<char> bare = bare_nodes(deck_.model);
+  std::vector<std::string> held;
   for (int node = 0; node < deck_.model.nodes(); ++node)
     for (int axis = 0; axis < table_.count(node); ++axis) {
       const auto dof = static_cast<std::size_t>(table_.index(node, axis));
-      if (dependences_.dependent[dof] != 0)
-        add(place_[dof], dependences_.terms[dof], source_of_tie(deck_.model, node));
+      if (dependences_.dependent[dof] == 0) continue;
+      add(place_[dof], dependences_.terms[dof], source_of_tie(deck_.model, node));
+      if (dependences_.terms[dof].empty() && bare[static_cast<std::size_t>(node)] == 0)
+        held.push_back(fmt::format("{} {}", deck_.model.node_label(node), node_dof_names[axis]));
     }
+  if (!held.empty())
+    deck_.notes.push_back(fmt::format(
+        "{} held by equations of the model, written as *BOUNDARY: the part is not free; first: {}",
+        plural(static_cast<long>(held.size()), "direction is", "directions are"), held.front()));
+  hold_idle_motions(bare);
+}
+
+void CalculixEquations::hold_idle_motions(const std::vector<char>& bare) {
+  if (!dependences_.any) return;
+  std::vector<int> node_of(place_.size(), -1);
+  for (int n = 0; n < deck_.model.nodes(); ++n)
+    if (bare[static_cast<std::size_t>(n)] != 0 && table_.count(n) == 6)
+      std::fill_n(node_of.begin() + table_.begin[static_cast<std::size_t>(n)], 6, n);
+  std::map<int, std::array<std::map<int, double>, 6>> columns;  // by the node
+  for (std::size_t row = 0; row < place_.size(); ++row)
+    for (const auto& [dof, factor] : dependences_.terms[row])
+      if (const int n = node_of[static_cast<std::size_t>(dof)]; n >= 0)
+        columns[n][static_cast<std::size_t>(dof - table_.begin[static_cast<std::size_t>(n)])]
+               [static_cast<int>(row)] = factor;
+  std::vector<std::string> held;
+  for (const auto& [node, of_node] : columns)
+    for (const std::size_t axis : repeated_columns(of_node)) {
+      const auto dof =
+          static_cast<std::size_t>(table_.begin[static_cast<std::size_t>(node)]) + axis;
+      add(place_[dof], {}, {});
+      held.push_back(fmt::format("{} {}", deck_.model.node_label(node), node_dof_names[axis]));
+    }
+  if (held.empty()) return;
+  deck_.dofs -= static_cast<long>(held.size());
+  deck_.notes.push_back(fmt::format(
+      "{} held of nodes that nothing but equations moves: what follows these does not tell it from "
+      "their other directions, and CalculiX finds wrong frequencies if both are free; first: {}",
+      plural(static_cast<long>(held.size()), "direction is", "directions are"), held.front()));
 }
 
 void CalculixEquations::add(const std::pair<int, int>& place, const Terms& terms,
@@ -100,7 +178,13 @@ std::pair<int, int> CalculixEquations::place(int node, int axis, const FeSource&
   return place;
 }
 
+bool CalculixEquations::is_turn_of_knot(int node, int axis) const {
+  const auto& [number, direction] = place_[static_cast<std::size_t>(table_.index(node, axis))];
+  return direction > 3 && knots_.contains(number);
+}
+
 void CalculixEquations::refuse(int node, const FeSource& source) {
+  if (knots_.contains(node)) return;
   if (!refused_.insert(node).second || refused_.size() > 1) return;
   first_refused_ = node;
   first_source_ = source;

@@ -3,7 +3,8 @@
 // none. Rotations of nodes without beams and shells are displacements of further nodes.
 //
 // CalculiX makes solids of beams and shells. Equations with rotations of their nodes are in force
-// only where it joins several of them by a rigid knot, elsewhere it loses them silently: refused.
+// only where it joins several of them by a rigid knot (`calculix_knots`), elsewhere it loses them
+// silently: refused.
 #include <set>
 #include <string>
 #include <utility>
@@ -20,7 +21,10 @@ class CalculixEquations {
 
   explicit CalculixEquations(CalculixText& deck);
 
-  /// Dependent degrees of freedom by independent ones.
+  /// Dependent degrees of freedom by independent ones. Of a node of nothing but equations, as the
+  /// reference of a coupling of some directions is, those are held that the others stand for: its
+  /// motions that move nothing have neither stiffness nor mass, and CalculiX finds wrong
+  /// frequencies if there are any.
   void add_dependences();
   /// place = sum of `terms` in independent degrees of freedom; without a term it is zero.
   void add(const std::pair<int, int>& place, const Terms& terms, const FeSource& source);
@@ -31,16 +35,21 @@ class CalculixEquations {
   /// A sum over degrees of freedom of one node in independent ones.
   Terms independent(int node, const Vec6& factors) const;
 
+  /// Is it the rotation of a knot? Springs reach it by equations only.
+  bool is_turn_of_knot(int node, int axis) const;
+
   /// Number of the node and direction of the deck, for a spring.
   std::pair<int, int> place(int node, int axis, const FeSource& source);
 
  private:
   void refuse(int node, const FeSource& source);
+  void hold_idle_motions(const std::vector<char>& bare);
 
   CalculixText& deck_;
   DofTable table_;
   DependentDofs dependences_;
   std::vector<std::pair<int, int>> place_;
+  std::set<int> knots_;  ///< numbers of nodes
   std::string zeros_;
   std::set<int> refused_;  ///< numbers of nodes
   int first_refused_ = 0;

@@ -135,7 +135,8 @@ class SectionWriter {
       case BeamSection::Outline::unknown:
         break;
     }
-    return "has a section of constants only, which CalculiX has not in its beams";
+    return "has a section that is neither a rectangle nor round: a box, a profile or constants (A, "
+           "I, J), of which CalculiX makes no beams as they are here (.vtu and .msh show the mesh)";
   }
 
   SectionKey key_of(const Element& e, int index) const {
@@ -159,7 +160,9 @@ class SectionWriter {
   std::string material_name(int m, double further) {
     const auto [it, fresh] = materials_.try_emplace({m, further});
     if (!fresh) return it->second;
-    const std::string name = written_name(written_material(model_, m), true, deck_.names);
+    const std::string name = further == 0.0
+                                 ? deck_.name_of(written_material(model_, m))
+                                 : written_name(written_material(model_, m), true, deck_.names);
     it->second = name;
     const Material& given = material(m);
     deck_.text += fmt::format("*MATERIAL, NAME={}\n", name);

@@ -20,9 +20,17 @@ struct CalculixText {
   ErrorList errors;
   const OffsetBeams* beside = nullptr;  ///< if `model` is of it
   std::set<std::string> names;          ///< of sets, surfaces, materials and orientations
+  RenamedNames renamed;
+  long dofs = 0;  ///< degrees of freedom that depend on none, at least
 
   int node(int index) const { return numbers.node[static_cast<std::size_t>(index)]; }
   int element(std::size_t index) const { return numbers.element[index]; }
+  /// In capitals; of a set, surface or material of the model.
+  std::string name_of(const std::string& given) {
+    std::string name = written_name(given, true, names);
+    renamed.add(given, name);
+    return name;
+  }
   SourceMark mark_of(const Element& e) const { return model.mark(e.source); }
 };
 

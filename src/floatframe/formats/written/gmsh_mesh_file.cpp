@@ -104,6 +104,7 @@ class GmshFile {
     add_entities(text);
     add_nodes(text);
     add_elements(text);
+    renamed_.note(notes_);
     return {std::move(text), std::move(notes_)};
   }
 
@@ -113,6 +114,7 @@ class GmshFile {
   int new_group(int dimension, const std::string& name) {
     auto& used = used_names_[static_cast<std::size_t>(dimension)];
     groups_.push_back({dimension, written_name(name, false, used)});
+    renamed_.add(name, groups_.back().name);
     return static_cast<int>(groups_.size());
   }
 
@@ -243,6 +245,7 @@ class GmshFile {
   WrittenNumbers numbers_;
   std::vector<PhysicalGroup> groups_;
   std::array<std::set<std::string>, 4> used_names_;
+  RenamedNames renamed_;
   std::vector<Groups> of_element_, of_node_;
   std::vector<Entity> entities_;
 };

@@ -130,6 +130,7 @@ VtkArray marks(const std::string& name, std::size_t size, const std::vector<int>
 
 void add_set_arrays(const FeModel& model, VtkGrid& grid, std::vector<std::string>& notes) {
   std::set<std::string> used_by_points, used_by_cells;
+  RenamedNames renamed;
   std::size_t left_out = 0;
   const auto add = [&](const auto& sets, std::size_t size, std::set<std::string>& used,
                        std::vector<VtkArray>& arrays) {
@@ -140,10 +141,12 @@ void add_set_arrays(const FeModel& model, VtkGrid& grid, std::vector<std::string
         continue;
       }
       arrays.push_back(marks(written_name("set_" + name, false, used), size, members));
+      renamed.add("set_" + name, arrays.back().name);
     }
   };
   add(model.node_sets, model.positions.size(), used_by_points, grid.point_data);
   add(model.element_sets, grid.types.size(), used_by_cells, grid.cell_data);
+  renamed.note(notes);
   if (left_out > 0)
     notes.push_back(
         fmt::format("{} sets are left out: only the first {} of nodes and of elements "

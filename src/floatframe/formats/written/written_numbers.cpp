@@ -1,10 +1,13 @@
 #include "floatframe/formats/written/written_numbers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <unordered_set>
+
+#include "floatframe/core/plural.hpp"
 
 namespace floatframe {
 namespace {
@@ -60,6 +63,28 @@ std::string written_name(const std::string& name, bool upper, std::set<std::stri
   std::string out = base;
   for (int n = 2; !used.insert(out).second; ++n) out = fmt::format("{}_{}", base, n);
   return out;
+}
+
+void RenamedNames::add(const std::string& given, const std::string& written) {
+  const auto same = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
+  if (!std::equal(given.begin(), given.end(), written.begin(), written.end(), same))
+    pairs_.emplace(given, written);
+}
+
+void RenamedNames::note(std::vector<std::string>& notes) const {
+  if (pairs_.empty()) return;
+  constexpr std::size_t most = 5;
+  std::vector<std::string> shown;
+  for (const auto& [given, written] : pairs_) {
+    if (shown.size() == most) break;
+    shown.push_back(fmt::format("'{}' as {}", given, written));
+  }
+  notes.push_back(fmt::format(
+      "{} written otherwise (letters, digits, '_' and '-', at most 60, each once): {}{}",
+      plural(static_cast<long>(pairs_.size()), "name is", "names are"), fmt::join(shown, ", "),
+      shown.size() < pairs_.size() ? ", ..." : ""));
 }
 
 std::string written_material(const FeModel& model, int material) {

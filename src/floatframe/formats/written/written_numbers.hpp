@@ -2,6 +2,7 @@
 // What all written meshes need: numbers of nodes and elements, and names that any program reads.
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "floatframe/fe/fe_model.hpp"
@@ -18,6 +19,17 @@ WrittenNumbers written_numbers(const FeModel& model, std::vector<std::string>& n
 /// Letters, digits, '_' and '-', at most 60; in upper case if asked for; none of `used`, which it
 /// joins.
 std::string written_name(const std::string& name, bool upper, std::set<std::string>& used);
+
+/// Names of sets and materials that a file has otherwise than the model, for one note.
+class RenamedNames {
+ public:
+  /// Small and capital letters are the same.
+  void add(const std::string& given, const std::string& written);
+  void note(std::vector<std::string>& notes) const;
+
+ private:
+  std::set<std::pair<std::string, std::string>> pairs_;
+};
 
 /// Name of the material in the model, or "MATERIAL_1".
 std::string written_material(const FeModel& model, int material);
