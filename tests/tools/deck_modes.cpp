@@ -67,6 +67,35 @@ SparseMatrix chosen(const SparseMatrix& A, const std::vector<int>& rows) {
   return out;
 }
 
+VecX values_about(const SparseMatrix& K, const SparseMatrix& M, double sigma, int modes) {
+  const SparseMatrix A = K - sigma * M;
+  const SparseFactors factors(A);
+  if (factors.singular() >= 0)
+    throw InputError("a degree of freedom has neither stiffness nor mass");
+  const int count = std::min(modes, static_cast<int>(K.rows()));
+  return lowest_eigenpairs(A, factors, sigma, M, count).lambda;
+}
+
+/// Below zero, and of the size of the lowest elastic eigenvalue: of one free part by its estimate,
+/// of several by a fraction of the largest. Held masses tell nothing of how the part would move
+/// freely.
+double first_shift(const Arguments& a, const FeModel& model, const FeSystem& system,
+                   const SparseMatrix& K, const SparseMatrix& M) {
+  const double least = -1e-9 * K.diagonal().sum() / M.diagonal().sum();
+  if (!std::isfinite(least)) throw InputError("nothing that can move has a mass");
+  const double sigma = a.held ? 0.0 : -elastic_estimate(model, system);
+  return sigma < least ? sigma : 1e3 * least;
+}
+
+/// Once more where the lowest elastic eigenvalue is much smaller than the shift, which takes its
+/// digits.
+VecX lowest_values(const SparseMatrix& K, const SparseMatrix& M, double sigma, int modes) {
+  VecX lambda = values_about(K, M, sigma, modes);
+  for (const double l : lambda)
+    if (l > -1e-9 * sigma) return l > -0.1 * sigma ? lambda : values_about(K, M, -l, modes);
+  return lambda;
+}
+
 int show(const Arguments& a) {
   const PartJob job = a.reading.job();
   FeModel model = read_fe_file(a.file, job.read, job.format);
@@ -91,19 +120,9 @@ int show(const Arguments& a) {
     for (int i = 0; i < system.size(); ++i) rows.push_back(i);
   }
   const SparseMatrix K = chosen(system.K, rows), M = chosen(system.M, rows);
-  // Below zero, and of the size of the lowest elastic eigenvalue: of one part by its estimate, of
-  // several by a fraction of the largest.
-  double sigma = -elastic_estimate(model, system);
-  const double least = -1e-9 * K.diagonal().sum() / M.diagonal().sum();
-  if (!(sigma < least)) sigma = 1e3 * least;
-  const SparseMatrix A = K - sigma * M;
-  const SparseFactors factors(A);
-  if (factors.singular() >= 0)
-    throw InputError("a degree of freedom has neither stiffness nor mass");
-  const int count = std::min(a.modes, static_cast<int>(K.rows()));
-  const Eigenpairs pairs = lowest_eigenpairs(A, factors, sigma, M, count);
+  const VecX lambda = lowest_values(K, M, first_shift(a, model, system, K, M), a.modes);
   std::vector<double> frequencies;
-  for (const double l : pairs.lambda)
+  for (const double l : lambda)
     frequencies.push_back(std::copysign(hertz(std::sqrt(std::abs(l))), l));
   print(fmt::format("{{\"rows\": {}, \"frequencies\": [{}]}}\n", K.rows(),
                     fmt::join(frequencies, ", ")));
