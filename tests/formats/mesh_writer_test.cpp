@@ -246,6 +246,10 @@ TEST(MeshWriter, PipesAndIncompatibleModes) {
   FeModel pipe = single_element(ElementType::beam3);
   pipe.sections[0] = BeamSection::hollow_round(0.04, 0.03);
   EXPECT_NE(written(pipe, ".inp").bytes.find("*ELEMENT, TYPE=B32R\n"), std::string::npos);
+  EXPECT_NE(written_notes(single_element(ElementType::rod2), ".inp")
+                .find("1 element are rods: what CalculiX makes of them bends by itself, with low "
+                      "frequencies of its own, and is clamped to beams at their nodes\n"),
+            std::string::npos);
   EXPECT_NE(written_notes(single_element(ElementType::hex8i), ".inp")
                 .find("1 element of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these "
                       "modes mass, its frequencies are lower, by some percent where the mesh is "

@@ -97,7 +97,7 @@ void add_nodes(CalculixText& deck) {
 }
 
 void add_elements(CalculixText& deck) {
-  std::size_t pyramids = 0, spread = 0, expanded = 0, modes = 0;
+  std::size_t pyramids = 0, spread = 0, expanded = 0, modes = 0, rods = 0;
   std::string last;
   for (std::size_t e = 0; e < deck.model.elements.size(); ++e) {
     const Element& element = deck.model.elements[e];
@@ -113,6 +113,7 @@ void add_elements(CalculixText& deck) {
     add_calculix_numbers(deck.text, numbers, true);
     pyramids += element.type == ElementType::pyramid5 || element.type == ElementType::pyramid13;
     modes += element.type == ElementType::hex8i;
+    rods += is_rod(element.type);
     spread += element.mass_form != MassForm::consistent;
     expanded += is_beam(element.type) || is_shell(element.type) || is_rod(element.type) ||
                 is_membrane(element.type);
@@ -127,9 +128,43 @@ void add_elements(CalculixText& deck) {
   note(expanded,
        "are beams, rods, shells or membranes: CalculiX makes solid elements of them, with all "
        "integration points (B32, S8, not B32R, S8R), its frequencies differ");
+  note(
+      rods,
+      "are rods: what CalculiX makes of them bends by itself, with low frequencies of its own, and "
+      "is clamped to beams at their nodes");
   note(modes,
        "of 8 nodes with incompatible modes: CalculiX (C3D8I) gives these modes mass, its "
        "frequencies are lower, by some percent where the mesh is coarse");
+}
+
+/// CalculiX 2.20 joins what it makes of rods with what it makes of beams in all directions only if
+/// the element with the smallest number at their node is a beam; else some come loose. Such rods
+/// get numbers above all others.
+void number_rods_after_beams(CalculixText& deck) {
+  const std::vector<Element>& elements = deck.model.elements;
+  std::vector<char> bends(deck.model.positions.size(), 0);
+  const auto any_node = [&](const Element& e) {
+    const auto last = e.nodes.begin() + element_nodes(e.type);
+    return std::any_of(e.nodes.begin(), last,
+                       [&](int n) { return bends[static_cast<std::size_t>(n)] != 0; });
+  };
+  for (const Element& e : elements)
+    for (int k = 0; k < element_nodes(e.type) && is_beam(e.type); ++k)
+      bends[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
+  int largest = 0;  // of the beams
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (is_beam(elements[i].type)) largest = std::max(largest, deck.element(i));
+  long renumbered = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!is_rod(elements[i].type) || deck.element(i) > largest || !any_node(elements[i])) continue;
+    deck.numbers.element[i] = ++deck.numbers.last_element;
+    ++renumbered;
+  }
+  if (renumbered > 0)
+    deck.notes.push_back(fmt::format(
+        "{} numbered anew, after the beams that they meet: CalculiX 2.20 joins them only "
+        "in some directions otherwise",
+        plural(renumbered, "rod is", "rods are")));
 }
 
 /// What CalculiX makes of a shell at a node lies on its normal, about which it turns freely.
@@ -267,6 +302,7 @@ WrittenMesh calculix_deck(const FeModel& model, const MeshWriteOptions& options)
                     "that is a frequency of zero of each in CalculiX",
                     plural(static_cast<long>(bars), "straight group")));
   deck.text = "*HEADING\nWritten by Floatframe\n";
+  number_rods_after_beams(deck);
   add_nodes(deck);
   add_elements(deck);
   note_beams_on_shells(deck);
