@@ -177,8 +177,16 @@ class Info(unittest.TestCase):
         self.assertIn("the part is in 2 pieces", done.stderr)
         # Inverted elements: the warning says it, no command.
         text = self.facts(HEAD.replace("1, 1,2,3,4,5,6,7,8", "1, 5,6,7,8,1,2,3,4"))
-        self.assertEqual(len(text["bad_elements"]), 1)
+        self.assertEqual(text["bad_elements"], ["element 1 (hex8)"])
+        self.assertTrue(text["bad_reason"].startswith("part.inp:16: element 1 (hex8) is inverted"), text["bad_reason"])
         self.assertNotIn("floatframe reduce part.inp", self.expect(0, "info", "part.inp").stdout)
+
+    def test_where_it_stands(self):
+        twice = self.facts(HEAD.replace("1, 1,2,3,4,5,6,7,8", "1, 1,2,3,4,5,6,7,7"))
+        self.assertEqual(twice["bad_reason"], "part.inp:16: element 1 (hex8) names node 7 twice")
+        mean = "*SURFACE, NAME=PAIR, TYPE=NODE\n9\n10\n*COUPLING, REF NODE=20, SURFACE=PAIR, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 3\n"
+        facts = self.facts(HEAD + mean)
+        self.assertRegex(facts["obstacle"], r"^part\.inp:\d+: spider 'C': its 2 nodes lie on a line or in a point")
 
     def test_mechanisms_are_said(self):
         # The upper brick hangs on one equation of the lower one.
@@ -214,7 +222,7 @@ class Info(unittest.TestCase):
         bars = "*NODE\n1, 0,0,0\n2, 0,0,1\n*ELEMENT, TYPE=B31, ELSET=B\n1, 1,2\n*MATERIAL, NAME=S\n*ELASTIC\n1., .3\n"
         self.facts(bars + "*BEAM SECTION, ELSET=B, MATERIAL=S, SECTION=RECT\n.1, .1\n0., 0., 1.\n")
         text = self.expect(0, "info", "part.inp").stdout
-        self.assertIn("WARNING: 1 element is invalid: element 1 (beam2); the first one has a reference vector parallel", text)
+        self.assertIn("WARNING: 1 element is invalid: element 1 (beam2)\n  part.inp:5: element 1 (beam2) has a reference vector parallel", text)
 
     def test_a_hinge_is_no_interface(self):
         # Two nodes that a spider holds without their rotations leave a turn free.
@@ -226,9 +234,47 @@ class Info(unittest.TestCase):
         beam = ("*NODE\n1\n2, 1.\n3, 2.\n*ELEMENT, TYPE=B32, ELSET=B\n1, 1, 2, 3\n*MATERIAL, NAME=M\n*ELASTIC\n"
                 "2.1e5, .3\n*DENSITY\n7.85e-9\n*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=RECT, OFFSET1=.5\n"
                 ".1, .2\n0., 1., 0.\n*NSET, NSET=S\n1, 2\n")
+        # What holds the ends of the beam is no interface that a user asked for.
         facts = self.facts(beam)
-        self.assertEqual(facts["possible_interfaces"], ["node:1", "node:2", "node:3"])
-        self.assertEqual(len(self.pasted(facts["command"])), 3)
+        self.assertEqual((facts["possible_interfaces"], facts["spiders"], facts["beam_arms"]), (["set:S"], [], 3))
+        self.assertEqual(self.pasted(facts["command"]), ["S"])
+        self.assertIn("  beam arms     at 3 nodes: ends of beams or bars beside them\n", self.expect(0, "info", "part.inp").stdout)
+        facts = self.facts(beam + "*RIGID BODY, NSET=S, REF NODE=9\n*NODE\n9, .5, 0., .3\n")
+        self.assertEqual(facts["possible_interfaces"], ["node:9"])
+
+    def test_offsets_and_hinges_of_nastran_bars(self):
+        brick = ("BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\nGRID,5,,0.,0.,1.\n"
+                 "GRID,6,,1.,0.,1.\nGRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\nGRID,9,,0.,0.,2.\nCHEXA,1,1,1,2,3,4,5,6,+\n+,7,8\n"
+                 "PSOLID,1,1\nMAT1,1,2.+11,,.3,7800.\nPBARL,2,1,,BAR,,,,,+\n+,.1,.1\n")
+        facts = self.facts(brick + "CBAR,11,2,5,6,0.,1.,0.,,+\n+,,,0.,0.,.1,0.,0.,.1\nCBAR,12,2,6,7,1.,0.,0.,,+\n"
+                           "+,,,0.,0.,.1,0.,0.,.1\nENDDATA\n", name="off.bdf")
+        self.assertEqual((facts["possible_interfaces"], facts["beam_arms"], facts["obstacle"]), ([], 3, ""))
+        # A bar that stands on a corner of a solid and turns about its hinge there.
+        facts = self.facts(brick + "CBAR,11,2,5,9,0.,1.,0.,,+\n+,5\nENDDATA\n", name="hinge.bdf")
+        self.assertEqual(facts["obstacle"], "the part is a mechanism: beside the six rigid motions there is at least one without "
+                         "stiffness, which moves most at node 5, node 9 and node 10 (made for element 11 (beam2), hinge.bdf:17)")
+        done = self.expect(2, "reduce", "hinge.bdf", "--units", "si", "--interface", "A=plane:0,0,0,normal=z")
+        self.assertIn("node 5 ry (element 11 (beam2), hinge.bdf:17, has a hinge or an offset there) can move", done.stderr)
+
+    def test_springs_and_masses_alone_are_a_part(self):
+        springs = ("*NODE\n1, 0,0,0\n2, 1,0,0\n3, 1,1,0\n*ELEMENT, TYPE=MASS, ELSET=M\n11, 1\n12, 2\n13, 3\n*MASS, ELSET=M\n2.\n")
+        triangle = "*ELEMENT, TYPE=SPRINGA, ELSET=S\n1, 1,2\n2, 2,3\n3, 1,3\n*SPRING, ELSET=S\n\n1000.\n"
+        facts = self.facts(springs + triangle)
+        self.assertEqual(facts["obstacle"], "")
+        self.assertNotIn("E,NU,RHO", facts["command"])
+        self.assertNotIn("--material", self.expect(0, "info", "part.inp").stdout)
+        self.pasted(facts["command"], UNITS="m-kg-s")
+        bulk = ("BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nCONM2,5,1,,2.\nCONM2,6,2,,2.\nCONM2,7,3,,2.\n")
+        facts = self.facts(bulk + "CROD,1,1,1,2\nCELAS2,2,1000.,2,2,3,2\nPROD,1,1,.1\nMAT1,1,2.+11,,.3\nENDDATA\n", name="part.bdf")
+        self.assertEqual(facts["springs"], 1)
+        facts = self.facts(bulk + "CELAS2,1,1000.,1,1,2,1\nENDDATA\n", name="part.bdf")
+        self.assertEqual((facts["springs"], facts["point_masses"]), (1, 3))
+        (self.folder / "part.bdf").write_text(bulk + "ENDDATA\n")
+        self.assertIn("part.bdf: the file has no solid, shell, bar, rod or spring; of masses and rigid elements alone there is no "
+                      "flexible part", self.expect(2, "info", "part.bdf").stderr)
+        # Springs within a rigid body resist nothing.
+        rigid = self.facts(springs + triangle + "*NSET, NSET=N\n2, 3\n*RIGID BODY, NSET=N, REF NODE=1\n")
+        self.assertIn("the part has mass but no elasticity", rigid["obstacle"])
 
     def test_matrices(self):
         for file in DECKS.glob("two_bricks*"):

@@ -151,7 +151,7 @@ TEST(BadAnsys, NodesAndElements) {
        "11: element 1 (SOLSH190): the x axis of its coordinate system 11 is nearer to the normal "
        "of its layers than 45 degrees"},
       {"ET,1,21\nN,1\nE,1\n",
-       " the file has 1 elements and none of them is a solid, a shell, a beam or a rod"},
+       " the file has 1 elements and none of them is a solid, a shell, a beam, a rod or a spring"},
       {bad_solid + cdb_steel + "CMBLOCK,A,NODE,2\n(8i10)\n         1         9\n",
        "21: component A has node 9, which is not in the file"},
       {bad_solid + cdb_steel + "CMBLOCK,A,ELEM,2\n(8i10)\n        10       -20\n",

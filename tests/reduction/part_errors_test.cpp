@@ -61,7 +61,8 @@ TEST(PartErrors, EachHasItsSentence) {
 
   FeModel massless = beam();
   massless.materials[0].density = 0.0;
-  EXPECT_EQ(message(massless, both_ends()), "the part has no mass: every density is zero");
+  EXPECT_EQ(message(massless, both_ends()),
+            "the part has no mass: every density is zero, and there is no point mass");
 
   // Two bricks that share an edge only, at the middle of the part: a hinge.
   FeModel hinge = brick_beam(2, 1, 1, 0.2, 0.1);

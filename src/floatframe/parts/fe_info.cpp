@@ -14,6 +14,7 @@
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/math/vector_text.hpp"
+#include "floatframe/parts/beam_arms.hpp"
 #include "floatframe/parts/json_vector.hpp"
 #include "floatframe/parts/part_text.hpp"
 
@@ -55,6 +56,15 @@ void share(const FeModel& model, const Element& element, double volume, double m
   out.other_mass += mass;
 }
 
+/// As a reduction says it; empty if the element is well formed.
+std::string element_error(const FeModel& model, const Element& element, const ElementInput& input) {
+  const auto last = element.nodes.begin() + element_nodes(element.type);
+  for (auto node = element.nodes.begin(); node != last; ++node)
+    if (std::find(element.nodes.begin(), node, *node) != node)
+      return fmt::format("names {} twice", model.node_label(*node));
+  return element_kernel(element.type).error(input);
+}
+
 /// Volume and mass: elements of unit density, so that they exist without a material too.
 void measure(FeModel model, FeFacts& out) {
   const FeModel given = model;
@@ -72,8 +82,11 @@ void measure(FeModel model, FeFacts& out) {
     if (!in_range(material)) element.material = 0;
     const ElementInput input = gather(model, element);
     const ElementKernel& kernel = element_kernel(element.type);
-    if (const std::string error = kernel.error(input); !error.empty()) {
-      if (out.bad_elements.empty()) out.bad_reason = error;
+    if (const std::string error = element_error(model, element, input); !error.empty()) {
+      if (out.bad_elements.empty()) {
+        out.bad_reason = error;
+        out.bad_mark = model.mark(element.source);
+      }
       out.bad_elements.push_back(model.element_label(static_cast<int>(e)));
       continue;
     }
@@ -126,6 +139,21 @@ std::string material_name(const FeModel& model, std::size_t k) {
 /// "set:BALL", "node:5": without the name of the interface.
 std::string way_of(const InterfaceDescription& d) {
   return interface_text(d).substr(d.name.size() + 1);
+}
+
+/// Where the first invalid element stands and why it is; empty if there is none.
+std::string first_invalid(const FeFacts& f) {
+  if (f.bad_elements.empty()) return "";
+  return ErrorEntry{f.bad_mark, fmt::format("{} {}", f.bad_elements.front(), f.bad_reason)}.text();
+}
+
+std::string invalid_text(const FeFacts& f) {
+  const std::size_t shown = std::min<std::size_t>(f.bad_elements.size(), 10);
+  return fmt::format("\nWARNING: {} invalid: {}{}\n  {}\n",
+                     plural(static_cast<long>(f.bad_elements.size()), "element is", "elements are"),
+                     fmt::join(f.bad_elements.begin(),
+                               f.bad_elements.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                     shown < f.bad_elements.size() ? ", ..." : "", first_invalid(f));
 }
 
 std::string proposal_text(const ReduceProposal& p) {
@@ -187,7 +215,11 @@ FeFacts fe_facts(const PartJob& job, const FeModel& model) {
   }
   measure(model, out);
   sets(model, out);
-  for (const Spider& s : model.spiders) {
+  const std::vector<char> arms = beam_arms(model);
+  out.arms = static_cast<int>(std::count(arms.begin(), arms.end(), 1));
+  for (std::size_t i = 0; i < model.spiders.size(); ++i) {
+    if (arms[i] != 0) continue;
+    const Spider& s = model.spiders[i];
     const std::string reference = s.reference >= 0 ? model.node_label(s.reference) : "";
     out.spiders.push_back({s.name, s.kind == Spider::Kind::rigid ? "rigid" : "mean", reference,
                            static_cast<int>(s.nodes.size())});
@@ -213,6 +245,9 @@ std::string fe_info_text(const PartJob& job, const FeModel& model) {
                                           "--grounded-springs ignore",
                                           f.grounded_springs));
   if (f.equations > 0) text += fmt::format("  equations     {}\n", f.equations);
+  if (f.arms > 0)
+    text += fmt::format("  beam arms     at {}: ends of beams or bars beside them\n",
+                        plural(f.arms, "node"));
   if (f.supports > 0)
     text += fmt::format("  supports      on {} nodes (a hint, not applied)\n", f.supports);
   text += fmt::format("  from          {}\n  to            {}\n", vector_text(f.low),
@@ -244,7 +279,7 @@ std::string fe_info_text(const PartJob& job, const FeModel& model) {
                 ? "  no unit system makes these values those of a usual material\n"
                 : fmt::format("  units: these values look like {}\n",
                               fmt::join(f.likely_units, " or "));
-  } else if (f.matrix_rows == 0) {
+  } else if (!f.elements.empty()) {
     text += "\n  no material: give one with --material young,poisson,density\n";
   }
   if (!f.sets.empty()) {
@@ -263,16 +298,7 @@ std::string fe_info_text(const PartJob& job, const FeModel& model) {
     text += "\nPassed over in the file\n";
     for (const std::string& note : model.notes) text += "  - " + note + '\n';
   }
-  if (!f.bad_elements.empty()) {
-    const std::size_t shown = std::min<std::size_t>(f.bad_elements.size(), 10);
-    text +=
-        fmt::format("\nWARNING: {} invalid: {}{}; the first one {}\n",
-                    plural(static_cast<long>(f.bad_elements.size()), "element is", "elements are"),
-                    fmt::join(f.bad_elements.begin(),
-                              f.bad_elements.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                    shown < f.bad_elements.size() ? ", ..." : "", f.bad_reason);
-  }
-  if (f.bad_elements.empty()) text += proposal_text(f.proposal);
+  text += f.bad_elements.empty() ? proposal_text(f.proposal) : invalid_text(f);
   return text;
 }
 
@@ -320,10 +346,12 @@ std::string fe_info_json(const PartJob& job, const FeModel& model) {
                      {"likely_units", f.likely_units},
                      {"sets", all_sets},
                      {"spiders", spiders},
+                     {"beam_arms", f.arms},
                      {"possible_interfaces", ways},
                      {"command", f.proposal.command},
                      {"obstacle", f.proposal.obstacle},
                      {"bad_elements", f.bad_elements},
+                     {"bad_reason", first_invalid(f)},
                      {"notes", model.notes},
                      {"files", model.files}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';

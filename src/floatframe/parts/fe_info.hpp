@@ -22,6 +22,7 @@ struct FeFacts {
   double point_mass = 0.0, other_mass = 0.0;     ///< and that of sections per length or area
   std::vector<std::string> bad_elements;         ///< labels of invalid elements
   std::string bad_reason;                        ///< of the first of them
+  SourceMark bad_mark;                           ///< where the first of them stands
   struct Set {
     std::string name, kind;  ///< "nodes", "elements", "surface"
     int size = 0;            ///< nodes, elements, faces
@@ -32,7 +33,8 @@ struct FeFacts {
     std::string name, kind, reference;
     int nodes = 0;
   };
-  std::vector<SpiderFacts> spiders;
+  std::vector<SpiderFacts> spiders;  ///< but for `beam_arms`
+  int arms = 0;                      ///< nodes with ends of bars beside them
   /// Unit systems in which all materials look like those of real parts.
   std::vector<std::string> likely_units;
   ReduceProposal proposal;

@@ -13,6 +13,7 @@
 #include "floatframe/fe/unit_system.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/parts/beam_arms.hpp"
 #include "floatframe/parts/part_options.hpp"
 #include "floatframe/parts/part_text.hpp"
 #include "floatframe/reduction/connectivity.hpp"
@@ -217,8 +218,10 @@ Trial trial_of(const FeModel& model) {
   std::set<int> followers;
   for (const Spider& s : model.spiders)
     if (s.kind == Spider::Kind::rigid) followers.insert(s.nodes.begin(), s.nodes.end());
-  for (const Spider& s : model.spiders) {
-    if (s.reference >= 0 && !followers.contains(s.reference))
+  const std::vector<char> arms = beam_arms(model);
+  for (std::size_t i = 0; i < model.spiders.size(); ++i) {
+    const Spider& s = model.spiders[i];
+    if (arms[i] == 0 && s.reference >= 0 && !followers.contains(s.reference))
       trial.accept(at_node(model, s.reference, s.name));
   }
   for (const int node : turning_nodes(model)) trial.accept(at_node(model, node, ""));
@@ -241,11 +244,12 @@ int inner_dofs(const FeModel& tied, std::size_t interfaces) {
 }
 
 std::string obstacle_of(const FeModel& tied) {
-  if (tied.elements.empty() && !tied.matrices) return "the file has no elements";
+  if (tied.elements.empty() && tied.springs.empty() && !tied.matrices)
+    return "the file has neither elements nor springs";
   try {
     check_connected(tied);
   } catch (const InputError& error) {
-    return error.errors().front().message;
+    return error.errors().front().text();
   }
   return "";
 }
@@ -277,7 +281,8 @@ std::string command_of(const PartJob& job, const FeModel& model,
     if (texts == option_texts(option, plain)) continue;
     for (const std::string& value : texts) add(option.name, value);
   }
-  if (model.materials.empty() && !model.matrices && !job.read.material) add("material", "E,NU,RHO");
+  if (model.materials.empty() && !model.elements.empty() && !job.read.material)
+    add("material", "E,NU,RHO");
   if (!model.without_density.empty()) add("density", "RHO");
   const bool grounded = std::any_of(model.springs.begin(), model.springs.end(),
                                     [](const Spring& s) { return s.nodes[1] < 0; });
@@ -295,7 +300,8 @@ constexpr int most_tried_nodes = 600;
 /// What refuses it for any number of modes; empty if it is accepted.
 std::string refusal_of(FeModel model, const PartJob& job, const std::string& units,
                        const std::vector<InterfaceDescription>& interfaces, int& modes) {
-  if (model.nodes() > most_tried_nodes || (model.materials.empty() && !model.matrices)) return "";
+  if (model.nodes() > most_tried_nodes || (model.materials.empty() && !model.elements.empty()))
+    return "";
   for (const auto& [material, where] : model.without_density)
     model.materials[material].density = 1000.0;
   model.without_density.clear();
@@ -314,7 +320,7 @@ std::string refusal_of(FeModel model, const PartJob& job, const std::string& uni
       modes = n;
       return "";
     } catch (const InputError& error) {
-      if (refusal.empty()) refusal = error.errors().front().message;
+      if (refusal.empty()) refusal = error.errors().front().text();
     }
     if (n == 0) return refusal;
   }

@@ -9,10 +9,11 @@
 namespace floatframe {
 
 struct ReduceProposal {
-  /// At the references of spiders, then at node sets and surfaces, small ones first; at element
-  /// sets only if there are no others. Each was added to a copy of the model as a reduction does,
-  /// so that no node belongs to two, none is given twice and no direction of one depends on others
-  /// or is held by nothing. Sets of more than half of the nodes are none. At most 24.
+  /// At the references of spiders (but not of those for ends of bars, `beam_arms`), then at node
+  /// sets and surfaces, small ones first; at element sets only if there are no others. Each was
+  /// added to a copy of the model as a reduction does, so that no node belongs to two, none is
+  /// given twice and no direction of one depends on others or is held by nothing. Sets of more than
+  /// half of the nodes are none. At most 24.
   std::vector<InterfaceDescription> interfaces;
   /// "floatframe reduce FILE --units ... --interface NAME=set:NAME": a line to paste into a shell,
   /// with the options of reading that the job has, and the first of the likely units. What the

@@ -64,14 +64,53 @@ Pieces pieces_of(const FeModel& model) {
   return pieces;
 }
 
+/// The element that a reader made this node for (an end of a bar beside its node, or with a hinge);
+/// -1 if the file has the node.
+int element_of_made(const FeModel& model, int node) {
+  if (model.node_sources.size() != model.positions.size()) return -1;
+  const FeSource& at = model.node_sources[node];
+  for (int i = 0; at.line > 0 && i < static_cast<int>(model.elements.size()); ++i) {
+    const FeSource& of_element = model.elements[i].source;
+    if (of_element.line == at.line && of_element.file == at.file) return i;
+  }
+  return -1;
+}
+
+/// "element 11 (beam2), part.bdf:16"
+std::string element_with_place(const FeModel& model, int element) {
+  const SourceMark mark = model.mark(model.elements[element].source);
+  return fmt::format("{}, {}:{}", model.element_label(element), mark.file, mark.line);
+}
+
+std::string made_text(const FeModel& model, int node) {
+  const int e = element_of_made(model, node);
+  return e < 0 ? "" : fmt::format(" (made for {})", element_with_place(model, e));
+}
+
+/// Of a node of the file also the first bar with a hinge or an offset there.
+std::string bar_text(const FeModel& model, int node) {
+  std::string text = made_text(model, node);
+  std::vector<int> tied;
+  for (const LinearEquation& e : model.equations)
+    for (const LinearEquation::Term& t : e.terms)
+      if (t.node == node && e.terms.front().node != node) tied.push_back(e.terms.front().node);
+  for (const Spider& s : model.spiders)
+    if (s.reference == node) tied.insert(tied.end(), s.nodes.begin(), s.nodes.end());
+  for (std::size_t k = 0; text.empty() && k < tied.size(); ++k)
+    if (const int e = element_of_made(model, tied[k]); e >= 0)
+      text = fmt::format(" ({}, has a hinge or an offset there)", element_with_place(model, e));
+  return text;
+}
+
 }  // namespace
 
 std::string list_nodes(const FeModel& model, const std::vector<int>& nodes, std::size_t limit) {
-  std::string text;
+  std::string text, made;  // of the first that is not in the file
   const std::size_t shown = nodes.size() > limit + 1 ? limit : nodes.size();
   for (std::size_t i = 0; i < shown; ++i) {
     const bool last = i + 1 == nodes.size();
     text += (i == 0 ? "" : last ? " and " : ", ") + model.node_label(nodes[i]);
+    if (made.empty()) text += made = made_text(model, nodes[i]);
   }
   if (shown < nodes.size()) text += fmt::format(" and {} more", nodes.size() - shown);
   return text;
@@ -101,7 +140,7 @@ void check_connected(const FeModel& model) {
 
 std::string row_label(const FeModel& model, const FeSystem& system, int row) {
   const Dof& dof = system.dofs[row];
-  return model.node_label(dof.node) + " " + node_dof_names[dof.axis];
+  return model.node_label(dof.node) + " " + node_dof_names[dof.axis] + bar_text(model, dof.node);
 }
 
 }  // namespace floatframe

@@ -77,7 +77,9 @@ FreeStructure::FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX 
       A_(K - sigma_ * M),
       factors_(A_, solver) {
   if (!(estimate > 0.0))
-    throw InputError("the free modes need a part with mass and with elasticity");
+    throw InputError(
+        "there are no free modes: what the part can do beside moving rigidly moves no mass, or "
+        "nothing resists it (a mechanism)");
   if (factors_.singular() >= 0)
     throw InputError(
         "neither the stiffness nor the mass of the free part holds " +

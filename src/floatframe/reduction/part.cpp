@@ -246,8 +246,7 @@ void check_model(const FeModel& model, const FeSystem& system, const MatX& R,
                  HealthReport& health) {
   health.dofs = system.size();
   health.from_elements = mass_properties(system.M, R);
-  if (!(health.from_elements.mass > 0.0))
-    throw InputError("the part has no mass: every density is zero");
+  require_mass_and_elasticity(model, system, health.from_elements);
   health.rigid_residual = check_rigid_motions(model, system);
   health.volume = volume(model);
   health.volume_times_density = volume_times_density(model);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/model_checks.hpp"
 
 namespace floatframe {
@@ -21,6 +22,18 @@ MassProperties mass_properties(const SparseMatrix& M, const MatX& R) {
 
 MassProperties mass_properties(const InertiaInvariants& invariants) {
   return {invariants.m, invariants.centre_of_mass(), invariants.inertia_about_origin()};
+}
+
+void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
+                                 const MassProperties& properties) {
+  if (!(properties.mass > 0.0))
+    throw InputError("the part has no mass: every density is zero, and there is no point mass");
+  double rounding = 0.0;  // what is left of springs within a rigid body
+  if (model.elements.empty())
+    for (const Spring& s : model.springs) rounding = std::max(rounding, 1e-12 * s.stiffness);
+  if (!(system.K.diagonal().maxCoeff() > rounding))
+    throw InputError(
+        "the part has mass but no elasticity: no element or spring resists what its nodes can do");
 }
 
 namespace {

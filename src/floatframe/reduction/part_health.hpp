@@ -8,6 +8,10 @@ namespace floatframe {
 MassProperties mass_properties(const SparseMatrix& M, const MatX& R);
 MassProperties mass_properties(const InertiaInvariants& invariants);
 
+/// Throws InputError that says what a part lacks that cannot vibrate.
+void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
+                                 const MassProperties& properties);
+
 /// One sentence for everything that looks wrong, from the figures gathered so far.
 void add_warnings(const FeModel& model, const PointModel& points, HealthReport& health);
 

@@ -22,9 +22,15 @@ class AnsysElementBuilder {
     b_.index.assign(elements.size(), -1);
     for (std::size_t k = 0; k < elements.size(); ++k) one(elements[k], b_.index[k]);
     b_.report_shared();
-    if (b_.model.elements.empty() && b_.source.errors() == 0)
+    const bool springs = std::any_of(elements.begin(), elements.end(), [&](const auto& e) {
+      const auto type = b_.content.types.find(e.type);
+      const auto* library =
+          type == b_.content.types.end() ? nullptr : ansys_library_element(type->second.number);
+      return library != nullptr && (library->family == F::spring || library->family == F::matrix);
+    });
+    if (b_.model.elements.empty() && !springs && b_.source.errors() == 0)
       b_.source.stop({0, 0}, fmt::format("the file has {} elements and none of them is a solid, a "
-                                         "shell, a beam or a rod",
+                                         "shell, a beam, a rod or a spring",
                                          elements.size()));
     notes();
   }

@@ -335,12 +335,14 @@ class ElementBuilder {
   }
 
   void notes() {
-    if (b_.model.elements.empty() && b_.source.errors() == 0) {
+    const bool nothing = b_.model.elements.empty() && c_.springs.list.empty();
+    if (nothing && b_.source.errors() == 0) {
       b_.source.error({0, 0},
                       mesh_only_ && skins_ > 0
                           ? "the file has no solid elements, and its shells and bars have no "
                             "properties"
-                          : "the file has no element with stiffness");
+                          : "the file has no solid, shell, bar, rod or spring; of masses and "
+                            "rigid elements alone there is no flexible part");
     }
     if (skins_ > 0) {
       b_.note(first_skin_,
