@@ -122,7 +122,7 @@ def difference(found, expected, count=10):
     """Largest relative difference of the first elastic frequencies, and how many there are. Rigid motions are left out."""
     if not found or not expected:
         return None, 0
-    floor = 1e-4 * max(abs(f) for f in expected)
+    floor = max(1e-4 * max(abs(f) for f in expected), 1e-6 * max(abs(f) for f in found))
     a = sorted(f for f in found if abs(f) > floor)
     b = sorted(f for f in expected if abs(f) > floor)
     pairs = list(zip(a, b))[:count]

@@ -87,13 +87,12 @@ double first_shift(const Arguments& a, const FeModel& model, const FeSystem& sys
   return sigma < least ? sigma : 1e3 * least;
 }
 
-/// Once more where the lowest elastic eigenvalue is much smaller than the shift, which takes its
-/// digits.
-VecX lowest_values(const SparseMatrix& K, const SparseMatrix& M, double sigma, int modes) {
-  VecX lambda = values_about(K, M, sigma, modes);
-  for (const double l : lambda)
-    if (l > -1e-9 * sigma) return l > -0.1 * sigma ? lambda : values_about(K, M, -l, modes);
-  return lambda;
+/// Of a held part once more where its lowest eigenvalue is much smaller than the shift, which takes
+/// its digits.
+VecX lowest_values(const Arguments& a, const SparseMatrix& K, const SparseMatrix& M, double sigma) {
+  const VecX lambda = values_about(K, M, sigma, a.modes);
+  const bool again = a.held && lambda.size() > 0 && lambda(0) > -1e-6 * sigma;
+  return again && lambda(0) < -0.1 * sigma ? values_about(K, M, -lambda(0), a.modes) : lambda;
 }
 
 int show(const Arguments& a) {
@@ -120,7 +119,7 @@ int show(const Arguments& a) {
     for (int i = 0; i < system.size(); ++i) rows.push_back(i);
   }
   const SparseMatrix K = chosen(system.K, rows), M = chosen(system.M, rows);
-  const VecX lambda = lowest_values(K, M, first_shift(a, model, system, K, M), a.modes);
+  const VecX lambda = lowest_values(a, K, M, first_shift(a, model, system, K, M));
   std::vector<double> frequencies;
   for (const double l : lambda)
     frequencies.push_back(std::copysign(hertz(std::sqrt(std::abs(l))), l));
