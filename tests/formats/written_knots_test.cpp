@@ -153,7 +153,7 @@ TEST(WrittenKnots, CouplingsOfSomeDirections) {
   const std::string text = written(model, ".inp").bytes;
   EXPECT_NE(text.find("*BOUNDARY\n14, 1, 1\n14, 2, 2\n"), std::string::npos) << text;
   EXPECT_NE(written_notes(model, ".inp")
-                .find("2 directions are held of nodes that nothing but equations moves: "),
+                .find("2 directions are held of nodes without elements: what shows that motion"),
             std::string::npos)
       << written_notes(model, ".inp");
   // Three directions show all six motions; a mass makes them count.
@@ -161,6 +161,15 @@ TEST(WrittenKnots, CouplingsOfSomeDirections) {
   FeModel weighted = model;
   weighted.masses = {{12, 1.0, Mat3::Zero()}};
   EXPECT_EQ(written(weighted, ".inp").bytes.find("*BOUNDARY"), std::string::npos);
+  // A spring along y at the reference tells rx from uy there, but not ry from ux.
+  FeModel sprung = model;
+  Spring s;
+  s.nodes = {12, 0};
+  s.directions[0] = -Vec6::Unit(1);
+  s.directions[1] = Vec6::Unit(1);
+  s.stiffness = 10.0;
+  sprung.springs.push_back(s);
+  EXPECT_NE(written(sprung, ".inp").bytes.find("*BOUNDARY\n14, 2, 2\n"), std::string::npos);
 }
 
 TEST(WrittenKnots, EquationsThatHoldThePartAreSaid) {

@@ -52,18 +52,33 @@ FeSource source_of_tie(const FeModel& model, int node) {
   return {};
 }
 
-/// Nodes that have no stiffness and no mass of their own.
-std::vector<char> bare_nodes(const FeModel& model) {
-  std::vector<char> out(model.positions.size(), 1);
-  const auto leave_out = [&](int node) {
-    if (node >= 0) out[static_cast<std::size_t>(node)] = 0;
-  };
+/// Nodes of elements: what they can do has stiffness or mass.
+std::vector<char> nodes_of_elements(const FeModel& model) {
+  std::vector<char> out(model.positions.size(), 0);
   for (const Element& e : model.elements)
-    for (int k = 0; k < element_nodes(e.type); ++k) leave_out(e.nodes[static_cast<std::size_t>(k)]);
-  for (const PointMass& m : model.masses) leave_out(m.node);
-  for (const Spring& s : model.springs)
-    for (const int node : s.nodes) leave_out(node);
+    for (int k = 0; k < element_nodes(e.type); ++k)
+      out[static_cast<std::size_t>(e.nodes[static_cast<std::size_t>(k)])] = 1;
   return out;
+}
+
+/// Of each node without elements what shows its six motions, one column each: by row the factor.
+using NodeColumns = std::map<int, std::array<std::map<int, double>, 6>>;
+
+/// Masses, which have no inertia in a deck, and springs; `row` counts.
+void add_masses_and_springs(const FeModel& model, const std::vector<char>& in_elements, int row,
+                            NodeColumns& columns) {
+  for (const PointMass& m : model.masses)
+    if (in_elements[static_cast<std::size_t>(m.node)] == 0 && m.mass != 0.0)
+      for (std::size_t axis = 0; axis < 3; ++axis) columns[m.node][axis][row++] = 1.0;
+  for (const Spring& s : model.springs)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const int node = s.nodes[end];
+      if (node < 0 || in_elements[static_cast<std::size_t>(node)] != 0) continue;
+      for (std::size_t axis = 0; axis < 6; ++axis)
+        if (const double d = s.directions[end](static_cast<int>(axis)); d != 0.0)
+          columns[node][axis][row] = d;
+      ++row;
+    }
 }
 
 /// Those of some sparse columns that are sums of the ones before them.
@@ -108,48 +123,50 @@ CalculixEquations::CalculixEquations(CalculixText& deck)
 }
 
 void CalculixEquations::add_dependences() {
-  const std::vector<char> bare = bare_nodes(deck_.model);
+  const std::vector<char> in_elements = nodes_of_elements(deck_.model);
   std::vector<std::string> held;
   for (int node = 0; node < deck_.model.nodes(); ++node)
     for (int axis = 0; axis < table_.count(node); ++axis) {
       const auto dof = static_cast<std::size_t>(table_.index(node, axis));
       if (dependences_.dependent[dof] == 0) continue;
       add(place_[dof], dependences_.terms[dof], source_of_tie(deck_.model, node));
-      if (dependences_.terms[dof].empty() && bare[static_cast<std::size_t>(node)] == 0)
+      if (dependences_.terms[dof].empty() && in_elements[static_cast<std::size_t>(node)] != 0)
         held.push_back(fmt::format("{} {}", deck_.model.node_label(node), node_dof_names[axis]));
     }
   if (!held.empty())
     deck_.notes.push_back(fmt::format(
         "{} held by equations of the model, written as *BOUNDARY: the part is not free; first: {}",
         plural(static_cast<long>(held.size()), "direction is", "directions are"), held.front()));
-  hold_idle_motions(bare);
+  hold_idle_motions(in_elements);
 }
 
-void CalculixEquations::hold_idle_motions(const std::vector<char>& bare) {
+void CalculixEquations::hold_idle_motions(const std::vector<char>& in_elements) {
   if (!dependences_.any) return;
   std::vector<int> node_of(place_.size(), -1);
   for (int n = 0; n < deck_.model.nodes(); ++n)
-    if (bare[static_cast<std::size_t>(n)] != 0 && table_.count(n) == 6)
+    if (in_elements[static_cast<std::size_t>(n)] == 0 && table_.count(n) == 6)
       std::fill_n(node_of.begin() + table_.begin[static_cast<std::size_t>(n)], 6, n);
-  std::map<int, std::array<std::map<int, double>, 6>> columns;  // by the node
-  for (std::size_t row = 0; row < place_.size(); ++row)
-    for (const auto& [dof, factor] : dependences_.terms[row])
+  NodeColumns columns;
+  const auto rows = static_cast<int>(place_.size());
+  for (int row = 0; row < rows; ++row)
+    for (const auto& [dof, factor] : dependences_.terms[static_cast<std::size_t>(row)])
       if (const int n = node_of[static_cast<std::size_t>(dof)]; n >= 0)
-        columns[n][static_cast<std::size_t>(dof - table_.begin[static_cast<std::size_t>(n)])]
-               [static_cast<int>(row)] = factor;
+        columns[n][static_cast<std::size_t>(dof - table_.begin[static_cast<std::size_t>(n)])][row] =
+            factor;
+  add_masses_and_springs(deck_.model, in_elements, rows, columns);
   std::vector<std::string> held;
   for (const auto& [node, of_node] : columns)
     for (const std::size_t axis : repeated_columns(of_node)) {
-      const auto dof =
-          static_cast<std::size_t>(table_.begin[static_cast<std::size_t>(node)]) + axis;
-      add(place_[dof], {}, {});
+      const int dof = table_.index(node, static_cast<int>(axis));
+      if (dof < 0 || dependences_.dependent[static_cast<std::size_t>(dof)] != 0) continue;
+      add(place_[static_cast<std::size_t>(dof)], {}, {});
       held.push_back(fmt::format("{} {}", deck_.model.node_label(node), node_dof_names[axis]));
     }
   if (held.empty()) return;
   deck_.dofs -= static_cast<long>(held.size());
   deck_.notes.push_back(fmt::format(
-      "{} held of nodes that nothing but equations moves: what follows these does not tell it from "
-      "their other directions, and CalculiX finds wrong frequencies if both are free; first: {}",
+      "{} held of nodes without elements: what shows that motion does not tell it from others of "
+      "the node, and CalculiX finds wrong frequencies if all are free; first: {}",
       plural(static_cast<long>(held.size()), "direction is", "directions are"), held.front()));
 }
 

@@ -21,7 +21,7 @@ class CalculixEquations {
 
   explicit CalculixEquations(CalculixText& deck);
 
-  /// Dependent degrees of freedom by independent ones. Of a node of nothing but equations, as the
+  /// Dependent degrees of freedom by independent ones. Of a node without elements, as the
   /// reference of a coupling of some directions is, those are held that the others stand for: its
   /// motions that move nothing have neither stiffness nor mass, and CalculiX finds wrong
   /// frequencies if there are any.
@@ -43,7 +43,7 @@ class CalculixEquations {
 
  private:
   void refuse(int node, const FeSource& source);
-  void hold_idle_motions(const std::vector<char>& bare);
+  void hold_idle_motions(const std::vector<char>& in_elements);
 
   CalculixText& deck_;
   DofTable table_;
