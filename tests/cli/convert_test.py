@@ -111,6 +111,11 @@ class Convert(unittest.TestCase):
             self.assertLess(max(found[:6]), 1.0)
             for frequency, other in zip(found[6:], expected):
                 self.assertAlmostEqual(frequency / other, 1.0, delta=1e-5)
+        # A spring at the reference resists nothing, as its turn gives way. CalculiX stopped at its motion along z.
+        spring = "*ELEMENT, TYPE=SPRING2, ELSET=SP\n9500, 900, 1\n*SPRING, ELSET=SP\n2, 2\n1000.\n"
+        coupling = "*COUPLING, REF NODE=900, SURFACE=TOP, CONSTRAINT NAME=C\n*KINEMATIC\n1, 2\n"
+        found, text = self.modes_of_calculix(block() + coupling + spring, 9)
+        self.assertAlmostEqual(found[6] / 10499.993, 1.0, delta=1e-5)
 
     @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed")
     def test_turns_of_nodes_where_beams_meet(self):

@@ -169,7 +169,8 @@ TEST(WrittenKnots, CouplingsOfSomeDirections) {
   s.directions[1] = Vec6::Unit(1);
   s.stiffness = 10.0;
   sprung.springs.push_back(s);
-  EXPECT_NE(written(sprung, ".inp").bytes.find("*BOUNDARY\n14, 2, 2\n"), std::string::npos);
+  EXPECT_NE(written(sprung, ".inp").bytes.find("*BOUNDARY\n13, 3, 3\n14, 2, 2\n"),
+            std::string::npos);
 }
 
 TEST(WrittenKnots, EquationsThatHoldThePartAreSaid) {

@@ -81,8 +81,10 @@ void add_masses_and_springs(const FeModel& model, const std::vector<char>& in_el
     }
 }
 
-/// Those of some sparse columns that are sums of the ones before them.
-std::vector<std::size_t> repeated_columns(const std::array<std::map<int, double>, 6>& columns) {
+/// Those of some sparse columns that are sums of the ones before them. Of a node of springs, whose
+/// displacements all exist in CalculiX, also empty ones.
+std::vector<std::size_t> repeated_columns(const std::array<std::map<int, double>, 6>& columns,
+                                          bool sprung) {
   std::map<int, int> rows;
   for (const auto& column : columns)
     for (const auto& [row, value] : column) rows.try_emplace(row, static_cast<int>(rows.size()));
@@ -92,7 +94,10 @@ std::vector<std::size_t> repeated_columns(const std::array<std::map<int, double>
     VecX x = VecX::Zero(static_cast<Eigen::Index>(rows.size()));
     for (const auto& [row, value] : columns[k]) x(rows.at(row)) = value;
     const double size = x.norm();
-    if (size == 0.0) continue;  // in no equation
+    if (size == 0.0) {  // in no equation
+      if (sprung && k < 3) out.push_back(k);
+      continue;
+    }
     for (int again = 0; again < 2; ++again)
       for (const VecX& q : basis) x -= q.dot(x) * q;
     if (x.norm() > 1e-9 * size)
@@ -154,9 +159,11 @@ void CalculixEquations::hold_idle_motions(const std::vector<char>& in_elements) 
         columns[n][static_cast<std::size_t>(dof - table_.begin[static_cast<std::size_t>(n)])][row] =
             factor;
   add_masses_and_springs(deck_.model, in_elements, rows, columns);
+  std::set<int> sprung;
+  for (const Spring& s : deck_.model.springs) sprung.insert(s.nodes.begin(), s.nodes.end());
   std::vector<std::string> held;
   for (const auto& [node, of_node] : columns)
-    for (const std::size_t axis : repeated_columns(of_node)) {
+    for (const std::size_t axis : repeated_columns(of_node, sprung.contains(node))) {
       const int dof = table_.index(node, static_cast<int>(axis));
       if (dof < 0 || dependences_.dependent[static_cast<std::size_t>(dof)] != 0) continue;
       add(place_[static_cast<std::size_t>(dof)], {}, {});
