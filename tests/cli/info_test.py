@@ -219,10 +219,10 @@ class Info(unittest.TestCase):
         self.assertEqual([way for way in facts["possible_interfaces"] if way.startswith("node:")], [])
 
     def test_invalid_bars_say_why(self):
-        bars = "*NODE\n1, 0,0,0\n2, 0,0,1\n*ELEMENT, TYPE=B31, ELSET=B\n1, 1,2\n*MATERIAL, NAME=S\n*ELASTIC\n1., .3\n"
-        self.facts(bars + "*BEAM SECTION, ELSET=B, MATERIAL=S, SECTION=RECT\n.1, .1\n0., 0., 1.\n")
+        bars = "*NODE\n1, 0,0,0\n2, 0,0,0\n3, 0,0,1\n*ELEMENT, TYPE=B31, ELSET=B\n1, 1,2\n2, 2,3\n*MATERIAL, NAME=S\n*ELASTIC\n1., .3\n"
+        self.facts(bars + "*BEAM SECTION, ELSET=B, MATERIAL=S, SECTION=RECT\n.1, .1\n0., 1., 0.\n")
         text = self.expect(0, "info", "part.inp").stdout
-        self.assertIn("WARNING: 1 element is invalid: element 1 (beam2)\n  part.inp:5: element 1 (beam2) has a reference vector parallel", text)
+        self.assertIn("WARNING: 1 element is invalid: element 1 (beam2)\n  part.inp:6: element 1 (beam2) has zero length", text)
 
     def test_a_hinge_is_no_interface(self):
         # Two nodes that a spider holds without their rotations leave a turn free.

@@ -124,6 +124,7 @@ void RigidArms::tie(FeModel& model) const {
     }
     model.spiders[it->second].nodes.push_back(a.end);
   }
+  note_stiffeners(model, static_cast<int>(stiffener_at.size()));
 }
 
 }  // namespace floatframe

@@ -1,5 +1,7 @@
 #include "floatframe/formats/stiffeners.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -58,6 +60,14 @@ std::optional<Vec3> ShellsAtNodes::normal_along(int node, const std::vector<int>
   };
   if (!std::all_of(shells.begin(), shells.end(), along_mean)) return std::nullopt;
   return mean;
+}
+
+void note_stiffeners(FeModel& model, int ends) {
+  if (ends > 0)
+    model.notes.push_back(
+        fmt::format("{} ends of beams along shells and beside them turn about the normal of the "
+                    "shell by themselves: shells here resist that turn, in most programs hardly",
+                    ends));
 }
 
 }  // namespace floatframe

@@ -26,4 +26,7 @@ class ShellsAtNodes {
   std::vector<std::vector<int>> of_node_;  ///< shells; of nodes that are not wanted empty
 };
 
+/// One note that counts the ends which turn by themselves.
+void note_stiffeners(FeModel& model, int ends);
+
 }  // namespace floatframe

@@ -125,6 +125,7 @@ void NastranBars::free_stiffeners() {
     t.axes.col(1) = normal->cross(t.axes.col(0));
     t.mask = 31u;
   }
+  note_stiffeners(b_.model, static_cast<int>(stiffener_at.size()));
 }
 
 void NastranBars::finish() {
