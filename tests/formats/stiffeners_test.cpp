@@ -1,10 +1,10 @@
-// Beams along shells and beside them: their turn about the normal of the shell is their own.
+// Beams along shells and beside them: there the turn of the shells about their normal is their own.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <set>
 
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/formats/abaqus/read_abaqus.hpp"
@@ -123,7 +123,7 @@ FeModel calculix_plate() {
                         plate_node(i + 1, cells_across / 2));
   text += fmt::format(
       "*MATERIAL, NAME=M\n*ELASTIC\n2.1e11, .3\n*DENSITY\n7850.\n*SHELL SECTION, ELSET=PLATE, "
-      "MATERIAL=M\n{}\n*BEAM SECTION, ELSET=RIB, MATERIAL=M, SECTION=RECT, OFFSET2=-0.6\n{}, "
+      "MATERIAL=M\n{}\n*BEAM SECTION, ELSET=RIB, MATERIAL=M, SECTION=RECT, OFFSET2=0.6\n{}, "
       "{}\n{}\n",
       plate_thickness, rib_width, rib_height, plate_numbers(plate_axes() * Vec3(0.0, 1.0, 0.0)));
   TextSource source(text, "plate.inp");
@@ -134,8 +134,8 @@ FeModel calculix_plate() {
   return model;
 }
 
-/// Energy of the motion in which the plate is twisted and the section of the rib turns about the
-/// normal as its line does, over that of thin plate and rib in torsion.
+/// Energy of the motion in which the plate is twisted and the nodes of the rib turn about the
+/// normal as its axis does, over that of thin plate and rib in torsion.
 double twist_energy_ratio(const FeModel& m) {
   const double kappa = 1e-3;
   const FeSystem system = assemble(m);
@@ -144,7 +144,8 @@ double twist_energy_ratio(const FeModel& m) {
     const Vec3 p = plate_axes().transpose() * m.positions[k];
     const double x = p(0), y = p(1), z = p(2);
     const Vec3 move = kappa * (plate_axes() * Vec3(-y * z, -x * z, x * y));
-    const Vec3 turn = kappa * (plate_axes() * Vec3(x, -y, -z));
+    const bool of_rib = std::abs(y) < 1e-9;
+    const Vec3 turn = kappa * (plate_axes() * Vec3(x, -y, of_rib ? -rib_below : 0.0));
     for (int axis = 0; axis < 6; ++axis)
       if (system.row(k, axis) >= 0) u(system.row(k, axis)) = axis < 3 ? move(axis) : turn(axis - 3);
   }
@@ -153,9 +154,22 @@ double twist_energy_ratio(const FeModel& m) {
          (plate_G * kappa * kappa * plate_length * (plate + torsion_constant()));
 }
 
-/// Turns beside those of the nodes of the file, all of which have six degrees of freedom.
-int own_turns(const FeModel& m, int of_file = (cells_along + 1) * (cells_across + 1)) {
-  return assemble(m).size() - 6 * of_file;
+/// Nodes at which shells have a turn of their own.
+std::size_t stiffened_nodes(const FeModel& m) {
+  std::set<int> nodes;
+  for (const Element& e : m.elements)
+    for (std::size_t a = 0; a < 4; ++a)
+      if (((e.own_drilling >> a) & 1u) != 0) nodes.insert(e.nodes[a]);
+  return nodes.size();
+}
+
+/// A bar between two nodes of the line of the rib, with pins and an arm at both ends.
+std::string more_bar(int from, int to, const std::string& pin, const Vec3& own_arm) {
+  const Vec3 arm = plate_axes() * own_arm, up = plate_axes() * Vec3(0.0, 0.0, 1.0);
+  return wide_card("CBAR", {"90", "2", std::to_string(from), std::to_string(to), wide_field(up(0)),
+                            wide_field(up(1)), wide_field(up(2)), "", pin, "", wide_field(arm(0)),
+                            wide_field(arm(1)), wide_field(arm(2)), wide_field(arm(0)),
+                            wide_field(arm(1)), wide_field(arm(2))});
 }
 
 TEST(Stiffeners, TwistedWithTheirPlateTheyAreInTorsionOnly) {
@@ -164,30 +178,42 @@ TEST(Stiffeners, TwistedWithTheirPlateTheyAreInTorsionOnly) {
   EXPECT_NEAR(twist_energy_ratio(calculix_plate()), 1.0, 1e-7);
 }
 
-TEST(Stiffeners, EachEndHasOneTurnOfItsOwn) {
+// What else is joined to a node turns with the beam: of the turn of the last node alone its bar
+// has 4 EI/L, the shell nothing.
+TEST(Stiffeners, TheNodesTurnWithTheBeam) {
   const FeModel m = nastran_plate(rib_property("PBAR"));
-  EXPECT_EQ(own_turns(m), cells_along + 1);
+  const FeSystem system = assemble(m);
+  const int end = plate_node(cells_along, cells_across / 2) - 1;
+  VecX u = VecX::Zero(system.size());
+  for (int axis = 0; axis < 3; ++axis) u(system.row(end, 3 + axis)) = plate_axes()(axis, 2);
+  const double EI = plate_E * rib_height * std::pow(rib_width, 3) / 12.0;
+  EXPECT_NEAR(u.dot(system.K * u) / (4.0 * EI / (plate_length / cells_along)), 1.0, 1e-7);
+}
+
+TEST(Stiffeners, ANoteCountsTheirNodes) {
+  const FeModel m = nastran_plate(rib_property("PBAR"));
+  EXPECT_EQ(stiffened_nodes(m), cells_along + 1u);
   EXPECT_TRUE(std::any_of(m.notes.begin(), m.notes.end(), [](const std::string& note) {
-    return note.starts_with("5 ends of beams along shells and beside them turn about the normal");
+    return note.starts_with("at 5 nodes of beams along shells and beside them the shells do not");
   }));
-  EXPECT_EQ(own_turns(calculix_plate()), cells_along + 1);
+  EXPECT_EQ(stiffened_nodes(calculix_plate()), cells_along + 1u);
 }
 
-// A second bar between the same nodes beside the first turns with it: its own end, no turn more.
-TEST(Stiffeners, EndsAtOneNodeTurnTogether) {
-  const Vec3 arm = plate_axes() * Vec3(0.0, 0.01, -0.04), up = plate_axes() * Vec3(0.0, 0.0, 1.0);
-  const std::string bar =
-      wide_card("CBAR", {"90", "2", std::to_string(plate_node(1, cells_across / 2)),
-                         std::to_string(plate_node(2, cells_across / 2)), wide_field(up(0)),
-                         wide_field(up(1)), wide_field(up(2)), "", "", "", wide_field(arm(0)),
-                         wide_field(arm(1)), wide_field(arm(2)), wide_field(arm(0)),
-                         wide_field(arm(1)), wide_field(arm(2))});
-  const FeModel m = nastran_plate(rib_property("PBAR"), bar);
-  EXPECT_EQ(m.nodes(), (cells_along + 1) * (cells_across + 1) + cells_along + 3);
-  EXPECT_EQ(own_turns(m), cells_along + 1);
+TEST(Stiffeners, BarsThatDoNotHoldTheNodesChangeNothing) {
+  const int from = plate_node(1, cells_across / 2), to = plate_node(2, cells_across / 2);
+  for (const char* pin : {"", "6", "456"}) {
+    const FeModel m =
+        nastran_plate(rib_property("PBAR"), more_bar(from, to, pin, Vec3(0.0, 0.01, -0.04)));
+    EXPECT_EQ(stiffened_nodes(m), cells_along + 1u) << pin;
+  }
+  // Pinned alone none holds.
+  const int first = plate_node(1, 0), second = plate_node(2, 0);
+  const FeModel m =
+      nastran_plate(rib_property("PBAR"), more_bar(first, second, "6", Vec3(0.0, 0.0, rib_below)));
+  EXPECT_EQ(stiffened_nodes(m), cells_along + 1u);
 }
 
-TEST(Stiffeners, BesideAnEdgeBetweenShellsTheyFollowTheNode) {
+TEST(Stiffeners, WhereShellsMeetAtAnEdgeTheyResist) {
   // A web on the line of the rib: bent, it resists the turn about the normal of the plate.
   std::string web;
   for (int i = 0; i <= cells_along; ++i) {
@@ -198,21 +224,23 @@ TEST(Stiffeners, BesideAnEdgeBetweenShellsTheyFollowTheNode) {
   for (int i = 0; i < cells_along; ++i)
     web += fmt::format("CQUAD4,{},1,{},{},{},{}\n", 60 + i, plate_node(i, cells_across / 2),
                        plate_node(i + 1, cells_across / 2), 51 + i, 50 + i);
-  EXPECT_EQ(own_turns(nastran_plate(rib_property("PBAR"), web), 20), 0);
+  EXPECT_EQ(stiffened_nodes(nastran_plate(rib_property("PBAR"), web)), 0u);
 }
 
-TEST(Stiffeners, ABeamThatLeavesTheShellFollowsTheNode) {
-  // A post on the last node of the rib, with the offset of the rib: that end belongs to both.
-  const Vec3 p = plate_axes() * Vec3(plate_length, 0.0, 0.7),
-             arm = plate_axes() * Vec3(0.0, 0.0, rib_below);
+TEST(Stiffeners, WhereABeamLeavesTheShellItResists) {
+  // A post on the last node of the rib, with and without an offset.
+  const Vec3 p = plate_axes() * Vec3(plate_length, 0.0, 0.7);
   const Vec3 side = plate_axes() * Vec3(1.0, 0.0, 0.0);
-  std::string post =
-      wide_card("GRID", {"50", "", wide_field(p(0)), wide_field(p(1)), wide_field(p(2))});
-  post +=
-      wide_card("CBAR", {"90", "2", std::to_string(plate_node(cells_along, cells_across / 2)), "50",
-                         wide_field(side(0)), wide_field(side(1)), wide_field(side(2)), "", "", "",
-                         wide_field(arm(0)), wide_field(arm(1)), wide_field(arm(2))});
-  EXPECT_EQ(own_turns(nastran_plate(rib_property("PBAR"), post), 16), cells_along);
+  for (const double offset : {0.0, rib_below}) {
+    const Vec3 arm = plate_axes() * Vec3(0.0, 0.0, offset);
+    std::string post =
+        wide_card("GRID", {"50", "", wide_field(p(0)), wide_field(p(1)), wide_field(p(2))});
+    post +=
+        wide_card("CBAR", {"90", "2", std::to_string(plate_node(cells_along, cells_across / 2)),
+                           "50", wide_field(side(0)), wide_field(side(1)), wide_field(side(2)), "",
+                           "", "", wide_field(arm(0)), wide_field(arm(1)), wide_field(arm(2))});
+    EXPECT_EQ(stiffened_nodes(nastran_plate(rib_property("PBAR"), post)), cells_along + 0u);
+  }
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct ElementInput {
   std::optional<Orientation> orientation = {};  ///< solids: axes of the material; none: the body's
   std::optional<ShellLayers> layers = {};       ///< shells that are not of one isotropic material
   std::vector<LayupPly> plies = {};             ///< solids that have them
+  unsigned own_drilling = 0;  ///< shells: bit k: at node k its turn about its normal is its own
   const Orientation* axes() const noexcept { return orientation ? &*orientation : nullptr; }
 };
 

@@ -44,6 +44,7 @@ ElementInput gather(const FeModel& model, const Element& element, Integration in
   if (kernel.family == ElementFamily::panel) input.shell = model.shells[section];
   if (kernel.family == ElementFamily::shell || kernel.family == ElementFamily::membrane) {
     input.shell = model.shells[section];
+    input.own_drilling = element.own_drilling;
     if (!is_plain(input.shell, input.material)) {
       input.layers = shell_layers(input.shell, input.material, model.materials);
       input.layers->axis = first_axis({input.p.data(), static_cast<std::size_t>(kernel.nodes)},

@@ -102,8 +102,10 @@ struct Element {
   int orientation = -1;
   double angle = 0.0;  ///< shells: turns that axis about the normal [rad]
   int layup = -1;      ///< solids: their plies, in FeModel::layups; -1: one material
-  std::string name;    ///< for messages; empty: by its number
-  int id = 0;          ///< the number in the user's file; 0: none
+  /// Shells: bit k: at its node k its turn about its normal is its own, not that of the node.
+  unsigned own_drilling = 0;
+  std::string name;  ///< for messages; empty: by its number
+  int id = 0;        ///< the number in the user's file; 0: none
   FeSource source;
 };
 

@@ -33,6 +33,7 @@ struct ShellLayers {
   /// Weight of the higher-order membrane strains (fe/shell_triangle.cpp): (1 - 4 nu_12 nu_21)/2 of
   /// the membrane stiffness, at least 0.01.
   double beta_0 = 0.0;
+  unsigned own_drilling = 0;  ///< of a triangle: bit k: constant stress has no moment at corner k
   bool directional = true;    ///< false: isotropic in its plane, whatever the axis
   Vec3 axis = Vec3::UnitX();  ///< axis 1 in the body
 };

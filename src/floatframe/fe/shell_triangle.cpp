@@ -46,9 +46,11 @@ Plane flatten(const std::array<Vec3, 3>& p, const Mat3& R) {
   return t;
 }
 
-/// Forces of the corners (u, v, rz) from constant membrane forces over length.
-Eigen::Matrix<double, 9, 3> lumping(const Plane& t) {
+/// Forces of the corners (u, v, rz) from constant membrane forces over length. Each side has a pair
+/// of moments at its ends, by which neighbours balance; one with an end of own drilling has none.
+Eigen::Matrix<double, 9, 3> lumping(const Plane& t, unsigned own_drilling) {
   constexpr double alpha = 1.5;
+  const auto own = [&](int corner) { return ((own_drilling >> corner) & 1u) != 0; };
   Eigen::Matrix<double, 9, 3> L;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -57,6 +59,13 @@ Eigen::Matrix<double, 9, 3> lumping(const Plane& t) {
     L.row(3 * i + 1) << 0, x, y;
     L.row(3 * i + 2) << y * (t.dy(i, k) - t.dy(j, i)), x * (t.dx(k, i) - t.dx(i, j)),
         2.0 * (t.dx(k, i) * t.dy(i, k) - t.dx(i, j) * t.dy(j, i));
+    if (own_drilling != 0) {  // the same as a sum over the sides, y = dy_ji + dy_ik
+      const auto side = [](double dx, double dy) { return Vec3(dy * dy, dx * dx, 2.0 * dx * dy); };
+      Vec3 moments = Vec3::Zero();
+      if (!own(i) && !own(k)) moments += side(t.dx(k, i), t.dy(i, k));
+      if (!own(i) && !own(j)) moments -= side(t.dx(i, j), t.dy(j, i));
+      L.row(3 * i + 2) = moments;
+    }
     L.row(3 * i + 2) *= alpha / 6.0;
   }
   return 0.5 * L;
@@ -98,7 +107,7 @@ struct HigherStrains {
 
 /// Dofs (u, v, rz) per node: basic part (constant stress) + 3/4 beta_0 of the higher-order part.
 Mat9 membrane(const Plane& t, const ShellLayers& s) {
-  const Eigen::Matrix<double, 9, 3> L = lumping(t);
+  const Eigen::Matrix<double, 9, 3> L = lumping(t, s.own_drilling);
   const Mat9 basic = L * s.A * L.transpose() / t.area;
 
   const HigherStrains higher(t);
@@ -271,7 +280,7 @@ Mat18 shell_triangle_stiffness(const std::array<Vec3, 3>& p, const ShellLayers& 
   const Plane t = flatten(p, R);
   Mat39 mean;
   const Mat9 in_plane = membrane(t, layers), bending = plate(t, layers, mean);
-  const Mat9 coupled = lumping(t) * layers.B * mean;
+  const Mat9 coupled = lumping(t, layers.own_drilling) * layers.B * mean;
   constexpr int u[9] = {0, 1, 5, 6, 7, 11, 12, 13, 17}, w[9] = {2, 3, 4, 8, 9, 10, 14, 15, 16};
   Mat18 K = Mat18::Zero();
   for (int i = 0; i < 9; ++i) {
@@ -295,7 +304,8 @@ Eigen::Matrix<double, 3, 18> shell_triangle_membrane(const std::array<Vec3, 3>& 
   const Plane t = flatten(p, R);
   Mat39 mean;
   plate(t, layers, mean);
-  const Mat39 in_plane = layers.A * lumping(t).transpose() / t.area, bending = layers.B * mean;
+  const Mat39 in_plane = layers.A * lumping(t, layers.own_drilling).transpose() / t.area,
+              bending = layers.B * mean;
   Eigen::Matrix<double, 3, 18> N;
   for (int i = 0; i < 3; ++i) {
     N.block<3, 3>(0, 6 * i) = in_plane.block<3, 2>(0, 3 * i) * R.leftCols<2>().transpose() +
@@ -322,7 +332,7 @@ Eigen::Matrix<double, 12, 18> shell_triangle_stress(const std::array<Vec3, 3>& p
   const auto [R, layers] = TriangleSection(p, section);
   const Plane t = flatten(p, R);
   const HigherStrains higher(t);
-  Mat39 strain = lumping(t).transpose() / t.area;
+  Mat39 strain = lumping(t, layers.own_drilling).transpose() / t.area;
   strain += 1.5 * higher.Te * higher.Q[corner] * higher.T;
   const double xi = corner == 1 ? 1.0 : 0.0, eta = corner == 2 ? 1.0 : 0.0;
   Mat39 curvature = curvatures(t, xi, eta);

@@ -5,38 +5,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
+#include <numeric>
 
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
-#include "floatframe/formats/stiffeners.hpp"
 
 namespace floatframe {
 namespace {
 
-/// The end moves with the node and turns with `turning`, which is the node but for the ends of
-/// stiffeners after the first at a node; about `normal` by itself.
-void add_arm_equations(FeModel& model, int end, int node, int turning, const FeSource& at,
-                       const std::optional<Vec3>& normal) {
+void add_arm_equations(FeModel& model, int end, int node, const FeSource& at) {
   const Vec3 arm = model.positions[end] - model.positions[node];
-  int own = -1;  // of the rotations of the end the one that is its own
-  if (normal) normal->cwiseAbs().maxCoeff(&own);
   for (int k = 0; k < 3; ++k) {
     LinearEquation move, turn;
     move.source = turn.source = at;
-    turn.terms = {{end, 3 + k, 1.0}, {turning, 3 + k, -1.0}};
+    turn.terms = {{end, 3 + k, 1.0}, {node, 3 + k, -1.0}};
     move.terms = {{end, k, 1.0}, {node, k, -1.0}};
     const Vec3 lever = arm.cross(Vec3::Unit(k));  // e_k . (theta x d) = theta . (d x e_k)
     for (int i = 0; i < 3; ++i)
       if (lever(i) != 0.0) move.terms.push_back({node, 3 + i, -lever(i)});
     model.equations.push_back(std::move(move));
-    if (k == own) continue;
-    // theta' - theta is along the normal.
-    if (const double share = own < 0 ? 0.0 : (*normal)(k) / (*normal)(own); share != 0.0) {
-      turn.terms.push_back({end, 3 + own, -share});
-      turn.terms.push_back({turning, 3 + own, share});
-    }
     model.equations.push_back(std::move(turn));
   }
 }
@@ -70,48 +58,34 @@ int RigidArms::end(FeModel& model, TextSource& source, int node, const Vec3& arm
   return it->second;
 }
 
-std::vector<std::optional<Vec3>> RigidArms::own_turns(const FeModel& model) const {
-  std::vector<int> arm_of(model.positions.size(), -1);
-  std::vector<char> wanted(model.positions.size(), 0);
-  for (std::size_t a = 0; a < arms_.size(); ++a) {
-    arm_of[arms_[a].end] = static_cast<int>(a);
-    wanted[arms_[a].node] = 1;
-  }
-  std::vector<std::vector<int>> others(arms_.size());  // nodes that its beams go to
-  std::vector<char> bends(arms_.size(), 1);
+/// At the nodes of the file.
+std::vector<BeamOnNodes> RigidArms::beams(const FeModel& model) const {
+  std::vector<int> at(model.positions.size());
+  std::iota(at.begin(), at.end(), 0);
+  for (const Arm& a : arms_) at[a.end] = a.node;
+  std::vector<BeamOnNodes> out;
   for (const Element& e : model.elements) {
-    const std::span<const int> nodes(e.nodes.data(), element_nodes(e.type));
-    for (const int end : nodes) {
-      if (arm_of[end] < 0) continue;
-      const bool beam = is_beam(e.type) && model.sections[e.section].Iy > 0.0 &&
-                        model.sections[e.section].Iz > 0.0;
-      if (!beam) bends[arm_of[end]] = 0;
-      for (const int k : nodes)
-        if (k != end) others[arm_of[end]].push_back(arm_of[k] < 0 ? k : arms_[arm_of[k]].node);
+    if (!is_beam(e.type)) continue;
+    BeamOnNodes beam;
+    const BeamSection& section = model.sections[e.section];
+    beam.holds = section.Iy > 0.0 && section.Iz > 0.0;
+    for (int k = 0; k < element_nodes(e.type); ++k) {
+      beam.nodes[static_cast<std::size_t>(k)] = at[e.nodes[k]];
+      beam.beside |= at[e.nodes[k]] != e.nodes[k];
     }
+    out.push_back(beam);
   }
-  const ShellsAtNodes shells(model, wanted);
-  std::vector<std::optional<Vec3>> out(arms_.size());
-  for (std::size_t a = 0; a < arms_.size(); ++a)
-    if (bends[a] != 0) out[a] = shells.normal_along(arms_[a].node, others[a]);
   return out;
 }
 
 void RigidArms::tie(FeModel& model) const {
   if (arms_.empty()) return;
-  std::vector<std::optional<Vec3>> own = own_turns(model);
+  free_drilling_at_stiffeners(model, beams(model));
   const std::vector<int> dofs = dofs_without_springs(model);
   std::map<int, std::size_t> spiders;
-  std::map<int, int> stiffener_at;  // the end with a turn of its own, with which others turn
-  for (std::size_t i = 0; i < arms_.size(); ++i) {
-    const Arm& a = arms_[i];
+  for (const Arm& a : arms_) {
     if (dofs[a.node + 1] == 6) {
-      int turning = a.node;
-      if (own[i]) {
-        const auto [first, fresh] = stiffener_at.try_emplace(a.node, a.end);
-        if (!fresh) turning = first->second, own[i].reset();
-      }
-      add_arm_equations(model, a.end, a.node, turning, a.at, own[i]);
+      add_arm_equations(model, a.end, a.node, a.at);
       continue;
     }
     const auto [it, fresh] = spiders.try_emplace(a.node, model.spiders.size());
@@ -124,7 +98,6 @@ void RigidArms::tie(FeModel& model) const {
     }
     model.spiders[it->second].nodes.push_back(a.end);
   }
-  note_stiffeners(model, static_cast<int>(stiffener_at.size()));
 }
 
 }  // namespace floatframe

@@ -1,12 +1,11 @@
 #pragma once
 // Ends of beams beside their nodes. Such an end is a node of its own, tied rigidly to the node of
-// the file: u' = u + theta x d, theta' = theta, but for the turn of a stiffener about the normal of
-// its shell (formats/stiffeners.hpp).
+// the file: u' = u + theta x d, theta' = theta.
 #include <array>
 #include <map>
-#include <optional>
 #include <vector>
 
+#include "floatframe/formats/stiffeners.hpp"
 #include "floatframe/formats/text/text_source.hpp"
 
 namespace floatframe {
@@ -29,8 +28,7 @@ class RigidArms {
     int end = -1, node = -1;
     FeSource at;
   };
-  /// Of each arm: the normal about which its end turns by itself.
-  std::vector<std::optional<Vec3>> own_turns(const FeModel& model) const;
+  std::vector<BeamOnNodes> beams(const FeModel& model) const;
   std::vector<Arm> arms_;
   std::map<std::array<double, 4>, int> end_of_;  // of node and arm
   int largest_id_ = 0;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <vector>
 
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
@@ -20,6 +20,11 @@ std::span<const int> nodes_of(const Element& e) {
   return {e.nodes.data(), static_cast<std::size_t>(element_nodes(e.type))};
 }
 
+bool has_node(const Element& e, int node) {
+  const std::span<const int> nodes = nodes_of(e);
+  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+}
+
 /// Twice the area, along the normal.
 Vec3 area_normal(const FeModel& model, const Element& e) {
   const bool triangle = e.type == ElementType::tri3 || e.type == ElementType::tri6;
@@ -27,47 +32,88 @@ Vec3 area_normal(const FeModel& model, const Element& e) {
   return triangle ? (p(1) - p(0)).cross(p(2) - p(0)) : (p(2) - p(0)).cross(p(3) - p(1));
 }
 
-}  // namespace
-
-ShellsAtNodes::ShellsAtNodes(const FeModel& model, const std::vector<char>& wanted)
-    : model_(model), of_node_(model.positions.size()) {
-  for (std::size_t i = 0; i < model.elements.size(); ++i) {
-    const Element& e = model.elements[i];
-    if (!is_shell(e.type)) continue;
-    for (const int k : nodes_of(e))
-      if (wanted[k] != 0) of_node_[k].push_back(static_cast<int>(i));
-  }
-}
-
-std::optional<Vec3> ShellsAtNodes::normal_along(int node, const std::vector<int>& others) const {
-  const std::vector<int>& shells = of_node_[node];
-  const auto in_a_shell = [&](int other) {
-    return std::any_of(shells.begin(), shells.end(), [&](int shell) {
-      const std::span<const int> nodes = nodes_of(model_.elements[shell]);
-      return std::find(nodes.begin(), nodes.end(), other) != nodes.end();
-    });
-  };
-  if (shells.empty() || !std::all_of(others.begin(), others.end(), in_a_shell)) return std::nullopt;
+bool are_smooth(const FeModel& model, const std::vector<int>& shells) {
   Vec3 sum = Vec3::Zero();
   for (const int shell : shells) {
-    const Vec3 n = area_normal(model_, model_.elements[shell]);
+    const Vec3 n = area_normal(model, model.elements[shell]);
     sum += n.dot(sum) < 0.0 ? Vec3(-n) : n;
   }
-  const Vec3 mean = sum.normalized();
-  const auto along_mean = [&](int shell) {
-    const Vec3 n = area_normal(model_, model_.elements[shell]);
-    return std::abs(n.dot(mean)) >= smooth * n.norm() && n.norm() > 0.0;
-  };
-  if (!std::all_of(shells.begin(), shells.end(), along_mean)) return std::nullopt;
-  return mean;
+  return std::all_of(shells.begin(), shells.end(), [&](int shell) {
+    const Vec3 n = area_normal(model, model.elements[shell]);
+    return n.norm() > 0.0 && std::abs(n.dot(sum)) >= smooth * n.norm() * sum.norm();
+  });
 }
 
-void note_stiffeners(FeModel& model, int ends) {
-  if (ends > 0)
-    model.notes.push_back(
-        fmt::format("{} ends of beams along shells and beside them turn about the normal of the "
-                    "shell by themselves: shells here resist that turn, in most programs hardly",
-                    ends));
+/// Each node with the beams that may stiffen shells there: its shells.
+class StiffenedNodes {
+ public:
+  StiffenedNodes(const FeModel& model, std::span<const BeamOnNodes> beams)
+      : model_(model), shells_(model.positions.size()), state_(model.positions.size(), none) {
+    for (const BeamOnNodes& beam : beams)
+      if (beam.beside && beam.holds)
+        for (const int k : beam.nodes)
+          if (k >= 0) state_[k] = wanted;
+    for (std::size_t i = 0; i < model.elements.size(); ++i) {
+      if (!is_shell(model.elements[i].type)) continue;
+      for (const int k : nodes_of(model.elements[i]))
+        if (state_[k] == wanted) shells_[k].push_back(static_cast<int>(i));
+    }
+    for (const BeamOnNodes& beam : beams) look_at(beam);
+  }
+
+  const std::vector<int>& shells(int node) const { return shells_[node]; }
+  bool is_one(int node) const {
+    return state_[node] == stiffened && are_smooth(model_, shells_[node]);
+  }
+
+ private:
+  enum State : char { none, wanted, stiffened, left };  // left by a beam that goes elsewhere
+
+  void look_at(const BeamOnNodes& beam) {
+    for (const int node : beam.nodes) {
+      if (node < 0 || state_[node] == none || state_[node] == left) continue;
+      if (!goes_along(beam, node))
+        state_[node] = left;
+      else if (beam.beside && beam.holds)
+        state_[node] = stiffened;
+    }
+  }
+
+  bool goes_along(const BeamOnNodes& beam, int node) const {
+    return std::all_of(beam.nodes.begin(), beam.nodes.end(), [&](int other) {
+      return other < 0 || std::any_of(shells_[node].begin(), shells_[node].end(), [&](int shell) {
+               return has_node(model_.elements[shell], other);
+             });
+    });
+  }
+
+  const FeModel& model_;
+  std::vector<std::vector<int>> shells_;  ///< of the nodes that are not `none`
+  std::vector<State> state_;
+};
+
+}  // namespace
+
+void free_drilling_at_stiffeners(FeModel& model, std::span<const BeamOnNodes> beams) {
+  const auto stiffens = [](const BeamOnNodes& b) { return b.beside && b.holds; };
+  if (std::none_of(beams.begin(), beams.end(), stiffens)) return;
+  const StiffenedNodes nodes(model, beams);
+  int count = 0;
+  for (int k = 0; k < model.nodes(); ++k) {
+    if (nodes.shells(k).empty() || !nodes.is_one(k)) continue;
+    ++count;
+    for (const int shell : nodes.shells(k)) {
+      Element& e = model.elements[shell];
+      const std::span<const int> of_shell = nodes_of(e);
+      for (std::size_t a = 0; a < of_shell.size(); ++a)
+        if (of_shell[a] == k) e.own_drilling |= 1u << a;
+    }
+  }
+  if (count > 0)
+    model.notes.push_back(fmt::format(
+        "at {} nodes of beams along shells and beside them the shells do not resist the turn about "
+        "their normal, as in most programs; here they do elsewhere",
+        count));
 }
 
 }  // namespace floatframe

@@ -1,32 +1,25 @@
 #pragma once
 // Beams along shells and beside them: stiffeners. A shell that is twisted moves the centroid of
-// such a beam sideways, and the beam's section turns about the normal of the shell as that line
-// does. Shells have a stiffness of their own against turns about their normal, so tied in these
-// too the beam bends sideways at once, far too stiffly: 77 Hz in place of 58 Hz
-// (docs/finite-elements.md). So its turn about the normal is its own; what the shell's place and
-// slope do to its end stays.
-#include <optional>
-#include <vector>
+// such a beam sideways, and the axis of the beam turns about the normal of the shell. Tied rigidly
+// to the shell the beam makes its nodes turn so, which shells here resist and those of most
+// programs hardly do: a rib on a plate was 34 % too stiff in twist (docs/finite-elements.md). So
+// there the turn of the shells about their normal is their own, and the node turns with the beam.
+#include <array>
+#include <span>
 
 #include "floatframe/fe/fe_model.hpp"
 
 namespace floatframe {
 
-/// The shells at some nodes of a model.
-class ShellsAtNodes {
- public:
-  /// `wanted`: of each node.
-  ShellsAtNodes(const FeModel& model, const std::vector<char>& wanted);
-  /// The normal of the shells at a node, if they are smooth there and each of the `others`, the
-  /// nodes that beams go to from there, is a node of one of them.
-  std::optional<Vec3> normal_along(int node, const std::vector<int>& others) const;
-
- private:
-  const FeModel& model_;
-  std::vector<std::vector<int>> of_node_;  ///< shells; of nodes that are not wanted empty
+/// A beam as the file has it.
+struct BeamOnNodes {
+  std::array<int, 3> nodes{-1, -1, -1};  ///< of the file
+  bool beside = false;                   ///< its axis is not at them
+  bool holds = false;  ///< it is tied to them in all rotations, and bends about any axis across it
 };
 
-/// One note that counts the ends which turn by themselves.
-void note_stiffeners(FeModel& model, int ends);
+/// Gives shells their own turn at nodes from which a stiffener that holds goes along them, where
+/// the shells are smooth and every beam goes along them; one note that counts these nodes.
+void free_drilling_at_stiffeners(FeModel& model, std::span<const BeamOnNodes> beams);
 
 }  // namespace floatframe

@@ -6,6 +6,10 @@
 // the same weights). They bend and stretch as a mesh twice as fine as their corners does, with all
 // their nodes on the surface: constant strain and curvature are exact whatever their shape, errors
 // fall with the square of the size. Scalar mass: of displacements that are linear in each triangle.
+// Where the turn about the normal is the element's own (ElementInput::own_drilling) constant stress
+// has no moment there (alpha = 0 on the sides at it), so it is exact still, and what the
+// turn does beyond it follows the other freedoms without load: it is condensed, as is the middle
+// of quad8. It has no mass.
 #include <algorithm>
 #include <cmath>
 
@@ -76,6 +80,14 @@ std::array<Vec3, 3> corners(const ElementInput& in, const Part& part) {
   return p;
 }
 
+/// Those of a triangle.
+ShellLayers layers_at(const ShellLayers& layers, const ElementInput& in, const Part& part) {
+  ShellLayers out = layers;
+  for (unsigned i = 0; i < 3; ++i)
+    out.own_drilling |= ((in.own_drilling >> part.nodes[i]) & 1u) << i;
+  return out;
+}
+
 template <int nodes>
 std::string error(const ElementInput& given) {
   const ElementInput in = complete<nodes>(given);
@@ -89,16 +101,14 @@ std::string error(const ElementInput& given) {
     return "lies across the first axis of its material, which must have a direction in it";
   double size = 0.0;
   for (std::size_t a = 1; a < nodes; ++a) size = std::max(size, (in.p[a] - in.p[0]).norm());
-  constexpr bool triangular = nodes % 3 == 0;
-  const Vec3 n = (in.p[triangular ? 1 : 2] - in.p[0])
-                     .cross(in.p[triangular ? 2 : 3] - in.p[triangular ? 0 : 1]);
+  const Vec3 n = shell_normal({in.p.data(), nodes});
   for (const Part& part : parts<nodes>()) {
     const std::array<Vec3, 3> p = corners(in, part);
-    const double twice = (p[1] - p[0]).cross(p[2] - p[0]).dot(n.normalized());
+    const double twice = (p[1] - p[0]).cross(p[2] - p[0]).dot(n);
     // Thinner than 1e-9 of its size it is flat to the digits of its coordinates.
     if (!(twice > 1e-9 * size * size)) {
       if (nodes > 4) return "is folded, or its nodes are in the wrong order";
-      return triangular ? "is flat (its corners lie on a line)"
+      return nodes == 3 ? "is flat (its corners lie on a line)"
                         : "is not convex, or its corners are in the wrong order";
     }
   }
@@ -120,7 +130,7 @@ MatX whole_stiffness(const ElementInput& in) {
   MatX out = MatX::Zero(6 * all_nodes<nodes>, 6 * all_nodes<nodes>);
   const ShellLayers layers = layers_of(in);
   for (const Part& part : parts<nodes>()) {
-    const Mat18 K = shell_triangle_stiffness(corners(in, part), layers);
+    const Mat18 K = shell_triangle_stiffness(corners(in, part), layers_at(layers, in, part));
     for_blocks<nodes>(part, [&](int a, int b, int i, int j) {
       out.block<6, 6>(6 * a, 6 * b) += part.weight * K.block<6, 6>(6 * i, 6 * j);
     });
@@ -135,11 +145,34 @@ MatX motion(const MatX& K) {
   return G;
 }
 
-/// Of an element without a middle empty.
+/// Of an element of which some turns about the normal are its own: its motion from that of its
+/// nodes. With the turn v at one node the energy is least where v^T K (u + v x) = 0.
+template <int nodes>
+MatX with_own_drilling(const ElementInput& in, MatX K) {
+  MatX P = MatX::Identity(6 * nodes, 6 * nodes);
+  const Vec3 n = shell_normal({in.p.data(), nodes});
+  for (int a = 0; a < nodes; ++a) {
+    if (((in.own_drilling >> a) & 1u) == 0) continue;
+    VecX v = VecX::Zero(6 * nodes);
+    v.segment<3>(6 * a + 3) = n;
+    const VecX Kv = K * v;
+    const double k = v.dot(Kv);
+    if (!(k > 0.0)) continue;
+    P -= ((P * v) * (Kv / k).transpose()).eval();
+    K -= (Kv * (Kv / k).transpose()).eval();
+  }
+  return P;
+}
+
+/// All nodes from those of the element; empty where the element moves as its nodes do.
 template <int nodes>
 MatX following(const ElementInput& in) {
-  if constexpr (nodes == 8) return motion(whole_stiffness<8>(in));
-  return {};
+  if (nodes != 8 && in.own_drilling == 0) return {};
+  MatX K = whole_stiffness<nodes>(in);
+  MatX G = nodes == 8 ? motion(K) : MatX::Identity(6 * nodes, 6 * nodes);
+  if (in.own_drilling == 0) return G;
+  K = (G.transpose() * K * G).eval();
+  return G * with_own_drilling<nodes>(in, std::move(K));
 }
 
 /// From all nodes to those of the element.
@@ -151,12 +184,11 @@ template <int nodes>
 void stiffness(const ElementInput& given, MatX& out) {
   const ElementInput in = complete<nodes>(given);
   out = whole_stiffness<nodes>(in);
-  if constexpr (nodes == 8) {
-    const MatX G = motion(out);
-    const MatX KG = out * G;
-    out = KG.topRows<48>();
-    out = (0.5 * (out + out.transpose())).eval();
-  }
+  if (nodes != 8 && in.own_drilling == 0) return;
+  const MatX G = following<nodes>(in);
+  const MatX KG = out * G;
+  out = in.own_drilling == 0 ? MatX(KG.topRows<6 * nodes>()) : MatX(G.transpose() * KG);
+  out = (0.5 * (out + out.transpose())).eval();
 }
 
 template <int nodes>
@@ -199,7 +231,7 @@ void stressed_points(const ElementInput& given, std::vector<StressedPoint>& poin
     const std::array<Vec3, 3> p = corners(in, part);
     const double area = triangle_area(p);
     const Mat3 R = triangle_axes(p);
-    const auto N = shell_triangle_membrane(p, layers);
+    const auto N = shell_triangle_membrane(p, layers_at(layers, in, part));
     const Eigen::Matrix<double, 6, 18> stress = part.weight * area * from_triangle_axes(R) * N;
     StressedPoint& point = points[q++];
     point.stress = MatX::Zero(6, 6 * all_nodes<nodes>);
@@ -242,7 +274,7 @@ void layer_stresses(const ElementInput& given, MatX& out) {
     for (const Part& part : all) {
       const int corner = corner_of(part);
       if (corner < 0) continue;
-      const auto S = shell_triangle_stress(corners(in, part), layers, corner);
+      const auto S = shell_triangle_stress(corners(in, part), layers_at(layers, in, part), corner);
       const double share =
           part.weight / count[part.cell][part.division] / static_cast<double>(cells);
       for (int i = 0; i < 3; ++i)

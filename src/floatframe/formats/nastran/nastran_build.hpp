@@ -11,6 +11,7 @@
 
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/nastran/nastran_content.hpp"
+#include "floatframe/formats/stiffeners.hpp"
 
 namespace floatframe {
 
@@ -157,15 +158,12 @@ class NastranBars {
     Mat3 axes = Mat3::Identity();
     unsigned mask = 63u;  ///< what is tied, in the axes
     FeSource at;
-    std::vector<int> others;  ///< of offset ends: the nodes of the file that its bars go to
-    bool bends = true;        ///< all of these across both axes, without pins
-    int turning = -1;         ///< what it turns with: the node, or another stiffener's end there
   };
   void tie(const Tie& t, bool rotates);
-  void free_stiffeners();
   NastranBuild& b_;
   std::vector<Tie> ties_;
-  std::map<std::array<double, 4>, std::size_t> offset_ties_;
+  std::map<std::array<double, 4>, int> offset_nodes_;
+  std::vector<BeamOnNodes> bars_;  ///< that are no rods
   std::map<int, int> spiders_;
 };
 // nastran_build_rigid.cpp

@@ -1,7 +1,6 @@
 // Ends of bars. An offset end is a node of its own, tied rigidly: u' = u + theta x d, theta' =
 // theta. A pinned end is a node of its own too, tied only in the components that are not pinned, in
-// the axes of the element. The end of a stiffener turns by itself about the normal of its shell
-// (formats/stiffeners.hpp). What two pins of a bar release twice is released once, else nothing
+// the axes of the element. What two pins of a bar release twice is released once, else nothing
 // would hold the end.
 #include <fmt/format.h>
 
@@ -49,6 +48,11 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
   const std::string who = fmt::format("{} {}", e.card, e.id);
   const int node[2] = {element.nodes[0], element.nodes[1]};
   const Vec3 p[2] = {b_.model.positions[node[0]], b_.model.positions[node[1]]};
+  if (element.type != ElementType::rod2) {
+    const bool pinned = (ends.pins[0] | ends.pins[1]) != 0;
+    const bool beside = !ends.offset[0].isZero(0.0) || !ends.offset[1].isZero(0.0);
+    bars_.push_back({{node[0], node[1], -1}, beside, bends && !pinned});
+  }
   if (e.orientation_node > 0) {
     const int other = b_.node(e.orientation_node, e.at, who);
     if (other < 0) return false;
@@ -84,52 +88,30 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
   if (rod) pins[0] &= 7u, pins[1] &= 7u;
   for (int k = 0; k < 2; ++k) {
     if (pins[k] == 0 && arm[k].isZero(0.0)) continue;
-    std::size_t tie = ties_.size();
-    if (pins[k] == 0)
-      tie = offset_ties_.try_emplace({double(node[k]), arm[k](0), arm[k](1), arm[k](2)}, tie)
-                .first->second;
-    if (tie == ties_.size()) {
-      Tie t;
-      t.fresh = b_.add_node(end[k], e.at, who);
-      t.node = t.turning = node[k];
-      t.arm = arm[k];
-      if (pins[k] != 0) t.axes = T;
-      t.mask = (rod ? 7u : 63u) & ~pins[k];
-      t.at = e.at;
-      ties_.push_back(t);
+    int* shared = nullptr;
+    if (pins[k] == 0) {
+      shared = &offset_nodes_[{double(node[k]), arm[k](0), arm[k](1), arm[k](2)}];
+      if (*shared > 0) {
+        element.nodes[k] = *shared;
+        continue;
+      }
     }
-    element.nodes[k] = ties_[tie].fresh;
-    ties_[tie].others.push_back(node[1 - k]);
-    ties_[tie].bends &= bends && (pins[0] | pins[1]) == 0;
+    Tie t;
+    t.fresh = b_.add_node(end[k], e.at, who);
+    t.node = node[k];
+    t.arm = arm[k];
+    if (pins[k] != 0) t.axes = T;
+    t.mask = (rod ? 7u : 63u) & ~pins[k];
+    t.at = e.at;
+    element.nodes[k] = t.fresh;
+    if (shared != nullptr) *shared = t.fresh;
+    ties_.push_back(t);
   }
   return true;
 }
 
-/// Ends of stiffeners turn about the normal of their shells by themselves.
-void NastranBars::free_stiffeners() {
-  std::vector<char> wanted(b_.model.positions.size(), 0);
-  for (const Tie& t : ties_) wanted[t.node] = 1;
-  const ShellsAtNodes shells(b_.model, wanted);
-  std::map<int, int> stiffener_at;  // the end with a turn of its own, with which others turn
-  for (Tie& t : ties_) {
-    if (t.mask != 63u || !t.bends) continue;
-    const std::optional<Vec3> normal = shells.normal_along(t.node, t.others);
-    if (!normal) continue;
-    const auto [first, fresh] = stiffener_at.try_emplace(t.node, t.fresh);
-    if (!fresh) {
-      t.turning = first->second;
-      continue;
-    }
-    t.axes.col(2) = *normal;
-    t.axes.col(0) = normal->unitOrthogonal();
-    t.axes.col(1) = normal->cross(t.axes.col(0));
-    t.mask = 31u;
-  }
-  note_stiffeners(b_.model, static_cast<int>(stiffener_at.size()));
-}
-
 void NastranBars::finish() {
-  if (!ties_.empty()) free_stiffeners();
+  free_drilling_at_stiffeners(b_.model, bars_);
   std::vector<char> dofs(b_.model.positions.size(), 0);
   for (const Element& e : b_.model.elements) {
     const ElementKernel& kernel = element_kernel(e.type);
@@ -179,7 +161,7 @@ void NastranBars::tie(const Tie& t, bool rotates) {
     for (int k = 0; k < 3; ++k) {
       if (axis(k) == 0.0) continue;
       e.terms.push_back({t.fresh, first + k, axis(k)});
-      e.terms.push_back({rotation ? t.turning : t.node, first + k, -axis(k)});
+      e.terms.push_back({t.node, first + k, -axis(k)});
     }
     for (int k = 0; k < 3 && !rotation; ++k) {
       if (lever(k) != 0.0) e.terms.push_back({t.node, 3 + k, -lever(k)});
