@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "floatframe/formats/abaqus/abaqus_build.hpp"
@@ -50,7 +49,6 @@ class AbaqusSpringBuilder {
         spring_of[e] = static_cast<int>(s);
       }
     }
-    axes_ = abaqus_node_axes(b_);
     for (std::size_t e = 0; e < c_.elements.size(); ++e) {
       const AbaqusElement& element = c_.elements[e];
       const Family family = element.type->family;
@@ -94,19 +92,17 @@ class AbaqusSpringBuilder {
     return true;
   }
 
-  /// Directions of the degrees of freedom of a node.
+  /// Directions that its degrees of freedom count in. *TRANSFORM turns those of equations and
+  /// supports, not of springs.
   Mat3 axes_of(int node, const AbaqusSpring& spring) {
-    if (!spring.orientation.empty()) {
-      AbaqusSection user;  // for the messages
-      user.shown = "*SPRING";
-      user.at = spring.at;
-      user.elements.scope = spring.elements.scope;
-      const int index = abaqus_orientation(b_, spring.orientation, user);
-      return index < 0 ? Mat3(Mat3::Identity())
-                       : b_.model.orientations[index].at(b_.model.positions[node]);
-    }
-    const auto it = axes_.find(node);
-    return it == axes_.end() ? Mat3(Mat3::Identity()) : it->second;
+    if (spring.orientation.empty()) return Mat3::Identity();
+    AbaqusSection user;  // for the messages
+    user.shown = "*SPRING";
+    user.at = spring.at;
+    user.elements.scope = spring.elements.scope;
+    const int index = abaqus_orientation(b_, spring.orientation, user);
+    return index < 0 ? Mat3(Mat3::Identity())
+                     : b_.model.orientations[index].at(b_.model.positions[node]);
   }
 
   void one(const AbaqusElement& e, const AbaqusSpring& raw) {
@@ -180,7 +176,6 @@ class AbaqusSpringBuilder {
 
   AbaqusBuild& b_;
   const AbaqusContent& c_;
-  std::map<int, Mat3> axes_;
   std::set<const AbaqusSpring*> noted_;
   int dampers_ = 0;
 };
