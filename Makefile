@@ -61,6 +61,7 @@ test-decks: build
 	cmake --build build --parallel $(JOBS) --target deck_modes
 	python3 -B scripts/deck_suite.py --free --reference --require read=172 read_contact=213 density_read_contact=125 \
 	  free_agree=115 matrices_agree=30 reference_agree=24
+	python3 -B scripts/stiffened_plate.py
 
 # The Python package in the build folder, for an environment of its own from PyPI.
 python: build

@@ -56,7 +56,7 @@ TEST(PartErrors, EachHasItsSentence) {
   for (Vec3& p : huge.positions) p *= 1e3;
   EXPECT_EQ(
       message(huge, both_ends()),
-      "the stiffness has entries of inf, too large to reckon with: a size or a material is in "
+      "the stiffness has entries of inf, too large to compute with: a size or a material is in "
       "other units or mistyped");
 
   FeModel massless = beam();

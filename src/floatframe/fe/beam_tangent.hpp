@@ -1,6 +1,7 @@
 #pragma once
 // Axes of beams at their nodes.
 #include <array>
+#include <cmath>
 
 #include "floatframe/math/types.hpp"
 
@@ -12,6 +13,12 @@ inline Vec3 beam_tangent(const std::array<Vec3, 3>& p, int nodes, int k) {
   if (k == 0) return -1.5 * p[0] + 2.0 * p[1] - 0.5 * p[2];
   if (k == 2) return 0.5 * p[0] - 2.0 * p[1] + 1.5 * p[2];
   return 0.5 * (p[2] - p[0]);
+}
+
+/// Is the direction parallel to the axis, to 1e-6, as beams refuse it? Not of axes without length.
+inline bool is_along_axis(const Vec3& tangent, const Vec3& direction) {
+  const double size = tangent.stableNorm() * direction.stableNorm();
+  return std::isfinite(size) && size > 0.0 && tangent.cross(direction).stableNorm() < 1e-6 * size;
 }
 
 }  // namespace floatframe

@@ -8,6 +8,7 @@
 
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/shell_layers.hpp"
 
 namespace floatframe {
 namespace {
@@ -25,22 +26,21 @@ bool has_node(const Element& e, int node) {
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
 
-/// Twice the area, along the normal.
-Vec3 area_normal(const FeModel& model, const Element& e) {
-  const bool triangle = e.type == ElementType::tri3 || e.type == ElementType::tri6;
-  const auto p = [&](int k) -> const Vec3& { return model.positions[e.nodes[k]]; };
-  return triangle ? (p(1) - p(0)).cross(p(2) - p(0)) : (p(2) - p(0)).cross(p(3) - p(1));
+Vec3 normal_of(const FeModel& model, int shell) {
+  const std::span<const int> nodes = nodes_of(model.elements[shell]);
+  std::array<Vec3, 8> p;
+  for (std::size_t k = 0; k < nodes.size(); ++k) p[k] = model.positions[nodes[k]];
+  return shell_normal({p.data(), nodes.size()});
 }
 
 bool are_smooth(const FeModel& model, const std::vector<int>& shells) {
   Vec3 sum = Vec3::Zero();
   for (const int shell : shells) {
-    const Vec3 n = area_normal(model, model.elements[shell]);
+    const Vec3 n = normal_of(model, shell);
     sum += n.dot(sum) < 0.0 ? Vec3(-n) : n;
   }
   return std::all_of(shells.begin(), shells.end(), [&](int shell) {
-    const Vec3 n = area_normal(model, model.elements[shell]);
-    return n.norm() > 0.0 && std::abs(n.dot(sum)) >= smooth * n.norm() * sum.norm();
+    return std::abs(normal_of(model, shell).dot(sum)) >= smooth * sum.norm();
   });
 }
 

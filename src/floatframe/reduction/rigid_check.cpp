@@ -69,7 +69,7 @@ double check_rigid_motions(const FeModel& model, const FeSystem& system) {
   if (residual <= largest_rigid_residual) return residual;
   if (!std::isfinite(residual))
     throw InputError(
-        fmt::format("the stiffness has entries of {:.1e}, too large to reckon with: a "
+        fmt::format("the stiffness has entries of {:.1e}, too large to compute with: a "
                     "size or a material is in other units or mistyped",
                     largest));
   VecX of_node = VecX::Zero(model.nodes());

@@ -164,15 +164,25 @@ MatX with_own_drilling(const ElementInput& in, MatX K) {
   return P;
 }
 
-/// All nodes from those of the element; empty where the element moves as its nodes do.
+/// Does the element move otherwise than its nodes, with a middle or turns of its own?
+template <int nodes>
+bool follows(const ElementInput& in) {
+  return nodes == 8 || in.own_drilling != 0;
+}
+
+/// All nodes from those of the element; K: of all nodes.
+template <int nodes>
+MatX motion_of_all(const ElementInput& in, const MatX& K) {
+  const MatX G = nodes == 8 ? motion(K) : MatX::Identity(6 * nodes, 6 * nodes);
+  if (in.own_drilling == 0) return G;
+  return G * with_own_drilling<nodes>(in, G.transpose() * K * G);
+}
+
+/// Empty where the element moves as its nodes do.
 template <int nodes>
 MatX following(const ElementInput& in) {
-  if (nodes != 8 && in.own_drilling == 0) return {};
-  MatX K = whole_stiffness<nodes>(in);
-  MatX G = nodes == 8 ? motion(K) : MatX::Identity(6 * nodes, 6 * nodes);
-  if (in.own_drilling == 0) return G;
-  K = (G.transpose() * K * G).eval();
-  return G * with_own_drilling<nodes>(in, std::move(K));
+  if (!follows<nodes>(in)) return {};
+  return motion_of_all<nodes>(in, whole_stiffness<nodes>(in));
 }
 
 /// From all nodes to those of the element.
@@ -184,8 +194,8 @@ template <int nodes>
 void stiffness(const ElementInput& given, MatX& out) {
   const ElementInput in = complete<nodes>(given);
   out = whole_stiffness<nodes>(in);
-  if (nodes != 8 && in.own_drilling == 0) return;
-  const MatX G = following<nodes>(in);
+  if (!follows<nodes>(in)) return;
+  const MatX G = motion_of_all<nodes>(in, out);
   const MatX KG = out * G;
   out = in.own_drilling == 0 ? MatX(KG.topRows<6 * nodes>()) : MatX(G.transpose() * KG);
   out = (0.5 * (out + out.transpose())).eval();

@@ -51,12 +51,6 @@ void check_abaqus_offset_line(AbaqusBuild& build, const AbaqusSection& section) 
   }
 }
 
-/// As `validate` has it, which refuses beams without length too.
-bool is_along(const Vec3& tangent, const Vec3& direction) {
-  const double size = tangent.stableNorm() * direction.stableNorm();
-  return std::isfinite(size) && size > 0.0 && tangent.cross(direction).stableNorm() < 1e-6 * size;
-}
-
 }  // namespace
 
 void report_abaqus_directions(AbaqusBuild& build) {
@@ -82,7 +76,7 @@ void move_abaqus_beam(AbaqusBuild& build, const AbaqusSection& section, const Ab
   for (std::size_t k = 0; k < static_cast<std::size_t>(nodes); ++k)
     p[k] = build.model.positions[e.nodes[k]];
   for (int k = 0; k < nodes && !deck.directed; ++k) {
-    if (!is_along(beam_tangent(p, nodes, k), e.reference)) continue;
+    if (!is_along_axis(beam_tangent(p, nodes, k), e.reference)) continue;
     auto& [first, count] = build.along_direction[&section];
     if (++count == 1) first = abaqus_label(deck);
     return;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "floatframe/fe/beam_tangent.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/nastran/nastran_build.hpp"
 #include "floatframe/formats/stiffeners.hpp"
@@ -62,10 +63,7 @@ bool NastranBars::place(const NastranElement& e, double turn, bool bends, Elemen
     if (ends.axes[0] == 'G') element.reference = b_.axes(node[0]) * e.orientation;
   }
   if (e.ends < 0 && turn == 0.0) {
-    const Vec3 along = p[1] - p[0];
-    const double size = along.stableNorm() * element.reference.stableNorm();
-    // As `validate` has it.
-    if (!(size > 0.0) || !(along.cross(element.reference).stableNorm() < 1e-6 * size)) return true;
+    if (!is_along_axis(p[1] - p[0], element.reference)) return true;
     nastran_bar_without_axes(b_, e.at, who);
     return false;
   }
