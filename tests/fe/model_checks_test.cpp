@@ -166,7 +166,9 @@ TEST(Warnings, WhatIsSuspicious) {
   EXPECT_EQ(w[2],
             "1 element lies on the nodes of another one: mass and stiffness count twice there; "
             "first: element 3 (hex8) and element 50 (hex8)");
-  EXPECT_EQ(w[3], "1 node is used by nothing: node 77");
+  EXPECT_EQ(
+      w[3],
+      "1 node is in no element, mass or constraint (as those that only orient beams): node 77");
   EXPECT_EQ(unreferenced_nodes(model), std::vector<int>{27});
   // Slender elements.
   model = block(ElementType::wedge6, 1);

@@ -71,7 +71,7 @@ TEST(AnsysMaterials, IsotropicInAllForms) {
   warm.temperature = 60.0;
   for (const char* word : {"TBTEMP,", "TBFIELD,TEMP,"}) {
     const std::string table = fmt::format(
-        "MP,EX,1,1\nTB,ELAS,1,2,2\n{0}20\nTBDATA,1,2.2e5,.3\n{0}100\nTBDATA,1,2e5,.3\nTB,DENS,1\n"
+        "TB,ELAS,1,2,2\n{0}20\nTBDATA,1,2.2e5,.3\n{0}100\nTBDATA,1,2e5,.3\nTB,DENS,1\n"
         "TBDATA,1,7e-9\n",
         word);
     EXPECT_NEAR(ansys_of(cdb_brick + table, warm).materials.at(0).young, 2.1e5, 1e-6) << word;

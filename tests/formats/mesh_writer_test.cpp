@@ -234,6 +234,8 @@ TEST(MeshWriter, NotesSayWhatIsLost) {
   EXPECT_EQ(written_notes(model, ".inp"),
             "the elements are numbered anew: their numbers are not all different\n"
             "1 element of lumped mass: CalculiX takes consistent mass\n"
+            "1 direction is bound by equations of the model that rigid motions do not satisfy: the "
+            "part is not free; first: node 0 uy\n"
             "the inertia of 1 point mass about the node is left out: CalculiX has masses without "
             "inertia\n"
             "no step of vibration: the density of a material is not known (--density RHO)\n");

@@ -220,5 +220,25 @@ TEST(WrittenConnections, StraightBeamsTurn) {
             std::string::npos);
 }
 
+// u1 = 2 u2 holds a part that moves along x; rigid spiders do not.
+TEST(WrittenConnections, EquationsThatHoldThePartHaveANote) {
+  const auto bricks = [](const std::string& more) {
+    const TemporaryFolder folder;
+    FeReadOptions options;
+    options.dialect = DeckDialect::calculix;
+    return written_notes(read_fe_file(folder.write("a.inp", sprung_bricks + more), options),
+                         ".inp");
+  };
+  const std::string words = "equations of the model that rigid motions do not satisfy";
+  EXPECT_NE(
+      bricks("*EQUATION\n2\n1, 1, 1., 2, 1, -2.\n")
+          .find("1 direction is bound by " + words + ": the part is not free; first: node 1 ux"),
+      std::string::npos);
+  for (const char* rigid : {"", "*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n",
+                            "*NODE\n99, 5, 5, 5\n*RIGID BODY, NSET=R, REF NODE=99\n*NSET, NSET=R\n"
+                            "1, 2, 3\n"})
+    EXPECT_EQ(bricks(rigid).find(words), std::string::npos) << rigid;
+}
+
 }  // namespace
 }  // namespace floatframe::test

@@ -243,6 +243,7 @@ struct FeModel {
   std::vector<Support> supports;
   std::optional<FeMatrices> matrices;  ///< if there, `elements` is empty
   HomeProgram home = HomeProgram::unknown;
+  std::string units;               ///< that its numbers were in, by `to_si`; empty: not known
   std::vector<std::string> files;  ///< paths as the user would write them
   std::vector<std::string> notes;  ///< one sentence each, with file:line: what was passed over
 

@@ -201,8 +201,10 @@ std::vector<std::string> model_warnings(const FeModel& model) {
   };
   const std::vector<int> unused = unreferenced_nodes(model);
   if (!unused.empty())
-    out.push_back(fmt::format("{} {} used by nothing: {}", unused.size(),
-                              unused.size() == 1 ? "node is" : "nodes are", list(unused)));
+    out.push_back(
+        fmt::format("{} {} in no element, mass or constraint (as those that only orient "
+                    "beams): {}",
+                    unused.size(), unused.size() == 1 ? "node is" : "nodes are", list(unused)));
   const std::vector<int> hanging = nodes_on_springs(model);
   if (!hanging.empty())
     out.push_back(fmt::format(

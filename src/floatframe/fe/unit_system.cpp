@@ -83,6 +83,7 @@ std::vector<std::string> unit_system_names() {
 
 void to_si(FeModel& model, const UnitSystem& units) {
   const double l = units.length, l2 = l * l, l4 = l2 * l2;
+  model.units = units.name;
   for (Vec3& p : model.positions) p *= l;
   for (Material& m : model.materials) {
     m.young *= units.pressure();

@@ -123,6 +123,11 @@ Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)
   return modes;
 }
 
+int FixedInterface::inner_with_mass() const {
+  const VecX m = Mii_.diagonal();
+  return static_cast<int>((m.array() > 0.0).count());
+}
+
 Eigenmodes FixedInterface::normal_modes(int count) const {
   Eigenmodes modes =
       inner_modes(count, inner(), [&](int n) { return lowest_modes(Kii_, factors_, Mii_, n); });

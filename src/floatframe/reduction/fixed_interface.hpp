@@ -28,6 +28,8 @@ class FixedInterface {
 
   int size() const noexcept { return size_; }
   int inner() const noexcept { return static_cast<int>(inner_.size()); }
+  /// Of these the ones with mass: as many normal modes as there can be.
+  int inner_with_mass() const;
   const std::string& solver_name() const noexcept { return factors_.name(); }
 
   /// size x boundary: the constraint modes.

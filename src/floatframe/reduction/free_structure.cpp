@@ -20,6 +20,19 @@ MatX rigid_motions(const FeModel& model, const FeSystem& system, const Vec3& ori
   return R;
 }
 
+namespace {
+
+/// Smallest eigenvalue of one degree of freedom alone; 0 if none has mass and stiffness.
+double softest_row(const FeSystem& system) {
+  const VecX k = system.K.diagonal(), m = system.M.diagonal();
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < k.size(); ++i)
+    if (m(i) > 0.0 && k(i) > 0.0) least = std::min(least, k(i) / m(i));
+  return std::isfinite(least) ? least : 0.0;
+}
+
+}  // namespace
+
 double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* softest) {
   Eigen::AlignedBox3d box;
   for (const Vec3& p : model.positions) box.extend(p);
@@ -57,12 +70,16 @@ double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* soft
   const VecX& m = mass.values;
   Eigen::Index first = 0;
   while (first < m.size() && !(m(first) > 1e-8 * m(m.size() - 1))) ++first;
-  if (first == m.size()) return 0.0;
+  if (first == m.size()) return softest_row(system);
   const MatX Q = mass.vectors.rightCols(m.size() - first) *
                  m.tail(m.size() - first).cwiseSqrt().cwiseInverse().asDiagonal();
   const SymmetricEigen modes = symmetric_eigen(Q.transpose() * Kr * Q);
-  if (softest != nullptr) *softest = U * (Q * modes.vectors.col(0));
-  return std::max(modes.values(0), 0.0);
+  const VecX shape = U * (Q * modes.vectors.col(0));
+  if (softest != nullptr) *softest = shape;
+  const double energy = shape.dot(system.K * shape);
+  const double rounding =
+      shape.cwiseAbs().dot(SparseMatrix(system.K.cwiseAbs()) * shape.cwiseAbs());
+  return energy > 1e-13 * rounding ? modes.values(0) : softest_row(system);
 }
 
 FreeStructure::FreeStructure(const SparseMatrix& K, const SparseMatrix& M, MatX R, double estimate,

@@ -41,7 +41,9 @@ std::optional<int> most_normal_modes(const PartOptions& options) {
 Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
                               const std::vector<int>& boundary, const PartOptions& options,
                               std::vector<ModeHealth>& list) {
-  const int count = normal_mode_count(fixed, most_normal_modes(options), options.max_frequency);
+  std::optional<int> most = most_normal_modes(options);
+  if (!options.modes && most) most = std::min(*most, fixed.inner_with_mass());
+  const int count = normal_mode_count(fixed, most, options.max_frequency);
   const MatX C = about_centre(R, system.M);
   const MatX MC = system.M * C;
   const Vec6 total = (C.transpose() * MC).diagonal();
@@ -88,17 +90,22 @@ Eigenpairs select_free_modes(const FreeStructure& structure, const FeSystem& sys
   int count = most_normal_modes(options).value_or(system.size() - 6);
   if (options.max_frequency > 0.0)
     count = std::clamp(structure.count_below(options.max_frequency) - 6, 0, count);
-  if (count > system.size() - 6) {
-    throw InputError(
-        fmt::format("{} normal modes are requested, but the part has only {} degrees of freedom",
-                    count, system.size()));
+  const int most = std::max(system.size() - 6, 0);
+  if (!options.modes) count = std::min(count, most);
+  if (count > most) {
+    throw InputError(fmt::format(
+        "{} normal modes are requested, but of the {} degrees of freedom of the free part only {} "
+        "are left beside its six rigid motions",
+        count, system.size(), most));
   }
   const Eigenpairs all = structure.modes(count + 6);
-  if (all.lambda.size() < count + 6) {
-    throw InputError(fmt::format("{} normal modes are requested, but the mass allows only {}",
-                                 count, std::max<Eigen::Index>(all.lambda.size() - 6, 0)));
+  const auto found = static_cast<int>(std::max<Eigen::Index>(all.lambda.size() - 6, 0));
+  if (!options.modes) count = std::min(count, found);
+  if (count > found) {
+    throw InputError(
+        fmt::format("{} normal modes are requested, but the mass allows only {}", count, found));
   }
-  Eigenpairs elastic{all.lambda.tail(count), all.shapes.rightCols(count)};
+  Eigenpairs elastic{all.lambda.segment(6, count), all.shapes.middleCols(6, count)};
   for (int a = 0; a < count; ++a) {
     ModeHealth m;
     m.name = fmt::format("normal {}", a + 1);

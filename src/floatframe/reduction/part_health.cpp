@@ -31,7 +31,9 @@ void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
   double rounding = 0.0;  // what is left of springs within a rigid body
   if (model.elements.empty())
     for (const Spring& s : model.springs) rounding = std::max(rounding, 1e-12 * s.stiffness);
-  if (!(system.K.diagonal().maxCoeff() > rounding))
+  // What is not finite is said later, with the place.
+  const VecX diagonal = system.K.diagonal();
+  if ((diagonal.array() <= rounding).all())
     throw InputError(
         "the part has mass but no elasticity: no element or spring resists what its nodes can do");
 }

@@ -56,22 +56,25 @@ std::string unit_guess(const FeModel& model, double mass) {
   const Numbers x = numbers_of(model, mass);
   if (usual(x)) return "";
   const std::string found = "the part has " + text(x) + ", which is unusual";
-  // Read with `given`, meant in `meant`.
-  for (const std::string& given_name : {std::string("m-kg-s"), std::string("mm-t-s"),
-                                        std::string("mm-kg-ms"), std::string("mm-kg-s")}) {
+  // Other units explain a material; the box about masses on springs has any density.
+  if (!x.of_material) return found + "; check the units of the file";
+  std::vector<std::string> read_as{"m-kg-s", "mm-t-s", "mm-kg-ms", "mm-kg-s"};
+  if (!model.units.empty()) read_as = {model.units};
+  for (const std::string& given_name : read_as) {
     const auto given = find_unit_system(given_name);
-    for (const std::string& meant_name :
-         {std::string("mm-t-s"), std::string("m-kg-s"), std::string("mm-kg-ms"),
-          std::string("mm-kg-s"), std::string("cm-g-s"), std::string("in-lbf-s")}) {
+    for (const char* meant_name :
+         {"mm-t-s", "m-kg-s", "mm-kg-ms", "mm-kg-s", "cm-g-s", "in-lbf-s"}) {
       const auto meant = find_unit_system(meant_name);
       if (!given || !meant || given_name == meant_name) continue;
       Numbers y = x;
       y.density *= meant->density() / given->density();
       y.young *= meant->pressure() / given->pressure();
       y.size *= meant->length / given->length;
-      if (usual(y) && x.density > 0.0)
-        return fmt::format("{}; if the file was read as {}, it may be in {}: then it has {}", found,
-                           given_name, meant_name, text(y));
+      if (!usual(y)) continue;
+      const std::string read = model.units.empty()
+                                   ? "if the file was read as " + given_name + ", it"
+                                   : "read as " + given_name + ", it";
+      return fmt::format("{}; {} may be in {}: then it has {}", found, read, meant_name, text(y));
     }
   }
   return found + "; check the units of the file";

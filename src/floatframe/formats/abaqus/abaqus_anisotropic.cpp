@@ -129,6 +129,18 @@ void read_abaqus_anisotropic(AbaqusLines& lines, const AbaqusKeyword& keyword,
   take_abaqus_constants(lines, keyword, content, *material, rows, use_anisotropic);
 }
 
+bool AbaqusOrientation::points_on_a_line() const {
+  const bool cylinder = kind == Kind::cylindrical;
+  const Vec3 first = cylinder ? Vec3(b - a) : Vec3(a - c), second = b - c;
+  return first.norm() == 0.0 ||
+         (!cylinder && first.cross(second).norm() <= 1e-12 * first.norm() * second.norm());
+}
+
+const char* AbaqusOrientation::wrong_points() const noexcept {
+  return kind == Kind::cylindrical ? "has the same point for a and b"
+                                   : "has its points a, b and the origin on a line";
+}
+
 void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
                              AbaqusContent& content) {
   lines.allow_only(keyword, {"NAME", "SYSTEM", "DEFINITION"});
@@ -169,16 +181,15 @@ void read_abaqus_orientation(AbaqusLines& lines, const AbaqusKeyword& keyword,
       lines.error(keyword, fmt::format("turns about axis {}, expected 1, 2 or 3",
                                        axis ? std::to_string(*axis) : shown(fields[0])));
     o.axis = axis.value_or(1);
+    o.axis_given = !fields[0].empty();
     o.angle = lines.real_or(fields, 1, 0.0, "additional rotation") * std::numbers::pi / 180.0;
   }
   lines.skip_data();
-  const bool cylinder = o.kind == AbaqusOrientation::Kind::cylindrical;
-  const Vec3 first = cylinder ? Vec3(o.b - o.a) : Vec3(o.a - o.c), second = o.b - o.c;
-  if (lines.source().errors() == before &&
-      (first.norm() == 0.0 ||
-       (!cylinder && first.cross(second).norm() <= 1e-12 * first.norm() * second.norm())))
-    lines.error(keyword, cylinder ? "has the same point for a and b"
-                                  : "has its points a, b and the origin on a line");
+  // CalculiX has the origin in place of c: whose deck this is shows later.
+  AbaqusOrientation without_c = o;
+  without_c.c.setZero();
+  if (lines.source().errors() == before && o.points_on_a_line() && without_c.points_on_a_line())
+    lines.error(keyword, o.wrong_points());
   const auto [it, added] = content.orientations.emplace(std::pair{o.scope, name}, o);
   if (added || lines.source().errors() != before) return;
   const SourceMark mark = lines.source().mark(it->second.at);

@@ -22,37 +22,70 @@ namespace {
 using Family = AbaqusType::Family;
 using Kind = AbaqusOrientation::Kind;
 
-/// Z RECTANGULAR in the program of the deck: CalculiX passes the Z over. A note where it is not
-/// sure that the user knows.
-Kind axes_kind(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name) {
+/// What the two programs read in their own ways.
+struct DialectHabit {
+  std::string what;      ///< "SYSTEM=Z RECTANGULAR"
+  const char* calculix;  ///< what CalculiX does with it: "takes it as RECTANGULAR"
+  const char* taken;     ///< and what it is then: "taken as RECTANGULAR"
+};
+
+/// Whether it is CalculiX' way here. A note where it is not sure that the user knows.
+bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::string& name,
+                    const DialectHabit& d) {
   const DialectClues& clues = build.clues;
   const DeckDialect given = build.content.dialect;
-  if (o.kind != Kind::z_rectangular || given == DeckDialect::abaqus) return o.kind;
-  const std::string what =
-      fmt::format("orientation {}: SYSTEM=Z RECTANGULAR is taken ", shown(name));
+  if (given == DeckDialect::abaqus) return false;
+  const std::string what = fmt::format("orientation {}: {} is ", shown(name), d.what);
   if (given == DeckDialect::by_content && (!clues.calculix || clues.abaqus)) {
-    if (clues.by_axes || clues.calculix)
-      build.note(o.at, what +
-                           "as in Abaqus; if the deck is one of CalculiX, which takes it as "
-                           "RECTANGULAR, give --dialect calculix");
-    return o.kind;
+    if (clues.by_axes || clues.calculix || !clues.abaqus)
+      build.note(o.at, what + fmt::format("taken as in Abaqus; if the deck is one of CalculiX, "
+                                          "which {}, give --dialect calculix",
+                                          d.calculix));
+    return false;
   }
-  build.note(o.at, what +
-                       "as RECTANGULAR, as CalculiX does; if the deck is one of Abaqus give "
-                       "--dialect abaqus");
-  return Kind::rectangular;
+  build.note(o.at, what + fmt::format("{}, as CalculiX does; if the deck is one of Abaqus give "
+                                      "--dialect abaqus",
+                                      d.taken));
+  return true;
 }
 
-Orientation placed(const AbaqusOrientation& o, Kind kind, const AbaqusPlacement& place) {
+/// In the program of the deck. CalculiX passes the Z of a system over, a point c, and a turn whose
+/// axis is blank.
+AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
+                                     const std::string& name) {
+  const char* const passes = "passes it over";
+  const char* const passed = "passed over";
+  if (o.kind == Kind::z_rectangular &&
+      is_of_calculix(build, o, name,
+                     {"SYSTEM=Z RECTANGULAR", "takes it as RECTANGULAR", "taken as RECTANGULAR"}))
+    o.kind = Kind::rectangular;
+  if (o.kind != Kind::cylindrical && o.c != Vec3::Zero() &&
+      is_of_calculix(build, o, name,
+                     {fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
+                      passes, passed}))
+    o.c.setZero();
+  if (!o.axis_given && o.angle != 0.0 &&
+      is_of_calculix(build, o, name,
+                     {fmt::format("the additional rotation of {:g} degrees, whose axis is blank (1 "
+                                  "in Abaqus),",
+                                  o.angle * 180.0 / std::numbers::pi),
+                      passes, passed}))
+    o.axis = 0;
+  if (o.points_on_a_line())
+    build.source.error(o.at, fmt::format("orientation {} {}", shown(name), o.wrong_points()));
+  return o;
+}
+
+Orientation placed(const AbaqusOrientation& o, const AbaqusPlacement& place) {
   Orientation out;
   Vec3 x = o.a - o.c, z;
-  if (kind == Kind::cylindrical) {
+  if (o.kind == Kind::cylindrical) {
     out.kind = Orientation::Kind::cylindrical;
     z = o.b - o.a;
     Eigen::Index least = 0;
     z.cwiseAbs().minCoeff(&least);
     x = Vec3::Unit(least);
-  } else if (kind == Kind::z_rectangular) {
+  } else if (o.kind == Kind::z_rectangular) {
     z = o.a - o.c;
     x = o.b - o.c;
   } else {
@@ -61,7 +94,7 @@ Orientation placed(const AbaqusOrientation& o, Kind kind, const AbaqusPlacement&
   z.normalize();
   x = (x - z * z.dot(x)).normalized();
   out.axes << x, z.cross(x), z;
-  out.origin = kind == Kind::cylindrical ? o.a : o.c;
+  out.origin = o.kind == Kind::cylindrical ? o.a : o.c;
   out.axes = (place.R * out.axes).eval();
   out.origin = place.at(out.origin);
   if (o.axis > 0) out.turn = Eigen::AngleAxisd(o.angle, Vec3::Unit(o.axis - 1)).toRotationMatrix();
@@ -139,10 +172,10 @@ int abaqus_orientation(AbaqusBuild& build, const std::string& name, const Abaqus
                                    section.shown, shown(name), did_you_mean(name, known)));
     return -1;
   }
-  Orientation o =
-      placed(*found, axes_kind(build, *found, name), build.content.placement(found->scope));
+  const AbaqusOrientation meant = in_program_of_deck(build, *found, name);
+  Orientation o = placed(meant, build.content.placement(meant.scope));
   if (shell) {
-    const int normal = normal_axis(build, *found, name);
+    const int normal = normal_axis(build, meant, name);
     Mat3 permuted = Mat3::Zero();
     for (int k = 0; k < 3; ++k) permuted((normal + k) % 3, k) = 1.0;
     o.turn = (o.turn * permuted).eval();

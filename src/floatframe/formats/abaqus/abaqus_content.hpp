@@ -109,10 +109,15 @@ struct AbaqusOrientation {
   enum class Kind { rectangular, z_rectangular, cylindrical };
   Kind kind = Kind::rectangular;
   Vec3 a = Vec3::Zero(), b = Vec3::Zero(), c = Vec3::Zero();
-  int axis = 0;        ///< 1, 2, 3; 0: no second line
-  double angle = 0.0;  ///< [rad]
+  int axis = 0;             ///< 1, 2, 3; 0: no second line
+  bool axis_given = false;  ///< else the 1 of Abaqus
+  double angle = 0.0;       ///< [rad]
   AbaqusScope scope = AbaqusScope::part;
   FeSource at;
+
+  /// They give no axes: a, b and c, of cylinders a and b.
+  bool points_on_a_line() const;
+  const char* wrong_points() const noexcept;
 };
 
 struct AbaqusSection {

@@ -174,9 +174,9 @@ class BeamShape {
     if (d_[6] == 0.0 || d_[7] == 0.0) return true;
     if (d_[7] < 0.0) return fail(fmt::format("its insulation is {:g} thick", d_[7]));
     const auto cover = b_.content.materials.find(static_cast<int>(d_[6]));
-    if (cover == b_.content.materials.end() || !cover->second.values.contains("DENS"))
+    if (cover == b_.content.materials.end() || cover->second.find("DENS") == nullptr)
       return fail(fmt::format("material {:g} of its insulation has no density (MP,DENS)", d_[6]));
-    beam_.mass += cover->second.values.at("DENS").front().second * std::numbers::pi * d_[7] *
+    beam_.mass += cover->second.find("DENS")->front().second * std::numbers::pi * d_[7] *
                   (2.0 * outer + d_[7]);
     return true;
   }

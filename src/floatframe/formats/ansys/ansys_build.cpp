@@ -98,7 +98,7 @@ int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
   }
   if (const std::string huge = huge_constant(m); own && !huge.empty())
     source.error(found->second.at, fmt::format("material {}: {}", id, huge));
-  if (own && !found->second.values.contains("DENS"))
+  if (own && found->second.find("DENS") == nullptr)
     model.without_density[it->second] = {found->second.at, 1.0};
   m.density += more_density;
   if (!std::isfinite(m.density))

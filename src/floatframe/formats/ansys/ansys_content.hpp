@@ -33,10 +33,15 @@ struct AnsysSystem {
 
 struct AnsysMaterial {
   /// By label (EX, DENS, ...): temperatures with values; one without: {{0, value}}.
-  std::map<std::string, std::vector<std::pair<double, double>>> values;
+  using Values = std::map<std::string, std::vector<std::pair<double, double>>>;
+  Values values;                    ///< of MP and MPDATA
+  Values tables;                    ///< of TB: EX, PRXY, DENS
   std::vector<double> anisotropic;  ///< TB,ANEL: 21 constants
   bool compliance = false;          ///< of these
   FeSource at;
+
+  /// Nullptr if there is none. Of both that of TB; they must be equal (`ansys_material`).
+  const Values::mapped_type* find(const std::string& label) const;
 };
 
 struct AnsysReal {

@@ -69,14 +69,15 @@ class AnsysElastic {
 
  private:
   std::optional<double> value(const char* label) {
-    const auto it = m_.values.find(label);
-    if (it == m_.values.end() || it->second.empty()) return std::nullopt;
+    const auto* const found_rows = m_.find(label);
+    if (found_rows == nullptr) return std::nullopt;
+    refuse_two(label);
     std::vector<TemperatureRow> rows;
-    for (const auto& [T, x] : it->second) rows.push_back({T, {x}});
+    for (const auto& [T, x] : *found_rows) rows.push_back({T, {x}});
     const AtTemperature found = at_temperature(rows, temperature_);
     if (!found.error.empty()) {
       error(fmt::format("its {} {}", label, found.error));
-      return it->second.front().second;
+      return rows.front().values[0];
     }
     if (found.chosen && temperatures_noted_++ == 0) {
       const SourceMark mark = source_.mark(m_.at);
@@ -87,6 +88,16 @@ class AnsysElastic {
                       rows.back().temperature));
     }
     return found.values[0];
+  }
+
+  /// MP and TB may both give it: which of them counts is not said in the file.
+  void refuse_two(const std::string& label) {
+    const auto mp = m_.values.find(label), tb = m_.tables.find(label);
+    if (mp == m_.values.end() || tb == m_.tables.end() || mp->second == tb->second) return;
+    if (mp->second.empty() || tb->second.empty()) return;
+    error(fmt::format("{} is {:g} by MP and {:g} by TB,{}, leave one of the two in the file", label,
+                      mp->second.front().second, tb->second.front().second,
+                      label == "DENS" ? "DENS" : "ELASTIC"));
   }
 
   void error(const std::string& text) {
@@ -191,6 +202,12 @@ class AnsysElastic {
 
 }  // namespace
 
+const AnsysMaterial::Values::mapped_type* AnsysMaterial::find(const std::string& label) const {
+  for (const Values* of : {&tables, &values})
+    if (const auto it = of->find(label); it != of->end() && !it->second.empty()) return &it->second;
+  return nullptr;
+}
+
 /// MP,EX,1,2.1e5: with further constants it is a polynomial of the temperature.
 void read_ansys_material(AnsysFields& f, AnsysContent& c) {
   const std::string label = f.word(1);
@@ -259,7 +276,7 @@ void read_ansys_table(AnsysFields& f, AnsysContent& c) {
     AnsysMaterial& m = c.materials[c.table_material];
     if (m.at.file < 0) m.at = f.at();
     for (const char* label : {"EX", "PRXY", "DENS"})
-      if ((c.table == "DENS") == (std::string_view(label) == "DENS")) m.values.erase(label);
+      if ((c.table == "DENS") == (std::string_view(label) == "DENS")) m.tables.erase(label);
     return;
   }
   if (holds(harmless_tables, c.table)) return;
@@ -324,15 +341,15 @@ void read_ansys_table_data(AnsysFields& f, AnsysContent& c) {
   if (c.table == "DENS") {
     if (values.size() != 1)
       f.stop(fmt::format("TB,DENS: {} constants in a line, expected 1", values.size()));
-    put_at(m.values["DENS"], c.table_temperature, values[0]);
+    put_at(m.tables["DENS"], c.table_temperature, values[0]);
     return;
   }
   if (c.table == "ELAS") {
     if (values.size() != 2)
       f.stop(fmt::format("TB,ELASTIC: {} constants in a line, expected 2 of an isotropic material",
                          values.size()));
-    put_at(m.values["EX"], c.table_temperature, values[0]);
-    put_at(m.values["PRXY"], c.table_temperature, values[1]);
+    put_at(m.tables["EX"], c.table_temperature, values[0]);
+    put_at(m.tables["PRXY"], c.table_temperature, values[1]);
     return;
   }
   const std::size_t place = m.anisotropic.size() + 1;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <map>
@@ -11,6 +12,7 @@
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/formats/written/calculix_knots.hpp"
+#include "floatframe/math/rigid_motion.hpp"
 
 namespace floatframe {
 namespace {
@@ -142,7 +144,47 @@ void CalculixEquations::add_dependences() {
     deck_.notes.push_back(fmt::format(
         "{} held by equations of the model, written as *BOUNDARY: the part is not free; first: {}",
         plural(static_cast<long>(held.size()), "direction is", "directions are"), held.front()));
+  note_not_rigid(in_elements);
   hold_idle_motions(in_elements);
+}
+
+void CalculixEquations::note_not_rigid(const std::vector<char>& in_elements) const {
+  if (!dependences_.any) return;
+  const FeModel& model = deck_.model;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : model.positions) box.extend(p);
+  const double size = std::max(0.5 * box.diagonal().norm(), 1e-300);
+  std::vector<Vec6> motion(place_.size());  // of each degree of freedom in the rigid ones
+  std::vector<std::string> names;
+  for (int node = 0; node < model.nodes(); ++node) {
+    const Vec3 p = model.positions[static_cast<std::size_t>(node)] - box.center();
+    for (int axis = 0; axis < table_.count(node); ++axis) {
+      Vec6 row = rigid_motion_at(p).row(axis);
+      row.tail<3>() /= size;
+      motion[static_cast<std::size_t>(table_.index(node, axis))] = row;
+    }
+  }
+  for (int node = 0; node < model.nodes(); ++node)
+    for (int axis = 0; axis < table_.count(node); ++axis) {
+      const auto dof = static_cast<std::size_t>(table_.index(node, axis));
+      if (dependences_.dependent[dof] == 0 || dependences_.terms[dof].empty() ||
+          in_elements[static_cast<std::size_t>(node)] == 0)
+        continue;
+      Vec6 off = motion[dof];
+      double largest = off.cwiseAbs().maxCoeff();
+      for (const auto& [other, factor] : dependences_.terms[dof]) {
+        const Vec6 term = factor * motion[static_cast<std::size_t>(other)];
+        largest = std::max(largest, term.cwiseAbs().maxCoeff());
+        off -= term;
+      }
+      if (off.cwiseAbs().maxCoeff() > 1e-6 * largest)
+        names.push_back(fmt::format("{} {}", model.node_label(node), node_dof_names[axis]));
+    }
+  if (names.empty()) return;
+  deck_.notes.push_back(fmt::format(
+      "{} bound by equations of the model that rigid motions do not satisfy: the part is not free; "
+      "first: {}",
+      plural(static_cast<long>(names.size()), "direction is", "directions are"), names.front()));
 }
 
 void CalculixEquations::hold_idle_motions(const std::vector<char>& in_elements) {

@@ -44,6 +44,8 @@ class CalculixEquations {
  private:
   void refuse(int node, const FeSource& source);
   void hold_idle_motions(const std::vector<char>& in_elements);
+  /// Of equations that rigid motions do not satisfy, which are no joints of a free part.
+  void note_not_rigid(const std::vector<char>& in_elements) const;
 
   CalculixText& deck_;
   DofTable table_;
