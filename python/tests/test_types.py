@@ -97,22 +97,28 @@ except ff.StepError as failed:
 '''
 
 
-def mypy(tmp_path, text):
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    """numpy and the package take half a minute, once."""
+    return tmp_path_factory.mktemp("mypy")
+
+
+def mypy(tmp_path, cache, text):
     pytest.importorskip("mypy")
     (tmp_path / "script.py").write_text(text)
     source = os.path.abspath(pathlib.Path(ff.__file__).parents[1])
     source = "" if source.endswith("-packages") else source  # mypy finds what is installed
-    command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(tmp_path / "cache"), "script.py"]
+    command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", str(cache), "script.py"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, env={**os.environ, "MYPYPATH": source})
     return done.stdout + done.stderr
 
 
-def test_a_script_of_a_user(tmp_path):
-    text = mypy(tmp_path, SCRIPT)
+def test_a_script_of_a_user(tmp_path, cache):
+    text = mypy(tmp_path, cache, SCRIPT)
     assert "Success" in text, text
     missing = [name for name in ff.__all__ if f"ff.{name}" not in SCRIPT]
     assert set(missing) <= {"BeamSection", "Error", "ErrorEntry", "FileInfo", "Node", "Options", "Place", "Report", "set"}, missing
 
 
-def test_mistakes_are_found(tmp_path):
-    assert "arg-type" in mypy(tmp_path, "import floatframe as ff\nff.run(3)\n")
+def test_mistakes_are_found(tmp_path, cache):
+    assert "arg-type" in mypy(tmp_path, cache, "import floatframe as ff\nff.run(3)\n")
