@@ -205,10 +205,17 @@ TEST(BadAnsys, Materials) {
       {bad_solid + "TB,ELASTIC,1\nTBDATA,1,1,2,3\n",
        "12: TB,ELASTIC: 3 constants in a line, expected 2 of an isotropic material"},
       {bad_solid + "MP,EX,1,2e5\nMP,PRXY,1,.3\nTB,ELASTIC,1\nTBDATA,1,1e5,.3\n",
-       "11: material 1: EX is 200000 by MP and 100000 by TB,ELASTIC, leave one of the two in the "
-       "file"},
+       "11: material 1: EX is 200000 by MP and EX is 100000 by TB,ELASTIC, leave one of the two in "
+       "the file"},
       {bad_solid + "TB,ELASTIC,1\nTBDATA,1,1e5,.3\nTB,DENS,1\nTBDATA,1,2\nMP,DENS,1,3\n",
-       "11: material 1: DENS is 3 by MP and 2 by TB,DENS, leave one of the two in the file"},
+       "11: material 1: DENS is 3 by MP and DENS is 2 by TB,DENS, leave one of the two in the "
+       "file"},
+      {bad_solid + "TB,ELASTIC,1\nTBDATA,1,1e5,.3\nMP,NUXY,1,.2\n",
+       "11: material 1: NUXY is 0.2 by MP and PRXY is 0.3 by TB,ELASTIC, leave one of the two in "
+       "the file"},
+      {bad_solid + "TB,ELASTIC,1\nTBDATA,1,1e5,.3\nMP,EY,1,2e5\n",
+       "11: material 1: EY by MP stands beside TB,ELASTIC, which is isotropic, leave one of the "
+       "two in the file"},
   });
 }
 

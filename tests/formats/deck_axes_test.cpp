@@ -107,6 +107,42 @@ TEST(DeckAxes, PointAndTurnThatCalculixPassesOver) {
   expect(deck("0, 0, 1, 1, 0, 0\n1, 30.\n", DeckDialect::calculix), turned, "");
 }
 
+// CalculiX 2.20: a plate of S4 has 285.29 and 421.70 Hz with and without ", 0.".
+TEST(DeckAxes, BlankAxisOfShells) {
+  const auto notes = [](const std::string& line, DeckDialect dialect) {
+    TextSource source(
+        "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n*ELEMENT, TYPE=S4, ELSET=E\n"
+        "1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n"
+        "2e11, 1e10, 1e10, .3, .3, .3, 5e9, 5e9\n3e9\n*DENSITY\n7800\n*ORIENTATION, NAME=O\n"
+        "1, .2, .1, -.2, 1, .3\n" +
+            line + "*SHELL SECTION, ELSET=E, MATERIAL=M, ORIENTATION=O\n.01\n",
+        "shell.inp");
+    FeReadOptions options;
+    options.dialect = dialect;
+    std::string text;
+    for (const std::string& note : read_abaqus(source, options).notes)
+      if (note.find("orientation") != std::string::npos) text += note + "\n";
+    return text;
+  };
+  const std::string blank =
+      "shell.inp:14: orientation 'O': the additional rotation of 0 degrees, whose axis is blank (1 "
+      "in Abaqus), is ";
+  EXPECT_EQ(notes(", 0.\n", DeckDialect::by_content),
+            blank +
+                "taken as in Abaqus; if the deck is one of CalculiX, which passes it over, give "
+                "--dialect calculix\n");
+  EXPECT_EQ(notes(", 0.\n", DeckDialect::calculix),
+            blank +
+                "passed over, as CalculiX does; if the deck is one of Abaqus give --dialect "
+                "abaqus\n");
+  EXPECT_EQ(notes("1, 0.\n", DeckDialect::by_content),
+            "shell.inp:14: orientation 'O' of shells turns about axis 1, which is taken about the "
+            "normal as in Abaqus; if the deck is one of CalculiX, which turns the axes in space, "
+            "give --dialect calculix\n");
+  EXPECT_EQ(notes("1, 0.\n", DeckDialect::abaqus), "");
+  EXPECT_EQ(notes("3, 0.\n", DeckDialect::by_content), "");
+}
+
 // a and b on a line with c is an error in Abaqus, with the origin in CalculiX.
 TEST(DeckAxes, PointsOnALine) {
   const auto deck = [](const std::string& points, DeckDialect dialect) {

@@ -9,7 +9,6 @@
 
 #include "floatframe/fe/fe_system.hpp"
 #include "floatframe/fe/interface_selection.hpp"
-#include "floatframe/fe/made_nodes.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 #include "floatframe/formats/nastran/read_nastran.hpp"
 #include "support/error_of.hpp"
@@ -389,8 +388,8 @@ TEST(NastranBars, PlacesAreNodesOfTheFile) {
       "CBAR,7,5,1,2,0.,0.,1.\n,456,,0.,0.,.1,0.,0.,.1\nCBAR,8,5,2,3,0.,0.,1.\n"
       "PBAR,5,9,1.,1.,1.,1.\nMAT1,9,2e11,,.3,7800.\nENDDATA\n");
   ASSERT_GT(model.nodes(), 3);
-  const std::vector<char> made = made_nodes(model);
-  for (int k = 0; k < model.nodes(); ++k) EXPECT_EQ(made[static_cast<std::size_t>(k)] != 0, k >= 3);
+  for (int k = 0; k < model.nodes(); ++k)
+    EXPECT_EQ(std::count(model.made_nodes.begin(), model.made_nodes.end(), k), k >= 3);
   NodeChoice choice;
   choice.by = NodeChoice::By::nearest;
   choice.point = Vec3(0.0, 0.0, 0.1);

@@ -150,6 +150,43 @@ TEST(NastranTurned, RigidElements) {
 }
 
 // Which components depend does not change the equations.
+/// Eigenvalues of the free part [rad2/s2], the smallest first.
+VecX turned_eigenvalues(const std::string& text) {
+  const FeSystem s = assemble(turned_deck(text));
+  return Eigen::GeneralizedSelfAdjointEigenSolver<MatX>(MatX(s.K), MatX(s.M),
+                                                        Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+// RBE2 in some directions: nodes that get their rotations from it, or from a mass; all of them
+// turned, so that the reference has no node but them.
+TEST(NastranTurned, BodiesOnSlides) {
+  const std::string brick =
+      "PARAM,COUPMASS,1\nGRID,1,,0,0,0\nGRID,2,,0.2,0,0\nGRID,3,,0.2,0.2,0\nGRID,4,,0,0.2,0\nGRID,"
+      "5,,0,0,0.2\n"
+      "GRID,6,,0.2,0,0.2\nGRID,7,,0.2,0.2,0.2\nGRID,8,,0,0.2,0.2\n"
+      "CHEXA,1,1,1,2,3,4,5,6\n,7,8\nPSOLID,1,1\nMAT1,1,2.+11,,.3,7800.\n"
+      "GRID,204,,.3,.1,.1\nRBE2,1,204,123456,2,3,6,7\n"
+      "CORD2R,9,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\n"  // x is y, y is z, z is x
+      "CONM2,340,208,,1.5,{1}\n,.1,,.2,,,.3\nGRID,208,,.3,.1,.1,{0}\n";
+  const std::string bars_there =
+      "GRID,209,,.8,.1,.1\nGRID,210,,.8,.4,.1\nCBAR,60,60,208,209,{0}\n"
+      "CBAR,61,60,209,210,0.,0.,1.\nPBAR,60,1,1.-3,1.-6,2.-6,2.-6\n";
+  for (const char* offset : {"", ".1,.05,.02"})
+    for (const bool bar : {false, true}) {
+      const auto of = [&](int cd, const char* vector, const char* slide) {
+        return turned_eigenvalues(fmt::format(fmt::runtime(brick), cd, offset) +
+                                  (bar ? fmt::format(fmt::runtime(bars_there), vector) : "") +
+                                  slide);
+      };
+      const VecX basic = of(0, "0.,0.,1.", "RBE2,340,204,13456,208\nCELAS2,5,1.+6,204,2,208,2\n");
+      const VecX turned = of(9, "0.,1.,0.", "RBE2,340,204,23456,208\nCELAS2,5,1.+6,204,2,208,1\n");
+      ASSERT_EQ(basic.size(), turned.size());
+      EXPECT_LT((basic - turned).norm(), 1e-9 * basic.norm()) << bar << offset;
+      EXPECT_NEAR(turned(6) / basic(6), 1.0, 1e-7) << bar << offset;
+    }
+}
+
 TEST(NastranTurned, DependentComponentsOfMeanSpiders) {
   const std::string deck =
       bars + nodes_3_and_4(0) + "GRID,8,,4.,2.,0.\nCONM2,9,8,,1.\nRBE3,9,,8,123456,1.,123,3,5\n,6";

@@ -374,6 +374,49 @@ TEST(Part, OfMassesAndSpringsAlone) {
   EXPECT_NE(error_of([&] { reduce_part(loose, free); }).find("mechanism"), std::string::npos);
 }
 
+// One point turns about all axes for nothing, two about the line through them.
+TEST(Part, WithoutInertiaAboutAnAxis) {
+  const auto error = [](const FeModel& model, ModeMethod method, int axes) {
+    PartOptions options;
+    options.method = method;
+    options.interfaces.resize(method == ModeMethod::free_free ? 0 : 1);
+    for (InterfaceDescription& d : options.interfaces) {
+      d.name = "A";
+      d.choice.by = NodeChoice::By::nearest;
+      d.mask = axes == 3 ? 7u : 63u;
+    }
+    return error_of([&] { reduce_part(model, options); });
+  };
+  FeModel model = two_masses();
+  for (PointMass& m : model.masses) m.J.setZero();
+  std::erase_if(model.springs, [](const Spring& s) { return s.directions[0].head<3>().isZero(); });
+  for (const ModeMethod method : {ModeMethod::free_free, ModeMethod::craig_bampton})
+    EXPECT_EQ(error(model, method, 3),
+              "the part has no inertia about its centre of mass, since all mass is at one point; "
+              "give point masses their inertia");
+  model.positions[1] = Vec3(0.0, 0.0, 2.0);
+  std::erase_if(model.springs, [](const Spring& s) { return s.directions[0](2) == 0.0; });
+  EXPECT_EQ(error(model, ModeMethod::free_free, 3),
+            "the part has no inertia about the axis (0, 0, 1) through its centre of mass, since "
+            "all mass is on a line; give point masses their inertia, beams consistent mass "
+            "(--mass-form consistent)");
+}
+
+// However few modes are kept.
+TEST(Part, MechanismsWithoutNormalModes) {
+  FeModel loose = two_masses();
+  std::erase_if(loose.springs, [](const Spring& s) { return s.directions[0](3) != 0.0; });
+  PartOptions options;
+  options.method = ModeMethod::free_free;
+  options.modes = 0;
+  EXPECT_NE(error_of([&] { reduce_part(loose, options); }).find("the part is a mechanism"),
+            std::string::npos);
+  options.modes.reset();
+  options.max_frequency = 1e-4;
+  EXPECT_NE(error_of([&] { reduce_part(loose, options); }).find("the part is a mechanism"),
+            std::string::npos);
+}
+
 TEST(Part, BeyondAllNumbersIsNotWithoutElasticity) {
   FeModel huge = brick_beam(2, 2, 2, 1e3, 1e3);
   huge.materials[0].young = 1e308;

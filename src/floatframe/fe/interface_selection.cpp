@@ -11,7 +11,6 @@
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
-#include "floatframe/fe/made_nodes.hpp"
 #include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {
@@ -135,8 +134,8 @@ std::string describe(const NodeChoice& c) {
 std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
   std::vector<char> used(model.positions.size(), 0);
   const DofTable table = dof_table(model);
-  const std::vector<char> made = made_nodes(model);
-  for (int k = 0; k < model.nodes(); ++k) used[k] = table.count(k) > 0 && made[k] == 0;
+  for (int k = 0; k < model.nodes(); ++k) used[k] = table.count(k) > 0;
+  for (const int made : model.made_nodes) used[made] = 0;
   const bool round = c.by == NodeChoice::By::cylinder || c.by == NodeChoice::By::sphere;
   if (round && !(c.radius > 0.0)) {
     throw InputError(fmt::format("the radius must be positive, not {:.6g}", c.radius));

@@ -38,7 +38,7 @@ struct InterfaceDescription {
 };
 
 /// Nodes of a choice in a valid model, in ascending order (sets: their own order); those that a
-/// reader made for bars (`made_nodes`) have a number, but no place. Throws InputError if there are
+/// reader made (`FeModel::made_nodes`) have a number, but no place. Throws InputError if there are
 /// none, naming what was looked for and what there is (sets with did-you-mean; the distance of the
 /// nearest node).
 std::vector<int> choose_nodes(const FeModel& model, const NodeChoice& choice);

@@ -41,6 +41,7 @@ int add_own_node(FeModel& model, TextSource& source, const Vec3& p, const FeSour
   model.positions.push_back(p);
   model.node_ids.push_back(++largest);
   model.node_sources.push_back(at);
+  model.made_nodes.push_back(model.nodes() - 1);
   if (!model.node_names.empty()) model.node_names.emplace_back();
   return model.nodes() - 1;
 }

@@ -106,8 +106,10 @@ MatX FixedInterface::inner_response(const MatX& forces) const {
   return with_all_rows(factors_.solve(inner));
 }
 
-Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve) {
+Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve,
+                       bool at_most) {
   if (count < 0) throw InputError("the number of normal modes must not be negative");
+  if (at_most) count = std::min(count, inner);
   if (count > inner) {
     throw InputError(fmt::format(
         "{} normal modes are requested, but only {} degrees of freedom are left inside the "
@@ -115,7 +117,7 @@ Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)
         count, inner));
   }
   Eigenmodes modes = solve(count);
-  if (modes.omega.size() < count) {
+  if (modes.omega.size() < count && !at_most) {
     throw InputError(fmt::format(
         "{} normal modes are requested, but the mass inside the interface allows only {}", count,
         modes.omega.size()));
@@ -123,14 +125,9 @@ Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)
   return modes;
 }
 
-int FixedInterface::inner_with_mass() const {
-  const VecX m = Mii_.diagonal();
-  return static_cast<int>((m.array() > 0.0).count());
-}
-
-Eigenmodes FixedInterface::normal_modes(int count) const {
-  Eigenmodes modes =
-      inner_modes(count, inner(), [&](int n) { return lowest_modes(Kii_, factors_, Mii_, n); });
+Eigenmodes FixedInterface::normal_modes(int count, bool at_most) const {
+  Eigenmodes modes = inner_modes(
+      count, inner(), [&](int n) { return lowest_modes(Kii_, factors_, Mii_, n); }, at_most);
   modes.shapes = with_all_rows(modes.shapes);
   return modes;
 }

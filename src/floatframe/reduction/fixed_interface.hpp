@@ -16,7 +16,8 @@ namespace floatframe {
 
 /// `solve` gives the normal modes of `inner` dofs. Throws InputError if `count` is more than the
 /// dofs or their mass allow.
-Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve);
+Eigenmodes inner_modes(int count, int inner, const std::function<Eigenmodes(int)>& solve,
+                       bool at_most = false);
 
 class FixedInterface {
  public:
@@ -28,8 +29,6 @@ class FixedInterface {
 
   int size() const noexcept { return size_; }
   int inner() const noexcept { return static_cast<int>(inner_.size()); }
-  /// Of these the ones with mass: as many normal modes as there can be.
-  int inner_with_mass() const;
   const std::string& solver_name() const noexcept { return factors_.name(); }
 
   /// size x boundary: the constraint modes.
@@ -40,7 +39,8 @@ class FixedInterface {
   MatX inner_response(const MatX& forces) const;
 
   /// Shapes with all rows. Throws if there are more asked for than the inner mass allows.
-  Eigenmodes normal_modes(int count) const;
+  /// `at_most`: fewer if there are no more.
+  Eigenmodes normal_modes(int count, bool at_most = false) const;
   /// Number of fixed-interface modes below a frequency [Hz].
   int count_below(double frequency) const;
 

@@ -70,12 +70,15 @@ double elastic_estimate(const FeModel& model, const FeSystem& system, VecX* soft
   const VecX& m = mass.values;
   Eigen::Index first = 0;
   while (first < m.size() && !(m(first) > 1e-8 * m(m.size() - 1))) ++first;
-  if (first == m.size()) return softest_row(system);
+  const bool no_elements = model.elements.empty() && !model.matrices;
+  if (first == m.size()) return no_elements ? softest_row(system) : 0.0;
   const MatX Q = mass.vectors.rightCols(m.size() - first) *
                  m.tail(m.size() - first).cwiseSqrt().cwiseInverse().asDiagonal();
   const SymmetricEigen modes = symmetric_eigen(Q.transpose() * Kr * Q);
   const VecX shape = U * (Q * modes.vectors.col(0));
   if (softest != nullptr) *softest = shape;
+  if (!no_elements) return std::max(modes.values(0), 0.0);
+  // Bodies at one place on springs: such shapes do not move them apart.
   const double energy = shape.dot(system.K * shape);
   const double rounding =
       shape.cwiseAbs().dot(SparseMatrix(system.K.cwiseAbs()) * shape.cwiseAbs());

@@ -156,17 +156,19 @@ ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R
                      std::optional<FreeStructure>& structure, Eigenpairs& elastic) {
   VecX softest;
   const double estimate = elastic_estimate(model, system, &softest);
-  try {
-    structure.emplace(system.K, system.M, R, 0.01 * estimate, options.solver,
-                      [&](int row) { return row_label(model, system, row); });
-  } catch (const InputError&) {
-    // Of very few elements a mechanism moves as simply as the shapes of the estimate do.
-    if (softest.size() > 0) check_stiffness_of(model, system, softest);
-    throw;
-  }
   ModeBasis basis;
+  with_digits_hint(model, [&] {
+    try {
+      structure.emplace(system.K, system.M, R, 0.01 * estimate, options.solver,
+                        [&](int row) { return row_label(model, system, row); });
+    } catch (const InputError&) {
+      // Of very few elements a mechanism moves as simply as the shapes of the estimate do.
+      if (softest.size() > 0) check_stiffness_of(model, system, softest);
+      throw;
+    }
+    elastic = select_free_modes(model, *structure, system, options, basis.modes);
+  });
   basis.solver = structure->solver_name();
-  elastic = select_free_modes(*structure, system, options, basis.modes);
   const Eigen::Index count = elastic.lambda.size();
   basis.X.resize(system.size(), 6 + count);
   basis.X.leftCols<6>() = R;

@@ -9,6 +9,7 @@
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/reduction/mode_basis.hpp"
+#include "floatframe/reduction/rigid_check.hpp"
 
 namespace floatframe {
 namespace {
@@ -41,9 +42,7 @@ std::optional<int> most_normal_modes(const PartOptions& options) {
 Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
                               const std::vector<int>& boundary, const PartOptions& options,
                               std::vector<ModeHealth>& list) {
-  std::optional<int> most = most_normal_modes(options);
-  if (!options.modes && most) most = std::min(*most, fixed.inner_with_mass());
-  const int count = normal_mode_count(fixed, most, options.max_frequency);
+  int count = normal_mode_count(fixed, most_normal_modes(options), options.max_frequency);
   const MatX C = about_centre(R, system.M);
   const MatX MC = system.M * C;
   const Vec6 total = (C.transpose() * MC).diagonal();
@@ -54,7 +53,10 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
 
   const bool by_mass = options.effective_mass > 0.0;
   int solved = by_mass ? std::min(count, 20) : count;
-  Eigenmodes modes = fixed.normal_modes(solved);
+  // A number that nobody asked for is one at most.
+  const bool at_most = !options.modes && !by_mass && !(options.max_frequency > 0.0);
+  Eigenmodes modes = fixed.normal_modes(solved, at_most);
+  if (at_most) solved = count = static_cast<int>(modes.omega.size());
   Vec6 sum = Vec6::Zero();
   int kept = 0;
   bool reached = false;
@@ -85,8 +87,9 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
   return {modes.omega.head(kept), modes.shapes.leftCols(kept)};
 }
 
-Eigenpairs select_free_modes(const FreeStructure& structure, const FeSystem& system,
-                             const PartOptions& options, std::vector<ModeHealth>& list) {
+Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structure,
+                             const FeSystem& system, const PartOptions& options,
+                             std::vector<ModeHealth>& list) {
   int count = most_normal_modes(options).value_or(system.size() - 6);
   if (options.max_frequency > 0.0)
     count = std::clamp(structure.count_below(options.max_frequency) - 6, 0, count);
@@ -98,7 +101,9 @@ Eigenpairs select_free_modes(const FreeStructure& structure, const FeSystem& sys
         "are left beside its six rigid motions",
         count, system.size(), most));
   }
-  const Eigenpairs all = structure.modes(count + 6);
+  // One at least is looked at: a mechanism is refused however few are kept.
+  const Eigenpairs all = structure.modes(std::max(count, std::min(most, 1)) + 6);
+  if (all.shapes.cols() > 6) check_stiffness_of(model, system, all.shapes.col(6));
   const auto found = static_cast<int>(std::max<Eigen::Index>(all.lambda.size() - 6, 0));
   if (!options.modes) count = std::min(count, found);
   if (count > found) {

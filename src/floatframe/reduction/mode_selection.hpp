@@ -19,7 +19,8 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
                               std::vector<ModeHealth>& list);
 
 /// Elastic modes kept.
-Eigenpairs select_free_modes(const FreeStructure& structure, const FeSystem& system,
-                             const PartOptions& options, std::vector<ModeHealth>& list);
+Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structure,
+                             const FeSystem& system, const PartOptions& options,
+                             std::vector<ModeHealth>& list);
 
 }  // namespace floatframe

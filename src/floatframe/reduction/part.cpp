@@ -243,10 +243,11 @@ void free_frequencies(const FeModel& model, const VecX& reduced, const Eigenpair
 
 /// What the model weighs, and whether its stiffness lets it move freely.
 void check_model(const FeModel& model, const FeSystem& system, const MatX& R,
-                 HealthReport& health) {
+                 const PartOptions& options, HealthReport& health) {
   health.dofs = system.size();
   health.from_elements = mass_properties(system.M, R);
   require_mass_and_elasticity(model, system, health.from_elements);
+  require_inertia(model, system, options, health.from_elements);
   health.rigid_residual = check_rigid_motions(model, system);
   health.volume = volume(model);
   health.volume_times_density = volume_times_density(model);
@@ -337,7 +338,7 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   find_rows(model, system, interfaces);
   find_motions(model, system, markers);
   const MatX R = rigid_motions(model, system, Vec3::Zero());
-  check_model(model, system, R, health);
+  check_model(model, system, R, options, health);
   stages.done("assembly");
 
   std::optional<FixedInterface> fixed;

@@ -7,6 +7,9 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/model_checks.hpp"
+#include "floatframe/math/dense.hpp"
+#include "floatframe/math/vector_text.hpp"
+#include "floatframe/reduction/free_structure.hpp"
 
 namespace floatframe {
 
@@ -36,6 +39,28 @@ void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
   if ((diagonal.array() <= rounding).all())
     throw InputError(
         "the part has mass but no elasticity: no element or spring resists what its nodes can do");
+}
+
+void require_inertia(const FeModel& model, const FeSystem& system, const PartOptions& options,
+                     const MassProperties& properties) {
+  // In the frame of an interface what holds it is enough.
+  if (options.method == ModeMethod::craig_bampton &&
+      options.reference.kind == BodyReference::Kind::node)
+    return;
+  const MatX turn = rigid_motions(model, system, properties.centre).rightCols<3>();
+  const MatX J = turn.transpose() * (system.M * turn);
+  const SymmetricEigen inertia = symmetric_eigen(0.5 * (J + J.transpose()));
+  const VecX& J_i = inertia.values;
+  if (!J_i.allFinite() || J_i(0) > 1e-12 * J_i(2)) return;
+  const bool point = !(J_i(2) > 1e-12 * properties.J_origin.norm()) || J_i(2) == 0.0;
+  const Vec3 axis = inertia.vectors.col(0);
+  throw InputError(
+      point ? "the part has no inertia about its centre of mass, since all mass is at one point; "
+              "give point masses their inertia"
+            : fmt::format("the part has no inertia about the axis {} through its centre of mass, "
+                          "since all mass is on a line; give point masses their inertia, beams "
+                          "consistent mass (--mass-form consistent)",
+                          vector_text(axis)));
 }
 
 namespace {

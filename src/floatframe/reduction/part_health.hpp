@@ -11,6 +11,10 @@ MassProperties mass_properties(const InertiaInvariants& invariants);
 /// Throws InputError that says what a part lacks that cannot vibrate.
 void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
                                  const MassProperties& properties);
+/// Throws InputError for masses on a line or at one point, which turn without inertia: frames of
+/// mean axes and free modes cannot tell that from an elastic motion.
+void require_inertia(const FeModel& model, const FeSystem& system, const PartOptions& options,
+                     const MassProperties& properties);
 
 /// One sentence for everything that looks wrong, from the figures gathered so far.
 void add_warnings(const FeModel& model, const PointModel& points, HealthReport& health);

@@ -52,7 +52,7 @@ bool is_of_calculix(AbaqusBuild& build, const AbaqusOrientation& o, const std::s
 /// In the program of the deck. CalculiX passes the Z of a system over, a point c, and a turn whose
 /// axis is blank.
 AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
-                                     const std::string& name) {
+                                     const std::string& name, bool shell) {
   const char* const passes = "passes it over";
   const char* const passed = "passed over";
   if (o.kind == Kind::z_rectangular &&
@@ -64,7 +64,8 @@ AbaqusOrientation in_program_of_deck(AbaqusBuild& build, AbaqusOrientation o,
                      {fmt::format("its point c at ({:g}, {:g}, {:g})", o.c(0), o.c(1), o.c(2)),
                       passes, passed}))
     o.c.setZero();
-  if (!o.axis_given && o.angle != 0.0 &&
+  // Of shells the axis alone says which one is about the normal.
+  if (o.axis != 0 && !o.axis_given && (shell || o.angle != 0.0) &&
       is_of_calculix(build, o, name,
                      {fmt::format("the additional rotation of {:g} degrees, whose axis is blank (1 "
                                   "in Abaqus),",
@@ -119,6 +120,11 @@ int normal_axis(AbaqusBuild& build, const AbaqusOrientation& o, const std::strin
                                          "{}; of CalculiX decks only turns about axis 3, the "
                                          "normal, are read",
                                          shown(name), o.axis));
+  if (o.axis != 3 && o.axis_given && !calculix && !abaqus)
+    build.note(o.at, fmt::format("orientation {} of shells turns about axis {}, which is taken "
+                                 "about the normal as in Abaqus; if the deck is one of CalculiX, "
+                                 "which turns the axes in space, give --dialect calculix",
+                                 shown(name), o.axis));
   return o.axis;
 }
 
@@ -172,7 +178,7 @@ int abaqus_orientation(AbaqusBuild& build, const std::string& name, const Abaqus
                                    section.shown, shown(name), did_you_mean(name, known)));
     return -1;
   }
-  const AbaqusOrientation meant = in_program_of_deck(build, *found, name);
+  const AbaqusOrientation meant = in_program_of_deck(build, *found, name, shell);
   Orientation o = placed(meant, build.content.placement(meant.scope));
   if (shell) {
     const int normal = normal_axis(build, meant, name);

@@ -146,13 +146,12 @@ constexpr std::array ansys_silent = {
     "SHSD",       "PRNSOL",    "SET",      "EPLOT",   "NPLOT",      "STAOPT",     "SBCLIM",
     "BCSOPTION",  "DSPOPTION", "NLDIAG",   "RSTOFF",  "OPNCONTROL", "CUTCONTROL", "MONITOR",
     "SOLCONTROL", "GRP",       "SPOPT",    "CINT",    "GAUGE",      "IC",         "_CDRDOFF",
-    "_BUTTON",    "_RETURN",   "*DIM",     "*STATUS", "TBDELE",     "TALLOW",     "DMP",
-    "ETCONTROL",  "WPSTYLE",   "WPCSYS",   "MPAMOD",  "/NOLIST",    "/GOLIST",    "/AUTO",
-    "/DIST",      "/ANGLE",    "/TYPE",    "/FOCUS",  "/LINE",      "/RGB",       "/TRIAD",
-    "/PLOPTS",    "/EDGE",     "/INQUIRE", "/XML",    "/STATUS",    "/HEADER",    "/PAGE",
-    "/FORMAT",    "*ABSET",    "*ABCHECK", "*ABFINI", "KEYW",       "TBLIST",     "MPLIST",
-    "ETLIST",     "NLIST",     "ELIST",    "CM",      "*CFOPEN",    "*CFCLOS",    "*DEL",
-    "SLIST",
+    "_BUTTON",    "_RETURN",   "*DIM",     "*STATUS", "TALLOW",     "DMP",        "ETCONTROL",
+    "WPSTYLE",    "WPCSYS",    "MPAMOD",   "/NOLIST", "/GOLIST",    "/AUTO",      "/DIST",
+    "/ANGLE",     "/TYPE",     "/FOCUS",   "/LINE",   "/RGB",       "/TRIAD",     "/PLOPTS",
+    "/EDGE",      "/INQUIRE",  "/XML",     "/STATUS", "/HEADER",    "/PAGE",      "/FORMAT",
+    "*ABSET",     "*ABCHECK",  "*ABFINI",  "KEYW",    "TBLIST",     "MPLIST",     "ETLIST",
+    "NLIST",      "ELIST",     "CM",       "*CFOPEN", "*CFCLOS",    "*DEL",       "SLIST",
 };
 
 /// What to do instead, of commands that are met in decks of a session.

@@ -55,6 +55,8 @@ class AnsysElastic {
     result.density = value("DENS").value_or(0.0);
     if (result.density < 0.0)
       error(fmt::format("DENS is {:g}, no negative density is expected", result.density));
+    refuse_two();
+    if (!said_.empty()) return result;
     if (!m_.anisotropic.empty()) return anisotropic(result.density);
     const auto E = value("EX");
     if (!E) {
@@ -71,7 +73,6 @@ class AnsysElastic {
   std::optional<double> value(const char* label) {
     const auto* const found_rows = m_.find(label);
     if (found_rows == nullptr) return std::nullopt;
-    refuse_two(label);
     std::vector<TemperatureRow> rows;
     for (const auto& [T, x] : *found_rows) rows.push_back({T, {x}});
     const AtTemperature found = at_temperature(rows, temperature_);
@@ -90,14 +91,44 @@ class AnsysElastic {
     return found.values[0];
   }
 
-  /// MP and TB may both give it: which of them counts is not said in the file.
-  void refuse_two(const std::string& label) {
-    const auto mp = m_.values.find(label), tb = m_.tables.find(label);
-    if (mp == m_.values.end() || tb == m_.tables.end() || mp->second == tb->second) return;
-    if (mp->second.empty() || tb->second.empty()) return;
-    error(fmt::format("{} is {:g} by MP and {:g} by TB,{}, leave one of the two in the file", label,
-                      mp->second.front().second, tb->second.front().second,
-                      label == "DENS" ? "DENS" : "ELASTIC"));
+  /// At the temperature; nothing if there is none.
+  std::optional<double> at(const AnsysMaterial::Values& values, const char* label) {
+    const auto it = values.find(label);
+    if (it == values.end() || it->second.empty()) return std::nullopt;
+    std::vector<TemperatureRow> rows;
+    for (const auto& [T, x] : it->second) rows.push_back({T, {x}});
+    const AtTemperature found = at_temperature(rows, temperature_);
+    return found.error.empty() ? found.values[0] : rows.front().values[0];
+  }
+
+  /// MP and TB may both give constants: which of them counts is not said in the file.
+  void refuse_two() {
+    const auto compare = [&](const char* by_mp, const char* by_tb) {
+      const auto mp = at(m_.values, by_mp), tb = at(m_.tables, by_tb);
+      if (mp && tb && *mp != *tb)
+        error(fmt::format(
+            "{} is {:g} by MP and {} is {:g} by TB,{}, leave one of the two in the "
+            "file",
+            by_mp, *mp, by_tb, *tb, std::string_view(by_tb) == "DENS" ? "DENS" : "ELASTIC"));
+    };
+    compare("DENS", "DENS");
+    const bool isotropic = m_.tables.contains("EX"), any = !m_.anisotropic.empty();
+    if (any && m_.find("EX") != nullptr) {
+      const SourceMark mark = source_.mark(m_.at);
+      content_.model.notes.push_back(
+          fmt::format("{}:{}: material {} has TB,ANEL, which is taken, and EX by {}, which is not",
+                      mark.file, mark.line, id_, isotropic ? "TB,ELASTIC" : "MP"));
+    }
+    if (any || !isotropic) return;
+    compare("EX", "EX");
+    compare("PRXY", "PRXY");
+    if (!m_.values.contains("PRXY")) compare("NUXY", "PRXY");
+    for (const char* label : {"EY", "EZ", "PRYZ", "PRXZ", "NUYZ", "NUXZ", "GXY", "GYZ", "GXZ"})
+      if (m_.values.contains(label))
+        error(
+            fmt::format("{} by MP stands beside TB,ELASTIC, which is isotropic, leave one of the "
+                        "two in the file",
+                        label));
   }
 
   void error(const std::string& text) {

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/formats/nastran/nastran_build.hpp"
 
@@ -43,6 +44,7 @@ class ConstraintBuilder {
     for (const NastranMass& m : b_.content.masses) mass(m);
     for (const NastranMass& m : nastran_rigid_masses(b_)) mass(m);
     check_nastran_scalar_masses(b_);
+    follow_turned();
     equations();
     build_nastran_rigids(b_);
     for (const NastranSpider* s : general_) build_nastran_mean(b_, *s);
@@ -52,26 +54,38 @@ class ConstraintBuilder {
  private:
   static std::size_t index(int node) { return node; }
 
-  /// Of a node with a turned system that follows only in some of its directions: equations.
-  bool follows_turned(const NastranSpider& s, int reference, int node) {
-    if (b_.turned[index(node)] == 0 || any_axes(s.mask)) return false;
-    const Mat3 axes = b_.axes(node);
-    const Vec3 arm = b_.model.positions[index(node)] - b_.model.positions[index(reference)];
-    for (int c = 0; c < 6; ++c) {
-      const bool rotation = c >= 3;
-      if (((s.mask >> c) & 1u) == 0 || (rotation && b_.rotates[index(node)] == 0)) continue;
-      const Vec3 axis = axes.col(c % 3), lever = arm.cross(axis);
-      LinearEquation e;
-      e.source = s.at;
-      for (int k = 0; k < 3; ++k) {
-        const int dof = rotation ? 3 + k : k;
-        e.terms.push_back({node, dof, axis(k)});
-        e.terms.push_back({reference, dof, -axis(k)});
-        if (!rotation) e.terms.push_back({reference, 3 + k, -lever(k)});
+  /// A node with a turned system that follows only in some of its directions.
+  struct Follower {
+    const NastranSpider* spider = nullptr;
+    int reference = -1, node = -1;
+  };
+
+  /// By equations, once it is known which nodes have rotations: by an element, a spring, a mass.
+  void follow_turned() {
+    const std::vector<int> dofs = dofs_without_springs(b_.model);
+    std::set<int> sprung;
+    for (const Spring& s : b_.model.springs)
+      for (int end = 0; end < 2; ++end)
+        if (!s.directions[end].tail<3>().isZero(0.0)) sprung.insert(s.nodes[end]);
+    for (const Follower& f : followers_) {
+      const bool rotates = dofs[index(f.node) + 1] == 6 || sprung.contains(f.node);
+      const Mat3 axes = b_.axes(f.node);
+      const Vec3 arm = b_.model.positions[index(f.node)] - b_.model.positions[index(f.reference)];
+      for (int c = 0; c < 6; ++c) {
+        const bool rotation = c >= 3;
+        if (((f.spider->mask >> c) & 1u) == 0 || (rotation && !rotates)) continue;
+        const Vec3 axis = axes.col(c % 3), lever = arm.cross(axis);
+        LinearEquation e;
+        e.source = f.spider->at;
+        for (int k = 0; k < 3; ++k) {
+          const int dof = rotation ? 3 + k : k;
+          e.terms.push_back({f.node, dof, axis(k)});
+          e.terms.push_back({f.reference, dof, -axis(k)});
+          if (!rotation) e.terms.push_back({f.reference, 3 + k, -lever(k)});
+        }
+        b_.equations.add(f.node, rotation, std::move(e));
       }
-      b_.equations.add(node, rotation, std::move(e));
     }
-    return true;
   }
 
   /// An RBE3 whose reference follows in all directions the displacements of its nodes, each once.
@@ -116,14 +130,18 @@ class ConstraintBuilder {
       if (node < 0) return;
       if (s.kind == Spider::Kind::rigid && node == spider.reference)
         return b_.source.error(s.at, fmt::format("{}: node {} depends on itself", who, id));
-      if (s.kind == Spider::Kind::rigid && follows_turned(s, spider.reference, node)) continue;
+      if (s.kind == Spider::Kind::rigid && (s.mask >> 3) != 0) b_.rotates[index(node)] = 1;
+      if (s.kind == Spider::Kind::rigid && b_.turned[index(node)] != 0 && !any_axes(s.mask)) {
+        followers_.push_back({&s, spider.reference, node});
+        continue;
+      }
       spider.nodes.push_back(node);
       if (s.kind == Spider::Kind::rigid) {
-        if ((s.mask >> 3) != 0) b_.rotates[index(node)] = 1;
         if (s.mask == all_six) rigid_of_[node] = static_cast<int>(b_.model.spiders.size());
       }
     }
     if (spider.nodes.empty()) {  // a node that only gives the reference its rotations
+      spider.mask = all_six;
       spider.nodes.push_back(b_.add_node(b_.model.positions[index(spider.reference)], s.at, who));
     }
     b_.rotates[index(spider.reference)] = 1;
@@ -246,6 +264,7 @@ class ConstraintBuilder {
   NastranBuild& b_;
   std::unordered_map<int, int> rigid_of_;      // rigid spider that a node follows
   std::vector<const NastranSpider*> general_;  // RBE3 that are equations
+  std::vector<Follower> followers_;
 };
 
 /// Basic directions that lie in what is held in turned axes.
