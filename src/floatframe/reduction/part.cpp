@@ -299,7 +299,7 @@ ElasticModes body_modes(const FeModel& model, const ModeBasis& basis, const Iner
 }
 
 /// Modes of the free part, of the model itself beside those of the body if asked for. `structure`:
-/// if its factors are there already.
+/// if its factors are there already. One mode at least shows what holds the part.
 void check_free_modes(const FeModel& model, const FeSystem& system, const MatX& R,
                       const VecX& reduced, Eigen::Index fixed_modes, const PartOptions& options,
                       std::optional<FreeStructure>& structure, HealthReport& health) {
@@ -309,9 +309,9 @@ void check_free_modes(const FeModel& model, const FeSystem& system, const MatX& 
     structure.emplace(system.K, system.M, R, 0.3 * first, options.solver,
                       [&](int row) { return row_label(model, system, row); });
   }
-  const int count = static_cast<int>(std::min<Eigen::Index>(
-      reduced.size(), std::clamp<Eigen::Index>(fixed_modes, 10, free_modes)));
-  const Eigenpairs full = structure->modes(6 + count);
+  const Eigen::Index most = std::clamp<Eigen::Index>(fixed_modes, 10, free_modes);
+  const auto count = static_cast<int>(std::clamp<Eigen::Index>(reduced.size(), 1, most));
+  const Eigenpairs full = structure->modes(std::min(6 + count, system.size()));
   if (full.shapes.cols() > 6)
     check_stiffness_of(model, system, full.shapes.rightCols(full.shapes.cols() - 6));
   free_frequencies(model, reduced, &full, health);
