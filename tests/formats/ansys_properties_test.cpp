@@ -51,6 +51,10 @@ TEST(AnsysMaterials, OrthotropicByMajorOrMinorRatios) {
     table += "\n";
   }
   EXPECT_LE((*ansys_of(cdb_brick + table).materials.at(0).elasticity - D).norm(), 1e-14 * D.norm());
+  const FeModel both = ansys_of(cdb_brick + "MP,EX,1,1\n" + table);
+  EXPECT_LE((*both.materials.at(0).elasticity - D).norm(), 1e-14 * D.norm());
+  EXPECT_EQ(both.notes.at(0),
+            "a.cdb:11: material 1 has TB,ANEL, which is taken, and EX by MP, which is not");
 }
 
 TEST(AnsysMaterials, IsotropicInAllForms) {

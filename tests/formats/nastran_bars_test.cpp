@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "floatframe/fe/fe_system.hpp"
-#include "floatframe/fe/interface_selection.hpp"
 #include "floatframe/formats/nastran/nastran_cards.hpp"
 #include "floatframe/formats/nastran/read_nastran.hpp"
 #include "support/error_of.hpp"
@@ -379,25 +378,6 @@ TEST(NastranBars, BarsWithoutSomeOfTheirStiffness) {
   std::string pinned = nodes + "PBAR,1,1,.5,.2,.3\n";
   EXPECT_EQ(bars_error(pinned.insert(pinned.find("PBAR"), ",45\n")),
             "arm.bdf:8: PBAR 1: J is 0, expected more than 0");
-}
-
-// Ends that the reader makes are no nodes of the file: a place is never one of them.
-TEST(NastranBars, PlacesAreNodesOfTheFile) {
-  const FeModel model = bars_of(
-      "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.,0.\n"
-      "CBAR,7,5,1,2,0.,0.,1.\n,456,,0.,0.,.1,0.,0.,.1\nCBAR,8,5,2,3,0.,0.,1.\n"
-      "PBAR,5,9,1.,1.,1.,1.\nMAT1,9,2e11,,.3,7800.\nENDDATA\n");
-  ASSERT_GT(model.nodes(), 3);
-  for (int k = 0; k < model.nodes(); ++k)
-    EXPECT_EQ(std::count(model.made_nodes.begin(), model.made_nodes.end(), k), k >= 3);
-  NodeChoice choice;
-  choice.by = NodeChoice::By::nearest;
-  choice.point = Vec3(0.0, 0.0, 0.1);
-  EXPECT_EQ(choose_nodes(model, choice), std::vector<int>{0});
-  choice.by = NodeChoice::By::plane;
-  choice.point.setZero();
-  choice.axis = Vec3::UnitX();
-  EXPECT_EQ(choose_nodes(model, choice), std::vector<int>{0});
 }
 
 }  // namespace

@@ -149,7 +149,6 @@ TEST(NastranTurned, RigidElements) {
   }
 }
 
-// Which components depend does not change the equations.
 /// Eigenvalues of the free part [rad2/s2], the smallest first.
 VecX turned_eigenvalues(const std::string& text) {
   const FeSystem s = assemble(turned_deck(text));
@@ -187,6 +186,7 @@ TEST(NastranTurned, BodiesOnSlides) {
     }
 }
 
+// Which components depend does not change the equations.
 TEST(NastranTurned, DependentComponentsOfMeanSpiders) {
   const std::string deck =
       bars + nodes_3_and_4(0) + "GRID,8,,4.,2.,0.\nCONM2,9,8,,1.\nRBE3,9,,8,123456,1.,123,3,5\n,6";

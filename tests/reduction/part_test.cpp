@@ -6,16 +6,13 @@
 
 #include <numbers>
 
-#include "floatframe/fe/springs.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/inertia/projection.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/math/frequency.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/reduction/body_reference.hpp"
 #include "floatframe/reduction/fixed_interface.hpp"
 #include "floatframe/reduction/free_structure.hpp"
-#include "floatframe/reduction/part_health.hpp"
 #include "reduction/part_beam.hpp"
 #include "support/error_of.hpp"
 #include "support/fe_parts.hpp"
@@ -23,21 +20,6 @@
 
 namespace floatframe::test {
 namespace {
-
-/// Two bodies at one place, a bushing between them.
-FeModel two_masses() {
-  FeModel model;
-  model.positions = {Vec3::Zero(), Vec3::Zero()};
-  model.masses.resize(2);
-  model.masses[0] = {.node = 0, .mass = 2.0};
-  model.masses[1] = {.node = 1, .mass = 3.0};
-  model.masses[0].J.diagonal() << 0.01, 0.02, 0.03;
-  model.masses[1].J.diagonal() << 0.02, 0.03, 0.05;
-  Vec6 k;
-  k << 1e5, 2e5, 3e5, 100.0, 200.0, 300.0;
-  add_bushing(model, 0, 1, Vec3::Zero(), Mat3::Identity(), k, "bushing", {});
-  return model;
-}
 
 /// Elastic frequencies of the free body from its integrals and its stiffness alone.
 VecX free_frequencies(const FlexibleBody& body) {
@@ -330,90 +312,11 @@ TEST(PartHealth, MassPropertiesAndWarnings) {
             "of 601 m, which is unusual; if the file was read as m-kg-s, it may be in mm-t-s: then "
             "it has a Young's modulus of 2.1e+11 Pa, a density of 7.85e+03 kg/m3 and a size of "
             "0.601 m");
-  // It knows how the file was read, and has nothing to propose for masses on springs.
+  // It knows how the file was read.
   wrong.units = "m-kg-s";
   EXPECT_NE(reduce_part(wrong, options)
                 .health.warnings[0]
                 .find("unusual; read as m-kg-s, it may be in mm-t-s: then it has"),
-            std::string::npos);
-  EXPECT_EQ(unit_guess(two_masses(), 2.0),
-            "the part has a size of 0 m, which is unusual; check the units of the file");
-}
-
-TEST(Part, OfMassesAndSpringsAlone) {
-  const VecX k = (VecX(6) << 1e5, 2e5, 3e5, 100.0, 200.0, 300.0).finished();
-  // Reduced masses and inertias.
-  const VecX m = (VecX(6) << 1.2, 1.2, 1.2, 0.02 / 3.0, 0.012, 0.03 * 0.05 / 0.08).finished();
-  std::vector<double> exact;
-  for (int i = 0; i < 6; ++i) exact.push_back(hertz(std::sqrt(k(i) / m(i))));
-  std::sort(exact.begin(), exact.end());
-  for (const ModeMethod method : {ModeMethod::free_free, ModeMethod::craig_chang}) {
-    PartOptions options;
-    options.method = method;
-    if (method == ModeMethod::craig_chang) {
-      options.interfaces.resize(1);
-      options.interfaces[0].name = "A";
-      options.interfaces[0].choice.by = NodeChoice::By::nearest;
-    }
-    const HealthReport health = reduce_part(two_masses(), options).health;
-    ASSERT_EQ(health.modes, 6);
-    for (std::size_t i = 0; i < 6; ++i)
-      EXPECT_NEAR(health.free_frequencies[i].reduced / exact[i], 1.0, 1e-10) << i;
-  }
-  PartOptions seven;
-  seven.method = ModeMethod::free_free;
-  seven.modes = 7;
-  EXPECT_EQ(error_of([&] { reduce_part(two_masses(), seven); }),
-            "7 normal modes are requested, but of the 12 degrees of freedom of the free part only "
-            "6 are left beside its six rigid motions");
-  // A mechanism is one still: nothing resists the turn about x.
-  FeModel loose = two_masses();
-  std::erase_if(loose.springs, [](const Spring& s) { return s.directions[0](3) != 0.0; });
-  PartOptions free;
-  free.method = ModeMethod::free_free;
-  EXPECT_NE(error_of([&] { reduce_part(loose, free); }).find("mechanism"), std::string::npos);
-}
-
-// One point turns about all axes for nothing, two about the line through them.
-TEST(Part, WithoutInertiaAboutAnAxis) {
-  const auto error = [](const FeModel& model, ModeMethod method, int axes) {
-    PartOptions options;
-    options.method = method;
-    options.interfaces.resize(method == ModeMethod::free_free ? 0 : 1);
-    for (InterfaceDescription& d : options.interfaces) {
-      d.name = "A";
-      d.choice.by = NodeChoice::By::nearest;
-      d.mask = axes == 3 ? 7u : 63u;
-    }
-    return error_of([&] { reduce_part(model, options); });
-  };
-  FeModel model = two_masses();
-  for (PointMass& m : model.masses) m.J.setZero();
-  std::erase_if(model.springs, [](const Spring& s) { return s.directions[0].head<3>().isZero(); });
-  for (const ModeMethod method : {ModeMethod::free_free, ModeMethod::craig_bampton})
-    EXPECT_EQ(error(model, method, 3),
-              "the part has no inertia about its centre of mass, since all mass is at one point; "
-              "give point masses their inertia");
-  model.positions[1] = Vec3(0.0, 0.0, 2.0);
-  std::erase_if(model.springs, [](const Spring& s) { return s.directions[0](2) == 0.0; });
-  EXPECT_EQ(error(model, ModeMethod::free_free, 3),
-            "the part has no inertia about the axis (0, 0, 1) through its centre of mass, since "
-            "all mass is on a line; give point masses their inertia, beams consistent mass "
-            "(--mass-form consistent)");
-}
-
-// However few modes are kept.
-TEST(Part, MechanismsWithoutNormalModes) {
-  FeModel loose = two_masses();
-  std::erase_if(loose.springs, [](const Spring& s) { return s.directions[0](3) != 0.0; });
-  PartOptions options;
-  options.method = ModeMethod::free_free;
-  options.modes = 0;
-  EXPECT_NE(error_of([&] { reduce_part(loose, options); }).find("the part is a mechanism"),
-            std::string::npos);
-  options.modes.reset();
-  options.max_frequency = 1e-4;
-  EXPECT_NE(error_of([&] { reduce_part(loose, options); }).find("the part is a mechanism"),
             std::string::npos);
 }
 

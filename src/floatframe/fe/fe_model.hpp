@@ -234,7 +234,7 @@ struct FeModel {
   std::vector<int> node_ids;           ///< the user's numbers; empty: index + 1
   std::vector<FeSource> node_sources;  ///< same length as positions, or empty
   /// Of the nodes those that no line of the file gives, but its reader made: ends of bars beside
-  /// their nodes or with hinges, places of masses, middles of edges.
+  /// their nodes or with hinges, places of masses, middles of edges. Ascending.
   std::vector<int> made_nodes;
   std::vector<std::string> material_names;
   std::map<int, MissingDensity> without_density;  ///< by the index of the material

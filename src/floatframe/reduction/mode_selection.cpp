@@ -53,7 +53,7 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
 
   const bool by_mass = options.effective_mass > 0.0;
   int solved = by_mass ? std::min(count, 20) : count;
-  // A number that nobody asked for is one at most.
+  // The default number is a limit: small parts have fewer.
   const bool at_most = !options.modes && !by_mass && !(options.max_frequency > 0.0);
   Eigenmodes modes = fixed.normal_modes(solved, at_most);
   if (at_most) solved = count = static_cast<int>(modes.omega.size());

@@ -34,7 +34,7 @@ void require_mass_and_elasticity(const FeModel& model, const FeSystem& system,
   double rounding = 0.0;  // what is left of springs within a rigid body
   if (model.elements.empty())
     for (const Spring& s : model.springs) rounding = std::max(rounding, 1e-12 * s.stiffness);
-  // What is not finite is said later, with the place.
+  // `check_rigid_motions` refuses what is not finite.
   const VecX diagonal = system.K.diagonal();
   if ((diagonal.array() <= rounding).all())
     throw InputError(

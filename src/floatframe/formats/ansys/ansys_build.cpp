@@ -82,6 +82,12 @@ const AnsysSection* AnsysBuild::section(const AnsysElement& e, const char* kind)
   return it != content.sections.end() && it->second.kind == kind ? &it->second : nullptr;
 }
 
+const AnsysMaterial::Values::mapped_type* AnsysMaterial::find(const std::string& label) const {
+  for (const Values* of : {&tables, &values})
+    if (const auto it = of->find(label); it != of->end() && !it->second.empty()) return &it->second;
+  return nullptr;
+}
+
 int AnsysBuild::material(int id, const AnsysElement& e, double more_density) {
   const auto [it, fresh] =
       materials.try_emplace({id, more_density}, static_cast<int>(model.materials.size()));

@@ -70,11 +70,16 @@ class AnsysElastic {
   }
 
  private:
+  static std::vector<TemperatureRow> rows_of(const AnsysMaterial::Values::mapped_type& table) {
+    std::vector<TemperatureRow> rows;
+    for (const auto& [T, x] : table) rows.push_back({T, {x}});
+    return rows;
+  }
+
   std::optional<double> value(const char* label) {
     const auto* const found_rows = m_.find(label);
     if (found_rows == nullptr) return std::nullopt;
-    std::vector<TemperatureRow> rows;
-    for (const auto& [T, x] : *found_rows) rows.push_back({T, {x}});
+    const std::vector<TemperatureRow> rows = rows_of(*found_rows);
     const AtTemperature found = at_temperature(rows, temperature_);
     if (!found.error.empty()) {
       error(fmt::format("its {} {}", label, found.error));
@@ -95,8 +100,7 @@ class AnsysElastic {
   std::optional<double> at(const AnsysMaterial::Values& values, const char* label) {
     const auto it = values.find(label);
     if (it == values.end() || it->second.empty()) return std::nullopt;
-    std::vector<TemperatureRow> rows;
-    for (const auto& [T, x] : it->second) rows.push_back({T, {x}});
+    const std::vector<TemperatureRow> rows = rows_of(it->second);
     const AtTemperature found = at_temperature(rows, temperature_);
     return found.error.empty() ? found.values[0] : rows.front().values[0];
   }
@@ -232,12 +236,6 @@ class AnsysElastic {
 };
 
 }  // namespace
-
-const AnsysMaterial::Values::mapped_type* AnsysMaterial::find(const std::string& label) const {
-  for (const Values* of : {&tables, &values})
-    if (const auto it = of->find(label); it != of->end() && !it->second.empty()) return &it->second;
-  return nullptr;
-}
 
 /// MP,EX,1,2.1e5: with further constants it is a polynomial of the temperature.
 void read_ansys_material(AnsysFields& f, AnsysContent& c) {

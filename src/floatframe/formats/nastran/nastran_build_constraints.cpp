@@ -62,13 +62,10 @@ class ConstraintBuilder {
 
   /// By equations, once it is known which nodes have rotations: by an element, a spring, a mass.
   void follow_turned() {
-    const std::vector<int> dofs = dofs_without_springs(b_.model);
-    std::set<int> sprung;
-    for (const Spring& s : b_.model.springs)
-      for (int end = 0; end < 2; ++end)
-        if (!s.directions[end].tail<3>().isZero(0.0)) sprung.insert(s.nodes[end]);
+    if (followers_.empty()) return;
+    const DofTable dofs = dof_table(b_.model);
     for (const Follower& f : followers_) {
-      const bool rotates = dofs[index(f.node) + 1] == 6 || sprung.contains(f.node);
+      const bool rotates = dofs.count(f.node) == 6;
       const Mat3 axes = b_.axes(f.node);
       const Vec3 arm = b_.model.positions[index(f.node)] - b_.model.positions[index(f.reference)];
       for (int c = 0; c < 6; ++c) {
