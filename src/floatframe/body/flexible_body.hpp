@@ -42,6 +42,16 @@ struct ProjectionData {
   /// Bars only, else empty: (3 nm) n x nm, rows nm (3 k + j) and on are h_j of node k
   /// (SecondOrder).
   MatX h;
+  /// Points that turn about another one, isoparametric only: with theta = rotation y, the rotation
+  /// of what both are fixed to, the point has a displacement of second order 1/2 theta x (theta x
+  /// arm) (SecondOrder, `FlexibleBody::turning`). Ascending by point.
+  struct TurningPoint {
+    int point = -1;
+    int rotation = -1;        ///< rows 3 rotation .. 3 rotation + 2 of `rotations`
+    Vec3 arm = Vec3::Zero();  ///< body axes [m]
+  };
+  std::vector<TurningPoint> turning;
+  MatX rotations;  ///< 3r x nm
   bool six_dof() const noexcept { return M_6.rows() > 0; }
   int nodes() const noexcept { return static_cast<int>(p.cols()); }
 };
@@ -56,7 +66,13 @@ struct FlexibleBody {
   std::vector<ModalNode> nodes;  ///< FE nodes, in the order of the FE model; empty for a rigid body
   std::shared_ptr<const ProjectionData> projection;  ///< null: only preprocessing is possible
   MassModel mass_model = MassModel::isoparametric;
-  std::shared_ptr<const SecondOrder> second_order = nullptr;  ///< null: not known
+  /// Displacements of second order of what is fixed to nodes that turn - sections, thicknesses,
+  /// discs - and the twist of second order of beams, on the masses: always part of the inertia
+  /// terms. No nodes; null: no mass turns.
+  std::shared_ptr<const SecondOrder> turning = nullptr;
+  /// The others, for geometric stiffening: foreshortening, and what loads do on all of them. Does
+  /// not hold what `turning` holds. null: not known.
+  std::shared_ptr<const SecondOrder> second_order = nullptr;
 
   // What the user may want to know about the reduction.
   VecX fixed_interface_frequencies;  ///< [Hz], of the dynamic modes kept

@@ -54,6 +54,7 @@ FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
   }
   if (body.shape) out.shape = std::make_shared<const BodyShape>(mirrored_shape(*body.shape, s));
   if (body.stress) out.stress = std::make_shared<const BodyStress>(mirrored(*body.stress, s));
+  if (body.turning) out.turning = std::make_shared<const SecondOrder>(mirrored(*body.turning, s));
   if (body.second_order)
     out.second_order = std::make_shared<const SecondOrder>(mirrored(*body.second_order, s));
   if (body.projection) {
@@ -61,6 +62,9 @@ FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
     data->p = s.asDiagonal() * data->p;
     for (Eigen::Index r = 0; r < data->X.rows(); ++r) data->X.row(r) *= s(r % 3);
     for (Eigen::Index r = 0; r < data->X_theta.rows(); ++r) data->X_theta.row(r) *= axial(r % 3);
+    for (ProjectionData::TurningPoint& t : data->turning) t.arm = s.cwiseProduct(t.arm);
+    for (Eigen::Index r = 0; r < data->rotations.rows(); ++r)
+      data->rotations.row(r) *= axial(r % 3);
     if (data->h.size() > 0)  // blocks h_1, h_2, h_3 of each node
       for (Eigen::Index b = 0; b < data->h.rows() / data->h.cols(); ++b)
         data->h.middleRows(b * data->h.cols(), data->h.cols()) *= s(b % 3);

@@ -76,7 +76,8 @@ FlexibleBody with_modes(const FlexibleBody& body, const std::vector<int>& keep) 
   }
   if (body.stress)
     out.stress = std::make_shared<const BodyStress>(with_kept_modes(*body.stress, body, keep));
-  if (keep.empty()) out.second_order = nullptr;
+  if (keep.empty()) out.turning = out.second_order = nullptr;
+  if (out.turning) out.turning = kept(*out.turning, keep);
   if (out.second_order) out.second_order = kept(*out.second_order, keep);
   if (keep.empty()) {
     out.projection = nullptr;
@@ -84,6 +85,7 @@ FlexibleBody with_modes(const FlexibleBody& body, const std::vector<int>& keep) 
     auto data = std::make_shared<ProjectionData>(*body.projection);
     data->X = columns(data->X, keep);
     if (data->X_theta.size() > 0) data->X_theta = columns(data->X_theta, keep);
+    if (data->rotations.size() > 0) data->rotations = columns(data->rotations, keep);
     if (data->h.size() > 0) data->h = blocks(data->h, keep);
     out.projection = data;
   }

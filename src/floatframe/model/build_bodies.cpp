@@ -38,8 +38,10 @@ void ModelBuilder::stiffening(const BodyDescription& b, Body& body) {
                "bodies." + b.name +
                    ".geometric_stiffening: found true on a rigid body, expected it on a flexible "
                    "one (or false)");
-  body.geometric_stiffening =
-      body.modes() > 0 && b.geometric_stiffening.value_or(d.simulation.geometric_stiffening);
+  const std::optional<bool> given =
+      b.geometric_stiffening ? b.geometric_stiffening : d.simulation.geometric_stiffening;
+  body.geometric_stiffening = body.modes() > 0 && given.value_or(false);
+  body.stiffening_given = given.has_value();
   if (!body.geometric_stiffening || body.data->second_order) return;
   errors.add(b.geometric_stiffening ? b.origin.of("geometric_stiffening")
                                     : d.simulation.origin.of("geometric_stiffening"),

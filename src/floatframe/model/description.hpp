@@ -336,10 +336,12 @@ struct SystemState;
 struct SimulationDescription {
   Coordinates coordinates = Coordinates::relative;
   InertiaMethod inertia = InertiaMethod::preprocessing;
-  bool geometric_stiffening = false;  ///< of all flexible bodies that do not say it themselves
-  double step = 1e-3;                 ///< [s]
-  double duration = 1.0;              ///< [s]
-  double output_interval = 0.0;       ///< [s]; 0: every step
+  /// Of all flexible bodies that have none of their own; absent: false, and linear analyses of
+  /// bodies that spin or carry load count it in.
+  std::optional<bool> geometric_stiffening = {};
+  double step = 1e-3;            ///< [s]
+  double duration = 1.0;         ///< [s]
+  double output_interval = 0.0;  ///< [s]; 0: every step
   Start start = Start::given;
   std::shared_ptr<const SystemState> state;   ///< where Start::state starts
   std::map<std::string, StartOffset> offset;  ///< by body, from the equilibrium or the state

@@ -10,7 +10,8 @@ void check_inertia_method(const ModelDescription& description, InertiaMethod met
     const auto* part = std::get_if<FlexibleBody>(&b.kind);
     if (method == InertiaMethod::projection && part && part->projection &&
         part->projection->h.size() == 0 &&
-        b.geometric_stiffening.value_or(description.simulation.geometric_stiffening))
+        b.geometric_stiffening.value_or(
+            description.simulation.geometric_stiffening.value_or(false)))
       errors.add(
           own ? b.origin.of("geometric_stiffening")
               : description.simulation.origin.of("geometric_stiffening"),

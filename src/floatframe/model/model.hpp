@@ -31,6 +31,7 @@ struct Body {
   Pose X_WB;            ///< design pose
   double length = 1.0;  ///< characteristic length: scales direction rows to lengths [m]
   bool geometric_stiffening = false;
+  bool stiffening_given = false;  ///< the description has the key, for it or for all bodies
   int modes() const noexcept { return data->modes(); }
   /// Displacements of second order enter (SecondOrder).
   bool stiffens() const noexcept {

@@ -111,8 +111,9 @@ class ModelHash {
         all(static_cast<int>(it.col()), it.value());
   }
   void add(const ProjectionData& d) {
-    const auto& [p, X, M_s, X_theta, M_6, h] = d;
-    all(p, X, M_s, X_theta, M_6);
+    const auto& [p, X, M_s, X_theta, M_6, h, turning, rotations] = d;
+    all(p, X, M_s, X_theta, M_6, rotations);
+    for (const auto& [point, rotation, arm] : turning) all(point, rotation, arm);
   }
   void add(const SecondOrder& s) {
     const auto& [S2, S2i, nodes] = s;
@@ -125,13 +126,14 @@ class ModelHash {
     }
   }
   void add(const FlexibleBody& body) {
-    const auto& [invariants, K, D, nodes, projection, mass_model, second_order, frequencies,
-                 mode_names, shape, stress] = body;
+    const auto& [invariants, K, D, nodes, projection, mass_model, turning, second_order,
+                 frequencies, mode_names, shape, stress] = body;
     all(invariants, K, D, projection != nullptr, mass_model);  // nodes: those with markers
     if (projection) add(*projection);
+    if (turning) add(*turning);
   }
   void add(const Body& b) {
-    const auto& [name, data, X_WB, length, geometric_stiffening] = b;
+    const auto& [name, data, X_WB, length, geometric_stiffening, stiffening_given] = b;
     all(name, *data, X_WB, length);
     if (b.stiffens()) add(*data->second_order);
   }

@@ -99,7 +99,8 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
     if (const auto w = v->word(rules::coordinates)) d.coordinates = static_cast<Coordinates>(*w);
   if (const auto v = s.get("inertia"))
     if (const auto w = v->word(rules::inertia_methods)) d.inertia = static_cast<InertiaMethod>(*w);
-  d.geometric_stiffening = s.boolean("geometric_stiffening", d.geometric_stiffening);
+  if (s.has("geometric_stiffening"))
+    d.geometric_stiffening = s.boolean("geometric_stiffening", false);
   if (const auto v = s.get("start")) read_start(self, *v, d);
   if (const auto v = s.get("velocity"))
     if (const auto x = v->vector("m/s")) d.velocity = *x;
