@@ -52,6 +52,8 @@ struct ProjectionData {
   };
   std::vector<TurningPoint> turning;
   MatX rotations;  ///< 3r x nm
+  /// The twist of second order of beams: integrals that add to those of the points; null: none.
+  std::shared_ptr<const SecondOrder> twist = nullptr;
   bool six_dof() const noexcept { return M_6.rows() > 0; }
   int nodes() const noexcept { return static_cast<int>(p.cols()); }
 };

@@ -62,6 +62,7 @@ FlexibleBody mirrored(const FlexibleBody& body, const Mat3& P) {
     data->p = s.asDiagonal() * data->p;
     for (Eigen::Index r = 0; r < data->X.rows(); ++r) data->X.row(r) *= s(r % 3);
     for (Eigen::Index r = 0; r < data->X_theta.rows(); ++r) data->X_theta.row(r) *= axial(r % 3);
+    if (data->twist) data->twist = std::make_shared<const SecondOrder>(mirrored(*data->twist, s));
     for (ProjectionData::TurningPoint& t : data->turning) t.arm = s.cwiseProduct(t.arm);
     for (Eigen::Index r = 0; r < data->rotations.rows(); ++r)
       data->rotations.row(r) *= axial(r % 3);

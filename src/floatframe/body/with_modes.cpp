@@ -86,6 +86,7 @@ FlexibleBody with_modes(const FlexibleBody& body, const std::vector<int>& keep) 
     data->X = columns(data->X, keep);
     if (data->X_theta.size() > 0) data->X_theta = columns(data->X_theta, keep);
     if (data->rotations.size() > 0) data->rotations = columns(data->rotations, keep);
+    if (data->twist) data->twist = kept(*data->twist, keep);
     if (data->h.size() > 0) data->h = blocks(data->h, keep);
     out.projection = data;
   }

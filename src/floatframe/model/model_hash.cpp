@@ -111,9 +111,10 @@ class ModelHash {
         all(static_cast<int>(it.col()), it.value());
   }
   void add(const ProjectionData& d) {
-    const auto& [p, X, M_s, X_theta, M_6, h, turning, rotations] = d;
+    const auto& [p, X, M_s, X_theta, M_6, h, turning, rotations, twist] = d;
     all(p, X, M_s, X_theta, M_6, rotations);
     for (const auto& [point, rotation, arm] : turning) all(point, rotation, arm);
+    if (twist) add(*twist);
   }
   void add(const SecondOrder& s) {
     const auto& [S2, S2i, nodes] = s;
