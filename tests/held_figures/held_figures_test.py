@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Figures of the project that must not grow unseen: figures.txt beside this file holds the most that each may be.
+
+usage: tests/held_figures/held_figures_test.py [--instructions PROGRAM] [--print]
+
+Without options: what the sources alone show. --instructions: instructions of the steps of a run and of full Newton
+iterations, counted by valgrind in a release build (its copy for the processor's instruction set). --print: only prints what
+is measured, in the format of figures.txt. Exit code 1 and one line for each figure that is larger; a figure that has become
+smaller by more than a tenth should be entered anew.
+"""
+import argparse
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+SOURCES = ROOT / "src" / "floatframe"
+COUNTED = "floatframe_counted_steps"
+LISTS = {
+    "joint": ("model/joint_list.hpp", "JointType"),
+    "constraint": ("model/constraint_list.hpp", "ConstraintType"),
+    "force": ("model/force_list.hpp", "ForceType"),
+    "output": ("model/output_list.hpp", "OutputType"),
+    "element": ("fe/element_list.hpp", "ElementType"),
+}
+ROTOR = ["examples/rotor/rotor.yaml", "--coordinates", "relative", "--iterations", "200"]
+# name -> arguments of `floatframe bench step`
+COUNTS = {
+    "iltis, relative": ["iltis", "--coordinates", "relative", "--duration", "0.2"],
+    "iltis, absolute": ["iltis", "--coordinates", "absolute", "--duration", "0.2"],
+    "chain of 4 links, relative": ["chain", "--coordinates", "relative", "--duration", "0.2"],
+    "chain of 4 links, absolute": ["chain", "--coordinates", "absolute", "--duration", "0.2"],
+    "rotor, sections without inertia": ROTOR + ["--set", "section_inertia=false", "--set", "stiffening=false"],
+    "rotor, sections with inertia": ROTOR + ["--set", "stiffening=false"],
+    "rotor, with geometric stiffening": ROTOR,
+}
+
+
+def source_texts():
+    return {path: path.read_text(encoding="utf-8") for suffix in ("cpp", "hpp") for path in SOURCES.rglob("*." + suffix)}
+
+
+def without_comments(text):
+    return re.sub(r"//[^\n]*", "", text)
+
+
+def source_figures():
+    texts = {path: without_comments(text) for path, text in source_texts().items()}
+    figures = {
+        "casts in src": sum(len(re.findall(r"\b(?:static|const|reinterpret|dynamic)_cast<", t)) for t in texts.values()),
+        "lines of src": sum(t.count("\n") for t in texts.values()),
+        "lines of src/floatframe/formats": sum(t.count("\n") for p, t in texts.items() if SOURCES / "formats" in p.parents),
+    }
+    folder = tempfile.mkdtemp(prefix="floatframe-headers-")
+    try:
+        generated = pathlib.Path(folder) / "generated/floatframe/core"
+        generated.mkdir(parents=True)
+        (generated / "version.hpp").write_text("#pragma once\n", encoding="utf-8")
+        subprocess.run(["cmake", f"-DSOURCE={ROOT / 'src'}", f"-DGENERATED={folder}/generated", f"-DOUTPUT={folder}/out",
+                        "-P", str(ROOT / "cmake/public_headers.cmake")], check=True, capture_output=True)
+        headers = list(pathlib.Path(folder, "out").rglob("*.hpp"))
+        figures["headers installed"] = len(headers)
+        figures["lines of headers installed"] = sum(h.read_text(encoding="utf-8").count("\n") for h in headers)
+    finally:
+        shutil.rmtree(folder)
+    # What is added is one file and one entry: other files that name it are what more there is to touch.
+    for kind, (list_file, enum) in LISTS.items():
+        entries = re.findall(r"entry\((\w+)\)", texts[SOURCES / list_file])
+        touched = [sum(1 for p, t in texts.items() if p != SOURCES / list_file and p.stem != name
+                       and re.search(rf"\b{enum}::{name}\b", t)) for name in entries]
+        figures[f"other files that name a {kind} by its type, all of them"] = sum(touched)
+    return figures
+
+
+def collected(program, arguments):
+    """(instructions, steps or full iterations)"""
+    with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
+        facts = pathlib.Path(folder) / "facts.json"
+        command = ["valgrind", "--tool=callgrind", f"--toggle-collect={COUNTED}", f"--callgrind-out-file={folder}/out",
+                   str(program), "bench", "step", *arguments, "--json", str(facts)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT,
+                              env={**os.environ, "LD_BIND_NOW": "1"})
+        if done.returncode:
+            sys.exit(f"held_figures: `{' '.join(command)}` failed:\n{done.stderr[-2000:]}")
+        total = int(re.search(r"Collected : (\d+)", done.stderr)[1])
+        words = facts.read_text(encoding="utf-8")
+        number = {key: int(re.search(rf'"{key}": (\d+)', words)[1]) for key in ("steps", "full_iterations")}
+        return total / (number["full_iterations"] or number["steps"]), words
+
+
+def instruction_figures(program):
+    if not shutil.which("valgrind"):
+        sys.exit("held_figures: valgrind not found; Debian package: valgrind")
+    figures = {}
+    for name, arguments in COUNTS.items():
+        figures["instructions per step: " + name if "--iterations" not in arguments else
+                "instructions per iteration: " + name] = round(collected(program, arguments)[0])
+    with_inertia, stiffened = (figures["instructions per iteration: rotor, " + key]
+                               for key in ("sections with inertia", "with geometric stiffening"))
+    print(f"sections with inertia cost {with_inertia / stiffened:.3f} of geometric stiffening")
+    return figures
+
+
+def held():
+    table = {}
+    for line in (HERE / "figures.txt").read_text(encoding="utf-8").splitlines():
+        if line.strip() and not line.startswith("#"):
+            name, limit = line.rsplit(None, 1)
+            table[name.strip()] = float(limit)
+    return table
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--instructions", metavar="PROGRAM")
+    parser.add_argument("--print", action="store_true", dest="only_print")
+    arguments = parser.parse_args()
+    figures = instruction_figures(arguments.instructions) if arguments.instructions else source_figures()
+    limits, failures = held(), 0
+    for name, value in figures.items():
+        print(f"{name:70} {value:g}" if value < 1e5 else f"{name:70} {value}")
+        if arguments.only_print:
+            continue
+        if name not in limits:
+            print(f"held_figures: '{name}' has no line in figures.txt", file=sys.stderr)
+            failures += 1
+        elif value > limits[name]:
+            print(f"held_figures: '{name}' is {value:g}, at most {limits[name]:g} is held", file=sys.stderr)
+            failures += 1
+        elif value < 0.9 * limits[name]:
+            print(f"  (held: {limits[name]:g}, enter the smaller figure)")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
