@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-viewer test-export test-decks python test-python test-python-asan wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all test-viewer test-export test-decks test-figures python test-python test-python-asan wheel test-wheel demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DEMO_MODEL := examples/iltis/iltis.yaml
@@ -11,7 +11,7 @@ help:
 	@echo "make build         release build: build/floatframe"
 	@echo "make test          release build and all tests"
 	@echo "make test-all      the same, then what takes longer: a thousand random mechanisms, stairs, twenty kills of each kind,"
-	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, the Python package and its wheel"
+	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, held figures, the Python package and its wheel"
 	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
 	@echo "make test-python-asan  its tests with address and undefined-behaviour sanitizers"
 	@echo "make wheel         the Python package with all that it needs, in dist; make test-wheel tries it in a fresh environment"
@@ -48,6 +48,7 @@ test-all: test
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
 	$(MAKE) --no-print-directory test-decks
+	$(MAKE) --no-print-directory test-figures
 	$(MAKE) --no-print-directory test-python
 	$(MAKE) --no-print-directory test-wheel
 
@@ -62,6 +63,11 @@ test-decks: build
 	python3 -B scripts/deck_suite.py --free --reference --require read=172 read_contact=213 density_read_contact=125 \
 	  free_agree=115 matrices_agree=30 reference_agree=24
 	python3 -B scripts/stiffened_plate.py
+
+# Instructions of steps, against those that are held (tests/held_figures/figures.txt).
+test-figures: build
+	@scripts/install_packages.sh --figures
+	python3 -B tests/held_figures/held_figures_test.py --instructions build/floatframe
 
 # The Python package in the build folder, for an environment of its own from PyPI.
 python: build

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Installs what Floatframe needs to be built and tested on Debian 12 or Ubuntu 24.04 (and their relatives).
 #
-#   scripts/install_packages.sh [--check | --docs | --viewer | --decks]
+#   scripts/install_packages.sh [--check | --docs | --viewer | --decks | --figures]
 #
 # Runs nothing when everything is there. Otherwise prints what is missing and installs it, through sudo when not
 # root. Exit code 1, with the command to run, when it cannot install. --check only looks; --docs: with what the reference
 # of the C++ interface is made with; --viewer: with the browser that the page of a run is tested in;
-# --decks: with CalculiX and its decks, which readers are tested with.
+# --decks: with CalculiX and its decks, which readers are tested with; --figures: with what counts instructions.
 #
 # Node builds that page. It is looked for as commands, since a Node from elsewhere conflicts with the packages of the
 # system; without it there is a note and the program writes reports with static curves.
@@ -30,8 +30,10 @@ elif [[ "${1:-}" == "--viewer" ]]; then
     packages+=(chromium)
 elif [[ "${1:-}" == "--decks" ]]; then
   packages+=(calculix-ccx calculix-ccx-test)
+elif [[ "${1:-}" == "--figures" ]]; then
+  packages+=(valgrind)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [--check | --docs | --viewer | --decks]" >&2
+  echo "usage: $0 [--check | --docs | --viewer | --decks | --figures]" >&2
   exit 2
 fi
 
