@@ -275,6 +275,68 @@ TEST(PartTurning, TwistOfAShaftBentInTwoPlanes) {
   EXPECT_LT(all.norm(), 1e-9 * body.turning->S2i[1][2].norm());
 }
 
+/// The matrices of (theta x (theta x arm))_j.
+std::array<MatX, 3> circle(const MatX& theta, const Vec3& arm) {
+  std::array<MatX, 3> out;
+  for (Eigen::Index j = 0; j < 3; ++j) {
+    const MatX mixed = 0.5 * theta.row(j).transpose() * (arm.transpose() * theta);
+    out[static_cast<std::size_t>(j)] =
+        mixed + mixed.transpose() - arm(j) * theta.transpose() * theta;
+  }
+  return out;
+}
+
+// The points of the projection method hold what the integrals have beside the twist.
+TEST(PartTurning, ProjectionDataHoldTheSame) {
+  const FeModel model = rotor(false);
+  const FlexibleBody body = reduce_part(model, all_nodes(model, 6)).body;
+  const ProjectionData& data = *body.projection;
+  SecondOrder sum = SecondOrder::zero(body.modes());
+  for (const ProjectionData::TurningPoint& t : data.turning) {
+    Vec3 first = Vec3::Zero();
+    double mass = 0.0;
+    for (SparseRows::InnerIterator it(data.M_s, t.point); it; ++it) {
+      mass += it.value();
+      first += it.value() * data.p.col(it.col());
+    }
+    const auto h = circle(data.rotations.middleRows<3>(3 * t.rotation), t.arm);
+    for (std::size_t j = 0; j < 3; ++j) {
+      sum.S2[j] += mass * h[j];
+      for (std::size_t i = 0; i < 3; ++i)
+        sum.S2i[i][j] += first(static_cast<Eigen::Index>(i)) * h[j];
+    }
+  }
+  const SecondOrder expected = without_twist(body);
+  for (std::size_t j = 0; j < 3; ++j) {
+    EXPECT_LT((sum.S2[j] - expected.S2[j]).norm(), 1e-10);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LT((sum.S2i[i][j] - expected.S2i[i][j]).norm(), 1e-9 * (1.0 + sum.S2i[i][j].norm()));
+  }
+}
+
+// A marker on a node that is fixed to another one moves on a circle about that.
+TEST(PartTurning, MarkersOnRigidArms) {
+  const FeModel model = rotor(false);
+  const FlexibleBody body = reduce_part(model, all_nodes(model, 6)).body;
+  const auto place = [&](const std::string& name) {
+    for (std::size_t k = 0; k < body.nodes.size(); ++k)
+      if (body.nodes[k].name == name) return k;
+    return body.nodes.size();
+  };
+  const std::size_t hub = place("n3"), tip = place("n6");
+  const SecondOrderNode &a = body.second_order->nodes[hub], &b = body.second_order->nodes[tip];
+  const Vec3 arm = body.nodes[tip].p - body.nodes[hub].p;
+  const auto h = circle(body.nodes[hub].X_theta, arm);
+  for (std::size_t j = 0; j < 3; ++j) {
+    const std::size_t k = (j + 1) % 3, l = (j + 2) % 3;
+    const MatX turned = arm(static_cast<Eigen::Index>(l)) * a.theta[k] -
+                        arm(static_cast<Eigen::Index>(k)) * a.theta[l];
+    EXPECT_LT((b.h[j] - a.h[j] - turned - h[j]).norm(), 1e-8 * b.h[j].norm()) << j;
+    EXPECT_LT((b.theta[j] - a.theta[j]).norm(), 1e-8 * a.theta[j].norm()) << j;
+    EXPECT_GT(h[j].norm(), 0.01 * b.h[j].norm());
+  }
+}
+
 // Of solids nothing turns with the nodes, with rigid interfaces too.
 TEST(PartTurning, SolidsHaveNone) {
   PartOptions options;
