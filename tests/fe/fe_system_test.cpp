@@ -172,30 +172,6 @@ TEST(PointModels, MassPropertiesOfTheParts) {
   }
 }
 
-TEST(PointModels, KineticEnergyOfMixedModels) {
-  for (const Spider::Kind kind : {Spider::Kind::rigid, Spider::Kind::mean}) {
-    const FeModel model = mixed_model(kind);
-    const FeSystem system = assemble(model);
-    const PointModel points = point_model(model, system);
-    // Rigid motions: exact, whatever the elements.
-    const MatX R = rigid_motions_of(model, system);
-    const MatX V = points.T * R;
-    Mat6 energy = Mat6::Zero();
-    for (int i = 0; i < 3; ++i) {
-      MatX component(points.p.cols(), 6);
-      for (int k = 0; k < points.p.cols(); ++k) component.row(k) = V.row(3 * k + i);
-      energy += component.transpose() * points.M_s * component;
-    }
-    const Mat6 expected = R.transpose() * system.M * R;
-    // The axial and the bending inertia of the Hermite beam differ: the mean of both is what the
-    // points have, and the model says so.
-    EXPECT_LT((energy - expected).cwiseAbs().maxCoeff(), 1e-3 * expected.cwiseAbs().maxCoeff());
-    EXPECT_GT(points.anisotropy, 1e-4);
-    EXPECT_LT(points.anisotropy, 0.05);
-    EXPECT_NEAR(mass_properties(points).mass, expected(0, 0), 1e-12 * expected(0, 0));
-  }
-}
-
 TEST(PointModels, ElementsWithRotaryInertiaAreExact) {
   // Shells, 3-node beams and point masses: translation isotropic, rotation any.
   FeModel model = mixed_model(Spider::Kind::rigid);

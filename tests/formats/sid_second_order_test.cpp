@@ -104,6 +104,28 @@ TEST(SidSecondOrder, WithoutGrTheSumIsExact) {
   }
 }
 
+/// What turns with nodes is written with the rest, and comes back as one with it.
+TEST(SidSecondOrder, WhatTurnsIsAddedToTheRest) {
+  FlexibleBody body = bricks({});
+  SecondOrder turning = *body.second_order, sum = turning;
+  turning.nodes.clear();
+  for (std::size_t j = 0; j < 3; ++j) {
+    sum.S2[j] *= 2.0;
+    for (std::size_t i = 0; i < 3; ++i) sum.S2i[i][j] *= 2.0;
+  }
+  body.turning = std::make_shared<const SecondOrder>(turning);
+  const FlexibleBody both = parse_sid(write_sid(body, ""), "body.SID_FEM").body;
+  body.second_order = nullptr;
+  const FlexibleBody alone = parse_sid(write_sid(body, ""), "body.SID_FEM").body;
+  const double size = std::max(largest_of(turning), body.invariants.Sij[2][2].norm());
+  EXPECT_EQ(both.turning, nullptr);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_LT((both.second_order->S2i[i][j] - sum.S2i[i][j]).norm(), 1e-13 * size);
+      EXPECT_LT((alone.second_order->S2i[i][j] - turning.S2i[i][j]).norm(), 1e-13 * size);
+    }
+}
+
 /// A file whose Oe is of inertia alone, and nothing else is of first order, has none.
 TEST(SidSecondOrder, LinearFilesHaveNone) {
   FlexibleBody body = bent_bar();

@@ -37,6 +37,19 @@ struct StressedPoint {
   /// volume of the point [N m]; of a shell the membrane stress, of a beam its axial stress.
   MatX stress;
   MatX gradient;  ///< 9 x dofs: du_i/dx_j in row 3 i + j
+  /// Torque on the twist of second order of a beam bent in two planes, not stress on strain.
+  bool twist = false;
+};
+
+/// A section of an element that moves as a rigid body, for masses that differ between directions:
+/// the element is the sum of its stations.
+struct MassStation {
+  VecX shares;  ///< of the nodes: its place is sum shares(k) p_k
+  double mass = 0.0;
+  /// Second moments of mass about its centre along the columns of `axes` (body axes) [kg m2].
+  Mat3 axes = Mat3::Identity();
+  Vec3 moments = Vec3::Zero();
+  MatX u, theta;  ///< 3 x dofs, body axes
 };
 
 /// The ply of a solid at a node.
@@ -61,6 +74,9 @@ struct ElementKernel {
   void (*mass)(const ElementInput&, bool section_inertia, MatX&);
   /// int N^T N dm of the linear shape functions.
   void (*scalar_mass)(const ElementInput&, MatX&);
+  /// Stations that add to `mass` with section inertia, exactly; null: the mass of translations is
+  /// the same in all directions.
+  void (*mass_stations)(const ElementInput&, std::vector<MassStation>&) = nullptr;
   /// Strains (xx, yy, zz, xy, yz, zx; engineering shear) at the nodes, 6 rows per node, from the
   /// displacements of the nodes: taken at the points where they are best and carried to the nodes.
   /// Null for beams, shells and membranes.

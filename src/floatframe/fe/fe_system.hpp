@@ -33,18 +33,37 @@ struct FeSystem {
 
 FeSystem assemble(const FeModel& model, Integration integration = Integration::exact);
 
+/// A point moves with a rotation: with theta of that rotation it has a displacement of second order
+/// 1/2 theta x (theta x arm).
+struct PointArm {
+  int point = -1;
+  int rotation = -1;  ///< rows 3 rotation .. 3 rotation + 2 of PointModel::rotations
+  Vec3 arm = Vec3::Zero();
+};
+
 /// The model as points with a scalar mass, for the inertia integrals of paper equations (65)-(67):
-/// the kinetic energy is 1/2 sum_kl M_s(k, l) v_k . v_l. Points are the nodes; a node whose
+/// the kinetic energy is 1/2 sum_kl M_s(k, l) v_k . v_l. Points are the nodes. A node whose
 /// rotation carries mass (rotary inertia; matrices with rotational dofs) adds three points at p +
 /// h e_x, p + h e_y, p + h e_z (h: about the size of the part) that move with it, which represents
-/// its static moments and its inertia exactly. For masses that are not isotropic (a matrix whose
-/// xx, yy and zz parts differ; Hermite beams) M_s is made of the mean of the three directions, and
-/// `anisotropy` says how far off that is.
+/// its static moments and its inertia exactly. Elements whose mass differs between directions
+/// (Hermite beams) are sums of stations (ElementKernel::mass_stations): each adds its centre and a
+/// point on an arm for each of its second moments. So kinetic energy is that of the system.
+/// Matrices of another program may differ between directions too; M_s is made of the mean of the
+/// three there, and `anisotropy` says how far off that is.
 struct PointModel {
   Mat3X p;                  ///< 3 x N positions
   SparseRows M_s;           ///< N x N
   SparseRows T;             ///< 3N x n: translations of the points from q
   double anisotropy = 0.0;  ///< largest deviation of a mass, relative to the largest mass
+  bool rotary = false;      ///< do rotations carry mass
+
+  // Displacements of second order.
+  SparseRows rotations;        ///< 3r x n
+  std::vector<PointArm> arms;  ///< ascending; a point that is fixed to several has several
+  /// Of points that belong to solids, rods or membranes as well and are bent by these: a share of
+  /// geometric stiffening.
+  std::vector<PointArm> strained_arms;
+  std::vector<PointArm> followers;  ///< of nodes that are fixed to other nodes (rigid_leaders)
 };
 PointModel point_model(const FeModel& model, const FeSystem& system,
                        Integration integration = Integration::exact);

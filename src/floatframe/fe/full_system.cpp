@@ -53,10 +53,15 @@ SparseMatrix full_stiffness(const FeModel& model, const DofTable& table, Integra
   return K;
 }
 
-SparseMatrix full_mass(const FeModel& model, const DofTable& table, Integration integration) {
+namespace {
+
+template <class Skip>
+SparseMatrix mass_of(const FeModel& model, const DofTable& table, Integration integration,
+                     Skip&& skip) {
   BlockAssembly assembly(model, table);
   MatX matrix;
   for (const Element& e : model.elements) {
+    if (skip(e)) continue;
     const ElementKernel& kernel = element_kernel(e.type);
     const ElementInput input = gather(model, e, integration);
     if (kernel.dofs_per_node == 3) {
@@ -71,6 +76,22 @@ SparseMatrix full_mass(const FeModel& model, const DofTable& table, Integration 
   SparseMatrix M = assembly.finish();
   if (model.matrices) M += ordered(model.matrices->M, model.matrices->dofs, table);
   return M;
+}
+
+}  // namespace
+
+SparseMatrix full_mass(const FeModel& model, const DofTable& table, Integration integration) {
+  return mass_of(model, table, integration, [](const Element&) { return false; });
+}
+
+SparseMatrix mass_without_stations(const FeModel& model, const DofTable& table,
+                                   Integration integration) {
+  return mass_of(model, table, integration, has_mass_stations);
+}
+
+bool has_mass_stations(const Element& element) noexcept {
+  return element.mass_form == MassForm::consistent &&
+         element_kernel(element.type).mass_stations != nullptr;
 }
 
 }  // namespace floatframe

@@ -8,5 +8,10 @@ namespace floatframe {
 SparseMatrix full_stiffness(const FeModel& model, const DofTable& table, Integration integration);
 /// Consistent; beams with rotary and torsional inertia of the section.
 SparseMatrix full_mass(const FeModel& model, const DofTable& table, Integration integration);
+/// Without the elements that are sums of stations.
+SparseMatrix mass_without_stations(const FeModel& model, const DofTable& table,
+                                   Integration integration);
+/// Is the element a sum of stations (ElementKernel::mass_stations)?
+bool has_mass_stations(const Element& element) noexcept;
 
 }  // namespace floatframe

@@ -3,10 +3,13 @@
 
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/full_system.hpp"
+#include "floatframe/fe/rigid_leaders.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
 namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
 
 struct NodePair {
   int node = -1;
@@ -92,8 +95,7 @@ std::vector<int> arm_points(const DofTable& table, const SparseMatrix& M, int no
 }
 
 /// Scalar masses between the points of nodes a and b, that of the nodes themselves last.
-void add_masses(const PointMasses& m, int a, int b, int ea, int eb,
-                std::vector<Eigen::Triplet<double>>& masses) {
+void add_masses(const PointMasses& m, int a, int b, int ea, int eb, Triplets& masses) {
   double rest = m.mu;
   for (int l = 0; l < 3 && eb >= 0; ++l) {
     const double value = m.s_b(l) - (ea >= 0 ? m.P.col(l).sum() : 0.0);
@@ -112,72 +114,238 @@ void add_masses(const PointMasses& m, int a, int b, int ea, int eb,
   masses.emplace_back(a, b, rest);
 }
 
-/// Displacements of all points from those of the independent degrees of freedom.
-SparseRows motion_of_points(const FeSystem& system, const std::vector<int>& extra, int points,
-                            double h) {
-  std::vector<Eigen::Triplet<double>> motion;
-  const auto copy = [&](const SparseRows& from, int row, int to, double factor) {
-    for (SparseRows::InnerIterator it(from, row); it; ++it) {
-      motion.emplace_back(to, static_cast<int>(it.col()), factor * it.value());
-    }
-  };
-  for (int k = 0; k < static_cast<int>(extra.size()); ++k) {
-    const int e = extra[k];
-    for (int i = 0; i < 3; ++i) {
-      copy(system.T, 3 * k + i, 3 * k + i, 1.0);
-      for (int j = 0; j < 3 && e >= 0; ++j) {
-        const int row = 3 * (e + j) + i;
-        copy(system.T, 3 * k + i, row, 1.0);
-        const Mat3 S = -h * skew(Vec3::Unit(j));  // theta x h e_j
-        for (int c = 0; c < 3; ++c) {
-          if (S(i, c) != 0.0) copy(system.T_theta, 3 * k + c, row, S(i, c));
-        }
-      }
+/// Three rows of `to` from `row` on get factor times the three rows of a node.
+void add_rows(const SparseRows& from, int node, const Mat3& factor, int row, Triplets& to) {
+  for (int j = 0; j < 3; ++j)
+    for (SparseRows::InnerIterator it(from, 3 * node + j); it; ++it)
+      for (int i = 0; i < 3; ++i)
+        if (factor(i, j) != 0.0)
+          to.emplace_back(row + i, static_cast<int>(it.col()), factor(i, j) * it.value());
+}
+
+/// What turns, and what is fixed to it.
+class Turning {
+ public:
+  Turning(const FeModel& model, const FeSystem& system, PointModel& out)
+      : model_(model),
+        system_(system),
+        out_(out),
+        leaders_(rigid_leaders(model, system)),
+        rotation_(model.positions.size(), -1),
+        strained_(model.positions.size(), 0) {
+    for (const Element& e : model.elements) {
+      const ElementKernel& kernel = element_kernel(e.type);
+      for (int a = 0; kernel.dofs_per_node == 3 && a < kernel.nodes; ++a) strained_[e.nodes[a]] = 1;
     }
   }
-  SparseRows T(3 * points, system.size());
-  T.setFromTriplets(motion.begin(), motion.end());
-  return T;
+
+  /// Of a node; -1: it has none.
+  int rotation_of(int node) {
+    while (leaders_[node] >= 0 && turn_alike(system_, node, leaders_[node])) node = leaders_[node];
+    int& rotation = rotation_[node];
+    if (rotation < 0 && system_.T_theta.middleRows(3 * node, 3).nonZeros() > 0) {
+      rotation = new_rotation();
+      add_rows(system_.T_theta, node, Mat3::Identity(), 3 * rotation, rows_);
+    }
+    return rotation;
+  }
+  int rotation_of(const MassStation& station, const Element& e) {
+    const int rotation = new_rotation();
+    for (Eigen::Index k = 0; k < station.shares.size(); ++k) {
+      const int node = e.nodes[static_cast<std::size_t>(k)];
+      add_rows(system_.T, node, station.theta.middleCols<3>(6 * k), 3 * rotation, rows_);
+      add_rows(system_.T_theta, node, station.theta.middleCols<3>(6 * k + 3), 3 * rotation, rows_);
+    }
+    return rotation;
+  }
+
+  void add(int point, int rotation, const Vec3& arm) {
+    if (rotation >= 0) add_to(out_.arms, point, rotation, arm);
+  }
+  /// What a point has of the node that it moves with, which may be fixed to others.
+  void add_fixed(int point, int node, double share) {
+    std::vector<PointArm>& to = strained_[node] != 0 ? out_.strained_arms : out_.arms;
+    each_leader(node,
+                [&](int rotation, const Vec3& arm) { add_to(to, point, rotation, share * arm); });
+  }
+  void add_followers() {
+    for (int k = 0; k < model_.nodes(); ++k)
+      each_leader(k,
+                  [&](int rotation, const Vec3& arm) { add_to(out_.followers, k, rotation, arm); });
+  }
+  void finish() {
+    out_.rotations.resize(3 * rotations_, system_.size());
+    out_.rotations.setFromTriplets(rows_.begin(), rows_.end());
+  }
+
+ private:
+  int new_rotation() { return rotations_++; }
+
+  template <class Use>
+  void each_leader(int node, Use&& use) {
+    for (int k = node; leaders_[k] >= 0; k = leaders_[k]) {
+      const Vec3 arm = model_.positions[k] - model_.positions[leaders_[k]];
+      const int rotation = rotation_of(leaders_[k]);
+      if (rotation >= 0 && !arm.isZero(0.0)) use(rotation, arm);
+    }
+  }
+
+  /// Points come one after the other.
+  static void add_to(std::vector<PointArm>& arms, int point, int rotation, const Vec3& arm) {
+    for (auto it = arms.rbegin(); it != arms.rend() && it->point == point; ++it)
+      if (it->rotation == rotation) {
+        it->arm += arm;
+        return;
+      }
+    arms.push_back({point, rotation, arm});
+  }
+
+  const FeModel& model_;
+  const FeSystem& system_;
+  PointModel& out_;
+  std::vector<int> leaders_, rotation_;
+  std::vector<char> strained_;  // nodes of elements without rotations
+  Triplets rows_;
+  int rotations_ = 0;
+};
+
+class PointBuilder {
+ public:
+  PointBuilder(const FeModel& model, const FeSystem& system, PointModel& out)
+      : model_(model),
+        system_(system),
+        out_(out),
+        turning_(model, system, out),
+        h_(arm_length(model)),
+        positions_(model.positions) {}
+
+  void add_nodes(const SparseMatrix& M, const DofTable& table);
+  void add_stations(Integration integration);
+  void finish();
+
+ private:
+  int add_point(const Vec3& p) {
+    positions_.push_back(p);
+    return static_cast<int>(positions_.size()) - 1;
+  }
+  void add_arms_of_nodes(const std::vector<int>& extra, const std::vector<char>& heavy);
+  void add_station(const MassStation& station, const Element& e);
+
+  const FeModel& model_;
+  const FeSystem& system_;
+  PointModel& out_;
+  Turning turning_;
+  double h_;
+  std::vector<Vec3> positions_;
+  Triplets masses_, motion_;
+};
+
+void PointBuilder::add_nodes(const SparseMatrix& M, const DofTable& table) {
+  const int nodes = model_.nodes();
+  std::vector<Dof> dofs;
+  for (int k = 0; k < nodes; ++k)
+    for (int axis = 0; axis < table.count(k); ++axis) dofs.push_back({k, axis});
+  int points = 0;
+  const std::vector<int> extra = arm_points(table, M, nodes, points);
+  out_.rotary = points > nodes;
+  std::vector<NodePair> blocks;
+  std::vector<char> heavy(model_.positions.size(), 0);
+  double deviation = 0.0, largest = 0.0;
+  for (int b = 0; b < nodes; ++b) {
+    blocks_of(M, table, dofs, b, blocks);
+    heavy[b] = blocks.empty() ? 0 : 1;
+    for (const NodePair& block : blocks) {
+      const PointMasses m(block.M, h_);
+      largest = std::max(largest, block.M.topLeftCorner<3, 3>().cwiseAbs().maxCoeff());
+      deviation = std::max(deviation, m.deviation(block.M, h_));
+      add_masses(m, block.node, b, extra[block.node], extra[b], masses_);
+    }
+  }
+  out_.anisotropy = largest > 0.0 ? deviation / largest : 0.0;
+  add_arms_of_nodes(extra, heavy);
+}
+
+void PointBuilder::add_arms_of_nodes(const std::vector<int>& extra,
+                                     const std::vector<char>& heavy) {
+  for (int k = 0; k < model_.nodes(); ++k) {
+    add_rows(system_.T, k, Mat3::Identity(), 3 * k, motion_);
+    if (heavy[k] != 0) turning_.add_fixed(k, k, 1.0);
+  }
+  for (int k = 0; k < model_.nodes(); ++k) {
+    for (int i = 0; i < 3 && extra[k] >= 0; ++i) {
+      const Vec3 arm = h_ * Vec3::Unit(i);
+      const int point = add_point(model_.positions[k] + arm);
+      add_rows(system_.T, k, Mat3::Identity(), 3 * point, motion_);
+      add_rows(system_.T_theta, k, -skew(arm), 3 * point, motion_);
+      turning_.add_fixed(point, k, 1.0);
+      turning_.add(point, turning_.rotation_of(k), arm);
+    }
+  }
+}
+
+void PointBuilder::add_stations(Integration integration) {
+  std::vector<MassStation> stations;
+  for (const Element& e : model_.elements) {
+    if (!has_mass_stations(e)) continue;
+    element_kernel(e.type).mass_stations(gather(model_, e, integration), stations);
+    for (const MassStation& station : stations) add_station(station, e);
+  }
+}
+
+void PointBuilder::add_station(const MassStation& station, const Element& e) {
+  Vec3 p = Vec3::Zero();
+  for (Eigen::Index k = 0; k < station.shares.size(); ++k)
+    p += station.shares(k) * model_.positions[e.nodes[static_cast<std::size_t>(k)]];
+  const int rotation = station.moments.isZero(0.0) ? -1 : turning_.rotation_of(station, e);
+  out_.rotary = out_.rotary || rotation >= 0;
+  const auto add = [&](const Vec3& arm) {
+    const int point = add_point(p + arm);
+    const MatX u = station.u - skew(arm) * station.theta;
+    for (Eigen::Index k = 0; k < station.shares.size(); ++k) {
+      const int node = e.nodes[static_cast<std::size_t>(k)];
+      add_rows(system_.T, node, u.middleCols<3>(6 * k), 3 * point, motion_);
+      add_rows(system_.T_theta, node, u.middleCols<3>(6 * k + 3), 3 * point, motion_);
+      turning_.add_fixed(point, node, station.shares(k));
+    }
+    if (!arm.isZero(0.0)) turning_.add(point, rotation, arm);
+    return point;
+  };
+  const int centre = add(Vec3::Zero());
+  masses_.emplace_back(centre, centre, station.mass);
+  for (int i = 0; i < 3; ++i) {
+    const double m = station.moments(i) / (h_ * h_);
+    if (m == 0.0) continue;
+    const int point = add(h_ * station.axes.col(i));
+    masses_.emplace_back(centre, centre, m);
+    masses_.emplace_back(point, point, m);
+    masses_.emplace_back(centre, point, -m);
+    masses_.emplace_back(point, centre, -m);
+  }
+}
+
+void PointBuilder::finish() {
+  turning_.add_followers();
+  turning_.finish();
+  const auto points = static_cast<Eigen::Index>(positions_.size());
+  out_.p.resize(3, points);
+  for (Eigen::Index k = 0; k < points; ++k) out_.p.col(k) = positions_[static_cast<std::size_t>(k)];
+  out_.M_s.resize(points, points);
+  out_.M_s.setFromTriplets(masses_.begin(), masses_.end());
+  out_.T.resize(3 * points, system_.size());
+  out_.T.setFromTriplets(motion_.begin(), motion_.end());
 }
 
 }  // namespace
 
 PointModel point_model(const FeModel& model, const FeSystem& system, Integration integration) {
-  const DofTable table = dof_table(model);
-  const SparseMatrix M = full_mass(model, table, integration);
-  const int nodes = model.nodes();
-  std::vector<Dof> dofs;
-  for (int k = 0; k < nodes; ++k) {
-    for (int axis = 0; axis < table.count(k); ++axis) dofs.push_back({k, axis});
-  }
-  int points = 0;
-  const std::vector<int> extra = arm_points(table, M, nodes, points);
   PointModel out;
-  const double h = arm_length(model);
-  out.p.resize(3, points);
-  for (int k = 0; k < nodes; ++k) {
-    const Vec3& p = model.positions[k];
-    out.p.col(k) = p;
-    const int e = extra[k];
-    for (int i = 0; i < 3 && e >= 0; ++i) out.p.col(e + i) = p + h * Vec3::Unit(i);
+  PointBuilder builder(model, system, out);
+  {
+    const DofTable table = dof_table(model);
+    builder.add_nodes(mass_without_stations(model, table, integration), table);
   }
-
-  std::vector<Eigen::Triplet<double>> masses;
-  std::vector<NodePair> blocks;
-  double deviation = 0.0, largest = 0.0;
-  for (int b = 0; b < nodes; ++b) {
-    blocks_of(M, table, dofs, b, blocks);
-    for (const NodePair& block : blocks) {
-      const PointMasses m(block.M, h);
-      largest = std::max(largest, block.M.topLeftCorner<3, 3>().cwiseAbs().maxCoeff());
-      deviation = std::max(deviation, m.deviation(block.M, h));
-      add_masses(m, block.node, b, extra[block.node], extra[b], masses);
-    }
-  }
-  out.M_s.resize(points, points);
-  out.M_s.setFromTriplets(masses.begin(), masses.end());
-  out.anisotropy = largest > 0.0 ? deviation / largest : 0.0;
-  out.T = motion_of_points(system, extra, points, h);
+  builder.add_stations(integration);
+  builder.finish();
   return out;
 }
 

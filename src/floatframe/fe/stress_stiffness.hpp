@@ -4,13 +4,13 @@
 //   u^T K_sigma u = int sigma : grad u^T grad u dV = sum over points sum_i grad u_i^T s grad u_i
 // s: stress times volume (StressedPoint). Of solids all stresses; of shells the membrane forces on
 // displacements that are linear in each triangle; of beams the axial force on the slopes across the
-// axis. One pass over the elements for all cases: with the products of the gradients of all pairs
-// of modes in the columns of P and the stresses of all cases in S,
-//   K_sigma = sum P S^T
-// is one dense product. Source: Cook, Malkus, Plesha, Witt, Concepts and Applications of Finite
+// axis and on the twist (torsion stiffened by tension), and the torque on the twist of second order
+// of a beam that is bent in two planes. One pass over the elements for all cases (PairProducts).
+// Source: Cook, Malkus, Plesha, Witt, Concepts and Applications of Finite
 // Element Analysis (2002), section 18.4.
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/fe/integration.hpp"
+#include "floatframe/fe/pair_products.hpp"
 
 namespace floatframe {
 
@@ -29,7 +29,12 @@ void element_displacements(const Element& e, const ElementKernel& kernel, const 
 MatX stress_stiffness(const FeModel& model, const NodalShapes& modes, const NodalShapes& cases,
                       Integration integration = Integration::exact);
 
-/// A column of it as a matrix.
-MatX symmetric_of(const Eigen::Ref<const VecX>& packed);
+/// The same in two shares.
+struct StressStiffness {
+  MatX direct;  ///< of stresses and axial forces
+  MatX twist;   ///< of torques on the twist of second order; empty without beams
+};
+StressStiffness shares_of_stress_stiffness(const FeModel& model, const NodalShapes& modes,
+                                           const NodalShapes& cases, Integration integration);
 
 }  // namespace floatframe

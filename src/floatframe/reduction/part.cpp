@@ -17,10 +17,13 @@
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/reduction/body_reference.hpp"
 #include "floatframe/reduction/connectivity.hpp"
+#include "floatframe/reduction/matrix_integrals.hpp"
 #include "floatframe/reduction/mode_basis.hpp"
 #include "floatframe/reduction/part_health.hpp"
+#include "floatframe/reduction/part_reference.hpp"
 #include "floatframe/reduction/part_second_order.hpp"
 #include "floatframe/reduction/part_stress.hpp"
+#include "floatframe/reduction/part_turning.hpp"
 #include "floatframe/reduction/rigid_check.hpp"
 #include "floatframe/reduction/static_check.hpp"
 
@@ -80,73 +83,6 @@ void check_beams(const FeModel& model, const FeSystem& system, const ModeBasis& 
                                        basis.names.begin() + first + count);
   check_digits(model, system.T * X, system.T_theta * X, basis.K.diagonal().segment(first, count),
                names, integration);
-}
-
-/// Points of the model with unit density and without point masses: integrals over the volume.
-PointModel volume_points(FeModel model, Integration integration) {
-  if (model.matrices) {
-    throw InputError(
-        "the Buckens reference weighs by volume, which a part given by matrices does not have; "
-        "take mean_axis");
-  }
-  for (Material& m : model.materials) m.density = 1.0;
-  for (ShellSection& s : model.shells) s.mass = 0.0;
-  for (PointMass& m : model.masses) {  // its degrees of freedom stay
-    m.mass = 0.0;
-    m.J *= 1e-100;
-  }
-  return point_model(model, assemble(model, integration), integration);
-}
-
-/// Uniform density without point masses: the volume weighs as the mass does.
-bool uniform(const FeModel& model) {
-  if (!model.masses.empty() || model.matrices || model.materials.empty()) return false;
-  if (std::any_of(model.shells.begin(), model.shells.end(),
-                  [](const ShellSection& s) { return s.mass != 0.0; }))
-    return false;
-  const double density = model.materials.front().density;
-  return std::all_of(model.materials.begin(), model.materials.end(),
-                     [&](const Material& m) { return m.density == density; });
-}
-
-MatX reference_conditions(const FeModel& model, const ModeBasis& basis,
-                          const InertiaInvariants& raw,
-                          const std::vector<InterfacePlace>& interfaces,
-                          const PartOptions& options) {
-  switch (options.reference.kind) {
-    case BodyReference::Kind::mean_axis:
-      break;
-    case BodyReference::Kind::buckens:
-      if (!uniform(model)) {
-        const PointModel points = volume_points(model, options.integration);
-        return momentum_of_modes(invariants_points(points.p, points.M_s, points.T * basis.X));
-      }
-      break;
-    case BodyReference::Kind::node:
-      for (const InterfacePlace& place : interfaces) {
-        if (place.name != options.reference.node) continue;
-        MatX B(6, basis.X.cols());
-        for (Eigen::Index i = 0; i < 6; ++i) B.row(i) = basis.X.row(place.rows[i]);
-        return B;
-      }
-      break;
-  }
-  return momentum_of_modes(raw);
-}
-
-/// The same conditions on all dofs; `loads`: of the masses (body_loads).
-MatX reference_rows(const FeModel& model, const MatX& loads,
-                    const std::vector<InterfacePlace>& interfaces, const PartOptions& options) {
-  if (options.reference.kind == BodyReference::Kind::buckens && !uniform(model))
-    return momentum_rows(body_loads(volume_points(model, options.integration)));
-  for (const InterfacePlace& place : interfaces) {
-    if (options.reference.kind != BodyReference::Kind::node) break;
-    if (place.name != options.reference.node) continue;
-    MatX B = MatX::Zero(6, loads.rows());
-    for (Eigen::Index i = 0; i < 6; ++i) B(i, place.rows[i]) = 1.0;
-    return B;
-  }
-  return momentum_rows(loads);
 }
 
 /// The answers to unit loads that the stress stiffness needs; empty for given matrices.
@@ -254,9 +190,8 @@ void check_model(const FeModel& model, const FeSystem& system, const MatX& R,
 }
 
 /// The body of the modes `modes` of `basis` in its frame; `X` its shapes at all degrees of freedom.
-FlexibleBody body_of(const FeModel& model, const FeSystem& system, const PointModel& points,
-                     const ModeBasis& basis, const InertiaInvariants& raw,
-                     const ElasticModes& modes, const MatX& X,
+FlexibleBody body_of(const FeModel& model, const FeSystem& system, const ModeBasis& basis,
+                     const InertiaInvariants& raw, const ElasticModes& modes, const MatX& X,
                      const std::vector<InterfacePlace>& interfaces,
                      const std::vector<MarkerPlace>& markers, const PartOptions& options) {
   ModeSet set{X, modes.lambda.asDiagonal(), basis.frequencies, {}};
@@ -266,14 +201,22 @@ FlexibleBody body_of(const FeModel& model, const FeSystem& system, const PointMo
     body.nodes.push_back(interface_node(model, system, place, X));
   for (const MarkerPlace& marker : markers)
     body.nodes.push_back({marker.name, marker.p, marker.translation * X, marker.rotation * X});
-  if (options.keep_projection) {
-    auto data = std::make_shared<ProjectionData>();
-    data->p = points.p;
-    data->X = points.T * X;
-    data->M_s = points.M_s;
-    body.projection = std::move(data);
-  }
   return body;
+}
+
+/// `response`: empty for given matrices.
+void add_second_order(const FeModel& model, const FeSystem& system, const PointModel& points,
+                      const MatX& X, const MatX& response,
+                      const std::vector<InterfacePlace>& interfaces,
+                      const std::vector<MarkerPlace>& markers, const PartOptions& options,
+                      FlexibleBody& body) {
+  PartSecondOrder second_order;
+  if (response.size() > 0)
+    second_order = part_second_order(model, system, points, X, response, interfaces, markers,
+                                     options.integration);
+  body.second_order = second_order.stiffening;
+  body.turning = part_turning(points, X, second_order.twist);
+  if (options.keep_projection) body.projection = projection_of(points, X, second_order.twist);
 }
 
 /// In the mean-axis frame: those of the body that nothing holds.
@@ -361,16 +304,17 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   check_beams(model, system, basis, options.integration);
   normalise(system, part_size(model, system), basis);
 
-  const InertiaInvariants raw = invariants_points(points.p, points.M_s, points.T * basis.X);
+  InertiaInvariants raw = invariants_points(points.p, points.M_s, points.T * basis.X);
+  if (model.matrices) match_mass_matrix(system, R, basis.X, raw);
   const ElasticModes free = free_elastic_modes(model, system, basis, raw);
   const ElasticModes modes = body_modes(model, basis, raw, interfaces, options);
   health.modal_mass_condition = modes.condition;
   const MatX X = basis.X * modes.C;
-  part.body = body_of(model, system, points, basis, raw, modes, X, interfaces, markers, options);
+  part.body = body_of(model, system, basis, raw, modes, X, interfaces, markers, options);
   health.modes = part.body.modes();
   health.from_invariants = mass_properties(part.body.invariants);
-  health.rotary_inertia = points.p.cols() > model.nodes();
-  check_body(part.body, *health.rotary_inertia);
+  health.rotary_inertia = points.rotary;
+  check_body(part.body, *health.rotary_inertia || model.matrices.has_value());
   stages.done("body");
   add_surface(model, system, X, part);
   stages.done("surface");
@@ -382,10 +326,11 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
         part_stress(model, system, part.surface.nodes, X, part.body.K, std::move(loads));
     stages.done("stress");
   }
-  if (response.size() > 0 && X.cols() > 0) {
-    part.body.second_order =
-        part_second_order(model, system, X, response, part.body.nodes.size(), options.integration);
+  if (X.cols() > 0) {
+    add_second_order(model, system, points, X, response, interfaces, markers, options, part.body);
     stages.done("stress stiffness");
+  } else if (options.keep_projection) {
+    part.body.projection = projection_of(points, X, {});
   }
 
   for (const InterfacePlace& place : interfaces) health.interfaces.push_back(place.health);

@@ -129,12 +129,13 @@ void add_warnings(const FeModel& model, const PointModel& points, HealthReport& 
       list.push_back(
           fmt::format("volume times density is {:+.2f} % off the assembled mass", 100.0 * off));
   }
-  if (points.anisotropy > 1e-9) {
+  if (points.anisotropy > 1e-9)
     list.push_back(fmt::format(
-        "the mass differs between directions by up to {:.2g} of its largest entry (beams, shells "
-        "or matrices of another program); the inertia integrals take the mean",
+        "the mass in the matrices differs between directions by up to {:.2g} of its largest entry "
+        "(rotary inertia of another program): the mass matrix of the undeformed body is that of "
+        "the file, but how its rotary part changes with the deformation is unknown, which matters "
+        "where the body spins",
         points.anisotropy));
-  }
   if (health.rigid_residual > 1e-9) {
     list.push_back(fmt::format(
         "rigid motions cause forces of {:.1e} of the largest stiffness: a support, a spring to "

@@ -231,6 +231,11 @@ void find_motions(const FeModel& model, const FeSystem& system, std::vector<Mark
     const SparseRows by_rotation = arm * marker.rotation;
     marker.translation = W * system.T;
     marker.translation += by_rotation;
+    marker.by_translations = W;
+    marker.turn_by_translations.resize(3, rows);
+    if (single) continue;
+    marker.by_translations += SparseRows(arm * V);
+    marker.turn_by_translations = V;
   }
 }
 

@@ -1,9 +1,15 @@
 #include "floatframe/reduction/part_second_order.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <span>
 
+#include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/springs.hpp"
 #include "floatframe/fe/stress_stiffness.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/reduction/part_turning.hpp"
 
 namespace floatframe {
 namespace {
@@ -92,28 +98,145 @@ MatX free_response(const FeSystem& system, const UnitCases& cases, const FreeStr
   return structure.relieved_response(balanced_loads(system, cases), elastic);
 }
 
-std::shared_ptr<const SecondOrder> part_second_order(const FeModel& model, const FeSystem& system,
-                                                     const MatX& X, const MatX& response,
-                                                     std::size_t nodes, Integration integration) {
-  const NodalShapes modes{system.T * X, system.T_theta * X};
-  const NodalShapes cases{system.T * response, system.T_theta * response};
-  const MatX K = stress_stiffness(model, modes, cases, integration);
-  const auto h = [&](std::size_t column) {
-    return MatX(-symmetric_of(K.col(static_cast<Eigen::Index>(column))));
-  };
-  auto out = std::make_shared<SecondOrder>();
-  for (std::size_t j = 0; j < 3; ++j) {
-    out->S2[j] = h(j);
-    for (std::size_t i = 0; i < 3; ++i) out->S2i[i][j] = h(3 + 3 * i + j);
+namespace {
+
+/// Forces of elements and springs on the nodes that are fixed to others, less the forces of the
+/// cases there: three rows a node, one column a case.
+class ForcesOnFollowers {
+ public:
+  ForcesOnFollowers(const FeModel& model, const std::vector<PointArm>& followers)
+      : model_(model), place_(model.positions.size(), -1) {
+    for (const PointArm& f : followers)
+      if (place_[f.point] < 0) place_[f.point] = count_++;
   }
-  for (std::size_t k = 0; k < nodes; ++k) {
-    SecondOrderNode& node = out->nodes.emplace_back();
-    node.node = static_cast<int>(k);
-    for (std::size_t j = 0; j < 3; ++j) {
-      node.h[j] = h(body_cases + 6 * k + j);
-      node.theta[j] = h(body_cases + 6 * k + 3 + j);
+
+  void add_elements(const NodalShapes& cases, Integration integration) {
+    F_ = MatX::Zero(3 * count_, cases.U.cols());
+    MatX K, w;
+    for (const Element& e : model_.elements) {
+      const ElementKernel& kernel = element_kernel(e.type);
+      const auto nodes = std::span(e.nodes).first(static_cast<std::size_t>(kernel.nodes));
+      if (std::none_of(nodes.begin(), nodes.end(), [&](int k) { return place_[k] >= 0; })) continue;
+      kernel.stiffness(gather(model_, e, integration), K);
+      element_displacements(e, kernel, cases, w);
+      for (int a = 0; a < kernel.nodes; ++a)
+        if (const int to = place_[e.nodes[a]]; to >= 0)
+          F_.middleRows<3>(3 * to) += K.middleRows<3>(kernel.dofs_per_node * a) * w;
+    }
+    if (!model_.springs.empty()) add_springs(cases);
+  }
+  void subtract_markers(const std::vector<MarkerPlace>& markers, Eigen::Index column) {
+    for (const MarkerPlace& marker : markers) {
+      subtract(marker.by_translations, column);
+      subtract(marker.turn_by_translations, column + 3);
+      column += 6;
     }
   }
+  auto of(int node) const { return F_.middleRows<3>(3 * static_cast<Eigen::Index>(place_[node])); }
+
+ private:
+  void add_springs(const NodalShapes& cases) {
+    for (const SpringBlock& block : spring_system(model_, dof_table(model_)).blocks) {
+      const auto n = static_cast<Eigen::Index>(block.dofs.size());
+      MatX w(n, cases.U.cols());
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const Dof& dof = block.dofs[static_cast<std::size_t>(i)];
+        w.row(i) = (dof.axis < 3 ? cases.U : cases.Theta).row(3 * dof.node + dof.axis % 3);
+      }
+      const MatX f = block.K * w;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const Dof& dof = block.dofs[static_cast<std::size_t>(i)];
+        if (dof.axis < 3 && place_[dof.node] >= 0)
+          F_.row(3 * place_[dof.node] + dof.axis) += f.row(i);
+      }
+    }
+  }
+  void subtract(const SparseRows& rows, Eigen::Index column) {
+    for (Eigen::Index j = 0; j < rows.rows(); ++j)
+      for (SparseRows::InnerIterator it(rows, j); it; ++it)
+        if (const int to = place_[it.col() / 3]; to >= 0)
+          F_(3 * to + it.col() % 3, column + j) -= it.value();
+  }
+
+  const FeModel& model_;
+  std::vector<int> place_;
+  int count_ = 0;
+  MatX F_;
+};
+
+/// Adds sum (F_i - f_i) . (theta x (theta x arm)) of all cases to the stress stiffness.
+void add_followers(const FeModel& model, const PointModel& points, const MatX& X,
+                   const NodalShapes& cases, const std::vector<MarkerPlace>& markers,
+                   Eigen::Index first_marker, Integration integration, MatX& K) {
+  if (points.followers.empty()) return;
+  ForcesOnFollowers forces(model, points.followers);
+  forces.add_elements(cases, integration);
+  forces.subtract_markers(markers, first_marker);
+  const Eigen::Index nc = cases.U.cols();
+  std::map<int, MatX> of_rotations;
+  for (const PointArm& f : points.followers) {
+    MatX& s = of_rotations.try_emplace(f.rotation, MatX::Zero(6, nc)).first->second;
+    const auto F = forces.of(f.point);
+    for (Eigen::Index c = 0; c < nc; ++c)
+      s.col(c) += turning_form(Vec3(F.col(c)) * f.arm.transpose());
+  }
+  PairProducts products(X.cols(), nc);
+  for (const auto& [rotation, s] : of_rotations)
+    products.add(points.rotations.middleRows(3 * rotation, 3) * X, s);
+  K += products.sum();
+}
+
+/// h of a column of the stress stiffness.
+MatX second_order_matrix(const MatX& K, std::size_t column) {
+  return -symmetric_of(K.col(static_cast<Eigen::Index>(column)));
+}
+
+SecondOrder of_body_loads(const MatX& K) {
+  SecondOrder out;
+  for (std::size_t j = 0; j < 3; ++j) {
+    out.S2[j] = second_order_matrix(K, j);
+    for (std::size_t i = 0; i < 3; ++i) out.S2i[i][j] = second_order_matrix(K, 3 + 3 * i + j);
+  }
+  return out;
+}
+
+}  // namespace
+
+PartSecondOrder part_second_order(const FeModel& model, const FeSystem& system,
+                                  const PointModel& points, const MatX& X, const MatX& response,
+                                  const std::vector<InterfacePlace>& interfaces,
+                                  const std::vector<MarkerPlace>& markers,
+                                  Integration integration) {
+  PartSecondOrder out;
+  StressStiffness K;
+  {
+    const NodalShapes modes{system.T * X, system.T_theta * X};
+    const NodalShapes cases{system.T * response, system.T_theta * response};
+    K = shares_of_stress_stiffness(model, modes, cases, integration);
+    const auto first_marker = body_cases + 6 * static_cast<Eigen::Index>(interfaces.size());
+    add_followers(model, points, X, cases, markers, first_marker, integration, K.direct);
+  }
+  auto stiffening = std::make_shared<SecondOrder>(of_body_loads(K.direct));
+  if (!points.strained_arms.empty()) {
+    const SecondOrder strained = turning_of(points, points.strained_arms, X);
+    for (std::size_t j = 0; j < 3; ++j) {
+      stiffening->S2[j] += strained.S2[j];
+      for (std::size_t i = 0; i < 3; ++i) stiffening->S2i[i][j] += strained.S2i[i][j];
+    }
+  }
+  if (K.twist.size() > 0) {
+    out.twist = of_body_loads(K.twist);
+    K.direct += K.twist;
+  }
+  for (std::size_t k = 0; k < interfaces.size() + markers.size(); ++k) {
+    SecondOrderNode& node = stiffening->nodes.emplace_back();
+    node.node = static_cast<int>(k);
+    for (std::size_t j = 0; j < 3; ++j) {
+      node.h[j] = second_order_matrix(K.direct, body_cases + 6 * k + j);
+      node.theta[j] = second_order_matrix(K.direct, body_cases + 6 * k + 3 + j);
+    }
+  }
+  out.stiffening = std::move(stiffening);
   return out;
 }
 

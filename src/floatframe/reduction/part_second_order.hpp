@@ -11,9 +11,13 @@
 //   w = X_c u_b + (0, K_ii^-1 f_i),   (X_c^T K X_c) u_b = X_c^T f_eq
 // a free one by inertia relief.
 //
-// Spiders are linear, also here: what they hold moves by theta x r, without what follows,
-// 1/2 theta x (theta x r). Of nodes in a ring about the reference that sums up to nothing; a
-// reference far from its nodes lacks it.
+// Nodes i that are fixed rigidly to another node r (rigid_leaders) have displacements of second
+// order of their own, c_i = 1/2 theta_r x (theta_r x (x_i - x_r)). With the forces F_i of the
+// elements on them under the load,
+//   f . u2 = -int sigma : eps2 - sum (F_i - f_i) . c_i
+// where the body reference holds u2 without the c_i.
+// Of masses that turn with a node f_i . c_i is part of `turning` (part_turning.hpp), as is the
+// share of torques on the twist of beams; here is what is left.
 #include <memory>
 #include <optional>
 
@@ -42,9 +46,14 @@ MatX held_response(const FeSystem& system, const UnitCases& cases, const FixedIn
 MatX free_response(const FeSystem& system, const UnitCases& cases, const FreeStructure& structure,
                    const Eigenpairs& elastic);
 
-/// Of the modes X (n x nm); `nodes`: interfaces, then markers.
-std::shared_ptr<const SecondOrder> part_second_order(const FeModel& model, const FeSystem& system,
-                                                     const MatX& X, const MatX& response,
-                                                     std::size_t nodes, Integration integration);
+struct PartSecondOrder {
+  std::shared_ptr<const SecondOrder> stiffening;  ///< nodes: interfaces, then markers
+  std::optional<SecondOrder> twist;               ///< of beams, on the masses
+};
+/// Of the modes X (n x nm).
+PartSecondOrder part_second_order(const FeModel& model, const FeSystem& system,
+                                  const PointModel& points, const MatX& X, const MatX& response,
+                                  const std::vector<InterfacePlace>& interfaces,
+                                  const std::vector<MarkerPlace>& markers, Integration integration);
 
 }  // namespace floatframe

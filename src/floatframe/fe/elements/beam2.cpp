@@ -16,6 +16,10 @@
 // An element of linear shapes integrated at its middle, K = L (EI kappa^2 + S gamma^2), is the same
 // with 1/S = 1/(G As) + L^2/(12 EI); so Abaqus's, 1/S = (1 + c L^2 A/(12 I))/(G As) with its
 // slenderness compensation c, has phi = 12 EI/(G As L^2) + c E A/(G As) - 1 > -1.
+// Displacements of second order: R = exp(theta) of sections has the torsional curvature
+//   theta_1' - 1/2 (theta_2 theta_3' - theta_3 theta_2')
+// on which a torque works (a beam bent in two planes twists), and fibres beside the axis lengthen
+// by 1/2 (y^2 + z^2) rx'^2, on which tension works.
 // K and M turn into body axes by T on each group of three. Loads at the ends are answered exactly.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), stiffness with shear,
 // consistent mass with rotary and torsional inertia.
@@ -165,44 +169,141 @@ void scalar_mass(const ElementInput& in, MatX& out) {
   out << line / 3.0, line / 6.0, line / 6.0, line / 3.0;
 }
 
-/// The axial force times slopes squared, at three points: exact.
-void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
-  const LineRule rule = gauss_jacobi(3, 0);
+/// Shapes of bending in a plane at s = x/L, of (d1, slope1, d2, slope2).
+struct BendingShapes {
+  Eigen::Vector4d N, dN;  ///< displacement, its derivative
+  Eigen::Vector4d T, dT;  ///< rotation of the section, its derivative
+
+  BendingShapes(double s, double L, double phi) {
+    const double s2 = s * s, s3 = s2 * s, half = 0.5 * phi * (1 - 2 * s);
+    N << 1 - 3 * s2 + 2 * s3 + phi * (1 - s), L * (s - 2 * s2 + s3 + 0.5 * phi * (s - s2)),
+        3 * s2 - 2 * s3 + phi * s, L * (s3 - s2 - 0.5 * phi * (s - s2));
+    dN << (6 * s2 - 6 * s - phi) / L, 1 - 4 * s + 3 * s2 + half, (6 * s - 6 * s2 + phi) / L,
+        3 * s2 - 2 * s - half;
+    T << 6 / L * (s2 - s), 1 - 4 * s + 3 * s2 + phi * (1 - s), 6 / L * (s - s2),
+        3 * s2 - 2 * s + phi * s;
+    dT << 6 * (2 * s - 1) / (L * L), (6 * s - 4 - phi) / L, 6 * (1 - 2 * s) / (L * L),
+        (6 * s - 2 + phi) / L;
+    for (Eigen::Vector4d* shape : {&N, &dN, &T, &dT}) *shape /= 1 + phi;
+  }
+};
+
+using Row12 = Eigen::Matrix<double, 1, 12>;
+
+/// A shape of bending in the local degrees of freedom: v from (v, rz), w from (w, -ry).
+Row12 bending_row(const Eigen::Vector4d& shape, bool xz_plane) {
+  Row12 row = Row12::Zero();
+  const double sign = xz_plane ? -1.0 : 1.0;
+  row(xz_plane ? 2 : 1) = shape(0);
+  row(xz_plane ? 4 : 5) = sign * shape(1);
+  row(xz_plane ? 8 : 7) = shape(2);
+  row(xz_plane ? 10 : 11) = sign * shape(3);
+  return row;
+}
+
+Row12 linear_row(int dof, double at_first, double at_second) {
+  Row12 row = Row12::Zero();
+  row(dof) = at_first;
+  row(dof + 6) = at_second;
+  return row;
+}
+
+/// Of degrees of freedom in body axes.
+template <class Rows>
+MatX in_body_dofs(const Mat3& T, const Rows& local) {
+  MatX out(local.rows(), 12);
+  for (int a = 0; a < 4; ++a)
+    out.middleCols<3>(3 * a) = local.template middleCols<3>(3 * a) * T.transpose();
+  return out;
+}
+
+using Rows3 = Eigen::Matrix<double, 3, 12>;
+
+/// Rotation of the section (rx, -w', v' without shear) and its derivative along the axis, local
+/// axes.
+void section_rotation(const BendingShapes& v, const BendingShapes& w, double s, double L,
+                      Rows3& theta, Rows3& rate) {
+  theta.row(0) = linear_row(3, 1 - s, s);
+  theta.row(1) = -bending_row(w.T, true);
+  theta.row(2) = bending_row(v.T, false);
+  rate.row(0) = linear_row(3, -1 / L, 1 / L);
+  rate.row(1) = -bending_row(w.dT, true);
+  rate.row(2) = bending_row(v.dT, false);
+}
+
+/// Four points: products of the shapes are of degree six.
+void mass_stations(const ElementInput& in, std::vector<MassStation>& stations) {
+  static const LineRule rule = gauss_jacobi(4, 0);
   const double L = (in.p[1] - in.p[0]).norm();
   const Mat3 T = beam_axes(in);
+  const double phi_v = shear_ratio(in, L, false), phi_w = shear_ratio(in, L, true);
+  stations.resize(4);
+  for (int q = 0; q < 4; ++q) {
+    const double s = rule.u(q), line = in.material.density * rule.weight(q) * L;
+    const BendingShapes v(s, L, phi_v), w(s, L, phi_w);
+    Rows3 u, theta, rate;
+    u.row(0) = linear_row(0, 1 - s, s);
+    u.row(1) = bending_row(v.N, false);
+    u.row(2) = bending_row(w.N, true);
+    section_rotation(v, w, s, L, theta, rate);
+    MassStation& station = stations[static_cast<std::size_t>(q)];
+    station.shares = Vec2(1 - s, s);
+    station.mass = line * in.section.A;
+    station.axes = T;
+    station.moments = line * Vec3(0.0, in.section.Iz, in.section.Iy);
+    station.u = T * in_body_dofs(T, u);
+    station.theta = T * in_body_dofs(T, theta);
+  }
+}
+
+/// Where stress works on slopes at s: the axial force N on v' and w', and N (Iy + Iz)/A on rx'.
+StressedPoint tension_point(const ElementInput& in, const Mat3& T, double L, double s, double dx) {
+  const BendingShapes v(s, L, shear_ratio(in, L, false)), w(s, L, shear_ratio(in, L, true));
+  const double radius = std::sqrt((in.section.Iy + in.section.Iz) / in.section.A);
+  Rows3 slopes;
+  slopes.row(0) = radius * linear_row(3, -1 / L, 1 / L);
+  slopes.row(1) = bending_row(v.dN, false);
+  slopes.row(2) = bending_row(w.dN, true);
+  const MatX fields = T * in_body_dofs(T, slopes);
   const Vec3 t = T.col(0);
   Vec6 along;
   along << t.cwiseAbs2(), t(0) * t(1), t(1) * t(2), t(2) * t(0);
-  points.resize(3);
-  const double phi[2] = {shear_ratio(in, L, false), shear_ratio(in, L, true)};
-  for (int q = 0; q < 3; ++q) {
-    const double s = rule.u(q), s2 = s * s, dx = rule.weight(q) * L;
-    double d[4][2];  // N' of v and w
-    for (int k = 0; k < 2; ++k) {
-      const double f = 1 / (1 + phi[k]), half = 0.5 * phi[k] * (1 - 2 * s);
-      d[0][k] = f * (6 * s2 - 6 * s - phi[k]) / L;
-      d[1][k] = f * (1 - 4 * s + 3 * s2 + half);
-      d[2][k] = -d[0][k];
-      d[3][k] = f * (3 * s2 - 2 * s - half);
-    }
-    StressedPoint& point = points[q];
-    point.stress = MatX::Zero(6, 12);
-    point.gradient = MatX::Zero(9, 12);
-    for (int end = 0; end < 2; ++end) {
-      const double side = (end == 0 ? -1.0 : 1.0) * in.material.young * in.section.A / L * dx;
-      point.stress.middleCols<3>(6 * end) = side * along * t.transpose();
-      // v' and w' across the axis: from the displacements, and from rz, ry.
-      const double *u = d[2 * end], *r = d[2 * end + 1];
-      const Mat3 across =
-          u[0] * T.col(1) * T.col(1).transpose() + u[1] * T.col(2) * T.col(2).transpose();
-      const Mat3 turned =
-          r[0] * T.col(1) * T.col(2).transpose() - r[1] * T.col(2) * T.col(1).transpose();
-      for (int i = 0; i < 3; ++i) {
-        point.gradient.block<3, 3>(3 * i, 6 * end) = t * across.row(i);
-        point.gradient.block<3, 3>(3 * i, 6 * end + 3) = t * turned.row(i);
-      }
-    }
-  }
+  StressedPoint point;
+  const double force = in.material.young * in.section.A * dx;
+  point.stress = force * along * in_body_dofs(T, linear_row(0, -1 / L, 1 / L));
+  point.gradient.resize(9, 12);
+  for (int i = 0; i < 3; ++i) point.gradient.middleRows<3>(3 * i) = t * fields.row(i);
+  return point;
+}
+
+/// Where a torque works on the twist of second order, -1/2 (theta_2 theta_3' - theta_3 theta_2').
+StressedPoint twist_point(const ElementInput& in, const Mat3& T, double L, double s, double dx) {
+  const BendingShapes v(s, L, shear_ratio(in, L, false)), w(s, L, shear_ratio(in, L, true));
+  Rows3 theta, rate;
+  section_rotation(v, w, s, L, theta, rate);
+  const double stiffness = in.material.shear() * in.section.J * dx;
+  StressedPoint point;
+  point.twist = true;
+  point.stress = MatX::Zero(6, 12);
+  point.stress.row(3) = -0.5 * stiffness * in_body_dofs(T, rate.row(0));
+  Eigen::Matrix<double, 9, 12> fields = Eigen::Matrix<double, 9, 12>::Zero();
+  fields.row(0) = theta.row(1);
+  fields.row(1) = rate.row(2);
+  fields.row(3) = theta.row(2);
+  fields.row(4) = -rate.row(1);
+  point.gradient = in_body_dofs(T, fields);
+  return point;
+}
+
+/// Tension at three points and torque at two: exact.
+void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
+  static const LineRule three = gauss_jacobi(3, 0), two = gauss_jacobi(2, 0);
+  const double L = (in.p[1] - in.p[0]).norm();
+  const Mat3 T = beam_axes(in);
+  points.clear();
+  for (int q = 0; q < 3; ++q)
+    points.push_back(tension_point(in, T, L, three.u(q), three.weight(q) * L));
+  for (int q = 0; q < 2; ++q) points.push_back(twist_point(in, T, L, two.u(q), two.weight(q) * L));
 }
 
 }  // namespace
@@ -224,6 +325,7 @@ constinit const ElementKernel beam2_kernel{.family = ElementFamily::beam,
                                            .stiffness = &stiffness,
                                            .mass = &mass,
                                            .scalar_mass = &scalar_mass,
+                                           .mass_stations = &mass_stations,
                                            .stressed_points = &stressed_points};
 
 }  // namespace floatframe

@@ -114,23 +114,38 @@ void scalar_mass(const ElementInput& in, MatX& out) {
   });
 }
 
-/// The axial force times slopes squared, at the points of the stiffness.
+/// At the points of the stiffness: the axial force on slopes and, times (Iy + Iz)/A, on the twist;
+/// the torque on the twist of second order -1/2 t . (theta x theta').
 void stressed_points(const ElementInput& in, std::vector<StressedPoint>& points) {
   points.clear();
+  const BeamSection& sec = in.section;
   integrate(in, 2, [&](const Station& s) {
     const Vec3 t = s.R.col(0);
     Vec6 along;
     along << t.cwiseAbs2(), t(0) * t(1), t(1) * t(2), t(2) * t(0);
     const Mat3 across = Mat3::Identity() - t * t.transpose();
-    StressedPoint& point = points.emplace_back();
-    point.stress = MatX::Zero(6, 18);
-    point.gradient = MatX::Zero(9, 18);
+    const Mat3 turned = std::sqrt((sec.Iy + sec.Iz) / sec.A) * t * t.transpose();
+    StressedPoint tension, twist;
+    tension.stress = twist.stress = MatX::Zero(6, 18);
+    tension.gradient = twist.gradient = MatX::Zero(9, 18);
+    twist.twist = true;
     for (int a = 0; a < 3; ++a) {
-      const double force = in.material.young * in.section.A * s.dN(a) * s.ds;
-      point.stress.middleCols<3>(6 * a) = force * along * t.transpose();
-      for (int i = 0; i < 3; ++i)
-        point.gradient.block<3, 3>(3 * i, 6 * a) = s.dN(a) * t * across.row(i);
+      const double force = in.material.young * sec.A * s.dN(a) * s.ds;
+      tension.stress.middleCols<3>(6 * a) = force * along * t.transpose();
+      for (int i = 0; i < 3; ++i) {
+        tension.gradient.block<3, 3>(3 * i, 6 * a) = s.dN(a) * t * across.row(i);
+        tension.gradient.block<3, 3>(3 * i, 6 * a + 3) = s.dN(a) * t * turned.row(i);
+      }
+      const double torque = in.material.shear() * sec.J * s.dN(a) * s.ds;
+      twist.stress.block<1, 3>(3, 6 * a + 3) = -0.5 * torque * t.transpose();
+      // theta_2 theta_3' - theta_3 theta_2'
+      twist.gradient.block<1, 3>(0, 6 * a + 3) = s.N(a) * s.R.col(1).transpose();
+      twist.gradient.block<1, 3>(1, 6 * a + 3) = s.dN(a) * s.R.col(2).transpose();
+      twist.gradient.block<1, 3>(3, 6 * a + 3) = s.N(a) * s.R.col(2).transpose();
+      twist.gradient.block<1, 3>(4, 6 * a + 3) = -s.dN(a) * s.R.col(1).transpose();
     }
+    points.push_back(std::move(tension));
+    points.push_back(std::move(twist));
   });
 }
 

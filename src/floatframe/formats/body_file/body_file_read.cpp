@@ -61,6 +61,7 @@ class BodyReader {
     nodes();
     body().second_order =
         read_second_order(arrays_, body().modes(), static_cast<Eigen::Index>(body().nodes.size()));
+    body().turning = read_turning(arrays_, body().modes());
     surface();
     if (arrays_.has("projection_p")) projection();
     errors_.throw_if_any();
@@ -262,7 +263,7 @@ class BodyReader {
     } else {
       data->M_s = read_sparse(arrays_, "projection_M_s", n);
     }
-    data->h = read_projection_h(arrays_, nm, n);
+    read_projection_second_order(arrays_, nm, *data);
     body().projection = data;
   }
 

@@ -5,7 +5,14 @@
 //   second_order_Si     9: S2i[i][j] in place 3 i + j
 //   second_order_nodes  markers that have h and theta, ascending
 //   second_order_h, second_order_theta  3 of each of these markers
-// All or none of them. `projection_h` beside the projection data: 3 of each of its nodes.
+// All or none of them. Of displacements of what turns with the nodes (FlexibleBody::turning)
+//   turning_S, turning_Si   as second_order_S, second_order_Si
+// Beside the projection data:
+//   projection_h            3 of each of its nodes
+//   projection_turning      point and rotation of each ProjectionData::turning, k x 2
+//   projection_arms         k x 3
+//   projection_rotations    rotations x 3 x nm
+//   projection_twist_S, projection_twist_Si
 #include <memory>
 #include <string>
 #include <utility>
@@ -22,8 +29,10 @@ void add_second_order(const FlexibleBody& body, NamedBytes& arrays);
 /// Null if the file has none. `markers`: how many the file has.
 std::shared_ptr<const SecondOrder> read_second_order(ArrayReader& arrays, Eigen::Index nm,
                                                      Eigen::Index markers);
-/// ProjectionData::h; empty if there is none.
-MatX read_projection_h(ArrayReader& arrays, Eigen::Index nm, Eigen::Index nodes);
+/// FlexibleBody::turning; null if the file has none.
+std::shared_ptr<const SecondOrder> read_turning(ArrayReader& arrays, Eigen::Index nm);
+/// What of the projection data is of second order.
+void read_projection_second_order(ArrayReader& arrays, Eigen::Index nm, ProjectionData& data);
 /// Adds an error if a matrix is not symmetric.
 void check_second_order(const FlexibleBody& body, ArrayReader& arrays);
 

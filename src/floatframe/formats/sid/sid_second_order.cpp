@@ -228,8 +228,14 @@ void sid_second_order(const SidContent& content, const MatX& Me, FlexibleBody& b
 
 void add_sid_second_order(const FlexibleBody& body, SidContent& c) {
   const int nq = c.modes;
-  if (!body.second_order || nq == 0) return;
-  const SecondOrder& s = *body.second_order;
+  if (nq == 0 || !(body.second_order || body.turning)) return;
+  SecondOrder s = body.second_order ? *body.second_order : SecondOrder::zero(nq);
+  if (body.turning) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      s.S2[j] += body.turning->S2[j];
+      for (std::size_t i = 0; i < 3; ++i) s.S2i[i][j] += body.turning->S2i[i][j];
+    }
+  }
   c.Ct.m1.assign(nq, MatX::Zero(nq, 3));
   c.Gr.m1.assign(nq, MatX::Zero(3, 3 * nq));
   for (int l = 0; l < nq; ++l) {

@@ -22,7 +22,9 @@ namespace floatframe {
 void sid_second_order(const SidContent& content, const MatX& Me, FlexibleBody& body,
                       const std::function<void(int line, const std::string&)>& note);
 
-/// The same from a body: adds to the blocks of `content`, which are those of inertia.
+/// The same from a body: adds to the blocks of `content`, which are those of inertia. S2i is the
+/// sum of `second_order` and `turning`, which a file cannot tell apart: read again all of it counts
+/// with stiffening only.
 void add_sid_second_order(const FlexibleBody& body, SidContent& content);
 
 }  // namespace floatframe
