@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -287,6 +287,11 @@ class Body:
     def D(self) -> Array:
         """Modal damping, shape (modes, modes)."""
         return self._core.D
+
+    def damped_modes(self, reference: Literal["frame", "free", "mounted"] = "free") -> Array:
+        """Frequencies [Hz] and fractions of critical damping, shape (n, 2), of the body's own modes: with its frame held, free,
+        or mounted, which is with its interfaces held (none where they are not known)."""
+        return np.array(self._core.damped_modes(reference), dtype=float).reshape(-1, 2)
 
     @property
     def modes(self) -> int:

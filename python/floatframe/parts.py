@@ -21,7 +21,7 @@ from .errors import InputError, OutputError
 from .health import Report
 from .meshes import AnyMesh, BeamSection, Material, fe_model, is_mesh
 from .places import Place
-from .reading import Density, Path, Thickness, expect_texts, material_option, path_text, plain, reading_options
+from .reading import Damping, Density, Path, Thickness, damping_text, expect_texts, material_option, path_text, plain, reading_options
 
 if TYPE_CHECKING:
     import pyvista
@@ -183,7 +183,7 @@ def reduce(
     material: Material | None = None,
     density: Density | None = None,
     integration: Literal["exact", "ccx"] | None = None,
-    damping: float | None = None,
+    damping: Damping | None = None,
     solver: Literal["auto", "mumps", "eigen"] | None = None,
     contact: str | None = None,
     temperature: float | None = None,
@@ -199,6 +199,7 @@ def reduce(
     nodes: Path | None = None,
     mass: Path | None = None,
     dofs: Path | None = None,
+    damping_matrix: Path | None = None,
     thickness: Thickness | None = None,
     section: BeamSection | None = None,
     progress: Progress = False,
@@ -211,7 +212,10 @@ def reduce(
     held or driven; markers: where loads act or outputs are taken; lengths in the units of the part.
 
     modes: number of normal modes (20 if nothing selects them); fmax: all below this frequency [Hz]; effective_mass: until
-    this fraction is reached. reference: "mean_axis", "buckens" or "node:NAME" of an interface. damping: fraction of critical.
+    this fraction is reached. reference: "mean_axis", "buckens" or "node:NAME" of an interface.
+    damping: fraction of critical of its modes, a list of fractions, or a dict with one of fraction, fractions, bands ("usual" or
+    [[100, 0.01], [1000, 0.1], 1.0]: below 100 Hz, below 1 kHz, above) and rayleigh ([alpha, beta]), with reference "frame", "free"
+    or "mounted": {"fraction": 0.02, "reference": "mounted"}. damping_matrix: of parts given as matrices.
     free_check=False: no free modes of the full model in the report (saves a factorisation). stresses=False: no stress.
     beam_shear, shell_shear: shear deformation of beams and shells of a file; mass_form: consistent or lumped mass.
     grounded_springs="ignore": springs to the ground are left out.
@@ -234,7 +238,7 @@ def reduce(
         "effective_mass": plain(effective_mass),
         "reference": reference,
         "integration": integration,
-        "damping": plain(damping),
+        "damping": damping_text(damping),
         "solver": solver,
         "free_check": free_check,
         "stresses": stresses,
@@ -247,7 +251,7 @@ def reduce(
     words = ("beam_shear", "shell_shear", "mass_form", "grounded_springs")
     expect_texts(options, ("units", "method", "reference", "integration", "solver", *words))
     surfaces = None if mesh else thickness
-    options |= reading_options(format, dialect, contact, temperature, density, surfaces, nodes, mass, dofs)
+    options |= reading_options(format, dialect, contact, temperature, density, surfaces, nodes, mass, dofs, damping_matrix)
     chosen: dict[str, object] = {}
     for key, places in (("interfaces", interfaces), ("markers", markers)):
         if places is not None:
@@ -256,7 +260,7 @@ def reduce(
     if tell is not None and not callable(tell):
         raise InputError(f"progress: found {progress!r}, expected True, False or a function")
     if mesh:
-        for name in ("format", "dialect", "contact", "temperature", "density", *words, "nodes", "mass", "dofs"):
+        for name in ("format", "dialect", "contact", "temperature", "density", *words, "nodes", "mass", "dofs", "damping_matrix"):
             if options[name] is not None:
                 raise InputError(f"{name} says how files are read: found it for a mesh")
         if isinstance(thickness, Mapping):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from .meshes import Material
 Path = str | os.PathLike[str]
 Density = float | Mapping[str, float]
 Thickness = float | Mapping[str, float]
+Damping = float | Sequence[float] | Mapping[str, Any]
 
 
 def expect_texts(options: dict[str, Any], names: tuple[str, ...]) -> None:
@@ -33,11 +34,12 @@ def reading_options(
     nodes: object = None,
     mass: object = None,
     dofs: object = None,
+    damping_matrix: object = None,
 ) -> dict[str, Any]:
     """How a file is read, as options of the C++ library."""
     options: dict[str, Any] = {"format": format, "dialect": dialect, "contact": contact, "temperature": None}
     expect_texts(options, ("format", "dialect", "contact"))
-    for name, file in (("nodes", nodes), ("mass", mass), ("dofs", dofs)):
+    for name, file in (("nodes", nodes), ("mass", mass), ("dofs", dofs), ("damping_matrix", damping_matrix)):
         options[name] = None if file is None else path_text(name, file)
     if temperature is not None:
         T = plain(temperature)
@@ -47,6 +49,54 @@ def reading_options(
     options["density"] = named_numbers("density", density, "a number or numbers by the names of materials")
     options["thickness"] = named_numbers("thickness", thickness, "a number or numbers by the names of groups")
     return options
+
+
+def damping_text(damping: object) -> str | None:
+    """A damping by the keys of model files, as the text of the command line."""
+    if damping is None:
+        return None
+
+    def wrong() -> InputError:
+        return InputError(
+            f"damping: found {damping!r}, expected a fraction of critical damping, a list of them, or a dict with one of fraction, "
+            "fractions, bands and rayleigh"
+        )
+
+    def number(value: object) -> str:
+        x = plain(value)
+        if isinstance(x, bool) or not isinstance(x, (int, float)) or not math.isfinite(x):
+            raise wrong()
+        return repr(float(x))
+
+    def items(value: object) -> list[Any]:
+        if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
+            raise wrong()
+        return list(value)
+
+    if not isinstance(damping, Mapping):
+        return ",".join(number(x) for x in items(damping)) if hasattr(damping, "__len__") else number(damping)
+    ways = [key for key in ("fraction", "fractions", "bands", "rayleigh") if damping.get(key) is not None]
+    if len(ways) != 1 or not set(damping) <= {*ways, "reference", "frequency"}:
+        raise wrong()
+    value = damping[ways[0]]
+    if ways[0] == "fraction":
+        text = number(value)
+    elif ways[0] == "fractions":
+        text = ",".join(number(x) for x in items(value))
+    elif ways[0] == "rayleigh":
+        text = "rayleigh:" + ",".join(number(x) for x in items(value))
+    elif isinstance(value, str) and value == "usual":
+        text = "bands:usual"
+    else:
+        bands = [items(band) if hasattr(band, "__len__") else [band] for band in items(value)]
+        if any(len(band) not in (1, 2) for band in bands):
+            raise wrong()
+        text = "bands:" + ",".join("=".join(number(x) for x in band) for band in bands)
+    if damping.get("reference") is not None:
+        text += f",reference={damping['reference']}"
+    if damping.get("frequency") is not None:
+        text += f",frequency={number(damping['frequency'])}"
+    return text
 
 
 def named_numbers(name: str, value: object, expected: str) -> list[str] | None:

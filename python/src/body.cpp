@@ -1,6 +1,9 @@
 // Bodies: inertia integrals, modes, and the inertia terms of a moving body by both methods. Arrays
 // come with the right types and finite numbers (bodies.py sees to it); sizes are checked here.
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include <limits>
 #include <sstream>
@@ -287,6 +290,16 @@ void bind_body(nb::module_& m) {
   def_view(c, "K", [](const BodyPtr& b) { return matrix_view(b->K, b); });
   def_view(c, "D", [](const BodyPtr& b) { return matrix_view(b->D, b); });
   def_view(c, "frequencies", [](const FlexibleBody& b) { return kept(mode_frequencies(b)); });
+  c.def("damped_modes", [](const FlexibleBody& b, const std::string& reference) {
+    for (const auto held :
+         {DampingReference::frame, DampingReference::free, DampingReference::mounted}) {
+      if (reference != word(held)) continue;
+      std::vector<std::pair<double, double>> out;
+      for (const DampedMode& m : damped_modes(b, held)) out.emplace_back(m.frequency, m.fraction);
+      return out;
+    }
+    throw InputError("reference: found '" + reference + "', expected frame, free or mounted");
+  });
   c.def_prop_ro("nodes", nodes_of);
   c.def("inertia", inertia);
   m.def("make_body", make_body, nb::arg(), nb::arg().none(), nb::arg().none(), nb::arg().none());

@@ -48,6 +48,28 @@ def header_and_arrays(path):
     return header, arrays
 
 
+def test_damping_is_given_by_the_keys_of_model_files(arm_arguments):
+    arguments = arm_arguments | {"reference": "mean_axis"}
+
+    def reduced(damping):
+        return ff.reduce(ARM, units="mm-t-s", material=STEEL_MM, damping=damping, **arguments)
+
+    mounted = reduced({"fraction": 0.02, "reference": "mounted"})
+    assert np.allclose(mounted.body.damped_modes("mounted")[:, 1], 0.02, rtol=1e-6)
+    free = reduced(np.float64(0.02)).body
+    assert np.allclose(free.damped_modes()[:, 1], 0.02, rtol=1e-6)
+    assert np.allclose(free.damped_modes("frame"), free.damped_modes("free"), rtol=1e-6)
+    rayleigh = reduced({"rayleigh": (0.0, 1e-6)}).body
+    assert np.allclose(rayleigh.D, 1e-6 * rayleigh.K, atol=1e-12 * rayleigh.K.max())
+    assert np.allclose(reduced([0.01, 0.03]).body.damped_modes()[:3, 1], [0.01, 0.03, 0.03], rtol=1e-6)
+    bands = {"bands": [[1e5, 0.01], 0.5], "reference": "free"}
+    assert np.allclose(reduced(bands).body.damped_modes()[:4, 1], 0.01, rtol=1e-6)
+    assert dict(reduced({"bands": "usual"}).provenance["options"])["damping"] == "bands:100=0.01,1000=0.1,1"
+    for wrong in ({"fraction": 0.1, "bands": "usual"}, {"share": 0.1}, {"bands": "all"}, "much", {"fraction": 0.1, "reference": "held"}):
+        with pytest.raises(ff.InputError, match="damping"):
+            reduced(wrong)
+
+
 def test_a_file_gives_the_body_of_the_command_line(arm, tmp_path):
     arm.save(tmp_path / "python.ffb")
     command = [ff.program(), "reduce", str(ARM), "--units", "mm-t-s", "--material", "200000.0,0.3,7.85e-09", "--modes", "4"]

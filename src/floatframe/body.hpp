@@ -6,4 +6,5 @@
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/body/flexible_body.hpp"
 #include "floatframe/body/inertia_invariants.hpp"
+#include "floatframe/body/modal_damping.hpp"
 #include "floatframe/inertia/inertia_terms.hpp"

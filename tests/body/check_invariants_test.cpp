@@ -54,7 +54,7 @@ TEST(CheckInvariants, BarsOfAllMassModelsPass) {
     options.interfaces = {{"outer", all_dofs}};  // torsion moves no mass
     options.normal_modes = 3;
     options.mass_model = model;
-    options.damping_ratio = 0.01;
+    options.damping = 0.01;
     EXPECT_EQ(errors(reduce(build_bar_frame(straight_bar(1.0, 0.02, 4)), options)), "");
   }
 }

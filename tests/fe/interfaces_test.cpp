@@ -217,7 +217,8 @@ TEST(Interfaces, Refusals) {
             "that do not lie on a line, or one node with only ux uy uz");
   EXPECT_EQ(refusal(model, interface(by_set("LINE"))),
             "interface 'BUSH': its 4 nodes lie on a line, about which nothing holds the rotation "
-            "of the reference point");
+            "of the reference point; choose nodes beside the line too, or type mean and dofs "
+            "without rz");
   NodeChoice number;
   number.by = By::node;
   number.number = 5;

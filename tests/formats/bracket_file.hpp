@@ -29,7 +29,7 @@ inline BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
   options.interfaces = {{"eye", 7u}};
   options.normal_modes = 2;
   options.mass_model = mass_model;
-  options.damping_ratio = 0.01;
+  options.damping = 0.01;
   BodyFile out;
   ReducedPart& part = out.part;
   const FeModel model = build_bar_frame(frame);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -12,9 +13,14 @@
 #include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/matrices/read_matrices.hpp"
+#include "support/error_of.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace floatframe {
 namespace {
+
+using test::error_of;
+using test::TemporaryFolder;
 
 const std::string matrices_folder = FLOATFRAME_TEST_DATA "/fe/";
 
@@ -230,6 +236,55 @@ TEST(Matrices, HarwellBoeingFilesBesideAnAnsysDeck) {
   expect_same(model, read);
   EXPECT_EQ(read.node_sets.at("END"), std::vector<int>{0});
   std::filesystem::remove_all(folder);
+}
+
+// arm_C.mtx beside arm_K.mtx, job_DMPV1.mtx beside job_STIF1.mtx, or a file that is named; a row
+// that the stiffness does not have is an error.
+TEST(Matrices, ViscousDampingBesideTheStiffness) {
+  const FeModel model = two_bricks();
+  const TemporaryFolder folder;
+  const Texts triples = written(model, [&](int i, int j, double v) {
+    return i <= j ? fmt::format("{} {} {}\n", i + 1, j + 1, v) : std::string();
+  });
+  const auto market = [&](const std::string& entries) {
+    return fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{0} {0} {1}\n{2}",
+                       model.matrices->dofs.size(),
+                       std::count(entries.begin(), entries.end(), '\n'), entries);
+  };
+  std::string nodes;
+  for (int k = 0; k < model.nodes(); ++k)
+    nodes += fmt::format("{},{},{},{}\n", model.node_ids[k], model.positions[k].x(),
+                         model.positions[k].y(), model.positions[k].z());
+  folder.write("arm_K.mtx", market(triples.stiffness));
+  folder.write("arm_M.mtx", market(triples.mass));
+  folder.write("arm_dofs.csv", triples.dofs);
+  folder.write("arm_nodes.csv", nodes);
+  EXPECT_EQ(read_fe_file(folder / "arm_K.mtx").matrices->C.size(), 0);
+  EXPECT_TRUE(damping_beside(folder / "arm_K.mtx").empty());
+  folder.write("arm_C.mtx", market(triples.mass));
+  EXPECT_EQ(damping_beside(folder / "arm_K.mtx"), folder / "arm_C.mtx");
+  const FeModel damped = read_fe_file(folder / "arm_K.mtx");
+  EXPECT_EQ(MatX(damped.matrices->C), MatX(damped.matrices->M));
+  EXPECT_EQ(damped.files.back(), folder.file("arm_C.mtx"));
+  const Texts labels = written(model, [&](int i, int j, double v) {
+    const Dof &a = model.matrices->dofs[i], &b = model.matrices->dofs[j];
+    return fmt::format("{},{}, {},{}, {:.17e}\n", model.node_ids[a.node], a.axis + 1,
+                       model.node_ids[b.node], b.axis + 1, v);
+  });
+  folder.write("job_STIF1.mtx", labels.stiffness);
+  folder.write("job_MASS1.mtx", labels.mass);
+  folder.write("job_DMPV1.mtx", labels.mass);
+  folder.write("job_nodes.csv", nodes);
+  const FeModel abaqus = read_fe_file(folder / "job_STIF1.mtx");
+  EXPECT_EQ(MatX(abaqus.matrices->C), MatX(abaqus.matrices->M));
+  FeReadOptions named;
+  const Dof& first = model.matrices->dofs[0];
+  named.damping_matrix =
+      folder.write("dashpots.mtx", fmt::format("{0},{1}, {0},{1}, 2.5\n{0},{1}, 999,6, 0\n",
+                                               model.node_ids[first.node], first.axis + 1));
+  const std::string error = error_of([&] { read_fe_file(folder / "job_STIF1.mtx", named); });
+  EXPECT_EQ(folder.without(error),
+            "dashpots.mtx:2: degree of freedom 999.6 is not in the stiffness");
 }
 
 TEST(Matrices, FaultyHarwellBoeing) {

@@ -393,8 +393,8 @@ FeModel read_punch(const std::string& text) {
 
 TEST(Dmig, RoundTrip) {
   const Matrices m = random_matrices();
-  const std::string text =
-      "$ punched\n" + punch("KAAX", m.K, m) + punch("MAAX", m.M, m) + punch("BAAX", m.M, m);
+  const std::string text = "$ punched\n" + punch("KAAX", m.K, m) + punch("MAAX", m.M, m) +
+                           punch("BAAX", 0.5 * m.M, m) + punch("K4AAX", m.K, m);
   EXPECT_TRUE(looks_like_dmig(text));
   EXPECT_FALSE(looks_like_nastran(text));
   const FeModel model = read_punch(text);
@@ -403,13 +403,16 @@ TEST(Dmig, RoundTrip) {
             1e-9 * m.K.cwiseAbs().maxCoeff());
   EXPECT_LT((MatX(model.matrices->M) - m.M).cwiseAbs().maxCoeff(),
             1e-9 * m.M.cwiseAbs().maxCoeff());
+  EXPECT_LT((MatX(model.matrices->C) - 0.5 * m.M).cwiseAbs().maxCoeff(),
+            1e-9 * m.M.cwiseAbs().maxCoeff());
   ASSERT_EQ(model.matrices->dofs.size(), 15u);
   EXPECT_EQ(model.matrices->dofs[6].node, 2);  // node 11
   EXPECT_EQ(model.matrices->dofs[14].node, 1);
   EXPECT_EQ(model.matrices->dofs[14].axis, 2);
   EXPECT_EQ(model.positions[1], Vec3(1, 2, 3));
   EXPECT_EQ(model.notes.back(),
-            "arm.pch: matrices that are neither stiffness nor mass are passed over: BAAX");
+            "arm.pch: matrices that are neither stiffness, mass nor viscous damping are ignored: "
+            "K4AAX");
 }
 
 TEST(Dmig, NodesInTheFileOrBesideIt) {
@@ -436,6 +439,11 @@ TEST(Dmig, NodesInTheFileOrBesideIt) {
   ASSERT_TRUE(beside.matrices && whole.matrices);
   EXPECT_EQ(MatX(whole.matrices->K), MatX(beside.matrices->K));
   EXPECT_EQ(MatX(whole.matrices->M), MatX(beside.matrices->M));
+  EXPECT_EQ(whole.matrices->C.size(), 0);
+  folder.write("damping.pch", punch("B2GG", m.M, m));
+  options.damping_matrix = folder / "damping.pch";
+  const FeModel damped = read_fe_file(folder / "arm.pch", options);
+  EXPECT_EQ(MatX(damped.matrices->C), MatX(beside.matrices->M));
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ FlexibleBody random_body(unsigned seed, int nm) {
 
 FlexibleBody beam_body() {
   ReductionOptions options = a_arm_options();
-  options.damping_ratio = 0.02;
+  options.damping = 0.02;
   return reduce(build_bar_frame(a_arm_frame(10)), options);
 }
 

@@ -18,7 +18,7 @@ TEST(Validate, FlexibleBodiesOfBars) {
       {[](D& d) { bars(d).density = nan; },
        "bodies.arm.flexible.material.density: found nan, expected a positive number [kg/m3] "
        "(numbers must be finite)"},
-      {[](D& d) { bars(d).damping_ratio = 2.0; },
+      {[](D& d) { bars(d).damping = 2.0; },
        "bodies.arm.flexible.damping: found 2, expected a fraction of critical damping from 0 to "
        "1"},
       {[](D& d) { bars(d).mass_model = static_cast<MassModel>(7); },

@@ -80,7 +80,7 @@ TEST_F(Everything, FlexibleBodies) {
   EXPECT_TRUE(f.orthonormalise);
   EXPECT_EQ(f.mass_model, MassModel::hermite);
   EXPECT_TRUE(f.section_inertia);
-  EXPECT_EQ(f.damping_ratio, 0.02);
+  EXPECT_EQ(f.damping.fractions, std::vector<double>{0.02});
   EXPECT_EQ(flexible(d, "bar").analytic->dynamic_per_plane, 1);
   EXPECT_EQ(named(d.bodies, "bar").X_WB.p, Vec3(0, 0, 0));
   const MatX& basis = *flexible(d, "given").basis;

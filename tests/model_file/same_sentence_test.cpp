@@ -57,7 +57,7 @@ TEST(SameSentence, InAFileAndInADescription) {
        [](D& d) { std::get<RigidDescription>(d.bodies[0].kind).J_C(2, 2) = 5.0; }},
       {"young: 2e11", "young: 0", [](D& d) { bar_of(d).young = 0.0; }},
       {"poisson: 0.3", "poisson: 0.5", [](D& d) { bar_of(d).poisson = 0.5; }},
-      {"damping: 0.01", "damping: 2", [](D& d) { bar_of(d).damping_ratio = 2.0; }},
+      {"damping: 0.01", "damping: 2", [](D& d) { bar_of(d).damping = 2.0; }},
       {"density: 7800", "density: 0", [](D& d) { bar_of(d).density = 0.0; }},
       {"normal_modes: 2", "normal_modes: 100", [](D& d) { bar_of(d).normal_modes = 100; }},
       {"section_inertia: false", "section_inertia: true",

@@ -227,7 +227,7 @@ TEST(Reduction, ChordFrameOfARod) {
 TEST(Reduction, OrthonormalModesAndModalDamping) {
   const FeModel model = build_bar_frame(a_arm_frame(10));
   ReductionOptions options = a_arm_options();
-  options.damping_ratio = 0.02;
+  options.damping = 0.02;
   const FlexibleBody plain = reduce(model, options);
   options.orthonormalise = true;
   const FlexibleBody body = reduce(model, options);
@@ -302,8 +302,8 @@ TEST(ReductionErrors, EachHasItsSentence) {
             "interface");
   EXPECT_EQ(with([](ReductionOptions& o) { o.normal_modes = 50; }),
             "50 normal modes are requested, but the mass inside the interface allows only 28");
-  EXPECT_EQ(with([](ReductionOptions& o) { o.damping_ratio = -0.1; }),
-            "the modal damping ratio must not be negative");
+  EXPECT_EQ(with([](ReductionOptions& o) { o.damping = -0.1; }),
+            "damping: found -0.1, expected a fraction of critical damping from 0 to 1");
   EXPECT_EQ(with([](ReductionOptions& o) { o.basis = MatX::Zero(5, 1); }),
             "the given basis has 5 rows; 12 nodes need 72");
   EXPECT_EQ(with([](ReductionOptions& o) { o.analytic = AnalyticShapes{2}; }),

@@ -37,8 +37,7 @@ ModelDescription vehicle_on_stairs(Vehicle vehicle) {
                               {"flexible", vehicle == Vehicle::rigid ? "false" : "true"}});
   if (vehicle == Vehicle::damped)
     for (BodyDescription& b : d.bodies)
-      if (auto* const frame = std::get_if<FlexibleDescription>(&b.kind))
-        frame->damping_ratio = 0.05;
+      if (auto* const frame = std::get_if<FlexibleDescription>(&b.kind)) frame->damping = 0.05;
   return d;
 }
 

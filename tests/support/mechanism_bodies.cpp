@@ -154,7 +154,7 @@ FlexibleDescription MechanismBuilder::bar_frame(double length, bool straight, No
   }
   f.orthonormalise = chance(0.2);
   if (!f.analytic && chance(0.3)) f.masses.push_back({"c", random(0.05, 0.3), {}});
-  if (chance(0.3)) f.damping_ratio = 0.02;
+  if (chance(0.3)) f.damping = 0.02;
   return f;
 }
 

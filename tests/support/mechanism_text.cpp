@@ -140,7 +140,7 @@ bool is_conservative(const ModelDescription& d) {
     const auto* given = std::get_if<FlexibleBody>(&b.kind);
     const auto* bars = std::get_if<FlexibleDescription>(&b.kind);
     if (given && !given->D.isZero(0.0)) return false;
-    if (bars && bars->damping_ratio > 0.0) return false;
+    if (bars && !bars->damping.none()) return false;
     // The velocity-dependent forces of this mass model are not exact (docs/theory.md, section 7).
     if (bars && bars->mass_model == MassModel::six_dof && !b.rigid) return false;
   }

@@ -63,6 +63,18 @@ Texts special(O::Special::What what) {
       return {{"ignore", "ignore"}, {"tied", "tied"}, {"tied:0.5", "tied:0.5"}};
     case What::temperature:
       return {{"80", "80"}, {"-40.5", "-40.5"}};
+    case What::damping:
+      return {{"0.25", "0.25"},
+              {"0.5", "{fraction: 0.5}"},
+              {"0.25,reference=free", "{fraction: 0.25, reference: free}"},
+              {"0.25,reference=mounted", "{fraction: 0.25, reference: mounted}"},
+              {"0.25,reference=mounted,frequency=2.5",
+               "{fraction: 0.25, reference: mounted, frequency: 2.5}"},
+              {"0.25,0.5", "{fractions: [0.25, 0.5]}"},
+              {"bands:100=0.01,1000=0.1,1", "{bands: usual}"},
+              {"bands:200=0.25,0.5", "{bands: [[200, 0.25], 0.5]}"},
+              {"rayleigh:2,0", "{rayleigh: [2, 0]}"},
+              {"rayleigh:0.5,0.25,reference=free", "{rayleigh: [0.5, 0.25], reference: free}"}};
     case What::interfaces:
       return places({{"type=mean", "type: mean"},
                      {"dofs=xyz", "dofs: [x, y, z]"},

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/analyses/body_damping.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
@@ -87,7 +88,8 @@ std::string check_json(const ModelCounts& c, const Model& model) {
                         {"redundant_constraints", c.redundant_constraints},
                         {"cut_joint_names", c.cut_joint_names},
                         {"start", start_json(c.start)},
-                        {"flexible", flexible}});
+                        {"flexible", flexible},
+                        {"damping", body_damping_json(model)}});
 }
 
 /// The page of the model where a run of it begins.
@@ -120,7 +122,8 @@ AnalysisReport report_check(const Model& model) {
   const ModelCounts counts = check(model);
   return {.text = fmt::format("{}: {}, {} ({} cut)\n\n", model.name, bodies_counted(counts),
                               plural(counts.joints, "joint"), counts.cut_joints) +
-                  counts_text(counts) + flexible_bodies_text(model) +
+                  counts_text(counts) + flexible_bodies_text(model) + body_damping_text(model) +
+                  system_damping_text(model, counts.degrees_of_freedom) +
                   notes_text(counts.start.notes),
           .json = check_json(counts, model),
           .files = {[&model, counts] { return page_of_start(model, counts); }}};

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/analyses/body_damping.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
@@ -142,6 +143,11 @@ std::string vibrations_text(const Model& model, const LinearSystem& system,
       "without swinging,\nundamped is the rate over 2 pi; rigid: nothing holds it. moves: part of "
       "the "
       "kinetic energy; is held by: part of the\npotential energy.\n";
+  if (const std::string own = body_damping_text(model); !own.empty())
+    text +=
+        own +
+        "  free: nothing holds the body; mounted: its interfaces are held; frame held: what its "
+        "body frame follows.\n  The column damping is what the modes of the model get of it.\n";
   for (const std::string& note : system.notes) text += "Note: " + note + ".\n";
   return text;
 }
@@ -172,7 +178,8 @@ std::string vibrations_json(const Model& model, const LinearSystem& system,
                         {"largest_acceleration", system.acceleration},
                         {"stiffening_counted_in", system.stiffened},
                         {"notes", system.notes},
-                        {"modes", list}});
+                        {"modes", list},
+                        {"body_damping", body_damping_json(model)}});
 }
 
 std::vector<ShownMotion> motions_of(const Model& model, const LinearSystem& system) {

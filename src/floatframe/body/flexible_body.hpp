@@ -61,6 +61,12 @@ struct ProjectionData {
 struct BodyShape;
 struct BodyStress;
 
+/// Where a body is mounted: bit 0..5 of `mask` = ux..rz of a node, along the axes of the body.
+struct InterfaceDofs {
+  int node = -1;  ///< in FlexibleBody::nodes
+  unsigned mask = 63u;
+};
+
 struct FlexibleBody {
   InertiaInvariants invariants;
   MatX K;                        ///< nm x nm modal stiffness, symmetric
@@ -84,6 +90,8 @@ struct FlexibleBody {
   std::shared_ptr<const BodyShape> shape = nullptr;
   /// Its stress; null: not known.
   std::shared_ptr<const BodyStress> stress = nullptr;
+  /// What the modes of the mounted body hold; empty: not known, or none.
+  std::vector<InterfaceDofs> interfaces;
 
   int modes() const noexcept { return invariants.modes(); }
 };

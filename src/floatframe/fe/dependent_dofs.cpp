@@ -210,9 +210,19 @@ Mat6 mean_sums(const FeModel& model, const DofTable& table, const Spider& s, dou
   return normal;
 }
 
+/// Displacements of the nodes of a mean spider that depend on nothing yet.
+std::vector<Dof> free_dofs(const DofTable& table, const Spider& s, const Resolver& resolver) {
+  std::vector<Dof> out;
+  for (const int node : s.nodes)
+    for (int axis = 0; axis < 3; ++axis)
+      if (node != s.reference && !resolver.dependent(table.index(node, axis)))
+        out.push_back({node, axis});
+  return out;
+}
+
 /// The reference moves as the rigid motion that fits the nodes best:
 ///   sum_i w_i A_i^T A_i q_r = sum_i w_i A_i^T u_i,  A_i = [1, -skew(x_i - x_r)].
-/// Solved for six dofs of the nodes, chosen by pivoting.
+/// Solved for six dofs (on a line five) of the nodes, chosen by pivoting.
 void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Resolver& resolver,
               ErrorList& errors) {
   const int owner = resolver.begin_owner(spider_label(model, s), s.source);
@@ -228,13 +238,21 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
   scale << 1, 1, 1, size, size, size;
   std::map<int, Vec6> columns;  // the averages in independent dofs
   const Mat6 normal = mean_sums(model, table, s, size, resolver, columns);
-  const VecX spread = symmetric_eigenvalues(normal);
-  if (s.nodes.size() < 3 || !(size > 0.0) || !(spread(0) > 1e-9 * spread(5))) {
+  const SymmetricEigen spread = symmetric_eigen(normal);
+  const double zero = 1e-9 * spread.values(5);
+  const bool line = (s.mask & 56u) != 56u && !(spread.values(0) > zero);
+  if (s.nodes.size() < (line ? 2u : 3u) || !(size > 0.0) || !(spread.values(line ? 1 : 0) > zero)) {
     return refuse("its " + std::to_string(s.nodes.size()) +
                   " nodes lie on a line or in a point and cannot define a rotation");
   }
-  // Constraint: sum_dof c_dof u_dof = 0 with the averages on one side and q_r on the other.
-  const Mat6 inverse = normal.inverse();
+  if (line && spread.vectors.col(0).head<3>().norm() > 1e-6)
+    return refuse("its reference lies beside the line of its nodes, about which it turns freely");
+  // Constraint: sum_dof c_dof u_dof = 0, averages against q_r; on a line without the turn about it.
+  const int m = line ? 5 : 6;
+  const MatX chosen = line ? MatX(spread.vectors.rightCols(5)) : MatX(MatX::Identity(6, 6));
+  const Mat6 inverse =
+      line ? Mat6(chosen * spread.values.tail(5).cwiseInverse().asDiagonal() * chosen.transpose())
+           : Mat6(normal.inverse());
   for (auto& [dof, c] : columns) c = (inverse * c).eval();
   for (int k = 0; k < 6; ++k) {
     for (const auto& [dof, f] : resolver.reduce({{table.index(s.reference, k), 1.0}})) {
@@ -242,44 +260,37 @@ void add_mean(const FeModel& model, const DofTable& table, const Spider& s, Reso
       c(k) -= f * scale(k);
     }
   }
-  // Six dofs of the nodes themselves; those of the reference stay.
-  std::vector<Dof> candidates;
-  for (const int node : s.nodes) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const int dof = table.index(node, axis);
-      if (node != s.reference && !resolver.dependent(dof)) candidates.push_back({node, axis});
-    }
-  }
-  MatX C(6, static_cast<Eigen::Index>(candidates.size()));
+  const std::vector<Dof> candidates = free_dofs(table, s, resolver);
+  MatX C(m, static_cast<Eigen::Index>(candidates.size()));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     C.col(static_cast<Eigen::Index>(i)) =
-        columns.at(table.index(candidates[i].node, candidates[i].axis));
+        chosen.transpose() * columns.at(table.index(candidates[i].node, candidates[i].axis));
   }
   const PivotedQr qr = pivoted_qr(C);
-  if (candidates.size() < 6 || !(std::abs(qr.diagonal(5)) > 1e-9 * std::abs(qr.diagonal(0)))) {
+  if (C.cols() < m || !(std::abs(qr.diagonal(m - 1)) > 1e-9 * std::abs(qr.diagonal(0)))) {
     return refuse(
         "too many of its nodes depend on other spiders or equations already; a mean spider needs "
         "at least three free nodes that do not lie on a line");
   }
-  Mat6 pivots;
-  std::array<Dof, 6> slaves;
-  std::array<int, 6> slave_dofs{};
-  for (int k = 0; k < 6; ++k) {
+  MatX pivots(m, m);
+  std::vector<Dof> slaves(static_cast<std::size_t>(m));
+  std::vector<int> slave_dofs(static_cast<std::size_t>(m));
+  for (int k = 0; k < m; ++k) {
     const int column = static_cast<int>(qr.pivots(k));
     slaves[k] = candidates[column];
     slave_dofs[k] = table.index(slaves[k].node, slaves[k].axis);
     pivots.col(k) = C.col(column);
   }
-  const Mat6 solve = -pivots.inverse();
-  std::array<Terms, 6> terms;
+  const MatX solve = -lu_solve(pivots, chosen.transpose());
+  std::vector<Terms> terms(slaves.size());
   for (const auto& [dof, c] : columns) {
     if (std::find(slave_dofs.begin(), slave_dofs.end(), dof) != slave_dofs.end()) continue;
-    const Vec6 f = solve * c;
-    for (std::size_t k = 0; k < 6; ++k) {
-      if (f(static_cast<int>(k)) != 0.0) terms[k].emplace_back(dof, f(static_cast<int>(k)));
-    }
+    const VecX f = solve * c;
+    for (std::size_t k = 0; k < slaves.size(); ++k)
+      if (std::abs(f(static_cast<int>(k))) > (line ? 1e-13 : 0.0))
+        terms[k].emplace_back(dof, f(static_cast<int>(k)));
   }
-  for (std::size_t k = 0; k < 6; ++k) {
+  for (std::size_t k = 0; k < slaves.size(); ++k) {
     resolver.add(owner, slaves[k].node, slaves[k].axis, terms[k]);
   }
 }

@@ -171,8 +171,10 @@ struct Spider {
   int reference = -1;           ///< node index
   std::vector<int> nodes;       ///< node indices
   std::vector<double> weights;  ///< mean: one per node; empty: all 1
-  unsigned mask = 63u;  ///< bit 0..5 = ux..rz: dofs of the nodes that follow (rigid; nodes without
-                        ///< rotations: bits 3..5 mean nothing)
+  /// Bit 0..5 = ux..rz. Rigid: dofs of the nodes that follow (nodes without rotations: bits 3..5
+  /// mean nothing). Mean: of nodes on a line, without the rotations that have a part about it: that
+  /// part is none of the spider's (`free_turns`).
+  unsigned mask = 63u;
   /// CalculiX: node whose displacements 1..3 stand for the rotations of the reference in decks and
   /// exported matrices; else -1. It has no degree of freedom of its own.
   int rotation_node = -1;
@@ -214,6 +216,7 @@ struct Dof {
 struct FeMatrices {
   SparseMatrix K, M;      ///< symmetric, both halves stored
   std::vector<Dof> dofs;  ///< of each row
+  SparseMatrix C = {};    ///< viscous damping; 0 x 0: none given
 };
 
 struct FeModel {

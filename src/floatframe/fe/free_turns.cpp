@@ -256,6 +256,37 @@ std::vector<FreeTurn> free_turns(const FeModel& model) {
   return out;
 }
 
+std::vector<FreeTurn> line_turns(const FeModel& model) {
+  std::vector<FreeTurn> out;
+  for (const Spider& s : model.spiders) {
+    if (s.kind != Spider::Kind::mean || (s.mask & 56u) == 56u) continue;
+    FreeTurn turn;
+    turn.node = s.reference;
+    turn.group = {s.reference};
+    turn.holder = s.nodes.front();
+    turn.axis = spread(model, s.nodes).eigenvectors().col(2);
+    turn.label = "interface '" + s.name + "'";
+    turn.source = s.source;
+    std::vector<int> line = s.nodes;
+    ascending_once(line);
+    const auto on_line = [&](int k) { return std::binary_search(line.begin(), line.end(), k); };
+    for (const Element& e : model.elements) {
+      const auto *first = e.nodes.data(), *last = first + element_nodes(e.type);
+      if (std::any_of(first, last, on_line)) turn.around.insert(turn.around.end(), first, last);
+    }
+    ascending_once(turn.around);
+    const Vec3 size =
+        turn.around.size() < 3 ? Vec3(0, 0, 1) : spread(model, turn.around).eigenvalues();
+    if (!(size(1) > 1e-4 * size(2)))
+      throw InputError(fmt::format(
+          "{}: its {} nodes lie on a line, and there are no elements beside it that show how the "
+          "part turns about it; choose nodes that do not lie on a line",
+          turn.label, s.nodes.size()));
+    out.push_back(std::move(turn));
+  }
+  return out;
+}
+
 bool is_beside(const FeModel& model, const FreeTurn& turn, int node) {
   if (!std::binary_search(turn.group.begin(), turn.group.end(), node)) return false;
   Vec3 r = model.positions[node] - model.positions[turn.holder];
@@ -263,7 +294,7 @@ bool is_beside(const FeModel& model, const FreeTurn& turn, int node) {
   return r.squaredNorm() > line_width * turn.length * turn.length;
 }
 
-void tie_free_turns(FeModel& model, const std::vector<FreeTurn>& turns) {
+void tie_free_turns(FeModel& model, const std::vector<FreeTurn>& turns, bool note) {
   if (turns.empty()) return;
   for (const FreeTurn& turn : turns) {
     const Vec3 c = centre(model, turn.around);
@@ -295,6 +326,7 @@ void tie_free_turns(FeModel& model, const std::vector<FreeTurn>& turns) {
     }
     for (int axis = 0; axis < 3; ++axis) add(Vec3::Unit(axis));
   }
+  if (!note) return;
   const FreeTurn& first = turns.front();
   model.notes.push_back(ErrorEntry{
       model.mark(first.source),

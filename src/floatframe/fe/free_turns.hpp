@@ -30,11 +30,14 @@ struct FreeTurn {
 
 /// Those of a valid model. None of a model of matrices: what does not turn has no row there.
 std::vector<FreeTurn> free_turns(const FeModel& model);
+/// The turns about their lines of the references of mean spiders whose nodes lie on a line. Throws
+/// InputError where no elements beside the line show how the part turns there.
+std::vector<FreeTurn> line_turns(const FeModel& model);
 
 /// Is a node of the group beside the line or point that holds it? A force there turns the group.
 bool is_beside(const FeModel& model, const FreeTurn& turn, int node);
 
-/// Adds the equations, and one note that counts them.
-void tie_free_turns(FeModel& model, const std::vector<FreeTurn>& turns);
+/// Adds the equations, and with `note` one note that counts them.
+void tie_free_turns(FeModel& model, const std::vector<FreeTurn>& turns, bool note = true);
 
 }  // namespace floatframe

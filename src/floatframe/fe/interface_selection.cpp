@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/fe/dependent_dofs.hpp"
 #include "floatframe/fe/element_faces.hpp"
 #include "floatframe/fe/element_kernel.hpp"
+#include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/vector_text.hpp"
 
 namespace floatframe {
@@ -167,7 +169,8 @@ std::vector<int> nodes_of_shape(const FeModel& model, const NodeChoice& c) {
 }
 
 /// Smallest width of the cloud of nodes against its largest but one: on a line if tiny.
-bool on_a_line(const FeModel& model, const std::vector<int>& nodes) {
+/// The direction of the line if the nodes lie on one.
+std::optional<Vec3> line_of(const FeModel& model, const std::vector<int>& nodes) {
   Vec3 centre = Vec3::Zero();
   for (const int node : nodes) centre += node_position(model, node);
   centre /= static_cast<double>(nodes.size());
@@ -176,8 +179,27 @@ bool on_a_line(const FeModel& model, const std::vector<int>& nodes) {
     const Vec3 r = node_position(model, node) - centre;
     second += r * r.transpose();
   }
-  const Vec3 e = Eigen::SelfAdjointEigenSolver<Mat3>(second, Eigen::EigenvaluesOnly).eigenvalues();
-  return !(e(1) > 1e-10 * e(2));
+  const Eigen::SelfAdjointEigenSolver<Mat3> form(second);
+  const Vec3 e = form.eigenvalues();
+  if (e(1) > 1e-10 * e(2)) return std::nullopt;
+  return Vec3(form.eigenvectors().col(2));
+}
+
+/// Mean motion of nodes on a line: the mask of the spider, without the turns that have a part about
+/// the line, which the interface must not have. Throws InputError.
+unsigned mask_on_line(const InterfaceDescription& d, const Vec3& line, std::size_t nodes) {
+  unsigned about = 0;
+  for (unsigned k = 0; k < 3; ++k)
+    if (std::abs(line(k)) > 1e-6) about |= 8u << k;
+  if (d.kind == Spider::Kind::mean && (d.mask & about) == 0) return 63u & ~about;
+  std::string named;
+  for (unsigned k = 3; k < 6; ++k)
+    if (d.mask & about & (1u << k))
+      named += (named.empty() ? "" : ", ") + std::string(node_dof_words[k]);
+  throw InputError(fmt::format(
+      "its {} nodes lie on a line, about which nothing holds the rotation of the reference point; "
+      "choose nodes beside the line too, or type mean and dofs without {}",
+      nodes, named.empty() ? "the rotation about it" : named));
 }
 
 Vec3 reference_point(const FeModel& model, const NodeChoice& c, const std::vector<int>& nodes) {
@@ -279,6 +301,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
   }
   const bool rotations =
       std::any_of(nodes.begin(), nodes.end(), [&](int node) { return table.count(node) == 6; });
+  unsigned mask = 63u;
   if (d.kind == Spider::Kind::mean || !rotations) {
     if (nodes.size() < 3) {
       throw InputError(fmt::format(
@@ -286,12 +309,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
           "lie on a line, or one node with only ux uy uz",
           nodes.size()));
     }
-    if (on_a_line(model, nodes)) {
-      throw InputError(
-          fmt::format("its {} nodes lie on a line, about which nothing holds the "
-                      "rotation of the reference point",
-                      nodes.size()));
-    }
+    if (const auto line = line_of(model, nodes)) mask = mask_on_line(d, *line, nodes.size());
   }
   for (const Spider& s : model.spiders) {
     if (d.kind == Spider::Kind::mean && s.kind == Spider::Kind::mean) continue;
@@ -308,6 +326,7 @@ int add_unnamed(FeModel& model, const InterfaceDescription& d) {
   spider.name = d.name;
   spider.reference = model.nodes();
   spider.nodes = nodes;
+  spider.mask = mask;
   const Vec3 at = d.at.value_or(reference_point(model, d.choice, nodes));
   if (!at.allFinite()) throw InputError("the reference point is not finite");
   model.positions.push_back(at);

@@ -140,6 +140,7 @@ void to_si(FeModel& model, const UnitSystem& units) {
   };
   scale(matrices.K, energy);
   scale(matrices.M, inertia);
+  scale(matrices.C, energy * units.time);
 }
 
 }  // namespace floatframe

@@ -351,6 +351,11 @@ void check_matrices(const FeModel& model, LimitedErrors& errors) {
                     m.K.rows(), m.K.cols(), m.M.rows(), m.M.cols(), n));
     return;
   }
+  if (m.C.size() > 0 && (m.C.rows() != n || m.C.cols() != n)) {
+    add(fmt::format("C is {} x {}, but there are {} degrees of freedom", m.C.rows(), m.C.cols(),
+                    n));
+    return;
+  }
   std::set<std::pair<int, int>> seen;
   for (const Dof& d : m.dofs) {
     if (!in_range(d.node, model.positions.size()) || d.axis < 0 || d.axis > 5) {
@@ -362,7 +367,7 @@ void check_matrices(const FeModel& model, LimitedErrors& errors) {
                     model.node_label(d.node)));
   }
   for (const auto& [name, A] :
-       {std::pair<const char*, const SparseMatrix&>{"K", m.K}, {"M", m.M}}) {
+       {std::pair<const char*, const SparseMatrix&>{"K", m.K}, {"M", m.M}, {"C", m.C}}) {
     const double error = asymmetry(A);
     if (error > 1e-9) {
       add(std::isfinite(error) ? fmt::format("{} is not symmetric: entries differ by {:.1e} of the "

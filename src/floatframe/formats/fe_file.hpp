@@ -63,8 +63,9 @@ struct FeReadOptions {
   std::map<std::string, double> thicknesses;
   /// Matrices without coordinates: a deck (any format) or "node,x,y,z" CSV with the nodes.
   std::filesystem::path nodes;
-  /// Matrix formats: the mass matrix and the dof map, if they cannot be found beside the stiffness.
-  std::filesystem::path mass, dofs;
+  /// Matrix formats: the mass matrix, the dof map and the matrix of viscous damping, if they cannot
+  /// be found beside the stiffness. Damping need not be there.
+  std::filesystem::path mass, dofs, damping_matrix;
   DeckDialect dialect = DeckDialect::by_content;
   BeamShear beam_shear = BeamShear::by_format;
   ShellShear shell_shear = ShellShear::by_format;
@@ -76,6 +77,9 @@ struct FeReadOptions {
   /// At which materials that depend on it are taken, in the units of the file.
   std::optional<double> temperature;
 };
+
+/// The matrix of viscous damping that lies beside a stiffness by its name; empty: none.
+std::filesystem::path damping_beside(const std::filesystem::path& stiffness);
 
 /// On the command line and in model files: "abaqus", "calculix".
 const char* word(DeckDialect dialect) noexcept;

@@ -30,6 +30,20 @@ Mat6X rigid_motions(const Joint& joint, const Body& body, const Marker& M) {
   return free;
 }
 
+/// For modes without inertia: static modes that turn the end of a bar about its axis are such.
+const char* remedy(const BodyDescription& body) {
+  const auto* bars = std::get_if<FlexibleDescription>(&body.kind);
+  const bool turns = bars && !bars->section_inertia && !bars->analytic && !bars->basis &&
+                     std::any_of(bars->interfaces.begin(), bars->interfaces.end(),
+                                 [](const NodeDofs& dof) { return (dof.mask & 56u) != 0; });
+  if (!turns) return " or more elements";
+  if (bars->mass_model == MassModel::isoparametric)
+    return ", more elements, or mass_model: hermite with section_inertia: true (without it turns "
+           "of bars about their axes have no inertia)";
+  return ", more elements, or section_inertia: true (without it turns of bars about their axes "
+         "have no inertia)";
+}
+
 }  // namespace
 
 void ModelBuilder::stiffening(const BodyDescription& b, Body& body) {
@@ -102,7 +116,7 @@ void ModelBuilder::modal_masses() {
     std::ostringstream s;
     s << "bodies." << b.name << ": found " << b.modes()
       << " modes of which a combination moves no mass (relative modal mass " << own
-      << "), expected fewer modes or more elements";
+      << "), expected fewer modes" << remedy(d.bodies[i]);
     errors.add(d.bodies[i].origin.of("flexible"), s.str());
   }
 }

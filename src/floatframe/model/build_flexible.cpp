@@ -81,11 +81,19 @@ class Key {
     const auto& [dynamic_per_plane] = a;
     add(dynamic_per_plane);
   }
+  void add(const DampingBand& band) {
+    const auto& [below, fraction] = band;
+    all(below, fraction);
+  }
+  void add(const ModalDamping& d) {
+    const auto& [fractions, bands, alpha, beta, reference, interface_frequency] = d;
+    all(fractions, bands, alpha, beta, static_cast<int>(reference), interface_frequency);
+  }
   void add(const ReductionOptions& options) {
     const auto& [clamped, interfaces, normal_modes, max_frequency, analytic, basis, orthonormalise,
-                 mass_model, eigen_mass, section_inertia, damping_ratio] = options;
+                 mass_model, eigen_mass, section_inertia, damping] = options;
     all(clamped, interfaces, normal_modes, max_frequency, analytic, basis, orthonormalise,
-        mass_model, eigen_mass, section_inertia, damping_ratio);
+        mass_model, eigen_mass, section_inertia, damping);
   }
   void add(const Material& m) {
     const auto& [young, poisson, density, elasticity, plane] = m;

@@ -39,7 +39,7 @@ class FlexibleCheck {
     group_.number("material.young", f_.young, rules::young);
     group_.number("material.poisson", f_.poisson, rules::poisson);
     group_.number("material.density", f_.density, rules::density);
-    group_.number("damping", f_.damping_ratio, rules::damping_ratio);
+    if (const auto complaint = damping_complaint(f_.damping)) group_.error("damping", *complaint);
     group_.word("mass_model", f_.mass_model, rules::mass_models);
     group_.complain("section_inertia",
                     sentences::section_inertia(f_.section_inertia, isoparametric()));

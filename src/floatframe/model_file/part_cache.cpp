@@ -58,6 +58,9 @@ fs::path part_cache_file(const PartJob& job, const fs::path& cache) {
   key.add(program_stamp()).add(file_hash(job.file)).add(job.file.filename().string());
   for (const auto& [option, value] : option_list(job)) key.add(option).add(value);
   for (const fs::path& p : other_files(job)) key.add(file_hash(p));
+  // It need not be there, so what a body was made from does not name it before it is.
+  if (const fs::path damping = damping_beside(job.file); !damping.empty())
+    key.add(file_hash(damping));
   return cache / fmt::format("{}-{}.ffb", file_name_from(job.file.stem().string()),
                              key.text().substr(0, 16));
 }

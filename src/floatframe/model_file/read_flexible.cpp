@@ -127,7 +127,7 @@ class FlexibleReader {
     if (const auto v = section_.get("section_inertia"))
       v->complain(sentences::section_inertia(f().section_inertia,
                                              f().mass_model == MassModel::isoparametric));
-    f().damping_ratio = section_.number("damping", rules::damping_ratio, 0.0);
+    if (const auto v = section_.get("damping")) f().damping = read_damping(*v);
     const std::size_t errors_before = self_.context.errors->size();
     f().clamped = dofs("clamped");
     f().interfaces = dofs("static_modes");

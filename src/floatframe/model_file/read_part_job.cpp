@@ -68,6 +68,9 @@ class JobReader {
       case Special::What::temperature:
         if (const auto v = s_.get(option.key)) job_.read.temperature = v->number(any_number(""));
         return;
+      case Special::What::damping:
+        if (const auto v = s_.get(option.key)) o().damping = read_damping(*v);
+        return;
       case Special::What::interfaces:
         if (const auto v = s_.get(option.key))
           for (const auto& [name, place] : v->named("a map of names to interfaces", true))

@@ -16,6 +16,7 @@
 
 namespace floatframe {
 
+struct ModalDamping;
 struct PartJob;
 
 /// What joints, forces and outputs need to know of a body that has been read.
@@ -64,6 +65,8 @@ struct FlexibleRead {
 };
 /// A group of bars.
 FlexibleRead read_flexible(const ModelInstance& self, YamlSection section);
+/// The key `damping` of bars and parts.
+ModalDamping read_damping(const YamlValue& value);
 /// The key `bars` of such a group: bars, points, nodes.
 void read_bars(const ModelInstance& self, YamlSection& section, FlexibleRead& out);
 /// What stands after `flexible` or `part`: a group of bars, a group with a finite-element file, the

@@ -205,7 +205,10 @@ FeFacts fe_facts(const PartJob& job, const FeModel& model) {
   std::set<int> supported;
   for (const Support& s : model.supports) supported.insert(s.node);
   out.supports = static_cast<int>(supported.size());
-  if (model.matrices) out.matrix_rows = static_cast<int>(model.matrices->dofs.size());
+  if (model.matrices) {
+    out.matrix_rows = static_cast<int>(model.matrices->dofs.size());
+    out.matrix_damping = model.matrices->C.nonZeros() > 0;
+  }
   if (!model.positions.empty()) {
     out.low = out.high = model.positions.front();
     for (const Vec3& p : model.positions) {
@@ -235,7 +238,9 @@ std::string fe_info_text(const PartJob& job, const FeModel& model) {
                                  job.file.string());
   text += fmt::format("\n  nodes         {}\n", f.nodes);
   for (const auto& [type, count] : f.elements) text += fmt::format("  {:<12}  {}\n", type, count);
-  if (f.matrix_rows > 0) text += fmt::format("  matrices      {} rows\n", f.matrix_rows);
+  if (f.matrix_rows > 0)
+    text += fmt::format("  matrices      {} rows{}\n", f.matrix_rows,
+                        f.matrix_damping ? ", with viscous damping" : "");
   if (f.point_masses > 0) text += fmt::format("  point masses  {}\n", f.point_masses);
   if (f.springs > 0)
     text += fmt::format("  springs       {}{}\n", f.springs,
@@ -331,6 +336,7 @@ std::string fe_info_json(const PartJob& job, const FeModel& model) {
                      {"nodes", f.nodes},
                      {"elements", elements},
                      {"matrix_rows", f.matrix_rows},
+                     {"matrix_damping", f.matrix_damping},
                      {"point_masses", f.point_masses},
                      {"springs", f.springs},
                      {"grounded_springs", f.grounded_springs},

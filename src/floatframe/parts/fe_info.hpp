@@ -15,6 +15,7 @@ struct FeFacts {
   std::vector<std::pair<std::string, int>> elements;  ///< number of each type
   int point_masses = 0, springs = 0, grounded_springs = 0, equations = 0, supports = 0;
   int matrix_rows = 0;                           ///< of matrices from another program
+  bool matrix_damping = false;                   ///< viscous damping is among them
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box
   double volume = 0.0;                           ///< of solids, shells and beams that are valid
   double mass = 0.0;                             ///< of all, known as far as densities are

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "floatframe/parts/damping_text.hpp"
 #include "floatframe/parts/part_text.hpp"
 #include "floatframe/reduction/mode_selection.hpp"
 
@@ -83,6 +84,16 @@ Special temperature() {
               throw InputError(fmt::format("--temperature: found '{}', expected a number", text));
             job.read.temperature = T;
           }};
+}
+
+Special damping() {
+  return {
+      Special::What::damping,
+      [](const PartJob& job) {
+        const std::string text = damping_text(job.options.damping);
+        return text.empty() ? Texts() : Texts{text};
+      },
+      [](PartJob& job, const std::string& text) { job.options.damping = damping_argument(text); }};
 }
 
 Special units() {
@@ -178,7 +189,6 @@ Special reference() {
 }
 
 constexpr NumberRule effective_mass{"a number above 0 and up to 1", "", 0.0, 1.0, true};
-constexpr NumberRule damping{"a fraction of critical damping from 0 to 1", "", 0.0, 1.0};
 constexpr WholeNumberRule modes{"a number of modes", 0, 10000};
 
 std::vector<PartOption> list() {
@@ -225,6 +235,9 @@ std::vector<PartOption> list() {
        true},
       {"dofs", "dofs", "FILE", "Degrees of freedom of the rows, if not beside the stiffness",
        O::File{&R::dofs}, true},
+      {"damping_matrix", "damping-matrix", "FILE",
+       "Matrix of viscous damping, if it is not beside the stiffness", O::File{&R::damping_matrix},
+       true},
       {"interfaces", "interface", "NAME=...", "Where the part is held or driven; repeatable",
        interfaces()},
       {"markers", "marker", "NAME=...",
@@ -242,8 +255,10 @@ std::vector<PartOption> list() {
        "Body frame: mean_axis (default), buckens or node:NAME of an interface", reference()},
       {"integration", "integration", "WORD", "exact (default), or ccx: as CalculiX",
        enumerator<&P::integration>({"exact", "ccx"})},
-      {"damping", "damping", "FRACTION", "Modal damping, fraction of critical; default 0",
-       O::Number{damping, &P::damping_ratio}},
+      {"damping", "damping", "FRACTION",
+       "Modal damping: a fraction of critical, a list of them, bands:usual, bands:HZ=FRACTION,..., "
+       "rayleigh:ALPHA,BETA; behind it ,reference=free or mounted; default 0",
+       damping()},
       // The solvers differ in rounding, and one that is asked for is to be used.
       {"solver", "solver", "WORD", "auto (default), mumps or eigen",
        enumerator<&P::solver>({"auto", "mumps", "eigen"}, automatic)},
@@ -261,12 +276,12 @@ std::vector<PartOption> list() {
 [[maybe_unused]] void every_member_has_an_entry(const PartJob& job) {
   // The content of the file is part of every key.
   [[maybe_unused]] const auto& [file, format, units, read, options] = job;
-  [[maybe_unused]] const auto& [material, densities, thicknesses, nodes, mass, dofs, dialect,
-                                beam_shear, shell_shear, mass_form, contact, contact_distance,
-                                grounded_springs, temperature] = read;
+  [[maybe_unused]] const auto& [material, densities, thicknesses, nodes, mass, dofs, damping_matrix,
+                                dialect, beam_shear, shell_shear, mass_form, contact,
+                                contact_distance, grounded_springs, temperature] = read;
   // `progress` decides nothing.
   [[maybe_unused]] const auto& [interfaces, markers, method, modes, max_frequency, effective_mass,
-                                reference, integration, damping_ratio, check_free_modes, stresses,
+                                reference, integration, damping, check_free_modes, stresses,
                                 keep_projection, solver, progress] = options;
 }
 

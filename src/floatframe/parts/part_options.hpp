@@ -57,6 +57,7 @@ struct PartOption {
       thicknesses,
       contact,
       temperature,
+      damping,
       interfaces,
       markers,
       reference

@@ -106,6 +106,27 @@ ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options,
   return craig_bampton_set(fixed, fixed.normal_modes(count), std::move(names));
 }
 
+ModeSet held_modes(const FeModel& model, const ReductionOptions& options, const SparseMatrix& K,
+                   const SparseMatrix& M, const std::vector<int>& interface_dofs,
+                   const std::vector<int>& zero, std::vector<std::string> names) {
+  const int d = model.dofs_per_node();
+  const auto label = [&](int dof) {
+    return model.node_label(dof / d) + " " + node_dof_names[dof % d];
+  };
+  try {
+    if (const auto chains = BarChains::make(model, K, M, interface_dofs, zero, label))
+      return mode_set(*chains, options, std::move(names));
+    std::optional<FixedInterface> fixed;
+    with_digits_hint(model, [&] { fixed.emplace(K, M, interface_dofs, zero, label); });
+    return mode_set(*fixed, options, std::move(names));
+  } catch (const EigenIterationError& error) {
+    if (options.section_inertia || options.mass_model == MassModel::isoparametric) throw;
+    throw InputError(std::string(error.what()) +
+                     ", or section_inertia: true, which gives turns of bars about their axes "
+                     "inertia");
+  }
+}
+
 }  // namespace
 
 ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& options) {
@@ -172,16 +193,8 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
     const Role role = roles[i];
     if (role == Role::clamped || role == Role::inactive) zero.push_back(i);
   }
-  const SparseMatrix M = eigen_mass(model, options);
-  const auto label = [&](int dof) { return dof_text(dof / d, dof % d); };
-  ModeSet set;
-  if (const auto chains = BarChains::make(model, K, M, interface_dofs, zero, label)) {
-    set = mode_set(*chains, options, std::move(names));
-  } else {
-    std::optional<FixedInterface> fixed;
-    with_digits_hint(model, [&] { fixed.emplace(K, M, interface_dofs, zero, label); });
-    set = mode_set(*fixed, options, std::move(names));
-  }
+  ModeSet set = held_modes(model, options, K, eigen_mass(model, options), interface_dofs, zero,
+                           std::move(names));
   if (d == 6)
     check_digits(model, rows_of_nodes(set.X, 0), rows_of_nodes(set.X, 3), set.K.diagonal(),
                  set.names);

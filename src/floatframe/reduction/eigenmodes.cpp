@@ -1,10 +1,12 @@
 #include "floatframe/reduction/eigenmodes.hpp"
 
 #include <Spectra/SymGEigsShiftSolver.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <new>
 
 #include "floatframe/math/dense.hpp"
 
@@ -130,7 +132,7 @@ MatX missed(ShiftInvert& inverse, MassProduct& mass, const SparseMatrix& M, doub
   return mu > (1.0 + 1e-6) * least ? one : MatX(n, 0);
 }
 
-Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int count) {
+Eigenpairs iterated(const Solve& solve, double sigma, const SparseMatrix& M, int count) {
   const Eigen::Index n = M.rows();
   ShiftInvert inverse(solve, n);
   MassProduct mass(M);
@@ -163,6 +165,22 @@ Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int 
   return modes;
 }
 
+/// The same; what Spectra throws has words that say nothing to a user.
+Eigenpairs lanczos(const Solve& solve, double sigma, const SparseMatrix& M, int count) {
+  try {
+    return iterated(solve, sigma, M, count);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    throw EigenIterationError(fmt::format(
+        "the iteration for the {} lowest modes fails: equal parts have equal frequencies, and "
+        "directions without mass leave nothing to tell their modes apart; take fewer normal modes",
+        count));
+  }
+}
+
 }  // namespace
 
 double sign_of_largest(const VecX& x) {
@@ -177,8 +195,11 @@ Eigenpairs lowest_eigenpairs(const SparseMatrix& A, const SparseFactors& factors
   const Eigen::Index n = A.rows();
   if (n == 0 || count <= 0) return {VecX(), MatX::Zero(n, 0)};
   count = static_cast<int>(std::min<Eigen::Index>(count, n));
-  if (n > dense_limit && (4 * count < n || n > 10 * dense_limit) && count < n)
-    return lanczos([&](const MatX& b) { return factors.solve(b); }, sigma, M, count);
+  if (n > dense_limit && (4 * count < n || n > 10 * dense_limit) && count < n) try {
+      return lanczos([&](const MatX& b) { return factors.solve(b); }, sigma, M, count);
+    } catch (const EigenIterationError&) {
+      if (n > 10 * dense_limit) throw;  // minutes
+    }
   VecX mu;
   MatX z;
   solve_dense(MatX(M), MatX(A), mu, z);

@@ -8,6 +8,7 @@
 // fixed: the same modes every time.
 #include <functional>
 
+#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/fe_model.hpp"
 #include "floatframe/math/frequency.hpp"
 #include "floatframe/math/sparse_factors.hpp"
@@ -18,6 +19,13 @@ struct Eigenmodes {
   VecX omega;   ///< [rad/s], ascending
   MatX shapes;  ///< columns, x^T M x = 1, largest component positive
   VecX frequencies() const { return omega.unaryExpr(&hertz); }
+};
+
+/// The iteration for the modes of a large problem fails: equal parts have equal frequencies, and
+/// directions without mass leave no vector to tell their modes apart.
+class EigenIterationError : public InputError {
+ public:
+  using InputError::InputError;
 };
 
 /// -1 if the largest component of x is negative, else 1. Of components that are largest but for

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/body/modal_damping.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -55,6 +56,7 @@ struct HealthReport {
   std::optional<bool> rotary_inertia;
   std::vector<ModeHealth> normal_modes;
   std::vector<FrequencyPair> free_frequencies;  ///< elastic, full against reduced
+  OwnDamping damping;  ///< fractions of critical damping of the reduced body's own modes
   std::vector<InterfaceHealth> interfaces;
   std::string static_support;  ///< how the static check was held
   std::string solver;

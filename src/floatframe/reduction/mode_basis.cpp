@@ -87,8 +87,7 @@ void check_options(const PartOptions& options) {
     add("the effective mass to be reached must be a fraction between 0 and 1");
   if (free && options.effective_mass > 0.0)
     add("free modes have no effective mass; select them by number or by frequency");
-  if (!(options.damping_ratio >= 0.0) || !std::isfinite(options.damping_ratio))
-    add("the modal damping ratio must not be negative");
+  if (const auto complaint = damping_complaint(options.damping)) add("damping: " + *complaint);
   if (options.interfaces.empty() && options.method == ModeMethod::craig_bampton)
     add("the Craig-Bampton method needs an interface; give one, or take free_free");
   if (options.interfaces.empty() && options.method == ModeMethod::craig_chang)

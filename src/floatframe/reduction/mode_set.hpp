@@ -46,12 +46,7 @@ ModeSet craig_bampton_set(const Fixed& fixed, const Eigenmodes& normal,
   return set;
 }
 
-/// The body of modes: everything but its nodes and the data of the projection method.
-FlexibleBody body_of_modes(ModeSet modes, InertiaInvariants invariants, double damping_ratio);
-
-/// With M x = mu K x, x^T K x = 1, w = 1/sqrt(mu): D = sum 2 ratio sqrt(mu) (K x)(K x)^T, with
-/// which every mode of (K, M) has the same ratio of critical damping; massless modes (mu = 0) get
-/// none. Throws InputError unless K > 0.
-MatX modal_damping(const MatX& K, const MatX& M, double ratio);
+/// The body of modes: everything but its nodes, its damping and the data of the projection method.
+FlexibleBody body_of_modes(ModeSet modes, InertiaInvariants invariants);
 
 }  // namespace floatframe

@@ -19,6 +19,7 @@
 #include "floatframe/reduction/connectivity.hpp"
 #include "floatframe/reduction/matrix_integrals.hpp"
 #include "floatframe/reduction/mode_basis.hpp"
+#include "floatframe/reduction/part_damping.hpp"
 #include "floatframe/reduction/part_health.hpp"
 #include "floatframe/reduction/part_reference.hpp"
 #include "floatframe/reduction/part_second_order.hpp"
@@ -133,31 +134,6 @@ void check_body(const FlexibleBody& body, bool rotary) {
   errors.throw_if_any();
 }
 
-/// Full model and boundary of the static check.
-struct Statics {
-  MatX stiffness, flexibility;
-};
-
-MatX boundary_flexibility(const FreeStructure& structure, const Eigenpairs& elastic,
-                          const std::vector<InterfacePlace>& interfaces, int n) {
-  std::vector<int> rows;
-  for (const InterfacePlace& place : interfaces)
-    rows.insert(rows.end(), place.rows.begin(), place.rows.end());
-  MatX F = MatX::Zero(n, static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t k = 0; k < rows.size(); ++k) F(rows[k], static_cast<Eigen::Index>(k)) = 1.0;
-  const MatX u = structure.relieved_response(F, elastic);
-  return u(rows, Eigen::all);
-}
-
-/// `structure`: if nothing holds it.
-Statics statics_of(const ModeBasis& basis, const std::optional<FreeStructure>& structure,
-                   const Eigenpairs& elastic, const std::vector<InterfacePlace>& interfaces,
-                   int n) {
-  if (structure) return {{}, boundary_flexibility(*structure, elastic, interfaces, n)};
-  const auto nb = static_cast<Eigen::Index>(basis.first_normal);
-  return {basis.K.topLeftCorner(nb, nb), {}};
-}
-
 void free_frequencies(const FeModel& model, const VecX& reduced, const Eigenpairs* full,
                       HealthReport& health) {
   const Eigen::Index count =
@@ -196,9 +172,10 @@ FlexibleBody body_of(const FeModel& model, const FeSystem& system, const ModeBas
                      const std::vector<MarkerPlace>& markers, const PartOptions& options) {
   ModeSet set{X, modes.lambda.asDiagonal(), basis.frequencies, {}};
   for (Eigen::Index a = 0; a < X.cols(); ++a) set.names.push_back(fmt::format("elastic {}", a + 1));
-  FlexibleBody body = body_of_modes(std::move(set), combined(raw, modes.C), options.damping_ratio);
+  FlexibleBody body = body_of_modes(std::move(set), combined(raw, modes.C));
   for (const InterfacePlace& place : interfaces)
     body.nodes.push_back(interface_node(model, system, place, X));
+  body.interfaces = mounted_at(interfaces);
   for (const MarkerPlace& marker : markers)
     body.nodes.push_back({marker.name, marker.p, marker.translation * X, marker.rotation * X});
   return body;
@@ -311,6 +288,7 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   health.modal_mass_condition = modes.condition;
   const MatX X = basis.X * modes.C;
   part.body = body_of(model, system, basis, raw, modes, X, interfaces, markers, options);
+  add_damping(model, system, R, X, options, part.body, health);
   health.modes = part.body.modes();
   health.from_invariants = mass_properties(part.body.invariants);
   health.rotary_inertia = points.rotary;

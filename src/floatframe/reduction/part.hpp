@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "floatframe/body/flexible_body.hpp"
+#include "floatframe/body/modal_damping.hpp"
 #include "floatframe/fe/integration.hpp"
 #include "floatframe/fe/interface_selection.hpp"
 #include "floatframe/fe/surface.hpp"
@@ -59,7 +60,7 @@ struct PartOptions {
   double effective_mass = 0.0;
   BodyReference reference;
   Integration integration = Integration::exact;
-  double damping_ratio = 0.0;  ///< of every mode of the reduced (K, M_ff), fraction of critical
+  ModalDamping damping;  ///< beside that of a given damping matrix
   /// Free modes of the full model for the report (a second factorisation).
   bool check_free_modes = true;
   bool stresses = true;          ///< FlexibleBody::stress

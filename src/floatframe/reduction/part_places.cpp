@@ -25,8 +25,8 @@ Vec3 centre_of(const FeModel& model, const std::vector<int>& nodes) {
 }
 
 /// Largest over smallest singular value of the rigid motions of the nodes, lengths in units of
-/// their radius of gyration about their centre.
-double condition_of(const FeModel& model, const std::vector<int>& nodes) {
+/// their radius of gyration about their centre; on a line without the turn about it.
+double condition_of(const FeModel& model, const std::vector<int>& nodes, bool on_line) {
   const Vec3 c = centre_of(model, nodes);
   double size = 0.0;
   for (const int node : nodes) size += (position(model, node) - c).squaredNorm();
@@ -39,7 +39,8 @@ double condition_of(const FeModel& model, const std::vector<int>& nodes) {
     A += motion.transpose() * motion;
   }
   const VecX e = symmetric_eigenvalues(A);
-  return e(0) > 0.0 ? std::sqrt(e(5) / e(0)) : std::numeric_limits<double>::infinity();
+  const double least = e(on_line ? 1 : 0);
+  return least > 0.0 ? std::sqrt(e(5) / least) : std::numeric_limits<double>::infinity();
 }
 
 /// By its number in the file: the name is that of the interface.
@@ -84,6 +85,7 @@ void tie_turns(FeModel& model, const std::vector<InterfacePlace>& interfaces,
   }
   errors.throw_if_any();
   tie_free_turns(model, turns);
+  tie_free_turns(model, line_turns(model), false);  // nothing of the user's model turns there
 }
 
 }  // namespace
@@ -117,7 +119,8 @@ std::vector<InterfacePlace> place_interfaces(FeModel& model, const PartOptions& 
       if (nodes.size() == 1) {
         h.kind = "node";
       } else {
-        h.condition = condition_of(model, nodes);
+        const bool mean = d.kind == Spider::Kind::mean && !model.spiders.empty();
+        h.condition = condition_of(model, nodes, mean && (model.spiders.back().mask & 56u) != 56u);
       }
       places.push_back(std::move(place));
     } catch (const InputError& error) {

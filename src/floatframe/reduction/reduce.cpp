@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 #include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/body/modal_mass.hpp"
@@ -83,6 +84,21 @@ std::shared_ptr<ProjectionData> projection_data(const FeModel& model, const MatX
   return data;
 }
 
+/// Where the frame is mounted: what its body frame follows, and where static modes are.
+std::vector<InterfaceDofs> interfaces_of(const FeModel& model, const ReductionOptions& options) {
+  std::map<int, unsigned> masks;
+  for (const auto* list : {&options.clamped, &options.interfaces})
+    for (const NodeDofs& d : *list)
+      if (const int node = d.node.empty() ? d.index : model.find_node(d.node);
+          node >= 0 && node < model.nodes())
+        masks[node] |= d.mask & (model.dofs_per_node() == 6 ? 63u : 7u);
+  if (options.analytic && !options.basis) masks = {{0, 63u}, {model.nodes() - 1, 7u}};
+  std::vector<InterfaceDofs> out;
+  for (const auto& [node, mask] : masks)
+    if (mask != 0) out.push_back({node, mask});
+  return out;
+}
+
 }  // namespace
 
 FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
@@ -106,8 +122,8 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
       }
     }
   }
-  if (!(options.damping_ratio >= 0.0))
-    throw InputError("the modal damping ratio must not be negative");
+  if (const auto complaint = damping_complaint(options.damping))
+    throw InputError("damping: " + *complaint);
   ModeSet set = options.basis      ? user_basis(model, *options.basis)
                 : options.analytic ? analytic_bar_modes(model, options.analytic->dynamic_per_plane)
                                    : craig_bampton_modes(model, options);
@@ -122,7 +138,7 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
         (set.K.diagonal().tail(dynamic).array() / m.array()).sqrt().matrix().unaryExpr(&hertz);
   }
   const MatX X = set.X;
-  FlexibleBody body = body_of_modes(std::move(set), std::move(invariants), options.damping_ratio);
+  FlexibleBody body = body_of_modes(std::move(set), std::move(invariants));
   body.mass_model = options.mass_model;
   const std::shared_ptr<ProjectionData> projection = projection_data(model, X, options);
   BarSecondOrder bent =
@@ -144,6 +160,8 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
     node.X_theta = Mat3X::Zero(3, nm);
     if (d == 6) node.X_theta = X.middleRows<3>(6 * k + 3);
   }
+  body.interfaces = interfaces_of(model, options);
+  body.D = damping_matrix(body, options.damping);
   return body;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "floatframe/body/flexible_body.hpp"
+#include "floatframe/body/modal_damping.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/math/types.hpp"
 
@@ -42,7 +43,7 @@ struct ReductionOptions {
   std::optional<MassModel> eigen_mass;
   /// Rotary and torsional inertia of beam sections (six_dof and hermite).
   bool section_inertia = false;
-  double damping_ratio = 0.0;  ///< of every mode of (K, M_ff), fraction of critical
+  ModalDamping damping;
 };
 
 }  // namespace floatframe

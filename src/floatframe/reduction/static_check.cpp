@@ -67,7 +67,26 @@ MatX by_modes(const FlexibleBody& body, std::size_t loaded, std::size_t held,
   return E * ldlt_solve(body.K, E.transpose());
 }
 
+MatX boundary_flexibility(const FreeStructure& structure, const Eigenpairs& elastic,
+                          const std::vector<InterfacePlace>& interfaces, int n) {
+  std::vector<int> rows;
+  for (const InterfacePlace& place : interfaces)
+    rows.insert(rows.end(), place.rows.begin(), place.rows.end());
+  MatX F = MatX::Zero(n, static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) F(rows[k], static_cast<Eigen::Index>(k)) = 1.0;
+  const MatX u = structure.relieved_response(F, elastic);
+  return u(rows, Eigen::all);
+}
+
 }  // namespace
+
+Statics statics_of(const ModeBasis& basis, const std::optional<FreeStructure>& structure,
+                   const Eigenpairs& elastic, const std::vector<InterfacePlace>& interfaces,
+                   int n) {
+  if (structure) return {{}, boundary_flexibility(*structure, elastic, interfaces, n)};
+  const auto nb = static_cast<Eigen::Index>(basis.first_normal);
+  return {basis.K.topLeftCorner(nb, nb), {}};
+}
 
 void check_statics(const std::vector<InterfacePlace>& interfaces, const FlexibleBody& body,
                    const MatX& boundary_stiffness, const MatX& boundary_flexibility,

@@ -6,6 +6,15 @@
 
 namespace floatframe {
 
+/// What the full model does at all boundary rows: Guyan stiffness, or displacements under unit
+/// forces with inertia relief.
+struct Statics {
+  MatX stiffness, flexibility;
+};
+/// `structure`: if nothing holds it.
+Statics statics_of(const ModeBasis& basis, const std::optional<FreeStructure>& structure,
+                   const Eigenpairs& elastic, const std::vector<InterfacePlace>& interfaces, int n);
+
 /// Fills `static_error` and `static_support`. `nodes` of the body: the interfaces come first.
 /// boundary_stiffness: Guyan stiffness of all boundary rows (Craig-Bampton), or empty; then
 /// boundary_flexibility: their displacements under unit forces with inertia relief.

@@ -13,6 +13,9 @@
 
 namespace floatframe {
 
+/// Degrees of freedom of an interface, as the header names them.
+inline constexpr const char* interface_directions[6] = {"x", "y", "z", "rx", "ry", "rz"};
+
 /// A matrix as an array of its rows.
 NpyArray array_of(const MatX& matrix);
 /// Rows of `matrix` in groups: rows/group x group x columns.

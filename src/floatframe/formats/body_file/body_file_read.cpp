@@ -123,6 +123,7 @@ class BodyReader {
           error("found the marker name '" + excerpt(name) +
                 "', expected names that are not empty and differ");
         followers(marker, name);
+        interface_of(marker);
       }
     else
       error("found no list of 'markers', expected one");
@@ -162,6 +163,20 @@ class BodyReader {
       error(fmt::format("found the {} name '{}', expected one without control characters", what,
                         printable(excerpt(name))));
     return name;
+  }
+
+  /// The degrees of freedom of an interface; all of them in files of earlier programs.
+  void interface_of(const Json& marker) {
+    const auto given = marker.is_object() ? marker.find("interface") : marker.end();
+    if (!marker.is_object() || given == marker.end() || *given != true) return;
+    InterfaceDofs at{static_cast<int>(body().nodes.size()) - 1, 63u};
+    if (const auto dofs = marker.find("dofs"); dofs != marker.end() && dofs->is_array()) {
+      at.mask = 0;
+      for (unsigned k = 0; k < 6; ++k)
+        if (std::find(dofs->begin(), dofs->end(), Json(interface_directions[k])) != dofs->end())
+          at.mask |= 1u << k;
+    }
+    if (at.mask != 0) body().interfaces.push_back(at);
   }
 
   /// Points of the surface that move with a marker.

@@ -42,6 +42,14 @@ std::string header_of(const BodyFile& content) {
     markers.push_back({{"name", node.name},
                        {"interface", interface},
                        {"kind", interface ? Json(it->kind) : Json()}});
+    const auto index = static_cast<int>(&node - body.nodes.data());
+    for (const InterfaceDofs& at : body.interfaces)
+      if (at.node == index) {
+        Json directions = Json::array();
+        for (unsigned k = 0; k < 6; ++k)
+          if ((at.mask >> k) & 1u) directions.push_back(interface_directions[k]);
+        markers.back()["dofs"] = directions;
+      }
     const std::vector<int> points = surface_points_that_follow(content.part, node);
     if (!points.empty()) markers.back()["moves_with"] = points;
   }

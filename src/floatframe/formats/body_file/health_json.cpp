@@ -44,6 +44,20 @@ void fields(IO& io, FrequencyPair& p) {
 }
 
 template <class IO>
+void fields(IO& io, DampedMode& m) {
+  io("frequency_Hz", m.frequency);
+  io("fraction", m.fraction);
+}
+
+template <class IO>
+void fields(IO& io, OwnDamping& d) {
+  io("frame", d.frame);
+  io("free", d.free);
+  io("mounted", d.mounted);
+  io("interfaces_known", d.interfaces);
+}
+
+template <class IO>
 void fields(IO& io, std::pair<std::string, double>& p) {
   io("stage", p.first);
   io("seconds", p.second);
@@ -65,6 +79,7 @@ void fields(IO& io, HealthReport& r) {
   io("rotary_inertia", r.rotary_inertia);
   io("normal_modes", r.normal_modes);
   io("free_frequencies", r.free_frequencies);
+  io("damping", r.damping);
   io("interfaces", r.interfaces);
   io("static_support", r.static_support);
   io("solver", r.solver);

@@ -101,6 +101,12 @@ std::string free_text(const HealthReport& r) {
          table.text(indent);
 }
 
+std::string damping_table(const HealthReport& r) {
+  if (r.damping.free.empty()) return "";
+  return title("Damping: fractions of critical [%] of the part's own modes") +
+         own_damping_text(r.damping, 10, indent);
+}
+
 std::string stages_text(const HealthReport& r) {
   if (r.seconds.empty()) return "";
   TextTable table({"stage", "[s]"});
@@ -128,11 +134,46 @@ std::string hertz_text(double x) {
   return x < 1.0 ? fmt::format("{:.4g}", x) : fmt::format("{:.3f}", x);
 }
 
+std::string own_damping_text(const OwnDamping& damping, std::size_t most, std::size_t indent) {
+  struct Held {
+    const char* what;
+    const std::vector<DampedMode>& modes;
+  };
+  std::vector<Held> columns;
+  if (!damping.frame.empty()) columns.push_back({"frame held", damping.frame});
+  columns.push_back({"free", damping.free});
+  if (!damping.mounted.empty()) columns.push_back({"mounted", damping.mounted});
+  std::vector<std::string> head{"mode"};
+  std::size_t all = 0;
+  for (const Held& c : columns) {
+    head.push_back(fmt::format("{} [Hz]", c.what));
+    head.emplace_back("[%]");
+    all = std::max(all, c.modes.size());
+  }
+  TextTable table(head);
+  for (std::size_t k = 0; k < std::min(all, most); ++k) {
+    std::vector<std::string> row{std::to_string(k + 1)};
+    for (const Held& c : columns) {
+      const bool there = k < c.modes.size();
+      row.push_back(there ? hertz_text(c.modes[k].frequency) : "-");
+      row.push_back(there ? fmt::format("{:.4g}", 100.0 * c.modes[k].fraction) : "-");
+    }
+    table.add(std::move(row));
+  }
+  const std::string margin(indent, ' ');
+  std::string text = table.text(indent);
+  if (all > most) text += fmt::format("{}and {} more\n", margin, all - most);
+  if (damping.mounted.empty())
+    text += margin + (damping.interfaces ? "mounted: no mode is left with the interfaces held\n"
+                                         : "mounted: where it is mounted is not known\n");
+  return text;
+}
+
 std::string health_text(const HealthReport& r) {
   std::string text = fmt::format("{} nodes, {} elements, {} degrees of freedom -> {} modes\n",
                                  r.nodes, r.elements, r.dofs, r.modes);
   text += mass_text(r) + rigid_text(r) + interfaces_text(r) + modes_text(r) + free_text(r) +
-          stages_text(r) + list_text("Passed over in the file", r.notes, "  - ");
+          damping_table(r) + stages_text(r) + list_text("Passed over in the file", r.notes, "  - ");
   if (r.warnings.empty()) return text + "\nNo warnings.\n";
   return text + list_text(r.warnings.size() == 1
                               ? "WARNING: 1 thing to look at"

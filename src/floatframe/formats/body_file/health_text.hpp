@@ -13,6 +13,10 @@ std::string health_text(const HealthReport& report);
 /// A frequency of a table: three decimals, below 1 Hz three digits; "-" if it is not positive.
 std::string hertz_text(double frequency);
 
+/// A table of the first `most` modes of a body with what fraction of critical damping [%] each has:
+/// free, with its interfaces held (mounted), and with its frame held if that is something else.
+std::string own_damping_text(const OwnDamping& damping, std::size_t most, std::size_t indent);
+
 /// An object; `indent` blanks a level.
 std::string health_json(const HealthReport& report, int indent = 2);
 /// What `health_json` wrote; unknown keys are passed over, missing ones keep their defaults. Throws

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "floatframe/formats/fe_file.hpp"
 #include "floatframe/formats/text/text_fields.hpp"
 
 namespace floatframe {
@@ -51,6 +52,21 @@ Path before_word(const Path& file, std::string_view word) {
   const std::string name = stem_of(file).filename().string();
   const std::size_t at = upper_case(name).rfind(word);
   return at == std::string::npos ? Path{} : file.parent_path() / name.substr(0, at);
+}
+
+/// arm_C.mtx beside arm_K.mtx, arm_DMPV1.mtx beside arm_STIF1.mtx; with .matrix as well.
+Path damping_beside(const Path& stiffness) {
+  Path plain = stiffness;
+  if (same_word(plain.extension().string(), ".gz")) plain.replace_extension();
+  const std::string ending = plain.extension().string();
+  if (!same_word(ending, ".mtx") && !same_word(ending, ".matrix")) return {};
+  const std::string stem = stem_of(stiffness).string();
+  std::vector<Path> named;
+  if (stem.ends_with("_K") || stem.ends_with("_k"))
+    named.emplace_back(stem.substr(0, stem.size() - 1) + (stem.back() == 'K' ? "C" : "c") + ending);
+  if (const Path abaqus = with_word(stiffness, "STIF", "DMPV"); !abaqus.empty())
+    named.emplace_back(abaqus.string() + ending);
+  return first_file(named).value_or(Path{});
 }
 
 Path companion(const Path& file, const Path& given, const std::vector<Path>& candidates,

@@ -286,7 +286,7 @@ FeModel matrix_model(FeModel model, const std::vector<DofLabel>& labels, SparseM
 }
 
 FeModel matrix_model_of(TextSource& stiffness, TextSource& mass, TextSource& dofs, FeModel nodes,
-                        bool mass_diagonal, MatrixReader read) {
+                        bool mass_diagonal, MatrixReader read, TextSource* damping) {
   const std::vector<DofLabel> labels = read_dof_labels(dofs);
   dofs.throw_if_any();
   const std::vector<std::string> names = dof_names(labels);
@@ -296,8 +296,25 @@ FeModel matrix_model_of(TextSource& stiffness, TextSource& mass, TextSource& dof
   stiffness.throw_if_any();
   SparseMatrix M = read(mass, "mass", n, map).finish(n, names, mass_diagonal);
   mass.throw_if_any();
-  return matrix_model(std::move(nodes), labels, std::move(K), std::move(M), dofs,
-                      {stiffness.files().front(), mass.files().front()});
+  FeModel model = matrix_model(std::move(nodes), labels, std::move(K), std::move(M), dofs,
+                               {stiffness.files().front(), mass.files().front()});
+  if (damping == nullptr) return model;
+  SparseMatrix C = read(*damping, "damping", n, map).finish(n, names, false);
+  damping->throw_if_any();
+  add_matrix_damping(model, std::move(C), *damping);
+  return model;
+}
+
+std::filesystem::path damping_matrix_of(const std::filesystem::path& stiffness,
+                                        const FeReadOptions& options) {
+  return options.damping_matrix.empty() ? damping_beside(stiffness) : options.damping_matrix;
+}
+
+void add_matrix_damping(FeModel& model, SparseMatrix C, const TextSource& source) {
+  model.matrices->C = std::move(C);
+  const std::string& file = source.files().front();
+  if (std::find(model.files.begin(), model.files.end(), file) == model.files.end())
+    model.files.push_back(file);
 }
 
 }  // namespace floatframe

@@ -40,8 +40,13 @@ FeModel matrix_model(FeModel nodes, const std::vector<DofLabel>& labels, SparseM
 using MatrixReader = SymmetricEntries (*)(TextSource& source, const std::string& what, int n,
                                           const std::string& map);
 /// The same from texts and a map of the rows. With `mass_diagonal` the mass must have its whole
-/// diagonal.
+/// diagonal. `damping` may be null.
 FeModel matrix_model_of(TextSource& stiffness, TextSource& mass, TextSource& dofs, FeModel nodes,
-                        bool mass_diagonal, MatrixReader read);
+                        bool mass_diagonal, MatrixReader read, TextSource* damping);
+/// The file of viscous damping: of the options, or beside the stiffness; empty: none.
+std::filesystem::path damping_matrix_of(const std::filesystem::path& stiffness,
+                                        const FeReadOptions& options);
+/// Viscous damping, rows as those of the stiffness, beside stiffness and mass.
+void add_matrix_damping(FeModel& model, SparseMatrix C, const TextSource& source);
 
 }  // namespace floatframe

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 
 #include "floatframe/formats/matrices/matrix_entries.hpp"
 #include "floatframe/formats/matrices/matrix_files.hpp"
@@ -80,7 +81,8 @@ SymmetricEntries read_quintuples(TextSource& source, const std::string& what, La
     const int row = table.row(number[0], number[1], at);
     entries.add(row, table.row(number[2], number[3], at), *value);
   }
-  if (entries.size() == 0) source.error(FeSource{0, 0}, fmt::format("the {} has no entries", what));
+  if (entries.size() == 0 && what != "damping")
+    source.error(FeSource{0, 0}, fmt::format("the {} has no entries", what));
   source.throw_if_any();
   return entries;
 }
@@ -93,30 +95,39 @@ bool looks_like_abaqus_matrix(std::string_view beginning) {
 }
 
 FeModel read_abaqus_matrices(TextSource& stiffness, TextSource& mass, TextSource* dofs,
-                             FeModel nodes) {
+                             FeModel nodes, TextSource* damping) {
   if (dofs != nullptr) {
-    return matrix_model_of(stiffness, mass, *dofs, std::move(nodes), false, read_triples);
+    return matrix_model_of(stiffness, mass, *dofs, std::move(nodes), false, read_triples, damping);
   }
   LabelTable table;
   SymmetricEntries K = read_quintuples(stiffness, "stiffness", table);
   const std::size_t n = table.labels.size();
-  SymmetricEntries M = read_quintuples(mass, "mass", table);
-  if (table.labels.size() != n) {
+  const auto known = [&](TextSource& source) {
+    if (table.labels.size() == n) return;
     const DofLabel& label = table.labels[n];
-    mass.stop(label.at, fmt::format("degree of freedom {}.{} is not in the stiffness", label.node,
-                                    label.direction));
-  }
+    source.stop(label.at, fmt::format("degree of freedom {}.{} is not in the stiffness", label.node,
+                                      label.direction));
+  };
+  SymmetricEntries M = read_quintuples(mass, "mass", table);
+  known(mass);
   const std::vector<std::string> names = dof_names(table.labels);
   SparseMatrix stiff = K.finish(static_cast<int>(n), names, true);
   stiffness.throw_if_any();
   SparseMatrix heavy = M.finish(static_cast<int>(n), names, false);
   mass.throw_if_any();
-  return matrix_model(std::move(nodes), table.labels, std::move(stiff), std::move(heavy), stiffness,
-                      {mass.files().front()});
+  FeModel model = matrix_model(std::move(nodes), table.labels, std::move(stiff), std::move(heavy),
+                               stiffness, {mass.files().front()});
+  if (damping == nullptr) return model;
+  SymmetricEntries C = read_quintuples(*damping, "damping", table);
+  known(*damping);
+  SparseMatrix viscous = C.finish(static_cast<int>(n), names, false);
+  damping->throw_if_any();
+  add_matrix_damping(model, std::move(viscous), *damping);
+  return model;
 }
 
 FeModel read_abaqus_matrices(const std::filesystem::path& file, const FeReadOptions& options) {
-  // arm_STIF2.mtx has arm_MASS2.mtx beside it and belongs to arm.inp.
+  // arm_STIF2.mtx has arm_MASS2.mtx beside it, perhaps arm_DMPV2.mtx, and belongs to arm.inp.
   const std::filesystem::path mass_name = with_word(file, "STIF", "MASS");
   const std::filesystem::path job = before_word(file, "_STIF");
   ErrorList errors;
@@ -133,11 +144,14 @@ FeModel read_abaqus_matrices(const std::filesystem::path& file, const FeReadOpti
   }
   errors.throw_if_any();
   TextSource stiffness_source(file), mass_source(mass);
+  std::optional<TextSource> damping;
+  if (const auto found = damping_matrix_of(file, options); !found.empty()) damping.emplace(found);
+  TextSource* viscous = damping ? &*damping : nullptr;
   if (labels) {
-    return read_abaqus_matrices(stiffness_source, mass_source, nullptr, read_nodes(nodes));
+    return read_abaqus_matrices(stiffness_source, mass_source, nullptr, read_nodes(nodes), viscous);
   }
   TextSource dofs(map);
-  return read_abaqus_matrices(stiffness_source, mass_source, &dofs, read_nodes(nodes));
+  return read_abaqus_matrices(stiffness_source, mass_source, &dofs, read_nodes(nodes), viscous);
 }
 
 }  // namespace floatframe

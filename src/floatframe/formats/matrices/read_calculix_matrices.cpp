@@ -1,4 +1,6 @@
 // Matrices that CalculiX stores with *FREQUENCY, SOLVER=MATRIXSTORAGE.
+#include <optional>
+
 #include "floatframe/formats/matrices/matrix_files.hpp"
 #include "floatframe/formats/matrices/matrix_model.hpp"
 #include "floatframe/formats/matrices/read_matrices.hpp"
@@ -14,8 +16,8 @@ bool looks_like_calculix_matrix(std::string_view beginning) {
 }
 
 FeModel read_calculix_matrices(TextSource& stiffness, TextSource& mass, TextSource& dofs,
-                               FeModel nodes) {
-  return matrix_model_of(stiffness, mass, dofs, std::move(nodes), true, read_triples);
+                               FeModel nodes, TextSource* damping) {
+  return matrix_model_of(stiffness, mass, dofs, std::move(nodes), true, read_triples, damping);
 }
 
 FeModel read_calculix_matrices(const std::filesystem::path& file, const FeReadOptions& options) {
@@ -32,7 +34,10 @@ FeModel read_calculix_matrices(const std::filesystem::path& file, const FeReadOp
                 "the coordinates of the nodes are", "nodes", errors);
   errors.throw_if_any();
   TextSource dof_source(dofs), stiffness_source(stiffness), mass_source(mass);
-  return read_calculix_matrices(stiffness_source, mass_source, dof_source, read_nodes(nodes));
+  std::optional<TextSource> damping;
+  if (!options.damping_matrix.empty()) damping.emplace(options.damping_matrix);
+  return read_calculix_matrices(stiffness_source, mass_source, dof_source, read_nodes(nodes),
+                                damping ? &*damping : nullptr);
 }
 
 }  // namespace floatframe

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "floatframe/formats/matrices/matrix_entries.hpp"
@@ -24,7 +25,7 @@ struct DmigEntry {
   FeSource at;
 };
 
-/// The matrices of one file. Stiffness and mass are read, others only named.
+/// The matrices of one file. Stiffness, mass and viscous damping are read, others only named.
 class DmigFile {
  public:
   explicit DmigFile(TextSource& source) : source_(source) {
@@ -61,6 +62,11 @@ class DmigFile {
     name_ = found[0];
     return matrices_[name_];
   }
+  /// Has it a matrix whose name begins with a letter?
+  bool has(char letter) const {
+    return std::any_of(matrices_.begin(), matrices_.end(),
+                       [&](const auto& m) { return m.first[0] == letter; });
+  }
   const std::string& name() const { return name_; }
   /// Matrices that are not used.
   std::string others() const {
@@ -74,7 +80,8 @@ class DmigFile {
  private:
   /// K4AAX is structural damping.
   static bool wanted(const std::string& name) {
-    return (name.starts_with('K') && !name.starts_with("K4")) || name.starts_with('M');
+    return (name.starts_with('K') && !name.starts_with("K4")) || name.starts_with('M') ||
+           name.starts_with('B');
   }
 
   void header(const std::string& name, NastranFields& f) {
@@ -151,7 +158,7 @@ bool looks_like_dmig(std::string_view beginning) {
   return false;
 }
 
-FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes) {
+FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes, TextSource* damping) {
   DmigFile first(stiffness);
   const std::vector<DmigEntry>& K = first.matrix('K', "stiffness", "");
   std::map<Row, int> rows;
@@ -172,14 +179,18 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes) {
   TextSource& mass_source = mass != nullptr ? *mass : stiffness;
   DmigFile& mass_file = mass != nullptr ? *second : first;
   const std::string K_name = first.name();
-  const std::vector<DmigEntry>& M = mass_file.matrix('M', "mass", "; or give the mass file");
-  for (const DmigEntry& e : M) {
-    for (const Row& row : {e.row, e.column}) {
-      if (rows.count(row) > 0) continue;
-      mass_source.stop(e.at, fmt::format("degree of freedom {}.{} of {} is not in {}", row.first,
-                                         row.second, mass_file.name(), K_name));
+  const auto check_rows = [&](const std::vector<DmigEntry>& entries, TextSource& source,
+                              const std::string& name) {
+    for (const DmigEntry& e : entries) {
+      for (const Row& row : {e.row, e.column}) {
+        if (rows.count(row) > 0) continue;
+        source.stop(e.at, fmt::format("degree of freedom {}.{} of {} is not in {}", row.first,
+                                      row.second, name, K_name));
+      }
     }
-  }
+  };
+  const std::vector<DmigEntry>& M = mass_file.matrix('M', "mass", "; or give the mass file");
+  check_rows(M, mass_source, mass_file.name());
   const std::vector<std::string> names = dof_names(labels);
   SparseMatrix stiff = matrix_of(stiffness, "stiffness", K, rows, names, true);
   stiffness.throw_if_any();
@@ -189,10 +200,20 @@ FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes) {
   if (mass != nullptr) other_files.push_back(mass->files().front());
   FeModel model = matrix_model(std::move(nodes), labels, std::move(stiff), std::move(heavy),
                                stiffness, other_files);
+  std::optional<DmigFile> third;
+  if (damping != nullptr) third.emplace(*damping);
+  if (DmigFile& damping_file = third ? *third : first; third || first.has('B')) {
+    TextSource& source = third ? *damping : stiffness;
+    const std::vector<DmigEntry>& B = damping_file.matrix('B', "damping", "");
+    check_rows(B, source, damping_file.name());
+    SparseMatrix C = matrix_of(source, "damping", B, rows, names, false);
+    source.throw_if_any();
+    add_matrix_damping(model, std::move(C), source);
+  }
   if (!first.others().empty()) {
     model.notes.push_back(
-        fmt::format("{}: matrices that are neither stiffness nor mass are passed "
-                    "over: {}",
+        fmt::format("{}: matrices that are neither stiffness, mass nor viscous damping are "
+                    "ignored: {}",
                     stiffness.files().front(), first.others()));
   }
   return model;
@@ -217,9 +238,11 @@ FeModel read_dmig(const std::filesystem::path& file, const FeReadOptions& option
                 "the coordinates of the nodes are", "nodes", errors);
   errors.throw_if_any();
   TextSource stiffness(file);
-  if (options.mass.empty()) return read_dmig(stiffness, nullptr, read_nodes(nodes));
-  TextSource mass(options.mass);
-  return read_dmig(stiffness, &mass, read_nodes(nodes));
+  std::optional<TextSource> mass, damping;
+  if (!options.mass.empty()) mass.emplace(options.mass);
+  if (!options.damping_matrix.empty()) damping.emplace(options.damping_matrix);
+  return read_dmig(stiffness, mass ? &*mass : nullptr, read_nodes(nodes),
+                   damping ? &*damping : nullptr);
 }
 
 }  // namespace floatframe

@@ -1,7 +1,8 @@
 #pragma once
-// Direct input matrices that Nastran and OptiStruct punch (.pch): stiffness KAAX and mass MAAX (any
-// names that begin with K and M) of PARAM,EXTOUT,DMIGPCH or EXTSEOUT. Nodes come from GRID cards in
-// the same file, from the deck given in the options, or from a deck beside it with the same name.
+// Direct input matrices that Nastran and OptiStruct punch (.pch): stiffness KAAX, mass MAAX and
+// viscous damping BAAX (any names that begin with K, M and B) of PARAM,EXTOUT,DMIGPCH or EXTSEOUT.
+// Nodes come from GRID cards in the same file, from the deck given in the options, or from a deck
+// beside it with the same name.
 #include <string_view>
 
 #include "floatframe/formats/fe_file.hpp"
@@ -11,7 +12,8 @@ namespace floatframe {
 
 bool looks_like_dmig(std::string_view beginning);
 FeModel read_dmig(const std::filesystem::path& file, const FeReadOptions& options);
-/// `mass` may be null: then the mass is in the first source.
-FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes);
+/// `mass` and `damping` may be null: then they are in the first source, damping if it is there.
+FeModel read_dmig(TextSource& stiffness, TextSource* mass, FeModel nodes,
+                  TextSource* damping = nullptr);
 
 }  // namespace floatframe

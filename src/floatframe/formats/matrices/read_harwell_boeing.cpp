@@ -166,9 +166,9 @@ bool looks_like_harwell_boeing(std::string_view beginning) {
 }
 
 FeModel read_harwell_boeing(TextSource& stiffness, TextSource& mass, TextSource& dofs,
-                            FeModel nodes) {
+                            FeModel nodes, TextSource* damping) {
   return matrix_model_of(stiffness, mass, dofs, std::move(nodes), false,
-                         read_harwell_boeing_entries);
+                         read_harwell_boeing_entries, damping);
 }
 
 FeModel read_harwell_boeing(const std::filesystem::path& file, const FeReadOptions& options) {
@@ -190,7 +190,10 @@ FeModel read_harwell_boeing(const std::filesystem::path& file, const FeReadOptio
                 "the coordinates of the nodes are", "nodes", errors);
   errors.throw_if_any();
   TextSource stiffness_source(file), mass_source(mass), dof_source(dofs);
-  return read_harwell_boeing(stiffness_source, mass_source, dof_source, read_nodes(nodes));
+  std::optional<TextSource> damping;
+  if (const auto found = damping_matrix_of(file, options); !found.empty()) damping.emplace(found);
+  return read_harwell_boeing(stiffness_source, mass_source, dof_source, read_nodes(nodes),
+                             damping ? &*damping : nullptr);
 }
 
 }  // namespace floatframe

@@ -2,11 +2,12 @@
 // Stiffness and mass as matrices of other programs, with a map of degrees of freedom and the nodes.
 //   CalculiX       job.sti, job.mas, job.dof of *FREQUENCY, SOLVER=MATRIXSTORAGE
 //   Abaqus         job_STIF1.mtx, job_MASS1.mtx of *MATRIX GENERATE: lines "node, direction, node,
-//                  direction, value"; or "row column value" with a map
+//                  direction, value"; or "row column value" with a map; viscous damping
+//                  job_DMPV1.mtx
 //   Matrix Market  arm_K.mtx, arm_M.mtx with arm_dofs.csv ("node,dir") and arm_nodes.csv
-//                  ("node,x,y,z")
+//                  ("node,x,y,z"); viscous damping arm_C.mtx
 //   Harwell-Boeing arm_K.matrix, arm_M.matrix with arm_K.mapping (HBMAT of ANSYS) or arm_dofs.csv,
-//                  and arm_nodes.csv or arm.cdb
+//                  and arm_nodes.csv or arm.cdb; viscous damping arm_C.matrix
 // FeReadOptions names the files that do not lie beside the stiffness under these names. The nodes
 // may also come from any finite-element file.
 #include <string_view>
@@ -26,14 +27,14 @@ FeModel read_abaqus_matrices(const std::filesystem::path& file, const FeReadOpti
 FeModel read_matrix_market(const std::filesystem::path& file, const FeReadOptions& options);
 FeModel read_harwell_boeing(const std::filesystem::path& file, const FeReadOptions& options);
 
-/// The same from texts. `dofs` may be null for Abaqus matrices with labels.
+/// The same from texts. `dofs` may be null for Abaqus matrices with labels, `damping` always.
 FeModel read_calculix_matrices(TextSource& stiffness, TextSource& mass, TextSource& dofs,
-                               FeModel nodes);
+                               FeModel nodes, TextSource* damping = nullptr);
 FeModel read_abaqus_matrices(TextSource& stiffness, TextSource& mass, TextSource* dofs,
-                             FeModel nodes);
-FeModel read_matrix_market(TextSource& stiffness, TextSource& mass, TextSource& dofs,
-                           FeModel nodes);
+                             FeModel nodes, TextSource* damping = nullptr);
+FeModel read_matrix_market(TextSource& stiffness, TextSource& mass, TextSource& dofs, FeModel nodes,
+                           TextSource* damping = nullptr);
 FeModel read_harwell_boeing(TextSource& stiffness, TextSource& mass, TextSource& dofs,
-                            FeModel nodes);
+                            FeModel nodes, TextSource* damping = nullptr);
 
 }  // namespace floatframe

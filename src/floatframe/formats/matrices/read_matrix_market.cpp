@@ -88,9 +88,9 @@ bool looks_like_matrix_market(std::string_view beginning) {
   return begins_with(beginning, "%%MatrixMarket");
 }
 
-FeModel read_matrix_market(TextSource& stiffness, TextSource& mass, TextSource& dofs,
-                           FeModel nodes) {
-  return matrix_model_of(stiffness, mass, dofs, std::move(nodes), false, read_entries);
+FeModel read_matrix_market(TextSource& stiffness, TextSource& mass, TextSource& dofs, FeModel nodes,
+                           TextSource* damping) {
+  return matrix_model_of(stiffness, mass, dofs, std::move(nodes), false, read_entries, damping);
 }
 
 FeModel read_matrix_market(const std::filesystem::path& file, const FeReadOptions& options) {
@@ -106,7 +106,10 @@ FeModel read_matrix_market(const std::filesystem::path& file, const FeReadOption
                 "the coordinates of the nodes are", "nodes", errors);
   errors.throw_if_any();
   TextSource stiffness_source(file), mass_source(mass), dof_source(dofs);
-  return read_matrix_market(stiffness_source, mass_source, dof_source, read_nodes(nodes));
+  std::optional<TextSource> damping;
+  if (const auto found = damping_matrix_of(file, options); !found.empty()) damping.emplace(found);
+  return read_matrix_market(stiffness_source, mass_source, dof_source, read_nodes(nodes),
+                            damping ? &*damping : nullptr);
 }
 
 }  // namespace floatframe

@@ -1,0 +1,20 @@
+#pragma once
+// Damping of a part: that of a damping matrix C given beside stiffness and mass, and that of
+// fractions of its modes (body/modal_damping.hpp); together D.
+//
+// C may resist rigid motions (alpha M of Rayleigh, dampers to the ground). Only what it does to
+// deformations counts, those of the free part about its mean axes, whatever the body frame follows:
+//   D_C = X_e^T C X_e,   X_e = X - R M_rr^+ M_rf
+#include "floatframe/reduction/mode_basis.hpp"
+
+namespace floatframe {
+
+/// The degrees of freedom of the interfaces; the nodes of the body begin with theirs.
+std::vector<InterfaceDofs> mounted_at(const std::vector<InterfacePlace>& interfaces);
+
+/// D of the body and what the report says of it. `R`, `X`: rigid motions about the origin and
+/// modes. Throws InputError if a given matrix gives energy.
+void add_damping(const FeModel& model, const FeSystem& system, const MatX& R, const MatX& X,
+                 const PartOptions& options, FlexibleBody& body, HealthReport& health);
+
+}  // namespace floatframe
