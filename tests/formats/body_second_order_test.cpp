@@ -103,7 +103,7 @@ TEST(BodyFile, DamagedDisplacementsOfWhatTurns) {
             "arm.ffb: member 'turning_S.npy': matrix 2 is not symmetric: two of its entries "
             "differ by 0.5");
   EXPECT_EQ(error_of_bytes(with_member(good, "projection_turning.npy",
-                                       npy_bytes({{2, 2}, std::vector<std::int32_t>{1, 1, 1, 0}}))),
+                                       npy_bytes({{2, 2}, std::vector<std::int32_t>{3, 1, 1, 0}}))),
             "arm.ffb: member 'projection_turning.npy': found point 1 with rotation 0 in row 2, "
             "expected points in ascending order below 5 and rotations below 2");
 }

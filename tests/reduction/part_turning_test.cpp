@@ -288,7 +288,16 @@ std::array<MatX, 3> circle(const MatX& theta, const Vec3& arm) {
 
 // The points of the projection method hold what the integrals have beside the twist.
 TEST(PartTurning, ProjectionDataHoldTheSame) {
-  const FeModel model = rotor(false);
+  FeModel model = rotor(false);
+  // A beam between arms of two nodes: its sections are fixed to both.
+  Spider arm;
+  arm.reference = 2;
+  arm.nodes = {model.nodes()};
+  model.positions.push_back(model.positions[2] + Vec3(0.0, -0.1, 0.12));
+  model.spiders.push_back(arm);
+  Element beside = model.elements[0];
+  beside.nodes = {5, model.nodes() - 1};
+  model.elements.push_back(beside);
   const FlexibleBody body = reduce_part(model, all_nodes(model, 6)).body;
   const ProjectionData& data = *body.projection;
   SecondOrder sum = SecondOrder::zero(body.modes());

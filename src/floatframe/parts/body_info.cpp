@@ -42,7 +42,8 @@ std::string properties_text(const FlexibleBody& body) {
 }
 
 std::string stiffening_text(const FlexibleBody& body) {
-  return fmt::format("  stiffening data  {}\n", body.second_order ? "yes" : "no");
+  return fmt::format("  stiffening data  {}\n  turning masses   {}\n",
+                     body.second_order ? "yes" : "no", body.turning ? "yes" : "no");
 }
 
 std::string tables_text(const FlexibleBody& body) {
@@ -100,7 +101,8 @@ Json body_json(const FlexibleBody& body) {
           {"normal_mode_frequencies_Hz", normal},
           {"markers", markers},
           {"projection", body.projection != nullptr},
-          {"geometric_stiffening", body.second_order != nullptr}};
+          {"geometric_stiffening", body.second_order != nullptr},
+          {"turning_masses", body.turning != nullptr}};
 }
 
 std::string dump(const Json& json) {

@@ -27,21 +27,6 @@ void add_integrals(const SecondOrder& from, SecondOrder& to) {
   }
 }
 
-/// The arms of points with one arm, or those of the others.
-std::vector<PointArm> arms_of(const PointModel& points, bool single) {
-  const std::vector<PointArm>& all = points.arms;
-  std::vector<PointArm> out;
-  for (std::size_t k = 0; k < all.size();) {
-    std::size_t end = k + 1;
-    while (end < all.size() && all[end].point == all[k].point) ++end;
-    if ((end == k + 1) == single)
-      out.insert(out.end(), all.begin() + static_cast<std::ptrdiff_t>(k),
-                 all.begin() + static_cast<std::ptrdiff_t>(end));
-    k = end;
-  }
-  return out;
-}
-
 }  // namespace
 
 Vec6 turning_form(const Mat3& Q) {
@@ -97,16 +82,9 @@ std::shared_ptr<const ProjectionData> projection_of(const PointModel& points, co
   data->p = points.p;
   data->X = points.T * X;
   data->M_s = points.M_s;
-  data->rotations = points.rotations * X;
-  for (const PointArm& a : arms_of(points, true))
-    data->turning.push_back({a.point, a.rotation, a.arm});
-  if (data->turning.empty()) data->rotations.resize(0, X.cols());
-  const std::vector<PointArm> several = arms_of(points, false);
-  if (!several.empty() || twist) {
-    auto rest = std::make_shared<SecondOrder>(turning_of(points, several, X));
-    if (twist) add_integrals(*twist, *rest);
-    data->twist = std::move(rest);
-  }
+  if (!points.arms.empty()) data->rotations = points.rotations * X;
+  for (const PointArm& a : points.arms) data->turning.push_back({a.point, a.rotation, a.arm});
+  if (twist) data->twist = std::make_shared<const SecondOrder>(*twist);
   return data;
 }
 

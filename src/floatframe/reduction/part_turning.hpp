@@ -18,8 +18,7 @@ SecondOrder turning_of(const PointModel& points, std::span<const PointArm> arms,
 std::shared_ptr<const SecondOrder> part_turning(const PointModel& points, const MatX& X,
                                                 const std::optional<SecondOrder>& twist);
 
-/// Points for the projection method. Of a point that is fixed to several rotations, whose second
-/// order the points cannot hold, the integrals are added to those of the twist.
+/// Points for the projection method.
 std::shared_ptr<const ProjectionData> projection_of(const PointModel& points, const MatX& X,
                                                     const std::optional<SecondOrder>& twist);
 

@@ -154,7 +154,7 @@ void read_projection_second_order(ArrayReader& arrays, Eigen::Index nm, Projecti
   data.rotations = arrays.grouped("projection_rotations", rotations, 3, nm);
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const int point = pairs[2 * k], rotation = pairs[2 * k + 1];
-    if (point >= nodes || rotation >= rotations || (k > 0 && point <= data.turning.back().point)) {
+    if (point >= nodes || rotation >= rotations || (k > 0 && point < data.turning.back().point)) {
       arrays.error("projection_turning",
                    fmt::format("found point {} with rotation {} in row {}, expected points in "
                                "ascending order below {} and rotations below {}",
