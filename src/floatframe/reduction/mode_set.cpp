@@ -8,6 +8,14 @@
 
 namespace floatframe {
 
+int with_whole_pair(const VecX& omega, Eigen::Index kept) {
+  const bool more =
+      kept > 0 && kept < omega.size() && equal_frequency(omega[kept - 1], omega[kept]);
+  Eigen::Index begin = kept - 1;
+  while (more && begin > 0 && equal_frequency(omega[begin - 1], omega[kept - 1])) --begin;
+  return static_cast<int>(more && (kept - begin) % 2 == 1 ? kept + 1 : kept);
+}
+
 MatX modal_damping(const MatX& K, const MatX& M, double ratio) {
   MatX D = MatX::Zero(K.rows(), K.cols());
   if (ratio == 0.0 || K.rows() == 0) return D;
