@@ -96,16 +96,16 @@ def campbell(
     to: float,
     step: float,
     *,
-    axis: Sequence[float] = (0.0, 0.0, 1.0),
+    axis: Sequence[float] | None = None,
     orders: Sequence[float] = (1.0,),
     modes: int = 12,
 ) -> _core.CampbellDiagram:
     """Vibrations over the speed of a rotor [rad/s] that turns in `joint`; critical speeds of the orders; onset of
-    instability. axis: of a free joint, shape (3,)."""
-    x, y, z = (float(c) for c in array("axis", axis, 3))
+    instability. axis: of a free joint, shape (3,); None: the one about which the rotor is symmetric, or that of its bearings."""
+    along = None if axis is None else tuple(float(c) for c in array("axis", axis, 3))
     speeds = number("from_", from_), number("to", to), number("step", step)
     multiples = [float(n) for n in array("orders", orders, "orders")]
-    return _core.campbell(built(model), text("joint", joint), *speeds, (x, y, z), multiples, whole("modes", modes, 1, 10**6))
+    return _core.campbell(built(model), text("joint", joint), *speeds, along, multiples, whole("modes", modes, 1, 10**6))
 
 
 def advise(

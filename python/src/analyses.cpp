@@ -164,10 +164,12 @@ void bind_order(nb::module_& m) {
 }
 
 CampbellDiagram campbell_of(const Model& model, const std::string& joint, double from, double to,
-                            double step, const std::array<double, 3>& axis,
+                            double step, const std::optional<std::array<double, 3>>& axis,
                             const std::vector<double>& orders, int modes) {
   Unlocked released;
-  return campbell(model, {joint, from, to, step, {axis[0], axis[1], axis[2]}, orders, modes});
+  CampbellOptions options{joint, from, to, step, std::nullopt, orders, modes};
+  if (axis) options.axis = Vec3((*axis)[0], (*axis)[1], (*axis)[2]);
+  return campbell(model, options);
 }
 
 /// lambda of a line over the speeds.
@@ -181,8 +183,12 @@ ComplexArray eigenvalues(const CampbellLine& line) {
 void bind_campbell(nb::module_& m) {
   nb::class_<CampbellLine> line(m, "CampbellLine", "One mode over the speed.");
   value(line, "kind", &CampbellLine::kind,
-        "'forward', 'backward', 'planar', 'axial or torsion', by most of its points.");
-  line.def_prop_ro("eigenvalues", eigenvalues, "At each speed, Im >= 0, shape (speeds,) [1/s].");
+        "'forward', 'backward', 'planar', 'axial or torsion', 'bending' or 'other bodies', by most "
+        "of "
+        "its points.");
+  line.def_prop_ro(
+      "eigenvalues", eigenvalues,
+      "At each speed, Im >= 0, NaN where the line is not known, shape (speeds,) [1/s].");
   nb::class_<CriticalSpeed> critical(m, "CriticalSpeed", "Where a frequency crosses an order.");
   value(critical, "line", &CriticalSpeed::line, "From 0.");
   value(critical, "order", &CriticalSpeed::order, "");
@@ -190,13 +196,14 @@ void bind_campbell(nb::module_& m) {
   value(critical, "frequency", &CriticalSpeed::frequency, "[rad/s]");
   value(critical, "whirl", &CriticalSpeed::whirl, "");
   nb::class_<InstabilityOnset> onset(m, "InstabilityOnset", "Where damping becomes negative.");
-  value(onset, "line", &InstabilityOnset::line, "From 0.");
+  value(onset, "line", &InstabilityOnset::line, "From 0; -1: of no line.");
   value(onset, "speed", &InstabilityOnset::speed, "[rad/s]");
   value(onset, "frequency", &InstabilityOnset::frequency, "[rad/s]");
   nb::class_<CampbellDiagram> c(m, "CampbellDiagram", "Vibrations of a rotor over its speed.");
   numbers(c, "speeds", &CampbellDiagram::speeds, "[rad/s]");
   value(c, "lines", &CampbellDiagram::lines, "Ascending by the frequency at the first speed.");
   value(c, "critical", &CampbellDiagram::critical, "");
+  value(c, "crossings", &CampbellDiagram::crossings, "Of order 1 that unbalance does not excite.");
   value(c, "unstable", &CampbellDiagram::unstable, "");
   value(c, "rigid", &CampbellDiagram::rigid, "Modes of frequency zero at the first speed.");
   value(c, "overdamped", &CampbellDiagram::overdamped, "Modes that swing at no speed.");

@@ -7,6 +7,8 @@
 #include "floatframe/analyses/analysis.hpp"
 #include "floatframe/model_file/load_model.hpp"
 #include "support/error_of.hpp"
+#include "support/model_text.hpp"
+#include "support/rotor_models.hpp"
 
 namespace floatframe::test {
 namespace {
@@ -31,8 +33,10 @@ TEST(CampbellReport, TextJsonTableAndPicture) {
   EXPECT_EQ(json["modes"].size(), 12u);
   EXPECT_EQ(json["modes"][0]["kind"], "backward");
   EXPECT_EQ(json["modes"][0]["frequency_rad_s"].size(), 6u);
-  // Two of order 1, near 180 rad/s, and the same two lines at about half of that.
-  ASSERT_EQ(json["critical_speeds"].size(), 4u);
+  // The forward line of order 1, near 180 rad/s, the backward one apart, both at half of that.
+  ASSERT_EQ(json["critical_speeds"].size(), 3u);
+  ASSERT_EQ(json["crossings"].size(), 1u);
+  EXPECT_LT(json["crossings"][0]["whirl"].get<double>(), -0.99);
   EXPECT_EQ(json["critical_speeds"][0]["order"], 2.0);
   for (const auto& c : json["critical_speeds"])
     EXPECT_NEAR(c["speed_rad_s"].get<double>() * c["order"].get<double>(),
@@ -47,7 +51,18 @@ TEST(CampbellReport, TextJsonTableAndPicture) {
   for (std::size_t at = 0; (at = svg.find("class=\"critical\" cx=\"", at)) != std::string::npos;
        ++at)
     ++circles;
-  EXPECT_EQ(circles, 5u);  // and the one of the legend
+  EXPECT_EQ(circles, 4u);  // and the one of the legend
+}
+
+TEST(CampbellReport, LinesThatEnd) {
+  Analysis a = campbell_with("hub=0:40:5", "");
+  const AnalysisReport r = a.run(model_of(blade("false")));
+  EXPECT_NE(r.text.find("diverges without swinging"), std::string::npos) << r.text;
+  EXPECT_NE(r.text.find("(bending) ends at"), std::string::npos) << r.text;
+  const auto json = nlohmann::json::parse(r.json);
+  EXPECT_TRUE(json["modes"][1]["frequency_rad_s"].back().is_null()) << r.text;
+  EXPECT_NE(r.files.at(0)().find(",,,"), std::string::npos);
+  EXPECT_EQ(r.files.at(1)().find("nan"), std::string::npos);
 }
 
 TEST(CampbellReport, WrongSpeeds) {

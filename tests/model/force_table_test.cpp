@@ -66,6 +66,8 @@ std::string value_text(const ForceKey& key) {
       return "6 x 6 [N/m, N, N m/m, N m/rad] or 2 x 2 [N/m]";
     case K::damping_matrix:
       return "6 x 6 [N s/m, N s, N m s/m, N m s/rad] or 2 x 2 [N s/m]";
+    case K::speed_table:
+      return "n x 9 [rad/s, N/m, N s/m]";
   }
   return "";
 }

@@ -11,7 +11,7 @@
 #include "floatframe/model_file/load_model.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/turning_model.hpp"
-#include "support/rotor_models.hpp"
+#include "support/whirl_rotors.hpp"
 
 namespace floatframe::test {
 namespace {

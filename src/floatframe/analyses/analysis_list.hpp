@@ -12,6 +12,7 @@
 #include "floatframe/simulation/model_order.hpp"
 #include "floatframe/simulation/road_response.hpp"
 #include "floatframe/simulation/simulation.hpp"
+#include "floatframe/simulation/unbalance_response.hpp"
 
 // clang-format off
 #define FLOATFRAME_ANALYSES(entry) \

@@ -5,15 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/analyses/rotor_options.hpp"
 #include "floatframe/core/csv_field.hpp"
-#include "floatframe/core/diagnostics.hpp"
-#include "floatframe/core/json_text.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
 #include "floatframe/report/campbell_picture.hpp"
@@ -23,38 +21,44 @@ namespace floatframe {
 namespace {
 
 struct CampbellArguments {
-  std::string speed, axis = "z";
+  std::string speed, axis;
   std::vector<double> orders;
   int modes = 12;
 };
 
-/// "motor=0:1200:40".
 CampbellOptions campbell_options(const CampbellArguments& a) {
+  const SpeedRange r = speed_range("--speed", a.speed);
   CampbellOptions o;
-  const auto bad = [&] {
-    return InputError(fmt::format(
-        "--speed: found '{}', expected JOINT=FROM:TO:STEP [rad/s], as in motor=0:1200:40",
-        excerpt(a.speed)));
-  };
-  const std::size_t equals = a.speed.rfind('=');
-  if (equals == std::string::npos || equals == 0) throw bad();
-  o.joint = a.speed.substr(0, equals);
-  double* const numbers[] = {&o.from, &o.to, &o.step};
-  const char* at = a.speed.data() + equals + 1;
-  const char* const end = a.speed.data() + a.speed.size();
-  for (int k = 0; k < 3; ++k) {
-    const auto [rest, error] = std::from_chars(at, end, *numbers[k]);
-    const bool last = k == 2;
-    if (error != std::errc() || (last ? rest != end : rest == end || *rest != ':')) throw bad();
-    at = rest + 1;
-  }
-  o.axis = Vec3::Unit(a.axis[0] - 'x');
+  o.joint = r.joint;
+  o.from = r.from;
+  o.to = r.to;
+  o.step = r.step;
+  o.axis = axis_named(a.axis);
   if (!a.orders.empty()) o.orders = a.orders;
   o.modes = a.modes;
   return o;
 }
 
 std::string ratio_text(double x) { return fmt::format("{:.4f}", std::abs(x) < 5e-5 ? 0.0 : x); }
+
+std::string speeds_text(const char* title, const std::vector<CriticalSpeed>& speeds,
+                        const CampbellDiagram& d) {
+  TextTable table({title, "[rev/min]", "order", "mode", ""}, {4});
+  for (const CriticalSpeed& c : speeds)
+    table.add({fmt::format("{:.6g}", c.speed),
+               fmt::format("{:.5g}", c.speed * 30.0 / std::acos(-1.0)),
+               fmt::format("{:g}", c.order), std::to_string(c.line + 1),
+               d.lines[static_cast<std::size_t>(c.line)].kind});
+  return table.text();
+}
+
+std::string onset_text(const InstabilityOnset& u) {
+  if (u.frequency > 0.0)
+    return fmt::format("\nunstable from {:.6g} rad/s on: mode {} at {:.6g} rad/s\n", u.speed,
+                       u.line + 1, u.frequency);
+  return fmt::format("\nunstable from {:.6g} rad/s on: {} diverges without swinging\n", u.speed,
+                     u.line >= 0 ? fmt::format("mode {}", u.line + 1) : "a motion");
+}
 
 std::string campbell_text(const std::string& name, const CampbellOptions& o,
                           const CampbellDiagram& d) {
@@ -66,57 +70,69 @@ std::string campbell_text(const std::string& name, const CampbellOptions& o,
   TextTable table({"mode", "", at(0), at(middle), at(last), "damping", "at the end"}, {1});
   for (std::size_t k = 0; k < d.lines.size(); ++k) {
     const std::vector<CampbellPoint>& p = d.lines[k].points;
-    const auto frequency = [&](std::size_t i) { return fmt::format("{:.6g}", p[i].frequency()); };
+    const auto frequency = [&](std::size_t i) {
+      return p[i].known() ? fmt::format("{:.6g}", p[i].frequency()) : "-";
+    };
+    const auto damping = [&](std::size_t i) {
+      return p[i].known() ? ratio_text(p[i].damping()) : "-";
+    };
     table.add({std::to_string(k + 1), d.lines[k].kind, frequency(0), frequency(middle),
-               frequency(last), ratio_text(p[0].damping()), ratio_text(p[last].damping())});
+               frequency(last), damping(0), damping(last)});
   }
   text += table.text() + '\n';
-  TextTable critical({"critical speed [rad/s]", "[rev/min]", "order", "mode", ""}, {4});
-  for (const CriticalSpeed& c : d.critical)
-    critical.add({fmt::format("{:.6g}", c.speed),
-                  fmt::format("{:.5g}", c.speed * 30.0 / std::acos(-1.0)),
-                  fmt::format("{:g}", c.order), std::to_string(c.line + 1),
-                  d.lines[static_cast<std::size_t>(c.line)].kind});
-  text += critical.empty() ? "no critical speeds in this range\n" : critical.text();
-  for (const InstabilityOnset& u : d.unstable)
-    text += fmt::format("\nunstable from {:.6g} rad/s on: mode {} at {:.6g} rad/s\n", u.speed,
-                        u.line + 1, u.frequency);
+  text += d.critical.empty() ? "no critical speeds in this range\n"
+                             : speeds_text("critical speed [rad/s]", d.critical, d);
+  if (!d.crossings.empty())
+    text += '\n' + speeds_text("crossing that unbalance does not excite [rad/s]", d.crossings, d);
+  for (const InstabilityOnset& u : d.unstable) text += onset_text(u);
   if (d.rigid > 0)
     text += fmt::format("\n{} of frequency zero not shown\n", plural(d.rigid, "motion"));
   for (const std::string& note : d.notes) text += "Note: " + note + ".\n";
   return text;
 }
 
+nlohmann::ordered_json speeds_json(const std::vector<CriticalSpeed>& speeds) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const CriticalSpeed& c : speeds)
+    list.push_back({{"speed_rad_s", c.speed},
+                    {"order", c.order},
+                    {"mode", c.line + 1},
+                    {"frequency_rad_s", c.frequency},
+                    {"whirl", c.whirl}});
+  return list;
+}
+
+/// Null where the mode is not known.
+nlohmann::ordered_json number_json(const CampbellPoint& p, double x) {
+  return p.known() ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+}
+
 std::string campbell_json(const std::string& name, const CampbellOptions& o,
                           const CampbellDiagram& d) {
   using Json = nlohmann::ordered_json;
-  Json lines = Json::array(), critical = Json::array(), unstable = Json::array();
+  Json lines = Json::array(), unstable = Json::array();
   for (const CampbellLine& line : d.lines) {
     Json real = Json::array(), imaginary = Json::array(), whirl = Json::array();
     for (const CampbellPoint& p : line.points) {
-      real.push_back(p.lambda.real());
-      imaginary.push_back(p.lambda.imag());
-      whirl.push_back(p.whirl);
+      real.push_back(number_json(p, p.lambda.real()));
+      imaginary.push_back(number_json(p, p.lambda.imag()));
+      whirl.push_back(number_json(p, p.whirl));
     }
     lines.push_back({{"kind", line.kind},
                      {"real_1_s", real},
                      {"frequency_rad_s", imaginary},
                      {"whirl", whirl}});
   }
-  for (const CriticalSpeed& c : d.critical)
-    critical.push_back({{"speed_rad_s", c.speed},
-                        {"order", c.order},
-                        {"mode", c.line + 1},
-                        {"frequency_rad_s", c.frequency},
-                        {"whirl", c.whirl}});
   for (const InstabilityOnset& u : d.unstable)
-    unstable.push_back(
-        {{"speed_rad_s", u.speed}, {"mode", u.line + 1}, {"frequency_rad_s", u.frequency}});
+    unstable.push_back({{"speed_rad_s", u.speed},
+                        {"mode", u.line >= 0 ? Json(u.line + 1) : Json(nullptr)},
+                        {"frequency_rad_s", u.frequency}});
   return json_document({{"model", name},
                         {"joint", o.joint},
                         {"speed_rad_s", d.speeds},
                         {"modes", lines},
-                        {"critical_speeds", critical},
+                        {"critical_speeds", speeds_json(d.critical)},
+                        {"crossings", speeds_json(d.crossings)},
                         {"unstable", unstable},
                         {"dependence_on_angle", d.dependence_on_angle},
                         {"of_frequency_zero", d.rigid},
@@ -135,7 +151,7 @@ std::string campbell_csv(const CampbellDiagram& d) {
     text += fmt::format("{}", d.speeds[s]);
     for (const CampbellLine& line : d.lines) {
       const CampbellPoint& p = line.points[s];
-      text += fmt::format(",{},{},{}", p.frequency(), p.lambda.real(), p.whirl);
+      text += p.known() ? fmt::format(",{},{},{}", p.frequency(), p.lambda.real(), p.whirl) : ",,,";
     }
     text += '\n';
   }
@@ -162,9 +178,7 @@ Analysis campbell_analysis() {
           .help =
               "Campbell diagram of a rotor: vibrations over its speed, critical speeds [rad/s], "
               "onset of instability",
-          .options = {speed,
-                      word_option("--axis", a->axis, {"x", "y", "z"},
-                                  "Axis of a rotor on a free joint; default z"),
+          .options = {speed, word_option("--axis", a->axis, {"x", "y", "z"}, axis_help),
                       number_list("--orders", a->orders, 0.01, 1000.0, "NUMBER",
                                   "Orders of the speed whose critical speeds are found; default 1"),
                       whole_option("--modes", a->modes, 1, 1000,

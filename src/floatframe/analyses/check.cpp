@@ -5,6 +5,7 @@
 
 #include "floatframe/analyses/analysis.hpp"
 #include "floatframe/analyses/body_damping.hpp"
+#include "floatframe/body/cut_pair.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
@@ -53,6 +54,21 @@ std::string flexible_bodies_text(const Model& model) {
   return table.empty() ? "" : "\n" + table.text(2);
 }
 
+std::optional<std::string> cut_pair_note(const Body& body) {
+  const auto pair = cut_pair(*body.data);
+  if (!pair) return std::nullopt;
+  return fmt::format(
+      "body '{}': {} (round bars would bend more easily in one direction than in another)",
+      body.name, cut_pair_text(*pair, "normal_modes"));
+}
+
+std::vector<std::string> notes_of(const Model& model, const ModelCounts& counts) {
+  std::vector<std::string> notes = counts.start.notes;
+  for (const Body& body : model.bodies)
+    if (auto note = cut_pair_note(body)) notes.push_back(std::move(*note));
+  return notes;
+}
+
 /// "17 bodies (12 flexible)"
 std::string bodies_counted(const ModelCounts& counts) {
   return fmt::format("{} ({} flexible)", plural(counts.bodies, "body", "bodies"),
@@ -71,12 +87,14 @@ std::string check_json(const ModelCounts& c, const Model& model) {
   Json flexible = Json::array();
   for (const Body& body : model.bodies) {
     if (body.modes() == 0) continue;
+    const auto note = cut_pair_note(body);
     flexible.push_back({{"name", body.name},
                         {"modes", body.modes()},
                         {"mass_kg", body.data->invariants.m},
                         {"nodes", body.data->nodes.size()},
                         {"mode_names", body.data->mode_names},
                         {"frequencies_Hz", json_array(body.data->fixed_interface_frequencies)}});
+    if (note) flexible.back()["note"] = *note;
   }
   return json_document({{"bodies", c.bodies},
                         {"flexible_bodies", c.flexible_bodies},
@@ -124,7 +142,7 @@ AnalysisReport report_check(const Model& model) {
                               plural(counts.joints, "joint"), counts.cut_joints) +
                   counts_text(counts) + flexible_bodies_text(model) + body_damping_text(model) +
                   system_damping_text(model, counts.degrees_of_freedom) +
-                  notes_text(counts.start.notes),
+                  notes_text(notes_of(model, counts)),
           .json = check_json(counts, model),
           .files = {[&model, counts] { return page_of_start(model, counts); }}};
 }

@@ -8,6 +8,8 @@
 
 #include "floatframe/analyses/analysis.hpp"
 #include "floatframe/analyses/response_result.hpp"
+#include "floatframe/analyses/rotor_options.hpp"
+#include "floatframe/analyses/unbalance_report.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/model/road_spectrum.hpp"
 #include "floatframe/simulation/frequency_response.hpp"
@@ -24,6 +26,8 @@ struct ResponseOptions {
   std::vector<std::string> harmonic;
   std::string spectrum;
   double speed = 0.0, waviness = 2.0;
+  std::string rotor, axis;
+  std::vector<std::string> unbalance;
 };
 
 std::optional<double> number_in(const std::string& text) {
@@ -95,7 +99,28 @@ void add_curves(const LinearModel& linear, ResponseResult& r) {
   }
 }
 
+AnalysisReport report_unbalance(const Model& model, const ResponseOptions& o) {
+  if (o.rotor.empty() || o.unbalance.empty())
+    throw InputError(o.rotor.empty()
+                         ? "--unbalance needs --rotor JOINT=FROM:TO:STEP, the speeds [rad/s]"
+                         : "--rotor needs --unbalance BODY=KG_M, at least one");
+  if (!o.ports.inputs.empty() || !o.harmonic.empty() || !o.spectrum.empty() || !o.at.empty())
+    throw InputError(
+        "--rotor goes through speeds under unbalance alone, expected none of --inputs, --harmonic, "
+        "--road-spectrum, --at beside it");
+  const SpeedRange range = speed_range("--rotor", o.rotor);
+  UnbalanceOptions options{range.joint, range.from,      range.to,          range.step,
+                           {},          o.ports.outputs, axis_named(o.axis)};
+  for (const std::string& text : o.unbalance) options.unbalances.push_back(unbalance_of(text));
+  const auto r = std::make_shared<UnbalanceResponse>(unbalance_response(model, options));
+  return {.text = unbalance_text(model.name, options, *r),
+          .json = unbalance_json(model.name, options, *r),
+          .files = {[r] { return unbalance_csv(*r); },
+                    [r, options, name = model.name] { return unbalance_svg(name, options, *r); }}};
+}
+
 AnalysisReport report_response(const Model& given, const ResponseOptions& o) {
+  if (!o.rotor.empty() || !o.unbalance.empty()) return report_unbalance(given, o);
   if (!(o.to > o.from))
     throw InputError(
         fmt::format("--to: found {:g} Hz, expected more than --from, {:g} Hz", o.to, o.from));
@@ -133,7 +158,9 @@ Analysis response_analysis() {
   constexpr double largest = 1e9;
   return {
       .name = "response",
-      .help = "Frequency response of outputs to inputs, also to random roads (Hz, SI units)",
+      .help =
+          "Frequency response of outputs to inputs, also to random roads (Hz, SI units); "
+          "response of rotors to unbalance",
       .options =
           {word_list(
                "--inputs", o->ports.inputs, {},
@@ -151,7 +178,12 @@ Analysis response_analysis() {
                        "roughness at 0.1 cycles/m [m3]"),
            number_option("--speed", o->speed, 0.0, 1e4, "M/S", "Along the road [m/s]"),
            number_option("--waviness", o->waviness, 0.0, 10.0, "W",
-                         "Exponent of the road's spectrum")},
+                         "Exponent of the road's spectrum"),
+           text_option("--rotor", o->rotor, "JOINT=FROM:TO:STEP",
+                       "Response to unbalance over the speed of a rotor [rad/s] instead"),
+           repeated_option("--unbalance", o->unbalance, "BODY[:NODE]=KG_M[@DEG]",
+                           "Unbalance on the axis of the rotor [kg m]; may be repeated"),
+           word_option("--axis", o->axis, {"x", "y", "z"}, axis_help)},
       .json_help = "JSON on standard output",
       .files = {{"--csv", "Write magnitude, phase, real and imaginary part, and densities"},
                 {"--svg", "Write Bode plots and densities"}},

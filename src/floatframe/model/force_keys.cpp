@@ -121,7 +121,7 @@ void ForceCheck::some_law() const {
     const bool law = k.kind == ForceKeyKind::spring || k.kind == ForceKeyKind::damper ||
                      k.kind == ForceKeyKind::bump_stop || k.kind == ForceKeyKind::rebound_stop ||
                      k.kind == ForceKeyKind::load || k.kind == ForceKeyKind::stiffness_matrix ||
-                     k.kind == ForceKeyKind::damping_matrix;
+                     k.kind == ForceKeyKind::damping_matrix || k.kind == ForceKeyKind::speed_table;
     if (!law) continue;
     if (given(k.name)) return;
     laws.push_back(k.name);

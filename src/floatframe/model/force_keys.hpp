@@ -32,7 +32,8 @@ enum class ForceKeyKind {
   target,            ///< signal, a displacement; its tables are smooth
   target_rate,       ///< signal, a rate
   stiffness_matrix,  ///< 6 x 6: three displacements and three rotations; or 2 x 2
-  damping_matrix     ///< the same of their rates
+  damping_matrix,    ///< the same of their rates
+  speed_table        ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
 };
 
 /// What laws and signals belong to: a displacement, a rotation, or the coordinate of the joint that

@@ -57,6 +57,8 @@ std::string no_law(const std::vector<const char*>& laws);
 /// 6 x 6 or 2 x 2, finite.
 Complaint force_matrix(const MatX& M);
 std::string force_matrix_rows(std::size_t rows);
+/// Rows of a speed and eight coefficients.
+Complaint speed_table(const MatX& rows);
 /// Of a bearing, 6 x 6 or 2 x 2: nothing holds the spin.
 Complaint bearing_stiffness(const MatX& K);
 std::string target_without_law();

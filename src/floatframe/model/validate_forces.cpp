@@ -38,6 +38,7 @@ const char* other_type(const ForceKey& key, const ForceValue& value) {
       return needs(static_cast<PiecewisePolynomial*>(nullptr), "a law");
     case K::stiffness_matrix:
     case K::damping_matrix:
+    case K::speed_table:
       return needs(static_cast<MatX*>(nullptr), "a matrix");
     case K::bump_stop:
     case K::rebound_stop:
@@ -105,6 +106,9 @@ struct ForceValidation {
       case K::stiffness_matrix:
       case K::damping_matrix:
         entity.complain(key.name, sentences::force_matrix(std::get<MatX>(*x)));
+        break;
+      case K::speed_table:
+        entity.complain(key.name, sentences::speed_table(std::get<MatX>(*x)));
         break;
       case K::load:
       case K::target:

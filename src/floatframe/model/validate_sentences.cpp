@@ -189,6 +189,18 @@ Complaint force_matrix(const MatX& M) {
   return std::nullopt;
 }
 
+Complaint speed_table(const MatX& rows) {
+  if (rows.rows() < 1 || rows.cols() != 9)
+    return "found " + std::to_string(rows.rows()) + " x " + std::to_string(rows.cols()) +
+           " numbers, expected rows of 9: a speed, four stiffnesses, four dampings";
+  if (!rows.allFinite()) return "found numbers that are not finite, expected finite ones";
+  for (Eigen::Index i = 0; i + 1 < rows.rows(); ++i)
+    if (!(rows(i, 0) < rows(i + 1, 0)))
+      return "found the speed " + number_text(rows(i + 1, 0)) + " after " +
+             number_text(rows(i, 0)) + ", expected ascending speeds [rad/s]";
+  return std::nullopt;
+}
+
 Complaint bearing_stiffness(const MatX& K) {
   if (K.rows() < 6 || (K.row(5).isZero(0.0) && K.col(5).isZero(0.0))) return std::nullopt;
   return "found numbers in the sixth row or column, expected zeros: a bearing lets the shaft turn "

@@ -142,6 +142,24 @@ class ForceReader {
     return good ? std::optional(ForceValue(std::move(M))) : std::nullopt;
   }
 
+  /// A list of rows of nine numbers.
+  static std::optional<ForceValue> speed_table(const YamlValue& value) {
+    constexpr const char* what = "rows of 9 numbers: a speed, four stiffnesses, four dampings";
+    if (!value.is_list()) {
+      value.unexpected(what);
+      return std::nullopt;
+    }
+    const auto rows = value.list(what);
+    MatX table(static_cast<Eigen::Index>(rows.size()), 9);
+    bool good = true;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto row = rows[i].numbers(9, 9, any_number(""), "9 numbers");
+      if (row) table.row(static_cast<Eigen::Index>(i)) = VecX::Map(row->data(), 9).transpose();
+      good = good && row;
+    }
+    return good ? std::optional(ForceValue(std::move(table))) : std::nullopt;
+  }
+
   std::optional<ForceValue> place_of(const YamlValue& value) const {
     const auto section = value.section("a place {body, at}");
     const auto at = section ? read_attachment(self_, model_, *section) : std::nullopt;
@@ -190,6 +208,8 @@ class ForceReader {
       case K::stiffness_matrix:
       case K::damping_matrix:
         return matrix(*value);
+      case K::speed_table:
+        return speed_table(*value);
       case K::load:
         return read_signal(self_, *value, u.force, Interpolation::linear);
       case K::target:

@@ -103,7 +103,14 @@ ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options,
   std::optional<int> number;
   if (options.normal_modes != 0 || !(options.max_frequency > 0.0)) number = options.normal_modes;
   const int count = normal_mode_count(fixed, number, options.max_frequency);
-  return craig_bampton_set(fixed, fixed.normal_modes(count), std::move(names));
+  if (number || count == 0)
+    return craig_bampton_set(fixed, fixed.normal_modes(count), std::move(names));
+  // A frequency limit keeps pairs whole.
+  const Eigenmodes all =
+      fixed.normal_modes(count_with_partner(fixed, count, options.max_frequency));
+  const int kept = with_whole_pair(all.omega, count);
+  return craig_bampton_set(fixed, {all.omega.head(kept), all.shapes.leftCols(kept)},
+                           std::move(names));
 }
 
 ModeSet held_modes(const FeModel& model, const ReductionOptions& options, const SparseMatrix& K,

@@ -110,6 +110,12 @@ void check_options(const PartOptions& options) {
   errors.throw_if_any();
 }
 
+void report_basis(const ModeBasis& basis, HealthReport& health) {
+  health.solver = basis.solver;
+  health.normal_modes = basis.modes;
+  health.notes.insert(health.notes.end(), basis.notes.begin(), basis.notes.end());
+}
+
 ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, const MatX& R,
                               const std::vector<InterfacePlace>& interfaces,
                               const std::vector<MarkerPlace>& markers, const PartOptions& options,
@@ -128,7 +134,8 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
   });
   ModeBasis basis;
   basis.solver = fixed->solver_name();
-  const Eigenmodes normal = select_fixed_modes(*fixed, system, R, boundary, options, basis.modes);
+  const Eigenmodes normal =
+      select_fixed_modes(*fixed, system, R, boundary, options, basis.modes, basis.notes);
   static_cast<ModeSet&>(basis) = craig_bampton_set(*fixed, normal, names);
   const auto nb = static_cast<Eigen::Index>(boundary.size());
   basis.first_normal = static_cast<int>(nb);
@@ -165,7 +172,7 @@ ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R
       if (softest.size() > 0) check_stiffness_of(model, system, softest);
       throw;
     }
-    elastic = select_free_modes(model, *structure, system, options, basis.modes);
+    elastic = select_free_modes(model, *structure, system, options, basis.modes, basis.notes);
   });
   basis.solver = structure->solver_name();
   const Eigen::Index count = elastic.lambda.size();

@@ -20,7 +20,11 @@ struct ModeBasis : ModeSet {
   int first_normal = 0;           ///< column of the first normal mode
   std::vector<ModeHealth> modes;  ///< of the normal modes
   std::string solver;
+  std::vector<std::string> notes;  ///< about the modes kept
 };
+
+/// What the report says of it: solver, normal modes, notes.
+void report_basis(const ModeBasis& basis, HealthReport& health);
 
 /// Errors of the options that need no model: contradictions, negative numbers.
 void check_options(const PartOptions& options);

@@ -31,6 +31,22 @@ MatX about_centre(const MatX& R, const SparseMatrix& M) {
   return C;
 }
 
+/// One mode more than asked for, if there is one: whether it is the partner of the last shows then.
+Eigenmodes modes_and_next(const FixedInterface& fixed, int count, bool at_most) {
+  if (count == 0 || count >= fixed.inner()) return fixed.normal_modes(count, at_most);
+  Eigenmodes modes = fixed.normal_modes(count + 1, true);
+  return modes.omega.size() < count && !at_most ? fixed.normal_modes(count) : modes;
+}
+
+/// How many of these modes are kept. `given`: the number of them is.
+int whole_pairs(const VecX& omega, int kept, bool given, std::vector<std::string>& notes) {
+  const int whole = with_whole_pair(omega, kept);
+  if (!given || whole == kept) return whole;
+  notes.push_back(cut_pair_text({kept, hertz(omega[kept - 1])}, "modes") +
+                  " (of a round part: it would bend more easily in one direction than in another)");
+  return kept;
+}
+
 }  // namespace
 
 std::optional<int> most_normal_modes(const PartOptions& options) {
@@ -41,7 +57,7 @@ std::optional<int> most_normal_modes(const PartOptions& options) {
 
 Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
                               const std::vector<int>& boundary, const PartOptions& options,
-                              std::vector<ModeHealth>& list) {
+                              std::vector<ModeHealth>& list, std::vector<std::string>& notes) {
   int count = normal_mode_count(fixed, most_normal_modes(options), options.max_frequency);
   const MatX C = about_centre(R, system.M);
   const MatX MC = system.M * C;
@@ -55,20 +71,25 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
   int solved = by_mass ? std::min(count, 20) : count;
   // The default number is a limit: small parts have fewer.
   const bool at_most = !options.modes && !by_mass && !(options.max_frequency > 0.0);
-  Eigenmodes modes = fixed.normal_modes(solved, at_most);
-  if (at_most) solved = count = static_cast<int>(modes.omega.size());
+  const bool given = options.modes && count == *options.modes;
+  Eigenmodes modes = modes_and_next(fixed, solved, at_most);
+  if (at_most) solved = count = std::min(count, static_cast<int>(modes.omega.size()));
   Vec6 sum = Vec6::Zero();
   int kept = 0;
   bool reached = false;
+  const auto keep = [&] {
+    const Vec6 share = (MC.transpose() * modes.shapes.col(kept)).array().square();
+    ModeHealth m;
+    m.name = fmt::format("normal {}", kept + 1);
+    m.frequency = hertz(modes.omega(kept));
+    for (int k = 0; k < 6; ++k) m.effective_mass(k) = total(k) > 0.0 ? share(k) / total(k) : 0.0;
+    list.push_back(m);
+    sum += share;
+    ++kept;
+  };
   while (true) {
-    for (; kept < solved && !reached; ++kept) {
-      const Vec6 share = (MC.transpose() * modes.shapes.col(kept)).array().square();
-      ModeHealth m;
-      m.name = fmt::format("normal {}", kept + 1);
-      m.frequency = hertz(modes.omega(kept));
-      for (int k = 0; k < 6; ++k) m.effective_mass(k) = total(k) > 0.0 ? share(k) / total(k) : 0.0;
-      list.push_back(m);
-      sum += share;
+    while (kept < solved && !reached) {
+      keep();
       reached = by_mass && (sum.array() >= options.effective_mass * reachable.array()).all();
     }
     if (!by_mass || reached || solved == count) break;
@@ -82,14 +103,15 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
           100.0 * options.effective_mass));
     }
     solved = std::min({count, 2 * solved, most_modes});
-    modes = fixed.normal_modes(solved);
+    modes = modes_and_next(fixed, solved, false);
   }
+  if (whole_pairs(modes.omega, kept, given && !reached, notes) > kept) keep();
   return {modes.omega.head(kept), modes.shapes.leftCols(kept)};
 }
 
 Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structure,
                              const FeSystem& system, const PartOptions& options,
-                             std::vector<ModeHealth>& list) {
+                             std::vector<ModeHealth>& list, std::vector<std::string>& notes) {
   int count = most_normal_modes(options).value_or(system.size() - 6);
   if (options.max_frequency > 0.0)
     count = std::clamp(structure.count_below(options.max_frequency) - 6, 0, count);
@@ -102,7 +124,9 @@ Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structur
         count, system.size(), most));
   }
   // One at least is looked at: a mechanism is refused however few are kept.
-  const Eigenpairs all = structure.modes(std::max(count, std::min(most, 1)) + 6);
+  // One more than kept shows a pair that is cut.
+  const int looked_at = count > 0 ? std::min(count + 1, most) : std::min(most, 1);
+  const Eigenpairs all = structure.modes(looked_at + 6);
   if (all.shapes.cols() > 6) check_stiffness_of(model, system, all.shapes.col(6));
   const auto found = static_cast<int>(std::max<Eigen::Index>(all.lambda.size() - 6, 0));
   if (!options.modes) count = std::min(count, found);
@@ -110,6 +134,8 @@ Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structur
     throw InputError(
         fmt::format("{} normal modes are requested, but the mass allows only {}", count, found));
   }
+  count = whole_pairs(all.lambda.tail(found).cwiseMax(0.0).cwiseSqrt(), count,
+                      options.modes && count == *options.modes, notes);
   Eigenpairs elastic{all.lambda.segment(6, count), all.shapes.middleCols(6, count)};
   for (int a = 0; a < count; ++a) {
     ModeHealth m;

@@ -1,6 +1,7 @@
 #pragma once
 // How many normal modes a part keeps: by number, by frequency, by effective mass; the first limit
-// that is met ends the list.
+// that is met ends the list. Pairs of modes of equal frequency stay whole (one mode more) but where
+// a number is given that cuts one: then a note says so.
 //   effective mass of a fixed-interface mode in direction r:  (x^T M R_r)^2 / (R_r^T M R_r)
 // R: rigid motions about the centre of mass. The sum over all modes is the share of the mass that
 // does not sit on the interfaces, R_i^T M_ii R_i; a limit means a fraction of that.
@@ -16,11 +17,11 @@ std::optional<int> most_normal_modes(const PartOptions& options);
 /// Modes kept; `list` has them with their effective masses. R: about any point.
 Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
                               const std::vector<int>& boundary, const PartOptions& options,
-                              std::vector<ModeHealth>& list);
+                              std::vector<ModeHealth>& list, std::vector<std::string>& notes);
 
 /// Elastic modes kept.
 Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structure,
                              const FeSystem& system, const PartOptions& options,
-                             std::vector<ModeHealth>& list);
+                             std::vector<ModeHealth>& list, std::vector<std::string>& notes);
 
 }  // namespace floatframe

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/body/cut_pair.hpp"
 #include "floatframe/body/flexible_body.hpp"
 #include "floatframe/reduction/eigenmodes.hpp"
 
@@ -25,6 +26,17 @@ int normal_mode_count(const Fixed& fixed, std::optional<int> number, double max_
   if (!(max_frequency > 0.0)) return number.value_or(fixed.inner());
   const int below = fixed.count_below(max_frequency);
   return number ? std::min(below, *number) : below;
+}
+
+/// Of modes with these frequencies, ascending, the `kept` lowest, or one more if it is the partner
+/// of the last (body/cut_pair.hpp).
+int with_whole_pair(const VecX& omega, Eigen::Index kept);
+
+/// A number of modes below a frequency limit [Hz], or as many as there may be so that the partner
+/// of the last is among them.
+template <class Fixed>
+int count_with_partner(const Fixed& fixed, int below, double max_frequency) {
+  return std::max(below, fixed.count_below(max_frequency * (1.0 + equal_frequencies)));
 }
 
 /// Constraint modes of the interface dofs, named by `names`, then the normal modes. They do not

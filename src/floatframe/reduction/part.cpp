@@ -268,8 +268,7 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   ModeBasis basis =
       held ? craig_bampton_basis(model, system, R, interfaces, markers, options, fixed)
            : free_basis(model, system, R, interfaces, markers, options, structure, elastic);
-  health.solver = basis.solver;
-  health.normal_modes = basis.modes;
+  report_basis(basis, health);
   const Statics statics = statics_of(basis, structure, elastic, interfaces, system.size());
   stages.done("modes");
   MatX response = unit_response(model, system, points, R, basis, interfaces, markers, options,

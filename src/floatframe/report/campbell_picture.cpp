@@ -21,10 +21,12 @@ struct WhirlStyle {
   const char* css;
 };
 /// Colours that colour-blind readers tell apart, and dashes.
-constexpr std::array<WhirlStyle, 4> whirl_styles{{
+constexpr std::array<WhirlStyle, 6> whirl_styles{{
     {"forward", "stroke:#0072b2"},
     {"backward", "stroke:#d55e00;stroke-dasharray:9 4"},
     {"planar", "stroke:#009e73;stroke-dasharray:9 3 2 3"},
+    {"bending", "stroke:#b4558c;stroke-dasharray:12 3"},
+    {"other bodies", "stroke:#b8860b;stroke-dasharray:6 2 2 2 2 2"},
     {"axial or torsion", "stroke:#6b6b6b;stroke-dasharray:2 4"},
 }};
 
@@ -53,7 +55,7 @@ double highest_frequency(const CampbellOptions& o, const CampbellDiagram& d) {
   double lowest = 0.0;
   for (const CampbellPoint& p :
        d.lines.empty() ? std::vector<CampbellPoint>{} : d.lines.front().points)
-    lowest = std::max(lowest, p.frequency());
+    if (p.known()) lowest = std::max(lowest, p.frequency());
   const double top = std::max(1.15 * order * speed, 1.3 * lowest);
   return top > 0.0 ? top : 1.0;
 }
@@ -112,12 +114,20 @@ void draw_line(Out out, const CampbellFrame& f, const CampbellDiagram& d, std::s
   const CampbellLine& line = d.lines[index];
   fmt::format_to(out, "<path class=\"line\" clip-path=\"url(#inside)\" style=\"{}\" d=\"",
                  style_of(line.kind).css);
-  for (std::size_t k = 0; k < d.speeds.size(); ++k)
-    fmt::format_to(out, "{}{:.1f} {:.1f}", k == 0 ? "M" : "L", f.x(d.speeds[k]),
-                   f.y(line.points[k].frequency()));
+  bool pen_down = false;
+  std::size_t last = 0;  // where it is known
+  for (std::size_t k = 0; k < d.speeds.size(); ++k) {
+    const bool known = line.points[k].known();
+    if (known) {
+      fmt::format_to(out, "{}{:.1f} {:.1f}", pen_down ? "L" : "M", f.x(d.speeds[k]),
+                     f.y(line.points[k].frequency()));
+      last = k;
+    }
+    pen_down = known;
+  }
   fmt::format_to(out, "\"><title>mode {}, {}</title></path>\n", index + 1, line.kind);
   for (const InstabilityOnset& u : d.unstable) {
-    if (u.line != static_cast<int>(index)) continue;
+    if (u.line != static_cast<int>(index) || !(u.frequency > 0.0)) continue;
     fmt::format_to(out, "<path class=\"unstable\" clip-path=\"url(#inside)\" d=\"M{:.1f} {:.1f}",
                    f.x(u.speed), f.y(u.frequency));
     for (std::size_t k = 0; k < d.speeds.size(); ++k)
@@ -125,10 +135,26 @@ void draw_line(Out out, const CampbellFrame& f, const CampbellDiagram& d, std::s
         fmt::format_to(out, "L{:.1f} {:.1f}", f.x(d.speeds[k]), f.y(line.points[k].frequency()));
     fmt::format_to(out, "\"/>\n");
   }
-  const double end = line.points.back().frequency();
-  if (end <= f.top)
+  const double end = line.points[last].frequency();
+  if (end <= f.top && last + 1 == d.speeds.size())
     fmt::format_to(out, "<text class=\"tick\" x=\"{}\" y=\"{:.1f}\">{}</text>\n",
                    picture_width - frame_right + 6, f.y(end) + 4.5, index + 1);
+  else if (end <= f.top)
+    fmt::format_to(
+        out,
+        "<path class=\"end\" d=\"M{0:.1f} {1:.1f}v10\"/><text class=\"tick\" x=\"{2:.1f}\" "
+        "y=\"{3:.1f}\">{4}</text>\n",
+        f.x(d.speeds[last]), f.y(end) - 5.0, f.x(d.speeds[last]) + 5.0, f.y(end) - 5.0, index + 1);
+}
+
+void draw_speeds(Out out, const CampbellFrame& f, const std::vector<CriticalSpeed>& speeds,
+                 const char* css, double radius) {
+  for (const CriticalSpeed& c : speeds)
+    if (c.frequency <= f.top)
+      fmt::format_to(out,
+                     "<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\"><title>{:.5g} "
+                     "rad/s</title></circle>\n",
+                     css, f.x(c.speed), f.y(c.frequency), radius, c.speed);
 }
 
 void draw_legend(Out out, const CampbellDiagram& d) {
@@ -146,6 +172,8 @@ void draw_legend(Out out, const CampbellDiagram& d) {
       entry(fmt::format("<path class=\"line\" style=\"{}\" d=\"M0 0H32\"/>", s.css), s.kind);
   if (!d.critical.empty())
     entry("<circle class=\"critical\" cx=\"16\" cy=\"0\" r=\"5\"/>", "critical");
+  if (!d.crossings.empty())
+    entry("<circle class=\"crossing\" cx=\"16\" cy=\"0\" r=\"3.5\"/>", "not excited");
   if (!d.unstable.empty()) entry("<path class=\"unstable\" d=\"M0 0H32\"/>", "unstable");
 }
 
@@ -165,7 +193,9 @@ std::string campbell_picture(const std::string& model, const CampbellOptions& o,
       ".tick{{font-size:12.5px;fill:#555}}.line{{fill:none;stroke-width:2}}"
       ".order{{fill:none;stroke:#999;stroke-width:1;stroke-dasharray:5 5}}"
       ".unstable{{fill:none;stroke:#b00020;stroke-width:5;stroke-opacity:.55}}"
-      ".critical{{fill:#fff;stroke:#1a1a1a;stroke-width:1.8}}</style>\n"
+      ".critical{{fill:#fff;stroke:#1a1a1a;stroke-width:1.8}}"
+      ".crossing{{fill:#fff;stroke:#999;stroke-width:1.2}}"
+      ".end{{fill:none;stroke:#1a1a1a;stroke-width:1.8}}</style>\n"
       "<clipPath id=\"inside\"><rect x=\"{2}\" y=\"{3}\" width=\"{4}\" "
       "height=\"{5}\"/></clipPath>\n",
       picture_width, picture_height, frame_left, frame_top,
@@ -173,12 +203,8 @@ std::string campbell_picture(const std::string& model, const CampbellOptions& o,
   draw_axes(out, f, fmt::format("{}: vibrations over the speed of '{}'", model, o.joint));
   draw_orders(out, f, o.orders);
   for (std::size_t k = 0; k < d.lines.size(); ++k) draw_line(out, f, d, k);
-  for (const CriticalSpeed& c : d.critical)
-    if (c.frequency <= f.top)
-      fmt::format_to(out,
-                     "<circle class=\"critical\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"><title>{:.5g} "
-                     "rad/s</title></circle>\n",
-                     f.x(c.speed), f.y(c.frequency), c.speed);
+  draw_speeds(out, f, d.crossings, "crossing", 3.5);
+  draw_speeds(out, f, d.critical, "critical", 5.0);
   draw_legend(out, d);
   fmt::format_to(out, "</svg>\n");
   return fmt::to_string(svg);

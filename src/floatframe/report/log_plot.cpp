@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "floatframe/report/html_text.hpp"
+#include "floatframe/report/svg_plot.hpp"
 
 namespace floatframe {
 namespace {
@@ -95,9 +96,17 @@ std::pair<double, double> panel_range(const LogPanel& panel) {
 
 using Out = std::back_insert_iterator<fmt::memory_buffer>;
 
-void draw_log_axes(Out out, const Span& x, const Span& y, const LogPanel& panel,
-                   const std::string& x_title) {
-  for (const Tick& t : logarithmic_ticks(x.low, x.high)) {
+std::vector<Tick> linear_ticks(double low, double high) {
+  const Ticks ticks = nice_ticks(low, high, 9, false);
+  std::vector<Tick> found;
+  for (int k = 0; k < ticks.count; ++k)
+    found.push_back({ticks.at(k), fmt::format("{:g}", ticks.at(k))});
+  return found;
+}
+
+void draw_log_axes(Out out, const Span& x, const std::vector<Tick>& x_ticks, const Span& y,
+                   const LogPanel& panel, const std::string& x_title) {
+  for (const Tick& t : x_ticks) {
     fmt::format_to(out, "<path class=\"{}\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>\n",
                    t.fine ? "fine" : "grid", x(t.at), y.from, y.to);
     if (!t.label.empty())
@@ -133,6 +142,7 @@ void draw_log_legend(Out out, double left, double baseline, const std::vector<Lo
   }
 }
 
+/// `x`: as on the axis.
 void draw_log_curves(Out out, const Span& x_axis, const Span& y_axis, const std::vector<double>& x,
                      const LogPanel& panel) {
   const bool log = panel.scale == LogPanel::Scale::logarithmic;
@@ -146,7 +156,7 @@ void draw_log_curves(Out out, const Span& x_axis, const Span& y_axis, const std:
         pen_down = false;
         continue;
       }
-      path += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", x_axis(std::log10(x[i])),
+      path += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", x_axis(x[i]),
                           y_axis(std::max(at, y_axis.low)));
       pen_down = true;
     }
@@ -157,7 +167,8 @@ void draw_log_curves(Out out, const Span& x_axis, const Span& y_axis, const std:
 }  // namespace
 
 std::string log_plots(const std::string& title, const std::string& x_title,
-                      const std::vector<double>& x, const std::vector<LogPanel>& panels) {
+                      const std::vector<double>& x, const std::vector<LogPanel>& panels,
+                      PlotAxis axis) {
   double height = sheet_top + 8;
   for (const LogPanel& p : panels)
     height += above + below + (p.scale == LogPanel::Scale::degrees ? flat : tall);
@@ -169,8 +180,10 @@ std::string log_plots(const std::string& title, const std::string& x_title,
                  "<style>{3}</style>\n<rect class=\"sheet\" width=\"{0:g}\" height=\"{1:g}\"/>\n"
                  "<text class=\"name\" x=\"{4:g}\" y=\"30\">{2}</text>\n",
                  sheet_width, height, html_escape(title), sheet_style, sheet_left);
-  const double low = x.empty() ? 0.0 : std::log10(x.front()),
-               high = x.empty() ? 1.0 : std::log10(x.back());
+  const bool linear = axis == PlotAxis::linear;
+  std::vector<double> places;
+  for (const double v : x) places.push_back(linear ? v : std::log10(v));
+  const double low = x.empty() ? 0.0 : places.front(), high = x.empty() ? 1.0 : places.back();
   const Span x_axis{low, high > low ? high : low + 1.0, sheet_left, sheet_width - sheet_right};
   double top = sheet_top;
   for (const LogPanel& p : panels) {
@@ -180,8 +193,11 @@ std::string log_plots(const std::string& title, const std::string& x_title,
     fmt::format_to(out, "<text class=\"title\" x=\"{:g}\" y=\"{:.1f}\">{}</text>\n", sheet_left,
                    top + 18, html_escape(p.title));
     draw_log_legend(out, sheet_left, top + 38, p.curves);
-    draw_log_axes(out, x_axis, y_axis, p, x_title);
-    draw_log_curves(out, x_axis, y_axis, x, p);
+    draw_log_axes(
+        out, x_axis,
+        linear ? linear_ticks(x_axis.low, x_axis.high) : logarithmic_ticks(x_axis.low, x_axis.high),
+        y_axis, p, x_title);
+    draw_log_curves(out, x_axis, y_axis, places, p);
     top += above + size + below;
   }
   fmt::format_to(out, "</svg>\n");

@@ -1,6 +1,7 @@
 #pragma once
-// Curves over a logarithmic axis, frequency most often, as one SVG file: panels below each other,
-// each with its title, legend and axes with units. Colours and dashes are those of the report.
+// Curves over a logarithmic axis, frequency most often, or a linear one, as one SVG file: panels
+// below each other, each with its title, legend and axes with units. Colours and dashes are those
+// of the report.
 #include <string>
 #include <vector>
 
@@ -19,8 +20,11 @@ struct LogPanel {
   std::vector<LogCurve> curves;  ///< at most `max_curves_per_plot`
 };
 
-/// A document of its own. x: positive, ascending.
+enum class PlotAxis { logarithmic, linear };
+
+/// A document of its own. x: ascending, on a logarithmic axis positive.
 std::string log_plots(const std::string& title, const std::string& x_title,
-                      const std::vector<double>& x, const std::vector<LogPanel>& panels);
+                      const std::vector<double>& x, const std::vector<LogPanel>& panels,
+                      PlotAxis axis = PlotAxis::logarithmic);
 
 }  // namespace floatframe

@@ -3,13 +3,16 @@
 // beside the machine, followed from speed to speed by their shapes; critical speeds; the speed at
 // which it becomes unstable.
 //
-// From one speed to the next modes are paired by the modal assurance criterion of their motions in
-// the world, MAC = |m_a^H m_b|^2 / (|m_a|^2 |m_b|^2), and the nearness of their eigenvalues. Where
-// pairs are doubtful a speed between is added. A critical speed of order n is where a frequency
-// crosses n W, |Im lambda| = n W; of a constant force in turning axes, unbalance, n = 1. The onset
-// of instability is where Re lambda becomes positive. Both are refined by the secant method with
+// Modes are followed from speed to speed, by their shapes; a line ends where its mode cannot be
+// followed, with a note. A critical speed of order n is where a frequency crosses n W,
+// |Im lambda| = n W. Of order 1, unbalance, it is critical only if forces that turn with the rotor
+// at its axis do work on the mode: the axis moves across itself with a part that goes round with
+// the rotor. Other crossings of order 1 are listed apart. Other orders stand for whatever excites
+// so often in a turn, in any direction: all crossings are listed. The onset of instability is where
+// Re lambda becomes positive, or a motion appears that grows without swinging. All are refined with
 // systems of their own.
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,23 +24,30 @@ namespace floatframe {
 struct CampbellOptions {
   std::string joint;
   double from = 0.0, to = 0.0, step = 0.0;  ///< [rad/s]
-  Vec3 axis = Vec3::UnitZ();                ///< of a free joint
-  std::vector<double> orders{1.0};          ///< of critical speeds
-  int modes = 12;                           ///< the lowest that vibrate
+  /// Of a free joint, in its axes; none: the one about which the rotor is symmetric, or that of its
+  /// bearings.
+  std::optional<Vec3> axis = std::nullopt;
+  std::vector<double> orders{1.0};  ///< of critical speeds
+  int modes = 12;                   ///< the lowest that vibrate
 };
 
 /// One mode at one speed.
 struct CampbellPoint {
-  std::complex<double> lambda;  ///< [1/s], Im >= 0
+  std::complex<double> lambda;  ///< [1/s], Im >= 0; NaN where the mode is not known
   double whirl = 0.0, across = 0.0;
+  std::string kind;        ///< as that of a line; "" where the mode is not known
+  bool unbalance = false;  ///< excites it
+  bool known() const noexcept { return lambda.imag() == lambda.imag(); }
   double frequency() const noexcept { return std::abs(lambda.imag()); }  ///< damped [rad/s]
   double damping() const noexcept;
 };
 
 struct CampbellLine {
   std::vector<CampbellPoint> points;  ///< of each speed
-  std::string kind;                   ///< "forward", "backward", "planar", "axial or torsion",
-                                      ///< by most of the points
+  /// By most of the points: "forward", "backward", "planar"; where the axis does not move across
+  /// itself "axial or torsion", "bending" (the rotor deforms: flap and lag of blades), "other
+  /// bodies" (the rotor hardly moves).
+  std::string kind;
 };
 
 struct CriticalSpeed {
@@ -49,14 +59,15 @@ struct CriticalSpeed {
 };
 
 struct InstabilityOnset {
-  int line = 0;
-  double speed = 0.0, frequency = 0.0;  ///< [rad/s]
+  int line = 0;                         ///< -1: of no line
+  double speed = 0.0, frequency = 0.0;  ///< [rad/s]; 0: it grows without swinging
 };
 
 struct CampbellDiagram {
   std::vector<double> speeds;       ///< [rad/s]
   std::vector<CampbellLine> lines;  ///< ascending by the frequency at the first speed
   std::vector<CriticalSpeed> critical;
+  std::vector<CriticalSpeed> crossings;  ///< of order 1 that unbalance does not excite
   std::vector<InstabilityOnset> unstable;
   double dependence_on_angle = 0.0;  ///< of eigenvalues, in parts
   int rigid = 0;                     ///< modes of frequency zero at the first speed

@@ -8,6 +8,7 @@
 
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/model/rules.hpp"
+#include "floatframe/model/system_state.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/stepping.hpp"
 

@@ -5,18 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/body/cut_pair.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/so3.hpp"
+#include "floatframe/simulation/rotor_symmetry.hpp"
 
 namespace floatframe {
 namespace {
-
-/// Frequencies closer than this part belong to one shape and its turned ones: meshes are not quite
-/// round.
-constexpr double equal_frequencies = 2e-3;
 
 int joint_named(const Model& model, const std::string& name) {
   std::vector<std::string> names;
@@ -25,7 +23,7 @@ int joint_named(const Model& model, const std::string& name) {
     names.push_back(model.joints[k].name);
   }
   throw InputError(
-      fmt::format("--speed: unknown joint '{}'{}", excerpt(name), did_you_mean(name, names)));
+      fmt::format("unknown joint '{}' of a rotor{}", excerpt(name), did_you_mean(name, names)));
 }
 
 /// The bodies that hang on `root` in the tree, itself first.
@@ -41,23 +39,12 @@ void require_one_piece(const Model& model, const TreeKinematics& tree, const Rot
                        const std::vector<int>& bodies) {
   for (const int i : bodies)
     if (i != rotor.body && tree.body(i).nj > 0)
-      throw InputError(fmt::format(
-          "--speed {}: body '{}' moves on the rotor by joint '{}', expected bodies of a rotor that "
-          "are welded to each other",
-          rotor.name, model.bodies[static_cast<std::size_t>(i)].name,
-          model.joints[static_cast<std::size_t>(tree.body(i).joint)].name));
-}
-
-Vec3 centre_of(const Model& model, const std::vector<int>& bodies) {
-  Vec3 moment = Vec3::Zero();
-  double mass = 0.0;
-  for (const int i : bodies) {
-    const Body& b = model.bodies[static_cast<std::size_t>(i)];
-    moment += b.data->invariants.m * (b.X_WB * b.data->invariants.centre_of_mass());
-    mass += b.data->invariants.m;
-  }
-  return mass > 0.0 ? Vec3(moment / mass)
-                    : model.bodies[static_cast<std::size_t>(bodies.front())].X_WB.p;
+      throw InputError(
+          fmt::format("rotor on joint '{}': body '{}' moves on the rotor by joint '{}', expected "
+                      "bodies of a rotor that "
+                      "are welded to each other",
+                      rotor.name, model.bodies[static_cast<std::size_t>(i)].name,
+                      model.joints[static_cast<std::size_t>(tree.body(i).joint)].name));
 }
 
 Pose marker_pose(const Model& model, int index) {
@@ -214,7 +201,7 @@ MatX turned_modes(const MatX& G, double angle) {
   return D;
 }
 
-Rotor find_rotor(RelativeFormulation& f, const std::string& name, const Vec3& axis) {
+Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::optional<Vec3>& axis) {
   const Model& model = f.model();
   const TreeKinematics& tree = f.tree();
   Rotor rotor;
@@ -224,7 +211,8 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const Vec3& ax
   rotor.body = tree.body_of_joint(rotor.joint);
   if (rotor.body < 0)
     throw InputError(fmt::format(
-        "--speed {}: the joint is cut to open a loop, expected one that a rotor hangs on", name));
+        "rotor on joint '{}': the joint is cut to open a loop, expected one that a rotor hangs on",
+        name));
   const TreeBody& b = tree.body(rotor.body);
   rotor.free = joint.type == JointType::free;
   rotor.driven = joint.motion.has_value();
@@ -234,18 +222,30 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const Vec3& ax
     rotor.coordinate = b.iv + 1;
   } else if (rotor.free) {
     rotor.coordinate = b.iv + 3;
-    rotor.axis_F = axis.normalized();
+    rotor.axis_F = axis ? axis->normalized() : Vec3(Vec3::UnitZ());
   } else {
-    throw InputError(
-        fmt::format("--speed {}: found a {} joint, expected a revolute, cylindrical or free one",
-                    name, joint_type_name(joint.type)));
+    throw InputError(fmt::format(
+        "rotor on joint '{}': found a {} joint, expected a revolute, cylindrical or free one", name,
+        joint_type_name(joint.type)));
   }
   const std::vector<int> bodies = bodies_below(tree, rotor.body);
   require_one_piece(model, tree, rotor, bodies);
   rotor.sign = b.reversed && !rotor.free ? -1.0 : 1.0;
   const Body& first = model.bodies[static_cast<std::size_t>(rotor.body)];
+  if (rotor.free && !axis) {
+    Mat3 axes;
+    for (int k = 0; k < 3; ++k) {
+      rotor.axis_F = Vec3::Unit(k);
+      axes.col(k) = first.X_WB.R * axis_in_body(f, rotor);
+    }
+    rotor.axis_F = Vec3::Unit(fitting_axis(model, name, bodies, axes));
+  }
   const Vec3 axis_W = first.X_WB.R * axis_in_body(f, rotor);
-  const Vec3 p_W = rotor.free ? centre_of(model, bodies) : marker_pose(model, b.frame_M).p;
+  const Vec3 p_W = marker_pose(model, b.frame_M).p;
+  Eigen::Index along = 2;
+  if (rotor.free) rotor.axis_F.cwiseAbs().maxCoeff(&along);
+  rotor.e_1 = marker_pose(model, joint.frame_F).R.col((along + 1) % 3);
+  rotor.e_1 = (rotor.e_1 - axis_W * axis_W.dot(rotor.e_1)).normalized();
   rotor.length = 0.0;
   for (const int i : bodies) {
     const Body& body = model.bodies[static_cast<std::size_t>(i)];

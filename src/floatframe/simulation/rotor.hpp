@@ -8,6 +8,7 @@
 // see of a mode, x (displacement and tilt of axis points, int X dm, int r x X dm), must turn with
 // it, e x x = x G, which gives G by least squares. Modes that the axis does not see at all (rings
 // that become oval) have G = 0: they stay described in turning axes.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,14 +33,17 @@ struct Rotor {
   Vec3 axis_F = Vec3::UnitZ();  ///< of a free joint, in its frame F
   double sign = 1.0;            ///< of the velocity of the coordinate at positive speed
   bool driven = false;          ///< by a prescribed motion
+  Vec3 e_1 = Vec3::UnitX();     ///< across the axis: x of the joint, of a free one the axis after
+                                ///< its own in the order x, y, z; world axes
   double length = 1.0;          ///< what tilts are made lengths with [m]
   std::vector<RotorBody> bodies;
 };
 
 /// The bodies that hang on the joint `name`: revolute, cylindrical, or free with the axis given (in
-/// the joint's axes, through the centre of mass of the rotor). Throws InputError for another joint,
-/// or if bodies of the rotor move against each other by joints.
-Rotor find_rotor(RelativeFormulation& f, const std::string& name, const Vec3& axis);
+/// the joint's axes, through its place on the rotor), or found (rotor_symmetry.hpp). Throws
+/// InputError for another joint, if bodies of the rotor move against each other by joints, or if it
+/// is not clear about which axis it turns.
+Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::optional<Vec3>& axis);
 
 /// G of a body with this axis through p_BP, from its nodes on the axis.
 MatX turning_of_modes(const FlexibleBody& body, const Vec3& axis, const Vec3& p_BP,

@@ -8,35 +8,10 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/initial_state.hpp"
-#include "floatframe/simulation/linear_reduction.hpp"
-#include "floatframe/simulation/small_motions.hpp"
-#include "floatframe/simulation/steady_turning.hpp"
+#include "floatframe/simulation/turning_state.hpp"
 #include "floatframe/simulation/whirl.hpp"
 
 namespace floatframe {
-
-struct TurningModel::Impl {
-  Model model;
-  std::unique_ptr<RelativeFormulation> f;
-  Rotor rotor;
-  VecX q;  ///< of the last steady state: where the next begins
-  double torque = 0.0;
-  int degrees = 0, massless = 0;
-  std::vector<std::string> notes;
-
-  SteadyTurning steady(double speed, double angle);
-  MatX motion_map(const SteadyTurning& s, double angle) const;
-  MatX world_map(const SteadyTurning& s, double angle) const;
-
-  /// What a state z is in the world, and its rate along the steady motion: T and Tdot + T A.
-  struct InWorld {
-    MatX T, rate;
-  };
-  InWorld in_world(const SteadyTurning& s);
-  bool bent(const SteadyTurning& s) const;
-  InWorld in_world(double speed, double angle, SteadyTurning& s);
-  AxisMotion axis_motion(const SteadyTurning& s) const;
-};
 
 SteadyTurning TurningModel::Impl::steady(double speed, double angle) {
   if (rotor.driven) {
@@ -106,7 +81,11 @@ MatX TurningModel::Impl::world_map(const SteadyTurning& s, double angle) const {
 }
 
 TurningModel::Impl::InWorld TurningModel::Impl::in_world(const SteadyTurning& s) {
-  const LinearSystem system = linear_system_at(*f, s.state);
+  return in_world(s, linear_system_at(*f, s.state));
+}
+
+TurningModel::Impl::InWorld TurningModel::Impl::in_world(const SteadyTurning& s,
+                                                         const LinearSystem& system) {
   degrees = system.degrees;
   massless = system.massless;
   const Eigen::Index nv = system.x_of.rows(), nz = system.A.rows();
@@ -161,60 +140,8 @@ TurningModel::Impl::InWorld TurningModel::Impl::in_world(double speed, double an
   return in_world(speed, angle, s);
 }
 
-namespace {
-
-/// The columns of T are of unlike size.
-MatX least_squares(const MatX& T, const MatX& B) {
-  const VecX unit = T.colwise().norm().cwiseMax(1e-300).cwiseInverse().transpose();
-  return unit.asDiagonal() * qr_solve(T * unit.asDiagonal(), B);
-}
-
-}  // namespace
-
-/// Displacements of points on the axis and its tilts, by rows of m.
-AxisMotion TurningModel::Impl::axis_motion(const SteadyTurning& s) const {
-  f->positions(0.0, s.state.q);
-  Eigen::Index rows = 0, count = 0;
-  std::vector<Eigen::Index> begin;
-  for (const Body& b : model.bodies) {
-    begin.push_back(rows);
-    rows += 6 + b.modes();
-  }
-  for (const RotorBody& r : rotor.bodies) count += 2 + static_cast<Eigen::Index>(r.on_axis.size());
-  AxisMotion axis;
-  axis.across_1 = axis.across_2 = axis.along = MatX::Zero(count, 2 * rows);
-  Eigen::Index at = 0;
-  for (const RotorBody& r : rotor.bodies) {
-    const std::size_t i = static_cast<std::size_t>(r.body);
-    const Mat3 R = f->body_rotation(r.body) * rotation_exp(-s.angle * r.axis);
-    const Vec3 e = (R * r.axis).normalized() * (s.speed < 0.0 ? -1.0 : 1.0);
-    const Vec3 e1 = e.unitOrthogonal(), e2 = e.cross(e1);
-    const auto add = [&](const MatX& u) {  // 3 x what is this body's of m
-      const auto columns = Eigen::seqN(begin[i], u.cols());
-      axis.across_1(at, columns) = e1.transpose() * u;
-      axis.across_2(at, columns) = e2.transpose() * u;
-      axis.along(at, columns) = e.transpose() * u;
-      ++at;
-    };
-    const int nm = model.bodies[i].modes();
-    MatX u = MatX::Zero(3, 6 + nm);
-    u.leftCols(3).setIdentity();
-    add(u);
-    u.setZero();
-    u.middleCols(3, 3) = -skew(e);  // of the tip of the axis, a length away
-    add(u);
-    for (const int k : r.on_axis) {
-      const ModalNode& n = model.bodies[i].data->nodes[static_cast<std::size_t>(k)];
-      u.leftCols(3).setIdentity();
-      u.middleCols(3, 3) = -skew(R * (n.p - r.p_BP)) / rotor.length;
-      u.rightCols(nm) = R * n.X;
-      add(u);
-    }
-  }
-  return axis;
-}
-
-TurningModel::TurningModel(const Model& model, const std::string& joint, const Vec3& axis)
+TurningModel::TurningModel(const Model& model, const std::string& joint,
+                           const std::optional<Vec3>& axis)
     : impl_(std::make_unique<Impl>()) {
   impl_->model = built(model);
   impl_->f = std::make_unique<RelativeFormulation>(impl_->model, model.simulation.inertia);
@@ -246,7 +173,7 @@ std::vector<TurningMode> TurningModel::modes(double speed) {
   std::stable_sort(modes.begin(), modes.end(), [](const TurningMode& a, const TurningMode& b) {
     return std::abs(a.lambda) < std::abs(b.lambda);
   });
-  describe_whirl(impl_->axis_motion(s), modes);
+  describe_whirl(axis_motion(*impl_->f, impl_->rotor, s), modes);
   return modes;
 }
 
@@ -271,6 +198,7 @@ double TurningModel::dependence_on_angle(double speed) {
   return worst;
 }
 
+const Model& TurningModel::model() const { return impl_->model; }
 const Rotor& TurningModel::rotor() const { return impl_->rotor; }
 double TurningModel::torque() const { return impl_->torque; }
 int TurningModel::degrees() const { return impl_->degrees; }

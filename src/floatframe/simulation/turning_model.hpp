@@ -9,6 +9,8 @@
 // what one sees who stands beside the machine. Tdot T^+ + T A T^+ at another angle must be the
 // same operator: `dependence_on_angle` measures it.
 #include <complex>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,17 @@
 
 namespace floatframe {
 
+enum class MotionKind {
+  forward,      ///< the axis of the rotor moves across itself, with the sense of the rotor,
+  backward,     ///< against it,
+  planar,       ///< or along lines
+  along_axis,   ///< along or about itself: "axial or torsion"
+  bending,      ///< hardly at all, where the rotor deforms: flap and lag of blades
+  other_bodies  ///< the rotor hardly moves
+};
+/// "forward", "axial or torsion", ...
+const char* kind_of_motion(MotionKind kind) noexcept;
+
 /// One motion e^(lambda t) m of a turning system, in the world.
 struct TurningMode {
   std::complex<double> lambda;  ///< [1/s], Im >= 0
@@ -24,13 +37,30 @@ struct TurningMode {
   /// 1: points of the axis whirl on circles with the rotor, -1: against it, 0: along lines.
   double whirl = 0.0;
   double across = 0.0;  ///< part of the motion of the axis that is across it; 0: no motion there
+  MotionKind kind = MotionKind::along_axis;
+  bool unbalance = false;  ///< forces that turn with the rotor at its axis excite it
+};
+
+/// A force that turns with the rotor, Re(size (e_1 - i e_2) e^(i W t)), at a point of its axis:
+/// e_1, e_2 at rest, across the axis, e_1 x e_2 in the sense of positive speed.
+struct AxisForce {
+  int body = -1, node = -1;  ///< node: of a flexible body; -1: the point `p_BP`
+  Vec3 p_BP = Vec3::Zero();
+  std::complex<double> size = 1.0;  ///< [N]
+};
+
+/// Outputs y = mean + Re(amplitude e^(i W t)) under such forces.
+struct TurningResponse {
+  VecX means;
+  Eigen::VectorXcd amplitudes;
+  std::vector<char> smooth;  ///< the output has a slope there
 };
 
 class TurningModel {
  public:
   /// Of the joint and axis of `find_rotor`. Relative coordinates whatever the model says. Weight
   /// counts where the model has it. Throws InputError, or RunError for a start that cannot be.
-  TurningModel(const Model& model, const std::string& joint, const Vec3& axis);
+  TurningModel(const Model& model, const std::string& joint, const std::optional<Vec3>& axis);
   ~TurningModel();
 
   /// Modes at this speed [rad/s], ascending by |lambda|; of a pair the one with Im > 0. Throws
@@ -40,6 +70,14 @@ class TurningModel {
   /// rotor is mixed in: round-off for a rotor that is symmetric.
   double dependence_on_angle(double speed);
 
+  /// Outputs of the model by their numbers. `angle`: where the rotor is taken; what turns with it
+  /// is another one then. Throws RunError in a resonance without damping.
+  TurningResponse response(double speed, const std::vector<AxisForce>& forces,
+                           const std::vector<int>& outputs, double angle = 0.0);
+  /// e_1, e_2 and the axis, in the world, where the rotor begins.
+  Mat3 directions() const;
+
+  const Model& model() const;
   const Rotor& rotor() const;
   /// Of the last speed: distance of the centre of mass of the rotor from its axis [m].
   double eccentricity() const;

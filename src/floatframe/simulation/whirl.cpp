@@ -1,5 +1,6 @@
 #include "floatframe/simulation/whirl.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace floatframe {
@@ -32,6 +33,41 @@ void part_by_whirl(TurningMode& a, TurningMode& b, const MatX& first, const MatX
   a.m = one;
 }
 
+/// Motions of the axis across itself that are none beside the others, in parts of squares.
+constexpr double least_across = 1e-3, least_energy = 1e-10;
+/// Unbalance excites from here on: of the motion of the axis the part that goes with the rotor, of
+/// the energy of the mode that of the axis.
+constexpr double least_forward = 1e-3, least_axis_energy = 1e-6;
+
+double largest_square(const Eigen::VectorXcd& x) {
+  return x.size() > 0 ? x.cwiseAbs2().maxCoeff() : 0.0;
+}
+
+void describe(const AxisMotion& axis, TurningMode& mode) {
+  const Eigen::VectorXcd u1 = axis.across_1 * mode.m, u2 = axis.across_2 * mode.m,
+                         u3 = axis.along * mode.m, twist = axis.twist * mode.m;
+  const double area = 2.0 * u1.dot(u2).imag(), size = u1.squaredNorm() + u2.squaredNorm();
+  const double all = size + u3.squaredNorm() + twist.squaredNorm();
+  const Eigen::VectorXcd m = mode.m.head(axis.rotor.rows());
+  const double rotor = m.dot(axis.rotor * m).real(), others = m.dot(axis.others * m).real(),
+               points = static_cast<double>(std::max<Eigen::Index>(u1.size(), 1));
+  const double of_axis = axis.mass * size / points, energy = rotor + others;
+  // u2 lags u1 by a quarter in a turn from e1 to e2: u1 conj times u2 is -i.
+  mode.whirl = size > 0.0 ? -area / size : 0.0;
+  mode.across = of_axis > least_energy * energy && all > 0.0 ? size / all : 0.0;
+  const double rigid = axis.mass * largest_square(u3) + axis.spin * largest_square(twist);
+  if (mode.across >= least_across)
+    mode.kind = mode.whirl > 0.1    ? MotionKind::forward
+                : mode.whirl < -0.1 ? MotionKind::backward
+                                    : MotionKind::planar;
+  else if (rotor < 1e-3 * energy)
+    mode.kind = MotionKind::other_bodies;
+  else
+    mode.kind = rigid < 0.25 * rotor ? MotionKind::bending : MotionKind::along_axis;
+  mode.unbalance = mode.across >= least_across && 0.5 * (1.0 + mode.whirl) >= least_forward &&
+                   of_axis >= least_axis_energy * energy;
+}
+
 }  // namespace
 
 void describe_whirl(const AxisMotion& axis, std::vector<TurningMode>& modes) {
@@ -39,14 +75,25 @@ void describe_whirl(const AxisMotion& axis, std::vector<TurningMode>& modes) {
     if (std::abs(modes[k].lambda - modes[k + 1].lambda) < 1e-6 * std::abs(modes[k].lambda) &&
         modes[k].lambda.imag() > 0.0)
       part_by_whirl(modes[k], modes[k + 1], axis.across_1, axis.across_2);
-  for (TurningMode& mode : modes) {
-    const Eigen::VectorXcd u1 = axis.across_1 * mode.m, u2 = axis.across_2 * mode.m;
-    const double area = 2.0 * u1.dot(u2).imag(), size = u1.squaredNorm() + u2.squaredNorm();
-    const double all = size + (axis.along * mode.m).squaredNorm();
-    // u2 lags u1 by a quarter in a turn from e1 to e2: u1 conj times u2 is -i.
-    mode.whirl = size > 0.0 ? -area / size : 0.0;
-    mode.across = size > 1e-12 && all > 0.0 ? size / all : 0.0;
+  for (TurningMode& mode : modes) describe(axis, mode);
+}
+
+const char* kind_of_motion(MotionKind kind) noexcept {
+  switch (kind) {
+    case MotionKind::forward:
+      return "forward";
+    case MotionKind::backward:
+      return "backward";
+    case MotionKind::planar:
+      return "planar";
+    case MotionKind::bending:
+      return "bending";
+    case MotionKind::other_bodies:
+      return "other bodies";
+    case MotionKind::along_axis:
+      break;
   }
+  return "axial or torsion";
 }
 
 }  // namespace floatframe

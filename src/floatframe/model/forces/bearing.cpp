@@ -9,12 +9,15 @@
 //   wrench         Q = -sum f_i g_i, g_i the gradients of s_i (of s_6' in the rates)
 //   energy         U = 1/2 s^T K_s s of the symmetric part K_s; all else, s'^T C s' + s'^T K_a s,
 //                  is booked as what dampers take out, and may be less than zero: K_a drives whirl
+// With a table over the spin W = s_6' (bearing_table.hpp) K and C are those of the present W, and
+// the energy is that of its first row.
 // Derivatives, with u = w_b - w_a and phi = e.n, e fixed in a, n in b:
 //   gradient   h = n x e in pi_b, -h in pi_a             phi' = h.u
 //   curvature  dh = (n e^T - (n.e) I) dpi_b + ((n.e) I - e n^T) dpi_a
 //   of s_6'    h = e_3,  dh = -skew(e_3) dpi_a
 //   stiffness  sum_ij g_i (K_ij g_j + C_ij ds_j'/d(motion))^T + sum_i f_i dg_i/d(motion)
 //   damping    sum_ij g_i C_ij g_j^T
+//   of a table sum_i g_i (dK/dW s + dC/dW s')_i times dW, in the rates and in the motion
 // Rows of the step: directions t_r in which the symmetric parts of K and C are both diagonal where
 // neither drives (their sum is not indefinite), else the eigenvectors of K_s with what C has there.
 // Mirrored: axis and axis_2 are polar and e_2 = e_3 x e_1, so for an odd number of planes s_2, s_4
@@ -23,23 +26,13 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/axis_measure.hpp"
+#include "floatframe/model/bearing_table.hpp"
 #include "floatframe/model/force_kind.hpp"
 #include "floatframe/model/sentences.hpp"
 
 namespace floatframe {
 
 namespace {
-
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-
-/// Where Force::numbers keeps what: matrices by columns.
-constexpr int at_K = 0, at_C = 36, at_d0 = 72, at_T = 75, at_k = 111, at_c = 117;
-constexpr int bearing_numbers = 123;
-
-Eigen::Map<const Mat6> bearing_matrix(const Force& f, int at) noexcept {
-  return Eigen::Map<const Mat6>(f.numbers.data() + at);
-}
 
 /// e.n with its gradient.
 AxisMeasure tilt(const Vec3& e, const MarkerState& a, const MarkerState& b) noexcept {
@@ -59,11 +52,15 @@ struct BearingMeasures {
     const Vec3 e = R.col(2);
     m[5] = {0.0, e.dot(in.b.w - in.a.w), {Vec3::Zero(), -e, Vec3::Zero(), e}};
     for (int i = 0; i < 6; ++i) {
-      s[i] = m[i].s - (i < 3 ? in.force.numbers[static_cast<std::size_t>(at_d0 + i)] : 0.0);
+      s[i] =
+          m[i].s - (i < 3 ? in.force.numbers[static_cast<std::size_t>(bearing_at::d0 + i)] : 0.0);
       rate[i] = m[i].rate;
     }
   }
 };
+
+/// Of the first row of a table.
+double first_spin(const Force& f) noexcept { return f.numbers[bearing_numbers + 1]; }
 
 void add_scaled(double f, const WrenchRow& g, WrenchRow& w) noexcept {
   w.Fa += f * g.Fa;
@@ -77,13 +74,16 @@ void add_scaled(double f, const WrenchRow& g, WrenchRow& w) noexcept {
 template <>
 void force_of<ForceType::bearing>(const ForceInput& in, ForceState& out) noexcept {
   const BearingMeasures x(in);
-  const auto K = bearing_matrix(in.force, at_K), C = bearing_matrix(in.force, at_C),
-             T = bearing_matrix(in.force, at_T);
+  const BearingLaw law(in.force, x.rate[5]);
+  const auto T = bearing_matrix(in.force, law.T);
   Vec6 f, kept;
+  const auto K = in.force.numbers.size() == bearing_numbers
+                     ? law.K
+                     : BearingLaw(in.force, first_spin(in.force)).K;
   for (int i = 0; i < 6; ++i) {
     f[i] = kept[i] = 0.0;
     for (int j = 0; j < 6; ++j) {
-      f[i] += K(i, j) * x.s[j] + C(i, j) * x.rate[j];
+      f[i] += law.K(i, j) * x.s[j] + law.C(i, j) * x.rate[j];
       kept[i] += 0.5 * (K(i, j) + K(j, i)) * x.s[j];
     }
   }
@@ -93,8 +93,8 @@ void force_of<ForceType::bearing>(const ForceInput& in, ForceState& out) noexcep
     TangentRow& row = out.rows[i];
     row.g = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     for (int j = 0; j < 6; ++j) add_scaled(T(j, i), x.m[j].g, row.g);
-    row.k = in.force.numbers[static_cast<std::size_t>(at_k + i)];
-    row.c = in.force.numbers[static_cast<std::size_t>(at_c + i)];
+    row.k = in.force.numbers[static_cast<std::size_t>(law.k + i)];
+    row.c = in.force.numbers[static_cast<std::size_t>(law.c + i)];
   }
   out.energy = 0.5 * kept.dot(x.s);
   out.energy_rate = kept.dot(x.rate);
@@ -130,7 +130,8 @@ template <>
 void force_tangent_of<ForceType::bearing>(const ForceInput& in, ForceTangent& out) noexcept {
   using namespace part_of;
   const BearingMeasures x(in);
-  const auto K = bearing_matrix(in.force, at_K), C = bearing_matrix(in.force, at_C);
+  const BearingLaw law(in.force, x.rate[5]);
+  const Mat6 &K = law.K, &C = law.C;
   const Vec6 f = K * x.s + C * x.rate;
   Eigen::Matrix<double, 12, 6> g, g_rate;  // of the measures, and of their rates in the motion
   for (int i = 0; i < 6; ++i) g.col(i) = stacked(x.m[i].g);
@@ -148,6 +149,9 @@ void force_tangent_of<ForceType::bearing>(const ForceInput& in, ForceTangent& ou
   g_rate.col(5).segment<3>(pi_a) = e.cross(in.b.w - in.a.w);
   out.K += g * (K * g.transpose() + C * g_rate.transpose());
   out.C += g * C * g.transpose();
+  const Eigen::Vector2d of_spin = law.dK * x.s.head<2>() + law.dC * x.rate.head<2>();
+  out.K += g.leftCols<2>() * of_spin * g_rate.col(5).transpose();
+  out.C += g.leftCols<2>() * of_spin * g.col(5).transpose();
 }
 
 namespace {
@@ -172,7 +176,11 @@ constexpr ForceKey bearing_keys[] = {
               "2 x 2: along e₁, e₂ alone"},
     {.name = "damping",
      .kind = ForceKeyKind::damping_matrix,
-     .about = "the same of their rates, the sixth that of the spin about e₃"}};
+     .about = "the same of their rates, the sixth that of the spin about e₃"},
+    {.name = "speed_table",
+     .kind = ForceKeyKind::speed_table,
+     .about = "stiffness and damping along e₁, e₂ over the spin of the shaft about e₃, added to "
+              "the others: rows [speed, k₁₁, k₁₂, k₂₁, k₂₂, c₁₁, c₁₂, c₂₁, c₂₂]"}};
 
 Mat3 bearing_axes(const ForceView& values) {
   const Vec3 z = values.direction("axis").stableNormalized(),
@@ -235,11 +243,8 @@ bool both_diagonal(const Mat6& A, const Mat6& B, Mat6& T, Vec6& k, Vec6& c) {
   return left <= 1e-9 * a;
 }
 
-bool bearing_build(ForceBuild& b) {
-  const Mat3 R = bearing_axes(b);
-  b.force.a = b.marker("from", true, R);
-  b.force.b = b.marker("to", true, R);
-  const Mat6 K = whole(b.matrix("stiffness")), C = whole(b.matrix("damping"));
+/// T, k, c for the tangent of the step.
+void add_tangent(const Mat6& K, const Mat6& C, std::vector<double>& x) {
   const Mat6 K_s = 0.5 * (K + K.transpose()), C_s = 0.5 * (C + C.transpose());
   Mat6 T;
   Vec6 k, c;
@@ -249,15 +254,40 @@ bool bearing_build(ForceBuild& b) {
     k = own.values;
     c = (T.transpose() * C_s * T).diagonal().cwiseMax(0.0);
   }
-  const Vec3 d0 = R.transpose() * (b.place("to").point - b.place("from").point);
-  std::vector<double>& x = b.force.numbers;
+  x.insert(x.end(), T.data(), T.data() + 36);
+  x.insert(x.end(), k.data(), k.data() + 6);
+  x.insert(x.end(), c.data(), c.data() + 6);
+}
+
+/// Force::numbers of a bearing.
+std::vector<double> bearing_values(const Mat6& K, const Mat6& C, const Vec3& d0,
+                                   const MatX& table) {
+  std::vector<double> x;
   x.reserve(bearing_numbers);
   x.insert(x.end(), K.data(), K.data() + 36);
   x.insert(x.end(), C.data(), C.data() + 36);
   x.insert(x.end(), d0.data(), d0.data() + 3);
-  x.insert(x.end(), T.data(), T.data() + 36);
-  x.insert(x.end(), k.data(), k.data() + 6);
-  x.insert(x.end(), c.data(), c.data() + 6);
+  add_tangent(K, C, x);
+  if (table.rows() > 0) x.push_back(static_cast<double>(table.rows()));
+  for (Eigen::Index i = 0; i < table.rows(); ++i) {
+    Mat6 K_i = K, C_i = C;
+    for (int k = 0; k < 9; ++k) x.push_back(table(i, k));
+    for (int k = 0; k < 4; ++k) {
+      K_i(k / 2, k % 2) += table(i, 1 + k);
+      C_i(k / 2, k % 2) += table(i, 5 + k);
+    }
+    add_tangent(K_i, C_i, x);
+  }
+  return x;
+}
+
+bool bearing_build(ForceBuild& b) {
+  const Mat3 R = bearing_axes(b);
+  b.force.a = b.marker("from", true, R);
+  b.force.b = b.marker("to", true, R);
+  const Vec3 d0 = R.transpose() * (b.place("to").point - b.place("from").point);
+  b.force.numbers = bearing_values(whole(b.matrix("stiffness")), whole(b.matrix("damping")), d0,
+                                   b.matrix("speed_table"));
   return b.force.a >= 0 && b.force.b >= 0;
 }
 
@@ -272,6 +302,9 @@ void bearing_mirror(ForceDescription& force, const Placement& x) {
         if ((i + j) % 2 == 1) M(i, j) = -M(i, j);
     set_force_value(force, values.key(name), M);
   }
+  if (values.has("speed_table"))
+    set_force_value(force, values.key("speed_table"),
+                    mirrored_bearing_table(values.matrix("speed_table")));
 }
 
 constexpr const char* turning = "the turning of the axes with the housing and of the shaft's axis";
@@ -279,6 +312,7 @@ constexpr ForceRegime bearing_regimes[] = {
     {.name = "symmetric", .rows_leave_out = turning},
     {.name = "cross_coupled", .rows_leave_out = turning, .conservative = false},
     {.name = "plane", .rows_leave_out = turning},
+    {.name = "over_speed", .rows_leave_out = turning, .conservative = false},
 };
 
 ForceExample bearing_example(std::size_t regime, ExampleNumbers& numbers) {
@@ -302,18 +336,15 @@ ForceExample bearing_example(std::size_t regime, ExampleNumbers& numbers) {
     C(0, 4) -= 2.0;
     C(5, 2) += 1.0;
   }
+  MatX table(regime == 3 ? 3 : 0, 9);
+  for (Eigen::Index i = 0; i < table.rows(); ++i) {
+    table(i, 0) = -3.0 + 3.0 * static_cast<double>(i) + numbers(-0.5, 0.5);
+    for (int k = 1; k < 9; ++k) table(i, k) = numbers(-20.0, 20.0);
+  }
   ForceExample x;
   x.force.type = ForceType::bearing;
-  Mat6 T;
-  Vec6 k, c;
-  both_diagonal(0.5 * (K + K.transpose()), 0.5 * (C + C.transpose()), T, k, c);
-  std::vector<double>& all = x.force.numbers;
-  all.insert(all.end(), K.data(), K.data() + 36);
-  all.insert(all.end(), C.data(), C.data() + 36);
-  for (int i = 0; i < 3; ++i) all.push_back(numbers(-0.1, 0.1));
-  all.insert(all.end(), T.data(), T.data() + 36);
-  all.insert(all.end(), k.data(), k.data() + 6);
-  all.insert(all.end(), c.data(), c.data() + 6);
+  const Vec3 d0(numbers(-0.1, 0.1), numbers(-0.1, 0.1), numbers(-0.1, 0.1));
+  x.force.numbers = bearing_values(K, C, d0, table);
   x.a = numbers.marker();
   x.b = numbers.marker();
   x.b.R =

@@ -1,4 +1,4 @@
-#include "support/rotor_models.hpp"
+#include "support/whirl_rotors.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,26 @@
+#pragma once
+// Response to unbalance over the speed of a rotor, as the command `response` writes it: a table,
+// JSON, CSV, a picture.
+#include <string>
+#include <vector>
+
+#include "floatframe/simulation/unbalance_response.hpp"
+
+namespace floatframe {
+
+/// "disc=1e-4@90" or "shaft:middle=1e-4": BODY or BODY:NODE, kg m, degrees. Throws InputError.
+Unbalance unbalance_of(const std::string& text);
+
+/// What of it changes over the speed.
+std::vector<double> amplitudes_of(const UnbalanceCurve& curve);
+std::vector<double> phases_of(const UnbalanceCurve& curve);  ///< without jumps [deg]
+
+std::string unbalance_text(const std::string& model, const UnbalanceOptions& o,
+                           const UnbalanceResponse& r);
+std::string unbalance_json(const std::string& model, const UnbalanceOptions& o,
+                           const UnbalanceResponse& r);
+std::string unbalance_csv(const UnbalanceResponse& r);
+std::string unbalance_svg(const std::string& model, const UnbalanceOptions& o,
+                          const UnbalanceResponse& r);
+
+}  // namespace floatframe

@@ -1,0 +1,31 @@
+#pragma once
+// The lines of a Campbell diagram: the lowest modes at its last speed that swing, followed
+// downwards, and those of its first speed that end before the last one.
+#include "floatframe/simulation/campbell.hpp"
+#include "floatframe/simulation/mode_following.hpp"
+
+namespace floatframe {
+
+/// Where a line ends between the speeds `interval` and `interval + 1`.
+struct LineEnd {
+  std::size_t line = 0, interval = 0;
+  bool upwards = false;  ///< it is known at the first of the two
+  double speed = 0.0;    ///< up to which it was followed
+  std::complex<double> lambda;
+};
+
+struct FollowedLines {
+  std::vector<std::vector<std::size_t>> modes;  ///< of each speed, by line; or no_mode
+  std::vector<LineEnd> ends;
+};
+
+CampbellPoint campbell_point(const TurningMode& mode);
+
+/// Fills `lines` and notes about those that end.
+FollowedLines follow_lines(ModeFollower& follower, int most, CampbellDiagram& d);
+
+/// Critical speeds, crossings and onsets of instability.
+void find_crossings(ModeFollower& follower, const std::vector<double>& orders,
+                    const FollowedLines& f, CampbellDiagram& d);
+
+}  // namespace floatframe

@@ -1,0 +1,169 @@
+#include "floatframe/simulation/mode_following.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floatframe {
+namespace {
+
+constexpr double same_mode = 0.8;
+constexpr int deepest = 9;
+
+/// Modes of equal frequency, which may stand as any combinations of each other: an orthonormal
+/// basis of each such set of more than one, and whose set it is.
+struct EqualModes {
+  std::vector<Eigen::MatrixXcd> bases;
+  std::vector<int> set_of;  ///< -1: the mode is alone
+
+  explicit EqualModes(const TurningModes& modes) : set_of(modes.size(), -1) {
+    for (std::size_t first = 0; first < modes.size();) {
+      std::size_t end = first + 1;
+      const double size = std::abs(modes[first].lambda);
+      while (end < modes.size() && std::abs(modes[end].lambda - modes[first].lambda) < 1e-6 * size)
+        ++end;
+      if (end - first > 1) add(modes, first, end);
+      first = end;
+    }
+  }
+
+  /// |projection of m on the set of mode k|^2.
+  double part(const TurningModes& modes, std::size_t k, const Eigen::VectorXcd& m) const {
+    if (set_of[k] < 0) return std::norm(modes[k].m.dot(m));
+    return (bases[static_cast<std::size_t>(set_of[k])].adjoint() * m).squaredNorm();
+  }
+
+ private:
+  void add(const TurningModes& modes, std::size_t first, std::size_t end) {
+    Eigen::MatrixXcd Q(modes[first].m.size(), 0);
+    for (std::size_t k = first; k < end; ++k) {
+      Eigen::VectorXcd x = modes[k].m;
+      for (int twice = 0; twice < 2; ++twice) x -= (Q * (Q.adjoint() * x)).eval();
+      const double rest = x.norm();
+      set_of[k] = static_cast<int>(bases.size());
+      if (!(rest > 1e-6)) continue;
+      Q.conservativeResize(Eigen::NoChange, Q.cols() + 1);
+      Q.col(Q.cols() - 1) = x / rest;
+    }
+    bases.push_back(std::move(Q));
+  }
+};
+
+struct ModePair {
+  std::size_t next = no_mode;
+  double mac = 0.0, apart = 0.0;
+  /// How much the two are one, at most 1.1.
+  double likeness() const noexcept { return mac - 2.0 * apart; }
+};
+
+double apart(const TurningMode& a, const TurningMode& b) {
+  const double size = std::abs(a.lambda) + std::abs(b.lambda);
+  return size > 0.0 ? std::abs(a.lambda - b.lambda) / size : 0.0;
+}
+
+/// Of the modes of `a` that swing those of `b` that do: the most alike first.
+std::vector<ModePair> paired(const TurningModes& a, const TurningModes& b) {
+  struct Candidate {
+    double like;
+    std::size_t i;
+    ModePair pair;
+  };
+  const EqualModes equal_a(a), equal_b(b);
+  std::vector<Candidate> all;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      if (!(a[i].lambda.imag() > 0.0) || !(b[j].lambda.imag() > 0.0)) continue;
+      const double own = std::norm(a[i].m.dot(b[j].m));
+      ModePair p{j, std::max(equal_b.part(b, j, a[i].m), equal_a.part(a, i, b[j].m)),
+                 apart(a[i], b[j])};
+      all.push_back({p.likeness() + 0.1 * own, i, p});
+    }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Candidate& x, const Candidate& y) { return x.like > y.like; });
+  std::vector<ModePair> pairs(a.size());
+  std::vector<char> taken(b.size(), 0);
+  for (const Candidate& c : all) {
+    if (pairs[c.i].next != no_mode || taken[c.pair.next]) continue;
+    pairs[c.i] = c.pair;
+    taken[c.pair.next] = 1;
+  }
+  return pairs;
+}
+
+bool is_accepted(const ModePair& p, bool last_resort) {
+  if (p.next == no_mode) return false;
+  if (p.mac > same_mode && (last_resort || p.likeness() > 0.4)) return true;
+  // In the middle of two lines that nearly meet either continuation is as good, and neither jumps.
+  return last_resort && p.mac > 0.3 && p.apart < 1e-3;
+}
+
+}  // namespace
+
+const TurningModes& ModeFollower::at(double speed) {
+  const auto found = known_.find(speed);
+  return found != known_.end() ? found->second
+                               : known_.emplace(speed, turning_.modes(speed)).first->second;
+}
+
+std::vector<ModePath> ModeFollower::follow(double from, double to,
+                                           const std::vector<std::size_t>& modes) {
+  std::vector<double> sizes;
+  for (const std::size_t k : modes) sizes.push_back(std::abs(at(from)[k].lambda));
+  std::vector<ModePath> paths = follow(from, to, modes, sizes, 0);
+  // Paths by different speeds between may meet: the nearer one stays.
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (std::size_t j = i + 1; j < paths.size() && paths[i].mode != no_mode; ++j) {
+      if (paths[j].mode != paths[i].mode) continue;
+      const TurningMode& b = at(to)[paths[i].mode];
+      const bool second = apart(at(from)[modes[i]], b) <= apart(at(from)[modes[j]], b);
+      const std::size_t lost = second ? j : i;
+      paths[lost] = {no_mode, from, at(from)[modes[lost]].lambda};
+    }
+  return paths;
+}
+
+std::vector<ModePath> ModeFollower::follow(double from, double to,
+                                           const std::vector<std::size_t>& modes,
+                                           const std::vector<double>& sizes, int depth) {
+  const TurningModes &a = at(from), &b = at(to);
+  const std::vector<ModePair> pairs = paired(a, b);
+  std::vector<ModePath> paths(modes.size());
+  std::vector<std::size_t> open, open_modes;
+  std::vector<double> open_sizes;
+  const double middle = 0.5 * (from + to);
+  const bool last = depth == deepest || (out_of_speeds() && known_.count(middle) == 0);
+  std::size_t still = 0;  // rigid motions at standstill, two for each that begins to swing
+  while (still < b.size() && is_rigid(b, still)) ++still;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const ModePair& p = pairs[modes[k]];
+    const double size = std::abs(a[modes[k]].lambda);
+    if (is_accepted(p, last)) {
+      paths[k] = {p.next, to, b[p.next].lambda};
+    } else if (to == 0.0 && still > 0 && depth >= 3 && size < 0.3 * sizes[k]) {
+      paths[k] = {--still, to, b[still].lambda};  // its frequency falls with the speed
+    } else if (last) {
+      paths[k] = {no_mode, from, a[modes[k]].lambda};
+    } else {
+      open.push_back(k);
+      open_modes.push_back(modes[k]);
+      open_sizes.push_back(sizes[k]);
+    }
+  }
+  if (open.empty()) return paths;
+  if (known_.count(middle) == 0) ++extra_;
+  const std::vector<ModePath> first = follow(from, middle, open_modes, open_sizes, depth + 1);
+  std::vector<std::size_t> alive, alive_modes;
+  std::vector<double> alive_sizes;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    paths[open[k]] = first[k];
+    if (first[k].mode == no_mode) continue;
+    alive.push_back(open[k]);
+    alive_modes.push_back(first[k].mode);
+    alive_sizes.push_back(open_sizes[k]);
+  }
+  if (alive.empty()) return paths;
+  const std::vector<ModePath> second = follow(middle, to, alive_modes, alive_sizes, depth + 1);
+  for (std::size_t k = 0; k < alive.size(); ++k) paths[alive[k]] = second[k];
+  return paths;
+}
+
+}  // namespace floatframe

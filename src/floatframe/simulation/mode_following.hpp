@@ -1,0 +1,52 @@
+#pragma once
+// Modes of a turning system followed from speed to speed. Modes a and b of neighbouring speeds are
+// one by the modal assurance criterion of their motions in the world,
+//   MAC = |m_a^H m_b|^2 / (|m_a|^2 |m_b|^2) > 0.8
+// of modes of equal frequency by that of the space they span. Among several the nearest eigenvalue
+// decides. Where the criterion is not met speeds between are added, down to 1/512 of the interval,
+// a bounded number in all; where that does not help the mode cannot be followed, as where a
+// vibration becomes two motions that do not swing.
+#include <map>
+#include <vector>
+
+#include "floatframe/simulation/turning_model.hpp"
+
+namespace floatframe {
+
+using TurningModes = std::vector<TurningMode>;
+
+inline constexpr std::size_t no_mode = static_cast<std::size_t>(-1);
+
+struct ModePath {
+  std::size_t mode = no_mode;  ///< at the other speed; none: it cannot be followed
+  double end = 0.0;            ///< the last speed to which it was followed [rad/s]
+  std::complex<double> last;   ///< its eigenvalue there
+};
+
+class ModeFollower {
+ public:
+  ModeFollower(TurningModel& turning, int most_extra_speeds)
+      : turning_(turning), most_extra_(most_extra_speeds) {}
+
+  const TurningModes& at(double speed);
+  /// One path for each of the modes at `from`, which swing.
+  std::vector<ModePath> follow(double from, double to, const std::vector<std::size_t>& modes);
+  int extra_speeds() const noexcept { return extra_; }
+  bool out_of_speeds() const noexcept { return extra_ >= most_extra_; }
+
+ private:
+  std::vector<ModePath> follow(double from, double to, const std::vector<std::size_t>& modes,
+                               const std::vector<double>& sizes, int depth);
+
+  TurningModel& turning_;
+  int most_extra_, extra_ = 0;
+  std::map<double, TurningModes> known_;
+};
+
+/// Below this part of the largest |lambda| a mode is a rigid motion.
+inline constexpr double rigid_part = 1e-7;
+inline bool is_rigid(const TurningModes& modes, std::size_t k) {
+  return std::abs(modes[k].lambda) <= rigid_part * std::abs(modes.back().lambda);
+}
+
+}  // namespace floatframe

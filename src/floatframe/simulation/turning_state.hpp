@@ -1,0 +1,41 @@
+#pragma once
+// What a turning model holds, for the sources that it is made of.
+#include "floatframe/math/dense.hpp"
+#include "floatframe/simulation/linear_reduction.hpp"
+#include "floatframe/simulation/small_motions.hpp"
+#include "floatframe/simulation/steady_turning.hpp"
+#include "floatframe/simulation/turning_model.hpp"
+
+namespace floatframe {
+
+struct TurningModel::Impl {
+  Model model;
+  std::unique_ptr<RelativeFormulation> f;
+  Rotor rotor;
+  VecX q;  ///< of the last steady state: where the next begins
+  double torque = 0.0;
+  int degrees = 0, massless = 0;
+  bool weightless = false;  ///< gravity was left out
+  std::vector<std::string> notes;
+
+  SteadyTurning steady(double speed, double angle);
+  MatX motion_map(const SteadyTurning& s, double angle) const;
+  MatX world_map(const SteadyTurning& s, double angle) const;
+
+  /// What a state z is in the world, and its rate along the steady motion: T and Tdot + T A.
+  struct InWorld {
+    MatX T, rate;
+  };
+  InWorld in_world(const SteadyTurning& s);
+  InWorld in_world(const SteadyTurning& s, const LinearSystem& system);
+  bool bent(const SteadyTurning& s) const;
+  InWorld in_world(double speed, double angle, SteadyTurning& s);
+};
+
+/// T^+ B; the columns of T are of unlike size.
+inline MatX least_squares(const MatX& T, const MatX& B) {
+  const VecX unit = T.colwise().norm().cwiseMax(1e-300).cwiseInverse().transpose();
+  return unit.asDiagonal() * qr_solve(T * unit.asDiagonal(), B);
+}
+
+}  // namespace floatframe
