@@ -8,14 +8,6 @@
 
 namespace floatframe {
 
-int with_whole_pair(const VecX& omega, Eigen::Index kept) {
-  const bool more =
-      kept > 0 && kept < omega.size() && equal_frequency(omega[kept - 1], omega[kept]);
-  Eigen::Index begin = kept - 1;
-  while (more && begin > 0 && equal_frequency(omega[begin - 1], omega[kept - 1])) --begin;
-  return static_cast<int>(more && (kept - begin) % 2 == 1 ? kept + 1 : kept);
-}
-
 MatX modal_damping(const MatX& K, const MatX& M, double ratio) {
   MatX D = MatX::Zero(K.rows(), K.cols());
   if (ratio == 0.0 || K.rows() == 0) return D;
@@ -38,6 +30,7 @@ FlexibleBody body_of_modes(ModeSet modes, InertiaInvariants invariants, double d
   body.K = std::move(modes.K);
   body.D = modal_damping(body.K, modal_mass(body.invariants), damping_ratio);
   body.fixed_interface_frequencies = std::move(modes.frequencies);
+  body.equal_left_out = modes.equal_left_out;
   body.mode_names = std::move(modes.names);
   return body;
 }

@@ -261,6 +261,7 @@ FlexibleBody body_of(const FeModel& model, const FeSystem& system, const PointMo
                      const std::vector<MarkerPlace>& markers, const PartOptions& options) {
   ModeSet set{X, modes.lambda.asDiagonal(), basis.frequencies, {}};
   for (Eigen::Index a = 0; a < X.cols(); ++a) set.names.push_back(fmt::format("elastic {}", a + 1));
+  set.equal_left_out = basis.equal_left_out;
   FlexibleBody body = body_of_modes(std::move(set), combined(raw, modes.C), options.damping_ratio);
   for (const InterfacePlace& place : interfaces)
     body.nodes.push_back(interface_node(model, system, place, X));

@@ -52,7 +52,7 @@ CampbellDiagram campbell(const Model& model, const CampbellOptions& o) {
         "the centre of mass of the rotor is {:.3g} m from its axis: unbalance is no part of the "
         "steady state",
         turning.eccentricity()));
-  ModeFollower follower(turning, std::max(64, 2 * static_cast<int>(d.speeds.size())));
+  ModeFollower follower(turning, 64 + 4 * static_cast<int>(d.speeds.size()));
   const TurningModes& first = follower.at(d.speeds.front());
   for (std::size_t k = 0; k < first.size(); ++k)
     if (is_rigid(first, k))

@@ -112,8 +112,9 @@ void keep_outputs(TurningModel& turning, const std::vector<AxisForce>& forces, d
   for (Eigen::Index k = 0; k < a.amplitudes.size(); ++k) {
     const double size = std::max(std::abs(a.amplitudes[k]), std::abs(b.amplitudes[k]));
     rough.push_back(!a.smooth[static_cast<std::size_t>(k)]);
-    turns.push_back(!rough.back() &&
-                    std::abs(a.amplitudes[k] - b.amplitudes[k]) > 1e-2 * size + 1e-9 * largest);
+    const bool other = std::abs(a.amplitudes[k] - b.amplitudes[k]) > 1e-2 * size + 1e-9 * largest,
+               moved = std::abs(a.means[k] - b.means[k]) > 1e-6 * (1.0 + std::abs(a.means[k]));
+    turns.push_back(!rough.back() && (other || moved));
   }
   std::vector<int> smooth = outputs;
   leave_out(model, smooth, rough, "since they are sizes that are zero in the steady state", notes);
