@@ -18,6 +18,8 @@ void bind_linearization(nb::module_& m) {
   value(c, "constraints", &Linearization::constraints, "nc words: \"joint 'guide'\".");
   value(c, "state", &Linearization::state, "Where.");
   value(c, "start", &Linearization::start, "What became of the start values.");
+  value(c, "stiffened", &Linearization::stiffened,
+        "Bodies whose geometric stiffening is counted in without being asked for.");
   m.def("linearize", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
     Unlocked released;
@@ -35,6 +37,8 @@ void bind_system(nb::module_& m) {
   value(c, "degrees", &LinearSystem::degrees, "Of freedom.");
   value(c, "massless", &LinearSystem::massless, "Of these.");
   value(c, "notes", &LinearSystem::notes, "Where it holds less than one might think.");
+  value(c, "stiffened", &LinearSystem::stiffened,
+        "Bodies whose geometric stiffening is counted in without being asked for.");
   m.def("linear_system", [](const Model& model, const Keywords& given) {
     const SimulationOptions options = options_of(given);
     Unlocked released;

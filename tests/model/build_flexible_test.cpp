@@ -25,7 +25,7 @@ class BuildFlexible : public testing::Test {
  protected:
   std::shared_ptr<const FlexibleBody> build(const BodyDescription& body) {
     ErrorList errors;
-    auto out = builder_.build(body, errors);
+    auto out = builder_.build(body, false, errors);
     EXPECT_NO_THROW(errors.throw_if_any());
     return out;
   }

@@ -102,7 +102,33 @@ TEST(BarSecondOrder, EulerLoad) {
   }
 }
 
-/// Linear static response of the frame held at some dofs, and -X^T K_sigma X of its axial forces.
+/// int v'^T w'' - w'^T v'' dx of an element, its symmetric part.
+MatX twist_of(const Mat3& T, double l, const Element& e, const MatX& X) {
+  MatX v(4, X.cols()), w(4, X.cols());
+  for (int k = 0; k < 2; ++k) {
+    const MatX u = T.transpose() * X.middleRows<3>(6 * e.nodes[k]);
+    const MatX r = T.transpose() * X.middleRows<3>(6 * e.nodes[k] + 3);
+    v.row(2 * k) = u.row(1);
+    v.row(2 * k + 1) = r.row(2);
+    w.row(2 * k) = u.row(2);
+    w.row(2 * k + 1) = -r.row(1);
+  }
+  MatX sum = MatX::Zero(X.cols(), X.cols());
+  for (const auto& [s, weight] : {std::pair{0.5 - std::sqrt(0.15), 5.0 / 18.0},
+                                  {0.5, 4.0 / 9.0},
+                                  {0.5 + std::sqrt(0.15), 5.0 / 18.0}}) {
+    const Eigen::RowVector4d d(6 * (s * s - s) / l, 1 - 4 * s + 3 * s * s, 6 * (s - s * s) / l,
+                               3 * s * s - 2 * s);
+    const Eigen::RowVector4d dd(6 * (2 * s - 1) / (l * l), (6 * s - 4) / l,
+                                6 * (1 - 2 * s) / (l * l), (6 * s - 2) / l);
+    const MatX half = (d * v).transpose() * (dd * w) - (d * w).transpose() * (dd * v);
+    sum += 0.5 * weight * l * (half + half.transpose());
+  }
+  return sum;
+}
+
+/// Linear static response of the frame held at some dofs, and -X^T K_sigma X of its axial forces
+/// and torques.
 MatX loaded(const FeModel& model, const MatX& X, const std::vector<int>& held, const VecX& f) {
   MatX K(assemble_stiffness(model));
   VecX load = f;
@@ -120,6 +146,13 @@ MatX loaded(const FeModel& model, const MatX& X, const std::vector<int>& held, c
     const Mat3 T = beam_axes(in);
     const auto end = [&](int k) { return Vec3(u.segment<3>(6 * e.nodes[k])); };
     const double N = in.material.young * in.section.A / l * T.col(0).dot(end(1) - end(0));
+    const auto turn = [&](int k) { return Vec3(u.segment<3>(6 * e.nodes[k] + 3)); };
+    const double torque = in.material.shear() * in.section.J / l * T.col(0).dot(turn(1) - turn(0));
+    out += torque * twist_of(T, l, e, X);
+    const VecX phi =
+        ((X.middleRows<3>(6 * e.nodes[1] + 3) - X.middleRows<3>(6 * e.nodes[0] + 3)).transpose() *
+         T.col(0));
+    out -= N * (in.section.Iy + in.section.Iz) / (in.section.A * l) * phi * phi.transpose();
     Eigen::Matrix4d G;
     G << 36, 3 * l, -36, 3 * l, 3 * l, 4 * l * l, -3 * l, -l * l, -36, -3 * l, 36, -3 * l, 3 * l,
         -l * l, -3 * l, 4 * l * l;
@@ -232,8 +265,8 @@ TEST(BarSecondOrder, PropellerMoment) {
   options.section_inertia = true;
   const FlexibleBody body = reduce(build_bar_frame(frame), options);
   const InertiaInvariants& v = body.invariants;
-  const double C = (v.Sij[0][0] + v.Sij[1][1] + body.second_order->S2i[0][0] +
-                    body.second_order->S2i[1][1])(0, 0);
+  const double C =
+      (v.Sij[0][0] + v.Sij[1][1] + body.turning->S2i[0][0] + body.turning->S2i[1][1])(0, 0);
   const double flat = 0.06 * 0.06, thin = 0.01 * 0.01;
   EXPECT_NEAR(-C / modal_mass(v)(0, 0), (flat - thin) / (flat + thin), 1e-12);
 }

@@ -184,7 +184,7 @@ int MechanismBuilder::add_bars(const Vec3& point, const Vec3* to) {
   for (BarDescription& bar : f.bars) bar.reference = b.X_WT.R * bar.reference;
   b.kind = f;
   ErrorList errors;
-  const std::shared_ptr<const FlexibleBody> trial = FlexibleBuilder().build(b, errors);
+  const std::shared_ptr<const FlexibleBody> trial = FlexibleBuilder().build(b, true, errors);
   double mass = 0.5;
   if (trial) {
     const double ratio = random(60.0, 160.0) / std::max(1e-3, highest_frequency(*trial));

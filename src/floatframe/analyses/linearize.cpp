@@ -44,11 +44,12 @@ std::vector<std::string> linearize_units(const std::vector<Column>& columns) {
 
 std::string linearize_text(const LinearizeResult& r) {
   const StateSpace& s = r.space;
-  std::string text =
-      fmt::format("{}: {}, {}, {} at t = {:g} s\n\n", r.model,
-                  plural(static_cast<long>(s.states.size()), "state"),
-                  plural(static_cast<long>(s.inputs.size()), "input"),
-                  plural(static_cast<long>(s.outputs.size()), "output"), r.linear.time);
+  const std::string& stiffening = r.linear.system.stiffening;
+  std::string text = stiffening.empty() ? "" : stiffening + ".\n\n";
+  text += fmt::format("{}: {}, {}, {} at t = {:g} s\n\n", r.model,
+                      plural(static_cast<long>(s.states.size()), "state"),
+                      plural(static_cast<long>(s.inputs.size()), "input"),
+                      plural(static_cast<long>(s.outputs.size()), "output"), r.linear.time);
   TextTable states({"state", ""}, {1});
   for (std::size_t k = 0; k < s.states.size(); ++k)
     states.add({std::to_string(k + 1), s.states[k]});
@@ -97,6 +98,7 @@ std::string linearize_json(const LinearizeResult& r) {
                         {"D", json_rows(s.D)},
                         {"largest_speed", r.linear.system.speed},
                         {"largest_acceleration", r.linear.system.acceleration},
+                        {"stiffening_counted_in", r.linear.system.stiffened},
                         {"notes", r.linear.system.notes}});
 }
 
@@ -165,7 +167,7 @@ std::string linearize_csv(const LinearizeResult& r) {
 AnalysisReport report_linearize(const Model& given, const LinearizeOptions& options) {
   const auto r = std::make_shared<LinearizeResult>();
   r->model = given.name;
-  r->linear = linear_model(at_operating_point(given, options.at), options.ports);
+  r->linear = linear_model(counted_at_operating_point(given, options.at).model, options.ports);
   r->space = state_space(r->linear);
   return {.text = linearize_text(*r),
           .json = linearize_json(*r),

@@ -131,9 +131,9 @@ std::string vibrations_text(const Model& model, const LinearSystem& system,
                             const std::vector<ShownMotion>& modes, Eigen::Index rigid) {
   TextTable table(vibration_columns, {4, 5, 6});
   for (const std::vector<std::string>& row : vibration_rows(modes)) table.add(row);
-  std::string text =
-      fmt::format("{}: {} of freedom{}\n\n", model.name, plural(system.degrees, "degree"),
-                  system.massless > 0 ? fmt::format(", {} without mass", system.massless) : "");
+  std::string text = system.stiffening.empty() ? "" : system.stiffening + ".\n\n";
+  text += fmt::format("{}: {} of freedom{}\n\n", model.name, plural(system.degrees, "degree"),
+                      system.massless > 0 ? fmt::format(", {} without mass", system.massless) : "");
   text += rigid_text(model, rigid, modes);
   text += table.text();
   text +=
@@ -170,6 +170,7 @@ std::string vibrations_json(const Model& model, const LinearSystem& system,
                         {"rigid_motions", rigid},
                         {"largest_speed", system.speed},
                         {"largest_acceleration", system.acceleration},
+                        {"stiffening_counted_in", system.stiffened},
                         {"notes", system.notes},
                         {"modes", list}});
 }
@@ -235,6 +236,7 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
       fmt::format("The natural vibrations of the model {}.", place_text(at, page.state.time)),
       "Each is drawn at one slow pace and with an amplitude that stays, whatever its frequency and "
       "its damping; what decays or grows without swinging is drawn as if it swung."};
+  if (!system.stiffening.empty()) page.sentences.push_back(system.stiffening + ".");
   if (system.speed > 1e-6)
     page.sentences.push_back(
         "The model moves there: drawn is the motion about that state, which is held still.");
@@ -269,7 +271,7 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
 }
 
 AnalysisReport report_modes(const Model& given, const std::string& at) {
-  const auto model = std::make_shared<const Model>(at_operating_point(given, at));
+  const auto model = std::make_shared<const Model>(counted_at_operating_point(given, at).model);
   const auto system = std::make_shared<const LinearSystem>(linear_system(*model));
   const std::vector<ShownMotion> modes = motions_of(*model, *system);
   const MatX rigid = rigid_motions(*system, modes);

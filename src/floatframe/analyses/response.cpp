@@ -124,7 +124,7 @@ AnalysisReport report_response(const Model& given, const ResponseOptions& o) {
   if (!(o.to > o.from))
     throw InputError(
         fmt::format("--to: found {:g} Hz, expected more than --from, {:g} Hz", o.to, o.from));
-  const Model model = at_operating_point(given, o.at);
+  const Model model = counted_at_operating_point(given, o.at).model;
   const auto r = std::make_shared<ResponseResult>();
   r->model = given.name;
   r->frequencies = frequencies_between(o.from, o.to, o.points);
@@ -143,6 +143,8 @@ AnalysisReport report_response(const Model& given, const ResponseOptions& o) {
   const LinearModel linear = linear_model(model, {o.ports.inputs, o.ports.outputs});
   r->time = linear.time;
   r->notes = linear.system.notes;
+  r->stiffened = linear.system.stiffened;
+  r->stiffening = linear.system.stiffening;
   if (!others || !o.ports.inputs.empty()) add_curves(linear, *r);
   return {.text = response_text(*r),
           .json = response_json(*r),

@@ -111,7 +111,8 @@ std::vector<double> ResponseCurve::phases() const {
 }
 
 std::string response_text(const ResponseResult& r) {
-  std::string text = fmt::format("{} at t = {:g} s\n", r.model, r.time);
+  std::string text = r.stiffening.empty() ? "" : r.stiffening + ".\n\n";
+  text += fmt::format("{} at t = {:g} s\n", r.model, r.time);
   if (!r.curves.empty()) text += "\n" + curves_text(r);
   for (const HarmonicResponse& h : r.harmonics) text += "\n" + harmonic_text(h);
   if (r.road) text += "\n" + road_text(r.loading, *r.road);
@@ -171,6 +172,7 @@ std::string response_json(const ResponseResult& r) {
                    {"rms_m", r.road->road},
                    {"outputs", outputs}};
   }
+  all["stiffening_counted_in"] = r.stiffened;
   all["notes"] = r.notes;
   return json_document(all);
 }

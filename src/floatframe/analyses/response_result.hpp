@@ -36,6 +36,8 @@ struct ResponseResult {
   RoadLoading loading;
   std::optional<RoadResponse> road;
   std::vector<std::string> notes;
+  std::vector<std::string> stiffened;  ///< as in LinearSystem
+  std::string stiffening;
 };
 
 std::string response_text(const ResponseResult& r);

@@ -74,7 +74,8 @@ void AbsoluteFormulation::number_coordinates(InertiaMethod method) {
     rows += b.rows();
     b.y = b.yd = VecX::Zero(b.nm);
     b.inertia = BodyInertia(m, method);
-    if (m.stiffens()) b.K_G = MatX::Zero(b.nm, b.nm);
+    if (b.inertia.second_order()) b.K_G = MatX::Zero(b.nm, b.nm);
+    second_order_ = second_order_ || b.inertia.second_order();
     stiffens_ = stiffens_ || m.stiffens();
     b.M = MatX::Zero(12 + b.nm, 12 + b.nm);
     b.Qv = b.work = VecX::Zero(12 + b.nm);

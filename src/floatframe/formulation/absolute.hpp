@@ -180,7 +180,7 @@ class AbsoluteFormulation {
     BodyInertia inertia;
     MatX M;
     VecX Qv, work;
-    MatX K_G;  ///< of geometric stiffening, only with it
+    MatX K_G;  ///< of displacements of second order, only with them
     int size() const noexcept { return 12 + nm + 3 * points; }
     int rows() const noexcept { return 6 + 3 * points; }
   };
@@ -266,6 +266,7 @@ class AbsoluteFormulation {
   VecX unknowns_;              ///< of (6)
   VecX correction_, across_;   ///< an increment that meets (1) and (2), and what it asks of (3)
   bool stiffens_ = false;      ///< a body has geometric stiffening
+  bool second_order_ = false;  ///< a body has displacements of second order
   int nq_ = 0;
   double time_ = 0.0;
   VecX omega2_, a_;

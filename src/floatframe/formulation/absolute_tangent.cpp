@@ -150,7 +150,8 @@ void AbsoluteFormulation::assemble_body(const TangentWeights& t, int i,
   }
 }
 
-/// K_G of the bodies that stiffen: of their accelerations and of forces and multipliers on them.
+/// K_G of displacements of second order: of accelerations of the bodies, of forces and multipliers
+/// on them.
 void AbsoluteFormulation::assemble_stiffening(const TangentWeights& t, BlockLdlt& matrix) noexcept {
   for (BodyData& b : bodies_) {
     const SecondOrder* second_order = b.inertia.second_order();
@@ -257,7 +258,7 @@ int AbsoluteFormulation::eliminate(const TangentWeights& t, Factors& factors) no
   factors.penalty = t.penalty;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     assemble_body(t, static_cast<int>(i), factors.matrix);
-  if (stiffens_ && t.geometric) assemble_stiffening(t, factors.matrix);
+  if (second_order_ && t.geometric) assemble_stiffening(t, factors.matrix);
   assemble_forces(t, factors.matrix);
   assemble_parts(t, factors.matrix);
   const int failed = factors.matrix.factorize();

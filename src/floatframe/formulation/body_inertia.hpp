@@ -2,9 +2,10 @@
 // The inertia terms of one body inside a formulation: picks the method at load time, owns its
 // scratch. Rigid bodies use preprocessing with zero modes under either method.
 #include <algorithm>
+#include <memory>
 #include <string>
 
-#include "floatframe/body/flexible_body.hpp"
+#include "floatframe/body/second_order_on_masses.hpp"
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/inertia/projection.hpp"
@@ -21,13 +22,13 @@ class BodyInertia {
     const FlexibleBody& body = *of_model.data;
     const std::string& name = of_model.name;
     if (body.modes() == 0) return;
-    if (of_model.stiffens()) {
-      if (method == InertiaMethod::projection && body.projection && body.projection->h.size() == 0)
-        throw InputError("bodies." + name +
-                         ": geometric_stiffening of a part needs inertia: preprocessing");
-      second_order_ = body.second_order.get();
-      if (method == InertiaMethod::preprocessing)
-        stiffening_ = StiffeningData(data_, *second_order_);
+    if (of_model.stiffens() && method == InertiaMethod::projection && body.projection &&
+        body.projection->h.size() == 0)
+      throw InputError("bodies." + name +
+                       ": geometric_stiffening of a part needs inertia: preprocessing");
+    second_order_ = second_order_on_masses(body, of_model.stiffens());
+    if (second_order_ && method == InertiaMethod::preprocessing) {
+      stiffening_ = StiffeningData(data_, *second_order_);
       special_ = true;
     }
     if (method == InertiaMethod::projection) {
@@ -76,8 +77,8 @@ class BodyInertia {
           m[j] += 0.5 * y[a] * second_order_->S2[j](a, b) * y[b];
     return m;
   }
-  /// Of a body that stiffens, else null.
-  const SecondOrder* second_order() const noexcept { return second_order_; }
+  /// Of a body that stiffens or whose nodes turn mass, else null.
+  const SecondOrder* second_order() const noexcept { return second_order_.get(); }
   /// K_kk / M_kk of each mode, `no_inertia` for massless ones [1/s2].
   VecX own_frequencies_squared(const MatX& K) const {
     VecX w = VecX::Zero(data_.modes());
@@ -94,8 +95,8 @@ class BodyInertia {
   PreprocessingWorkspace work_;
   const ProjectionData* projection_ = nullptr;
   ProjectionWorkspace projection_work_;
-  bool special_ = false;  ///< not preprocessing without stiffening
-  const SecondOrder* second_order_ = nullptr;
+  bool special_ = false;  ///< not preprocessing without second order
+  std::shared_ptr<const SecondOrder> second_order_;
   StiffeningData stiffening_;
 };
 

@@ -22,9 +22,10 @@ ClusterTangent::ClusterTangent(const TreeKinematics& tree, const ConstraintSet& 
     t.U = Mat6X::Zero(6, b.nj + b.nm);
     t.Mz_Phi = Mat6X::Zero(6, b.nm_parent);
     t.G_modal = Mat3X::Zero(3, b.nm);
-    const bool stiffens = tree_.model().bodies[i].stiffens();
-    if (stiffens) t.K_G = MatX::Zero(b.nm, b.nm);
-    stiffens_ = stiffens_ || stiffens;
+    const Body& body = tree_.model().bodies[i];
+    const bool second_order = body.stiffens() || (body.modes() > 0 && body.data->turning);
+    if (second_order) t.K_G = MatX::Zero(b.nm, b.nm);
+    second_order_ = second_order_ || second_order;
     bodies_.push_back(std::move(t));
   }
   for (const Cluster& c : clusters_)

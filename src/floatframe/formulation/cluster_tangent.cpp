@@ -77,7 +77,8 @@ void ClusterTangent::gather_geometric(double s) noexcept {
       [&](int marker, const Vec3& force, const Vec3&) { add_geometric(marker, s * force); });
 }
 
-/// K_G of the bodies that stiffen: of their accelerations and of forces and multipliers on them.
+/// K_G of displacements of second order: of accelerations of the bodies, of forces and multipliers
+/// on them.
 void ClusterTangent::add_stiffening(const std::vector<BodyTerms>& terms, double s) noexcept {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const SecondOrder* second_order = terms[i].inertia.second_order();
@@ -356,7 +357,7 @@ int ClusterTangent::factorize(const std::vector<BodyTerms>& terms, const Weights
   clear_geometric();
   if (weights.geometric) gather_geometric(weights.s);
   load_bodies(terms, weights, factors);
-  if (stiffens_ && weights.geometric) add_stiffening(terms, weights.s);
+  if (second_order_ && weights.geometric) add_stiffening(terms, weights.s);
   for (MatX& front : factors.fronts) clear_lower(front);
   assemble_forces(weights, factors);
   assemble_parts(weights, factors);

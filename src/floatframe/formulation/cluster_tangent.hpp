@@ -76,7 +76,7 @@ class ClusterTangent {
     Mat3 G_virial;   ///< V = sum r F^T [N m], times s
     Mat3 G_angular;  ///< V - tr(V) I
     Mat3X G_modal;   ///< sum Jr x F, 3 x nm, times s
-    MatX K_G;        ///< of geometric stiffening, only with it; times s
+    MatX K_G;        ///< of displacements of second order, only with them; times s
   };
   /// Scratch of a cluster.
   struct Front {
@@ -124,7 +124,7 @@ class ClusterTangent {
   Factors factors_[2];
   BodyVectors loads_, increments_;  ///< of `solve`: wrenches inwards, motions outwards
   VecX scratch_;                    ///< rows of an element
-  bool stiffens_ = false;           ///< a body has geometric stiffening
+  bool second_order_ = false;       ///< a body has displacements of second order
 };
 
 }  // namespace floatframe

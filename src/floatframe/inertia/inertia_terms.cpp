@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "floatframe/body/second_order_on_masses.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/inertia/projection.hpp"
@@ -34,12 +35,20 @@ BodyMotion complete(const FlexibleBody& body, BodyMotion motion) {
 
 InertiaTerms zero_terms(int n) { return {MatX::Zero(n, n), VecX::Zero(n)}; }
 
-StiffeningData stiffening_data(const FlexibleBody& body, const PreprocessingData& data) {
-  if (!body.second_order)
+/// What of the second order the masses of the body have; null: nothing.
+std::shared_ptr<const SecondOrder> second_order_in(const FlexibleBody& body,
+                                                   const BodyMotion& motion) {
+  if (motion.geometric_stiffening && !body.second_order)
     throw InputError(
         "found a body without displacements of second order, expected one with SecondOrder for "
         "geometric stiffening");
-  return {data, *body.second_order};
+  auto found = second_order_on_masses(body, motion.geometric_stiffening);
+  if (!found) return found;
+  const int nm = body.modes();
+  for (const MatX& m : found->S2) require_size("an integral S2", m, nm, nm);
+  for (const auto& row : found->S2i)
+    for (const MatX& m : row) require_size("an integral S2i", m, nm, nm);
+  return found;
 }
 
 const ProjectionData& projection_data(const FlexibleBody& body) {
@@ -64,8 +73,8 @@ InertiaTerms relative_preprocessing(const FlexibleBody& body, const BodyMotion& 
   const PreprocessingData data(body.invariants);
   PreprocessingWorkspace work(body.modes());
   InertiaTerms t = zero_terms(6 + body.modes());
-  if (m.geometric_stiffening) {
-    StiffeningData stiffening = stiffening_data(body, data);
+  if (const auto second_order = second_order_in(body, m)) {
+    StiffeningData stiffening(data, *second_order);
     relative_stiffened(data, stiffening, m.r0, m.A, m.omega, m.y.data(), m.ydot.data(), work, t.M,
                        t.Qv);
     return t;
@@ -79,8 +88,8 @@ InertiaTerms absolute_preprocessing(const FlexibleBody& body, const BodyMotion& 
   const PreprocessingData data(body.invariants);
   PreprocessingWorkspace work(body.modes());
   InertiaTerms t = zero_terms(12 + body.modes());
-  if (m.geometric_stiffening) {
-    StiffeningData stiffening = stiffening_data(body, data);
+  if (const auto second_order = second_order_in(body, m)) {
+    StiffeningData stiffening(data, *second_order);
     absolute_stiffened(data, stiffening, m.A, skew(m.omega) * m.A, m.y.data(), m.ydot.data(), work,
                        t.M, t.Qv);
     return t;

@@ -12,11 +12,13 @@ namespace floatframe {
 
 /// Where a body is and how it moves.
 struct BodyMotion {
-  Vec3 r0 = Vec3::Zero();             ///< origin of the body frame, world [m]
-  Mat3 A = Mat3::Identity();          ///< columns: axes of the body in the world
-  Vec3 omega = Vec3::Zero();          ///< angular velocity, world [rad/s]
-  VecX y, ydot;                       ///< modal amplitudes and their rates; empty: zero
-  bool geometric_stiffening = false;  ///< the body must have the data
+  Vec3 r0 = Vec3::Zero();     ///< origin of the body frame, world [m]
+  Mat3 A = Mat3::Identity();  ///< columns: axes of the body in the world
+  Vec3 omega = Vec3::Zero();  ///< angular velocity, world [rad/s]
+  VecX y, ydot;               ///< modal amplitudes and their rates; empty: zero
+  /// Counts `FlexibleBody::second_order` in: the body must have it. `FlexibleBody::turning` always
+  /// is.
+  bool geometric_stiffening = false;
 };
 
 struct InertiaTerms {

@@ -13,7 +13,8 @@
 //                   of theory section 6; sdot is the velocity of the body's material point that
 //                   passes through the origin from which r0 is measured
 //
-// With geometric stiffening (SecondOrder) S and S^i depend on y, here and in all of the above:
+// With displacements of second order (SecondOrder: of what turns, and with geometric stiffening of
+// foreshortening) S and S^i depend on y, here and in all of the above:
 //   S(y) = S + y^T S2,   S^i_(j)(y) = S^i_(j) + y^T S2i_ij
 //   m_bar = m_u + (S + S(y)) y / 2,   P_bar likewise,   so d(m_bar) = S(y) dy
 // and a modal rate has an acceleration of its own, e_j ydot^T h_j ydot, with the forces
@@ -59,7 +60,7 @@ struct PreprocessingData {
   int modes() const noexcept { return static_cast<int>(S.cols()); }
 };
 
-/// What geometric stiffening adds.
+/// What displacements of second order add.
 struct StiffeningData {
   MatX S2;     ///< 3nm x nm: row 3a+j, column b: S2_j(b, a)
   MatX S_ij;   ///< as PreprocessingData::Sij, of S^ij + S2i_ij
@@ -118,7 +119,7 @@ void absolute_preprocessing(const PreprocessingData& data, const Mat3& A, const 
                             const double* y, const double* ydot, PreprocessingWorkspace& work,
                             MatX& M, VecX& Qv) noexcept;
 
-/// The same with geometric stiffening.
+/// The same with displacements of second order.
 void relative_stiffened(const PreprocessingData& data, StiffeningData& stiffening, const Vec3& r0,
                         const Mat3& A, const Vec3& omega, const double* y, const double* ydot,
                         PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept;

@@ -177,6 +177,27 @@ inline Vec3 stiffen(const double* X, const double* h, int nm, const double* y, c
   return own;
 }
 
+/// Column a of `moved` and p of a point that turns, from what they are; its own acceleration.
+inline Vec3 turn(const ProjectionData& data, const ProjectionData::TurningPoint& point, int nm,
+                 const double* y, const double* ydot, double* moved, Vec3& p) noexcept {
+  const Eigen::Index row = 3 * static_cast<Eigen::Index>(point.rotation);
+  const Vec3& arm = point.arm;
+  Vec3 theta = Vec3::Zero(), rate = Vec3::Zero();
+  for (int a = 0; a < nm; ++a) {
+    const Vec3 column = data.rotations.col(a).segment<3>(row);
+    theta += y[a] * column;
+    rate += ydot[a] * column;
+  }
+  const Vec3 turned = theta.cross(arm);
+  for (int a = 0; a < nm; ++a) {
+    const Vec3 column = data.rotations.col(a).segment<3>(row);
+    const Vec3 more = 0.5 * (column.cross(turned) + theta.cross(column.cross(arm)));
+    for (int i = 0; i < 3; ++i) moved[3 * a + i] += more(i);
+  }
+  p += 0.5 * theta.cross(turned);
+  return rate.cross(rate.cross(arm));
+}
+
 /// upper += B^T M B, node by node.
 inline void add_products(const ProjectionData& data, int nq, int stride, ProjectionWorkspace& work,
                          double* upper) noexcept {
@@ -219,6 +240,9 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
   const bool six = data.six_dof();
   const int rows = six ? 6 : 3;
   const bool stiffened = !work.h.empty();
+  const bool bent = !work.moved.empty();
+  const ProjectionData::TurningPoint* turning = data.turning.data();
+  const ProjectionData::TurningPoint* const end = turning + data.turning.size();
 
   for (int k = 0; k < n; ++k) {
     const double* X = work.X.data() + static_cast<std::ptrdiff_t>(k) * rows * nm;
@@ -226,15 +250,19 @@ void project(const ProjectionData& data, const Coordinates& coordinates, const d
     Vec3 p = data.p.col(k);
     Vec3 pdot = Vec3::Zero(), own = Vec3::Zero();
     for (int a = 0; a < nm; ++a) p += y[a] * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]);  // (5)
-    if (stiffened) {
-      own = stiffen(X, work.h.data() + static_cast<std::ptrdiff_t>(k) * 3 * nm * nm, nm, y, ydot,
-                    work.moved.data(), p);
-      if (six) std::copy_n(X + 3 * nm, 3 * nm, work.moved.data() + 3 * nm);
-      X = work.moved.data();
+    if (bent) {
+      double* moved = work.moved.data();
+      std::copy_n(X, rows * nm, moved);
+      if (stiffened)
+        own = stiffen(X, work.h.data() + static_cast<std::ptrdiff_t>(k) * 3 * nm * nm, nm, y, ydot,
+                      moved, p);
+      for (; turning != end && turning->point == k; ++turning)
+        own += turn(data, *turning, nm, y, ydot, moved, p);
+      X = moved;
     }
     for (int a = 0; a < nm; ++a) pdot += ydot[a] * Vec3(X[3 * a], X[3 * a + 1], X[3 * a + 2]);
     rows_of_node(coordinates, six, X, nm, p, pdot, ydot, stride, B);
-    if (!stiffened) continue;
+    if (!bent) continue;
     const Vec3 bias =
         six ? Vec3(coordinates.A.transpose() * (coordinates.A * own)) : Vec3(coordinates.A * own);
     for (int i = 0; i < 3; ++i) B[i * stride + nq] += bias(i);
@@ -275,8 +303,9 @@ ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data, bool stiffe
       }
     }
   }
+  if (data.twist) twist.emplace(*data.twist);
+  if (stiffening || !data.turning.empty()) moved.resize(rows * nm);
   if (!stiffening) return;
-  moved.resize(rows * nm);
   h.reserve(n * 3 * nm * nm);
   for (Eigen::Index k = 0; k < data.nodes(); ++k)
     for (int a = 0; a < modes; ++a)
@@ -284,16 +313,38 @@ ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data, bool stiffe
         for (int j = 0; j < 3; ++j) h.push_back(data.h(modes * (3 * k + j) + a, b));
 }
 
+ProjectionWorkspace::Twist::Twist(const SecondOrder& of_beams) {
+  const int nm = static_cast<int>(of_beams.S2[0].rows());
+  none = PreprocessingData(InertiaInvariants::zero(nm));
+  second_order = StiffeningData(none, of_beams);
+  work = PreprocessingWorkspace(nm);
+  M_relative = MatX::Zero(6 + nm, 6 + nm);
+  M_absolute = MatX::Zero(12 + nm, 12 + nm);
+  Qv_relative = VecX::Zero(6 + nm);
+  Qv_absolute = VecX::Zero(12 + nm);
+}
+
 void relative_projection(const ProjectionData& data, const Vec3& r0, const Mat3& A,
                          const Vec3& omega, const double* y, const double* ydot,
                          ProjectionWorkspace& work, MatX& M, VecX& Qv) noexcept {
   project(data, RelativeCoordinates(r0, A, omega), y, ydot, work, M, Qv);
+  if (!work.twist) return;
+  ProjectionWorkspace::Twist& t = *work.twist;
+  relative_stiffened(t.none, t.second_order, r0, A, omega, y, ydot, t.work, t.M_relative,
+                     t.Qv_relative);
+  M += t.M_relative;
+  Qv += t.Qv_relative;
 }
 
 void absolute_projection(const ProjectionData& data, const Mat3& A, const Mat3& Adot,
                          const double* y, const double* ydot, ProjectionWorkspace& work, MatX& M,
                          VecX& Qv) noexcept {
   project(data, AbsoluteCoordinates(A, Adot), y, ydot, work, M, Qv);
+  if (!work.twist) return;
+  ProjectionWorkspace::Twist& t = *work.twist;
+  absolute_stiffened(t.none, t.second_order, A, Adot, y, ydot, t.work, t.M_absolute, t.Qv_absolute);
+  M += t.M_absolute;
+  Qv += t.Qv_absolute;
 }
 
 }  // namespace floatframe

@@ -17,13 +17,20 @@
 // X + e_j y^T h_j takes the place of X, and A e_j ydot^T h_j ydot adds to Bdot qdot. Nothing is
 // left out: M is that of these displacements, its modal block included.
 //
+// A point on an arm that turns (ProjectionData::turning) has always 1/2 theta x (theta x arm) more,
+// theta = Theta y: column a of X gets 1/2 (theta_a x (theta x arm) + theta x (theta_a x arm)), and
+// Bdot qdot A thetadot x (thetadot x arm). ProjectionData::twist adds by its integrals, the terms
+// of S2 and S2i in preprocessing.hpp.
+//
 // (r1, r2, r3) is the deformed position of the node in body axes. The relative terms use the
 // material-point acceleration of s, as preprocessing.hpp. With nm = 0 the body is rigid. Cost is
 // linear in the number of nodes n: about 3 n nq^2 multiplications, nq = 6 + nm or 12 + nm. Step
 // time: no heap, noexcept.
+#include <optional>
 #include <vector>
 
 #include "floatframe/body/flexible_body.hpp"
+#include "floatframe/inertia/preprocessing.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -36,7 +43,17 @@ struct ProjectionWorkspace {
   std::vector<double> upper;  ///< nq rows of B^T M* [B, Bdot qdot]
   std::vector<double> X;      ///< per node 3 x nm column major (six_dof: then 3 x nm of rotations)
   std::vector<double> h;      ///< per node, mode and mode 3 numbers; empty: no stiffening
-  std::vector<double> moved;  ///< X of a node with its h
+  std::vector<double> moved;  ///< X of a node with its second order
+  /// The terms of ProjectionData::twist.
+  struct Twist {
+    PreprocessingData none;  ///< all integrals zero
+    StiffeningData second_order;
+    PreprocessingWorkspace work;
+    MatX M_relative, M_absolute;
+    VecX Qv_relative, Qv_absolute;
+    explicit Twist(const SecondOrder& of_beams);
+  };
+  std::optional<Twist> twist;
 
   ProjectionWorkspace() = default;
   /// Big enough for both coordinate sets. `stiffening`: with the h of the data.

@@ -71,7 +71,9 @@ void ModelBuilder::bodies() {
       body.data = std::make_shared<const FlexibleBody>(
           b.mirror == Mat3::Identity() ? *given : mirrored(*given, b.mirror));
     } else {
-      body.data = flexible.build(b, errors);
+      const bool stiffens =
+          b.geometric_stiffening.value_or(d.simulation.geometric_stiffening.value_or(false));
+      body.data = flexible.build(b, stiffens, errors);
     }
     if (!body.data) body.data = std::make_shared<const FlexibleBody>();
     if (b.rigid) body.data = std::make_shared<const FlexibleBody>(with_modes(*body.data, {}));

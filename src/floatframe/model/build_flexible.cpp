@@ -144,19 +144,20 @@ BarFrame frame_of(const FrameDescription& f, const Pose& X_TW) {
 }  // namespace
 
 std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription& body,
-                                                           ErrorList& errors) {
+                                                           bool stiffens, ErrorList& errors) {
   const auto& f = std::get<FlexibleDescription>(body.kind);
   const BarFrame frame = frame_of(f, body.X_WT.inverse());
   const ReductionOptions& options = f;
   Key key;
-  key.all(frame, options);
+  key.all(frame, options, stiffens);
   std::shared_ptr<const FlexibleBody> plain;
   for (const Known& k : known_)
     if (k.key == key.text()) plain = k.body;
   if (!plain) {
     try {
       const FeModel model = build_bar_frame(frame);
-      FlexibleBody reduced = reduce(model, options);
+      FlexibleBody reduced =
+          reduce(model, options, stiffens ? SecondOrderOf::all_nodes : SecondOrderOf::named_nodes);
       reduced.shape = std::make_shared<const BodyShape>(bar_shape(f, model));
       plain = std::make_shared<const FlexibleBody>(std::move(reduced));
     } catch (const InputError& error) {

@@ -12,7 +12,9 @@ namespace floatframe {
 class FlexibleBuilder {
  public:
   /// Adds errors (with the entity's marks) and returns null if the body cannot be built.
-  std::shared_ptr<const FlexibleBody> build(const BodyDescription& body, ErrorList& errors);
+  /// `stiffens`: with geometric stiffening.
+  std::shared_ptr<const FlexibleBody> build(const BodyDescription& body, bool stiffens,
+                                            ErrorList& errors);
 
  private:
   struct Known {

@@ -3,180 +3,152 @@
 #include <algorithm>
 #include <set>
 
-#include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fe/element_kernel.hpp"
 #include "floatframe/fe/quadrature.hpp"
-#include "floatframe/math/dense.hpp"
-#include "floatframe/math/rigid_motion.hpp"
-#include "floatframe/reduction/fixed_interface.hpp"
+#include "floatframe/math/so3.hpp"
+#include "floatframe/reduction/following_frame.hpp"
 
 namespace floatframe {
 namespace {
 
 /// Above this only nodes with a name are kept.
 constexpr int many_nodes = 2000;
+/// Numbers of all nodes that are kept without being asked for.
+constexpr Eigen::Index few_numbers = 1 << 19;
+/// Numbers of one group of pairs of modes.
+constexpr Eigen::Index group_numbers = 1 << 23;
 
-/// Slopes and twist of a beam in its own axes.
-struct BentBeam {
-  double L = 0.0;
-  Mat3 T;
-  Eigen::Matrix<double, 12, Eigen::Dynamic> q;  ///< displacements of the ends, local axes
+/// Second moments of the mass of a section per length, body axes.
+Mat3 section_moments(const ElementInput& in, const Mat3& T) {
+  const Vec3 own = in.material.density * Vec3(0.0, in.section.Iz, in.section.Iy);
+  return T * own.asDiagonal() * T.transpose();
+}
 
-  BentBeam(const ElementInput& in, const Element& e, const MatX& X)
-      : L((in.p[1] - in.p[0]).norm()), T(beam_axes(in)), q(12, X.cols()) {
-    for (int a = 0; a < 4; ++a)
-      q.middleRows<3>(3 * a) = T.transpose() * X.middleRows<3>(6 * e.nodes[a / 2] + 3 * (a % 2));
+Mat3 moments_of(const PointMass& p) { return 0.5 * p.J.trace() * Mat3::Identity() - p.J; }  // (21)
+
+bool sections_turn(const ReductionOptions& options) {
+  return options.mass_model == MassModel::hermite && options.section_inertia;
+}
+
+/// What turns with nodes: sections and point masses; null: nothing.
+std::shared_ptr<SecondOrder> turning_of(const FeModel& model, const MatX& X,
+                                        const ReductionOptions& options) {
+  const bool masses = options.mass_model == MassModel::hermite &&
+                      std::any_of(model.masses.begin(), model.masses.end(),
+                                  [](const PointMass& p) { return !p.J.isZero(0.0); });
+  if (!sections_turn(options) && !masses) return nullptr;
+  auto out = std::make_shared<SecondOrder>(SecondOrder::zero(static_cast<int>(X.cols())));
+  if (masses)
+    for (const PointMass& p : model.masses)
+      add_turning(moments_of(p), X.middleRows<3>(6 * p.node + 3), *out);
+  if (!sections_turn(options)) return out;
+  static const LineRule rule = gauss_jacobi(5, 0);
+  for (const Element& e : model.elements) {
+    const ElementInput in = gather(model, e);
+    const BentBeam beam(in, e, X);
+    const Mat3 P = section_moments(in, beam.T);
+    for (int g = 0; g < 5; ++g)
+      add_turning(P * (rule.weight(g) * beam.L), beam.T * beam.rotation(rule.u(g)), *out);
   }
-
-  /// Rows rx, -w', v' at s = x/L.
-  Mat3X rotation(double s) const {
-    const double s2 = s * s;
-    const double d[4] = {(-6 * s + 6 * s2) / L, 1 - 4 * s + 3 * s2, (6 * s - 6 * s2) / L,
-                         3 * s2 - 2 * s};
-    Mat3X r(3, q.cols());
-    r.row(0) = (1 - s) * q.row(3) + s * q.row(9);
-    r.row(1) = -d[0] * q.row(2) + d[1] * q.row(4) - d[2] * q.row(8) + d[3] * q.row(10);
-    r.row(2) = d[0] * q.row(1) + d[1] * q.row(5) + d[2] * q.row(7) + d[3] * q.row(11);
-    return r;
-  }
-
-  /// X_e^T G_e X_e, from the slope of the chord and those of the ends.
-  MatX gamma() const {
-    MatX sum = MatX::Zero(q.cols(), q.cols());
-    for (const auto& [u, r, sign] : {std::tuple{1, 5, 1.0}, {2, 4, -1.0}}) {
-      const VecX s = (q.row(u + 6) - q.row(u)).transpose() / L;
-      const VecX a = sign * q.row(r).transpose(), b = sign * q.row(r + 6).transpose();
-      const VecX t = a + b;
-      MatX half = 18.0 * s * s.transpose() - 3.0 * s * t.transpose();
-      half += 2.0 * (a * a.transpose() + b * b.transpose()) - a * b.transpose();
-      sum += L / 30.0 * (half + half.transpose());
-    }
-    return sum;
-  }
-};
-
-Eigen::Index pairs(Eigen::Index nm) { return nm * (nm + 1) / 2; }
-
-/// Lower half of a symmetric matrix as a row.
-VecX packed(const MatX& m) {
-  VecX out(pairs(m.rows()));
-  Eigen::Index k = 0;
-  for (Eigen::Index i = 0; i < m.rows(); ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) out(k++) = m(i, j);
   return out;
 }
-
-template <class Row>
-void unpack(const Row& row, Eigen::Ref<MatX> m) {
-  Eigen::Index k = 0;
-  for (Eigen::Index i = 0; i < m.rows(); ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) m(i, j) = m(j, i) = row(k++);
-}
-
-/// Displacements of second order of one pair of modes in each column, six rows per node.
-class FollowingFrame {
- public:
-  FollowingFrame(const FeModel& model, const MatX& X)
-      : model_(model), gamma_(model.elements.size()) {
-    for (std::size_t e = 0; e < model.elements.size(); ++e) {
-      const Element& element = model.elements[e];
-      gamma_[e] = packed(BentBeam(gather(model, element), element, X).gamma());
-    }
-    columns_ = pairs(X.cols());
-  }
-
-  /// Free of strain, the first node at rest; nothing if the frame has loops or pieces.
-  std::optional<MatX> tree() const {
-    std::vector<std::vector<std::pair<int, bool>>> at(model_.positions.size());
-    for (std::size_t e = 0; e < model_.elements.size(); ++e) {
-      at[model_.elements[e].nodes[0]].emplace_back(static_cast<int>(e), true);
-      at[model_.elements[e].nodes[1]].emplace_back(static_cast<int>(e), false);
-    }
-    if (model_.elements.size() + 1 != at.size()) return std::nullopt;
-    MatX h = MatX::Zero(6 * model_.nodes(), columns_);
-    std::vector<char> seen(at.size(), 0);
-    std::vector<int> next = {0};
-    seen[0] = 1;
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      for (const auto& [e, outward] : at[next[i]]) {
-        const Element& element = model_.elements[e];
-        const int other = element.nodes[outward ? 1 : 0];
-        if (seen[other] != 0) continue;
-        seen[other] = 1;
-        next.push_back(other);
-        const Vec3 x = beam_axes(gather(model_, element)).col(0) * (outward ? -1.0 : 1.0);
-        h.middleRows<3>(6 * other) = h.middleRows<3>(6 * next[i]) + x * gamma_[e].transpose();
-      }
-    }
-    if (next.size() != at.size()) return std::nullopt;
-    return h;
-  }
-
-  /// Moves the strain-free frame as a rigid body so that six dofs are at rest.
-  void hold(const std::vector<int>& held, MatX& h) const {
-    Mat6 A;
-    for (Eigen::Index i = 0; i < 6; ++i) {
-      const int dof = held[i];
-      A.row(i) = rigid_motion_at(model_.positions[dof / 6]).row(dof % 6);
-    }
-    const MatX q = lu_solve(A, MatX(-h(held, Eigen::all)));
-    for (int k = 0; k < model_.nodes(); ++k)
-      h.middleRows<6>(6 * k) += rigid_motion_at(model_.positions[k]) * q;
-  }
-
-  /// Nothing if the direct factors have no digits.
-  std::optional<MatX> with_strain(const std::vector<int>& held) const {
-    MatX f = MatX::Zero(6 * model_.nodes(), columns_);
-    for (std::size_t e = 0; e < model_.elements.size(); ++e) {
-      const Element& element = model_.elements[e];
-      const ElementInput in = gather(model_, element);
-      const double L = (in.p[1] - in.p[0]).norm();
-      const Vec3 force = in.material.young * in.section.A / L * beam_axes(in).col(0);
-      f.middleRows<3>(6 * element.nodes[0]) += force * gamma_[e].transpose();
-      f.middleRows<3>(6 * element.nodes[1]) -= force * gamma_[e].transpose();
-    }
-    const SparseMatrix K = assemble_stiffness(model_);
-    const SparseMatrix no_mass(K.rows(), K.cols());
-    try {
-      const FixedInterface fixed(K, no_mass, {}, held, [](int) { return std::string(); });
-      return fixed.inner_response(f);
-    } catch (const InputError&) {
-      return std::nullopt;  // very many elements: the modes went another way (bar_chains.hpp)
-    }
-  }
-
- private:
-  const FeModel& model_;
-  std::vector<VecX> gamma_;
-  Eigen::Index columns_ = 0;
-};
 
 /// What the foreshortening inside of the elements adds to what is linear between the nodes:
 ///   h(x) = linear - e_1 (int_0^x f dx - x/L gamma),  f = v'^T v' + w'^T w'
 ///   int h dm = linear - e_1 rho A int (L/2 - x) f dx
 ///   int x h dm = linear - e_1 rho A int (L^2/6 - x^2/2) f dx
-/// and the second order of the rotation of sections.
-void add_inside(const ElementInput& in, const BentBeam& beam, bool section_inertia,
-                SecondOrder& out) {
+void add_shortening_inside(const ElementInput& in, const BentBeam& beam, SecondOrder& out) {
   static const LineRule rule = gauss_jacobi(5, 0);
   const Eigen::Index nm = beam.q.cols();
   MatX D0 = MatX::Zero(nm, nm), D1 = D0;
-  const double rho = in.material.density;
-  const Mat3 P =
-      rho * beam.T * Vec3(0.0, in.section.Iz, in.section.Iy).asDiagonal() * beam.T.transpose();
   for (int g = 0; g < 5; ++g) {
     const double x = rule.u(g) * beam.L, dx = rule.weight(g) * beam.L;
     const Mat3X r = beam.rotation(rule.u(g));
-    const MatX f = dx * rho * in.section.A * r.bottomRows<2>().transpose() * r.bottomRows<2>();
+    const MatX f =
+        dx * in.material.density * in.section.A * r.bottomRows<2>().transpose() * r.bottomRows<2>();
     D0 -= (0.5 * beam.L - x) * f;
     D1 -= (beam.L * beam.L / 6.0 - 0.5 * x * x) * f;
-    if (section_inertia) add_turning(P * dx, beam.T * r, out);
   }
   const Vec3 e = beam.T.col(0);
   for (int j = 0; j < 3; ++j) {
     out.S2[j] += e(j) * D0;
     for (int i = 0; i < 3; ++i) out.S2i[i][j] += e(j) * (in.p[0](i) * D0 + e(i) * D1);
   }
+}
+
+/// And the twist: int (int_0^x g dx - x/L tau) dx = int (L/2 - x) g dx, g = v'^T w'' - w'^T v'',
+/// which turns the sections about the axis.
+void add_twist_inside(const ElementInput& in, const BentBeam& beam, SecondOrder& out) {
+  static const LineRule rule = gauss_jacobi(5, 0);
+  const Eigen::Index nm = beam.q.cols();
+  MatX D = MatX::Zero(nm, nm);
+  for (int g = 0; g < 5; ++g) {
+    const double x = rule.u(g) * beam.L, dx = rule.weight(g) * beam.L;
+    const Mat3X r = beam.rotation(rule.u(g));
+    const auto k = beam.curvature(rule.u(g));
+    // -w' and v' against -w'' and v''.
+    const MatX half = 0.5 * (r.row(1).transpose() * k.row(1) - r.row(2).transpose() * k.row(0));
+    D += (0.5 * beam.L - x) * dx * (half + half.transpose());
+  }
+  const Mat3 turned = skew(Vec3(beam.T.col(0))) * section_moments(in, beam.T);
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) out.S2i[i][j] += turned(j, i) * D;
+}
+
+/// Nodal forces and moments of the loads rho e_j (rows j) and rho r_i e_j (rows 3 + 3 i + j), with
+/// displacements that are linear between the nodes; moments of what turns with them.
+MatX load_rows(const FeModel& model, const ReductionOptions& options) {
+  MatX rows = MatX::Zero(12, 6 * model.nodes());
+  const SparseRows M = assemble_scalar_mass(model);
+  for (int k = 0; k < model.nodes(); ++k)
+    for (SparseRows::InnerIterator it(M, k); it; ++it) {
+      const Vec3 moment = it.value() * model.positions[it.col()];
+      for (int j = 0; j < 3; ++j) {
+        rows(j, 6 * k + j) += it.value();
+        for (int i = 0; i < 3; ++i) rows(3 + 3 * i + j, 6 * k + j) += moment(i);
+      }
+    }
+  if (options.mass_model != MassModel::hermite) return rows;
+  const auto turn = [&](int node, const Mat3& P) {
+    for (int i = 0; i < 3; ++i) rows.block<3, 3>(3 + 3 * i, 6 * node + 3) -= skew(Vec3(P.col(i)));
+  };
+  for (const PointMass& p : model.masses) turn(p.node, moments_of(p));
+  if (!options.section_inertia) return rows;
+  for (const Element& e : model.elements) {
+    const ElementInput in = gather(model, e);
+    const Mat3 P = 0.5 * (in.p[1] - in.p[0]).norm() * section_moments(in, beam_axes(in));
+    for (int k = 0; k < 2; ++k) turn(e.nodes[k], P);
+  }
+  return rows;
+}
+
+/// integrals: a row for each load, a column for each pair.
+void add_pairs(const MatX& integrals, const std::vector<ModePair>& pairs, SecondOrder& out) {
+  const auto add = [&](Eigen::Index row, MatX& m) {
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      const auto [a, b] = pairs[p];
+      m(a, b) += integrals(row, static_cast<Eigen::Index>(p));
+      if (a != b) m(b, a) += integrals(row, static_cast<Eigen::Index>(p));
+    }
+  };
+  for (int j = 0; j < 3; ++j) {
+    add(j, out.S2[j]);
+    for (int i = 0; i < 3; ++i) add(3 + 3 * i + j, out.S2i[i][j]);
+  }
+}
+
+std::vector<SecondOrderNode> kept_nodes(const FeModel& model, Eigen::Index nm, bool all_nodes) {
+  const bool all =
+      model.nodes() <= many_nodes && (all_nodes || 6 * nm * nm * model.nodes() <= few_numbers);
+  std::vector<SecondOrderNode> nodes;
+  for (int k = 0; k < model.nodes(); ++k) {
+    if (!all && (model.node_names.empty() || model.node_names[k].empty())) continue;
+    SecondOrderNode& node = nodes.emplace_back();
+    node.node = k;
+    node.h.fill(MatX::Zero(nm, nm));
+    node.theta.fill(MatX::Zero(nm, nm));
+  }
+  return nodes;
 }
 
 }  // namespace
@@ -201,72 +173,61 @@ std::vector<int> held_dofs(const FeModel& model, const MatX& X, const ReductionO
   return {held.begin(), held.end()};
 }
 
-std::optional<BarSecondOrder> bar_second_order(const FeModel& model, const MatX& X,
-                                               const ReductionOptions& options) {
-  const Eigen::Index nm = X.cols();
-  if (nm == 0 || model.elements.empty() || X.rows() != 6 * model.nodes()) return std::nullopt;
-  for (const Element& e : model.elements)
-    if (e.type != ElementType::beam2) return std::nullopt;
-  const std::vector<int> held = held_dofs(model, X, options);
-  if (held.size() < 6) return std::nullopt;
-  const FollowingFrame frame(model, X);
-  std::optional<MatX> u = held.size() == 6 ? frame.tree() : std::nullopt;
-  if (u) {
-    frame.hold(held, *u);
-  } else {
-    u = frame.with_strain(held);
-  }
-  if (!u) return std::nullopt;
+BarSecondOrder bar_second_order(const FeModel& model, const MatX& X,
+                                const ReductionOptions& options, bool all_nodes) {
   BarSecondOrder out;
-  out.h.resize(3 * nm * model.nodes(), nm);
-  out.theta.resize(out.h.rows(), nm);
-  for (int k = 0; k < model.nodes(); ++k)
-    for (int j = 0; j < 3; ++j) {
-      unpack(u->row(6 * k + j), out.h.middleRows(nm * (3 * k + j), nm));
-      unpack(u->row(6 * k + 3 + j), out.theta.middleRows(nm * (3 * k + j), nm));
-    }
-  return out;
-}
-
-std::shared_ptr<const SecondOrder> second_order_of(const FeModel& model, const MatX& X,
-                                                   const BarSecondOrder& field,
-                                                   const ReductionOptions& options) {
   const Eigen::Index nm = X.cols();
-  auto out = std::make_shared<SecondOrder>(SecondOrder::zero(static_cast<int>(nm)));
-  const SparseRows M = assemble_scalar_mass(model);
-  // int dm and int r_ui dm at each node.
-  MatX weights = MatX::Zero(model.nodes(), 4);
-  for (int k = 0; k < model.nodes(); ++k)
-    for (SparseRows::InnerIterator it(M, k); it; ++it) {
-      weights(k, 3) += it.value();
-      weights.row(k).head<3>() += it.value() * model.positions[it.col()].transpose();
+  if (nm == 0 || model.elements.empty() || X.rows() != 6 * model.nodes()) return out;
+  for (const Element& e : model.elements)
+    if (e.type != ElementType::beam2) return out;
+  const std::shared_ptr<SecondOrder> turning = turning_of(model, X, options);
+  out.turning = turning;
+  const std::vector<int> held = held_dofs(model, X, options);
+  if (held.size() < 6) return out;
+  const FollowingFrame frame(model, X, held);
+  if (!frame.known()) return out;
+
+  auto second_order = std::make_shared<SecondOrder>(SecondOrder::zero(static_cast<int>(nm)));
+  second_order->nodes = kept_nodes(model, nm, all_nodes);
+  if (all_nodes && options.mass_model != MassModel::hermite)
+    out.h.resize(3 * nm * model.nodes(), nm);
+  const MatX loads = load_rows(model, options);
+  const std::vector<ModePair> pairs = mode_pairs(nm);
+  const auto group = static_cast<std::size_t>(
+      std::max<Eigen::Index>(1, group_numbers / (6 * Eigen::Index{model.nodes()})));
+  MatX shortened(12, static_cast<Eigen::Index>(pairs.size())), twisted = shortened;
+  for (std::size_t first = 0; first < pairs.size(); first += group) {
+    const std::size_t count = std::min(group, pairs.size() - first);
+    const auto at = static_cast<Eigen::Index>(first), n = static_cast<Eigen::Index>(count);
+    MatX u = frame.follow(FollowingFrame::Strain::shortening, pairs, first, count);
+    shortened.middleCols(at, n) = loads * u;
+    const MatX twist = frame.follow(FollowingFrame::Strain::twist, pairs, first, count);
+    twisted.middleCols(at, n) = loads * twist;
+    u += twist;
+    for (Eigen::Index p = 0; p < n; ++p) {
+      const auto [a, b] = pairs[first + static_cast<std::size_t>(p)];
+      for (SecondOrderNode& node : second_order->nodes)
+        for (int j = 0; j < 3; ++j) {
+          node.h[j](a, b) = node.h[j](b, a) = u(6 * node.node + j, p);
+          node.theta[j](a, b) = node.theta[j](b, a) = u(6 * node.node + 3 + j, p);
+        }
+      for (int k = 0; out.h.size() > 0 && k < model.nodes(); ++k)
+        for (int j = 0; j < 3; ++j) {
+          const Eigen::Index row = nm * (3 * k + j);
+          out.h(row + a, b) = out.h(row + b, a) = u(6 * k + j, p);
+        }
     }
-  for (int k = 0; k < model.nodes(); ++k)
-    for (int j = 0; j < 3; ++j) {
-      const MatX h = field.h.middleRows(nm * (3 * k + j), nm);
-      out->S2[j] += weights(k, 3) * h;
-      for (int i = 0; i < 3; ++i) out->S2i[i][j] += weights(k, i) * h;
-    }
-  if (options.mass_model != MassModel::isoparametric) {
+  }
+  add_pairs(shortened, pairs, *second_order);
+  add_pairs(twisted, pairs, turning ? *turning : *second_order);
+  if (options.mass_model != MassModel::isoparametric)
     for (const Element& e : model.elements) {
       const ElementInput in = gather(model, e);
-      add_inside(in, BentBeam(in, e, X), options.section_inertia, *out);
+      const BentBeam beam(in, e, X);
+      add_shortening_inside(in, beam, *second_order);
+      if (sections_turn(options)) add_twist_inside(in, beam, *turning);
     }
-    for (const PointMass& p : model.masses) {
-      const Mat3 P = 0.5 * p.J.trace() * Mat3::Identity() - p.J;  // (21)
-      add_turning(P, X.middleRows<3>(6 * p.node + 3), *out);
-    }
-  }
-  for (int k = 0; k < model.nodes(); ++k) {
-    if (model.nodes() > many_nodes && (model.node_names.empty() || model.node_names[k].empty()))
-      continue;
-    SecondOrderNode& node = out->nodes.emplace_back();
-    node.node = k;
-    for (int j = 0; j < 3; ++j) {
-      node.h[j] = field.h.middleRows(nm * (3 * k + j), nm);
-      node.theta[j] = field.theta.middleRows(nm * (3 * k + j), nm);
-    }
-  }
+  out.second_order = std::move(second_order);
   return out;
 }
 

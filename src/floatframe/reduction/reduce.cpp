@@ -85,7 +85,8 @@ std::shared_ptr<ProjectionData> projection_data(const FeModel& model, const MatX
 
 }  // namespace
 
-FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
+FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
+                    SecondOrderOf second_order) {
   validate(model);
   for (const Element& e : model.elements) {
     const bool shear = e.type == ElementType::beam2 && model.sections[e.section].has_shear();
@@ -124,10 +125,11 @@ FlexibleBody reduce(const FeModel& model, const ReductionOptions& options) {
   FlexibleBody body = body_of_modes(std::move(set), std::move(invariants), options.damping_ratio);
   body.mass_model = options.mass_model;
   const std::shared_ptr<ProjectionData> projection = projection_data(model, X, options);
-  if (auto field = bar_second_order(model, X, options)) {
-    body.second_order = second_order_of(model, X, *field, options);
-    if (projection) projection->h = std::move(field->h);
-  }
+  BarSecondOrder bent =
+      bar_second_order(model, X, options, second_order == SecondOrderOf::all_nodes);
+  body.turning = std::move(bent.turning);
+  body.second_order = std::move(bent.second_order);
+  if (projection) projection->h = std::move(bent.h);
   body.projection = projection;
   if (model.dofs_per_node() == 6)
     body.stress = bar_stress(model, X, body.K, held_dofs(model, X, options), options);

@@ -22,9 +22,16 @@
 
 namespace floatframe {
 
+/// Which nodes have displacements of second order (SecondOrder::nodes, ProjectionData::h).
+enum class SecondOrderOf {
+  all_nodes,   ///< of geometric stiffening in runs, also by projection
+  named_nodes  ///< for the stiffness of loads: others only if this takes little memory
+};
+
 /// Throws InputError: unknown nodes, a dof both clamped and interface, a reference that leaves a
 /// rigid motion, loose parts, more modes than there are massive dofs.
-FlexibleBody reduce(const FeModel& model, const ReductionOptions& options);
+FlexibleBody reduce(const FeModel& model, const ReductionOptions& options,
+                    SecondOrderOf second_order = SecondOrderOf::all_nodes);
 
 /// Craig-Bampton modes of a validated model.
 ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& options);

@@ -16,7 +16,7 @@ namespace floatframe {
 
 class BodyEnergy {
  public:
-  /// `second_order`: of a body with geometric stiffening, else null.
+  /// `second_order`: what of it the masses have (second_order_on_masses); null: nothing.
   explicit BodyEnergy(const InertiaInvariants& invariants,
                       const SecondOrder* second_order = nullptr);
 
@@ -34,7 +34,7 @@ class BodyEnergy {
   std::vector<Vec3> S_;                    ///< of each mode
   std::vector<std::array<double, 9>> Si_;  ///< of each mode: 3i+j is row j of S^i
   std::vector<Pair> pairs_;                ///< (0,0), (0,1), ..., (1,1), ...
-  /// With geometric stiffening of pairs of modes: S2, and int r_u x h dm.
+  /// With second order, of pairs of modes: S2, and int r_u x h dm.
   std::vector<std::array<Vec3, 2>> second_;
 };
 

@@ -167,10 +167,13 @@ std::vector<LinearInput> linear_inputs(const Model& model) {
 
 LinearModel linear_model(const Model& model, const LinearPorts& ports,
                          const SimulationOptions& options) {
-  const SimulationDescription d = described(built(model), options);
-  return d.coordinates == Coordinates::relative
-             ? linear_model_of<RelativeFormulation>(model, ports, d)
-             : linear_model_of<AbsoluteFormulation>(model, ports, d);
+  const CountedStiffening counted = counted_at(model, options);
+  const SimulationDescription& d = counted.model.simulation;
+  LinearModel linear = d.coordinates == Coordinates::relative
+                           ? linear_model_of<RelativeFormulation>(counted.model, ports, d)
+                           : linear_model_of<AbsoluteFormulation>(counted.model, ports, d);
+  say_counted(counted, linear.system);
+  return linear;
 }
 
 StateSpace state_space(const LinearModel& linear) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/simulation/counted_stiffening.hpp"
 #include "floatframe/simulation/linear_system.hpp"
 #include "floatframe/simulation/small_motions.hpp"
 
@@ -43,5 +44,10 @@ LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string
 template <class F>
 LinearSystem linear_system_at(F& f, const State& state, const InputMotions* inputs = nullptr,
                               LinearInputs* response = nullptr);
+
+/// The model with these options and the stiffening that counts there, and what is said of it in its
+/// linear system.
+CountedStiffening counted_at(const Model& model, const SimulationOptions& options);
+void say_counted(const CountedStiffening& counted, LinearSystem& system);
 
 }  // namespace floatframe

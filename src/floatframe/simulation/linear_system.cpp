@@ -6,10 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/body/second_order_on_masses.hpp"
 #include "floatframe/formulation/owners.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/simulation/body_energy.hpp"
 #include "floatframe/simulation/linear_reduction.hpp"
+#include "floatframe/simulation/run_error.hpp"
 #include "floatframe/simulation/simulation_options.hpp"
 #include "floatframe/simulation/start_up.hpp"
 
@@ -132,6 +134,18 @@ double LinearMode::damping() const noexcept {
   return size > 0.0 ? -lambda.real() / size : 0.0;
 }
 
+CountedStiffening counted_at(const Model& model, const SimulationOptions& options) {
+  Model there = built(model);
+  there.simulation = described(model, options);
+  return counted_stiffening(there);
+}
+
+void say_counted(const CountedStiffening& counted, LinearSystem& system) {
+  system.stiffened = counted.bodies;
+  system.stiffening = counted.sentence;
+  system.notes.insert(system.notes.begin(), counted.notes.begin(), counted.notes.end());
+}
+
 std::vector<LinearMode> linear_modes(const LinearSystem& system) {
   const GeneralEigen e = general_eigen(system.A);
   if (!e.found) throw RunError("the eigenvalues of the linear system do not converge");
@@ -151,6 +165,9 @@ ModeParts mode_parts(const Model& model, const LinearSystem& system, const Linea
   parts.kinetic.assign(bodies, 0.0);
   parts.bending.assign(bodies, 0.0);
   parts.springs.assign(forces, 0.0);
+  std::vector<BodyEnergy> energies;
+  for (const Body& b : model.bodies)
+    energies.emplace_back(b.data->invariants, second_order_on_masses(*b.data, b.stiffens()).get());
   for (const VecX& part : z) {
     const VecX rates = system.rates_of * part, bends = system.bends_of * part,
                springs = system.springs_of * part;
@@ -158,9 +175,8 @@ ModeParts mode_parts(const Model& model, const LinearSystem& system, const Linea
     for (std::size_t i = 0; i < bodies; ++i) {
       const Body& b = model.bodies[i];
       const int nm = b.modes();
-      parts.kinetic[i] += BodyEnergy(b.data->invariants)
-                              .kinetic(rates.segment<3>(row), rates.segment<3>(row + 3),
-                                       system.amplitudes[i].data(), rates.data() + row + 6);
+      parts.kinetic[i] += energies[i].kinetic(rates.segment<3>(row), rates.segment<3>(row + 3),
+                                              system.amplitudes[i].data(), rates.data() + row + 6);
       const VecX y = bends.segment(bend, nm);
       if (nm > 0) parts.bending[i] += 0.5 * y.dot(b.data->K * y);
       row += 6 + nm;
@@ -181,9 +197,13 @@ ModeParts mode_parts(const Model& model, const LinearSystem& system, const Linea
 }
 
 LinearSystem linear_system(const Model& model, const SimulationOptions& options) {
-  const SimulationDescription d = described(built(model), options);
-  return d.coordinates == Coordinates::relative ? system_of<RelativeFormulation>(model, d)
-                                                : system_of<AbsoluteFormulation>(model, d);
+  const CountedStiffening counted = counted_at(model, options);
+  const SimulationDescription& d = counted.model.simulation;
+  LinearSystem system = d.coordinates == Coordinates::relative
+                            ? system_of<RelativeFormulation>(counted.model, d)
+                            : system_of<AbsoluteFormulation>(counted.model, d);
+  say_counted(counted, system);
+  return system;
 }
 
 }  // namespace floatframe

@@ -37,6 +37,10 @@ struct LinearSystem {
   double acceleration = 0.0;       ///< largest of a coordinate where it was linearised [../s2]
   double speed = 0.0;              ///< largest velocity of a coordinate
   std::vector<std::string> notes;  ///< a sentence each: where it holds less than one might think
+  /// Bodies whose geometric stiffening is counted in without being asked for, and the sentence that
+  /// names them; empty: none.
+  std::vector<std::string> stiffened;
+  std::string stiffening;
 };
 
 /// One motion e^(lambda t) of a linear system.
@@ -60,9 +64,10 @@ struct ModeParts {
 };
 ModeParts mode_parts(const Model& model, const LinearSystem& system, const LinearMode& mode);
 
-/// At the start that the options ask for, as `linearize`. Moving states need relative coordinates:
-/// coordinates of the absolute formulation turn with the bodies, and its frozen eigenvalues mean
-/// nothing; RunError for them.
+/// At the start that the options ask for, as `linearize`, both with the geometric stiffening of
+/// bodies that spin or carry load there and for which the model does not say. Moving states need
+/// relative coordinates: coordinates of the absolute formulation turn with the bodies, and its
+/// frozen eigenvalues mean nothing; RunError for them.
 LinearSystem linear_system(const Model& model, const SimulationOptions& options = {});
 
 }  // namespace floatframe

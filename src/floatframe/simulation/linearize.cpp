@@ -1,7 +1,7 @@
 #include "floatframe/simulation/linearize.hpp"
 
 #include "floatframe/formulation/owners.hpp"
-#include "floatframe/simulation/simulation_options.hpp"
+#include "floatframe/simulation/linear_reduction.hpp"
 #include "floatframe/simulation/small_motions.hpp"
 #include "floatframe/simulation/start_up.hpp"
 #include "floatframe/simulation/system_state.hpp"
@@ -32,9 +32,14 @@ Linearization linearized(const Model& model, const SimulationDescription& option
 }  // namespace
 
 Linearization linearize(const Model& model, const SimulationOptions& options) {
-  const SimulationDescription d = described(built(model), options);
-  return d.coordinates == Coordinates::relative ? linearized<RelativeFormulation>(model, d)
-                                                : linearized<AbsoluteFormulation>(model, d);
+  const CountedStiffening counted = counted_at(model, options);
+  const SimulationDescription& d = counted.model.simulation;
+  Linearization l = d.coordinates == Coordinates::relative
+                        ? linearized<RelativeFormulation>(counted.model, d)
+                        : linearized<AbsoluteFormulation>(counted.model, d);
+  l.stiffened = counted.bodies;
+  l.start.notes.insert(l.start.notes.end(), counted.notes.begin(), counted.notes.end());
+  return l;
 }
 
 }  // namespace floatframe

@@ -34,6 +34,8 @@ struct Linearization {
   std::vector<std::string> constraints;  ///< nc: "joint 'guide'"
   SystemState state;                     ///< where: joints, bodies, time
   StartReport start;                     ///< what became of the start values
+  /// Bodies whose geometric stiffening is counted in without being asked for.
+  std::vector<std::string> stiffened;
 };
 
 /// At the start that the options ask for: given values with loops closed, the equilibrium, or a

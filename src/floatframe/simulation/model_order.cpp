@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "floatframe/body/second_order_on_masses.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/simulation/body_energy.hpp"
 #include "floatframe/simulation/linear_system.hpp"
@@ -38,14 +39,16 @@ std::vector<double> frequencies_of(const std::vector<LinearMode>& modes) {
 /// Kinetic energy of a motion e^(lambda t) at its largest, |z| = 1.
 double kinetic_energy_of(const Model& model, const LinearSystem& system, const LinearMode& mode) {
   double energy = 0.0;
+  std::vector<BodyEnergy> energies;
+  for (const Body& b : model.bodies)
+    energies.emplace_back(b.data->invariants, second_order_on_masses(*b.data, b.stiffens()).get());
   for (const VecX& z : {VecX(mode.z.real()), VecX(mode.z.imag())}) {
     const VecX rates = system.rates_of * z;
     Eigen::Index row = 0;
     for (std::size_t i = 0; i < model.bodies.size(); ++i) {
       const Body& b = model.bodies[i];
-      energy += BodyEnergy(b.data->invariants)
-                    .kinetic(rates.segment<3>(row), rates.segment<3>(row + 3),
-                             system.amplitudes[i].data(), rates.data() + row + 6);
+      energy += energies[i].kinetic(rates.segment<3>(row), rates.segment<3>(row + 3),
+                                    system.amplitudes[i].data(), rates.data() + row + 6);
       row += 6 + b.modes();
     }
   }

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "floatframe/body/second_order_on_masses.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/simulation/body_energy.hpp"
 #include "floatframe/simulation/range_watch.hpp"
@@ -24,7 +25,7 @@ class MotionWatch {
           known.emplace(std::pair(b.data.get(), b.stiffens()), energies_.size());
       if (fresh)
         energies_.emplace_back(b.data->invariants,
-                               b.stiffens() ? b.data->second_order.get() : nullptr);
+                               second_order_on_masses(*b.data, b.stiffens()).get());
       energy_.push_back(at->second);
     }
   }

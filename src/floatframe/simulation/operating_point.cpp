@@ -68,6 +68,18 @@ Model at_operating_point(const Model& model, const std::string& at) {
   return there;
 }
 
+CountedStiffening counted_at_operating_point(const Model& model, const std::string& at) {
+  CountedStiffening counted = counted_stiffening(at_operating_point(model, at));
+  const bool after_a_run = !at.empty() && at != "start" && at != "equilibrium";
+  if (!after_a_run || counted.bodies.empty()) return counted;
+  Model with = model;
+  for (std::size_t i = 0; i < with.bodies.size(); ++i)
+    with.bodies[i].geometric_stiffening = counted.model.bodies[i].geometric_stiffening;
+  with.simulation.inertia = counted.model.simulation.inertia;
+  counted.model = at_operating_point(with, at);
+  return counted;
+}
+
 Option operating_point_option(std::string& at) {
   return text_option("--at", at, "PLACE",
                      "start, equilibrium, or the time [s] that a run is made to first; default: "

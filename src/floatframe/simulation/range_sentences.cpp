@@ -220,6 +220,21 @@ class Writer {
 
 }  // namespace
 
+std::string spin_sentence(const Model& model, const BodyRange& range, int body, const Vec3& w) {
+  const double spin = range.pulling_spin(w), ratio = spin / range.lowest_frequency();
+  return fmt::format(
+      "body '{}' spins too fast for its stiffness: at {:.4g} rad/s, {:.3g} times its lowest "
+      "frequency of {:.4g} rad/s; {}",
+      model.bodies[static_cast<std::size_t>(body)].name, spin, ratio, range.lowest_frequency(),
+      range.stiffening() > 0.0
+          ? fmt::format("centrifugal tension, which is left out here, would raise its lowest "
+                        "stiffness by about {}; geometric_stiffening: true counts it in",
+                        percent(range.stiffening() * spin * spin))
+          : fmt::format("centrifugal tension does not stiffen it here, which leaves its "
+                        "frequencies in error by about {} (the square of the ratio)",
+                        percent(ratio * ratio)));
+}
+
 std::vector<RangeWarning> equilibrium_warnings(const Model& model,
                                                const std::vector<StaticsBody>& bodies,
                                                const RangeLimits& limits) {

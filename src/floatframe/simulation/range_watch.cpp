@@ -114,7 +114,7 @@ void BodyRange::observe(double t, double h, const Vec3& w, const double* y,
   turn_.offer(h * w.norm(), t, l.turn);
   const Eigen::Index modes = data_.modes();
   if (modes == 0) return;
-  if (softened_ > 0.0) spin_.offer((stretch_ * w).norm(), t, l.spin * softened_);
+  if (softened_ > 0.0) spin_.offer(pulling_spin(w), t, l.spin * softened_);
   // The modes together move no node further than each its own: nodes are looked at one by one only
   // when that could be a new largest value.
   double move = 0.0, turn = 0.0;

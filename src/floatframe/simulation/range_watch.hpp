@@ -65,6 +65,8 @@ class BodyRange {
   /// Lowest stiffness with centrifugal stiffening over that without, less 1, per squared spin about
   /// the worst axis [s2]; 0: not known.
   double stiffening() const noexcept { return stiffening_; }
+  /// The part of a spin that pulls at the body [rad/s]; w: in body axes.
+  double pulling_spin(const Vec3& w) const noexcept { return (stretch_ * w).norm(); }
   const Largest& displacement() const { return displacement_; }  ///< [m]
   const Largest& rotation() const { return rotation_; }          ///< [rad]
   const Largest& spin() const { return spin_; }                  ///< [rad/s]
@@ -161,5 +163,8 @@ class RangeWatch {
 std::vector<RangeWarning> equilibrium_warnings(const Model& model,
                                                const std::vector<StaticsBody>& bodies,
                                                const RangeLimits& limits = {});
+
+/// What is said of a body that spins too fast for its stiffness, w in body axes, in one state.
+std::string spin_sentence(const Model& model, const BodyRange& range, int body, const Vec3& w);
 
 }  // namespace floatframe
