@@ -10,6 +10,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/rotor_speeds.hpp"
+#include "floatframe/simulation/rotor_stiffening.hpp"
 #include "floatframe/simulation/rotor_symmetry.hpp"
 #include "floatframe/simulation/turning_model.hpp"
 
@@ -134,7 +135,10 @@ UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions&
     throw InputError(
         fmt::format("rotor on joint '{}': no unbalance is given, expected at least one", o.joint));
   std::vector<int> outputs = chosen_outputs(model, o.outputs);
-  TurningModel turning(model, o.joint, o.axis);
+  const CountedStiffening counted = stiffened_rotor(built(model), o.joint);
+  r.stiffened = counted.bodies;
+  r.stiffening = counted.sentence;
+  TurningModel turning(counted.model, o.joint, o.axis);
   std::vector<AxisForce> forces;
   for (const Unbalance& u : o.unbalances)
     forces.push_back(axis_force(turning.model(), turning.rotor(), u));
@@ -154,6 +158,9 @@ UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions&
     }
   }
   for (const std::string& note : turning.notes()) r.notes.push_back(note);
+  const double fastest = std::max(std::abs(r.speeds.front()), std::abs(r.speeds.back()));
+  for (std::string& note : stiffening_notes(turning.model(), turning.rotor(), fastest))
+    r.notes.push_back(std::move(note));
   return r;
 }
 
