@@ -66,12 +66,10 @@ TEST(CampbellLines, StiffenedBladeKeepsItsLines) {
   EXPECT_TRUE(d.unstable.empty());
   for (const CampbellLine& line : d.lines)
     for (const CampbellPoint& p : line.points) EXPECT_TRUE(p.known());
-  // Flap of a uniform blade: near sqrt(w_0^2 + 1.19 W^2), above W.
-  double flap = 1e300;
-  for (const CampbellLine& line : d.lines)
-    if (line.kind == "bending") flap = std::min(flap, line.points.back().frequency());
-  EXPECT_GT(flap, 40.0);
-  EXPECT_LT(flap, 46.0);
+  // Flap, the lowest at rest: of a uniform blade near sqrt(w_0^2 + 1.19 W^2), above W.
+  EXPECT_EQ(d.lines[0].kind, "bending");
+  EXPECT_GT(d.lines[0].points.back().frequency(), 40.0);
+  EXPECT_LT(d.lines[0].points.back().frequency(), 46.0);
 }
 
 // In round bearings unbalance excites forward whirl alone; in bearings that are not round backward
@@ -105,7 +103,7 @@ TEST(CampbellLines, CriticalSpeedsAreThoseOfUnbalance) {
 }
 
 TEST(CampbellLines, BackwardWhirlInRoundBearingsIsNotCritical) {
-  const CampbellDiagram d = campbell(model_of(two_discs(12)), over("spin", 0.0, 400.0, 50.0));
+  const CampbellDiagram d = campbell(model_of(two_discs(9)), over("spin", 0.0, 400.0, 50.0));
   ASSERT_FALSE(d.critical.empty());
   for (const CriticalSpeed& c : d.critical) EXPECT_GT(c.whirl, 0.99);
   ASSERT_FALSE(d.crossings.empty());
@@ -114,7 +112,7 @@ TEST(CampbellLines, BackwardWhirlInRoundBearingsIsNotCritical) {
   // Orders other than 1 say nothing of the direction of what excites.
   CampbellOptions half = over("spin", 0.0, 400.0, 50.0);
   half.orders = {2.0};
-  const CampbellDiagram twice = campbell(model_of(two_discs(12)), half);
+  const CampbellDiagram twice = campbell(model_of(two_discs(9)), half);
   EXPECT_TRUE(twice.crossings.empty());
   EXPECT_TRUE(std::any_of(twice.critical.begin(), twice.critical.end(),
                           [](const CriticalSpeed& c) { return c.whirl < -0.9; }));
@@ -134,6 +132,10 @@ TEST(CampbellLines, CoarseStepsAreRefined) {
                  b = coarse.lines[k].points.back().frequency();
     EXPECT_NEAR(b, a, 1e-6 * a) << k;
   }
+  ASSERT_EQ(fine.critical.size(), coarse.critical.size());
+  for (std::size_t k = 0; k < fine.critical.size(); ++k)
+    EXPECT_NEAR(coarse.critical[k].speed, fine.critical[k].speed, 1e-6 * fine.critical[k].speed);
+  EXPECT_TRUE(coarse.notes.empty());
 }
 
 TEST(CampbellLines, AxisOfAFreeJointIsFound) {
@@ -160,21 +162,20 @@ TEST(CampbellLines, AxisOfAFreeJointIsFound) {
 }
 
 TEST(CampbellLines, CutPairIsNamed) {
-  int cut = 0;
-  for (int n = 7; n <= 12; ++n) {
-    const std::string text = rotor_error_of(two_discs(n), over("spin", 0.0, 1000.0, 500.0));
-    if (text == "no error") continue;
-    ++cut;
-    EXPECT_NE(text.find("body 'shaft': normal_modes: " + std::to_string(n) +
-                        " cuts a pair of modes of equal frequency"),
-              std::string::npos)
-        << text;
-    for (const int whole : {n - 1, n + 1}) {
-      EXPECT_NE(text.find(std::to_string(whole)), std::string::npos) << text;
-      EXPECT_EQ(rotor_error_of(two_discs(whole), over("spin", 0.0, 1000.0, 500.0)), "no error");
-    }
-  }
-  EXPECT_GE(cut, 1);
+  // Bending of the three equal spans: groups of four, between them pairs of the shaft as a whole.
+  const auto error = [](int n) {
+    return rotor_error_of(two_discs(n), over("spin", 0.0, 1000.0, 500.0));
+  };
+  const auto names = [&](int n, const std::string& cuts, const std::string& take) {
+    const std::string text = error(n),
+                      expected =
+                          "body 'shaft': normal_modes: " + std::to_string(n) + " cuts a " + cuts;
+    EXPECT_NE(text.find(expected), std::string::npos) << text;
+    EXPECT_NE(text.find(take), std::string::npos) << text;
+  };
+  names(6, "pair of modes of equal frequency", "take 5 or 7");
+  for (const int n : {10, 11, 12}) names(n, "group of 4 modes of equal frequency", "take 9 or 13");
+  for (const int n : {5, 7, 9, 13}) EXPECT_EQ(error(n), "no error") << n;
 }
 
 TEST(CampbellLines, MassOffTheAxisIsNamed) {

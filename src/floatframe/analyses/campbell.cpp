@@ -62,9 +62,9 @@ std::string onset_text(const InstabilityOnset& u) {
 
 std::string campbell_text(const std::string& name, const CampbellOptions& o,
                           const CampbellDiagram& d) {
-  std::string text =
-      fmt::format("{}: '{}' at {:g} to {:g} rad/s, {}\n\n", name, o.joint, d.speeds.front(),
-                  d.speeds.back(), plural(static_cast<long>(d.lines.size()), "vibration"));
+  std::string text = d.stiffening.empty() ? "" : d.stiffening + ".\n\n";
+  text += fmt::format("{}: '{}' at {:g} to {:g} rad/s, {}\n\n", name, o.joint, d.speeds.front(),
+                      d.speeds.back(), plural(static_cast<long>(d.lines.size()), "vibration"));
   const std::size_t last = d.speeds.size() - 1, middle = last / 2;
   const auto at = [&](std::size_t k) { return fmt::format("at {:g} [rad/s]", d.speeds[k]); };
   TextTable table({"mode", "", at(0), at(middle), at(last), "damping", "at the end"}, {1});
@@ -138,6 +138,7 @@ std::string campbell_json(const std::string& name, const CampbellOptions& o,
                         {"of_frequency_zero", d.rigid},
                         {"without_swing", d.overdamped},
                         {"speeds_between", d.extra_speeds},
+                        {"stiffening_counted_in", d.stiffened},
                         {"notes", d.notes}});
 }
 

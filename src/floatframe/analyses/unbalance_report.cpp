@@ -83,8 +83,9 @@ std::vector<double> phases_of(const UnbalanceCurve& curve) {
 
 std::string unbalance_text(const std::string& model, const UnbalanceOptions& o,
                            const UnbalanceResponse& r) {
-  std::string text = fmt::format("{}: '{}' at {:g} to {:g} rad/s, unbalance {}\n\n", model, o.joint,
-                                 r.speeds.front(), r.speeds.back(), unbalances_text(o));
+  std::string text = r.stiffening.empty() ? "" : r.stiffening + ".\n\n";
+  text += fmt::format("{}: '{}' at {:g} to {:g} rad/s, unbalance {}\n\n", model, o.joint,
+                      r.speeds.front(), r.speeds.back(), unbalances_text(o));
   TextTable table({"output", "unit", "at [rad/s]", "amplitude", "phase [deg]", "mean", "largest",
                    "there [rad/s]"},
                   {1});
@@ -132,6 +133,7 @@ std::string unbalance_json(const std::string& model, const UnbalanceOptions& o,
                         {"unbalance", unbalances},
                         {"speed_rad_s", r.speeds},
                         {"outputs", outputs},
+                        {"stiffening_counted_in", r.stiffened},
                         {"notes", r.notes}});
 }
 

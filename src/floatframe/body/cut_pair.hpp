@@ -1,7 +1,8 @@
 #pragma once
 // Pairs of modes. A round part bends alike in all directions across its axis: its bending modes
-// come in pairs of equal frequency. A number of modes that keeps one of a pair makes it softer in
-// one direction than in the other.
+// come in pairs of equal frequency, and in larger groups where it has spans of equal length. A
+// number of modes that cuts a group leaves modes that are any combinations of it, and so a part
+// that bends more easily in one direction than in another.
 #include <optional>
 #include <string>
 
@@ -18,14 +19,17 @@ inline bool equal_frequency(double a, double b) noexcept {
 }
 
 struct CutPair {
-  int kept = 0;            ///< normal modes
-  double frequency = 0.0;  ///< of the last of them, whose partner is left out [Hz]
+  int kept = 0;              ///< dynamic modes
+  int below = 0, above = 0;  ///< numbers that keep the group of the last out, or whole
+  double frequency = 0.0;    ///< of the last [Hz]
 };
 
-/// Of a frame of bars, whose normal modes are the last of the body; across this axis (body frame),
-/// or across the one that its other pairs tell. None: no pair is cut, or nothing tells.
-std::optional<CutPair> cut_pair(const FlexibleBody& body,
-                                const std::optional<Vec3>& axis = std::nullopt);
+/// Of modes with these frequencies, ascending, with so many left out that are as high as the last.
+/// None: no group is cut.
+std::optional<CutPair> cut_pair(const VecX& frequencies, int equal_left_out);
+inline std::optional<CutPair> cut_pair(const FlexibleBody& body) {
+  return cut_pair(body.fixed_interface_frequencies, body.equal_left_out);
+}
 
 /// "normal_modes: 13 cuts a pair of modes of equal frequency (123.4 Hz), take 12 or 14"
 std::string cut_pair_text(const CutPair& pair, const std::string& key);

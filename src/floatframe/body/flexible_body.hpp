@@ -84,6 +84,8 @@ struct FlexibleBody {
 
   // What the user may want to know about the reduction.
   VecX fixed_interface_frequencies;  ///< [Hz], of the dynamic modes kept
+  /// Dynamic modes left out that have the frequency of the last one kept; 0: none, or not known.
+  int equal_left_out = 0;
   std::vector<std::string> mode_names;
 
   /// What it looks like; null: not known.

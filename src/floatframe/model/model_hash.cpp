@@ -128,7 +128,7 @@ class ModelHash {
   }
   void add(const FlexibleBody& body) {
     const auto& [invariants, K, D, nodes, projection, mass_model, turning, second_order,
-                 frequencies, mode_names, shape, stress, interfaces] = body;
+                 frequencies, equal_left_out, mode_names, shape, stress, interfaces] = body;
     all(invariants, K, D, projection != nullptr, mass_model);  // nodes: those with markers
     if (projection) add(*projection);
     if (turning) add(*turning);

@@ -7,6 +7,7 @@
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/fe/strain_energy.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/frequency.hpp"
 #include "floatframe/math/rigid_motion.hpp"
 #include "floatframe/math/vector_text.hpp"
 #include "floatframe/reduction/bar_chains.hpp"
@@ -103,14 +104,15 @@ ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options,
   std::optional<int> number;
   if (options.normal_modes != 0 || !(options.max_frequency > 0.0)) number = options.normal_modes;
   const int count = normal_mode_count(fixed, number, options.max_frequency);
-  if (number || count == 0)
-    return craig_bampton_set(fixed, fixed.normal_modes(count), std::move(names));
-  // A frequency limit keeps pairs whole.
-  const Eigenmodes all =
-      fixed.normal_modes(count_with_partner(fixed, count, options.max_frequency));
-  const int kept = with_whole_pair(all.omega, count);
-  return craig_bampton_set(fixed, {all.omega.head(kept), all.shapes.leftCols(kept)},
-                           std::move(names));
+  Eigenmodes normal = fixed.normal_modes(count);
+  const int found = static_cast<int>(normal.omega.size());
+  const int whole =
+      found > 0 ? count_with_group(fixed, found, hertz(normal.omega[found - 1])) : found;
+  // A frequency limit keeps pairs whole, a number is obeyed.
+  if (!number && whole > found) normal = fixed.normal_modes(whole);
+  ModeSet set = craig_bampton_set(fixed, normal, std::move(names));
+  if (number) set.equal_left_out = whole - found;
+  return set;
 }
 
 ModeSet held_modes(const FeModel& model, const ReductionOptions& options, const SparseMatrix& K,

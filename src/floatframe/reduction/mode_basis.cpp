@@ -113,7 +113,10 @@ void check_options(const PartOptions& options) {
 void report_basis(const ModeBasis& basis, HealthReport& health) {
   health.solver = basis.solver;
   health.normal_modes = basis.modes;
-  health.notes.insert(health.notes.end(), basis.notes.begin(), basis.notes.end());
+  if (const auto cut = cut_pair(basis.frequencies, basis.equal_left_out))
+    health.notes.push_back(
+        cut_pair_text(*cut, "modes") +
+        " (a round part would bend more easily in one direction than in another)");
 }
 
 ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, const MatX& R,
@@ -135,7 +138,7 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
   ModeBasis basis;
   basis.solver = fixed->solver_name();
   const Eigenmodes normal =
-      select_fixed_modes(*fixed, system, R, boundary, options, basis.modes, basis.notes);
+      select_fixed_modes(*fixed, system, R, boundary, options, basis.modes, basis.equal_left_out);
   static_cast<ModeSet&>(basis) = craig_bampton_set(*fixed, normal, names);
   const auto nb = static_cast<Eigen::Index>(boundary.size());
   basis.first_normal = static_cast<int>(nb);
@@ -172,7 +175,8 @@ ModeBasis free_basis(const FeModel& model, const FeSystem& system, const MatX& R
       if (softest.size() > 0) check_stiffness_of(model, system, softest);
       throw;
     }
-    elastic = select_free_modes(model, *structure, system, options, basis.modes, basis.notes);
+    elastic =
+        select_free_modes(model, *structure, system, options, basis.modes, basis.equal_left_out);
   });
   basis.solver = structure->solver_name();
   const Eigen::Index count = elastic.lambda.size();

@@ -20,7 +20,6 @@ struct ModeBasis : ModeSet {
   int first_normal = 0;           ///< column of the first normal mode
   std::vector<ModeHealth> modes;  ///< of the normal modes
   std::string solver;
-  std::vector<std::string> notes;  ///< about the modes kept
 };
 
 /// What the report says of it: solver, normal modes, notes.

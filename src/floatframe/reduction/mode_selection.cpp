@@ -38,12 +38,17 @@ Eigenmodes modes_and_next(const FixedInterface& fixed, int count, bool at_most) 
   return modes.omega.size() < count && !at_most ? fixed.normal_modes(count) : modes;
 }
 
-/// How many of these modes are kept. `given`: the number of them is.
-int whole_pairs(const VecX& omega, int kept, bool given, std::vector<std::string>& notes) {
-  const int whole = with_whole_pair(omega, kept);
-  if (!given || whole == kept) return whole;
-  notes.push_back(cut_pair_text({kept, hertz(omega[kept - 1])}, "modes") +
-                  " (of a round part: it would bend more easily in one direction than in another)");
+/// How many of these modes are kept; `with_group()` says how many are needed for a whole group
+/// of equal frequency. `given`: the number of them is.
+template <class WithGroup>
+int whole_groups(const VecX& omega, int kept, bool given, const WithGroup& with_group,
+                 int& equal_left_out) {
+  equal_left_out = 0;
+  if (kept == 0 || kept >= omega.size() || !equal_frequency(omega[kept - 1], omega[kept]))
+    return kept;
+  const int whole = std::max(kept + 1, with_group());
+  if (!given) return whole;
+  equal_left_out = whole - kept;
   return kept;
 }
 
@@ -57,7 +62,7 @@ std::optional<int> most_normal_modes(const PartOptions& options) {
 
 Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
                               const std::vector<int>& boundary, const PartOptions& options,
-                              std::vector<ModeHealth>& list, std::vector<std::string>& notes) {
+                              std::vector<ModeHealth>& list, int& equal_left_out) {
   int count = normal_mode_count(fixed, most_normal_modes(options), options.max_frequency);
   const MatX C = about_centre(R, system.M);
   const MatX MC = system.M * C;
@@ -105,13 +110,17 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
     solved = std::min({count, 2 * solved, most_modes});
     modes = modes_and_next(fixed, solved, false);
   }
-  if (whole_pairs(modes.omega, kept, given && !reached, notes) > kept) keep();
+  const int whole = whole_groups(
+      modes.omega, kept, given && !reached,
+      [&] { return count_with_group(fixed, kept, hertz(modes.omega[kept - 1])); }, equal_left_out);
+  if (whole > modes.omega.size()) modes = fixed.normal_modes(whole, true);
+  while (kept < std::min(whole, static_cast<int>(modes.omega.size()))) keep();
   return {modes.omega.head(kept), modes.shapes.leftCols(kept)};
 }
 
 Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structure,
                              const FeSystem& system, const PartOptions& options,
-                             std::vector<ModeHealth>& list, std::vector<std::string>& notes) {
+                             std::vector<ModeHealth>& list, int& equal_left_out) {
   int count = most_normal_modes(options).value_or(system.size() - 6);
   if (options.max_frequency > 0.0)
     count = std::clamp(structure.count_below(options.max_frequency) - 6, 0, count);
@@ -134,9 +143,19 @@ Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structur
     throw InputError(
         fmt::format("{} normal modes are requested, but the mass allows only {}", count, found));
   }
-  count = whole_pairs(all.lambda.tail(found).cwiseMax(0.0).cwiseSqrt(), count,
-                      options.modes && count == *options.modes, notes);
-  Eigenpairs elastic{all.lambda.segment(6, count), all.shapes.middleCols(6, count)};
+  const auto elastic_of = [](const Eigenpairs& pairs, Eigen::Index n) {
+    return Eigenpairs{pairs.lambda.segment(6, n), pairs.shapes.middleCols(6, n)};
+  };
+  const VecX omega = all.lambda.tail(found).cwiseMax(0.0).cwiseSqrt();
+  const int whole = whole_groups(
+      omega, count, options.modes && count == *options.modes,
+      [&] {
+        return structure.count_below(hertz(omega[count - 1]) * (1.0 + equal_frequencies)) - 6;
+      },
+      equal_left_out);
+  Eigenpairs elastic = elastic_of(all, std::min(whole, found));
+  if (whole > found) elastic = elastic_of(structure.modes(whole + 6), whole);
+  count = static_cast<int>(elastic.lambda.size());
   for (int a = 0; a < count; ++a) {
     ModeHealth m;
     m.name = fmt::format("normal {}", a + 1);

@@ -17,11 +17,11 @@ std::optional<int> most_normal_modes(const PartOptions& options);
 /// Modes kept; `list` has them with their effective masses. R: about any point.
 Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& system, const MatX& R,
                               const std::vector<int>& boundary, const PartOptions& options,
-                              std::vector<ModeHealth>& list, std::vector<std::string>& notes);
+                              std::vector<ModeHealth>& list, int& equal_left_out);
 
 /// Elastic modes kept.
 Eigenpairs select_free_modes(const FeModel& model, const FreeStructure& structure,
                              const FeSystem& system, const PartOptions& options,
-                             std::vector<ModeHealth>& list, std::vector<std::string>& notes);
+                             std::vector<ModeHealth>& list, int& equal_left_out);
 
 }  // namespace floatframe

@@ -13,9 +13,10 @@ namespace floatframe {
 
 /// Mode shapes and what is known about them, before the body is made.
 struct ModeSet {
-  MatX X;            ///< rows of the structure x nm
-  MatX K;            ///< nm x nm
-  VecX frequencies;  ///< of the dynamic modes [Hz]
+  MatX X;                  ///< rows of the structure x nm
+  MatX K;                  ///< nm x nm
+  VecX frequencies;        ///< of the dynamic modes [Hz]
+  int equal_left_out = 0;  ///< as of FlexibleBody
   std::vector<std::string> names;
 };
 
@@ -28,15 +29,12 @@ int normal_mode_count(const Fixed& fixed, std::optional<int> number, double max_
   return number ? std::min(below, *number) : below;
 }
 
-/// Of modes with these frequencies, ascending, the `kept` lowest, or one more if it is the partner
-/// of the last (body/cut_pair.hpp).
-int with_whole_pair(const VecX& omega, Eigen::Index kept);
-
-/// A number of modes below a frequency limit [Hz], or as many as there may be so that the partner
-/// of the last is among them.
+/// How many modes have the frequency [Hz] of the last of `kept` or less: more than kept where a
+/// group of equal frequency is cut (body/cut_pair.hpp).
 template <class Fixed>
-int count_with_partner(const Fixed& fixed, int below, double max_frequency) {
-  return std::max(below, fixed.count_below(max_frequency * (1.0 + equal_frequencies)));
+int count_with_group(const Fixed& fixed, int kept, double last) {
+  if (kept == 0 || kept >= fixed.inner()) return kept;
+  return std::max(kept, fixed.count_below(last * (1.0 + equal_frequencies)));
 }
 
 /// Constraint modes of the interface dofs, named by `names`, then the normal modes. They do not

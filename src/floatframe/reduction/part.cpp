@@ -169,9 +169,10 @@ void check_model(const FeModel& model, const FeSystem& system, const MatX& R,
 FlexibleBody body_of(const FeModel& model, const FeSystem& system, const ModeBasis& basis,
                      const InertiaInvariants& raw, const ElasticModes& modes, const MatX& X,
                      const std::vector<InterfacePlace>& interfaces,
-                     const std::vector<MarkerPlace>& markers, const PartOptions& options) {
+                     const std::vector<MarkerPlace>& markers) {
   ModeSet set{X, modes.lambda.asDiagonal(), basis.frequencies, {}};
   for (Eigen::Index a = 0; a < X.cols(); ++a) set.names.push_back(fmt::format("elastic {}", a + 1));
+  set.equal_left_out = basis.equal_left_out;
   FlexibleBody body = body_of_modes(std::move(set), combined(raw, modes.C));
   for (const InterfacePlace& place : interfaces)
     body.nodes.push_back(interface_node(model, system, place, X));
@@ -286,7 +287,7 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   const ElasticModes modes = body_modes(model, basis, raw, interfaces, options);
   health.modal_mass_condition = modes.condition;
   const MatX X = basis.X * modes.C;
-  part.body = body_of(model, system, basis, raw, modes, X, interfaces, markers, options);
+  part.body = body_of(model, system, basis, raw, modes, X, interfaces, markers);
   add_damping(model, system, R, X, options, part.body, health);
   health.modes = part.body.modes();
   health.from_invariants = mass_properties(part.body.invariants);

@@ -8,6 +8,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/simulation/campbell_lines.hpp"
 #include "floatframe/simulation/rotor_speeds.hpp"
+#include "floatframe/simulation/rotor_stiffening.hpp"
 #include "floatframe/simulation/rotor_symmetry.hpp"
 
 namespace floatframe {
@@ -40,7 +41,10 @@ CampbellDiagram campbell(const Model& model, const CampbellOptions& o) {
   CampbellDiagram d;
   check_options(o);
   d.speeds = rotor_speeds(o.joint, o.from, o.to, o.step);
-  TurningModel turning(model, o.joint, o.axis);
+  const CountedStiffening counted = stiffened_rotor(built(model), o.joint);
+  d.stiffened = counted.bodies;
+  d.stiffening = counted.sentence;
+  TurningModel turning(counted.model, o.joint, o.axis);
   d.dependence_on_angle = turning.dependence_on_angle(d.speeds.back());
   require_symmetry(turning.model(), turning.rotor(), d.dependence_on_angle);
   if (d.dependence_on_angle > 1e-5)
@@ -52,7 +56,7 @@ CampbellDiagram campbell(const Model& model, const CampbellOptions& o) {
         "the centre of mass of the rotor is {:.3g} m from its axis: unbalance is no part of the "
         "steady state",
         turning.eccentricity()));
-  ModeFollower follower(turning, std::max(64, 2 * static_cast<int>(d.speeds.size())));
+  ModeFollower follower(turning, 64 + 4 * static_cast<int>(d.speeds.size()));
   const TurningModes& first = follower.at(d.speeds.front());
   for (std::size_t k = 0; k < first.size(); ++k)
     if (is_rigid(first, k))
@@ -61,6 +65,9 @@ CampbellDiagram campbell(const Model& model, const CampbellOptions& o) {
       ++d.overdamped;
   const FollowedLines lines = follow_lines(follower, o.modes, d);
   for (const std::string& note : turning.notes()) d.notes.push_back(note);
+  const double fastest = std::max(std::abs(d.speeds.front()), std::abs(d.speeds.back()));
+  for (std::string& note : stiffening_notes(turning.model(), turning.rotor(), fastest))
+    d.notes.push_back(std::move(note));
   find_crossings(follower, o.orders, lines, d);
   d.extra_speeds = follower.extra_speeds();
   return d;

@@ -73,6 +73,9 @@ struct CampbellDiagram {
   int rigid = 0;                     ///< modes of frequency zero at the first speed
   int overdamped = 0;                ///< modes that do not swing at any speed
   int extra_speeds = 0;              ///< that were added to follow the modes
+  std::vector<std::string>
+      stiffened;           ///< bodies whose stiffening is counted in without being asked
+  std::string stiffening;  ///< which, in a sentence without its point; empty: none
   std::vector<std::string> notes;
 };
 

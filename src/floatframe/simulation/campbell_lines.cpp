@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -28,7 +29,8 @@ class LineBundle {
   LineBundle(ModeFollower& follower, const std::vector<double>& speeds)
       : follower_(follower), speeds_(speeds) {}
 
-  std::vector<std::vector<std::size_t>> lines;  ///< by line, of each speed
+  std::vector<std::vector<std::size_t>> lines;       ///< by line, of each speed
+  std::vector<std::map<double, std::size_t>> modes;  ///< by line, also at speeds between
   std::vector<LineEnd> ends;
 
   /// Lines that begin at the last speed with these modes.
@@ -58,6 +60,7 @@ class LineBundle {
   void add_line(std::size_t k, std::size_t mode) {
     lines.emplace_back(speeds_.size(), no_mode);
     lines.back()[k] = mode;
+    modes.push_back({{speeds_[k], mode}});
   }
 
   bool taken(std::size_t k, std::size_t mode, std::size_t but) const {
@@ -67,16 +70,18 @@ class LineBundle {
   }
 
   void advance(std::vector<std::size_t>& open, std::size_t from, std::size_t to) {
-    std::vector<std::size_t> modes, on;
-    for (const std::size_t line : open) modes.push_back(lines[line][from]);
-    const std::vector<ModePath> paths = follower_.follow(speeds_[from], speeds_[to], modes);
+    std::vector<std::size_t> begin, on;
+    for (const std::size_t line : open) begin.push_back(lines[line][from]);
+    const std::vector<ModePath> paths = follower_.follow(speeds_[from], speeds_[to], begin);
     for (std::size_t i = 0; i < open.size(); ++i) {
       const ModePath& p = paths[i];
+      for (const auto& [speed, mode] : p.between) modes[open[i]].emplace(speed, mode);
       if (p.mode == no_mode || taken(to, p.mode, open[i])) {
         ends.push_back({open[i], std::min(from, to), to > from, p.end, p.last});
         continue;
       }
       lines[open[i]][to] = p.mode;
+      modes[open[i]].emplace(speeds_[to], p.mode);
       // What begins to swing at standstill goes on as a rigid motion, below it is not looked for.
       if (swings(follower_.at(speeds_[to]), p.mode)) on.push_back(open[i]);
     }
@@ -85,6 +90,7 @@ class LineBundle {
 
   void remove(std::size_t line) {
     lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(line));
+    modes.erase(modes.begin() + static_cast<std::ptrdiff_t>(line));
     std::erase_if(ends, [&](const LineEnd& e) { return e.line == line; });
     for (LineEnd& e : ends)
       if (e.line > line) --e.line;
@@ -271,12 +277,11 @@ FollowedLines follow_lines(ModeFollower& follower, int most, CampbellDiagram& d)
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return begin(a) < begin(b); });
   FollowedLines f;
-  f.modes.assign(d.speeds.size(), {});
   for (const std::size_t line : order) {
     CampbellLine l;
+    f.modes.push_back(bundle.modes[line]);
     for (std::size_t k = 0; k < d.speeds.size(); ++k) {
       const std::size_t mode = bundle.lines[line][k];
-      f.modes[k].push_back(mode);
       l.points.push_back(mode == no_mode ? unknown_point()
                                          : campbell_point(follower.at(d.speeds[k])[mode]));
     }
@@ -296,17 +301,13 @@ void find_crossings(ModeFollower& follower, const std::vector<double>& orders,
                     const FollowedLines& f, CampbellDiagram& d) {
   const TurningModes& first = follower.at(d.speeds.front());
   const double noise = first.empty() ? 0.0 : 1e-10 * std::abs(first.back().lambda);
-  for (std::size_t k = 0; k < d.speeds.size(); ++k) {
-    find_divergence(follower, f, k, d);
-    if (k + 1 == d.speeds.size()) break;
-    for (std::size_t line = 0; line < d.lines.size(); ++line) {
-      if (f.modes[k][line] == no_mode || f.modes[k + 1][line] == no_mode) continue;
-      const LineInterval i{follower, d.speeds[k], d.speeds[k + 1], f.modes[k][line],
-                           f.modes[k + 1][line]};
+  for (std::size_t k = 0; k < d.speeds.size(); ++k) find_divergence(follower, f, k, d);
+  for (std::size_t line = 0; line < f.modes.size(); ++line)
+    for (auto p = f.modes[line].begin(), q = std::next(p); q != f.modes[line].end(); p = q++) {
+      const LineInterval i{follower, p->first, q->first, p->second, q->second};
       find_orders(i, orders, static_cast<int>(line), d);
-      find_onset(i, noise, k == 0, static_cast<int>(line), d);
+      find_onset(i, noise, p == f.modes[line].begin(), static_cast<int>(line), d);
     }
-  }
   const auto by_speed = [](const auto& a, const auto& b) { return a.speed < b.speed; };
   std::stable_sort(d.critical.begin(), d.critical.end(), by_speed);
   std::stable_sort(d.crossings.begin(), d.crossings.end(), by_speed);

@@ -15,7 +15,8 @@ struct LineEnd {
 };
 
 struct FollowedLines {
-  std::vector<std::vector<std::size_t>> modes;  ///< of each speed, by line; or no_mode
+  /// Of each line its modes at the speeds of the diagram and at those between, where it is known.
+  std::vector<std::map<double, std::size_t>> modes;
   std::vector<LineEnd> ends;
 };
 

@@ -106,9 +106,9 @@ const TurningModes& ModeFollower::at(double speed) {
 
 std::vector<ModePath> ModeFollower::follow(double from, double to,
                                            const std::vector<std::size_t>& modes) {
-  std::vector<double> sizes;
-  for (const std::size_t k : modes) sizes.push_back(std::abs(at(from)[k].lambda));
-  std::vector<ModePath> paths = follow(from, to, modes, sizes, 0);
+  std::vector<Begin> begins;
+  for (const std::size_t k : modes) begins.push_back({from, std::abs(at(from)[k].lambda)});
+  std::vector<ModePath> paths = follow(from, to, modes, begins, 0);
   // Paths by different speeds between may meet: the nearer one stays.
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = i + 1; j < paths.size() && paths[i].mode != no_mode; ++j) {
@@ -116,53 +116,64 @@ std::vector<ModePath> ModeFollower::follow(double from, double to,
       const TurningMode& b = at(to)[paths[i].mode];
       const bool second = apart(at(from)[modes[i]], b) <= apart(at(from)[modes[j]], b);
       const std::size_t lost = second ? j : i;
-      paths[lost] = {no_mode, from, at(from)[modes[lost]].lambda};
+      paths[lost] = {no_mode, from, at(from)[modes[lost]].lambda, {}};
     }
   return paths;
 }
 
 std::vector<ModePath> ModeFollower::follow(double from, double to,
                                            const std::vector<std::size_t>& modes,
-                                           const std::vector<double>& sizes, int depth) {
+                                           const std::vector<Begin>& begins, int depth) {
   const TurningModes &a = at(from), &b = at(to);
   const std::vector<ModePair> pairs = paired(a, b);
   std::vector<ModePath> paths(modes.size());
   std::vector<std::size_t> open, open_modes;
-  std::vector<double> open_sizes;
+  std::vector<Begin> open_begins;
   const double middle = 0.5 * (from + to);
   const bool last = depth == deepest || (out_of_speeds() && known_.count(middle) == 0);
   std::size_t still = 0;  // rigid motions at standstill, two for each that begins to swing
   while (still < b.size() && is_rigid(b, still)) ++still;
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const ModePair& p = pairs[modes[k]];
-    const double size = std::abs(a[modes[k]].lambda);
+    const std::complex<double> lambda = a[modes[k]].lambda;
+    // A frequency that falls with the speed is zero at standstill.
+    const bool falls =
+        last && to == 0.0 && still > 0 &&
+        std::abs(lambda) * std::abs(begins[k].speed) < 1.05 * begins[k].size * std::abs(from);
     if (is_accepted(p, last)) {
-      paths[k] = {p.next, to, b[p.next].lambda};
-    } else if (to == 0.0 && still > 0 && depth >= 3 && size < 0.3 * sizes[k]) {
-      paths[k] = {--still, to, b[still].lambda};  // its frequency falls with the speed
+      paths[k] = {p.next, to, b[p.next].lambda, {}};
+    } else if (falls) {
+      --still;
+      paths[k] = {still, to, b[still].lambda, {}};
     } else if (last) {
-      paths[k] = {no_mode, from, a[modes[k]].lambda};
+      paths[k] = {no_mode, from, lambda, {}};
     } else {
       open.push_back(k);
       open_modes.push_back(modes[k]);
-      open_sizes.push_back(sizes[k]);
+      open_begins.push_back(begins[k]);
     }
   }
   if (open.empty()) return paths;
   if (known_.count(middle) == 0) ++extra_;
-  const std::vector<ModePath> first = follow(from, middle, open_modes, open_sizes, depth + 1);
+  const std::vector<ModePath> first = follow(from, middle, open_modes, open_begins, depth + 1);
   std::vector<std::size_t> alive, alive_modes;
-  std::vector<double> alive_sizes;
+  std::vector<Begin> alive_begins;
   for (std::size_t k = 0; k < open.size(); ++k) {
     paths[open[k]] = first[k];
     if (first[k].mode == no_mode) continue;
     alive.push_back(open[k]);
     alive_modes.push_back(first[k].mode);
-    alive_sizes.push_back(open_sizes[k]);
+    alive_begins.push_back(open_begins[k]);
   }
   if (alive.empty()) return paths;
-  const std::vector<ModePath> second = follow(middle, to, alive_modes, alive_sizes, depth + 1);
-  for (std::size_t k = 0; k < alive.size(); ++k) paths[alive[k]] = second[k];
+  const std::vector<ModePath> second = follow(middle, to, alive_modes, alive_begins, depth + 1);
+  for (std::size_t k = 0; k < alive.size(); ++k) {
+    ModePath whole = second[k];
+    whole.between = paths[alive[k]].between;
+    whole.between.emplace_back(middle, paths[alive[k]].mode);
+    whole.between.insert(whole.between.end(), second[k].between.begin(), second[k].between.end());
+    paths[alive[k]] = std::move(whole);
+  }
   return paths;
 }
 

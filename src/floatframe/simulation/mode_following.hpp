@@ -21,6 +21,8 @@ struct ModePath {
   std::size_t mode = no_mode;  ///< at the other speed; none: it cannot be followed
   double end = 0.0;            ///< the last speed to which it was followed [rad/s]
   std::complex<double> last;   ///< its eigenvalue there
+  /// Speeds between, and its mode there, in the order in which it was followed.
+  std::vector<std::pair<double, std::size_t>> between{};
 };
 
 class ModeFollower {
@@ -35,8 +37,12 @@ class ModeFollower {
   bool out_of_speeds() const noexcept { return extra_ >= most_extra_; }
 
  private:
+  /// A mode where it began to be followed: its speed and |lambda|.
+  struct Begin {
+    double speed, size;
+  };
   std::vector<ModePath> follow(double from, double to, const std::vector<std::size_t>& modes,
-                               const std::vector<double>& sizes, int depth);
+                               const std::vector<Begin>& begins, int depth);
 
   TurningModel& turning_;
   int most_extra_, extra_ = 0;

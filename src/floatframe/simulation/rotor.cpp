@@ -201,6 +201,12 @@ MatX turned_modes(const MatX& G, double angle) {
   return D;
 }
 
+std::vector<int> rotor_bodies(const Model& model, const std::string& joint) {
+  const RelativeFormulation f(model, model.simulation.inertia);
+  const int body = f.tree().body_of_joint(joint_named(model, joint));
+  return body < 0 ? std::vector<int>{} : bodies_below(f.tree(), body);
+}
+
 Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::optional<Vec3>& axis) {
   const Model& model = f.model();
   const TreeKinematics& tree = f.tree();

@@ -45,6 +45,9 @@ struct Rotor {
 /// is not clear about which axis it turns.
 Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::optional<Vec3>& axis);
 
+/// The bodies of the rotor that hangs on a joint, whatever its axis.
+std::vector<int> rotor_bodies(const Model& model, const std::string& joint);
+
 /// G of a body with this axis through p_BP, from its nodes on the axis.
 MatX turning_of_modes(const FlexibleBody& body, const Vec3& axis, const Vec3& p_BP,
                       const std::vector<int>& on_axis);

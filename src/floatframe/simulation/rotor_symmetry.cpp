@@ -112,12 +112,16 @@ std::vector<std::string> asymmetries(const Model& model, const Rotor& rotor) {
     const Body& b = model.bodies[static_cast<std::size_t>(r.body)];
     const VecX& f = b.data->fixed_interface_frequencies;
     const Eigen::Index n = f.size();
-    if (const auto pair = cut_pair(*b.data, r.axis)) {
-      found.push_back(fmt::format("body '{}': {}", b.name, cut_pair_text(*pair, "normal_modes")));
-    } else if (n > 0 && b.data->mode_names.back().rfind("normal ", 0) != 0 &&
-               (n == 1 || !equal_frequency(f[n - 2], f[n - 1]))) {
-      found.push_back(fmt::format("body '{}': it seems that {}", b.name,
-                                  cut_pair_text({static_cast<int>(n), f[n - 1]}, "modes")));
+    const bool bars = n > 0 && b.data->mode_names.back().rfind("normal ", 0) == 0;
+    if (const auto cut = cut_pair(*b.data)) {
+      found.push_back(fmt::format("body '{}': {}", b.name,
+                                  cut_pair_text(*cut, bars ? "normal_modes" : "modes")));
+    } else if (n > 0 && !bars && (n == 1 || !equal_frequency(f[n - 2], f[n - 1]))) {
+      // Files of bodies do not say what was left out.
+      found.push_back(
+          fmt::format("body '{}': its last mode ({:.6g} Hz) may be one of a pair that "
+                      "'modes: {}' cuts (the report of its reduction says so)",
+                      b.name, f[n - 1], n));
     }
   }
   return found;

@@ -10,6 +10,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/simulation/rotor_speeds.hpp"
+#include "floatframe/simulation/rotor_stiffening.hpp"
 #include "floatframe/simulation/rotor_symmetry.hpp"
 #include "floatframe/simulation/turning_model.hpp"
 
@@ -112,8 +113,9 @@ void keep_outputs(TurningModel& turning, const std::vector<AxisForce>& forces, d
   for (Eigen::Index k = 0; k < a.amplitudes.size(); ++k) {
     const double size = std::max(std::abs(a.amplitudes[k]), std::abs(b.amplitudes[k]));
     rough.push_back(!a.smooth[static_cast<std::size_t>(k)]);
-    turns.push_back(!rough.back() &&
-                    std::abs(a.amplitudes[k] - b.amplitudes[k]) > 1e-2 * size + 1e-9 * largest);
+    const bool other = std::abs(a.amplitudes[k] - b.amplitudes[k]) > 1e-2 * size + 1e-9 * largest,
+               moved = std::abs(a.means[k] - b.means[k]) > 1e-6 * (1.0 + std::abs(a.means[k]));
+    turns.push_back(!rough.back() && (other || moved));
   }
   std::vector<int> smooth = outputs;
   leave_out(model, smooth, rough, "since they are sizes that are zero in the steady state", notes);
@@ -133,7 +135,10 @@ UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions&
     throw InputError(
         fmt::format("rotor on joint '{}': no unbalance is given, expected at least one", o.joint));
   std::vector<int> outputs = chosen_outputs(model, o.outputs);
-  TurningModel turning(model, o.joint, o.axis);
+  const CountedStiffening counted = stiffened_rotor(built(model), o.joint);
+  r.stiffened = counted.bodies;
+  r.stiffening = counted.sentence;
+  TurningModel turning(counted.model, o.joint, o.axis);
   std::vector<AxisForce> forces;
   for (const Unbalance& u : o.unbalances)
     forces.push_back(axis_force(turning.model(), turning.rotor(), u));
@@ -153,6 +158,9 @@ UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions&
     }
   }
   for (const std::string& note : turning.notes()) r.notes.push_back(note);
+  const double fastest = std::max(std::abs(r.speeds.front()), std::abs(r.speeds.back()));
+  for (std::string& note : stiffening_notes(turning.model(), turning.rotor(), fastest))
+    r.notes.push_back(std::move(note));
   return r;
 }
 

@@ -41,6 +41,8 @@ struct UnbalanceCurve {
 struct UnbalanceResponse {
   std::vector<double> speeds;  ///< [rad/s]
   std::vector<UnbalanceCurve> curves;
+  std::vector<std::string> stiffened;  ///< as of CampbellDiagram
+  std::string stiffening;
   std::vector<std::string> notes;  ///< which outputs are left out, and why
 };
 
