@@ -113,7 +113,11 @@ Eigenmodes select_fixed_modes(const FixedInterface& fixed, const FeSystem& syste
   const int whole = whole_groups(
       modes.omega, kept, given && !reached,
       [&] { return count_with_group(fixed, kept, hertz(modes.omega[kept - 1])); }, equal_left_out);
-  if (whole > modes.omega.size()) modes = fixed.normal_modes(whole, true);
+  if (whole > modes.omega.size()) {  // modes of the group are other combinations of it then
+    modes = fixed.normal_modes(whole, true);
+    list.clear();
+    kept = 0;
+  }
   while (kept < std::min(whole, static_cast<int>(modes.omega.size()))) keep();
   return {modes.omega.head(kept), modes.shapes.leftCols(kept)};
 }

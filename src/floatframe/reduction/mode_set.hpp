@@ -16,8 +16,8 @@ struct ModeSet {
   MatX X;                  ///< rows of the structure x nm
   MatX K;                  ///< nm x nm
   VecX frequencies;        ///< of the dynamic modes [Hz]
-  int equal_left_out = 0;  ///< as of FlexibleBody
   std::vector<std::string> names;
+  int equal_left_out = 0;  ///< as of FlexibleBody
 };
 
 /// Of a structure held at its interfaces (FixedInterface, BarChains): the number of normal modes
