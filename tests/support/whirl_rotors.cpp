@@ -202,7 +202,7 @@ std::string bars(const AssembledRotor& r, const RotorOptions& o) {
 std::string part(const TemporaryFolder& folder, const AssembledRotor& r, const RotorOptions& o) {
   std::string file, keys;
   const std::string ends =
-      fmt::format("interfaces: {{A: {{node: 1}}, B: {{node: {}}}}}, modes: 24", r.nodes());
+      fmt::format("interfaces: {{A: {{node: 1}}, B: {{node: {}}}}}, modes: 25", r.nodes());
   switch (o.kind) {
     case RotorKind::cbar:
       file = folder.write("rotor.bdf", nastran_deck(r));
