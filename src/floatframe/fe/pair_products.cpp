@@ -1,5 +1,7 @@
 #include "floatframe/fe/pair_products.hpp"
 
+#include <utility>
+
 namespace floatframe {
 namespace {
 
@@ -34,7 +36,6 @@ PairProducts::PairProducts(Eigen::Index modes, Eigen::Index cases)
       S_(cases, 6 * batch) {}
 
 void PairProducts::add(const MatX& g, const MatX& s) {
-  empty_ = false;
   products(g, P_.middleCols(6 * filled_, 6));
   S_.middleCols(6 * filled_, 6) = s.transpose();
   if (++filled_ == batch) flush();
@@ -45,9 +46,9 @@ void PairProducts::flush() {
   filled_ = 0;
 }
 
-const MatX& PairProducts::sum() {
+MatX PairProducts::take() {
   if (filled_ > 0) flush();
-  return K_;
+  return std::move(K_);
 }
 
 MatX symmetric_of(const Eigen::Ref<const VecX>& packed) {

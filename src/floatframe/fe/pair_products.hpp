@@ -13,16 +13,14 @@ class PairProducts {
   PairProducts(Eigen::Index modes, Eigen::Index cases);
   /// g: rows 3 i .. 3 i + 2 are those of g_i; s: 6 x cases (xx, yy, zz, xy, yz, zx).
   void add(const MatX& g, const MatX& s);
-  bool empty() const noexcept { return empty_; }
-  /// One column a case: the lower half of the sum, row by row.
-  const MatX& sum();
+  /// One column a case: the lower half of the sum, row by row. Ends it.
+  MatX take();
 
  private:
   void flush();
 
   MatX K_, P_, S_;
   Eigen::Index filled_ = 0;
-  bool empty_ = true;
 };
 
 /// A column of the sum as a matrix.

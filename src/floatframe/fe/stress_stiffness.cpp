@@ -38,8 +38,8 @@ StressStiffness shares_of_stress_stiffness(const FeModel& model, const NodalShap
     }
   }
   StressStiffness out;
-  out.direct = direct.sum();
-  if (twist) out.twist = twist->sum();
+  out.direct = direct.take();
+  if (twist) out.twist = twist->take();
   return out;
 }
 

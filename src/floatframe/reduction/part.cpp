@@ -291,8 +291,8 @@ ReducedPart reduce_part(FeModel model, const PartOptions& options) {
   add_damping(model, system, R, X, options, part.body, health);
   health.modes = part.body.modes();
   health.from_invariants = mass_properties(part.body.invariants);
-  health.rotary_inertia = points.rotary;
-  check_body(part.body, *health.rotary_inertia || model.matrices.has_value());
+  health.rotary_inertia = points.rotary || points.anisotropy > least_anisotropy;
+  check_body(part.body, *health.rotary_inertia);
   stages.done("body");
   add_surface(model, system, X, part);
   stages.done("surface");

@@ -129,7 +129,7 @@ void add_warnings(const FeModel& model, const PointModel& points, HealthReport& 
       list.push_back(
           fmt::format("volume times density is {:+.2f} % off the assembled mass", 100.0 * off));
   }
-  if (points.anisotropy > 1e-9)
+  if (points.anisotropy > least_anisotropy)
     list.push_back(fmt::format(
         "the mass in the matrices differs between directions by up to {:.2g} of its largest entry "
         "(rotary inertia of another program): the mass matrix of the undeformed body is that of "

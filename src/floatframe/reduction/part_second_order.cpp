@@ -183,7 +183,7 @@ void add_followers(const FeModel& model, const PointModel& points, const MatX& X
   PairProducts products(X.cols(), nc);
   for (const auto& [rotation, s] : of_rotations)
     products.add(points.rotations.middleRows(3 * rotation, 3) * X, s);
-  K += products.sum();
+  K += products.take();
 }
 
 /// h of a column of the stress stiffness.

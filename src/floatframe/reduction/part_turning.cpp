@@ -65,7 +65,7 @@ SecondOrder turning_of(const PointModel& points, std::span<const PointArm> arms,
       products.add(turned.middleRows(3 * r, 3), s);
     }
   }
-  return integrals_of(products.sum());
+  return integrals_of(products.take());
 }
 
 std::shared_ptr<const SecondOrder> part_turning(const PointModel& points, const MatX& X,
