@@ -170,7 +170,7 @@ FlexibleBody body_of(const FeModel& model, const FeSystem& system, const ModeBas
                      const InertiaInvariants& raw, const ElasticModes& modes, const MatX& X,
                      const std::vector<InterfacePlace>& interfaces,
                      const std::vector<MarkerPlace>& markers) {
-  ModeSet set{X, modes.lambda.asDiagonal(), basis.frequencies, 0, {}};
+  ModeSet set{X, modes.lambda.asDiagonal(), basis.frequencies, {}};
   for (Eigen::Index a = 0; a < X.cols(); ++a) set.names.push_back(fmt::format("elastic {}", a + 1));
   set.equal_left_out = basis.equal_left_out;
   FlexibleBody body = body_of_modes(std::move(set), combined(raw, modes.C));
