@@ -64,6 +64,14 @@ void expect_equal(const BodyFile& a, const BodyFile& b) {
   EXPECT_EQ(a.part.body.D, b.part.body.D);
   EXPECT_EQ(a.part.body.fixed_interface_frequencies, b.part.body.fixed_interface_frequencies);
   EXPECT_EQ(a.part.body.mode_names, b.part.body.mode_names);
+  ASSERT_EQ(a.part.body.interfaces.size(), b.part.body.interfaces.size());
+  for (std::size_t k = 0; k < a.part.body.interfaces.size(); ++k) {
+    EXPECT_EQ(a.part.body.interfaces[k].node, b.part.body.interfaces[k].node);
+    EXPECT_EQ(a.part.body.interfaces[k].mask, b.part.body.interfaces[k].mask);
+  }
+  ASSERT_EQ(a.part.health.damping.mounted.size(), b.part.health.damping.mounted.size());
+  for (std::size_t k = 0; k < a.part.health.damping.mounted.size(); ++k)
+    EXPECT_EQ(a.part.health.damping.mounted[k].fraction, b.part.health.damping.mounted[k].fraction);
   EXPECT_EQ(a.part.body.mass_model, b.part.body.mass_model);
   ASSERT_EQ(a.part.body.nodes.size(), b.part.body.nodes.size());
   for (std::size_t k = 0; k < a.part.body.nodes.size(); ++k) {

@@ -46,6 +46,7 @@ inline BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
   for (std::size_t k = 0; k < second->nodes.size(); ++k)
     second->nodes[k].node = static_cast<int>(k);
   part.body.second_order = second;
+  part.body.interfaces = {{0, 63u}, {2, 7u}};
 
   HealthReport& h = part.health;
   h.nodes = model.nodes();
@@ -62,6 +63,7 @@ inline BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
   h.rotary_inertia = false;
   h.normal_modes = {{"normal 1", 100.0, Vec6::Constant(0.25), true}};
   h.free_frequencies = {{100.0, 100.25}};
+  h.damping = own_damping(part.body);
   h.interfaces = {{"eye", 7, {0.3, 0.2, 0.25}, "rigid", 3.5, 1e-9}};
   h.static_support = "foot";
   h.solver = "test";

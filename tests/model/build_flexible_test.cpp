@@ -87,7 +87,30 @@ TEST_F(BuildFlexible, EveryChangeOfTheDescriptionMakesAnotherBody) {
       {"eigen_mass", [](F& f) { f.eigen_mass = MassModel::hermite; }},
       {"section_inertia",
        [](F& f) { f.mass_model = MassModel::hermite, f.section_inertia = true; }},
-      {"damping_ratio", [](F& f) { f.damping_ratio = 0.01; }},
+      {"damping", [](F& f) { f.damping = 0.01; }},
+      {"damping of modes",
+       [](F& f) {
+         f.damping.fractions = {0.01, 0.02};
+       }},
+      {"bands", [](F& f) { f.damping.bands = usual_damping_bands(); }},
+      {"Rayleigh's alpha", [](F& f) { f.damping.alpha = 0.01; }},
+      {"Rayleigh's beta", [](F& f) { f.damping.beta = 0.01; }},
+      {"reference of damping",
+       [](F& f) {
+         f.damping = 0.01;
+         f.damping.reference = DampingReference::free;
+       }},
+      {"mounted",
+       [](F& f) {
+         f.damping = 0.01;
+         f.damping.reference = DampingReference::mounted;
+       }},
+      {"mounted at a frequency",
+       [](F& f) {
+         f.damping = 0.01;
+         f.damping.reference = DampingReference::mounted;
+         f.damping.interface_frequency = 5.0;
+       }},
       {"one bar", [](F& f) { f.bars.pop_back(), f.masses.clear(); }},
       {"analytic",
        [](F& f) { f.bars.pop_back(), f.masses.clear(), f.analytic = AnalyticShapes{1}; }},

@@ -92,6 +92,15 @@ TEST(PartOptions, TheContentOfAFileChangesThePlaceInTheCache) {
   }
 }
 
+TEST(PartOptions, ADampingMatrixThatAppearsChangesThePlaceInTheCache) {
+  const test::TemporaryFolder folder;
+  PartJob job;
+  job.file = folder.write("arm_K.mtx", "same");
+  const auto without = part_cache_file(job, "cache");
+  folder.write("arm_C.mtx", "dashpots");
+  EXPECT_NE(part_cache_file(job, "cache"), without);
+}
+
 std::string document(const std::string& name) {
   std::ifstream file(FLOATFRAME_EXAMPLES "/../docs/" + name);
   EXPECT_TRUE(file) << name;

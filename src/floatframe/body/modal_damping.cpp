@@ -72,6 +72,7 @@ MatX interface_rows(const FlexibleBody& body, double length) {
   const Eigen::Index nm = body.modes();
   MatX B(0, 6 + nm);
   for (const InterfaceDofs& at : body.interfaces) {
+    if (at.node < 0 || at.node >= static_cast<int>(body.nodes.size())) continue;
     const ModalNode& node = body.nodes[at.node];
     Mat6X z = Mat6X::Zero(6, 6 + nm);
     z.topLeftCorner<3, 3>().setIdentity();
@@ -111,8 +112,12 @@ ReferenceModes mounted_modes(const FlexibleBody& body, const BodyMotions& motion
   VecX size = VecX::Ones(6 + nm);
   size.tail(nm) = amplitude_sizes(body);
   const MatX B = interface_rows(body, motions.length) * size.asDiagonal();
-  const PivotedQr rows = pivoted_qr(B.transpose(), interface_rank);
-  if (const MatX N = rows.Q.rightCols(6 + nm - rows.rank); N.cols() > 0) {
+  MatX N = MatX::Identity(6 + nm, 6 + nm);
+  if (B.rows() > 0) {
+    const PivotedQr rows = pivoted_qr(B.transpose(), interface_rank);
+    N = rows.Q.rightCols(6 + nm - rows.rank).eval();
+  }
+  if (N.cols() > 0) {
     // What is left may hold rigid motions: turns about a single interface without turns.
     const MatX Ny = N.bottomRows(nm);
     const PivotedQr elastic = pivoted_qr(Ny.transpose(), interface_rank);

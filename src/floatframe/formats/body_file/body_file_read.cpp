@@ -167,10 +167,11 @@ class BodyReader {
 
   /// The degrees of freedom of an interface; all of them in files of earlier programs.
   void interface_of(const Json& marker) {
-    const auto given = marker.is_object() ? marker.find("interface") : marker.end();
-    if (!marker.is_object() || given == marker.end() || *given != true) return;
-    InterfaceDofs at{static_cast<int>(body().nodes.size()) - 1, 63u};
-    if (const auto dofs = marker.find("dofs"); dofs != marker.end() && dofs->is_array()) {
+    if (!marker.is_object()) return;
+    const auto given = marker.find("interface"), dofs = marker.find("dofs");
+    InterfaceDofs at{static_cast<int>(body().nodes.size()) - 1, 0};
+    if (given != marker.end() && *given == true) at.mask = 63u;
+    if (dofs != marker.end() && dofs->is_array()) {
       at.mask = 0;
       for (unsigned k = 0; k < 6; ++k)
         if (std::find(dofs->begin(), dofs->end(), Json(interface_directions[k])) != dofs->end())
