@@ -64,6 +64,7 @@ void expect_equal(const BodyFile& a, const BodyFile& b) {
   EXPECT_EQ(a.part.body.D, b.part.body.D);
   EXPECT_EQ(a.part.body.fixed_interface_frequencies, b.part.body.fixed_interface_frequencies);
   EXPECT_EQ(a.part.body.mode_names, b.part.body.mode_names);
+  EXPECT_EQ(a.part.body.equal_left_out, b.part.body.equal_left_out);
   ASSERT_EQ(a.part.body.interfaces.size(), b.part.body.interfaces.size());
   for (std::size_t k = 0; k < a.part.body.interfaces.size(); ++k) {
     EXPECT_EQ(a.part.body.interfaces[k].node, b.part.body.interfaces[k].node);

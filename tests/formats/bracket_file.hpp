@@ -47,6 +47,7 @@ inline BodyFile bracket(MassModel mass_model = MassModel::isoparametric) {
     second->nodes[k].node = static_cast<int>(k);
   part.body.second_order = second;
   part.body.interfaces = {{0, 63u}, {2, 7u}};
+  part.body.equal_left_out = 1;
 
   HealthReport& h = part.health;
   h.nodes = model.nodes();

@@ -58,7 +58,7 @@ PartOptions clamped_shaft(const FeModel& model) {
 }
 
 /// Eigenvalues of M q'' + G q' + K q = 0 on the imaginary axis, ascending, positive.
-std::vector<double> frequencies(const MatX& M, const MatX& G, const MatX& K) {
+std::vector<double> whirl_frequencies(const MatX& M, const MatX& G, const MatX& K) {
   const Eigen::Index n = M.rows();
   MatX A = MatX::Zero(2 * n, 2 * n);
   A.topRightCorner(n, n).setIdentity();
@@ -119,7 +119,7 @@ void expect_whirl(const FeModel& model, double speed) {
   const MatX K = MatX(system.K).bottomRightCorner(free, free);
   const MatX M = MatX(system.M).bottomRightCorner(free, free);
   const MatX G = gyroscopic(model, system).bottomRightCorner(free, free);
-  const std::vector<double> rest = frequencies(M, speed * G, K);
+  const std::vector<double> rest = whirl_frequencies(M, speed * G, K);
 
   const FlexibleBody body = reduce_part(model, clamped_shaft(model)).body;
   ASSERT_TRUE(body.turning);
@@ -130,7 +130,7 @@ void expect_whirl(const FeModel& model, double speed) {
   // Stiffening has no share in it: no load of a spin about the axis pulls the shaft.
   const MatX stiffening = body.second_order->S2i[1][1] + body.second_order->S2i[2][2];
   EXPECT_LT(stiffening.norm(), 1e-9 * C.norm());
-  const std::vector<double> turning = frequencies(
+  const std::vector<double> turning = whirl_frequencies(
       modal_mass(body.invariants), speed * (D.transpose() - D), body.K - speed * speed * C);
   // Whirl at w in axes at rest is seen at |w - speed| or |w + speed| in those of the body.
   for (std::size_t k = 0; k < 8; ++k) {
@@ -159,8 +159,8 @@ TEST(RotorParts, TheOrderOfTheEffect) {
   const MatX K = MatX(system.K).bottomRightCorner(free, free);
   const MatX M = MatX(system.M).bottomRightCorner(free, free);
   const MatX G = gyroscopic(model, system).bottomRightCorner(free, free);
-  const std::vector<double> still = frequencies(M, 0.0 * G, K),
-                            spun = frequencies(M, 1000.0 * G, K);
+  const std::vector<double> still = whirl_frequencies(M, 0.0 * G, K),
+                            spun = whirl_frequencies(M, 1000.0 * G, K);
   EXPECT_GT(spun[1] / still[1], 1.1);
   EXPECT_LT(spun[0] / still[0], 0.9);
 }

@@ -146,7 +146,8 @@ TEST(RotorParts, PublishedRotor) {
 
 /// Frequencies of sum_k c_k e^(i w_k t) from equally spaced samples, by a matrix pencil of `order`
 /// terms (Hua, Sarkar, IEEE Trans. ASSP 38 (1990) 814-824) [rad/s].
-std::vector<double> frequencies(const Eigen::VectorXcd& samples, double interval, int order) {
+std::vector<double> ringing_frequencies(const Eigen::VectorXcd& samples, double interval,
+                                        int order) {
   const Eigen::Index n = samples.size(), columns = n / 2, rows = n - columns;
   Eigen::MatrixXcd Y(rows, columns + 1);
   for (Eigen::Index k = 0; k <= columns; ++k)
@@ -186,7 +187,7 @@ TEST(RotorParts, RingsFromAKickInRuns) {
     Eigen::VectorXcd samples(static_cast<Eigen::Index>(r.table.rows() - first));
     for (std::size_t k = first; k < r.table.rows(); ++k)
       samples[static_cast<Eigen::Index>(k - first)] = {r.table.at(k, y), r.table.at(k, z)};
-    const std::vector<double> found = frequencies(samples, 5e-4, 14);
+    const std::vector<double> found = ringing_frequencies(samples, 5e-4, 14);
     double worst = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
       const double w = (k % 2 == 0 ? -1.0 : 1.0) * expected[k].imag();  // backward, forward

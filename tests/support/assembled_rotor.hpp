@@ -1,7 +1,7 @@
 #pragma once
-// A rotor of round beams and rigid discs assembled directly in axes that do not turn: what bodies of
-// a rotor are compared with. Independent of the library. Across the axis x, with q = (v, v') and
-// (w, w') of the nodes (the tilts of a section: psi_v = v' - shear, psi_w alike):
+// A rotor of round beams and rigid discs assembled directly in axes that do not turn: what rotors
+// made of bodies are compared with. Independent of the library. Across the axis x, with (v, tilt)
+// of the nodes in q_v and (w, tilt) in q_w:
 //   M q_v'' + C_vv q_v' + C_vw q_w' + W G q_w' + K q_v ... = 0
 //   M q_w'' + C_ww q_w' + C_wv q_v' - W G q_v' + K q_w ... = 0
 // M: translations and rotary inertia of sections (Rayleigh), G: the polar inertia of sections and

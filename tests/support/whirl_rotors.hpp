@@ -1,5 +1,5 @@
 #pragma once
-// The rotor of Lalanne and Ferraris (support/assembled_rotor.hpp) as model files: its shaft of beams
+// The rotor of Lalanne and Ferraris (support/assembled_rotor.hpp) as model files: a shaft of beams
 // from a deck of Nastran or Abaqus, of bars, or of 20-node bricks with discs as point masses.
 #include <string>
 

@@ -114,6 +114,13 @@ class BodyReader {
       }
     else
       error("found no list of 'modes', expected one entry per mode");
+    if (const auto n = json.find("equal_modes_left_out"); n != json.end()) {
+      if (n->is_number_integer() && *n >= 0 && *n <= 1000)
+        body().equal_left_out = n->get<int>();
+      else
+        error(fmt::format("found equal_modes_left_out {}, expected a whole number from 0 to 1000",
+                          json_excerpt(*n)));
+    }
     std::set<std::string> names;
     if (const auto m = json.find("markers"); m != json.end() && m->is_array())
       for (const Json& marker : *m) {

@@ -69,6 +69,7 @@ std::string header_of(const BodyFile& content) {
                        {"units", body_file_units},
                        {"mass_model", mass_models[index_of(body.mass_model)]},
                        {"modes", modes},
+                       {"equal_modes_left_out", body.equal_left_out},
                        {"markers", markers},
                        {"stress", stress},
                        {"provenance",
