@@ -143,7 +143,7 @@ struct AssembledRotor {
   }
 };
 
-/// The rotor of three discs of Lalanne and Ferraris (Rotordynamics Prediction in Engineering, 1998),
+/// The rotor of three discs of Lalanne, Ferraris, Rotordynamics Prediction in Engineering (1998),
 /// its shaft of 1.3 m in `elements` parts. `round`: bearings of 6e7 N/m; else their own.
 inline AssembledRotor lalanne_ferraris(bool round, int elements = 26) {
   AssembledRotor r;
