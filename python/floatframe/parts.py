@@ -294,10 +294,11 @@ def info(
     nodes: Path | None = None,
     mass: Path | None = None,
     dofs: Path | None = None,
+    damping_matrix: Path | None = None,
 ) -> FileInfo:
     """What is in a finite-element file, a body file or a SID_FEM file: what `floatframe info` prints, as a dict of its JSON.
     Options as those of `reduce`."""
-    options = reading_options(format, dialect, contact, temperature, density, thickness, nodes, mass, dofs) | material_option(material)
+    options = reading_options(format, dialect, contact, temperature, density, thickness, nodes, mass, dofs, damping_matrix) | material_option(material)
     text, content = _core.file_info(path_text("path", path), options)
     return FileInfo(text, json.loads(content))
 

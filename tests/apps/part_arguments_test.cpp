@@ -50,7 +50,7 @@ TEST(PartArguments, OptionsOfReadingAreThoseOfInfo) {
   EXPECT_EQ(names, (std::vector<std::string>{
                        "--format", "--dialect", "--beam-shear", "--shell-shear", "--mass-form",
                        "--material", "--density", "--thickness", "--contact", "--temperature",
-                       "--grounded-springs", "--nodes", "--mass", "--dofs"}));
+                       "--grounded-springs", "--nodes", "--mass", "--dofs", "--damping-matrix"}));
 }
 
 TEST(PartArguments, RepeatedOptionsKeepTheirOrder) {
