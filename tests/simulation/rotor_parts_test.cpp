@@ -36,15 +36,44 @@ TurningModel turning_of(const AssembledRotor& rotor, const RotorOptions& options
   return {load_model(write_rotor(folder, rotor, options)), "motor", Vec3::UnitX()};
 }
 
-/// Largest difference of the first `count` frequencies, in parts, over the range of speeds.
-double difference(const AssembledRotor& rotor, const RotorOptions& options, std::size_t count) {
+/// Frequencies [rad/s] of the first `pairs` modes of a round rotor: those against the rotor, then
+/// those with it. At rest all of them.
+std::vector<double> whirl(TurningModel& turning, double speed, std::size_t pairs) {
+  std::vector<double> against, with;
+  for (const TurningMode& m : turning.modes(speed)) {
+    EXPECT_LT(m.lambda.real(), 1e-3) << "at " << speed << " rad/s: " << m.lambda;
+    if (m.across > 0.5 && m.lambda.imag() > 1.0)
+      (speed > 0.0 && m.whirl > 0.0 ? with : against).push_back(m.lambda.imag());
+  }
+  std::sort(against.begin(), against.end());
+  std::sort(with.begin(), with.end());
+  const std::size_t first = speed > 0.0 ? pairs : 2 * pairs;
+  if (against.size() < first || with.size() < 2 * pairs - first) return {};
+  against.resize(first);
+  against.insert(against.end(), with.begin(),
+                 with.begin() + static_cast<std::ptrdiff_t>(2 * pairs - first));
+  return against;
+}
+
+std::vector<double> whirl(const AssembledRotor& rotor, double speed, std::size_t pairs) {
+  std::vector<double> out;
+  for (const double direction : {-1.0, 1.0}) {
+    const std::vector<double> found = rotor.whirl(direction * speed);
+    for (std::size_t k = 0; k < pairs; ++k) out.push_back(found[k]);
+  }
+  if (speed == 0.0) std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// Largest difference of the first four pairs of bending modes, in parts, over the range of speeds.
+double difference(const AssembledRotor& rotor, const RotorOptions& options) {
   TurningModel turning = turning_of(rotor, options);
   double worst = 0.0;
   for (const double speed : {0.0, top_speed / 2, top_speed}) {
-    const auto expected = rotor.eigenvalues(speed), found = bending(turning, speed);
-    if (found.size() < count) return 1.0;
-    for (std::size_t k = 0; k < count; ++k)
-      worst = std::max(worst, std::abs(found[k].imag() / expected[k].imag() - 1.0));
+    const auto expected = whirl(rotor, speed, 4), found = whirl(turning, speed, 4);
+    if (found.size() != expected.size()) return 1.0;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      worst = std::max(worst, std::abs(found[k] / expected[k] - 1.0));
   }
   return worst;
 }
@@ -63,7 +92,7 @@ TEST(RotorParts, BeamsAreRayleighs) {
         if (kind == RotorKind::bars && node_frame) continue;
         RotorOptions o;
         o.kind = kind, o.node_frame = node_frame, o.stiffening = stiffening;
-        const double worst = difference(rotor, o, 8);
+        const double worst = difference(rotor, o);
         std::printf("[ figure ] rotor_%s_%s_stiffening_%s %.1e\n", word(kind),
                     node_frame ? "node" : "mean_axis", stiffening, worst);
         EXPECT_LT(worst, 1e-3) << word(kind) << node_frame << stiffening;
@@ -76,23 +105,37 @@ TEST(RotorParts, LumpedMassIsTheRotorAssembledFromIt) {
   for (const bool node_frame : {false, true}) {
     RotorOptions o;
     o.lumped = true, o.node_frame = node_frame;
-    const double worst = difference(rotor, o, 8);
+    const double worst = difference(rotor, o);
     std::printf("[ figure ] rotor_lumped %.1e\n", worst);
     EXPECT_LT(worst, 1e-3);
   }
 }
 
-// Discs as point masses on rigid spiders.
+// Discs as point masses that follow the mean motion of sections; the spin itself changes the
+// stiffness of a body of bricks, so geometric stiffening belongs to it.
 TEST(RotorParts, SolidsAreTimoshenkos) {
   AssembledRotor rotor = lalanne_ferraris(true);
   rotor.shear_factor = 6.0 * (1.0 + rotor.poisson) / (7.0 + 6.0 * rotor.poisson);
-  RotorOptions o;
-  o.kind = RotorKind::solids;
-  const double worst = difference(rotor, o, 8);
-  std::printf("[ figure ] rotor_solids %.1e\n", worst);
-  EXPECT_LT(worst, 3e-3);
+  for (const bool node_frame : {false, true}) {
+    RotorOptions o;
+    o.kind = RotorKind::solids, o.node_frame = node_frame, o.stiffening = "true";
+    const double worst = difference(rotor, o);
+    std::printf("[ figure ] rotor_solids_%s %.1e\n", node_frame ? "node" : "mean_axis", worst);
+    EXPECT_LT(worst, 3e-3);
+  }
 }
 
+/// Largest difference of the first four pairs between the two body frames, in parts.
+double frame_difference(TurningModel& mean, TurningModel& node, double speed) {
+  const auto a = whirl(mean, speed, 4), b = whirl(node, speed, 4);
+  if (a.empty() || b.empty()) return 1.0;
+  double worst = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, std::abs(a[k] / b[k] - 1.0));
+  return worst;
+}
+
+// Beams have no strain by spin about their axis. Bricks are strained by rho W^2 R^2/E, 7e-4 at the
+// top speed, which modal masses do not see: frames differ by a part of that, with W^2.
 TEST(RotorParts, FramesAgreeWithStiffening) {
   const AssembledRotor rotor = lalanne_ferraris(true);
   for (const RotorKind kind : {RotorKind::cbar, RotorKind::solids}) {
@@ -101,15 +144,13 @@ TEST(RotorParts, FramesAgreeWithStiffening) {
     TurningModel mean = turning_of(rotor, o);
     o.node_frame = true;
     TurningModel node = turning_of(rotor, o);
-    double worst = 0.0;
-    for (const double speed : {0.0, top_speed / 2, top_speed}) {
-      const auto a = bending(mean, speed), b = bending(node, speed);
-      ASSERT_GE(std::min(a.size(), b.size()), 8u);
-      for (std::size_t k = 0; k < 8; ++k)
-        worst = std::max(worst, std::abs(a[k].imag() / b[k].imag() - 1.0));
-    }
-    std::printf("[ figure ] rotor_frames_%s %.1e\n", word(kind), worst);
-    EXPECT_LT(worst, 1e-4);
+    const double at_rest = frame_difference(mean, node, 0.0);
+    const double half = frame_difference(mean, node, top_speed / 2);
+    const double full = frame_difference(mean, node, top_speed);
+    std::printf("[ figure ] rotor_frames_%s %.1e %.1e %.1e\n", word(kind), at_rest, half, full);
+    EXPECT_LT(at_rest, 1e-6);
+    EXPECT_LT(half, 1e-4);
+    EXPECT_LT(full, kind == RotorKind::solids ? 4e-4 : 1e-4);
   }
 }
 
@@ -172,11 +213,11 @@ TEST(RotorParts, RingsFromAKickInRuns) {
   for (const char* coordinates : {"relative", "absolute"}) {
     RotorOptions o;
     o.kind = RotorKind::cbar, o.coordinates = coordinates, o.speed = speed;
-    o.step = 2e-5, o.duration = 0.16;
+    o.step = 5e-6, o.duration = 0.16;
     o.extra =
         "  kick: {type: force, body: shaft, node: B, direction: [0, 1, 0.4], magnitude: "
-        "{piecewise: [{below: 0.002, polynomial: [0, 1e5]}, {below: 0.004, polynomial: [400, "
-        "-1e5]}, {polynomial: [0]}]}}\n"
+        "{piecewise: [{below: 0.002, polynomial: [0, 1e7]}, {below: 0.004, polynomial: [4e4, "
+        "-1e7]}, {polynomial: [0]}]}}\n"
         "outputs:\n  end: {position: {body: shaft, node: B}}\n";
     const TemporaryFolder folder;
     Model model = load_model(write_rotor(folder, rotor, o));

@@ -141,6 +141,25 @@ struct AssembledRotor {
               [](const auto& a, const auto& b) { return a.imag() < b.imag(); });
     return out;
   }
+  /// Of round bearings without damping: with r = v + i w, e^(i w t) turns with W,
+  ///   (K - w^2 M + w W G) r = 0;   the positive w, ascending.
+  std::vector<double> whirl(double W) const {
+    Plane p = plane();
+    for (const Bearing& b : bearings) p.K(2 * b.node, 2 * b.node) += b.K(0, 0);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(p.K, p.M);
+    const Eigen::MatrixXd& Y = modes.eigenvectors();
+    const Eigen::VectorXd w = modes.eigenvalues().cwiseMax(1e-12).cwiseSqrt();
+    const Eigen::Index n = w.size();
+    // z = (w_k y_k, w y_k): w z = (0 w_k; w_k W Y^T G Y) z, symmetric.
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    A.topRightCorner(n, n) = A.bottomLeftCorner(n, n) = w.asDiagonal();
+    A.bottomRightCorner(n, n) = W * (Y.transpose() * p.G * Y);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A, Eigen::EigenvaluesOnly);
+    std::vector<double> out;
+    for (Eigen::Index k = 0; k < 2 * n; ++k)
+      if (solver.eigenvalues()[k] > 1e-6) out.push_back(solver.eigenvalues()[k]);
+    return out;
+  }
 };
 
 /// The rotor of three discs of Lalanne, Ferraris, Rotordynamics Prediction in Engineering (1998),

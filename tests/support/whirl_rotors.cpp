@@ -92,7 +92,10 @@ class SolidShaft {
     t += elements + "*SOLID SECTION, ELSET=E, MATERIAL=M\n" + material(r_);
     for (std::size_t k = 0; k < r_.discs.size(); ++k) {
       t += set(fmt::format("DISC{}", k), 2 * r_.discs[k].node);
-      t += fmt::format("*RIGID BODY, NSET=DISC{0}, REF NODE={1}\n", k, 50001 + k);
+      t += fmt::format(
+          "*SURFACE, TYPE=NODE, NAME=S{0}\nDISC{0}, 1.0\n*COUPLING, REF NODE={1}, SURFACE=S{0}, "
+          "CONSTRAINT NAME=C{0}\n*DISTRIBUTING\n",
+          k, 50001 + k);
     }
     t += set("A", 0) + set("B", 2 * parts);
     return t + masses(r_, 50001);
@@ -179,7 +182,7 @@ std::string bars(const AssembledRotor& r, const RotorOptions& o) {
   t += "      clamped: [p0]\n      static_modes:\n";
   for (std::size_t k = 1; k <= last; ++k)
     t += fmt::format("        - {{point: p{}, dofs: [y, z, ry, rz]}}\n", k);
-  t += "      normal_modes: 24\n      mass_model: hermite\n      section_inertia: true\n";
+  t += "      normal_modes: 25\n      mass_model: hermite\n      section_inertia: true\n";
   if (!o.stiffening.empty()) t += "    geometric_stiffening: " + o.stiffening + "\n";
   std::string joints;
   for (std::size_t k = 0; k < r.discs.size(); ++k) {
@@ -214,7 +217,9 @@ std::string part(const TemporaryFolder& folder, const AssembledRotor& r, const R
       break;
     default:
       file = folder.write("rotor.inp", SolidShaft(r).deck());
-      keys = "units: si, dialect: abaqus, interfaces: {A: {set: A}, B: {set: B}}, modes: 24";
+      keys =
+          "units: si, dialect: abaqus, "
+          "interfaces: {A: {set: A, type: mean}, B: {set: B, type: mean}}, modes: 25";
   }
   std::string t = fmt::format(
       "bodies:\n  shaft:\n    flexible: {{file: {}, {}, free_check: false, reference: {}{}}}\n",
