@@ -20,7 +20,7 @@ bodies:
   hub: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [0.01, 0.01, 0.01]}}
   beam:
     flexible:
-      material: {young: 2e9, poisson: 0.3, density: 1500}
+      material: {young: 6e9, poisson: 0.3, density: 1500}
       bars:
         one: {from: p, to: corner, elements: 3, section: {rectangle: [0.02, 0.01]}}
         two: {from: corner, to: tip, elements: 3, section: {round: 0.012}}

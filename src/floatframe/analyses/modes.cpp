@@ -282,7 +282,9 @@ std::string page_of_modes(const Model& model, const LinearSystem& system,
 }
 
 AnalysisReport report_modes(const Model& given, const std::string& at) {
-  const auto model = std::make_shared<const Model>(counted_at_operating_point(given, at).model);
+  // The page moves the model that the system is of.
+  const auto model = std::make_shared<const Model>(
+      counted_stiffening(counted_at_operating_point(given, at).model).model);
   const auto system = std::make_shared<const LinearSystem>(linear_system(*model));
   const std::vector<ShownMotion> modes = motions_of(*model, *system);
   const MatX rigid = rigid_motions(*system, modes);

@@ -137,9 +137,11 @@ ModeBasis craig_bampton_basis(const FeModel& model, const FeSystem& system, cons
   });
   ModeBasis basis;
   basis.solver = fixed->solver_name();
+  int equal_left_out = 0;
   const Eigenmodes normal =
-      select_fixed_modes(*fixed, system, R, boundary, options, basis.modes, basis.equal_left_out);
+      select_fixed_modes(*fixed, system, R, boundary, options, basis.modes, equal_left_out);
   static_cast<ModeSet&>(basis) = craig_bampton_set(*fixed, normal, names);
+  basis.equal_left_out = equal_left_out;
   const auto nb = static_cast<Eigen::Index>(boundary.size());
   basis.first_normal = static_cast<int>(nb);
 

@@ -51,6 +51,7 @@ struct EqualModes {
 struct ModePair {
   std::size_t next = no_mode;
   double mac = 0.0, apart = 0.0;
+  double rival = 0.0;  ///< MAC of one of the two with another mode of nearly this frequency
   /// How much the two are one, at most 1.1.
   double likeness() const noexcept { return mac - 2.0 * apart; }
 };
@@ -86,12 +87,18 @@ std::vector<ModePair> paired(const TurningModes& a, const TurningModes& b) {
     pairs[c.i] = c.pair;
     taken[c.pair.next] = 1;
   }
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (const Candidate& c : all)
+      if ((c.i == i) != (c.pair.next == pairs[i].next) && c.pair.apart < 0.1)
+        pairs[i].rival = std::max(pairs[i].rival, c.pair.mac);
   return pairs;
 }
 
 bool is_accepted(const ModePair& p, bool last_resort) {
   if (p.next == no_mode) return false;
   if (p.mac > same_mode && (last_resort || p.likeness() > 0.4)) return true;
+  // A shape that takes a little of many others while its frequency stays.
+  if (p.mac > 0.5 && p.apart < 1e-3 && p.rival < 0.5 * p.mac) return true;
   // In the middle of two lines that nearly meet either continuation is as good, and neither jumps.
   return last_resort && p.mac > 0.3 && p.apart < 1e-3;
 }
