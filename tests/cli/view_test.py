@@ -3,8 +3,8 @@
 import base64
 import os
 import pathlib
-import shutil
 import re
+import shutil
 import struct
 import unittest
 import zlib
