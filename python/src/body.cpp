@@ -295,7 +295,8 @@ void bind_body(nb::module_& m) {
          {DampingReference::frame, DampingReference::free, DampingReference::mounted}) {
       if (reference != word(held)) continue;
       std::vector<std::pair<double, double>> out;
-      for (const DampedMode& m : damped_modes(b, held)) out.emplace_back(m.frequency, m.fraction);
+      for (const DampedMode& mode : damped_modes(b, held))
+        out.emplace_back(mode.frequency, mode.fraction);
       return out;
     }
     throw InputError("reference: found '" + reference + "', expected frame, free or mounted");
