@@ -206,7 +206,7 @@ TEST(Turning, QvIsLagrangeForAnyAxes) {
   const int nm = 4;
   const FlexibleBody body = Discs(nm).body();
   const PreprocessingData data(body.invariants);
-  StiffeningData stiffening(data, *body.turning);
+  StiffeningData stiffening(data, *body.turning, body.turning.get());
   PreprocessingWorkspace work(nm);
   ProjectionWorkspace projection(*body.projection);
   expect_lagrange(
