@@ -9,10 +9,11 @@
 #include <numbers>
 
 #include "floatframe/analyses/analysis.hpp"
+#include "floatframe/fe/fe_model.hpp"
 #include "floatframe/simulation/linear_system.hpp"
 #include "floatframe/simulation/linearize.hpp"
 #include "floatframe/simulation/operating_point.hpp"
-#include "support/error_of.hpp"
+#include "simulation/figures.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -41,8 +42,8 @@ std::string pulled(double N, const std::string& key, const std::string& mass = "
          "simulation: {step: 0.001, duration: 1" +
          simulation + "}\n";
 }
-const std::string without = "    geometric_stiffening: false\n",
-                  with = "    geometric_stiffening: true\n";
+const std::string key_is_false = "    geometric_stiffening: false\n",
+                  key_is_true = "    geometric_stiffening: true\n";
 
 std::vector<double> frequencies(const Model& model, const std::string& at = "equilibrium") {
   std::vector<double> f;
@@ -73,7 +74,7 @@ TEST(CountedStiffening, TensionStiffensTorsion) {
   expect_in(system.stiffening, "body 'b'");
   expect_in(system.stiffening, "'run' leaves it out unless the model says geometric_stiffening");
   // The keys are obeyed; the other one is said.
-  const Model off = model_of(pulled(N, without)), on = model_of(pulled(N, with));
+  const Model off = model_of(pulled(N, key_is_false)), on = model_of(pulled(N, key_is_true));
   EXPECT_EQ(linear_system(on).stiffened.size(), 0U);
   EXPECT_NEAR(nearest_counted(frequencies(on), torsion(N)) / torsion(N), 1.0, 1e-3);
   EXPECT_NEAR(nearest_counted(frequencies(off), torsion(0.0)) / torsion(0.0), 1.0, 1e-3);
@@ -88,7 +89,7 @@ TEST(CountedStiffening, TensionStiffensTorsion) {
 }
 
 TEST(CountedStiffening, NothingWhereNothingPulls) {
-  const Model model = model_of(pulled(0.0, "")), off = model_of(pulled(0.0, without));
+  const Model model = model_of(pulled(0.0, "")), off = model_of(pulled(0.0, key_is_false));
   const CountedStiffening counted = counted_stiffening(model);
   EXPECT_TRUE(counted.bodies.empty());
   EXPECT_TRUE(counted.sentence.empty());
@@ -103,7 +104,8 @@ TEST(CountedStiffening, ProjectionGivesWayToPreprocessing) {
   EXPECT_EQ(counted.bodies.size(), 1U);
   EXPECT_EQ(counted.model.simulation.inertia, InertiaMethod::preprocessing);
   const std::vector<double> a = frequencies(model);
-  const std::vector<double> b = frequencies(model_of(pulled(20000.0, with, "isoparametric")));
+  const std::vector<double> b =
+      frequencies(model_of(pulled(20000.0, key_is_true, "isoparametric")));
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(a[k] / b[k], 1.0, 1e-9);
 }
 
@@ -112,7 +114,7 @@ TEST(CountedStiffening, AsManyAsAreNamed) {
   const Model model = model_of(pulled(0.0, ""));
   EXPECT_EQ(counted_stiffening(model, {0}).bodies.size(), 1U);
   EXPECT_TRUE(counted_stiffening(model, {0}).model.bodies[0].stiffens());
-  EXPECT_TRUE(counted_stiffening(model_of(pulled(0.0, without)), {0}).bodies.empty());
+  EXPECT_TRUE(counted_stiffening(model_of(pulled(0.0, key_is_false)), {0}).bodies.empty());
 }
 
 std::string blade(const std::string& key, const std::string& mass = "hermite",
@@ -139,13 +141,13 @@ std::string blade(const std::string& key, const std::string& mass = "hermite",
 TEST(CountedStiffening, ABladeThatSpins) {
   const Model model = model_of(blade(""));
   const std::vector<double> counted = frequencies(model, "start");
-  const std::vector<double> on = frequencies(model_of(blade(with)), "start");
+  const std::vector<double> on = frequencies(model_of(blade(key_is_true)), "start");
   ASSERT_EQ(counted.size(), on.size());
   for (std::size_t k = 0; k < on.size(); ++k) EXPECT_NEAR(counted[k], on[k], 1e-9 * on[k]);
   // Flap at 40 rad/s.
   EXPECT_NEAR(2.0 * std::numbers::pi * nearest_counted(on, 41.14 / (2.0 * std::numbers::pi)), 41.14,
               0.02);
-  const LinearSystem off = linear_system(model_of(blade(without)));
+  const LinearSystem off = linear_system(model_of(blade(key_is_false)));
   ASSERT_FALSE(off.notes.empty());
   expect_in(off.notes[0], "body 'blade' spins too fast for its stiffness: at 40 rad/s");
   expect_in(off.notes[0], "geometric_stiffening: true counts it in");
@@ -173,10 +175,11 @@ TEST(CountedStiffening, ReportsSayItFirst) {
               0U);
     const auto json = nlohmann::json::parse(report.json);
     EXPECT_EQ(json["stiffening_counted_in"], nlohmann::json({"b"}));
-    EXPECT_EQ(nlohmann::json::parse(
-                  analysis.run(model_of(pulled(20000.0, with))).json)["stiffening_counted_in"]
-                  .size(),
-              0U);
+    EXPECT_EQ(
+        nlohmann::json::parse(
+            analysis.run(model_of(pulled(20000.0, key_is_true))).json)["stiffening_counted_in"]
+            .size(),
+        0U);
   }
 }
 

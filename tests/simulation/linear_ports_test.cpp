@@ -263,7 +263,7 @@ simulation: {step: 0.001, duration: 1}
 
 // An arm that leans, of two parts of which the second bends easily, on a carriage that a motor
 // moves, with a load at its end. Disturbed by e: the motor's motion e t^3, the load and a rate.
-std::string leaning_arm(double e) {
+std::string leaning_arm(double e, const char* stiffening) {
   const std::string size = fmt::format("{:.17g}", e);
   return R"(
 points: {a: [0, 0, 0], b: [0.5, 0, 0], c: [1, 0, 0]}
@@ -294,8 +294,9 @@ outputs:
   pin.F: {joint_force: pin, axis: z}
   slide: {motion_force: slide}
   hold: {force: hold}
-simulation: {start: equilibrium, step: 0.0001, duration: 0.5, spectral_radius: 1}
-)";
+simulation: {start: equilibrium, step: 0.0001, duration: 0.5, spectral_radius: 1,
+             geometric_stiffening: )" +
+         stiffening + "}\n";
 }
 
 /// Outputs of the linear system every `interval`, by the rule of fourth order.
@@ -318,15 +319,15 @@ std::vector<VecX> linear_outputs(const StateSpace& s, VecX z, double load, doubl
   return all;
 }
 
-TEST(LinearPorts, NonlinearRunDiffersBySecondOrderInTheAmplitude) {
+void expect_second_order_in_the_amplitude(const char* stiffening) {
   constexpr int count = 50, steps = 100;
-  const LinearModel linear = linear_model(model_of(leaning_arm(0.0)));
+  const LinearModel linear = linear_model(model_of(leaning_arm(0.0, stiffening)));
   const StateSpace s = state_space(linear);
   ASSERT_EQ(s.inputs[0].name, "load");
   for (const Coordinates c : ports_of_either) {
     std::vector<VecX> errors;
     for (double e = 0.4; e > 0.04; e *= 0.5) {
-      Simulation run(model_of(leaning_arm(e)), {.coordinates = c});
+      Simulation run(model_of(leaning_arm(e, stiffening)), {.coordinates = c});
       run.set_input("load", e);
       VecX z = VecX::Zero(s.A.rows());
       for (std::size_t k = 0; k < s.states.size(); ++k)
@@ -353,6 +354,15 @@ TEST(LinearPorts, NonlinearRunDiffersBySecondOrderInTheAmplitude) {
         EXPECT_GT(ratio, 3.6) << s.outputs[static_cast<std::size_t>(i)].name << ", halving " << k;
         EXPECT_LT(ratio, 4.4) << s.outputs[static_cast<std::size_t>(i)].name << ", halving " << k;
       }
+  }
+}
+
+TEST(LinearPorts, NonlinearRunDiffersBySecondOrderInTheAmplitude) {
+  // Runs leave geometric stiffening out unless they are asked for it, linear systems unless they
+  // are asked not to.
+  for (const char* stiffening : {"false", "true"}) {
+    SCOPED_TRACE(stiffening);
+    expect_second_order_in_the_amplitude(stiffening);
   }
 }
 
