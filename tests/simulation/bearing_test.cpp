@@ -198,7 +198,8 @@ TEST(Bearing, SaysWhatIsWrong) {
             "forces.film.stiffness: found numbers in the sixth row or column, expected zeros: a "
             "bearing lets the shaft turn about its axis (use a bushing or a joint_spring to hold "
             "it)");
-  EXPECT_EQ(error("axis_2: y"), "forces.film: found no law, expected stiffness or damping");
+  EXPECT_EQ(error("axis_2: y"),
+            "forces.film: found no law, expected stiffness, damping or speed_table");
 }
 
 }  // namespace
