@@ -199,8 +199,7 @@ TEST(Bearing, SaysWhatIsWrong) {
             "bearing lets the shaft turn about its axis (use a bushing or a joint_spring to hold "
             "it)");
   EXPECT_EQ(error("axis_2: y"),
-            "forces.film: found no law, expected stiffness, damping or "
-            "speed_table");
+            "forces.film: found no law, expected stiffness, damping or speed_table");
 }
 
 }  // namespace

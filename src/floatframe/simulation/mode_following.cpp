@@ -28,15 +28,15 @@ struct EqualModes {
 
   /// |projection of m on the set of mode k|^2.
   double part(const TurningModes& modes, std::size_t k, const Eigen::VectorXcd& m) const {
-    if (set_of[k] < 0) return std::norm(modes[k].m.dot(m));
+    if (set_of[k] < 0) return std::norm(modes[k].shape.dot(m));
     return (bases[static_cast<std::size_t>(set_of[k])].adjoint() * m).squaredNorm();
   }
 
  private:
   void add(const TurningModes& modes, std::size_t first, std::size_t end) {
-    Eigen::MatrixXcd Q(modes[first].m.size(), 0);
+    Eigen::MatrixXcd Q(modes[first].shape.size(), 0);
     for (std::size_t k = first; k < end; ++k) {
-      Eigen::VectorXcd x = modes[k].m;
+      Eigen::VectorXcd x = modes[k].shape;
       for (int twice = 0; twice < 2; ++twice) x -= (Q * (Q.adjoint() * x)).eval();
       const double rest = x.norm();
       set_of[k] = static_cast<int>(bases.size());
@@ -73,8 +73,8 @@ std::vector<ModePair> paired(const TurningModes& a, const TurningModes& b) {
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t j = 0; j < b.size(); ++j) {
       if (!(a[i].lambda.imag() > 0.0) || !(b[j].lambda.imag() > 0.0)) continue;
-      const double own = std::norm(a[i].m.dot(b[j].m));
-      ModePair p{j, std::max(equal_b.part(b, j, a[i].m), equal_a.part(a, i, b[j].m)),
+      const double own = std::norm(a[i].shape.dot(b[j].shape));
+      ModePair p{j, std::max(equal_b.part(b, j, a[i].shape), equal_a.part(a, i, b[j].shape)),
                  apart(a[i], b[j])};
       all.push_back({p.likeness() + 0.1 * own, i, p});
     }
@@ -92,6 +92,42 @@ std::vector<ModePair> paired(const TurningModes& a, const TurningModes& b) {
       if ((c.i == i) != (c.pair.next == pairs[i].next) && c.pair.apart < 0.1)
         pairs[i].rival = std::max(pairs[i].rival, c.pair.mac);
   return pairs;
+}
+
+/// Those that end in one mode.
+std::vector<std::size_t> paths_that_meet(const std::vector<ModePath>& paths) {
+  std::vector<std::size_t> met;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (std::size_t j = 0; j < paths.size(); ++j)
+      if (i != j && paths[i].mode != no_mode && paths[i].mode == paths[j].mode) {
+        met.push_back(i);
+        break;
+      }
+  return met;
+}
+
+/// Paths to `middle` and, of those that come so far, on by `go_on` from there.
+template <class Begin, class GoOn>
+std::vector<ModePath> joined(std::vector<ModePath> paths, double middle,
+                             const std::vector<Begin>& begins, const GoOn& go_on) {
+  std::vector<std::size_t> alive, modes;
+  std::vector<Begin> of_alive;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    if (paths[k].mode == no_mode) continue;
+    alive.push_back(k);
+    modes.push_back(paths[k].mode);
+    of_alive.push_back(begins[k]);
+  }
+  if (alive.empty()) return paths;
+  const std::vector<ModePath> second = go_on(modes, of_alive);
+  for (std::size_t k = 0; k < alive.size(); ++k) {
+    ModePath whole = second[k];
+    whole.between = paths[alive[k]].between;
+    whole.between.emplace_back(middle, modes[k]);
+    whole.between.insert(whole.between.end(), second[k].between.begin(), second[k].between.end());
+    paths[alive[k]] = std::move(whole);
+  }
+  return paths;
 }
 
 bool is_accepted(const ModePair& p, bool last_resort) {
@@ -116,7 +152,19 @@ std::vector<ModePath> ModeFollower::follow(double from, double to,
   std::vector<Begin> begins;
   for (const std::size_t k : modes) begins.push_back({from, std::abs(at(from)[k].lambda)});
   std::vector<ModePath> paths = follow(from, to, modes, begins, 0);
-  // Paths by different speeds between may meet: the nearer one stays.
+  // Paths by different speeds between may meet, where one of them has taken too long a step.
+  for (int level = 1; level <= 5; ++level) {
+    const std::vector<std::size_t> met = paths_that_meet(paths);
+    if (met.empty()) return paths;
+    std::vector<std::size_t> again;
+    std::vector<Begin> again_begins;
+    for (const std::size_t k : met) {
+      again.push_back(modes[k]);
+      again_begins.push_back(begins[k]);
+    }
+    const std::vector<ModePath> finer = follow_in_pieces(from, to, again, again_begins, level);
+    for (std::size_t k = 0; k < met.size(); ++k) paths[met[k]] = finer[k];
+  }
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = i + 1; j < paths.size() && paths[i].mode != no_mode; ++j) {
       if (paths[j].mode != paths[i].mode) continue;
@@ -126,6 +174,18 @@ std::vector<ModePath> ModeFollower::follow(double from, double to,
       paths[lost] = {no_mode, from, at(from)[modes[lost]].lambda, {}};
     }
   return paths;
+}
+
+std::vector<ModePath> ModeFollower::follow_in_pieces(double from, double to,
+                                                     const std::vector<std::size_t>& modes,
+                                                     const std::vector<Begin>& begins, int level) {
+  if (level == 0) return follow(from, to, modes, begins, 0);
+  const double middle = 0.5 * (from + to);
+  if (known_.count(middle) == 0) ++extra_;
+  return joined(follow_in_pieces(from, middle, modes, begins, level - 1), middle, begins,
+                [&](const std::vector<std::size_t>& alive, const std::vector<Begin>& of_alive) {
+                  return follow_in_pieces(middle, to, alive, of_alive, level - 1);
+                });
 }
 
 std::vector<ModePath> ModeFollower::follow(double from, double to,
@@ -162,25 +222,12 @@ std::vector<ModePath> ModeFollower::follow(double from, double to,
   }
   if (open.empty()) return paths;
   if (known_.count(middle) == 0) ++extra_;
-  const std::vector<ModePath> first = follow(from, middle, open_modes, open_begins, depth + 1);
-  std::vector<std::size_t> alive, alive_modes;
-  std::vector<Begin> alive_begins;
-  for (std::size_t k = 0; k < open.size(); ++k) {
-    paths[open[k]] = first[k];
-    if (first[k].mode == no_mode) continue;
-    alive.push_back(open[k]);
-    alive_modes.push_back(first[k].mode);
-    alive_begins.push_back(open_begins[k]);
-  }
-  if (alive.empty()) return paths;
-  const std::vector<ModePath> second = follow(middle, to, alive_modes, alive_begins, depth + 1);
-  for (std::size_t k = 0; k < alive.size(); ++k) {
-    ModePath whole = second[k];
-    whole.between = paths[alive[k]].between;
-    whole.between.emplace_back(middle, paths[alive[k]].mode);
-    whole.between.insert(whole.between.end(), second[k].between.begin(), second[k].between.end());
-    paths[alive[k]] = std::move(whole);
-  }
+  const std::vector<ModePath> whole =
+      joined(follow(from, middle, open_modes, open_begins, depth + 1), middle, open_begins,
+             [&](const std::vector<std::size_t>& alive, const std::vector<Begin>& of_alive) {
+               return follow(middle, to, alive, of_alive, depth + 1);
+             });
+  for (std::size_t k = 0; k < open.size(); ++k) paths[open[k]] = whole[k];
   return paths;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Modes of a turning system followed from speed to speed. Modes a and b of neighbouring speeds are
-// one by the modal assurance criterion of their motions in the world,
-//   MAC = |m_a^H m_b|^2 / (|m_a|^2 |m_b|^2) > 0.8
+// one by the modal assurance criterion of their displacements in the world, weighted by the masses,
+//   MAC = |u_a^H M u_b|^2 / ((u_a^H M u_a) (u_b^H M u_b)) > 0.8
 // of modes of equal frequency by that of the space they span. Among several the nearest eigenvalue
 // decides. Where the criterion is not met speeds between are added, down to 1/512 of the interval,
 // a bounded number in all; where that does not help the mode cannot be followed, as where a
@@ -43,6 +43,10 @@ class ModeFollower {
   };
   std::vector<ModePath> follow(double from, double to, const std::vector<std::size_t>& modes,
                                const std::vector<Begin>& begins, int depth);
+  /// With 2^level pieces of the interval at least.
+  std::vector<ModePath> follow_in_pieces(double from, double to,
+                                         const std::vector<std::size_t>& modes,
+                                         const std::vector<Begin>& begins, int level);
 
   TurningModel& turning_;
   int most_extra_, extra_ = 0;

@@ -34,6 +34,9 @@ const char* kind_of_motion(MotionKind kind) noexcept;
 struct TurningMode {
   std::complex<double> lambda;  ///< [1/s], Im >= 0
   Eigen::VectorXcd m;           ///< of unit size
+  /// Its displacements times the root of the masses, of unit size: m_a^H m_b of these compares
+  /// shapes.
+  Eigen::VectorXcd shape;
   /// 1: points of the axis whirl on circles with the rotor, -1: against it, 0: along lines.
   double whirl = 0.0;
   double across = 0.0;  ///< part of the motion of the axis that is across it; 0: no motion there

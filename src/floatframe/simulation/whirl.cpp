@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/math/dense.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -75,7 +77,14 @@ void describe_whirl(const AxisMotion& axis, std::vector<TurningMode>& modes) {
     if (std::abs(modes[k].lambda - modes[k + 1].lambda) < 1e-6 * std::abs(modes[k].lambda) &&
         modes[k].lambda.imag() > 0.0)
       part_by_whirl(modes[k], modes[k + 1], axis.across_1, axis.across_2);
-  for (TurningMode& mode : modes) describe(axis, mode);
+  const SymmetricEigen mass = symmetric_eigen(axis.rotor + axis.others);
+  const MatX root = mass.values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * mass.vectors.transpose();
+  for (TurningMode& mode : modes) {
+    describe(axis, mode);
+    mode.shape = root * mode.m.head(root.cols());
+    const double size = mode.shape.norm();
+    if (size > 0.0) mode.shape /= size;
+  }
 }
 
 const char* kind_of_motion(MotionKind kind) noexcept {

@@ -29,7 +29,7 @@ struct AxisMotion {
 /// Where `f` is brought: the steady state.
 AxisMotion axis_motion(RelativeFormulation& f, const Rotor& rotor, const SteadyTurning& s);
 
-/// Fills whirl, across, kind, unbalance; of exact pairs of equal frequency both become circular.
+/// Fills shape, whirl, across, kind, unbalance; both of exact pairs become circular.
 void describe_whirl(const AxisMotion& axis, std::vector<TurningMode>& modes);
 
 }  // namespace floatframe
