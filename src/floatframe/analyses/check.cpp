@@ -58,8 +58,8 @@ std::optional<std::string> cut_pair_note(const Body& body) {
   const auto pair = cut_pair(*body.data);
   if (!pair) return std::nullopt;
   return fmt::format(
-      "body '{}': {} (round bars would bend more easily in one direction than in another)",
-      body.name, cut_pair_text(*pair, "normal_modes"));
+      "body '{}': {} (a round body would bend more easily in one direction than in another)",
+      body.name, cut_pair_text(*pair, mode_number_key(*body.data)));
 }
 
 std::vector<std::string> notes_of(const Model& model, const ModelCounts& counts) {

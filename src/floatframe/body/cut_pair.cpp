@@ -13,6 +13,11 @@ std::optional<CutPair> cut_pair(const VecX& frequencies, int equal_left_out) {
                  static_cast<int>(kept) + equal_left_out, frequencies[kept - 1]};
 }
 
+const char* mode_number_key(const FlexibleBody& body) {
+  const bool bars = !body.mode_names.empty() && body.mode_names.back().rfind("normal ", 0) == 0;
+  return bars ? "normal_modes" : "modes";
+}
+
 std::string cut_pair_text(const CutPair& pair, const std::string& key) {
   const int size = pair.above - pair.below;
   return fmt::format("{}: {} cuts a {} of equal frequency ({:.6g} Hz), take {} or {}", key,

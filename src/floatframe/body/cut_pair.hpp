@@ -31,6 +31,9 @@ inline std::optional<CutPair> cut_pair(const FlexibleBody& body) {
   return cut_pair(body.fixed_interface_frequencies, body.equal_left_out);
 }
 
+/// The key of the number of modes: of bars or of a part.
+const char* mode_number_key(const FlexibleBody& body);
+
 /// "normal_modes: 13 cuts a pair of modes of equal frequency (123.4 Hz), take 12 or 14"
 std::string cut_pair_text(const CutPair& pair, const std::string& key);
 

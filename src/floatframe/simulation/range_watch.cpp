@@ -37,6 +37,21 @@ Mat3 central_moments(const InertiaInvariants& v) {
   return v.P_u - v.m * c * c.transpose();
 }
 
+/// Of unit spins about the columns of E: how much of it changes the stiffness of the body, 0 or 1.
+/// Sections of a shaft that turns about its own axis are rigid: what spins there pulls nothing.
+Vec3 stiffening_directions(const FlexibleBody& body, const Mat3& E) {
+  if (!body.second_order) return Vec3::Ones();
+  Vec3 size;
+  for (int k = 0; k < 3; ++k) {
+    const Mat3 G = E.col(k) * E.col(k).transpose() - Mat3::Identity();
+    MatX K_G = MatX::Zero(body.modes(), body.modes());
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) K_G += G(j, i) * body.second_order->S2i[i][j];
+    size[k] = K_G.norm();
+  }
+  return (size.array() > 1e-3 * size.maxCoeff()).select(Vec3::Ones(), Vec3::Zero());
+}
+
 }  // namespace
 
 BodyRange::BodyRange(const Model& model, int index) : data_(*model.bodies[index].data) {
@@ -47,8 +62,10 @@ BodyRange::BodyRange(const Model& model, int index) : data_(*model.bodies[index]
     // Spin w pulls with int |w x u|^2 dm = w^T (tr(P) I - P) w.
     const Mat3 pull = (P.trace() * Mat3::Identity() - P) / P.trace();
     const Eigen::SelfAdjointEigenSolver<Mat3> solver(pull);
-    stretch_ = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-               solver.eigenvectors().transpose();
+    const Mat3 E = solver.eigenvectors();
+    const Vec3 stretch = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    stretch_ =
+        E * stretch.cwiseProduct(stiffening_directions(data_, E)).asDiagonal() * E.transpose();
   }
   if (!data_.nodes.empty()) {
     Vec3 low = data_.nodes.front().p, high = low;
