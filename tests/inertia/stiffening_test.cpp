@@ -109,9 +109,7 @@ struct Stiffened {
   StiffeningData stiffening;
   PreprocessingWorkspace work;
   explicit Stiffened(const Points& points)
-      : data(points.invariants()),
-        stiffening(data, points.second_order(), nullptr),
-        work(points.nm) {}
+      : data(points.invariants()), stiffening(data, points.second_order()), work(points.nm) {}
   void relative(const BodyState& s, MatX& M, VecX& Qv) {
     relative_stiffened(data, stiffening, s.r0, s.A, s.omega, s.y.data(), s.ydot.data(), work, M,
                        Qv);
@@ -227,7 +225,7 @@ TEST(Stiffening, WithoutSecondOrderNothingChanges) {
   const int nm = 5;
   const Points points(nm, 8);
   const PreprocessingData data(points.invariants());
-  StiffeningData none(data, SecondOrder::zero(nm), nullptr);
+  StiffeningData none(data, SecondOrder::zero(nm));
   PreprocessingWorkspace work(nm);
   Random random(3);
   const BodyState s = random_state(random, nm);

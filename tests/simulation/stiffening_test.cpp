@@ -240,8 +240,7 @@ Vec6 beam_momenta(F& f, const State& s) {
   const Body& body = f.model().bodies[0];
   const int nm = body.modes();
   const PreprocessingData data(body.data->invariants);
-  StiffeningData stiffening(data, *second_order_on_masses(*body.data, body.stiffens()),
-                            body.data->turning.get());
+  StiffeningData stiffening(data, *second_order_on_masses(*body.data, body.stiffens()));
   PreprocessingWorkspace work(nm);
   MatX M(6 + nm, 6 + nm);
   VecX Qv(6 + nm), y(nm), v(6 + nm);

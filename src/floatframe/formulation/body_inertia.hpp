@@ -28,7 +28,7 @@ class BodyInertia {
                        ": geometric_stiffening of a part needs inertia: preprocessing");
     second_order_ = second_order_on_masses(body, of_model.stiffens());
     if (second_order_ && method == InertiaMethod::preprocessing) {
-      stiffening_ = StiffeningData(data_, *second_order_, body.turning.get());
+      stiffening_ = StiffeningData(data_, *second_order_);
       special_ = true;
     }
     if (method == InertiaMethod::projection) {

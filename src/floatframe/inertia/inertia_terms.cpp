@@ -74,7 +74,7 @@ InertiaTerms relative_preprocessing(const FlexibleBody& body, const BodyMotion& 
   PreprocessingWorkspace work(body.modes());
   InertiaTerms t = zero_terms(6 + body.modes());
   if (const auto second_order = second_order_in(body, m)) {
-    StiffeningData stiffening(data, *second_order, body.turning.get());
+    StiffeningData stiffening(data, *second_order);
     relative_stiffened(data, stiffening, m.r0, m.A, m.omega, m.y.data(), m.ydot.data(), work, t.M,
                        t.Qv);
     return t;
@@ -89,7 +89,7 @@ InertiaTerms absolute_preprocessing(const FlexibleBody& body, const BodyMotion& 
   PreprocessingWorkspace work(body.modes());
   InertiaTerms t = zero_terms(12 + body.modes());
   if (const auto second_order = second_order_in(body, m)) {
-    StiffeningData stiffening(data, *second_order, body.turning.get());
+    StiffeningData stiffening(data, *second_order);
     absolute_stiffened(data, stiffening, m.A, skew(m.omega) * m.A, m.y.data(), m.ydot.data(), work,
                        t.M, t.Qv);
     return t;

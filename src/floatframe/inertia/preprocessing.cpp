@@ -181,7 +181,6 @@ void absolute_stiffened(const PreprocessingData& data, StiffeningData& stiffenin
                         PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
   deform_stiffened(data, stiffening, y, work.deformed);
   absolute_terms<true>(data, &stiffening, A, Adot, ydot, work, M, Qv);
-  if (stiffening.mass) stiffening.mass->add(y, ydot, 12, M, Qv);
 }
 
 void subtract_literal_correction(const PreprocessingData& data, const DeformedInvariants& deformed,

@@ -27,11 +27,8 @@
 //   sddot = r0ddot - omegadot x r0 - omega x (omega x r0).
 // World axes for r0, A, omega, sdot; body axes for the integrals. SI units. All functions of step
 // time: no heap, noexcept. Cost for k = nm: about 24 k^2 + 120 k flops.
-#include <optional>
-
 #include "floatframe/body/inertia_invariants.hpp"
 #include "floatframe/body/second_order.hpp"
-#include "floatframe/inertia/turning_mass.hpp"
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
@@ -72,14 +69,11 @@ struct StiffeningData {
   MatX S2_by_modes;    ///< 3 rows in each column b
   MatX S_ij_by_modes;  ///< 9 rows in each column b
   // Scratch.
-  Mat3X S;                          ///< S(y)
-  VecX S_by_mode;                   ///< 3 rows
-  std::optional<TurningMass> mass;  ///< of what turns
+  Mat3X S;         ///< S(y)
+  VecX S_by_mode;  ///< 3 rows
 
   StiffeningData() = default;
-  /// `turning`: its share of `second_order`, null if it has none.
-  StiffeningData(const PreprocessingData& data, const SecondOrder& second_order,
-                 const SecondOrder* turning);
+  StiffeningData(const PreprocessingData& data, const SecondOrder& second_order);
 };
 
 /// q and Q: forces of second order of modal rates.

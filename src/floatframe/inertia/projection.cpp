@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "floatframe/body/fe_invariants.hpp"
 #include "floatframe/math/so3.hpp"
 
 namespace floatframe {
@@ -304,7 +303,7 @@ ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data, bool stiffe
       }
     }
   }
-  if (data.twist) twist.emplace(data);
+  if (data.twist) twist.emplace(*data.twist);
   if (stiffening || !data.turning.empty()) moved.resize(rows * nm);
   if (!stiffening) return;
   h.reserve(n * 3 * nm * nm);
@@ -314,13 +313,10 @@ ProjectionWorkspace::ProjectionWorkspace(const ProjectionData& data, bool stiffe
         for (int j = 0; j < 3; ++j) h.push_back(data.h(modes * (3 * k + j) + a, b));
 }
 
-ProjectionWorkspace::Twist::Twist(const ProjectionData& data) {
-  const SecondOrder& of_beams = *data.twist;
+ProjectionWorkspace::Twist::Twist(const SecondOrder& of_beams) {
   const int nm = static_cast<int>(of_beams.S2[0].rows());
   none = PreprocessingData(InertiaInvariants::zero(nm));
-  second_order = StiffeningData(none, of_beams, nullptr);
-  const PreprocessingData body(invariants_points(data.p, data.M_s, data.X));
-  second_order.mass.emplace(body, of_beams);
+  second_order = StiffeningData(none, of_beams);
   work = PreprocessingWorkspace(nm);
   M_relative = MatX::Zero(6 + nm, 6 + nm);
   M_absolute = MatX::Zero(12 + nm, 12 + nm);

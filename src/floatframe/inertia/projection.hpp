@@ -51,7 +51,7 @@ struct ProjectionWorkspace {
     PreprocessingWorkspace work;
     MatX M_relative, M_absolute;
     VecX Qv_relative, Qv_absolute;
-    explicit Twist(const ProjectionData& data);
+    explicit Twist(const SecondOrder& of_beams);
   };
   std::optional<Twist> twist;
 

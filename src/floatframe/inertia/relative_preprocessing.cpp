@@ -215,7 +215,6 @@ void relative_stiffened(const PreprocessingData& data, StiffeningData& stiffenin
                         const Mat3& A, const Vec3& omega, const double* y, const double* ydot,
                         PreprocessingWorkspace& work, MatX& M, VecX& Qv) noexcept {
   relative_terms<true>(data, &stiffening, r0, A, omega, y, ydot, work, M, Qv);
-  if (stiffening.mass) stiffening.mass->add(y, ydot, 6, M, Qv);
 }
 
 }  // namespace floatframe

@@ -3,11 +3,9 @@
 
 namespace floatframe {
 
-StiffeningData::StiffeningData(const PreprocessingData& data, const SecondOrder& second_order,
-                               const SecondOrder* turning)
+StiffeningData::StiffeningData(const PreprocessingData& data, const SecondOrder& second_order)
     : S_ij(data.Sij), S_ij_by_modes(data.by_modes.Sij), S(data.S), S_by_mode(data.by_modes.S) {
   const int nm = data.modes(), nl = data.by_modes.stride;
-  if (turning) mass.emplace(data, *turning);
   S2 = MatX::Zero(3 * nm, nm);
   S2_by_modes = MatX::Zero(3 * nl, nm);
   pairs = MatX::Zero(12, nm * (nm + 1) / 2);

@@ -1,14 +1,11 @@
 #include "floatframe/simulation/body_energy.hpp"
 
 #include "floatframe/body/modal_mass.hpp"
-#include "floatframe/inertia/preprocessing.hpp"
 
 namespace floatframe {
 
-BodyEnergy::BodyEnergy(const InertiaInvariants& v, const SecondOrder* second_order,
-                       const SecondOrder* turning)
+BodyEnergy::BodyEnergy(const InertiaInvariants& v, const SecondOrder* second_order)
     : m_(v.m), m_u_(v.m_u), P_u_(v.P_u), modes_(v.modes()) {
-  if (turning) turning_.emplace(PreprocessingData(v), *turning);
   const MatX M_ff = modal_mass(v);
   for (int a = 0; a < modes_; ++a) {
     S_.emplace_back(v.S.col(a));
@@ -77,9 +74,7 @@ double BodyEnergy::kinetic(const Vec3& v, const Vec3& w, const double* y,
   const double wPw = w[0] * w[0] * P(0, 0) + w[1] * w[1] * P(1, 1) + w[2] * w[2] * P(2, 2) +
                      2.0 * (w[0] * w[1] * P(0, 1) + w[0] * w[2] * P(0, 2) + w[1] * w[2] * P(1, 2));
   const double turning = w.squaredNorm() * P.trace() - wPw;
-  const double of_turning = turning_ ? turning_->energy(y, ydot) : 0.0;
-  return 0.5 * (m_ * v.squaredNorm() + turning + modal) + v.dot(w.cross(m_bar) + s) + w.dot(h) +
-         of_turning;
+  return 0.5 * (m_ * v.squaredNorm() + turning + modal) + v.dot(w.cross(m_bar) + s) + w.dot(h);
 }
 
 }  // namespace floatframe

@@ -7,22 +7,18 @@
 // angular velocity. Sums over pairs of modes (a <= b) use that S^ij + S^ji is symmetric and
 // S^ij - S^ji is not. Geometric stiffening: S(y), P_bar of inertia/preprocessing.hpp.
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "floatframe/body/inertia_invariants.hpp"
 #include "floatframe/body/second_order.hpp"
-#include "floatframe/inertia/turning_mass.hpp"
 
 namespace floatframe {
 
 class BodyEnergy {
  public:
-  /// `second_order`: what of it the masses have (second_order_on_masses), `turning`: its share that
-  /// turns with nodes (TurningMass); null: nothing.
+  /// `second_order`: what of it the masses have (second_order_on_masses); null: nothing.
   explicit BodyEnergy(const InertiaInvariants& invariants,
-                      const SecondOrder* second_order = nullptr,
-                      const SecondOrder* turning = nullptr);
+                      const SecondOrder* second_order = nullptr);
 
   /// y, ydot: one number for each mode.
   double kinetic(const Vec3& v, const Vec3& w, const double* y, const double* ydot) const noexcept;
@@ -40,7 +36,6 @@ class BodyEnergy {
   std::vector<Pair> pairs_;                ///< (0,0), (0,1), ..., (1,1), ...
   /// With second order, of pairs of modes: S2, and int r_u x h dm.
   std::vector<std::array<Vec3, 2>> second_;
-  std::optional<TurningMass> turning_;
 };
 
 }  // namespace floatframe

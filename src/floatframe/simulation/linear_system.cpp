@@ -167,8 +167,7 @@ ModeParts mode_parts(const Model& model, const LinearSystem& system, const Linea
   parts.springs.assign(forces, 0.0);
   std::vector<BodyEnergy> energies;
   for (const Body& b : model.bodies)
-    energies.emplace_back(b.data->invariants, second_order_on_masses(*b.data, b.stiffens()).get(),
-                          b.data->turning.get());
+    energies.emplace_back(b.data->invariants, second_order_on_masses(*b.data, b.stiffens()).get());
   for (const VecX& part : z) {
     const VecX rates = system.rates_of * part, bends = system.bends_of * part,
                springs = system.springs_of * part;

@@ -41,8 +41,7 @@ double kinetic_energy_of(const Model& model, const LinearSystem& system, const L
   double energy = 0.0;
   std::vector<BodyEnergy> energies;
   for (const Body& b : model.bodies)
-    energies.emplace_back(b.data->invariants, second_order_on_masses(*b.data, b.stiffens()).get(),
-                          b.data->turning.get());
+    energies.emplace_back(b.data->invariants, second_order_on_masses(*b.data, b.stiffens()).get());
   for (const VecX& z : {VecX(mode.z.real()), VecX(mode.z.imag())}) {
     const VecX rates = system.rates_of * z;
     Eigen::Index row = 0;

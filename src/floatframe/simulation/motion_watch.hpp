@@ -25,8 +25,7 @@ class MotionWatch {
           known.emplace(std::pair(b.data.get(), b.stiffens()), energies_.size());
       if (fresh)
         energies_.emplace_back(b.data->invariants,
-                               second_order_on_masses(*b.data, b.stiffens()).get(),
-                               b.data->turning.get());
+                               second_order_on_masses(*b.data, b.stiffens()).get());
       energy_.push_back(at->second);
     }
   }
