@@ -13,9 +13,9 @@ namespace floatframe {
 
 /// Mode shapes and what is known about them, before the body is made.
 struct ModeSet {
-  MatX X;                  ///< rows of the structure x nm
-  MatX K;                  ///< nm x nm
-  VecX frequencies;        ///< of the dynamic modes [Hz]
+  MatX X;            ///< rows of the structure x nm
+  MatX K;            ///< nm x nm
+  VecX frequencies;  ///< of the dynamic modes [Hz]
   std::vector<std::string> names;
   int equal_left_out = 0;  ///< as of FlexibleBody
 };
