@@ -9,6 +9,7 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model_file/load_model.hpp"
+#include "floatframe/simulation/run_error.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/turning_model.hpp"
 #include "support/whirl_rotors.hpp"
@@ -185,6 +186,23 @@ TEST(RotorParts, PublishedRotor) {
     EXPECT_NEAR(found[k].imag() / (2.0 * pi) / published[k], 1.0, 1e-3) << k;
 }
 
+// About another axis than that of its bearings it has no steady state: the bearings' is named.
+TEST(RotorParts, WrongAxis) {
+  RotorOptions o;
+  o.kind = RotorKind::cbar;
+  const TemporaryFolder folder;
+  const Model model = load_model(write_rotor(folder, lalanne_ferraris(true), o));
+  TurningModel turning(model, "motor", Vec3::UnitZ());
+  try {
+    turning.modes(top_speed);
+    FAIL();
+  } catch (const RunError& e) {
+    EXPECT_NE(std::string(e.what()).find("the bearings of the rotor have the axis x of the joint"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
 /// Frequencies of sum_k c_k e^(i w_k t) from equally spaced samples, by a matrix pencil of `order`
 /// terms (Hua, Sarkar, IEEE Trans. ASSP 38 (1990) 814-824) [rad/s].
 std::vector<double> ringing_frequencies(const Eigen::VectorXcd& samples, double interval,
@@ -210,9 +228,15 @@ TEST(RotorParts, RingsFromAKickInRuns) {
   const AssembledRotor rotor = lalanne_ferraris(true);
   constexpr double speed = 1000.0;
   const auto expected = rotor.eigenvalues(speed);
-  for (const char* coordinates : {"relative", "absolute"}) {
+  struct Case {
+    const char* coordinates;
+    bool node_frame;
+  };
+  for (const auto& [coordinates, node_frame] :
+       {Case{"relative", false}, Case{"absolute", false}, Case{"relative", true}}) {
     RotorOptions o;
     o.kind = RotorKind::cbar, o.coordinates = coordinates, o.speed = speed;
+    o.node_frame = node_frame;
     o.step = 5e-6, o.duration = 0.16;
     o.extra =
         "  kick: {type: force, body: shaft, node: B, direction: [0, 1, 0.4], magnitude: "
@@ -236,8 +260,8 @@ TEST(RotorParts, RingsFromAKickInRuns) {
       for (const double f : found) best = std::min(best, std::abs(f / w - 1.0));
       worst = std::max(worst, best);
     }
-    std::printf("[ figure ] rotor_kick_%s %.1e\n", coordinates, worst);
-    EXPECT_LT(worst, 1e-3) << coordinates;
+    std::printf("[ figure ] rotor_kick_%s%s %.1e\n", coordinates, node_frame ? "_node" : "", worst);
+    EXPECT_LT(worst, 1e-3) << coordinates << (node_frame ? ", frame at a node" : "");
   }
 }
 

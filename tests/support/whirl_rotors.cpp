@@ -205,7 +205,7 @@ std::string bars(const AssembledRotor& r, const RotorOptions& o) {
 std::string part(const TemporaryFolder& folder, const AssembledRotor& r, const RotorOptions& o) {
   std::string file, keys;
   const std::string ends =
-      fmt::format("interfaces: {{A: {{node: 1}}, B: {{node: {}}}}}, modes: 25", r.nodes());
+      fmt::format("interfaces: {{A: {{node: 1}}, B: {{node: {}}}}}, modes: {}", r.nodes(), o.modes);
   switch (o.kind) {
     case RotorKind::cbar:
       file = folder.write("rotor.bdf", nastran_deck(r));
@@ -228,8 +228,8 @@ std::string part(const TemporaryFolder& folder, const AssembledRotor& r, const R
   if (!o.stiffening.empty()) t += "    geometric_stiffening: " + o.stiffening + "\n";
   return t + fmt::format(
                  "joints:\n  motor: {{type: free, child: shaft, child_node: A, velocity: [0, "
-                 "0, 0, {}, 0, 0]}}\n",
-                 o.speed);
+                 "{}, 0, {}, 0, 0]}}\n",
+                 o.across, o.speed);
 }
 
 }  // namespace

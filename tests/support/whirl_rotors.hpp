@@ -18,7 +18,9 @@ struct RotorOptions {
   std::string coordinates = "relative", inertia = "preprocessing";
   std::string extra;  ///< further sections of the model file
   double step = 1e-5, duration = 0.1;
-  double speed = 0.0;  ///< at the start of a run [rad/s]
+  double speed = 0.0;   ///< at the start of a run [rad/s]
+  double across = 0.0;  ///< velocity along y there [m/s]
+  int modes = 25;       ///< of parts
 };
 
 /// Writes what the model needs into `folder` and returns the path of the model file.

@@ -40,7 +40,7 @@ std::string curves_text(const ResponseResult& r) {
       if (!first && sizes.size() == 1) break;
       table.add({first ? c.output.name : "", first ? c.input.name : "", first ? c.unit() : "",
                  fmt::format("{:.4g}", r.frequencies[k]), fmt::format("{:.5g}", sizes[k]),
-                 fmt::format("{:.1f}", phases[k]),
+                 fmt::format("{:.1f}", std::remainder(phases[k], 360.0)),
                  first ? fmt::format("{:.5g}", sizes[static_cast<std::size_t>(top)]) : "",
                  first ? fmt::format("{:.4g}", r.frequencies[static_cast<std::size_t>(top)]) : ""});
     }

@@ -17,7 +17,8 @@ FlexibleRead known_part(FlexibleBody body) {
   FlexibleRead out;
   for (std::size_t k = 0; k < body.nodes.size(); ++k) {
     out.nodes.push_back(body.nodes[k].p);
-    if (!body.nodes[k].name.empty()) out.named_nodes.emplace(body.nodes[k].name, k);
+    if (!body.nodes[k].name.empty() && !is_surface_point(body.nodes[k]))
+      out.named_nodes.emplace(body.nodes[k].name, k);
   }
   out.modes = body.modes();
   out.valid = true;

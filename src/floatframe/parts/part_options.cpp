@@ -255,7 +255,7 @@ std::vector<PartOption> list() {
        "Body frame: mean_axis (default), buckens or node:NAME of an interface", reference()},
       {"integration", "integration", "WORD", "exact (default), or ccx: as CalculiX",
        enumerator<&P::integration>({"exact", "ccx"})},
-      {"damping", "damping", "FRACTION",
+      {"damping", "damping", "LAW",
        "Modal damping: a fraction of critical, a list of them, bands:usual, bands:HZ=FRACTION,..., "
        "rayleigh:ALPHA,BETA; behind it ,reference=free or mounted; default 0",
        damping()},

@@ -228,7 +228,6 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
     rotor.coordinate = b.iv + 1;
   } else if (rotor.free) {
     rotor.coordinate = b.iv + 3;
-    rotor.axis_F = axis ? axis->normalized() : Vec3(Vec3::UnitZ());
   } else {
     throw InputError(fmt::format(
         "rotor on joint '{}': found a {} joint, expected a revolute, cylindrical or free one", name,
@@ -238,15 +237,16 @@ Rotor find_rotor(RelativeFormulation& f, const std::string& name, const std::opt
   require_one_piece(model, tree, rotor, bodies);
   rotor.sign = b.reversed && !rotor.free ? -1.0 : 1.0;
   const Body& first = model.bodies[static_cast<std::size_t>(rotor.body)];
-  if (rotor.free && !axis) {
-    Mat3 axes;
-    for (int k = 0; k < 3; ++k) {
-      rotor.axis_F = Vec3::Unit(k);
-      axes.col(k) = first.X_WB.R * axis_in_body(f, rotor);
-    }
-    rotor.axis_F = Vec3::Unit(fitting_axis(model, name, bodies, axes));
+  Mat3 axes = Mat3::Identity();
+  for (int k = 0; rotor.free && k < 3; ++k) {
+    rotor.axis_F = Vec3::Unit(k);
+    axes.col(k) = first.X_WB.R * axis_in_body(f, rotor);
   }
+  if (rotor.free)
+    rotor.axis_F =
+        axis ? axis->normalized() : Vec3(Vec3::Unit(fitting_axis(model, name, bodies, axes)));
   const Vec3 axis_W = first.X_WB.R * axis_in_body(f, rotor);
+  if (rotor.free) rotor.other_axis = other_axis_of_bearings(model, bodies, axes, axis_W);
   const Vec3 p_W = marker_pose(model, b.frame_M).p;
   Eigen::Index along = 2;
   if (rotor.free) rotor.axis_F.cwiseAbs().maxCoeff(&along);

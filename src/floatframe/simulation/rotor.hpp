@@ -31,6 +31,7 @@ struct Rotor {
   int coordinate = 0;  ///< velocity of the angle; of a free joint the first of the three rotations
   bool free = false;
   Vec3 axis_F = Vec3::UnitZ();  ///< of a free joint, in its frame F
+  std::string other_axis;       ///< other_axis_of_bearings (rotor_symmetry.hpp)
   double sign = 1.0;            ///< of the velocity of the coordinate at positive speed
   bool driven = false;          ///< by a prescribed motion
   Vec3 e_1 = Vec3::UnitX();     ///< across the axis: x of the joint, of a free one the axis after

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "floatframe/body/cut_pair.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -92,6 +93,28 @@ std::optional<std::string> unbalance(const Model& model, const Rotor& rotor) {
              rotor.name);
 }
 
+/// Index of the one of `axes` (world) that all bearings between `bodies` and others have.
+std::optional<int> axis_of_bearings(const Model& model, const std::vector<int>& bodies,
+                                    const Mat3& axes) {
+  const auto on_rotor = [&](int marker) {
+    if (marker < 0) return false;
+    const int body = model.markers[static_cast<std::size_t>(marker)].body;
+    return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
+  };
+  std::vector<int> along{0, 1, 2};
+  bool bearings = false;
+  for (const Force& force : model.forces) {
+    if (force.type != ForceType::bearing || on_rotor(force.a) == on_rotor(force.b)) continue;
+    const Marker& m =
+        model.markers[static_cast<std::size_t>(on_rotor(force.a) ? force.a : force.b)];
+    const Vec3 z = model.bodies[static_cast<std::size_t>(m.body)].X_WB.R * m.X_NM.R.col(2);
+    bearings = true;
+    std::erase_if(along, [&](int k) { return z.cross(axes.col(k)).norm() > 1e-6; });
+  }
+  if (!bearings || along.size() != 1) return std::nullopt;
+  return along.front();
+}
+
 }  // namespace
 
 std::vector<std::string> asymmetries(const Model& model, const Rotor& rotor) {
@@ -134,31 +157,18 @@ void require_symmetry(const Model& model, const Rotor& rotor, double dependence)
     reasons += (reasons.empty() ? ": " : "; ") + text;
   throw RunError(fmt::format(
       "'{}': the linear system depends on the angle of the rotor (eigenvalues change by {:.2g} %), "
-      "so that no eigenvalues tell of its vibrations{}{}",
+      "so that no eigenvalues tell of its vibrations{}{}{}",
       rotor.name, 100.0 * dependence, reasons,
       reasons.empty() ? "; expected a rotor that is symmetric about its axis, with modes in equal "
                         "pairs"
-                      : ""));
+                      : "",
+      rotor.other_axis));
 }
 
 int fitting_axis(const Model& model, const std::string& joint, const std::vector<int>& bodies,
                  const Mat3& axes) {
-  const auto on_rotor = [&](int marker) {
-    if (marker < 0) return false;
-    const int body = model.markers[static_cast<std::size_t>(marker)].body;
-    return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
-  };
-  std::vector<int> along{0, 1, 2}, symmetric;
-  bool bearings = false;
-  for (const Force& force : model.forces) {
-    if (force.type != ForceType::bearing || on_rotor(force.a) == on_rotor(force.b)) continue;
-    const Marker& m =
-        model.markers[static_cast<std::size_t>(on_rotor(force.a) ? force.a : force.b)];
-    const Vec3 z = model.bodies[static_cast<std::size_t>(m.body)].X_WB.R * m.X_NM.R.col(2);
-    bearings = true;
-    std::erase_if(along, [&](int k) { return z.cross(axes.col(k)).norm() > 1e-6; });
-  }
-  if (bearings && along.size() == 1) return along.front();
+  std::vector<int> symmetric;
+  if (const auto along = axis_of_bearings(model, bodies, axes)) return *along;
   const Mat3 J = RigidRotor(model, bodies).J;
   std::string names;
   for (int k = 0; k < 3; ++k)
@@ -175,6 +185,13 @@ int fitting_axis(const Model& model, const std::string& joint, const std::vector
           : fmt::format("the rotor on the free joint '{}' is symmetric about {}; name the "
                         "one that it turns about with --axis",
                         joint, names));
+}
+
+std::string other_axis_of_bearings(const Model& model, const std::vector<int>& bodies,
+                                   const Mat3& axes, const Vec3& axis) {
+  const auto along = axis_of_bearings(model, bodies, axes);
+  if (!along || axes.col(*along).cross(axis).norm() < 1e-6) return {};
+  return fmt::format("; the bearings of the rotor have the axis {} of the joint", "xyz"[*along]);
 }
 
 }  // namespace floatframe

@@ -23,4 +23,9 @@ std::vector<std::string> asymmetries(const Model& model, const Rotor& rotor);
 int fitting_axis(const Model& model, const std::string& joint, const std::vector<int>& bodies,
                  const Mat3& axes);
 
+/// "; the bearings of the rotor have the axis x of the joint" if they have one, and it is not
+/// `axis`; else nothing. World axes.
+std::string other_axis_of_bearings(const Model& model, const std::vector<int>& bodies,
+                                   const Mat3& axes, const Vec3& axis);
+
 }  // namespace floatframe

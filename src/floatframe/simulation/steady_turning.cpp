@@ -129,8 +129,8 @@ SteadyTurning steady_turning(RelativeFormulation& f, const Rotor& rotor, const V
     VecX step = equations.step(s.state.q, s.state.lambda, tau);
     const double length = largest(step.head(nv));
     if (!std::isfinite(length) || k > 60)
-      throw RunError(
-          fmt::format("'{}' at {:g} rad/s: no steady state was found", rotor.name, speed));
+      throw RunError(fmt::format("'{}' at {:g} rad/s: no steady state was found{}", rotor.name,
+                                 speed, rotor.other_axis));
     s.state.lambda += step.segment(nv, nc);  // linear in these: right at the first step already
     if (!rotor.driven) tau += step[nv + nc];
     if (length < 1e-13 || (length < 1e-9 && length >= 0.5 * before)) break;

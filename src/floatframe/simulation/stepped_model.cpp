@@ -4,6 +4,7 @@
 
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/light_motion.hpp"
+#include "floatframe/simulation/positive_mass.hpp"
 
 namespace floatframe {
 namespace {
@@ -91,10 +92,22 @@ Energies SteppedModel<F>::energies() noexcept {
   return e;
 }
 
+/// `lost_mass` of the first body that has any to tell.
+template <class F>
+std::string lost_masses(const Model& model, const F& f, const VecX& q) {
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    VecX y(model.bodies[i].modes());
+    for (int a = 0; a < y.size(); ++a) y[a] = f.amplitude(q, static_cast<int>(i), a);
+    if (std::string text = lost_mass(model.bodies[i], y); !text.empty()) return text;
+  }
+  return {};
+}
+
 template <class F>
 std::string SteppedModel<F>::failure() {
   const std::string text = runner_.failure();  // first: of the iteration that failed
-  return text + light_motion_note(f_, runner_.state());
+  const std::string lost = lost_masses(model(), f_, runner_.state().q);
+  return text + (lost.empty() ? light_motion_note(f_, runner_.state()) : "; " + lost);
 }
 
 template <class F>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/body/surface_points.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
@@ -42,7 +43,9 @@ AxisForce axis_force(const Model& model, const Rotor& rotor, const Unbalance& u)
   }
   std::vector<std::string> nodes;
   for (const int k : on->on_axis) {
-    const std::string& name = body.nodes[static_cast<std::size_t>(k)].name;
+    const ModalNode& on_axis = body.nodes[static_cast<std::size_t>(k)];
+    if (is_surface_point(on_axis)) continue;
+    const std::string& name = on_axis.name;
     if (!name.empty()) nodes.push_back(name);
     if (!name.empty() && name == u.node) force.node = k;
   }
