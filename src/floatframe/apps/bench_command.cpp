@@ -46,7 +46,7 @@ Command bench_command() {
   return {.name = "bench",
           .help = "Measure processor times on this machine",
           .commands = {bench_iltis_command(), bench_chain_command(), bench_scaling_command(),
-                       bench_step_command()}};
+                       bench_start_command(), bench_step_command()}};
 }
 
 }  // namespace floatframe

@@ -9,6 +9,7 @@ namespace floatframe {
 Command bench_iltis_command();
 Command bench_chain_command();
 Command bench_scaling_command();
+Command bench_start_command();
 Command bench_step_command();
 
 /// The Iltis example: in a build folder beside the examples, in the current folder, or where the

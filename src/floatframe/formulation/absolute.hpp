@@ -45,6 +45,7 @@
 #include "floatframe/formulation/local_marker.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/math/block_ldlt.hpp"
+#include "floatframe/math/independent_rows.hpp"
 
 namespace floatframe {
 
@@ -147,10 +148,14 @@ class AbsoluteFormulation {
   double gravity_energy(const VecX& q) const noexcept;
   double elastic_energy(const VecX& q) const noexcept;
   std::string coordinate_owner(int i) const;
-  MatX constraint_jacobian();
+  /// Phi_q, sparse and dense, load time only.
+  SparseRowMatrix constraint_rows();
+  MatX constraint_jacobian() { return MatX(constraint_rows()); }
   CoordinateCounts counts() const;
   /// Dense mass matrix at the present configuration (load time, tests).
   MatX mass_matrix() const;
+  /// Of the mass matrix, after `dynamics`; load time.
+  VecX mass_diagonal() const;
   /// Coordinates and own constraints of a body; those of all bodies follow each other.
   int body_size(int i) const noexcept { return bodies_[i].size(); }
   int body_rows(int i) const noexcept { return bodies_[i].rows(); }
@@ -236,6 +241,7 @@ class AbsoluteFormulation {
   PointMotion acceleration_of(int marker, const VecX& a) const noexcept;
   void add_wrench(int marker, bool through_point, const Vec3& force, const Vec3& torque,
                   VecX& out) const noexcept;
+  void add_own_constraint_forces(const BodyData& b, const VecX& w, VecX& out) const noexcept;
   void add_all_constraint_forces(const VecX& w, VecX& out) const noexcept;
   void gradient(int marker, const Vec3& force, const Vec3& torque, Gradient& g) const noexcept;
   /// The gradients of a wrench on two markers into ga_ and gb_; one body is one gradient.

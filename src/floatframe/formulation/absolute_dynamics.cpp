@@ -36,20 +36,23 @@ void AbsoluteFormulation::add_wrench(int marker, bool through_point, const Vec3&
   if (m.rotates) out.segment(b.offset + 12, b.nm).noalias() += m.Jw.transpose() * torque;
 }
 
-void AbsoluteFormulation::add_all_constraint_forces(const VecX& w, VecX& out) const noexcept {
-  for (const BodyData& b : bodies_) {
-    for (int k = 0; k < 6; ++k) {
-      const double x = b.length * w[b.row + k];
-      out.segment<3>(b.offset + 3 + 3 * pair_a[k]) += x * b.A.col(pair_b[k]);
-      if (k >= 3) out.segment<3>(b.offset + 3 + 3 * pair_b[k]) += x * b.A.col(pair_a[k]);
-    }
-    for (int p = 0; p < b.points; ++p) {
-      const int marker = b.point_marker[p];
-      const Vec3 x = w.segment<3>(b.row + 6 + 3 * p);
-      add_wrench(marker, false, -x, Vec3::Zero(), out);
-      out.segment<3>(b.offset + 12 + b.nm + 3 * p) += x;
-    }
+void AbsoluteFormulation::add_own_constraint_forces(const BodyData& b, const VecX& w,
+                                                    VecX& out) const noexcept {
+  for (int k = 0; k < 6; ++k) {
+    const double x = b.length * w[b.row + k];
+    out.segment<3>(b.offset + 3 + 3 * pair_a[k]) += x * b.A.col(pair_b[k]);
+    if (k >= 3) out.segment<3>(b.offset + 3 + 3 * pair_b[k]) += x * b.A.col(pair_a[k]);
   }
+  for (int p = 0; p < b.points; ++p) {
+    const int marker = b.point_marker[p];
+    const Vec3 x = w.segment<3>(b.row + 6 + 3 * p);
+    add_wrench(marker, false, -x, Vec3::Zero(), out);
+    out.segment<3>(b.offset + 12 + b.nm + 3 * p) += x;
+  }
+}
+
+void AbsoluteFormulation::add_all_constraint_forces(const VecX& w, VecX& out) const noexcept {
+  for (const BodyData& b : bodies_) add_own_constraint_forces(b, w, out);
   constraint_set_.add_wrenches(w, [&](int marker, const Vec3& force, const Vec3& torque) {
     add_wrench(marker, true, force, torque, out);
   });

@@ -91,15 +91,41 @@ std::string AbsoluteFormulation::coordinate_owner(int i) const {
   return "coordinate " + std::to_string(i);
 }
 
-MatX AbsoluteFormulation::constraint_jacobian() {
-  MatX J = MatX::Zero(constraints(), nq_);
-  VecX w = VecX::Zero(constraints()), row(nq_);
-  for (int i = 0; i < constraints(); ++i) {
-    w.setZero();
-    w[i] = 1.0;
-    constraint_forces(w, row);
-    J.row(i) = row.transpose();
-  }
+SparseRowMatrix AbsoluteFormulation::constraint_rows() {
+  // The two bodies of a row are few of many: only their coordinates are looked at.
+  SparseRowMatrix J(constraints(), nq_);
+  std::vector<Eigen::Triplet<double>> entries;
+  VecX row = VecX::Zero(nq_);
+  const auto keep = [&](int i, int body) {
+    if (body < 0) return;
+    const BodyData& b = bodies_[body];
+    for (int k = b.offset; k < b.offset + b.size(); ++k) {
+      if (row[k] != 0.0) entries.emplace_back(i, k, row[k]);
+      row[k] = 0.0;
+    }
+  };
+  VecX w = VecX::Zero(constraints());
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    for (int i = bodies_[k].row; i < bodies_[k].row + bodies_[k].rows(); ++i) {
+      w[i] = 1.0;
+      add_own_constraint_forces(bodies_[k], w, row);
+      w[i] = 0.0;
+      keep(i, static_cast<int>(k));
+    }
+  const std::vector<ConstraintPart>& parts = constraint_set_.parts();
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (int r = 0; r < parts[k].rows(); ++r) {
+      const int i = constraint_set_.offset(k) + r;
+      w[i] = 1.0;
+      const WrenchRow g = constraint_set_.wrench(k, w);
+      w[i] = 0.0;
+      add_wrench(parts[k].a, true, g.Fa, g.Ta, row);
+      add_wrench(parts[k].b, true, g.Fb, g.Tb, row);
+      const int a = model_.markers[parts[k].a].body, b = model_.markers[parts[k].b].body;
+      keep(i, a);
+      if (b != a) keep(i, b);
+    }
+  J.setFromTriplets(entries.begin(), entries.end());
   return J;
 }
 
@@ -112,6 +138,12 @@ CoordinateCounts AbsoluteFormulation::counts() const {
   c.total = c.rigid + c.elastic;
   c.constraints = constraints();
   return c;
+}
+
+VecX AbsoluteFormulation::mass_diagonal() const {
+  VecX diagonal = VecX::Zero(nq_);
+  for (const BodyData& b : bodies_) diagonal.segment(b.offset, 12 + b.nm) = b.M.diagonal();
+  return diagonal;
 }
 
 MatX AbsoluteFormulation::mass_matrix() const {

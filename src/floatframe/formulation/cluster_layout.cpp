@@ -74,8 +74,8 @@ void ClusterTangent::make_elements() {
   }
 }
 
-MatX ClusterTangent::constraint_jacobian() {
-  MatX J = MatX::Zero(constraints_.count(), tree_.velocity_count());
+SparseRowMatrix ClusterTangent::constraint_rows() {
+  std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < part_elements_.size(); ++k) {
     const TreeElement& e = part_elements_[k];
     if (e.cluster < 0) continue;
@@ -89,10 +89,12 @@ MatX ClusterTangent::constraint_jacobian() {
         if ((front >= c.size && front < c.size + 6) || front >= c.n) continue;
         const int column =
             front < c.size ? c.offset + front : tree_.body(c.parent).iy + front - c.size - 6;
-        J(row, column) = scratch_[j];
+        if (scratch_[j] != 0.0) entries.emplace_back(row, column, scratch_[j]);
       }
     }
   }
+  SparseRowMatrix J(constraints_.count(), tree_.velocity_count());
+  J.setFromTriplets(entries.begin(), entries.end());
   return J;
 }
 

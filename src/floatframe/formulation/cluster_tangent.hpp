@@ -30,6 +30,7 @@
 #include "floatframe/formulation/force_set.hpp"
 #include "floatframe/formulation/tree_element.hpp"
 #include "floatframe/formulation/tree_kinematics.hpp"
+#include "floatframe/math/independent_rows.hpp"
 
 namespace floatframe {
 
@@ -62,8 +63,8 @@ class ClusterTangent {
     solve(b, &w, &increments, slot);
   }
 
-  /// Dense Phi_q at the present positions; load time.
-  MatX constraint_jacobian();
+  /// Phi_q at the present positions; load time.
+  SparseRowMatrix constraint_rows();
 
  private:
   /// The matrices of a body while the fronts are assembled. World axes, about O.

@@ -147,8 +147,11 @@ class RelativeFormulation {
   double total_mass() const noexcept;
   /// "mode 2 of body 'arm'" or "joint 'hinge'" that coordinate i belongs to.
   std::string coordinate_owner(int i) const { return tree_.coordinate_owner(i); }
-  /// Dense Phi_q, load time only.
-  MatX constraint_jacobian() { return tangent_.constraint_jacobian(); }
+  /// Phi_q, sparse and dense, load time only.
+  SparseRowMatrix constraint_rows() { return tangent_.constraint_rows(); }
+  MatX constraint_jacobian() { return MatX(constraint_rows()); }
+  /// Of the mass matrix, after `dynamics`; load time.
+  VecX mass_diagonal() const;
   CoordinateCounts counts() const;
 
  private:

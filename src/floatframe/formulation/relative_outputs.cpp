@@ -1,5 +1,6 @@
 // What outputs, energies and counts take from the relative formulation; not part of the step's
 // inner loop.
+#include "floatframe/formulation/composite_diagonal.hpp"
 #include "floatframe/formulation/relative.hpp"
 
 namespace floatframe {
@@ -27,6 +28,11 @@ double RelativeFormulation::body_kinetic_energy(int i) const noexcept {
   for (Eigen::Index k = 0; k < M.cols(); ++k)
     for (Eigen::Index l = 0; l < M.rows(); ++l) sum += 0.5 * z(k) * M(l, k) * z(l);
   return sum;
+}
+
+VecX RelativeFormulation::mass_diagonal() const {
+  return composite_diagonal(
+      tree_, [this](int i) -> const MatX& { return terms_[static_cast<std::size_t>(i)].M; });
 }
 
 double RelativeFormulation::body_gravity_energy(int i) const noexcept {

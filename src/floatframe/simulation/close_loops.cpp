@@ -10,6 +10,7 @@
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/open_loops.hpp"
+#include "floatframe/simulation/redundancy.hpp"
 #include "floatframe/simulation/simulation.hpp"
 
 namespace floatframe {
@@ -19,10 +20,12 @@ namespace {
 using Given = TreeKinematics::Given;
 
 /// Least weighted change x with J x = b.
-VecX least_change(const MatX& J, const VecX& w, const VecX& b) {
+VecX least_change(const SparseRowMatrix& J, const VecX& w, const VecX& b) {
   if (J.cols() == 0) return VecX();
-  const MatX Jw = J * w.cwiseSqrt().asDiagonal();
-  return w.cwiseSqrt().cwiseProduct(LeastNorm(Jw, 1e-11).solve(b));
+  const VecX roots = w.cwiseSqrt();
+  const SparseRowMatrix Jw = J * roots.asDiagonal();
+  if (J.rows() > few_rows) return roots.cwiseProduct(IndependentRows(Jw, 1e-11).least_norm(b));
+  return roots.cwiseProduct(LeastNorm(MatX(Jw), 1e-11).solve(b));
 }
 
 /// A start value given for a joint outside of the tree.
@@ -92,11 +95,11 @@ class Loops {
     return r;
   }
 
-  MatX jacobian(const VecX& q, const VecX& v) {
+  SparseRowMatrix jacobian(const VecX& q, const VecX& v) {
     const Eigen::Index nv = f_.velocities(), nc = f_.constraints(), n = changes_.size();
+    if (n == 0) return f_.constraint_rows();
     MatX J = MatX::Zero(nc + n, nv + n);
     J.topLeftCorner(nc, nv) = f_.constraint_jacobian();
-    if (n == 0) return J;
     J.bottomRightCorner(n, n).diagonal().setConstant(-1.0);
     VecX q1 = q;
     J.bottomLeftCorner(n, nv) = central_differences(nv, rates_ ? 1.0 : 1e-6, [&](const VecX& x) {
@@ -107,7 +110,7 @@ class Loops {
     });
     f_.positions(t_, q);
     f_.velocities(v);
-    return J;
+    return J.sparseView();
   }
 
  private:

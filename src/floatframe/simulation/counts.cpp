@@ -27,7 +27,7 @@ ModelCounts check(const Model& model) {
   start_accelerations(relative, start, default_penalty_mass(model, Coordinates::relative));
   relative.positions(0.0, start.q);
   relative.velocities(start.v);
-  const int rank = rank_of(relative.constraint_jacobian());
+  const int rank = rank_of(relative.constraint_rows());
   c.degrees_of_freedom = relative.velocities() - rank;
   c.redundant_constraints = relative.constraints() - rank;
   return c;
@@ -88,7 +88,7 @@ StaticsResult statics(const Model& model) {
     for (int m = 0; m < model.bodies[i].modes(); ++m) b.amplitudes[m] = f.amplitude(state.q, k, m);
     s.bodies.push_back(b);
   }
-  if (f.constraints() > 0 && rank_of(f.constraint_jacobian()) < f.constraints()) {
+  if (f.constraints() > 0 && rank_of(f.constraint_rows()) < f.constraints()) {
     ConstraintAnalysis analysis(f, state.q);
     analysis.set_reactions(s);
     s.redundant = analysis.redundant();

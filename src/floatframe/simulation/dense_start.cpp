@@ -56,22 +56,18 @@ MatX loose_directions(const MatX& mass, const MatX& J, const VecX& force, const 
   constexpr double step = 1e-6;
   const Eigen::Index k = Z.cols();
   const VecX r = -force;
+  // (N y)^T r = -w^T (M' Z_i + M nJ) and nJ = -J^+ J' Z_i: two vectors for all pairs.
+  const VecX w = N * (half_inverse * (half_inverse.transpose() * (N.transpose() * r)));
+  const VecX u = J.rows() > 0 ? LeastNorm(J.transpose(), 1e-11).solve(VecX(r - mass * w)) : VecX();
   MatX H(k, k);
-  const LeastNorm constraints(J, 1e-11);
   for (Eigen::Index j = 0; j < k; ++j) {
     // On both sides: along the bend of a bar that turns about itself the parts of H cancel, and
     // what one side alone is off by, the lightest of the other motions would magnify.
     const Neighbour there = neighbour(step * Z.col(j), Z), back = neighbour(-step * Z.col(j), Z);
-    const VecX change = (there.r - back.r) / (2.0 * step);
-    for (Eigen::Index i = 0; i < k; ++i) {
-      VecX turned = VecX::Zero(Z.rows());
-      if (J.rows() > 0)
-        turned = constraints.solve(VecX((back.JZ.col(i) - there.JZ.col(i)) / (2.0 * step)));
-      const VecX moved = (there.MZ.col(i) - back.MZ.col(i)) / (2.0 * step) + mass * turned;
-      const VecX y = -(half_inverse * (half_inverse.transpose() * (N.transpose() * moved)));
-      H(i, j) = Z.col(i).dot(change) + (turned + N * y).dot(r);
-    }
+    H.col(j) = Z.transpose() * (there.r - back.r) - (there.MZ - back.MZ).transpose() * w;
+    if (J.rows() > 0) H.col(j) -= (there.JZ - back.JZ).transpose() * u;
   }
+  H /= 2.0 * step;
   // Finite differences leave noise of the size of the forces times the step.
   const double noise = 1e-5 * (1.0 + r.lpNorm<Eigen::Infinity>()) + 1e-9 * H.cwiseAbs().maxCoeff();
   const SymmetricEigen eig = symmetric_eigen(0.5 * (H + H.transpose()));

@@ -23,6 +23,7 @@
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/simulation/linearization.hpp"
 #include "floatframe/simulation/mass_scale.hpp"
+#include "floatframe/simulation/massless.hpp"
 #include "floatframe/simulation/overflow.hpp"
 #include "floatframe/simulation/results.hpp"
 
@@ -100,56 +101,6 @@ void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const Ve
 /// "body 'a'", "bodies 'a', 'b' and 'c'".
 std::string named_text(const char* one, const char* many, const std::vector<std::string>& names);
 
-/// The diagonal of the mass matrix, after `dynamics`.
-template <class F>
-VecX mass_diagonal(F& f, const State& state, const VecX& possible) {
-  const int nv = f.velocities();
-  VecX r0(nv), diagonal(nv);
-  f.residual(VecX::Zero(nv), state.lambda, 0.0, r0);
-  check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
-  if constexpr (requires { f.mass_matrix(); }) {
-    diagonal = f.mass_matrix().diagonal();
-    check_masses(diagonal, [&](int i) { return f.coordinate_owner(i); });
-    return diagonal;
-  }
-  // Differences of the residual keep the digits of the mass if they are no smaller than the forces.
-  const VecX test = test_accelerations(r0, possible);
-  for (int j = 0; j < nv; ++j)
-    diagonal[j] = mass_times(f, VecX::Unit(nv, j), test[j], r0, state.lambda)[j];
-  check_masses(diagonal, [&](int i) { return f.coordinate_owner(i); });
-  return diagonal;
-}
-
-/// True if some direction that the constraints leave free may have no mass: the tangent with a
-/// small penalty has a vanishing pivot, or a solution with it grows without measure (inverse
-/// iteration from a vector that no direction is orthogonal to but by chance). A coordinate without
-/// mass alone says nothing: most of natural coordinates are held by constraints. Says yes too often
-/// rather than too seldom: the dense computation takes as long as a hundred steps of a vehicle.
-template <class F>
-bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass) {
-  const Eigen::Index nv = diagonal.size();
-  if (nv == 0) return false;
-  if (!(diagonal.maxCoeff() > 0.0)) return true;
-  constexpr double s = 1e-30;
-  constexpr int slot = 1;
-  // Round-off of the full penalty would look like mass.
-  if (f.factorize(1.0, 0.0, s, 1e-5 * penalty_mass / s, slot) >= 0) return true;
-  const VecX scale = mass_scale(diagonal, possible);
-  VecX x(nv);
-  for (Eigen::Index i = 0; i < nv; ++i) {
-    const double golden = static_cast<double>(i + 1) * 0.6180339887498949;
-    x[i] = (0.5 + golden - std::floor(golden)) * (i % 2 == 0 ? 1.0 : -1.0) / std::sqrt(scale[i]);
-  }
-  for (int pass = 0; pass < 2; ++pass) {
-    x /= std::sqrt(x.dot(scale.cwiseProduct(x)));
-    x = scale.cwiseProduct(x).eval();
-    f.solve(x, slot);
-    const double growth = std::sqrt(x.dot(scale.cwiseProduct(x)));
-    if (!(growth < 0.1 / no_mass)) return true;
-  }
-  return false;
-}
-
 /// The bodies that move when the velocities are a column of `directions`.
 template <class F>
 std::string moving_bodies(F& f, const State& state, const MatX& directions) {
@@ -196,7 +147,7 @@ void start_accelerations_dense(F& f, State& state) {
     const double size = std::max(1.0, n.r.cwiseAbs().maxCoeff());
     for (Eigen::Index k = 0; k < Z.cols(); ++k)
       n.MZ.col(k) = mass_times(f, Z.col(k), size, n.r, no_lambda);
-    n.JZ = f.constraint_jacobian() * Z;
+    n.JZ = f.constraint_rows() * Z;
     return n;
   };
   dense_start(
@@ -208,57 +159,21 @@ void start_accelerations_dense(F& f, State& state) {
 /// Fills state.a, state.a_alg and state.lambda at state.q, state.v, state.t.
 template <class F>
 void start_accelerations(F& f, State& state, double penalty_mass) {
-  const int nv = f.velocities(), nc = f.constraints();
-  state.a = VecX::Zero(nv);
-  state.lambda = VecX::Zero(nc);
+  state.a = VecX::Zero(f.velocities());
+  state.lambda = VecX::Zero(f.constraints());
   check_numbers(f.model(), overflow_text(f, state, state.t, largest_magnitude), state.t);
-  constexpr int most = 1000;  // beyond, neither this nor the dense computation is affordable
-  VecX possible;
-  if (nv <= most) possible = possible_masses(f, state);
+  const VecX possible = possible_masses(f, state);
   f.positions(state.t, state.q);
   f.velocities(state.v);
   f.dynamics();
-  double s = 1e-30;  // no stiffness in the tangent: M + penalty Phi_q^T Phi_q
-  VecX r(nv), gamma(nc), mu(nc);
+  constexpr double s = 1e-30;  // no stiffness in the tangent: M + penalty Phi_q^T Phi_q
+  const VecX diagonal = mass_diagonal(f, state);
   // A freedom whose mass is round-off passes the pivot test by luck: look for it first.
-  bool good =
-      nv > most || !may_lack_mass(f, mass_diagonal(f, state, possible), possible, penalty_mass);
-  if (nv > most) {
-    f.residual(state.a, state.lambda, 0.0, r);
-    check_magnitudes(r, [&](int i) { return f.coordinate_owner(i); });
-  }
-  good = good && f.factorize(1.0, 0.0, s, penalty_mass / s) < 0;
-  bool settled = good;
-  if (!good && nv > most) {
-    // The dense computation would take minutes. A little stiffness holds what has no mass; that is
-    // the solution too if no force acts there, and otherwise the passes do not settle.
-    s = 1e-10;
-    good = f.factorize(1.0, 0.0, s, penalty_mass / s) < 0;
-    settled = false;
-  }
-  if (good) {
-    double worst = 0.0;
-    for (int pass = 0; pass < 60; ++pass) {
-      f.residual(state.a, state.lambda, 0.0, r);
-      f.constraint_accelerations(state.a, gamma);
-      VecX delta = -r;
-      f.solve(delta, gamma, penalty_mass, mu, 0);
-      state.a += delta;
-      f.constraint_accelerations(state.a, gamma);
-      state.lambda += penalty_mass * mu;
-      f.residual(state.a, state.lambda, 0.0, r);
-      f.balance(state.lambda, r);
-      worst = nc > 0 ? gamma.lpNorm<Eigen::Infinity>() : 0.0;
-      if (!delta.allFinite()) break;
-      const double size = 1.0 + state.a.lpNorm<Eigen::Infinity>();
-      if (pass > 0 && worst < 1e-9 * size && delta.lpNorm<Eigen::Infinity>() < 1e-9 * size) {
-        settled = true;
-        break;
-      }
-    }
-    const double size = 1.0 + state.a.lpNorm<Eigen::Infinity>();
-    good = settled && state.a.allFinite() && worst < 1e-5 * size && size < 1e7;
-  }
+  const bool lacks_mass = may_lack_mass(f, diagonal, possible, penalty_mass);
+  const bool good =
+      lacks_mass ? start_held_by_stiffness(f, state, mass_scale(diagonal, possible), penalty_mass)
+                 : f.factorize(1.0, 0.0, s, penalty_mass / s) < 0 &&
+                       start_by_passes(f, state, penalty_mass, false, false);
   if (!good) start_accelerations_dense(f, state);
   state.a_alg = state.a;
   f.positions(state.t, state.q);

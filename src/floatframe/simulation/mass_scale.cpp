@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/formulation/composite_diagonal.hpp"
+#include "floatframe/math/so3.hpp"
+
 namespace floatframe {
 
 namespace {
@@ -31,30 +34,26 @@ double possible_modal_mass(const Model& model, std::size_t body, int mode, doubl
 
 VecX possible_masses(RelativeFormulation& f, const State& state) {
   const Model& model = f.model();
-  const std::size_t n = model.bodies.size();
-  VecX masses = VecX::Zero(f.velocities());
+  const TreeKinematics& tree = f.tree();
   f.positions(state.t, state.q);
   // Wrenches are taken about one common point, and their round-off grows with the distance from it.
-  std::vector<double> reach2(n);
-  std::vector<std::vector<double>> modal(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double l = model.bodies[i].length;
-    reach2[i] = l * l + (f.body_position(static_cast<int>(i)) - f.origin()).squaredNorm();
-    for (int k = 0; k < model.bodies[i].modes(); ++k)
-      modal[i].push_back(possible_modal_mass(model, i, k, reach2[i]));
+  std::vector<MatX> possible;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Vec3& p_OB = tree.body(static_cast<int>(i)).p_OB;
+    const double m = possible_mass(model, i), l = model.bodies[i].length;
+    const double reach2 = l * l + p_OB.squaredNorm();
+    const int modes = model.bodies[i].modes();
+    MatX M = MatX::Zero(6 + modes, 6 + modes);
+    const Mat3 p = skew(p_OB);  // the frame of a body moves by sdot - p x omega
+    M.topLeftCorner<3, 3>() = m * Mat3::Identity();
+    M.block<3, 3>(0, 3) = -m * p;
+    M.block<3, 3>(3, 0) = m * p;
+    M.block<3, 3>(3, 3) = m * (reach2 * Mat3::Identity() - p * p);
+    for (int k = 0; k < modes; ++k) M(6 + k, 6 + k) = possible_modal_mass(model, i, k, reach2);
+    possible.push_back(std::move(M));
   }
-  for (int j = 0; j < f.velocities(); ++j) {
-    const VecX v = VecX::Unit(f.velocities(), j);
-    f.velocities(v);
-    for (std::size_t i = 0; i < n; ++i) {
-      const int body = static_cast<int>(i);
-      masses[j] +=
-          possible_mass(model, i) * (f.body_velocity(body).squaredNorm() +
-                                     reach2[i] * f.body_angular_velocity(body).squaredNorm());
-      for (std::size_t k = 0; k < modal[i].size(); ++k)
-        if (f.amplitude_rate(v, body, static_cast<int>(k)) != 0.0) masses[j] += modal[i][k];
-    }
-  }
+  VecX masses = composite_diagonal(
+      tree, [&](int i) -> const MatX& { return possible[static_cast<std::size_t>(i)]; });
   fill_gaps(masses, model);
   return masses;
 }

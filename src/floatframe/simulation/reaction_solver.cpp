@@ -41,15 +41,11 @@ ReactionSolver<F>::ReactionSolver(const Model& model, InertiaMethod method, cons
     least_.emplace(model);
     least_lambda_ = VecX::Zero(least_->rows());
   }
-  constexpr int most = 1000;  // as `start_accelerations`
-  if (nv <= most) {
-    const VecX possible = possible_masses(f_, start);
-    f_.positions(start.t, start.q);
-    f_.velocities(start.v);
-    f_.dynamics();
-    lacks_mass_ =
-        may_lack_mass(f_, mass_diagonal(f_, start, possible), possible, options.penalty_mass);
-  }
+  const VecX possible = possible_masses(f_, start);
+  f_.positions(start.t, start.q);
+  f_.velocities(start.v);
+  f_.dynamics();
+  lacks_mass_ = may_lack_mass(f_, mass_diagonal(f_, start), possible, options.penalty_mass);
   if (least_) find_open_outputs(start);
 }
 

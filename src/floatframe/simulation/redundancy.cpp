@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "floatframe/math/dense.hpp"
@@ -66,7 +67,10 @@ std::vector<int> dependent_rows(const MatX& J) {
   return rows;
 }
 
-int rank_of(const MatX& J) { return static_cast<int>(pivoted_rank(J.transpose(), dependent)); }
+int rank_of(const SparseRowMatrix& J) {
+  if (J.rows() > few_rows) return static_cast<int>(IndependentRows(J, dependent).rank());
+  return static_cast<int>(pivoted_rank(MatX(J).transpose(), dependent));
+}
 
 ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
     : model_(tree.model()), f_(tree.model(), tree.model().simulation.inertia) {
@@ -77,24 +81,41 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
   f_.dynamics();
   const Eigen::Index nq = f_.velocities();
   first_ = parts().empty() ? f_.constraints() : f_.constraint_set().offset(0);
-  const MatX all = f_.constraint_jacobian();
+  const SparseRowMatrix all = f_.constraint_rows();
   VecX load(nq);
   f_.residual(VecX::Zero(nq), VecX::Zero(f_.constraints()), 0.0, load);
   // Motions that each body has by itself: its coordinates and its own constraints follow those of
   // the bodies before it.
   Eigen::Index column = 0, row = 0, motions = 0;
-  J_ = MatX::Zero(f_.constraints() - first_, nq - first_);
+  std::vector<MatX> own_motions;
+  std::vector<std::array<Eigen::Index, 2>> first_of(
+      static_cast<std::size_t>(nq));  // column, motion
+  std::vector<std::size_t> body_of(static_cast<std::size_t>(nq));
   load_ = VecX::Zero(nq - first_);
   for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
     const Eigen::Index size = f_.body_size(static_cast<int>(i));
     const Eigen::Index own = f_.body_rows(static_cast<int>(i));
-    const MatX N = null_space(all.block(row, column, own, size));
-    J_.middleCols(motions, N.cols()) = all.bottomRows(J_.rows()).middleCols(column, size) * N;
+    const MatX N = null_space(MatX(all.middleRows(row, own)).middleCols(column, size));
     load_.segment(motions, N.cols()) = -(N.transpose() * load.segment(column, size));
+    for (Eigen::Index k = column; k < column + size; ++k) {
+      first_of[static_cast<std::size_t>(k)] = {column, motions};
+      body_of[static_cast<std::size_t>(k)] = i;
+    }
+    own_motions.push_back(N);
     column += size;
     row += own;
     motions += N.cols();
   }
+  std::vector<Eigen::Triplet<double>> entries;
+  J_.resize(f_.constraints() - first_, nq - first_);
+  for (Eigen::Index i = 0; i < J_.rows(); ++i)
+    for (SparseRowMatrix::InnerIterator it(all, first_ + i); it; ++it) {
+      const auto k = static_cast<std::size_t>(it.col());
+      const MatX& N = own_motions[body_of[k]];
+      for (Eigen::Index m = 0; m < N.cols(); ++m)
+        entries.emplace_back(i, first_of[k][1] + m, it.value() * N(it.col() - first_of[k][0], m));
+    }
+  J_.setFromTriplets(entries.begin(), entries.end());
   rows_.resize(J_.rows());
   for (std::size_t k = 0; k < parts().size(); ++k) {
     const ConstraintPart& p = parts()[k];
@@ -104,13 +125,23 @@ ConstraintAnalysis::ConstraintAnalysis(RelativeFormulation& tree, const VecX& q)
 
 std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
   std::vector<RedundantDirection> found;
-  MatX basis(J_.cols(), std::min(J_.rows(), J_.cols()));  // orthonormal, of the rows met so far
+  if (J_.rows() > few_rows) {
+    const std::vector<int> rows = IndependentRows(J_, dependent).dependent();
+    auto next = rows.begin();
+    for (std::size_t k = 0; k < parts().size(); ++k)
+      for (; next != rows.end() && *next < row_of(k) + parts()[k].rows(); ++next)
+        found.push_back(
+            {owner_name(model_, parts()[k].owner), direction_text(parts()[k], rows_[*next])});
+    return found;
+  }
+  const MatX J(J_);
+  MatX basis(J.cols(), std::min(J.rows(), J.cols()));  // orthonormal, of the rows met so far
   Eigen::Index rank = 0;
   for (std::size_t k = 0; k < parts().size(); ++k) {
     const ConstraintPart& part = parts()[k];
     for (int r = 0; r < part.rows(); ++r) {
       const Eigen::Index i = row_of(k) + r;
-      VecX x = J_.row(i).transpose();
+      VecX x = J.row(i).transpose();
       const double size = x.norm();
       for (int pass = 0; pass < 2; ++pass)  // twice is enough
         x -= basis.leftCols(rank) * (basis.leftCols(rank).transpose() * x);
@@ -125,11 +156,12 @@ std::vector<RedundantDirection> ConstraintAnalysis::redundant() const {
 
 bool ConstraintAnalysis::set_reactions(StaticsResult& statics) {
   if (J_.rows() == 0 || J_.cols() == 0) return true;
-  const VecX lambda = LeastNorm(J_.transpose(), dependent).solve(load_);
-  const double error = (J_.transpose() * lambda - load_).lpNorm<Eigen::Infinity>();
+  const MatX J(J_);
+  const VecX lambda = LeastNorm(J.transpose(), dependent).solve(load_);
+  const double error = (J.transpose() * lambda - load_).lpNorm<Eigen::Infinity>();
   const double weight = statics.residual + 1e-6 * (1e-6 + load_.lpNorm<Eigen::Infinity>());
   if (!(error < 10.0 * weight)) return false;
-  const MatX balanced = balanced_multipliers(J_);
+  const MatX balanced = balanced_multipliers(J);
   const Eigen::Index states = balanced.cols();
   const std::size_t joints = model_.joints.size();
   std::vector<MatX> force(joints, MatX::Zero(3, states)), torque = force;
@@ -193,7 +225,7 @@ std::string redundancy_text(const std::vector<RedundantDirection>& redundant) {
 
 void report_redundancy(RelativeFormulation& f, const State& state, StartReport& report) {
   const int nc = f.constraints();
-  if (nc == 0 || rank_of(f.constraint_jacobian()) == nc) return;
+  if (nc == 0 || rank_of(f.constraint_rows()) == nc) return;
   report.redundant = ConstraintAnalysis(f, state.q).redundant();
   f.positions(state.t, state.q);
   f.velocities(state.v);

@@ -32,7 +32,7 @@ class ConstraintAnalysis {
   const Model& model_;
   AbsoluteFormulation f_;
   Eigen::Index first_ = 0;  ///< row of the first part: rows of bodies come before
-  MatX J_;                  ///< rows of the parts on the motions of the bodies
+  SparseRowMatrix J_;       ///< rows of the parts on the motions of the bodies
   VecX load_;               ///< what J_^T lambda must be
   std::vector<ConstraintRow> rows_;
 };
@@ -42,7 +42,9 @@ class ConstraintAnalysis {
 void report_redundancy(RelativeFormulation& f, const State& state, StartReport& report);
 
 /// Rank of the rows of J.
-int rank_of(const MatX& J);
+int rank_of(const SparseRowMatrix& J);
+/// Below, dense linear algebra is as fast and tells the rank by the best order of the rows.
+inline constexpr int few_rows = 200;
 /// The rows with the largest part in the combination of rows of J that is nearest to zero without
 /// being zero.
 std::vector<int> dependent_rows(const MatX& J);

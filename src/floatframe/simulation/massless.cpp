@@ -1,0 +1,137 @@
+#include "floatframe/simulation/massless.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "floatframe/simulation/initial_state.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Stiffness of so small a part that modes with mass hardly see it: s k = 1e-4 m for the stiffest.
+template <class F>
+double little_stiffness(const F& f) {
+  double stiffest = 0.0;
+  for (const double w2 : f.own_frequencies_squared())
+    if (w2 < no_inertia) stiffest = std::max(stiffest, w2);
+  return std::min(1e-10, 1e-4 / std::max(stiffest, 1.0));
+}
+
+/// x without what of it has no mass, by T of slot 0: T^-1 M x with the same Phi_q x.
+template <class F>
+VecX with_mass(F& f, const VecX& x, const VecX& r0, const VecX& lambda, double penalty_mass) {
+  VecX y = mass_times(f, x, 1.0, r0, lambda), rates(lambda.size()), mu(lambda.size());
+  f.constraint_increments(x, rates);
+  f.solve(y, VecX(-rates), penalty_mass, mu, 0);
+  return y;
+}
+
+}  // namespace
+
+template <class F>
+VecX mass_diagonal(F& f, const State& state) {
+  VecX r0(f.velocities());
+  f.residual(VecX::Zero(f.velocities()), state.lambda, 0.0, r0);
+  check_magnitudes(r0, [&](int i) { return f.coordinate_owner(i); });
+  VecX diagonal = f.mass_diagonal();
+  check_masses(diagonal, [&](int i) { return f.coordinate_owner(i); });
+  return diagonal;
+}
+
+template <class F>
+double growth_of_motions(F& f, const VecX& scale, double s, double penalty_mass) {
+  constexpr int slot = 1;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  // Round-off of the full penalty would look like mass.
+  if (f.factorize(1.0, 0.0, s, 1e-5 * penalty_mass / s, slot) >= 0) return infinite;
+  VecX x(scale.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double golden = static_cast<double>(i + 1) * 0.6180339887498949;
+    x[i] = (0.5 + golden - std::floor(golden)) * (i % 2 == 0 ? 1.0 : -1.0) / std::sqrt(scale[i]);
+  }
+  double growth = 0.0;
+  for (int pass = 0; pass < 2; ++pass) {
+    x /= std::sqrt(x.dot(scale.cwiseProduct(x)));
+    x = scale.cwiseProduct(x).eval();
+    f.solve(x, slot);
+    const double grown = std::sqrt(x.dot(scale.cwiseProduct(x)));
+    if (!std::isfinite(grown)) return infinite;
+    growth = std::max(growth, grown);
+  }
+  return growth;
+}
+
+template <class F>
+bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass) {
+  if (diagonal.size() == 0) return false;
+  if (!(diagonal.maxCoeff() > 0.0)) return true;
+  constexpr double s = 1e-30;
+  const VecX scale = mass_scale(diagonal, possible);
+  return !(growth_of_motions(f, scale, s, penalty_mass) < 0.1 / no_mass);
+}
+
+template <class F>
+bool start_by_passes(F& f, State& state, double penalty_mass, bool lacks_mass, bool must_settle) {
+  const int nv = f.velocities(), nc = f.constraints();
+  state.a = VecX::Zero(nv);
+  state.lambda = VecX::Zero(nc);
+  const VecX no_lambda = state.lambda;
+  VecX r(nv), r0(nv), gamma(nc), mu(nc);
+  f.residual(state.a, no_lambda, 0.0, r0);
+  double violation = 0.0, before = std::numeric_limits<double>::infinity();
+  bool settled = false;
+  for (int pass = 0; pass < 60 && !settled; ++pass) {
+    f.residual(state.a, state.lambda, 0.0, r);
+    f.constraint_accelerations(state.a, gamma);
+    VecX delta = -r;
+    f.solve(delta, gamma, penalty_mass, mu, 0);
+    if (lacks_mass)
+      for (int k = 0; k < 2; ++k) delta = with_mass(f, delta, r0, no_lambda, penalty_mass);
+    state.a += delta;
+    f.constraint_accelerations(state.a, gamma);
+    state.lambda += penalty_mass * mu;
+    f.residual(state.a, state.lambda, 0.0, r);
+    f.balance(state.lambda, r);
+    violation = nc > 0 ? gamma.lpNorm<Eigen::Infinity>() : 0.0;
+    if (!delta.allFinite()) return false;
+    const double size = 1.0 + state.a.lpNorm<Eigen::Infinity>();
+    const double change = delta.lpNorm<Eigen::Infinity>();
+    // Of long systems rounding leaves more than the first limit: then changes fall no more.
+    settled = pass > 0 && violation < 1e-9 * size &&
+              (change < 1e-9 * size || (change > 0.3 * before && change < 1e-6 * size));
+    before = change;
+  }
+  const double size = 1.0 + state.a.lpNorm<Eigen::Infinity>();
+  return (settled || !must_settle) && state.a.allFinite() && violation < 1e-5 * size && size < 1e7;
+}
+
+template <class F>
+bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass) {
+  // Without mass and stiffness only rounding is left of a direction, whatever s.
+  const double nothing = growth_of_motions(f, scale, 1e-30, penalty_mass);
+  // Beyond what dense linear algebra can judge the passes decide, as far as rounding lets them.
+  const bool large = scale.size() > most_dense;
+  double s = little_stiffness(f);
+  for (int attempt = 0; attempt < 2; ++attempt, s *= 1e-3) {
+    if (!large) {
+      const double held = growth_of_motions(f, scale, s, penalty_mass);
+      if (!(held < 1e13 && held < 1e-2 * nothing)) return false;
+    }
+    if (f.factorize(1.0, 0.0, s, penalty_mass / s) >= 0) return false;
+    if (start_by_passes(f, state, penalty_mass, true, !large || attempt == 0)) return true;
+  }
+  return false;
+}
+
+template VecX mass_diagonal(RelativeFormulation&, const State&);
+template VecX mass_diagonal(AbsoluteFormulation&, const State&);
+template double growth_of_motions(RelativeFormulation&, const VecX&, double, double);
+template double growth_of_motions(AbsoluteFormulation&, const VecX&, double, double);
+template bool may_lack_mass(RelativeFormulation&, const VecX&, const VecX&, double);
+template bool may_lack_mass(AbsoluteFormulation&, const VecX&, const VecX&, double);
+template bool start_by_passes(RelativeFormulation&, State&, double, bool, bool);
+template bool start_by_passes(AbsoluteFormulation&, State&, double, bool, bool);
+template bool start_held_by_stiffness(RelativeFormulation&, State&, const VecX&, double);
+template bool start_held_by_stiffness(AbsoluteFormulation&, State&, const VecX&, double);
+
+}  // namespace floatframe

@@ -1,0 +1,45 @@
+#pragma once
+// Which freedom has no mass, and start accelerations where some have none.
+//
+// With a little stiffness, T = M + s K + penalty Phi_q^T Phi_q, what has no mass but is held by
+// modes or forces is regular: sparse, as in steps. What T^-1 makes of a direction without mass is
+// 1 / (s k); T^-1 M takes that out of an acceleration again and leaves those with mass, but for
+// s k / m, which the passes correct.
+#include "floatframe/simulation/mass_scale.hpp"
+
+namespace floatframe {
+
+/// The diagonal of the mass matrix, after `dynamics`. Throws RunError naming what is too large to
+/// compute with, of it or of the forces there.
+template <class F>
+VecX mass_diagonal(F& f, const State& state);
+
+/// How much a solution with T = M + s K + penalty Phi_q^T Phi_q grows at most, against masses of
+/// `scale`: the inverse of the smallest mass of a direction that constraints leave free, as a part
+/// of its scale (inverse iteration from a vector that no direction is orthogonal to but by chance).
+/// Infinite where a pivot vanishes.
+template <class F>
+double growth_of_motions(F& f, const VecX& scale, double s, double penalty_mass);
+
+/// True if some direction that the constraints leave free may have no mass. A coordinate without
+/// mass alone says nothing: most of natural coordinates are held by constraints. Says yes too often
+/// rather than too seldom.
+template <class F>
+bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double penalty_mass);
+
+/// Start accelerations and multipliers of a system that lacks mass somewhere: none along directions
+/// without mass, by passes with T. False, with nothing of use in the state, if stiffness does not
+/// hold them all or a force moves them beyond what digits are left for. `f` is at the state.
+template <class F>
+bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass);
+
+/// Passes that solve M a + Phi_q^T lambda = Q, Phi_q a = gamma with the T that is factorised in
+/// slot 0. True if the constraints hold and nothing is beyond measure, and with `must_settle` only
+/// if the passes settle.
+template <class F>
+bool start_by_passes(F& f, State& state, double penalty_mass, bool lacks_mass, bool must_settle);
+
+/// Coordinates beyond which dense linear algebra takes minutes.
+inline constexpr Eigen::Index most_dense = 1000;
+
+}  // namespace floatframe
