@@ -261,6 +261,7 @@ std::vector<RangeWarning> RangeWatch::warnings(const EnergySummary& energy,
   writer.turn(out);
   writer.phase(meters_, out);
   writer.balance(energy, spectral_radius, out);
+  turns_.warn(out);
   return out;
 }
 

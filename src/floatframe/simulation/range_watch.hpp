@@ -8,6 +8,7 @@
 
 #include "floatframe/model/model.hpp"
 #include "floatframe/simulation/results.hpp"
+#include "floatframe/simulation/turn_watch.hpp"
 
 namespace floatframe {
 
@@ -136,6 +137,8 @@ class RangeWatch {
   const std::vector<BodyRange>& bodies() const noexcept { return bodies_; }
   /// Two per body, its motion and its turning, then one per mode.
   std::vector<PhaseMeter>& meters(int body) noexcept { return meters_[body]; }
+  /// Of the force elements that measure rotations.
+  TurnWatch& turns() noexcept { return turns_; }
   double step() const noexcept { return step_; }
   /// Energy of all bodies moving by `least_motion` per step [J].
   double noise() const noexcept;
@@ -148,6 +151,7 @@ class RangeWatch {
     for (BodyRange& body : bodies_) body.walk(s);
     for (std::vector<PhaseMeter>& of_body : meters_)
       for (PhaseMeter& meter : of_body) meter.walk(s);
+    turns_.walk(s);
   }
 
  private:
@@ -156,6 +160,7 @@ class RangeWatch {
   RangeLimits limits_;
   std::vector<BodyRange> bodies_;
   std::vector<std::vector<PhaseMeter>> meters_;
+  TurnWatch turns_;
 };
 
 /// Where an equilibrium leaves the range: bodies that deform too far, one sentence per kind.
