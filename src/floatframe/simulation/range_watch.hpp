@@ -21,6 +21,7 @@ struct RangeLimits {
   double share = 0.05;        ///< of the kinetic energy of all oscillations that counts
   double imbalance = 0.05;    ///< remainder of the energy balance over the energy exchanged
   double dissipation = 0.1;   ///< the same of what numerical damping takes out
+  double of_present = 1e-4;   ///< of the energy present, below which no remainder counts
 };
 
 /// Motion in a step below which only the tolerances of the solver show [m, rad].
