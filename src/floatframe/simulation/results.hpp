@@ -138,6 +138,7 @@ struct StaticsResult {
   std::vector<StaticsBody> bodies;
   std::shared_ptr<SystemState> state;  ///< the equilibrium, at rest
   std::vector<RedundantDirection> redundant;
+  std::vector<std::string> notes;  ///< what else to know of the equilibrium: it is unstable
 };
 
 }  // namespace floatframe
