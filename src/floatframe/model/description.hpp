@@ -97,6 +97,7 @@ struct BodyDescription {
   /// Displacements of second order of the modes enter, which stiffen a body that spins or carries
   /// load; absent: as SimulationDescription says.
   std::optional<bool> geometric_stiffening;
+  double largest_angle = 0.0;  ///< of those that its orientation was written with [rad]
   std::variant<RigidDescription, FlexibleDescription, FlexibleBody> kind;
   Origin origin;
 };

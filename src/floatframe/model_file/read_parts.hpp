@@ -83,7 +83,7 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
 /// Errors of a file keep their place; others belong to the value that names the file.
 void add_errors(const YamlValue& value, const InputError& error);
 /// A rotation vector, a unit quaternion or {roll, pitch, yaw}.
-Mat3 read_orientation(const YamlValue& value);
+Mat3 read_orientation(const YamlValue& value, double* largest_angle = nullptr);
 /// The key `geometry` of a body: the triangles of a file in the body's frame. nullptr and errors if
 /// it cannot be shown.
 std::shared_ptr<const BodyShape> read_body_geometry(const ModelInstance& self,
