@@ -61,9 +61,10 @@ class AugmentedLagrangian {
     return report;
   }
 
-  /// At an edge within a step, where forces jump; see restart.hpp. h: the size of steps.
+  /// Where forces jump; see restart.hpp. h: the size of steps.
   void project_velocities(State& state, double h) noexcept;
   bool restart(State& state, double h) noexcept;
+  bool restart_in_course(State& state, double h) noexcept;
 
   const StepOptions& options() const noexcept { return options_; }
 
@@ -339,7 +340,9 @@ class AugmentedLagrangian {
     return true;
   }
 
-  bool solve_accelerations(const State& state, double s, double penalty) noexcept;
+  bool solve_accelerations(const State& state, const Scheme& k, double penalty,
+                           double enough) noexcept;
+  bool settle_accelerations(double s, double penalty, double enough) noexcept;
 
   void project_velocities(double penalty, StepAttempt& report) noexcept {
     if (keeps_impulses_) impulses_.setZero();
