@@ -62,8 +62,8 @@ std::string table_point_error(const std::vector<TablePoint>& before, double x, T
   const bool equal = x == before.back().x;
   if (of == TableOf::time && equal) {
     if (before.size() < 2 || before[before.size() - 2].x < x) return {};
-    return "found x = " + number_text(x) + " a third time, expected two points [" + x_unit +
-           "] at a jump";
+    return "found x = " + number_text(x) + " [" + x_unit +
+           "] a third time, expected at most two points at a jump";
   }
   return "found x = " + number_text(x) + " after " + number_text(before.back().x) +
          ", expected ascending x [" + x_unit + "]" +
