@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/realtime/realtime.hpp"
 #include "floatframe/simulation/run_watch.hpp"
 #include "floatframe/simulation/stepped_model.hpp"
 #include "floatframe/simulation/stepping.hpp"
@@ -243,6 +244,41 @@ TEST_P(HeldInputs, WorkIsTheValueTimesTheTravel) {
   EXPECT_GT(std::abs(travelled), 1e-4);
   EXPECT_NEAR(e.work[EnergyFlow::loads], travelled, 1e-10);
   EXPECT_LT(std::abs(e.largest_remainder), 1e-9 * e.exchanged + 1e-12);
+}
+
+/// Sends other values before each step and notes the velocities that come of them.
+class Pusher final : public SignalPort {
+ public:
+  bool receive(InputBuffer& inputs) noexcept override {
+    const double force[] = {static_cast<double>(1 + velocities.size() % 3)};
+    inputs.accept(force);
+    return true;
+  }
+  void send(std::uint64_t, double, std::span<const double> outputs, bool) noexcept override {
+    velocities.push_back(outputs[1]);
+  }
+  std::vector<double> velocities;
+};
+
+TEST_P(HeldInputs, RealTimeHoldsThemToo) {
+  const Model model = pushed_mass();
+  SimulationDescription d = model.simulation;
+  d.coordinates = GetParam();
+  d.duration = 0.1;
+  RealTimeOptions o;
+  o.paced = false;
+  for (const InputUse use : {InputUse::held, InputUse::ramp}) {
+    d.input = use;
+    Pusher port;
+    run_real_time(model, d, o, &port);
+    ASSERT_EQ(port.velocities.size(), 11u);
+    for (std::size_t k = 1; k < port.velocities.size(); ++k) {
+      const double now = static_cast<double>(1 + k % 3);
+      const double last = k == 1 ? 0.0 : static_cast<double>(1 + (k - 1) % 3);
+      const double mean = use == InputUse::held ? now : 0.5 * (now + last);
+      EXPECT_NEAR(port.velocities[k] - port.velocities[k - 1], d.step * mean, 1e-10) << k;
+    }
+  }
 }
 
 TEST_P(HeldInputs, AStateBetweenAnInputAndItsStepGoesOnWithEqualBits) {
