@@ -130,8 +130,10 @@ struct LawUnits {
 };
 PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units);
 /// A function of time: a number is a constant, tables hold their end values, `sine` may be added.
-TimeFunction read_time_function(const YamlValue& value, const char* unit, Interpolation table);
-/// The same, or {input: name}, or both in one map: then they add up.
+/// Of the motion of a joint, which does not jump.
+TimeFunction read_motion(const YamlValue& value, const char* unit, Interpolation table);
+/// The same with jumps (two points of a table with the same time), or {input: name}, or both in one
+/// map: then they add up.
 SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
                               Interpolation table);
 

@@ -65,6 +65,7 @@ Json measured(const RunSummary& s) {
           {"iterations", s.iterations},
           {"factorizations", s.factorizations},
           {"edges", edges(s)},
+          {"corners", s.corners},
           {"cpu_s", s.cpu},
           {"real_time_factor", s.real_time_factor},
           {"step_times", step_times(s.step_times)},

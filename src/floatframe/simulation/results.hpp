@@ -73,6 +73,7 @@ struct RunSummary {
   long iterations = 0, factorizations = 0;
   bool locates_edges = false;        ///< with `locate_edges`
   long edges = 0, edges_passed = 0;  ///< edges that steps were divided at; steps with too many
+  long corners = 0;                  ///< of functions of time, that steps were divided at
   double cpu = 0;                    ///< [s] of stepping, without input and output
   double real_time_factor = 0;       ///< duration / cpu
   StepTimes step_times;
