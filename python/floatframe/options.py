@@ -14,6 +14,7 @@ ComplexArray = npt.NDArray[np.complex128]
 Coordinates = Literal["relative", "absolute"]
 Inertia = Literal["preprocessing", "projection"]
 Start = Literal["given", "equilibrium"]
+InputUse = Literal["held", "ramp"]
 
 
 class Options(TypedDict, total=False):
@@ -36,6 +37,8 @@ class Options(TypedDict, total=False):
     velocity_tolerance: float | None
     """[m/s]"""
     locate_edges: bool | None
+    input: InputUse | None
+    """What inputs that are set do in the next step: held over its whole length, or a ramp from their last values."""
 
 
 def as_dict(options: Any) -> dict[str, Any]:

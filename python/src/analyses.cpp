@@ -62,6 +62,7 @@ void bind_statics(nb::module_& m) {
   value(c, "forces", &StaticsResult::forces, "Of all force elements.");
   value(c, "joints", &StaticsResult::joints, "Reactions of all joints.");
   value(c, "bodies", &StaticsResult::bodies, "");
+  value(c, "notes", &StaticsResult::notes, "What else to know of it: that it is unstable.");
   c.def_prop_ro(
       "state", [](const StaticsResult& s) { return SystemState(*s.state); },
       "The equilibrium, at rest: a start for runs.");

@@ -51,7 +51,11 @@ const std::vector<std::pair<std::string, Setter>>& setters() {
       {"position_tolerance", set_number<&O::position_tolerance>},
       {"velocity_tolerance", set_number<&O::velocity_tolerance>},
       {"locate_edges",
-       [](O& o, const std::string& n, nb::handle v) { o.locate_edges = flag(n, v); }}};
+       [](O& o, const std::string& n, nb::handle v) { o.locate_edges = flag(n, v); }},
+      {"input", [](O& o, const std::string& n, nb::handle v) {
+         o.input = word_of<InputUse>("input", text(n, v),
+                                     {{"held", InputUse::held}, {"ramp", InputUse::ramp}});
+       }}};
   return list;
 }
 

@@ -211,6 +211,7 @@ Numbers counters(Stepper& s) {
   d["factorizations"] = c.factorizations;
   d["edges"] = c.edges;
   d["edges_passed"] = c.edges_passed;
+  d["corners"] = c.corners;
   d["max_position_violation"] = c.max_position_violation;
   d["max_velocity_violation"] = c.max_velocity_violation;
   return d;

@@ -120,6 +120,48 @@ def test_on_step_sets_inputs(model, sim):
     assert steps(third, 50) == by_hand
 
 
+def pushed_mass(spring=0.0):
+    """1 kg on a slide at 0.1 m, an input in newtons."""
+    m = ff.Model("pushed")
+    m.data["gravity"] = [0, 0, 0]
+    m.points.update(a=[0, 0, 0])
+    m.bodies.add("b", rigid=dict(mass=1, centre_of_mass="a", inertia=[1] * 3))
+    m.joints.add("z", type="prismatic", child="b", at="a", axis="z", position=0.1)
+    m.inputs.add("F", unit="N")
+    m.forces.add("f", type="force", body="b", direction="z", magnitude={"input": "F"})
+    m.forces.add("s", type="joint_spring", joint="z", spring=spring)
+    m.outputs.add("z", joint_position="z")
+    m.outputs.add("v", joint_velocity="z")
+    return m
+
+
+@pytest.mark.parametrize("coordinates", ["relative", "absolute"])
+def test_inputs_are_held_over_the_whole_of_a_step(coordinates):
+    h = 0.01
+    for rho in (1.0, 0.8, 0.0):
+        sim = ff.Simulation(pushed_mass(), step=h, spectral_radius=rho, coordinates=coordinates)
+        sim.inputs["F"] = 1.0
+        held = [(sim.step(), sim.outputs["v"] / sim.time)[1] for _ in range(5)]
+        assert held == pytest.approx([1.0] * 5, abs=1e-10)
+    ramp = ff.Simulation(pushed_mass(), step=h, input="ramp", coordinates=coordinates)
+    ramp.inputs["F"] = 1.0
+    assert [(ramp.step(), ramp.outputs["v"] / ramp.time)[1] for _ in range(3)] == pytest.approx([1 / 2, 3 / 4, 5 / 6])
+    with pytest.raises(ff.InputError, match="input"):
+        ff.Simulation(pushed_mass(), step=h, input="later")
+
+
+@pytest.mark.parametrize(("part", "growth"), [(1.0, 11.79), (0.5, 3.433)])
+def test_a_law_is_a_zero_order_hold(part, growth):
+    """5 Hz of which `part` of the stiffness is a law: energy grows in 5 s as that of a sampled controller."""
+    w2 = (2 * np.pi * 5) ** 2
+    sim = ff.Simulation(pushed_mass((1 - part) * w2), step=1e-3)
+    sim.law("F", lambda time, z: -part * w2 * z, of=["z"])
+    for _ in range(5000):
+        sim.step()
+    energy = 0.5 * sim.outputs["v"] ** 2 + 0.5 * w2 * sim.outputs["z"] ** 2
+    assert energy / (0.5 * w2 * 0.01) == pytest.approx(growth, rel=1e-3)
+
+
 def test_what_a_callback_raises_comes_through(sim):
     before = sim.save().to_bytes()
     for law, error in ((lambda t: 1 / 0, ZeroDivisionError), (lambda t: "much", ff.InputError), (lambda t, x: x, TypeError),

@@ -373,7 +373,7 @@ class CheckAndStatics(CommandLine):
 
     def test_statics(self):
         result = json.loads(self.expect(0, "statics", "pendulum.yaml", "--json").stdout)
-        self.assertEqual(set(result), {"model", "iterations", "residual", "forces", "joints", "bodies", "redundant", "warnings"})
+        self.assertEqual(set(result), {"model", "iterations", "residual", "forces", "joints", "bodies", "redundant", "notes", "warnings"})
         self.assertEqual(result["bodies"][0]["name"], "rod")
         force = result["joints"][0]["force"]
         self.assertAlmostEqual(force[2], 2 * 9.81, 6)

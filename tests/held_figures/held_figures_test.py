@@ -29,6 +29,9 @@ LISTS = {
     "output": ("model/output_list.hpp", "OutputType"),
     "element": ("fe/element_list.hpp", "ElementType"),
 }
+# From the flat onto the waves; its inputs jump by 8 N, what the skyhook of the example changes in a step of 1 ms.
+DAMPER = ["examples/active_damper/active_damper.yaml", "--duration", "0.6", "--set", "largest_force=400", "--coordinates"]
+JUMPED = 1.7  # what a step whose inputs have jumped may cost, of one whose inputs have not
 ROTOR = ["examples/rotor/rotor.yaml", "--coordinates", "relative", "--iterations", "200"]
 # name -> arguments of `floatframe bench step`
 COUNTS = {
@@ -36,6 +39,10 @@ COUNTS = {
     "iltis, absolute": ["iltis", "--coordinates", "absolute", "--duration", "0.2"],
     "chain of 4 links, relative": ["chain", "--coordinates", "relative", "--duration", "0.2"],
     "chain of 4 links, absolute": ["chain", "--coordinates", "absolute", "--duration", "0.2"],
+    "active damper, relative": DAMPER + ["relative"],
+    "active damper, relative, inputs that jump": DAMPER + ["relative", "--inputs-jump"],
+    "active damper, absolute": DAMPER + ["absolute"],
+    "active damper, absolute, inputs that jump": DAMPER + ["absolute", "--inputs-jump"],
     "rotor, sections without inertia": ROTOR + ["--set", "section_inertia=false", "--set", "stiffening=false"],
     "rotor, sections with inertia": ROTOR + ["--set", "stiffening=false"],
     "rotor, with geometric stiffening": ROTOR,
@@ -108,6 +115,12 @@ def instruction_figures(program):
     with_inertia, stiffened = (figures["instructions per iteration: rotor, " + key]
                                for key in ("sections with inertia", "with geometric stiffening"))
     print(f"sections with inertia cost {with_inertia / stiffened:.3f} of geometric stiffening")
+    for coordinates in ("relative", "absolute"):
+        key = f"instructions per step: active damper, {coordinates}"
+        ratio = figures[key + ", inputs that jump"] / figures[key]
+        print(f"a step whose inputs jump costs {ratio:.3f} of one whose inputs are held on, {coordinates}")
+        if ratio > JUMPED:
+            sys.exit(f"held_figures: that is more than {JUMPED}")
     return figures
 
 

@@ -43,6 +43,37 @@ TEST(Table, CubicIsMonotoneAndSmooth) {
   EXPECT_DOUBLE_EQ(line(3).f, 7.0);
 }
 
+TEST(TimeTable, JumpsBetweenSidesOfTheirOwn) {
+  const auto step = time_table({{0.5, 0}, {0.5, 1}}, Interpolation::linear);
+  EXPECT_EQ(step(-3).f, 0.0);
+  EXPECT_EQ(step(std::nextafter(0.5, 0.0)).f, 0.0);
+  EXPECT_EQ(step(0.5).f, 1.0) << "the second point counts at the jump";
+  EXPECT_EQ(step(7).f, 1.0);
+  EXPECT_EQ(step.edges(), std::vector<double>{0.5});
+  const std::vector<TablePoint> p{{0, 1}, {1, 3}, {2, 3}, {2, -1}, {3, 0}, {3, 4}, {3.5, 4}};
+  const auto line = time_table(p, Interpolation::linear);
+  EXPECT_DOUBLE_EQ(line(0.5).f, 2.0);
+  EXPECT_DOUBLE_EQ(line(2.5).f, -0.5);
+  EXPECT_DOUBLE_EQ(line(2.5).df, 1.0);
+  EXPECT_DOUBLE_EQ(line(3).f, 4.0);
+  EXPECT_DOUBLE_EQ(line(9).f, 4.0);
+  EXPECT_EQ(line.edges(), (std::vector<double>{0, 1, 2, 3}));
+  // Each side as a table of its own; ends of the whole are flat, since they are held.
+  const auto cubic = time_table(p, Interpolation::cubic);
+  const auto left = table_function({p[0], p[1], p[2]}, Interpolation::cubic, Beyond::tangent);
+  EXPECT_EQ(cubic(1.5).f, left(1.5).f);
+  EXPECT_EQ(cubic(0).df, 0.0);
+  EXPECT_DOUBLE_EQ(cubic(2.5).f, -0.5);
+  EXPECT_EQ(cubic.edges(), (std::vector<double>{2, 3}));
+  // Without a jump it is the table that is held.
+  const std::vector<TablePoint> q{{0, 1}, {1, 3}, {2, 0}, {4, 1}};
+  for (const Interpolation i : {Interpolation::linear, Interpolation::cubic})
+    for (double x = -1.0; x < 5.0; x += 0.13)
+      EXPECT_EQ(time_table(q, i)(x).f, table_function(q, i, Beyond::hold)(x).f);
+  // Two points that are the same jump nowhere.
+  EXPECT_TRUE(time_table({{0, 2}, {1, 2}, {1, 2}}, Interpolation::linear).edges().empty());
+}
+
 TEST(Profile, JumpsAndFlatEnds) {
   const auto f = profile_function({{5, 0}, {15, 2}, {20, 2}, {20, 1.7}, {21, 1.7}, {21, 0}});
   EXPECT_DOUBLE_EQ(f(-10).f, 0.0);
@@ -99,6 +130,16 @@ TEST(Table, PointsThatAreNone) {
             "point 2 of a table: found an x that is not above the one before it, expected "
             "ascending x");
   EXPECT_EQ(table({{0, 1}, {1, nan}}), "point 2 of a table: found a number that is not finite");
+  const auto time = [](const std::vector<TablePoint>& p) {
+    return test::error_of([&] { time_table(p, Interpolation::linear); });
+  };
+  EXPECT_EQ(time({{0, 1}, {0, 2}}), "no error");
+  EXPECT_EQ(time({{0, 1}}), "found 1 points of a table, expected at least 2");
+  EXPECT_EQ(time({{0, 1}, {0, 2}, {0, 3}}),
+            "point 3 of a table: found the same x a third time, expected two points at a jump");
+  EXPECT_EQ(time({{1, 1}, {0, 2}}),
+            "point 2 of a table: found an x that is below the one before it, expected ascending "
+            "x");
   const auto profile = [](const std::vector<TablePoint>& p) {
     return test::error_of([&] { profile_function(p); });
   };
@@ -121,6 +162,11 @@ TEST(PiecewiseBuild, EdgesAreJumpsOfValueOrSlope) {
   EXPECT_EQ(stairs.stretch_value(99, 5.0).f, 0.5) << "the last one";
   const std::vector<TablePoint> points{{0, 0}, {1, 3}, {2, 4}, {4, 9}};
   EXPECT_TRUE(table_function(points, Interpolation::cubic, Beyond::tangent).edges().empty());
+  // Slopes that are zero but for rounding at all points.
+  EXPECT_TRUE(
+      table_function({{0, 0}, {1, 0}, {11, 0.3}, {100, 0.3}}, Interpolation::cubic, Beyond::hold)
+          .edges()
+          .empty());
   EXPECT_EQ(table_function(points, Interpolation::linear, Beyond::tangent).edges(),
             (std::vector<double>{1, 2}));
   // A cubic piece does not grow beyond its edge as its cube does.

@@ -181,6 +181,7 @@ TEST_F(Everything, Simulation) {
   EXPECT_EQ(s.position_tolerance, 1e-8);
   EXPECT_EQ(s.velocity_tolerance, 1e-7);
   EXPECT_TRUE(s.locate_edges);
+  EXPECT_EQ(s.input, InputUse::ramp);
 }
 
 TEST_F(Everything, MarksPointAtTheFile) {

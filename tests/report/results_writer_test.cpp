@@ -72,6 +72,7 @@ TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
                                             "iterations",
                                             "factorizations",
                                             "edges",
+                                            "corners",
                                             "cpu_s",
                                             "real_time_factor",
                                             "step_times",
@@ -92,9 +93,11 @@ TEST(SummaryJson, HasTheDocumentedKeysInOrder) {
   summary.locates_edges = true;
   summary.edges = 40;
   summary.edges_passed = 1;
+  summary.corners = 3;
   const auto located = nlohmann::json::parse(summary_json(summary));
   EXPECT_EQ(located["edges"]["located"], 40);
   EXPECT_EQ(located["edges"]["steps_with_too_many"], 1);
+  EXPECT_EQ(located["corners"], 3);
 }
 
 TEST(SummaryJson, NotFiniteIsNullAndBrokenTextIsReplaced) {
@@ -125,7 +128,7 @@ TEST(SummaryJson, WhatNobodyMeasuredIsLeftOut) {
                                                    "status", "message"}));
   RunSummary ended = never;  // in its first step
   ended.cpu = 1e-6;
-  EXPECT_EQ(keys(ended).size(), 20u);
+  EXPECT_EQ(keys(ended).size(), 21u);
 }
 
 TEST(SummaryJson, SaysWhatBecameOfTheStartValues) {

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "floatframe/math/dense.hpp"
+#include "floatframe/math/so3.hpp"
+#include "floatframe/model/force_evaluation.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "support/error_of.hpp"
 #include "support/model_text.hpp"
@@ -154,6 +156,88 @@ TEST(Bushing, DampersActOnTheRatesOfTheirAngles) {
   }
 }
 
+// A viscous ball joint: with equal dampers of the angular velocity the moment is -c w, whatever the
+// attitude, so a ball turns about a fixed axis by (J w0 / c) (1 - e^(-c t / J)): several turns,
+// past half turns, where the rotation vector jumps. The damper takes what the ball loses.
+TEST(Bushing, ViscousBallJointTurnsWithoutEnd) {
+  const double J = 0.02, c = 0.01, w0 = 20.0, end = 1.0;
+  const Vec3 about = Vec3(0.5, -0.7, 0.4).normalized();
+  RigidDescription ball;
+  ball.mass = 1.0;
+  ball.J_C = J * Mat3::Identity();
+  ModelDescription d = on_bushing(ball, Vec3::Zero());
+  values(d)["axis"] = Vec3(1.0, 1.0, 0.2);
+  for (const char* law : {"damper_rx", "damper_ry", "damper_rz"})
+    values(d)[law] = PiecewisePolynomial::linear(c, 0.0);
+  values(d)["rotation_rate"] = std::string("angular_velocity");
+  const Vec3 w = w0 * about;
+  d.joints[0].velocity = {0.0, 0.0, 0.0, w.x(), w.y(), w.z()};
+  for (int k = 0; k < 3; ++k) {
+    OutputDescription o;
+    o.name = std::string("w") + std::to_string(k);
+    o.type = OutputType::angular_velocity;
+    o.at.body = "block";
+    o.component = k;
+    d.outputs.push_back(o);
+  }
+  d.simulation.duration = end;
+  const double exact = w0 * std::exp(-c * end / J);
+  EXPECT_GT(w0 * J / c * (1.0 - std::exp(-c * end / J)), 2.0 * 2.0 * std::numbers::pi);
+  for (const Coordinates coordinates : {Coordinates::relative, Coordinates::absolute}) {
+    d.simulation.coordinates = coordinates;
+    double error[3];
+    for (int k = 0; k < 3; ++k) {
+      // In absolute coordinates of the turn in a step, too.
+      const double turn = w0 * 0.005 / std::pow(2.0, k);
+      const double part = coordinates == Coordinates::relative ? 1e-6 : turn * turn / 4.0;
+      d.simulation.step = 0.005 / std::pow(2.0, k);
+      const Model model = build_model(d);
+      const RunResult r = run(model, model.simulation);
+      ASSERT_EQ(r.summary.status, "completed") << r.summary.message;
+      const std::size_t last = r.table.rows() - 1;
+      const Vec3 found(r.table.at(last, 7), r.table.at(last, 8), r.table.at(last, 9));
+      EXPECT_LT(found.cross(about).norm(), 1e-9);
+      error[k] = std::abs(found.norm() - exact);
+      const EnergySummary& e = r.summary.energy;
+      EXPECT_LT(error[k], part * exact);
+      EXPECT_NEAR(e.work[EnergyFlow::dampers], e.total_end - e.total_start,
+                  2.0 * part * w0 * w0 * J);
+      for (const RangeWarning& x : r.summary.warnings)
+        EXPECT_NE(x.limit, RangeLimit::half_turn) << x.sentence;
+    }
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_GT(error[k] / error[k + 1], 3.8);
+      EXPECT_LT(error[k] / error[k + 1], 4.2);
+    }
+  }
+}
+
+// Rates of the rotation vector are not the angular velocity: where the ball goes round on a cone,
+// R = Rz(W t) Rx(theta) Rz(-W t), theta turns about z with |thetadot| = W theta, and
+// |w|^2 = 2 W^2 (1 - cos theta).
+TEST(Bushing, BothRatesOnACone) {
+  const double c = 0.3, theta = 1.2;
+  MarkerState a, b;
+  a.R = b.R = Mat3::Identity();
+  a.r = a.v = a.w = b.r = b.v = Vec3::Zero();
+  const Vec3 across = theta * Vec3::UnitX();
+  b.R = rotation_exp(across);
+  const double W = 2.0 * std::numbers::pi;
+  b.w = W * (Vec3::UnitZ() - b.R * Vec3::UnitZ());  // d(R)/dt = W (skew(z) R - R skew(z))
+  Model model;
+  Force f;
+  f.type = ForceType::bushing;
+  f.laws.assign(12, PiecewisePolynomial());
+  for (std::size_t i = 9; i < 12; ++i) f.laws[i] = PiecewisePolynomial::linear(c, 0.0);
+  ForceState s;
+  evaluate_force(model, f, a, b, Vec3::Zero(), 0.0, 0.0, s);
+  EXPECT_NEAR(s.damping, c * W * W * theta * theta, 1e-12 * s.damping);
+  f.numbers = {1.0};
+  evaluate_force(model, f, a, b, Vec3::Zero(), 0.0, 0.0, s);
+  EXPECT_NEAR(s.damping, c * W * W * 2.0 * (1.0 - std::cos(theta)), 1e-12 * s.damping);
+  EXPECT_LT((s.wrench.Tb + c * b.w).norm() + (s.wrench.Ta - c * b.w).norm(), 1e-14);
+}
+
 ModelDescription read(const std::string& force) {
   return description_of(
       "bodies:\n  block: {position: [0, 0, 1], rigid: {mass: 2, inertia: [1, 1, 1]}}\n"
@@ -177,6 +261,12 @@ TEST(Bushing, InModelFiles) {
   EXPECT_EQ(f.laws.at(6)(1.0).f, 7.0);
   const Mat3 R = model.bodies.at(0).X_WB.R * model.markers.at(f.b).X_NM.R;
   EXPECT_LT((R.col(0) - Vec3::UnitZ()).norm() + (R.col(2) - Vec3::UnitX()).norm(), 1e-15);
+  EXPECT_TRUE(f.numbers.empty());
+  const std::string ends =
+      "{type: bushing, from: {body: ground, at: [0, 0, 1]}, to: {body: block, at: [0, 0, 1]}, "
+      "damper_rx: 1, rotation_rate: ";
+  EXPECT_TRUE(build_model(read(ends + "rotation_vector}")).forces.at(0).numbers.empty());
+  EXPECT_EQ(build_model(read(ends + "angular_velocity}")).forces.at(0).numbers.size(), 1u);
 }
 
 TEST(Bushing, SaysWhatIsWrong) {
@@ -192,6 +282,9 @@ TEST(Bushing, SaysWhatIsWrong) {
             "forces.mount.axis_2:");
   EXPECT_EQ(error(ends + ", spring_w: 1, spring_x: 1}"),
             "forces.mount: unknown key 'spring_w', did you mean 'spring_y'?");
+  EXPECT_EQ(error(ends + ", damper_rx: 1, rotation_rate: angular}"),
+            "forces.mount.rotation_rate: found 'angular', expected rotation_vector or "
+            "angular_velocity, did you mean 'angular_velocity'?");
   EXPECT_EQ(
       error("{type: bushing, from: {body: block}, to: {body: block, at: [0, 0, 1]}, spring_x: 1}"),
       "forces.mount: found both ends on 'block', expected two bodies");

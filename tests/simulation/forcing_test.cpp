@@ -56,8 +56,16 @@ TEST_F(Forcings, SineThatTheStepTakesForAnother) {
 }
 
 TEST_F(Forcings, PulseBetweenTwoSteps) {
-  const std::vector<RangeWarning> w =
-      warnings("", "table: [[0, 0], [0.0502, 0], [0.0503, 10], [0.0504, 10], [0.0506, 0]]");
+  // Of more corners than steps are divided at; those of a pulse of four are located.
+  const std::vector<RangeWarning> w = warnings(
+      "", "table: [[0, 0], [0.0502, 0], [0.0503, 10], [0.0504, 9], [0.0505, 3], [0.0506, 0]]");
+  EXPECT_FALSE(
+      says(warnings("", "table: [[0, 0], [0.0502, 0], [0.0503, 10], [0.0504, 10], [0.0506, 0]]"),
+           "passes over values"));
+  EXPECT_TRUE(says(warnings("interpolation: linear, table: [[0, 0], [0.0502, 0], [0.0503, 1], "
+                            "[0.0504, 0]]",
+                            ""),
+                   "passes over values in the table of the motion of joint 'j'"));
   EXPECT_TRUE(says(w,
                    "the step of 0.001 s passes over values in the table of the load 's': it has 10 "
                    "at t = 0.0503 s but 0 and 0 at the ends of the step there"));

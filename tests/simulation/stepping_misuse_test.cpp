@@ -249,6 +249,7 @@ TEST(SteppingMisuse, StatesOfOtherSimulations) {
   option([](auto& o) { o.position_tolerance = 2e-9; }, "position_tolerance");
   option([](auto& o) { o.velocity_tolerance = 2e-8; }, "velocity_tolerance");
   option([](auto& o) { o.locate_edges = true; }, "locate_edges");
+  option([](auto& o) { o.input = InputUse::ramp; }, "input");
   expect_refused(cases);
   // The values a run starts from are no part of the model's motion.
   Model m = machine_model();
@@ -289,8 +290,8 @@ TEST(SteppingMisuse, DamagedBytes) {
   more.insert(more.end() - 32, 8, std::byte{});
   EXPECT_EQ(refused(sealed(more)), "the saved state is damaged: it goes on after its end");
   auto newer = bytes;
-  newer[8] = std::byte{3};
-  EXPECT_EQ(refused(sealed(newer)), "the saved state has version 3, this program reads version 2");
+  newer[8] = std::byte{4};
+  EXPECT_EQ(refused(sealed(newer)), "the saved state has version 4, this program reads version 3");
   EXPECT_EQ(refused({}).substr(0, 43), "this is not the saved state of a simulation");
 }
 

@@ -97,12 +97,13 @@ TEST(SimulationOption, AllNames) {
     SimulationDescription s;
     EXPECT_NE(set_simulation_option(s, name, "rubbish"), "") << name;
     EXPECT_NE(set_simulation_option(s, name, "-1"), "") << name;
-    const bool word =
-        name == "coordinates" || name == "inertia" || name == "start" || name == "locate_edges";
+    const bool word = name == "coordinates" || name == "inertia" || name == "start" ||
+                      name == "locate_edges" || name == "input";
     const std::string good = name == "coordinates"    ? "absolute"
                              : name == "inertia"      ? "projection"
                              : name == "start"        ? "equilibrium"
                              : name == "locate_edges" ? "true"
+                             : name == "input"        ? "ramp"
                                                       : "1";
     EXPECT_EQ(set_simulation_option(s, name, good), "") << name;
     EXPECT_TRUE(word || !set_simulation_option(s, name, "true").empty()) << name;

@@ -13,6 +13,7 @@
 #include "floatframe/report/check_page.hpp"
 #include "floatframe/report/json_values.hpp"
 #include "floatframe/report/notes_text.hpp"
+#include "floatframe/report/page_tables.hpp"
 #include "floatframe/report/page_writer.hpp"
 #include "floatframe/simulation/start_up.hpp"
 #include "floatframe/simulation/system_state.hpp"
@@ -52,6 +53,28 @@ std::string flexible_bodies_text(const Model& model) {
                std::to_string(body.data->nodes.size()), frequencies.empty() ? "-" : frequencies});
   }
   return table.empty() ? "" : "\n" + table.text(2);
+}
+
+std::string bending_text(const Model& model) {
+  const PageTable bending = bending_table(model);
+  if (bending.rows.empty()) return "";
+  TextTable table(bending.columns, {1, 2, 4});
+  for (const std::vector<std::string>& row : bending.rows) table.add(row);
+  return "\n  bending of bars, directions in the design configuration\n" + table.text(2);
+}
+
+nlohmann::ordered_json bending_json(const Model& model) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const BarBending& b : model.hints.bending) {
+    nlohmann::ordered_json sides = nlohmann::ordered_json::array();
+    for (std::size_t k = 0; k < 2; ++k)
+      sides.push_back(
+          {{"direction", json_array(b.direction[k])}, {"stiffness_N_m2", b.stiffness[k]}});
+    rows.push_back({{"body", model.bodies[static_cast<std::size_t>(b.body)].name},
+                    {"bars", b.bars},
+                    {"sides", sides}});
+  }
+  return rows;
 }
 
 std::optional<std::string> cut_pair_note(const Body& body) {
@@ -107,6 +130,7 @@ std::string check_json(const ModelCounts& c, const Model& model) {
                         {"cut_joint_names", c.cut_joint_names},
                         {"start", start_json(c.start)},
                         {"flexible", flexible},
+                        {"bending", bending_json(model)},
                         {"damping", body_damping_json(model)}});
 }
 
@@ -126,6 +150,8 @@ std::string page_of_start(const Model& model, const ModelCounts& counts) {
                          {"degrees of freedom", std::to_string(counts.degrees_of_freedom)},
                          {"redundant constraints", std::to_string(counts.redundant_constraints)}}};
   std::vector<PageTable> tables = body_tables(model);
+  if (PageTable bending = bending_table(model); !bending.rows.empty())
+    tables.push_back(std::move(bending));
   for (PageTable& t : coordinate_tables(model, counts)) tables.push_back(std::move(t));
   return check_page(model, {std::move(state), counts.start.notes, {facts}, std::move(tables), {}});
 }
@@ -140,8 +166,8 @@ AnalysisReport report_check(const Model& model) {
   const ModelCounts counts = check(model);
   return {.text = fmt::format("{}: {}, {} ({} cut)\n\n", model.name, bodies_counted(counts),
                               plural(counts.joints, "joint"), counts.cut_joints) +
-                  counts_text(counts) + flexible_bodies_text(model) + body_damping_text(model) +
-                  system_damping_text(model, counts.degrees_of_freedom) +
+                  counts_text(counts) + flexible_bodies_text(model) + bending_text(model) +
+                  body_damping_text(model) + system_damping_text(model, counts.degrees_of_freedom) +
                   notes_text(notes_of(model, counts)),
           .json = check_json(counts, model),
           .files = {[&model, counts] { return page_of_start(model, counts); }}};

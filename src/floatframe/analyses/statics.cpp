@@ -10,6 +10,7 @@
 #include "floatframe/model/force_outputs.hpp"
 #include "floatframe/model_file/state_json.hpp"
 #include "floatframe/report/json_values.hpp"
+#include "floatframe/report/notes_text.hpp"
 #include "floatframe/simulation/range_watch.hpp"
 
 namespace floatframe {
@@ -122,6 +123,7 @@ std::string statics_json(const Model& model, const StaticsResult& statics,
                         {"joints", joints},
                         {"bodies", bodies},
                         {"redundant", redundancy_json(statics.redundant)},
+                        {"notes", statics.notes},
                         {"warnings", warnings}});
 }
 
@@ -136,7 +138,7 @@ AnalysisReport report_statics(const Model& model) {
               "\nForces: tension is positive, tyres: vertical force on the wheel. Joints: on "
               "the child, world axes, about the\njoint's point. Bodies: origin of the body "
               "frame; angles from the design pose.\n" +
-              redundancy_note(s),
+              redundancy_note(s) + notes_text(s.notes),
       .json = statics_json(model, s, warnings),
       .files = {[state = s.state] { return state_json(*state); }},
       .warnings = warnings};

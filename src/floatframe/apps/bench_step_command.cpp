@@ -30,6 +30,7 @@ struct StepArguments {
   std::string model = "chain", step, duration, tolerance, spectral_radius, coordinates, inertia;
   std::string json_file;
   std::vector<std::string> settings;
+  bool inputs_jump = false;
   int links = 4, modes = 8, elements = 20, across = 0, iterations = 0;
 };
 
@@ -66,7 +67,10 @@ int run_steps(const StepArguments& a) {
   require_writable({{"--json", a.json_file}}, {a.model});
   check_inertia_method(description, o.inertia);
   const Model model = build_model(description);
+  if (a.inputs_jump && model.inputs.empty())
+    throw InputError("--inputs-jump: found a model without inputs, expected one with some");
   const auto stepper = make_bench_stepper(model, o);
+  if (a.inputs_jump) stepper->jump_inputs();
   const long steps = a.iterations > 0 ? 0 : std::max(1L, std::lround(o.duration / o.step));
   if (!floatframe_counted_steps(stepper.get(), steps, a.iterations))
     throw RunError(stepper->failure());
@@ -121,6 +125,8 @@ Command bench_step_command() {
            text_option("--step", a->step, "SECONDS", "Time step [s]; default: that of the model"),
            text_option("--duration", a->duration, "SECONDS",
                        "Time to simulate [s]; default: that of the model"),
+           flag("--inputs-jump", a->inputs_jump,
+                "All inputs of the model jump before each step, to and fro by 1 % of their range"),
            coordinates_option(a->coordinates, "relative or absolute; default: that of the model"),
            inertia_option(a->inertia, "preprocessing or projection; default: that of the model"),
            text_option("--tolerance", a->tolerance, "NUMBER",

@@ -55,11 +55,14 @@ RunPaths make_paths(const RunArguments& arguments, const std::string& model_name
 }
 
 std::string edges_text(const RunSummary& s) {
-  if (!s.locates_edges) return "";
-  std::string text = fmt::format("  {} located", plural(s.edges, "edge"));
+  std::string text;
+  if (s.locates_edges) text = fmt::format("  {} located", plural(s.edges, "edge"));
   if (s.edges_passed > 0)
     text += fmt::format(", {} with too many to locate", plural(s.edges_passed, "step"));
-  return text + "\n";
+  if (!text.empty()) text += '\n';
+  if (s.corners > 0)
+    text += fmt::format("  {} of functions of time located\n", plural(s.corners, "corner"));
+  return text;
 }
 
 std::string summary_text(const RunSummary& s) {

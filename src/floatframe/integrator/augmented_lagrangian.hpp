@@ -46,7 +46,7 @@ template <EquationsOfMotion F>
 class AugmentedLagrangian {
  public:
   AugmentedLagrangian(F& formulation, const StepOptions& options)
-      : f_(formulation), options_(options) {
+      : f_(formulation), options_(options), spectral_radius_(options.spectral_radius) {
     const int nv = f_.velocities(), nc = f_.constraints();
     q_ = VecX::Zero(f_.configurations());
     x_ = v_ = a_ = a_alg_ = rhs_ = delta_ = v_hat_ = a_hat_ = VecX::Zero(nv);
@@ -61,9 +61,12 @@ class AugmentedLagrangian {
     return report;
   }
 
-  /// At an edge within a step, where forces jump; see restart.hpp. h: the size of steps.
+  /// Where forces jump; see restart.hpp. h: the size of steps.
   void project_velocities(State& state, double h) noexcept;
   bool restart(State& state, double h) noexcept;
+  bool restart_in_course(State& state, double h) noexcept;
+  /// The next steps by the trapezoidal rule, or by that of the options again.
+  void trapezoidal(bool on) noexcept { options_.spectral_radius = on ? 1.0 : spectral_radius_; }
 
   const StepOptions& options() const noexcept { return options_; }
 
@@ -339,7 +342,8 @@ class AugmentedLagrangian {
     return true;
   }
 
-  bool solve_accelerations(const State& state, double s, double penalty) noexcept;
+  bool solve_accelerations(const State&, const Scheme&, double penalty, double enough) noexcept;
+  bool settle_accelerations(double s, double penalty, double enough) noexcept;
 
   void project_velocities(double penalty, StepAttempt& report) noexcept {
     if (keeps_impulses_) impulses_.setZero();
@@ -383,6 +387,7 @@ class AugmentedLagrangian {
 
   F& f_;
   StepOptions options_;
+  const double spectral_radius_;  ///< that was asked for
   IntegratorExperience experience_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, reactions_, rate_, work_, increments_;

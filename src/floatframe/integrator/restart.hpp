@@ -30,30 +30,56 @@ void AugmentedLagrangian<F>::project_velocities(State& state, double h) noexcept
 template <EquationsOfMotion F>
 bool AugmentedLagrangian<F>::restart(State& state, double h) noexcept {
   const Scheme k(options_, h);
-  f_.positions(state.t, state.q);
-  f_.velocities(state.v);
-  f_.dynamics();
-  // Without stiffness first: it would slow the passes down.
-  if (!solve_accelerations(state, 1e-30, k.penalty) &&
-      !solve_accelerations(state, 0.01 * k.s, k.penalty))
-    return false;
+  a_ = state.a;
+  lambda_.setZero();
+  if (!solve_accelerations(state, k, k.penalty, 1e-9)) return false;
   state.a.swap(a_);
   state.a_alg = state.a;
   reactions_ = state.lambda = lambda_;
   return true;
 }
 
-/// M a + Phi_q^T lambda = Q, Phi_q a = gamma into a_ and lambda_, by passes with M + s K and a
-/// penalty. False if they do not settle.
+/// The same between steps of one size, where forces may jump at each. What multipliers were is not
+/// far away, and what the algorithm's acceleration is ahead of the acceleration by, (alpha_m -
+/// alpha_f) h times its rate, is of the smooth part of the forces and stays: started anew at each
+/// step it would leave a scheme of first order. An error e of accelerations is one of h e/2 of
+/// velocities: seven digits are enough.
 template <EquationsOfMotion F>
-bool AugmentedLagrangian<F>::solve_accelerations(const State& state, double s,
-                                                 double penalty) noexcept {
-  constexpr int most_passes = 40;
-  constexpr double enough = 1e-9, too_large = 1e7;  // of accelerations
+bool AugmentedLagrangian<F>::restart_in_course(State& state, double h) noexcept {
+  const Scheme k(options_, h);
+  a_ = state.a;
+  lambda_ = state.lambda;
+  if (!solve_accelerations(state, k, metric_penalty * k.penalty, 1e-7)) return false;
+  state.a_alg += a_ - state.a;
+  state.a.swap(a_);
+  reactions_ = state.lambda = lambda_;
+  return true;
+}
+
+/// Improves a_ and lambda_ to those of the forces at the state, but for the part `enough`.
+template <EquationsOfMotion F>
+bool AugmentedLagrangian<F>::solve_accelerations(const State& state, const Scheme& k,
+                                                 double penalty, double enough) noexcept {
+  f_.positions(state.t, state.q);
+  f_.velocities(state.v);
+  f_.dynamics();
+  // Without stiffness first: it would slow the passes down.
+  if (settle_accelerations(0.0, penalty, enough)) return true;
   a_ = state.a;
   lambda_.setZero();
-  f_.residual(a_, lambda_, 0.0, rhs_);
-  if (f_.factorize_metric(s, penalty, projection_slot) >= 0) return false;
+  return settle_accelerations(0.01 * k.s, k.penalty, enough);
+}
+
+/// M a + Phi_q^T lambda = Q, Phi_q a = gamma for a_ and lambda_, by passes with M + s K and a
+/// penalty. False if they do not settle.
+template <EquationsOfMotion F>
+bool AugmentedLagrangian<F>::settle_accelerations(double s, double penalty,
+                                                  double enough) noexcept {
+  constexpr int most_passes = 40;
+  constexpr double too_large = 1e7, no_stiffness = 1e-30;
+  if (f_.factorize_metric(s > 0.0 ? s : no_stiffness, penalty, projection_slot) >= 0) return false;
+  const bool exact = f_.constraints() == 0 && !(s > 0.0);
+  double last = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most_passes; ++pass) {
     f_.residual(a_, lambda_, 0.0, rhs_);
     f_.balance(lambda_, rhs_);
@@ -66,9 +92,13 @@ bool AugmentedLagrangian<F>::solve_accelerations(const State& state, double s,
       f_.solve(delta_, projection_slot);
     }
     a_ += delta_;
-    const double change = largest(delta_), size = 1.0 + largest(a_);
-    if (!(size < too_large)) return false;
-    if (pass > 0 && change < enough * size) return true;
+    const double change = largest(delta_), most = enough * (1.0 + largest(a_));
+    if (!(most < enough * too_large)) return false;
+    // The next pass would change it by change^2 / last.
+    if (exact ||
+        (pass > 0 && (change < most || (change < 0.5 * last && change * change < most * last))))
+      return true;
+    last = change;
   }
   return false;
 }

@@ -65,36 +65,73 @@ void require_ascending(const std::vector<TablePoint>& p, std::size_t least, bool
   }
 }
 
+/// Slopes at points with x ascending, the ends of a table flat if they are held. Of a single point
+/// zero.
+std::vector<double> table_slopes(const std::vector<TablePoint>& p, bool flat_begin, bool flat_end) {
+  std::vector<double> s = p.size() > 1 ? pchip_slopes(p) : std::vector<double>{0.0};
+  if (flat_begin) s.front() = 0.0;
+  if (flat_end) s.back() = 0.0;
+  return s;
+}
+
+/// The pieces between points with x ascending, none for a single point. `slopes` of cubic pieces;
+/// empty: straight lines.
+void append_pieces(const std::vector<TablePoint>& p, const std::vector<double>& slopes,
+                   std::vector<PiecewisePolynomial::Piece>& pieces) {
+  for (std::size_t i = 0; i + 1 < p.size(); ++i) {
+    const double h = p[i + 1].x - p[i].x, d = (p[i + 1].f - p[i].f) / h;
+    if (slopes.empty())
+      pieces.push_back({p[i].x, {p[i].f, d}});
+    else
+      pieces.push_back({p[i].x,
+                        {p[i].f, slopes[i], (3.0 * d - 2.0 * slopes[i] - slopes[i + 1]) / h,
+                         (slopes[i] + slopes[i + 1] - 2.0 * d) / (h * h)}});
+  }
+}
+
 }  // namespace
 
 PiecewisePolynomial table_function(const std::vector<TablePoint>& p, Interpolation interpolation,
                                    Beyond beyond) {
   require_ascending(p, 2, false);
-  const std::size_t n = p.size();
-  std::vector<double> breaks;
+  std::vector<double> breaks, slopes;
   for (const TablePoint& q : p) breaks.push_back(q.x);
-  std::vector<PiecewisePolynomial::Piece> pieces(n + 1);
+  const bool hold = beyond == Beyond::hold;
+  if (interpolation == Interpolation::cubic) slopes = table_slopes(p, hold, hold);
+  std::vector<PiecewisePolynomial::Piece> pieces(1);
+  append_pieces(p, slopes, pieces);
   double first = 0.0, last = 0.0;
-  if (interpolation == Interpolation::linear) {
-    for (std::size_t i = 0; i + 1 < n; ++i)
-      pieces[i + 1] = {p[i].x, {p[i].f, (p[i + 1].f - p[i].f) / (p[i + 1].x - p[i].x)}};
-    first = pieces[1].coefficients[1];
-    last = pieces[n - 1].coefficients[1];
-  } else {
-    std::vector<double> s = pchip_slopes(p);
-    if (beyond == Beyond::hold) s.front() = s.back() = 0.0;
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-      const double h = p[i + 1].x - p[i].x, d = (p[i + 1].f - p[i].f) / h;
-      pieces[i + 1] = {p[i].x,
-                       {p[i].f, s[i], (3.0 * d - 2.0 * s[i] - s[i + 1]) / h,
-                        (s[i] + s[i + 1] - 2.0 * d) / (h * h)}};
-    }
-    first = s.front();
-    last = s.back();
+  if (!hold) {
+    first = slopes.empty() ? pieces[1].coefficients[1] : slopes.front();
+    last = slopes.empty() ? pieces.back().coefficients[1] : slopes.back();
   }
-  if (beyond == Beyond::hold) first = last = 0.0;
   pieces.front() = {p.front().x, {p.front().f, first}};
-  pieces.back() = {p.back().x, {p.back().f, last}};
+  pieces.push_back({p.back().x, {p.back().f, last}});
+  return PiecewisePolynomial(std::move(breaks), std::move(pieces));
+}
+
+PiecewisePolynomial time_table(const std::vector<TablePoint>& p, Interpolation interpolation) {
+  require_ascending(p, 2, true);
+  for (std::size_t i = 2; i < p.size(); ++i)
+    if (p[i].x == p[i - 2].x)
+      throw InputError("point " + std::to_string(i + 1) +
+                       " of a table: found the same x a third time, expected two points at a jump");
+  std::vector<double> breaks;
+  std::vector<PiecewisePolynomial::Piece> pieces{{p.front().x, {p.front().f, 0.0}}};
+  for (std::size_t from = 0; from < p.size();) {
+    std::size_t to = from + 1;  // the points up to the next jump
+    while (to < p.size() && p[to].x > p[to - 1].x) ++to;
+    const std::vector<TablePoint> side(p.begin() + static_cast<std::ptrdiff_t>(from),
+                                       p.begin() + static_cast<std::ptrdiff_t>(to));
+    std::vector<double> slopes;
+    if (interpolation == Interpolation::cubic)
+      slopes = table_slopes(side, from == 0, to == p.size());
+    append_pieces(side, slopes, pieces);
+    for (const TablePoint& q : side)
+      if (breaks.empty() || q.x > breaks.back()) breaks.push_back(q.x);
+    from = to;
+  }
+  pieces.push_back({p.back().x, {p.back().f, 0.0}});
   return PiecewisePolynomial(std::move(breaks), std::move(pieces));
 }
 
@@ -133,15 +170,21 @@ PiecewisePolynomial operator+(const PiecewisePolynomial& a, const PiecewisePolyn
 
 void PiecewisePolynomial::find_edges() {
   if (pieces_.size() != breaks_.size() + 1) return;  // not valid: the checks of models say so
-  // A jump of so small a part of the largest value or slope at the breaks is rounding.
+  // A jump of so small a part of the largest value or slope is rounding.
   constexpr double rounding = 1e-9;
   double largest = 0.0, steepest = 0.0;
-  for (std::size_t k = 0; k < breaks_.size(); ++k)
+  for (std::size_t k = 0; k < breaks_.size(); ++k) {
+    // Between the breaks, too: at them all slopes may vanish.
+    if (k > 0 && breaks_[k] > breaks_[k - 1])
+      steepest = std::max(
+          steepest, std::abs(piece_value(k, breaks_[k]).f - piece_value(k, breaks_[k - 1]).f) /
+                        (breaks_[k] - breaks_[k - 1]));
     for (const std::size_t piece : {k, k + 1}) {
       const Value v = piece_value(piece, breaks_[k]);
       largest = std::max(largest, std::abs(v.f));
       steepest = std::max(steepest, std::abs(v.df));
     }
+  }
   std::size_t first = 0;
   for (std::size_t k = 0; k < breaks_.size();) {
     std::size_t next = k + 1;  // the piece right of this break and of those equal to it

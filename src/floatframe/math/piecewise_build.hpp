@@ -22,6 +22,11 @@ enum class Beyond { tangent, hold };
 PiecewisePolynomial table_function(const std::vector<TablePoint>& points,
                                    Interpolation interpolation, Beyond beyond);
 
+/// A table of the time, whose end values are held. Two points with the same x are a jump, to the
+/// value of the second one: each side of it is interpolated alone. At least two points, x ascending
+/// and no more than two equal, else InputError.
+PiecewisePolynomial time_table(const std::vector<TablePoint>& points, Interpolation interpolation);
+
 /// Straight lines between points with x ascending; two equal x make a jump (to the value of the
 /// second point at the jump). Flat beyond the ends. At least one point, else InputError.
 PiecewisePolynomial profile_function(const std::vector<TablePoint>& points);

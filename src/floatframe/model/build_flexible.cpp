@@ -11,9 +11,7 @@
 
 namespace floatframe {
 
-namespace {
-
-BeamSection section_of(const SectionDescription& s) {
+BeamSection bar_section(const SectionDescription& s) {
   if (const auto* r = std::get_if<SolidRound>(&s)) return BeamSection::solid_round(r->diameter);
   if (const auto* h = std::get_if<HollowRound>(&s))
     return BeamSection::hollow_round(h->outer, h->inner);
@@ -27,6 +25,8 @@ BeamSection section_of(const SectionDescription& s) {
   b.J = c.J;
   return b;
 }
+
+namespace {
 
 /// Collects the bytes of everything that decides a reduction. Every structure is taken apart by a
 /// structured binding: one that gets a new member does not compile here until it is in the key.
@@ -141,7 +141,7 @@ BarFrame frame_of(const FrameDescription& f, const Pose& X_TW) {
     if (b.from_bar) bar.from_bar = *b.from_bar;
     bar.from_fraction = b.from_fraction;
     bar.elements = b.elements;
-    bar.section = section_of(b.section);
+    bar.section = bar_section(b.section);
     bar.reference = X_TW.R * b.reference;
     frame.bars.push_back(bar);
   }

@@ -5,9 +5,13 @@
 #include <memory>
 #include <vector>
 
+#include "floatframe/fe/fe_model.hpp"
 #include "floatframe/model/description.hpp"
 
 namespace floatframe {
+
+/// In the local axes of a bar.
+BeamSection bar_section(const SectionDescription& section);
 
 class FlexibleBuilder {
  public:

@@ -62,6 +62,7 @@ Model build_model(const ModelDescription& description) {
   b.modal_masses();
   b.finish();
   b.errors.throw_if_any();
+  b.model.hints = model_hints(description, b.model);
   return std::move(b.model);
 }
 

@@ -97,6 +97,7 @@ struct BodyDescription {
   /// Displacements of second order of the modes enter, which stiffen a body that spins or carries
   /// load; absent: as SimulationDescription says.
   std::optional<bool> geometric_stiffening;
+  double largest_angle = 0.0;  ///< of those that its orientation was written with [rad]
   std::variant<RigidDescription, FlexibleDescription, FlexibleBody> kind;
   Origin origin;
 };
@@ -311,6 +312,9 @@ struct OutputDescription {
 enum class Coordinates { relative, absolute };
 enum class InertiaMethod { preprocessing, projection };
 enum class Start { given, equilibrium, state };
+/// What an input that is set between two steps does in the next one: it is held over its whole
+/// length, or goes there from its last value in a straight line.
+enum class InputUse { held, ramp };
 
 /// A body away from where it would start; what hangs on it by joints comes along.
 struct StartOffset {
@@ -357,8 +361,10 @@ struct SimulationDescription {
   double penalty = 0.0;              ///< 0: chosen from masses and step
   double position_tolerance = 1e-9;  ///< constraint violation accepted after a step [m]
   double velocity_tolerance = 1e-8;  ///< after the projections [m/s]
-  /// Steps are divided where a force or its slope jumps: edges of roads, touch, corners of laws.
+  /// Steps are divided where a force or its slope jumps: edges of roads, touch, corners of laws,
+  /// all corners of functions of time. Without: at jumps and single corners of the latter.
   bool locate_edges = false;
+  InputUse input = InputUse::held;
   RecordDescription record;
   /// Of the group in the model file; who changes `step` or `duration` afterwards calls `given_by`.
   Origin origin;

@@ -27,7 +27,7 @@ struct TangentRow {
 
 struct ForceState {
   WrenchRow wrench;  ///< force and torque on a and b (world axes, at the markers' points)
-  TangentRow rows[6];
+  TangentRow rows[9];
   int row_count = 0;
   double force = 0.0, length = 0.0, rate = 0.0;
   double energy = 0.0;  ///< potential energy [J]

@@ -98,6 +98,8 @@ struct ForceKind {
   bool (*build)(ForceBuild& build);
   /// What the mirrored element has beside mirrored places and directions.
   void (*mirror)(ForceDescription& force, const Placement& x) = nullptr;
+  /// If it may measure a rotation vector, which ends at half a turn: whether this one does.
+  bool (*ends_at_half_turn)(const Force& force) noexcept = nullptr;
   /// If its law has branches. Called between steps.
   ForceSide (*side)(const ForceInput& in) noexcept = nullptr;
   std::span<const ForceRegime> regimes;

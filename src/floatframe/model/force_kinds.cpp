@@ -30,6 +30,11 @@ const ForceKind& force_kind(ForceType type) noexcept { return *force_list[index_
 
 ForceAccount force_account(ForceType type) noexcept { return force_kind(type).account; }
 
+bool ends_at_half_turn(const Force& force) noexcept {
+  const auto ends = force_kind(force.type).ends_at_half_turn;
+  return ends != nullptr && ends(force);
+}
+
 bool force_has(ForceType type, ForceQuantity quantity) noexcept {
   return quantity == ForceQuantity::force || force_kind(type).measured;
 }

@@ -21,4 +21,7 @@ enum class ForceAccount {
 };
 ForceAccount force_account(ForceType type) noexcept;
 
+/// A law of the element is one of a rotation vector, which jumps at half a turn.
+bool ends_at_half_turn(const Force& force) noexcept;
+
 }  // namespace floatframe

@@ -14,6 +14,7 @@
 
 #include "floatframe/model/description.hpp"
 #include "floatframe/model/gauge.hpp"
+#include "floatframe/model/model_hints.hpp"
 
 namespace floatframe {
 
@@ -134,6 +135,7 @@ struct Model {
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;
+  ModelHints hints;  ///< for who checks the model; nothing else depends on them
 };
 
 /// Checks and builds: reduces flexible bodies (equal descriptions once), finds nodes, adds free

@@ -144,7 +144,7 @@ class ModelHash {
   }
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, rods, forces, roads, inputs, markers, outputs,
-                 gauges, amplitudes, amplitude_rates, mean_mass, simulation] = model;
+                 gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints] = model;
     all(gravity, bodies, joints, rods, forces, roads, inputs, markers, outputs, mean_mass);
     for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)

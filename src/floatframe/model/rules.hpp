@@ -10,6 +10,7 @@ inline constexpr const char* tyre_laws[] = {"vertical", "radial"};
 inline constexpr const char* mass_models[] = {"isoparametric", "six_dof", "hermite"};
 inline constexpr const char* coordinates[] = {"relative", "absolute"};
 inline constexpr const char* inertia_methods[] = {"preprocessing", "projection"};
+inline constexpr const char* input_uses[] = {"held", "ramp"};
 inline constexpr const char* axes[] = {"x", "y", "z"};
 inline constexpr const char* reaction_axes[] = {"world", "parent", "child", "place"};
 inline constexpr const char* shell_layers[] = {"top", "bottom"};

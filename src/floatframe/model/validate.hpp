@@ -64,7 +64,8 @@ struct Entity {
   bool place(const std::string& key, const AttachmentDescription& at, const Names& names,
              bool ground = true) const;
   bool pieces(const std::string& key, const PiecewisePolynomial& f, bool may_jump = false) const;
-  void function(const std::string& key, const TimeFunction& f) const;
+  /// `may_jump`: also the value, as of a load.
+  void function(const std::string& key, const TimeFunction& f, bool may_jump = false) const;
   void signal(const std::string& key, const SignalDescription& s, const Names& names) const;
 };
 

@@ -156,8 +156,8 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
   return !jump;
 }
 
-void Entity::function(const std::string& key, const TimeFunction& f) const {
-  pieces(key, f.pieces);
+void Entity::function(const std::string& key, const TimeFunction& f, bool may_jump) const {
+  pieces(key, f.pieces, may_jump);
   number(key + ".sine.amplitude", f.amplitude, any_number(""));
   number(key + ".sine.phase", f.phase, any_number("rad"));
   const bool sine = f.amplitude != 0.0;
@@ -165,7 +165,7 @@ void Entity::function(const std::string& key, const TimeFunction& f) const {
 }
 
 void Entity::signal(const std::string& key, const SignalDescription& s, const Names& names) const {
-  function(key, s);
+  function(key, s, true);
   if (!s.input.empty()) reference(key + ".input", "input", s.input, names.inputs);
 }
 

@@ -10,7 +10,12 @@
 
 namespace floatframe {
 
-Mat3 read_orientation(const YamlValue& value) {
+Mat3 read_orientation(const YamlValue& value, double* largest_angle) {
+  const auto note = [&](std::initializer_list<double> angles) {
+    if (largest_angle == nullptr) return;
+    for (const double x : angles)
+      if (std::abs(x) > std::abs(*largest_angle)) *largest_angle = x;
+  };
   const char* what =
       "a rotation vector [rx, ry, rz] [rad], a quaternion [w, x, y, z] or {roll, pitch, yaw} [rad]";
   if (value.is_map()) {
@@ -19,12 +24,16 @@ Mat3 read_orientation(const YamlValue& value) {
     const double pitch = s->number("pitch", any_number("rad"), 0.0);
     const double yaw = s->number("yaw", any_number("rad"), 0.0);
     s->finish();
+    note({roll, pitch, yaw});
     return rotation_exp(yaw * Vec3::UnitZ()) * rotation_exp(pitch * Vec3::UnitY()) *
            rotation_exp(roll * Vec3::UnitX());
   }
   const auto v = value.numbers(3, 4, any_number(""), what);
   if (!v) return Mat3::Identity();
-  if (v->size() == 3) return rotation_exp(Vec3((*v)[0], (*v)[1], (*v)[2]));
+  if (v->size() == 3) {
+    note({(*v)[0], (*v)[1], (*v)[2]});
+    return rotation_exp(Vec3((*v)[0], (*v)[1], (*v)[2]));
+  }
   const Eigen::Quaterniond q((*v)[0], (*v)[1], (*v)[2], (*v)[3]);
   if (std::abs(q.norm() - 1.0) > 1e-6) {
     value.error("found a quaternion of length " + number_text(std::round(q.norm() * 1e6) / 1e6) +
@@ -180,7 +189,7 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
   body.origin = s.origin();
   std::optional<Vec3> position;
   if (const auto v = s.get("position")) position = self.read_point(*v);
-  if (const auto v = s.get("orientation")) body.X_WB.R = read_orientation(*v);
+  if (const auto v = s.get("orientation")) body.X_WB.R = read_orientation(*v, &body.largest_angle);
   const auto rigid_value = s.get("rigid");
   const PartChoice part = read_choice(s);
   const double tolerance = s.number("align_tolerance", positive_number("m"), 1e-6);

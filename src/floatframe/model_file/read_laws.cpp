@@ -48,8 +48,30 @@ PiecewisePolynomial read_piecewise(const YamlValue& value, const LawUnits& units
   return f;
 }
 
+/// What a table is a function of.
+enum class TableOf {
+  measure,  ///< a spring or a damper: continues along its tangents
+  time,     ///< holds its end values, and may jump
+  motion    ///< of the time, but what moves does not jump
+};
+
+/// What is wrong with a point after those before it; empty: nothing.
+std::string table_point_error(const std::vector<TablePoint>& before, double x, TableOf of,
+                              const char* x_unit) {
+  if (before.empty() || x > before.back().x) return {};
+  const bool equal = x == before.back().x;
+  if (of == TableOf::time && equal) {
+    if (before.size() < 2 || before[before.size() - 2].x < x) return {};
+    return "found x = " + number_text(x) + " [" + x_unit +
+           "] a third time, expected at most two points at a jump";
+  }
+  return "found x = " + number_text(x) + " after " + number_text(before.back().x) +
+         ", expected ascending x [" + x_unit + "]" +
+         (of == TableOf::motion && equal ? ": a motion cannot jump" : "");
+}
+
 PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Interpolation usual,
-                               Beyond beyond, const char* x_unit) {
+                               TableOf of, const char* x_unit) {
   Interpolation interpolation = usual;
   if (const auto i = section.get("interpolation"))
     if (const auto w = i->word({"linear", "cubic"}))
@@ -67,18 +89,22 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
   }
   std::vector<TablePoint> points;
   for (const TableRow& row : table.rows) {
-    if (!points.empty() && row.point.x <= points.back().x) {
-      table.error(row, "found x = " + number_text(row.point.x) + " after " +
-                           number_text(points.back().x) + ", expected ascending x [" + x_unit +
-                           "]");
+    if (const std::string text = table_point_error(points, row.point.x, of, x_unit);
+        !text.empty()) {
+      table.error(row, text);
       good = false;
     }
     points.push_back(row.point);
   }
   if (!good) return {};
-  PiecewisePolynomial f = table_function(points, interpolation, beyond);
-  for (std::size_t k = 1; k < points.size(); ++k)  // the piece between points k - 1 and k
-    for (const double c : f.pieces()[k].coefficients)
+  PiecewisePolynomial f = of == TableOf::measure
+                              ? table_function(points, interpolation, Beyond::tangent)
+                              : time_table(points, interpolation);
+  std::size_t piece = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (points[k].x == points[k - 1].x) continue;  // a jump: no piece
+    ++piece;                                       // between points k - 1 and k
+    for (const double c : f.pieces()[piece].coefficients)
       if (!std::isfinite(c)) {
         table.error(table.rows[k], "found the step from " + number_text(points[k - 1].f) + " to " +
                                        number_text(points[k].f) + " over " +
@@ -86,6 +112,7 @@ PiecewisePolynomial read_table(YamlSection& section, const YamlValue& value, Int
                                        "], expected a slope that is a finite number");
         return {};
       }
+  }
   return f;
 }
 
@@ -93,7 +120,7 @@ constexpr const char* time_laws =
     "a number or a map with one of polynomial, piecewise, table, and sine";
 
 /// The keys of a function of time; an error with `expected` if there are none, unless it is null.
-TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation table,
+TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation table, TableOf of,
                         const char* expected) {
   TimeFunction f;
   int laws = 0;
@@ -108,7 +135,7 @@ TimeFunction time_terms(YamlSection& section, const char* unit, Interpolation ta
   }
   if (const auto v = section.get("table")) {
     ++laws;
-    f.pieces = read_table(section, *v, table, Beyond::hold, "s");
+    f.pieces = read_table(section, *v, table, of, "s");
   }
   bool sine = false;
   if (const auto v = section.get("sine")) {
@@ -175,17 +202,17 @@ PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits
   }
   if (const auto v = section->get("table")) {
     ++laws;
-    f = read_table(*section, *v, Interpolation::linear, Beyond::tangent, units.x);
+    f = read_table(*section, *v, Interpolation::linear, TableOf::measure, units.x);
   }
   section->finish();
   if (laws != 1) section->error("found " + std::to_string(laws) + " laws, expected " + forms);
   return f;
 }
 
-TimeFunction read_time_function(const YamlValue& value, const char* unit, Interpolation table) {
+TimeFunction read_motion(const YamlValue& value, const char* unit, Interpolation table) {
   if (!value.is_map()) return constant(value, unit);
   auto section = value.section();
-  return time_terms(*section, unit, table, time_laws);
+  return time_terms(*section, unit, table, TableOf::motion, time_laws);
 }
 
 SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
@@ -200,7 +227,7 @@ SignalDescription read_signal(const ModelInstance& self, const YamlValue& value,
   const auto input = section->get("input");
   if (input)
     if (const auto name = self.reference(EntityKind::input, *input)) signal.input = *name;
-  function = time_terms(*section, unit, table,
+  function = time_terms(*section, unit, table, TableOf::time,
                         input ? nullptr
                               : "a number or a map with input or one of polynomial, piecewise, "
                                 "table, and sine");

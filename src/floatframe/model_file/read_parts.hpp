@@ -83,7 +83,7 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
 /// Errors of a file keep their place; others belong to the value that names the file.
 void add_errors(const YamlValue& value, const InputError& error);
 /// A rotation vector, a unit quaternion or {roll, pitch, yaw}.
-Mat3 read_orientation(const YamlValue& value);
+Mat3 read_orientation(const YamlValue& value, double* largest_angle = nullptr);
 /// The key `geometry` of a body: the triangles of a file in the body's frame. nullptr and errors if
 /// it cannot be shown.
 std::shared_ptr<const BodyShape> read_body_geometry(const ModelInstance& self,
@@ -130,8 +130,10 @@ struct LawUnits {
 };
 PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units);
 /// A function of time: a number is a constant, tables hold their end values, `sine` may be added.
-TimeFunction read_time_function(const YamlValue& value, const char* unit, Interpolation table);
-/// The same, or {input: name}, or both in one map: then they add up.
+/// Of the motion of a joint, which does not jump.
+TimeFunction read_motion(const YamlValue& value, const char* unit, Interpolation table);
+/// The same with jumps (two points of a table with the same time), or {input: name}, or both in one
+/// map: then they add up.
 SignalDescription read_signal(const ModelInstance& self, const YamlValue& value, const char* unit,
                               Interpolation table);
 

@@ -118,6 +118,8 @@ void read_simulation(const ModelInstance& self, ReadModel& model) {
   d.velocity_tolerance =
       s.number("velocity_tolerance", rules::velocity_tolerance, d.velocity_tolerance);
   d.locate_edges = s.boolean("locate_edges", d.locate_edges);
+  if (const auto v = s.get("input"))
+    if (const auto w = v->word(rules::input_uses)) d.input = static_cast<InputUse>(*w);
   if (const auto v = s.get("record")) read_record(self, *v, d.record);
   s.finish();
   if (d.start == Start::state && !d.state) return;  // the file could not be read

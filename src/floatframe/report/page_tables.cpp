@@ -52,6 +52,24 @@ std::string short_number(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : std::string();
 }
 
+/// "x", or a unit vector.
+std::string direction_text(const Vec3& d) {
+  for (int k = 0; k < 3; ++k)
+    if (d[k] > 1.0 - 1e-9) return std::string(1, "xyz"[k]);
+  const auto rounded = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", rounded(d[0]), rounded(d[1]), rounded(d[2]));
+}
+
+/// "a, b, c and 7 more"
+std::string names_text(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, names.size()); ++k)
+    text += (k == 0 ? "" : ", ") + names[k];
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text;
+}
+
 void add_modes(const Body& body, PageTable& table) {
   const FlexibleBody& data = *body.data;
   const MatX M = modal_mass(data.invariants);
@@ -83,6 +101,26 @@ std::vector<PageTable> body_tables(const Model& model) {
   std::vector<PageTable> out{std::move(bodies)};
   if (!modes.rows.empty()) out.push_back(std::move(modes));
   return out;
+}
+
+PageTable bending_table(const Model& model) {
+  PageTable table{
+      "Bending of bars",
+      {"body", "bars", "bend along", "E I [N m2]", "bend along", "E I [N m2]"},
+      {},
+      "Directions in the design configuration; a rectangle that stands is stiffest along "
+      "its height."};
+  for (const BarBending& b : model.hints.bending) {
+    const std::string& body = model.bodies[static_cast<std::size_t>(b.body)].name;
+    const std::string stiffness = short_number(b.stiffness[0], "{:.5g}");
+    if (b.alike())
+      table.rows.push_back({body, names_text(b.bars), "any", stiffness, "", ""});
+    else
+      table.rows.push_back({body, names_text(b.bars), direction_text(b.direction[0]), stiffness,
+                            direction_text(b.direction[1]),
+                            short_number(b.stiffness[1], "{:.5g}")});
+  }
+  return table;
 }
 
 std::vector<PageTable> coordinate_tables(const Model& model, const ModelCounts& c) {

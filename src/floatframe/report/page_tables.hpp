@@ -18,6 +18,9 @@ struct PageTable {
 
 /// Bodies, and modes if there are any.
 std::vector<PageTable> body_tables(const Model& model);
+/// How bars bend: E I along both axes of their sections, with their directions in space. No rows:
+/// no body has bars that bend.
+PageTable bending_table(const Model& model);
 /// Coordinates, and cut joints if there are any.
 std::vector<PageTable> coordinate_tables(const Model& model, const ModelCounts& counts);
 

@@ -87,6 +87,8 @@ void run_table(fmt::memory_buffer& page, const RunSummary& s) {
     row("edges that steps were divided at", fmt::format("{}", s.edges));
     row("steps with too many edges", fmt::format("{}", s.edges_passed));
   }
+  if (s.corners > 0)
+    row("corners of functions of time that steps were divided at", fmt::format("{}", s.corners));
   row("Newton iterations", fmt::format("{}", s.iterations));
   row("factorisations", fmt::format("{}", s.factorizations));
   row("largest position violation", quantity(s.max_position_violation, "m"));

@@ -37,7 +37,8 @@ Json balance(const EnergySummary& e) {
           {"remainder_J", e.remainder},
           {"largest_remainder_J", e.largest_remainder},
           {"largest_remainder_at_s", e.largest_remainder_at},
-          {"exchanged_J", e.exchanged}};
+          {"exchanged_J", e.exchanged},
+          {"present_J", e.present}};
 }
 
 /// Null for a run that does not look for them.
@@ -64,6 +65,7 @@ Json measured(const RunSummary& s) {
           {"iterations", s.iterations},
           {"factorizations", s.factorizations},
           {"edges", edges(s)},
+          {"corners", s.corners},
           {"cpu_s", s.cpu},
           {"real_time_factor", s.real_time_factor},
           {"step_times", step_times(s.step_times)},

@@ -1,6 +1,7 @@
 #include "floatframe/simulation/bench_stepper.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "floatframe/core/thread_clock.hpp"
@@ -18,9 +19,23 @@ class Stepper final : public BenchStepper {
 
   void restart() override { steps_.restart(); }
 
+  void jump_inputs() override {
+    jumps_ = true;
+    for (const Input& input : steps_.model().inputs) {
+      const double range = input.high - input.low;
+      inputs_.push_back(input.initial);
+      jumped_.push_back(input.initial + (std::isfinite(range) ? 0.01 * range : 1.0));
+    }
+  }
+
   bool advance(long steps) noexcept override {
-    for (long k = 0; k < steps; ++k)
+    for (long k = 0; k < steps; ++k) {
+      if (jumps_) {
+        inputs_.swap(jumped_);
+        steps_.formulation().set_inputs(inputs_);
+      }
       if (!steps_.advance()) return false;
+    }
     return true;
   }
 
@@ -54,6 +69,8 @@ class Stepper final : public BenchStepper {
  private:
   SteppedModel<F> steps_;
   VecX work_;
+  bool jumps_ = false;
+  std::vector<double> inputs_, jumped_;
 };
 
 }  // namespace

@@ -16,6 +16,9 @@ class BenchStepper {
 
   /// Back to the start of the run.
   virtual void restart() = 0;
+  /// From now on all inputs jump before each step, to and fro by a hundredth of their range (by
+  /// one, if they have none).
+  virtual void jump_inputs() = 0;
   /// Steps of the size of the options. False if one did not converge; nothing more can be done
   /// then.
   virtual bool advance(long steps) noexcept = 0;

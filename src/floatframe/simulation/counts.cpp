@@ -1,12 +1,60 @@
 // Coordinates, constraints, degrees of freedom of a model, and its equilibrium.
+#include <fmt/format.h>
+
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/model/joint_measure.hpp"
+#include "floatframe/model/road.hpp"
 #include "floatframe/simulation/initial_state.hpp"
 #include "floatframe/simulation/redundancy.hpp"
+#include "floatframe/simulation/run_error.hpp"
 #include "floatframe/simulation/simulation.hpp"
 #include "floatframe/simulation/system_state.hpp"
 
 namespace floatframe {
+namespace {
+
+/// Wheels that hang far above their road or stand deep in it, where `f` is.
+void note_wheel_heights(const RelativeFormulation& f, std::vector<std::string>& notes) {
+  constexpr double high = 3.0, low = 0.6;  // of the radius
+  const Model& model = f.model();
+  for (const Force& tyre : model.forces) {
+    if (tyre.type != ForceType::tyre) continue;
+    const Vec3 centre = f.origin() + f.marker(tyre.b).r;
+    const double height =
+        centre.z() - road_at(model.roads[static_cast<std::size_t>(tyre.road)], centre.x()).z;
+    if (height > low * tyre.radius && height < high * tyre.radius) continue;
+    const double gap = height - tyre.radius;
+    notes.push_back(
+        fmt::format("tyre '{}': its wheel centre is {:.4g} m above the road and its radius is "
+                    "{:.4g} m, so that "
+                    "at the start {}",
+                    tyre.name, height, tyre.radius,
+                    gap > 0.0 ? fmt::format("the wheel hangs {:.4g} m in the air", gap)
+                              : fmt::format("the road presses {:.4g} m into it with {:.4g} N", -gap,
+                                            -gap * tyre.stiffness)));
+  }
+}
+
+/// Whether a run would start from an equilibrium that does not last. What else keeps it from
+/// starting, the run says.
+void note_unstable_start(const Model& model, std::vector<std::string>& notes) {
+  if (model.simulation.start != Start::equilibrium) return;
+  constexpr int most = 300;  // unknowns: a check takes a moment
+  RelativeFormulation f(model, model.simulation.inertia);
+  if (f.velocities() + f.constraints() > most) return;
+  State state;
+  f.start(state.q, state.v);
+  state.v.setZero();
+  try {
+    close_loops(f, state.q, state.v, true);
+    const Equilibrium e = find_equilibrium(f, state.q);
+    if (std::string note = unstable_equilibrium(f, state.q, e.lambda); !note.empty())
+      notes.push_back(std::move(note));
+  } catch (const RunError&) {
+  }
+}
+
+}  // namespace
 
 ModelCounts check(const Model& model) {
   started_model(built(model), model.simulation);  // a state of another model is refused as by a run
@@ -30,6 +78,9 @@ ModelCounts check(const Model& model) {
   const int rank = rank_of(relative.constraint_rows());
   c.degrees_of_freedom = relative.velocities() - rank;
   c.redundant_constraints = relative.constraints() - rank;
+  c.start.notes.insert(c.start.notes.end(), model.hints.notes.begin(), model.hints.notes.end());
+  note_wheel_heights(relative, c.start.notes);
+  note_unstable_start(model, c.start.notes);
   return c;
 }
 
@@ -40,6 +91,7 @@ StaticsResult statics(const Model& model) {
   state.v.setZero();
   close_loops(f, state.q, state.v, true);
   const Equilibrium e = find_equilibrium(f, state.q);
+  const std::string unstable = unstable_equilibrium(f, state.q, e.lambda);
   const VecX zero = VecX::Zero(f.velocities());
   VecX r(f.velocities());
   f.positions(0.0, state.q);
@@ -48,6 +100,7 @@ StaticsResult statics(const Model& model) {
   f.residual(zero, e.lambda, 0.0, r);
 
   StaticsResult s;
+  if (!unstable.empty()) s.notes.push_back(unstable);
   s.iterations = e.iterations;
   s.residual = e.residual;
   for (std::size_t k = 0; k < model.forces.size(); ++k) {

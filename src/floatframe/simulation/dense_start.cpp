@@ -79,7 +79,7 @@ MatX loose_directions(const MatX& mass, const MatX& J, const VecX& force, const 
 /// The z of the free accelerations N z: N^T M N z = N^T (force - M a_p).
 VecX free_accelerations(const MatX& mass, const VecX& possible, const MatX& J, const VecX& force,
                         const Motions& m, const NeighbourAt& neighbour,
-                        const std::function<std::string(const MatX&)>& movers) {
+                        const std::function<std::string(const MatX&)>& sentence) {
   const MatX Mr = m.N.transpose() * mass * m.N;
   const MatX scale = m.N.transpose() * mass_scale(mass.diagonal(), possible).asDiagonal() * m.N;
   const SymmetricEigen eig = generalised_eigen(0.5 * (Mr + Mr.transpose()), scale);
@@ -92,13 +92,7 @@ VecX free_accelerations(const MatX& mass, const VecX& possible, const MatX& J, c
   if (massless > 0) {
     const MatX Z = (m.N * V.leftCols(massless)).colwise().normalized();
     const MatX loose = loose_directions(mass, J, force, m.N, half_inverse, Z, neighbour);
-    if (loose.cols() > 0)
-      throw RunError(fmt::format(
-          "the mass matrix is singular where nothing holds it: {} can move without mass, "
-          "stiffness or constraint; give mass or inertia (a straight bar has no inertia "
-          "about its own axis unless mass_model is hermite or six_dof with "
-          "section_inertia), or remove the freedom",
-          movers(loose)));
+    if (loose.cols() > 0) throw RunError(sentence(loose));
   }
   // Massless but stiff: the minimum-norm solution.
   return half_inverse * (half_inverse.transpose() * (m.N.transpose() * (force - mass * m.a_p)));
@@ -143,6 +137,36 @@ std::string named_text(const char* one, const char* many, const std::vector<std:
   return text;
 }
 
+std::string loose_sentence(const Model& model, const std::vector<std::size_t>& bodies,
+                           const std::string& owner) {
+  std::vector<std::string> names, points;
+  bool bars = false;  // or bodies that are like them
+  for (const std::size_t i : bodies) {
+    const Body& b = model.bodies[i];
+    const InertiaInvariants& v = b.data->invariants;
+    names.push_back(b.name);
+    const double inertia = v.inertia_about_centre().trace();
+    if (b.modes() == 0 && v.m > 0.0 && !(inertia > 1e-12 * v.m * b.length * b.length))
+      points.push_back(b.name);
+    else
+      bars = bars || v.m > 0.0;
+  }
+  std::string remedy = "give mass or inertia";
+  if (!points.empty())
+    remedy =
+        fmt::format("{} no inertia: the key 'inertia' is missing or zero, give it [kg m2]",
+                    named_text("body", "bodies", points) + (points.size() == 1 ? " has" : " have"));
+  else if (bars)
+    remedy +=
+        " (a straight bar has no inertia about its own axis unless mass_model is hermite or "
+        "six_dof "
+        "with section_inertia)";
+  return fmt::format(
+      "the mass matrix is singular where nothing holds it: {} can move without mass, stiffness or "
+      "constraint; {}, or remove the freedom",
+      names.empty() ? owner : named_text("body", "bodies", names), remedy);
+}
+
 MatX free_motions(const MatX& J, const VecX& possible) {
   return motions(J, VecX::Zero(J.rows()), possible).N;
 }
@@ -159,12 +183,12 @@ MatX light_directions(const MatX& mass, const MatX& possible_mass, const MatX& m
 
 void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const VecX& force,
                  const VecX& gamma, const NeighbourAt& neighbour,
-                 const std::function<std::string(const MatX&)>& movers, VecX& a, VecX& lambda) {
+                 const std::function<std::string(const MatX&)>& loose, VecX& a, VecX& lambda) {
   const Eigen::Index nv = mass.rows(), nc = J.rows();
   const Motions m = motions(J, gamma, possible);
   a = m.a_p;
   // Nothing is left where the constraints prescribe all motion, whatever the masses.
-  if (m.N.cols() > 0) a += m.N * free_accelerations(mass, possible, J, force, m, neighbour, movers);
+  if (m.N.cols() > 0) a += m.N * free_accelerations(mass, possible, J, force, m, neighbour, loose);
   lambda = VecX::Zero(nc);
   if (nc == 0 || nv == 0) return;
   lambda = LeastNorm(J.transpose(), 1e-11).solve(VecX(force - mass * a));

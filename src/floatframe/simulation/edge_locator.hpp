@@ -8,12 +8,7 @@
 // the same beginning (regula falsi with the Illinois weights), to a part `close` of the step. That
 // step is kept, the force changes its branch, accelerations and multipliers of the new forces are
 // solved for, and the rest of the step is made. An edge next to the beginning, and the end next to
-// an edge, are reached by a single explicit move, whose error is of second order in a time that is
-// a small part of the step: a step so short would turn what the tolerances leave of constraints
-// into accelerations. Each coordinate moves as an oscillator of its own frequency omega by the
-// trapezoidal rule,
-//   v1 (1 + omega^2 dt^2/4) = v (1 - omega^2 dt^2/4) + dt a,   x = dt (v + v1)/2
-// which is v + dt a where it has none, and then velocities are projected onto the constraints.
+// an edge, are reached by an explicit move (explicit_move.hpp).
 //
 // What leaves its branch and comes back within a step is looked for in the middle of the step, on
 // the cubic through both ends; seen there, half the step is made. What comes back within half a
@@ -24,23 +19,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/model/force_evaluation.hpp"
+#include "floatframe/simulation/edge_watch.hpp"
+#include "floatframe/simulation/explicit_move.hpp"
 
 namespace floatframe {
-
-/// Whoever wants to see the state at an edge, just before and just after it: the formulation is at
-/// its positions and velocities, with the forces of that side.
-struct EdgeWatch {
-  void* who = nullptr;
-  void (*look)(void* who, const State& state, const VecX& reactions) noexcept = nullptr;
-};
 
 template <class F>
 class EdgeLocator {
  public:
   EdgeLocator(F& formulation, AugmentedLagrangian<F>& integrator)
-      : f_(formulation), integrator_(integrator) {
+      : f_(formulation), integrator_(integrator), move_(formulation, integrator) {
     const std::vector<Force>& forces = f_.model().forces;
     for (std::size_t k = 0; k < forces.size(); ++k)
       if (has_branches(forces[k])) forces_.push_back(k);
@@ -73,7 +62,7 @@ class EdgeLocator {
     for (int count = 0;; ++count) {
       const double left = count == 0 ? h : end - state.t;
       if (left < shortest * h) {
-        move(state, left, h);
+        move_(state, left, h);
         look(state, here_);
         break;
       }
@@ -190,7 +179,7 @@ class EdgeLocator {
       return_to(state);
       moved_ = at * left < shortest * h;
       if (moved_)
-        move(state, at * left, h);
+        move_(state, at * left, h);
       else
         attempt(state, at * left, total);
       if (!total.accepted()) return false;
@@ -233,35 +222,19 @@ class EdgeLocator {
   void pass(State& state, double h) noexcept {
     f_.forces();
     // Multipliers that a state restored elsewhere has, too.
-    if (watch_.look)
-      watch_.look(watch_.who, state, moved_ ? state.lambda : integrator_.reactions());
+    watch_(state, moved_ ? state.lambda : integrator_.reactions());
     for (std::size_t k = 0; k < forces_.size(); ++k) {
       const double way = last_[k].beyond - first_[k].beyond;  // in the step as it was first made
       const bool at_edge = last_[k].beyond > 0.0 && std::abs(here_[k].beyond) <= near_ * way;
       if (k == found_ || at_edge) f_.hold_force_branch(forces_[k], here_[k].next);
     }
     integrator_.restart(state, h);
-    if (watch_.look) watch_.look(watch_.who, state, integrator_.reactions());
-  }
-
-  /// Along the velocities and accelerations.
-  void move(State& state, double dt, double h) noexcept {
-    if (!(dt > 0.0)) return;
-    const VecX& omega2 = f_.own_frequencies_squared();
-    for (Eigen::Index i = 0; i < x_.size(); ++i) {
-      const double turn = 0.25 * dt * dt * omega2[i], before = state.v[i];
-      state.v[i] = (before * (1.0 - turn) + dt * state.a[i]) / (1.0 + turn);
-      x_[i] = 0.5 * dt * (before + state.v[i]);
-    }
-    f_.settle(state.q, x_);
-    f_.retract(state.q, x_, q_);
-    state.q.swap(q_);
-    state.t += dt;
-    integrator_.project_velocities(state, h);
+    watch_(state, integrator_.reactions());
   }
 
   F& f_;
   AugmentedLagrangian<F>& integrator_;
+  ExplicitMove<F> move_;
   EdgeWatch watch_;
   std::vector<std::size_t> forces_;  ///< whose laws have branches
   Sides first_, here_, last_;        ///< at the beginning, at the last trial, at the end

@@ -6,7 +6,8 @@
 // gravity and modal stiffness are part of E; constraints do no work but for prescribed motions,
 // whose power is sum lambda dPhi/dt with the multipliers of the projected accelerations. The energy
 // kept in tyres jumps with the steps of a road and where their dampers let them go; its changes
-// count as work of the tyres, besides that of their forces. What remains is the error of the
+// count as work of the tyres, besides that of their forces; and so those of springs whose target
+// jumps, a set point or an input, count as work of the actuators. What remains is the error of the
 // integration, of order h^2, and with a spectral radius below 1 what the integrator dissipates.
 // Nothing here allocates.
 #include <algorithm>
@@ -25,11 +26,18 @@ inline double wrench_power(const Force& force, const WrenchRow& w, const MarkerS
   return power;
 }
 
-/// Powers [W], positive into the system, and what the tyres keep [J].
+/// Powers [W], positive into the system, and what the tyres and springs whose target may jump keep
+/// [J].
 struct FlowSample {
   EnergyFlows power;
-  double tyres = 0.0;
+  double tyres = 0.0, targeted = 0.0;
 };
+
+/// Between two steps, or within one.
+inline bool target_may_jump(const Force& force) noexcept {
+  return force.targeted &&
+         (force.target.input >= 0 || !force.target.function.pieces.breaks().empty());
+}
 
 /// At the present positions, velocities and forces of a formulation.
 template <class F>
@@ -52,7 +60,11 @@ FlowSample flows(const F& f, const VecX& v, const VecX& reactions) noexcept {
       p[EnergyFlow::loads] += rest;
     } else {
       p[EnergyFlow::dampers] -= s.damping;
-      if (force.driven || force.targeted) p[EnergyFlow::actuators] += rest + s.damping;
+      if (target_may_jump(force)) {
+        p[EnergyFlow::actuators] += rest - s.energy_rate + s.damping;
+        sample.targeted += s.energy;
+      } else if (force.driven || force.targeted)
+        p[EnergyFlow::actuators] += rest + s.damping;
     }
   }
   p[EnergyFlow::modal_damping] = -f.modal_damping_power(v);
@@ -64,7 +76,8 @@ class EnergyBalance {
  public:
   struct Energies {
     double kinetic = 0.0, potential = 0.0, elastic = 0.0;
-    double motion = 0.0;  ///< kinetic, if all mass moved as fast as the outermost may
+    double motion = 0.0;   ///< kinetic, if all mass moved as fast as the outermost may
+    double present = 0.0;  ///< what errors of the step may be small beside
     double gravity = 0.0, springs = 0.0, tyres = 0.0;  ///< what `potential` consists of
     double total() const noexcept { return kinetic + potential + elastic; }
   };
@@ -76,6 +89,7 @@ class EnergyBalance {
     last_ = flows;
     start_ = e.total();
     low_ = high_ = e;
+    checked_at_ = t;
     check(t, e);
   }
 
@@ -85,6 +99,7 @@ class EnergyBalance {
     for (std::size_t k = 0; k < EnergyFlows::size(); ++k) {
       double work = half * (last_.power.value[k] + flows.power.value[k]);
       if (k == index_of(EnergyFlow::tyres)) work += flows.tyres - last_.tyres;
+      if (k == index_of(EnergyFlow::actuators)) work += flows.targeted - last_.targeted;
       work_.value[k] += work;
       moved_.value[k] += std::abs(work);
     }
@@ -101,7 +116,15 @@ class EnergyBalance {
     high_.potential = std::max(high_.potential, e.potential);
     high_.elastic = std::max(high_.elastic, e.elastic);
     high_.motion = std::max(high_.motion, e.motion);
+    present_ = std::max(present_, e.present);
+    const double before = remainder_;
     remainder_ = remainder(e);
+    if (std::abs(remainder_ - before) > growth_) {
+      growth_ = std::abs(remainder_ - before);
+      growth_from_ = checked_at_;
+      growth_to_ = t;
+    }
+    checked_at_ = t;
     if (std::abs(remainder_) > std::abs(largest_)) {
       largest_ = remainder_;
       largest_at_ = t;
@@ -132,12 +155,18 @@ class EnergyBalance {
     out.largest_remainder = largest_;
     out.largest_remainder_at = largest_at_;
     out.exchanged = exchanged();
+    out.present = present_;
+    out.largest_growth = growth_;
+    out.largest_growth_from = growth_from_;
+    out.largest_growth_to = growth_to_;
   }
 
   /// For a run that goes on elsewhere (state_bytes.hpp).
   template <class Stream>
   void walk(Stream& s) {
-    for (double* x : {&time_, &start_, &remainder_, &largest_, &largest_at_, &noise_, &last_.tyres})
+    for (double* x :
+         {&time_, &start_, &remainder_, &largest_, &largest_at_, &noise_, &last_.tyres,
+          &last_.targeted, &present_, &growth_, &growth_from_, &growth_to_, &checked_at_})
       s(*x);
     for (EnergyFlows* flows : {&last_.power, &work_, &moved_})
       for (double& x : flows->value) s(x);
@@ -147,7 +176,8 @@ class EnergyBalance {
 
  private:
   double time_ = 0.0, start_ = 0.0, remainder_ = 0.0, largest_ = 0.0, largest_at_ = 0.0;
-  double noise_ = 0.0;
+  double noise_ = 0.0, present_ = 0.0;
+  double growth_ = 0.0, growth_from_ = 0.0, growth_to_ = 0.0, checked_at_ = 0.0;
   FlowSample last_;
   EnergyFlows work_, moved_;
   Energies low_, high_;

@@ -8,31 +8,9 @@
 #include <numbers>
 
 #include "floatframe/math/frequency.hpp"
-#include "floatframe/model/force_outputs.hpp"
 
 namespace floatframe {
 namespace {
-
-struct Forcing {
-  std::string name;
-  const TimeFunction* function;
-};
-
-std::vector<Forcing> all_forcing(const Model& model) {
-  std::vector<Forcing> out;
-  for (const Joint& j : model.joints)
-    if (j.motion) out.push_back({"the motion of joint '" + j.name + "'", &*j.motion});
-  for (const Force& f : model.forces) {
-    const bool load = force_account(f.type) == ForceAccount::loads;
-    const std::string owner = " '" + f.name + "'";
-    if (load || f.driven)
-      out.push_back({(load ? "the load" : "the actuator of") + owner, &f.magnitude});
-    if (!f.targeted) continue;
-    out.push_back({"the target of" + owner, &f.target.function});
-    if (!f.derived_rate) out.push_back({"the target rate of" + owner, &f.target_rate.function});
-  }
-  return out;
-}
 
 /// A value of a table between the ends of a step that neither of them nor what lies between them
 /// shows.
@@ -41,7 +19,15 @@ struct Passed {
   double at = 0.0, value = 0.0, before = 0.0, after = 0.0, gap = 0.0;
 };
 
-Passed passed_value(const PiecewisePolynomial& table, double step, double begin, double duration) {
+/// Steps are divided there.
+bool is_located(std::span<const TimeCorner> located, double t) {
+  const auto c = std::lower_bound(located.begin(), located.end(), t,
+                                  [](const TimeCorner& x, double at) { return x.to < at; });
+  return c != located.end() && !(c->from > t);
+}
+
+Passed passed_value(const PiecewisePolynomial& table, double step, double begin, double duration,
+                    std::span<const TimeCorner> located) {
   Passed worst;
   const std::vector<double>& breaks = table.breaks();
   const double end = begin + duration;
@@ -61,6 +47,7 @@ Passed passed_value(const PiecewisePolynomial& table, double step, double begin,
     const double steps = std::floor((*b - begin) / step);
     const double from = begin + steps * step, to = std::min(from + step, end);
     if (std::min(*b - from, to - *b) < 1e-6 * step) continue;  // the end of a step
+    if (is_located(located, *b)) continue;
     const double before = table(from).f, after = table(to).f;
     // Both sides of a jump.
     const std::size_t k = b - breaks.begin();
@@ -84,7 +71,8 @@ std::string subject(const Forcing& worst, int others) {
 }  // namespace
 
 std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, double begin,
-                                             double duration, const ForcingLimits& limits) {
+                                             double duration, std::span<const TimeCorner> located,
+                                             const ForcingLimits& limits) {
   std::vector<RangeWarning> out;
   const std::vector<Forcing> all = all_forcing(model);
   const Forcing* worst = nullptr;
@@ -112,7 +100,7 @@ std::vector<RangeWarning> unresolved_forcing(const Model& model, double step, do
   count = 0;
   Passed most;
   for (const Forcing& f : all) {
-    const Passed p = passed_value(f.function->pieces, step, begin, duration);
+    const Passed p = passed_value(f.function->pieces, step, begin, duration, located);
     if (!(p.part > limits.passed)) continue;
     ++count;
     if (p.part > most.part) {

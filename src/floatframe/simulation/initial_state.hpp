@@ -42,6 +42,9 @@ struct Equilibrium {
 };
 /// Throws RunError naming the coordinate with the largest unbalanced force.
 Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q);
+/// What is to be said of an equilibrium that the smallest push leaves for good; empty: it is
+/// stable, or its matrices are too large to look. Moves `f`.
+std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const VecX& lambda);
 
 /// Start of a run in relative coordinates: the model's start values with loops closed, or the
 /// equilibrium with the model's start velocities. `start_state` knows states and offsets, too.
@@ -92,18 +95,23 @@ using NeighbourAt = std::function<Neighbour(const VecX& x, const MatX& Z)>;
 
 /// Start accelerations by dense linear algebra, for mass matrices that are singular: on the null
 /// space of the constraints mass may be missing where stiffness acts. `mass`: nv x nv, `possible`:
-/// see mass_scale.hpp, `J`: nc x nv. Throws RunError if a direction has neither; `movers` puts the
-/// directions (columns) into words.
+/// see mass_scale.hpp, `J`: nc x nv. Throws RunError if a direction has neither; `loose` is the
+/// sentence about directions (columns) that nothing holds.
 void dense_start(const MatX& mass, const VecX& possible, const MatX& J, const VecX& force,
                  const VecX& gamma, const NeighbourAt& neighbour,
-                 const std::function<std::string(const MatX&)>& movers, VecX& a, VecX& lambda);
+                 const std::function<std::string(const MatX&)>& loose, VecX& a, VecX& lambda);
 
 /// "body 'a'", "bodies 'a', 'b' and 'c'".
 std::string named_text(const char* one, const char* many, const std::vector<std::string>& names);
 
-/// The bodies that move when the velocities are a column of `directions`.
+/// That bodies move without mass, stiffness or constraint, and what they lack; without any: `owner`
+/// is who moves.
+std::string loose_sentence(const Model& model, const std::vector<std::size_t>& bodies,
+                           const std::string& owner);
+
+/// The bodies that move when the velocities are a column of `directions`, by their indices.
 template <class F>
-std::string moving_bodies(F& f, const State& state, const MatX& directions) {
+std::vector<std::size_t> bodies_moved(F& f, const State& state, const MatX& directions) {
   const Model& model = f.model();
   VecX speed = VecX::Zero(static_cast<Eigen::Index>(model.bodies.size()));
   f.positions(state.t, state.q);
@@ -117,14 +125,27 @@ std::string moving_bodies(F& f, const State& state, const MatX& directions) {
       speed[static_cast<Eigen::Index>(i)] = std::max(speed[static_cast<Eigen::Index>(i)], v);
     }
   }
-  std::vector<std::string> names;
+  std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
-    if (speed[static_cast<Eigen::Index>(i)] > 1e-3 * speed.maxCoeff())
-      names.push_back(model.bodies[i].name);
-  if (!names.empty()) return named_text("body", "bodies", names);
+    if (speed[i] > 1e-3 * speed.maxCoeff()) moved.push_back(i);
+  return moved;
+}
+
+/// Who has the largest part in the first of the directions.
+template <class F>
+std::string coordinate_moved(F& f, const MatX& directions) {
   Eigen::Index worst = 0;
   directions.col(0).cwiseAbs().maxCoeff(&worst);
   return f.coordinate_owner(static_cast<int>(worst));
+}
+
+/// The same in words.
+template <class F>
+std::string moving_bodies(F& f, const State& state, const MatX& directions) {
+  std::vector<std::string> names;
+  for (const std::size_t i : bodies_moved(f, state, directions))
+    names.push_back(f.model().bodies[i].name);
+  return names.empty() ? coordinate_moved(f, directions) : named_text("body", "bodies", names);
 }
 
 /// Fills state.a and state.lambda by dense linear algebra.
@@ -152,8 +173,11 @@ void start_accelerations_dense(F& f, State& state) {
   };
   dense_start(
       mass, possible, J, -r0, -gamma, neighbour,
-      [&](const MatX& directions) { return moving_bodies(f, state, directions); }, state.a,
-      state.lambda);
+      [&](const MatX& directions) {
+        return loose_sentence(f.model(), bodies_moved(f, state, directions),
+                              coordinate_moved(f, directions));
+      },
+      state.a, state.lambda);
 }
 
 /// Fills state.a, state.a_alg and state.lambda at state.q, state.v, state.t.

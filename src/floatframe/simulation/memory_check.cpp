@@ -27,8 +27,8 @@ bool consistent(const SteppedMemory& m, double step) {
   const IntegratorExperience& e = m.runner.experience;
   if (!(e.reuse_rate >= 0.0 && e.reuse_rate <= 1.0) || std::isinf(e.continues_at)) return false;
   const StepCounters& c = m.runner.counters;
-  for (const long n :
-       {c.steps, c.substeps, c.iterations, c.factorizations, c.cut_short, c.edges, c.edges_passed})
+  for (const long n : {c.steps, c.substeps, c.iterations, c.factorizations, c.cut_short, c.edges,
+                       c.edges_passed, c.corners})
     if (n < 0 || n > most) return false;
   return c.max_position_violation >= 0.0 && c.max_velocity_violation >= 0.0;
 }
@@ -48,7 +48,8 @@ std::string memory_complaint(const SteppedMemory& d, const SteppedMemory& own, d
            {"accelerations", numbers(d.state.a), numbers(own.state.a)},
            {"accelerations", numbers(d.state.a_alg), numbers(own.state.a_alg)},
            {"multipliers", numbers(d.state.lambda), numbers(own.state.lambda)},
-           {"spring angles", d.spring_angles, own.spring_angles}}) {
+           {"spring angles", d.spring_angles, own.spring_angles},
+           {"inputs", d.runner.inputs, own.runner.inputs}}) {
     if (x.given.size() != x.own.size())
       return fmt::format("is damaged: {} of another number", x.name);
     if (!all_finite(x.given)) return fmt::format("is damaged: {} that are not finite", x.name);

@@ -79,9 +79,11 @@ class MotionWatch {
   /// Velocities at the start, and after every full step since.
   void start(const State& s) noexcept {
     meters(s, [](PhaseMeter& m, const Vec3& v) { m.start(v); });
+    range_.turns().start(f_);
   }
   void follow(const State& s) noexcept {
     meters(s, [](PhaseMeter& m, const Vec3& v) { m.observe(v); });
+    range_.turns().follow(f_, s.t);
   }
 
  private:

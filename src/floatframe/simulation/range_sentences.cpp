@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/simulation/energy_cause.hpp"
 #include "floatframe/simulation/range_watch.hpp"
 
 namespace floatframe {
@@ -163,6 +164,9 @@ class Writer {
                std::vector<RangeWarning>& out) const {
     if (!e.balanced) return;
     const double x = std::abs(e.largest_remainder), part = x / e.exchanged;
+    // A small part of all energy there is an error of the size of the step, however little of it
+    // changes hands.
+    if (!(x > limits_.of_present * e.present)) return;
     // With numerical damping a loss is what was asked for, unless it is much.
     const bool damped = spectral_radius < 1.0 && e.largest_remainder < 0.0;
     if (damped && part > limits_.dissipation)
@@ -170,23 +174,31 @@ class Writer {
                      fmt::format("the numerical damping of the integrator (spectral radius {:g}) "
                                  "has removed {:.4g} J "
                                  "from the system by t = {:.4g} s, {} of the {:.4g} J exchanged "
-                                 "(limit {}); take a smaller "
-                                 "step than {:g} s or a spectral radius nearer to 1",
+                                 "(limit {}); {}",
                                  spectral_radius, x, e.largest_remainder_at, percent(part),
-                                 e.exchanged, percent(limits_.dissipation), step_)});
+                                 e.exchanged, percent(limits_.dissipation),
+                                 remedy(e, " or a spectral radius nearer to 1"))});
     if (!damped && part > limits_.imbalance)
       out.push_back(
           {RangeLimit::balance,
            fmt::format("the energy balance does not close: at t = {:.4g} s the system has {:.4g} J "
                        "{} than the "
                        "work of all forces and motions explains, {} of the {:.4g} J exchanged "
-                       "(limit {}); take "
-                       "a smaller step than {:g} s",
+                       "(limit {}); {}",
                        e.largest_remainder_at, x, e.largest_remainder > 0.0 ? "more" : "less",
-                       percent(part), e.exchanged, percent(limits_.imbalance), step_)});
+                       percent(part), e.exchanged, percent(limits_.imbalance), remedy(e, ""))});
   }
 
  private:
+  /// What the balance came apart by, if that can be seen; else the step is to blame.
+  std::string remedy(const EnergySummary& e, const char* or_else) const {
+    const std::string cause =
+        energy_cause(model_, e.largest_growth_from, e.largest_growth_to, step_);
+    if (cause.empty()) return fmt::format("take a smaller step than {:g} s{}", step_, or_else);
+    return fmt::format("{:.4g} J of it appear between t = {:.4g} and {:.4g} s, where {}",
+                       e.largest_growth, e.largest_growth_from, e.largest_growth_to, cause);
+  }
+
   static constexpr long least_steps = 6;
   static constexpr double least_vibration = 1e-4;
 
@@ -261,6 +273,7 @@ std::vector<RangeWarning> RangeWatch::warnings(const EnergySummary& energy,
   writer.turn(out);
   writer.phase(meters_, out);
   writer.balance(energy, spectral_radius, out);
+  turns_.warn(out);
   return out;
 }
 

@@ -17,12 +17,13 @@ enum class RangeLimit {
   table,         ///< ... for a table
   damping,       ///< numerical damping takes too much energy
   balance,       ///< the energy balance does not close
-  branch         ///< the mechanism passed a singular position, where it may branch
+  branch,        ///< the mechanism passed a singular position, where it may branch
+  half_turn      ///< the rotation that a force element measures passed half a turn
 };
 /// In this order.
-inline constexpr std::array<const char*, 10> range_limit_names{
-    "displacement", "rotation", "spin",    "turn",    "phase",
-    "sine",         "table",    "damping", "balance", "branch"};
+inline constexpr std::array<const char*, 11> range_limit_names{
+    "displacement", "rotation", "spin",    "turn",   "phase",    "sine",
+    "table",        "damping",  "balance", "branch", "half_turn"};
 
 struct RangeWarning {
   RangeLimit limit = RangeLimit::displacement;

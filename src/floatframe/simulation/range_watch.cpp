@@ -188,7 +188,7 @@ double PhaseMeter::phase() const noexcept {
 }
 
 RangeWatch::RangeWatch(const Model& model, double step, const RangeLimits& limits)
-    : model_(model), step_(step), limits_(limits) {
+    : model_(model), step_(step), limits_(limits), turns_(model, step) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     bodies_.emplace_back(model, static_cast<int>(i));
     const InertiaInvariants& v = model.bodies[i].data->invariants;

@@ -8,6 +8,7 @@
 
 #include "floatframe/model/model.hpp"
 #include "floatframe/simulation/results.hpp"
+#include "floatframe/simulation/turn_watch.hpp"
 
 namespace floatframe {
 
@@ -20,6 +21,7 @@ struct RangeLimits {
   double share = 0.05;        ///< of the kinetic energy of all oscillations that counts
   double imbalance = 0.05;    ///< remainder of the energy balance over the energy exchanged
   double dissipation = 0.1;   ///< the same of what numerical damping takes out
+  double of_present = 1e-4;   ///< of the energy present, below which no remainder counts
 };
 
 /// Motion in a step below which only the tolerances of the solver show [m, rad].
@@ -136,6 +138,8 @@ class RangeWatch {
   const std::vector<BodyRange>& bodies() const noexcept { return bodies_; }
   /// Two per body, its motion and its turning, then one per mode.
   std::vector<PhaseMeter>& meters(int body) noexcept { return meters_[body]; }
+  /// Of the force elements that measure rotations.
+  TurnWatch& turns() noexcept { return turns_; }
   double step() const noexcept { return step_; }
   /// Energy of all bodies moving by `least_motion` per step [J].
   double noise() const noexcept;
@@ -148,6 +152,7 @@ class RangeWatch {
     for (BodyRange& body : bodies_) body.walk(s);
     for (std::vector<PhaseMeter>& of_body : meters_)
       for (PhaseMeter& meter : of_body) meter.walk(s);
+    turns_.walk(s);
   }
 
  private:
@@ -156,6 +161,7 @@ class RangeWatch {
   RangeLimits limits_;
   std::vector<BodyRange> bodies_;
   std::vector<std::vector<PhaseMeter>> meters_;
+  TurnWatch turns_;
 };
 
 /// Where an equilibrium leaves the range: bodies that deform too far, one sentence per kind.

@@ -53,6 +53,9 @@ struct EnergySummary {  ///< [J]
   double remainder = 0;   ///< change of the total less all work, at the end
   double largest_remainder = 0, largest_remainder_at = 0;  ///< by magnitude [J], and when [s]
   double exchanged = 0;                                    ///< what remainders are measured against
+  double present = 0;  ///< the most in motion and modes together: weight and springs have no zero
+  /// The largest change of the remainder from one look at it to the next, and when these were [s].
+  double largest_growth = 0, largest_growth_from = 0, largest_growth_to = 0;
 };
 
 /// The processor time of steps with their outputs [s], counted in bins of about equal ratio.
@@ -70,6 +73,7 @@ struct RunSummary {
   long iterations = 0, factorizations = 0;
   bool locates_edges = false;        ///< with `locate_edges`
   long edges = 0, edges_passed = 0;  ///< edges that steps were divided at; steps with too many
+  long corners = 0;                  ///< of functions of time, that steps were divided at
   double cpu = 0;                    ///< [s] of stepping, without input and output
   double real_time_factor = 0;       ///< duration / cpu
   StepTimes step_times;
@@ -135,6 +139,7 @@ struct StaticsResult {
   std::vector<StaticsBody> bodies;
   std::shared_ptr<SystemState> state;  ///< the equilibrium, at rest
   std::vector<RedundantDirection> redundant;
+  std::vector<std::string> notes;  ///< what else to know of the equilibrium: it is unstable
 };
 
 }  // namespace floatframe

@@ -227,6 +227,7 @@ class Run {
     s.factorizations = c.factorizations;
     s.edges = c.edges;
     s.edges_passed = c.edges_passed;
+    s.corners = c.corners;
     s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
     s.step_times = step_times(step_times_);
     s.max_position_violation = c.max_position_violation;
@@ -240,7 +241,7 @@ class Run {
     if (!watch_) return;
     watch_->finish(steps_.state(), o_.spectral_radius, s);
     const auto unresolved =
-        unresolved_forcing(steps_.model(), o_.step, steps_.begin(), o_.duration);
+        unresolved_forcing(steps_.model(), o_.step, steps_.begin(), o_.duration, steps_.corners());
     s.warnings.insert(s.warnings.begin(), unresolved.begin(), unresolved.end());
   }
 

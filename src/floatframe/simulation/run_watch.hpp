@@ -26,7 +26,8 @@ class RunWatch {
     for (const Body& b : f_.model().bodies) mass_.push_back(b.data->invariants.m);
     for (const double m : mass_) total += m;
     // Without any mass the penalty is scaled by 1 kg, and so is what rounding leaves of it.
-    if (total == 0.0) mass_.assign(mass_.size(), massless * f_.model().mean_mass);
+    weightless_ = total == 0.0;
+    if (weightless_) mass_.assign(mass_.size(), massless * f_.model().mean_mass);
   }
 
   /// What `health` writes.
@@ -126,6 +127,8 @@ class RunWatch {
           f_.body_velocity(body).norm() + f_.body_angular_velocity(body).norm() * b.length;
       e.motion += 0.5 * mass_[i] * fastest * fastest;
     }
+    e.present = e.kinetic + e.elastic;
+    if (weightless_) e.present += e.motion;
     return e;
   }
 
@@ -147,6 +150,7 @@ class RunWatch {
   EnergyBalance balance_;
   HealthEffort effort_;
   std::vector<double> mass_;  ///< of the bodies, for the energy of their motion [kg]
+  bool weightless_ = false;   ///< nothing has mass
   long every_, records_ = 0;
 };
 

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "floatframe/formulation/absolute.hpp"
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 #include "floatframe/model/output_kind.hpp"
+#include "floatframe/simulation/corner_steps.hpp"
 #include "floatframe/simulation/edge_locator.hpp"
 #include "floatframe/simulation/overflow.hpp"
 #include "floatframe/simulation/reaction_solver.hpp"
@@ -26,6 +28,7 @@ namespace floatframe {
 struct RunnerMemory {
   IntegratorExperience experience;
   std::vector<FollowedOutput> outputs;
+  std::vector<double> inputs;  ///< that the accelerations of the state belong to
   StepCounters counters;
 };
 
@@ -35,6 +38,7 @@ class Runner {
   Runner(F& formulation, const StepOptions& options, double min_step)
       : f_(formulation), integrator_(formulation, options), min_step_(min_step) {
     memory_.outputs.resize(f_.model().outputs.size());
+    memory_.inputs.assign(f_.inputs().begin(), f_.inputs().end());
     terms_ = output_terms(f_.model());
   }
   /// What outputs of reactions are taken from; it must outlive this.
@@ -49,9 +53,23 @@ class Runner {
     locator_->hold(state_);
   }
   bool locates_edges() const noexcept { return locator_.has_value(); }
-  /// Of the edges that are located.
+  /// From now on steps are divided at these corners of functions of time.
+  void locate_corners(const std::vector<TimeCorner>& corners) {
+    if (!corners.empty()) corners_.emplace(f_, integrator_, corners);
+  }
+  std::span<const TimeCorner> corners() const noexcept {
+    return corners_ ? std::span<const TimeCorner>(corners_->corners())
+                    : std::span<const TimeCorner>();
+  }
+  /// Inputs that have jumped act like a ramp over the step, not held over its whole length.
+  void use_inputs(InputUse use) noexcept { input_use_ = use; }
+  InputUse input_use() const noexcept { return input_use_; }
+
+  /// Of the edges and corners that are located, and of inputs that jump.
   void set_edge_watch(const EdgeWatch& watch) noexcept {
+    watch_ = watch;
     if (locator_) locator_->set_watch(watch);
+    if (corners_) corners_->set_watch(watch);
   }
 
   State& state() noexcept { return state_; }
@@ -76,7 +94,9 @@ class Runner {
   /// substep.
   bool advance(double h) noexcept {
     asked_ = h;
+    take_inputs(h);
     const double end = state_.t + h;
+    const bool divided = locator_ || meets_corner(h);
     StepAttempt r = attempt(h);
     count(r);
     last_ = r;
@@ -84,7 +104,7 @@ class Runner {
       ++memory_.counters.steps;
       return true;
     }
-    double remaining = locator_ ? end - state_.t : h, sub = 0.5 * remaining;
+    double remaining = divided ? end - state_.t : h, sub = 0.5 * remaining;
     while (remaining > 1e-9 * h) {
       if (sub < min_step_ || !(sub > 0.0)) return false;
       const double now = std::min(sub, remaining);
@@ -97,7 +117,7 @@ class Runner {
         if (remaining > 0.0 && sub < 0.5 * h) sub *= 2.0;
       } else {
         sub = 0.5 * now;
-        if (locator_) remaining = end - state_.t;
+        if (divided) remaining = end - state_.t;
       }
     }
     state_.t = end;
@@ -237,8 +257,35 @@ class Runner {
 
  private:
   StepAttempt attempt(double h) noexcept {
+    if (!meets_corner(h)) return smooth(h);
+    return corners_->step(
+        state_, h, memory_.counters.corners, [this](double size) { return smooth(size); },
+        [this] { hold_branches(); });
+  }
+
+  /// A step in which no function of time has a corner.
+  StepAttempt smooth(double h) noexcept {
     if (!locator_) return integrator_.step(state_, h);
     return locator_->step(state_, h, memory_.counters.edges, memory_.counters.edges_passed);
+  }
+
+  bool meets_corner(double h) const noexcept { return corners_ && corners_->within(state_.t, h); }
+
+  /// What forces are on their branches for may jump.
+  void hold_branches() noexcept {
+    if (locator_) locator_->hold(state_);
+  }
+
+  /// Inputs that have jumped since the last step are held over the whole of the next one, of size
+  /// h: accelerations and multipliers are those of the new values.
+  void take_inputs(double h) noexcept {
+    const std::span<const double> now = f_.inputs();
+    if (std::equal(now.begin(), now.end(), memory_.inputs.begin())) return;
+    std::copy(now.begin(), now.end(), memory_.inputs.begin());
+    if (input_use_ == InputUse::ramp) return;
+    hold_branches();
+    integrator_.restart_in_course(state_, h);
+    watch_(state_, integrator_.reactions());
   }
 
   /// Substep that was tried last [s].
@@ -258,6 +305,9 @@ class Runner {
   F& f_;
   AugmentedLagrangian<F> integrator_;
   std::optional<EdgeLocator<F>> locator_;
+  std::optional<CornerSteps<F>> corners_;
+  EdgeWatch watch_;
+  InputUse input_use_ = InputUse::held;
   State state_;
   double min_step_, asked_ = 0.0;
   StepAttempt last_;

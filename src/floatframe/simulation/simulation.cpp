@@ -42,7 +42,10 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
   VecX at_rest = VecX::Zero(f.velocities());
   close_loops(f, state.q, start == Start::equilibrium ? at_rest : state.v, true);
   if (start == Start::equilibrium) {
-    find_equilibrium(f, state.q);
+    const Equilibrium e = find_equilibrium(f, state.q);
+    if (report != nullptr)
+      if (std::string note = unstable_equilibrium(f, state.q, e.lambda); !note.empty())
+        report->notes.push_back(std::move(note));
     close_loops(f, state.q, state.v, false);
   }
   if (report == nullptr) return state;

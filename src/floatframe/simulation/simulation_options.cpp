@@ -27,6 +27,7 @@ SimulationDescription described(const Model& model, const SimulationOptions& opt
   set("position_tolerance", d.position_tolerance, options.position_tolerance);
   set("velocity_tolerance", d.velocity_tolerance, options.velocity_tolerance);
   set("locate_edges", d.locate_edges, options.locate_edges);
+  set("input", d.input, options.input);
   require_valid(d);
   return d;
 }

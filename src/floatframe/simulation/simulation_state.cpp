@@ -14,7 +14,7 @@ namespace floatframe {
 namespace {
 
 constexpr std::string_view state_magic = "ffstate\n";
-constexpr std::uint64_t state_version = 2;
+constexpr std::uint64_t state_version = 3;
 constexpr const char* saved_state = "the saved state";
 constexpr std::size_t checksum_size = 32;
 
@@ -26,7 +26,7 @@ std::string checksum(std::span<const std::byte> bytes) {
 template <class Stream, class Data>
 void walk(Stream& s, Data& d) {
   s(d.fingerprint);
-  for (auto* n : {&d.coordinates, &d.inertia, &d.max_iterations, &d.locate_edges}) s(*n);
+  for (auto* n : {&d.coordinates, &d.inertia, &d.max_iterations, &d.locate_edges, &d.input}) s(*n);
   for (auto* x : {&d.step, &d.spectral_radius, &d.tolerance, &d.min_step, &d.penalty,
                   &d.position_tolerance, &d.velocity_tolerance, &d.joints_time})
     s(*x);

@@ -128,9 +128,10 @@ void walk_steps(Stream& s, Memory& m) {
   s(m.runner.experience.continues_at);
   s(m.runner.experience.reuse_rate);
   s(m.runner.outputs);
+  s(m.runner.inputs);
   auto& c = m.runner.counters;
   for (auto* n : {&c.steps, &c.substeps, &c.iterations, &c.factorizations, &c.cut_short, &c.edges,
-                  &c.edges_passed})
+                  &c.edges_passed, &c.corners})
     s(*n);
   s(c.max_position_violation);
   s(c.max_velocity_violation);

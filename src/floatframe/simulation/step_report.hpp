@@ -41,6 +41,7 @@ struct StepCounters {
   long iterations = 0, factorizations = 0;
   long edges = 0;                       ///< that steps were divided at (`locate_edges`)
   long edges_passed = 0;                ///< steps with more edges than are looked for
+  long corners = 0;                     ///< of functions of time, that steps were divided at
   long cut_short = 0;                   ///< accepted before they had converged (real time)
   double max_position_violation = 0.0;  ///< [m] after steps
   double max_velocity_violation = 0.0;  ///< [m/s] after the projections

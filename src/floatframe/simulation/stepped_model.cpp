@@ -33,6 +33,8 @@ SteppedModel<F>::SteppedModel(const Model& model, const SimulationDescription& o
       min_step_(limits.min_step.value_or(start_.min_step())),
       runner_(f_, step_options_, min_step_),
       grid_(start_.state().t, options.step, limits.duration) {
+  find_corners(options, limits);
+  runner_.use_inputs(options.input);
   begin_at_start(options.locate_edges && !limits.bounded);
   prepare_reactions();
   if (reactions_ && !reactions_->open_outputs().empty())
@@ -49,8 +51,21 @@ SteppedModel<F>::SteppedModel(const SteppedModel& found, double duration)
       min_step_(found.min_step_),
       runner_(f_, step_options_, min_step_),
       grid_(start_.state().t, found.grid_.step(), duration) {
+  runner_.locate_corners({found.corners().begin(), found.corners().end()});
+  runner_.use_inputs(found.runner_.input_use());
   begin_at_start(found.runner_.locates_edges());
   prepare_reactions();
+}
+
+template <class F>
+void SteppedModel<F>::find_corners(const SimulationDescription& o, const StepLimits& limits) {
+  TimeCorners found = time_corners(
+      model(),
+      {.step = o.step, .begin = begin(), .duration = limits.duration, .all = o.locate_edges});
+  if (!limits.bounded) runner_.locate_corners(found.located);
+  for (std::string& note : found.velocity_jumps) start_.add_note(std::move(note));
+  for (std::string& note : limits.bounded ? found.passed : found.dense)
+    start_.add_note(std::move(note));
 }
 
 template <class F>

@@ -23,7 +23,7 @@ struct StepLimits {
   std::optional<double> min_step = {};  ///< smallest substep [s]; else that of the options
   int fixed_iterations = 0;             ///< see StepOptions
   double time_budget = 0.0;             ///< see StepOptions [s]
-  bool bounded = false;                 ///< edges are not located, whatever the options say
+  bool bounded = false;                 ///< steps are not divided at edges and corners
 };
 
 /// All that decides the next steps, beside the inputs.
@@ -73,7 +73,10 @@ class SteppedModel {
   /// Index of the force element with the largest force at the last evaluation; -1: there is none.
   int largest_force() const noexcept { return runner_.largest_force(); }
 
-  /// Called at edges that steps are divided at.
+  /// Where steps are divided at corners of functions of time.
+  std::span<const TimeCorner> corners() const noexcept { return runner_.corners(); }
+  /// Called where forces jump: at edges and corners that steps are divided at, before and after
+  /// them, and after inputs have jumped.
   void set_edge_watch(const EdgeWatch& watch) noexcept { runner_.set_edge_watch(watch); }
 
   /// Time and outputs at the present state, to which the formulation is brought. Outputs count
@@ -95,6 +98,7 @@ class SteppedModel {
 
  private:
   void begin_at_start(bool locate_edges);
+  void find_corners(const SimulationDescription& options, const StepLimits& limits);
   void prepare_reactions();
 
   StartedModel<F> start_;

@@ -43,6 +43,7 @@ struct SimulationOptions {
   std::optional<double> penalty = {};
   std::optional<double> position_tolerance = {}, velocity_tolerance = {};  ///< [m], [m/s]
   std::optional<bool> locate_edges = {};
+  std::optional<InputUse> input = {};
 };
 
 class Simulation {
@@ -77,8 +78,8 @@ class Simulation {
   /// In the order of `model().inputs`, and what they are now.
   std::vector<std::string> input_names() const;
   std::span<const double> inputs() const noexcept;
-  /// Held from the next step on. Throws InputError for an unknown input and for a value that is not
-  /// finite or outside of its limits (with `clamp`, the nearer limit is taken).
+  /// Held over the next step and on. Throws InputError for an unknown input and for a value that is
+  /// not finite or outside of its limits (with `clamp`, the nearer limit is taken).
   void set_input(std::string_view name, double value);
   void set_input(std::ptrdiff_t index, double value);
   template <std::same_as<std::nullptr_t> T>
@@ -95,7 +96,7 @@ class Simulation {
 
   /// Called at the beginning of every step with the time, the outputs and the inputs, which it may
   /// change: a force of the user's own is a load, an actuator or a target with an input. They are
-  /// held during the step, also in its substeps. Values are held to the same rules as by
+  /// held over the whole of the step, also in its substeps. Values are held to the same rules as by
   /// `set_input`. An empty function removes it.
   using ForceCallback =
       std::function<void(double time, std::span<const double> outputs, std::span<double> inputs)>;

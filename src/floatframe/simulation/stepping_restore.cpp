@@ -35,6 +35,7 @@ std::shared_ptr<SimulationState::Data> Simulation::Engine::present() {
   data->inertia = static_cast<std::int64_t>(o_.inertia);
   data->max_iterations = o_.max_iterations;
   data->locate_edges = o_.locate_edges ? 1 : 0;
+  data->input = static_cast<std::int64_t>(o_.input);
   data->step = o_.step;
   data->spectral_radius = o_.spectral_radius;
   data->tolerance = o_.tolerance;
@@ -68,6 +69,7 @@ std::string Simulation::Engine::complaint(const SimulationState::Data& d,
             static_cast<double>(own.max_iterations)},
            {"locate_edges", static_cast<double>(d.locate_edges),
             static_cast<double>(own.locate_edges)},
+           {"input", static_cast<double>(d.input), static_cast<double>(own.input)},
            {"step", d.step, own.step},
            {"spectral_radius", d.spectral_radius, own.spectral_radius},
            {"tolerance", d.tolerance, own.tolerance},

@@ -48,7 +48,8 @@ std::string choose(E& field, const std::string& value, const char* first, const 
 
 const std::vector<std::string>& simulation_option_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> n{"coordinates", "inertia", "start", "max_iterations", "locate_edges"};
+    std::vector<std::string> n{"coordinates",    "inertia",      "start",
+                               "max_iterations", "locate_edges", "input"};
     for (const NumberOption& o : number_options()) n.emplace_back(o.name);
     return n;
   }();
@@ -59,6 +60,7 @@ std::string set_simulation_option(SimulationDescription& s, const std::string& n
                                   const std::string& value) {
   if (name == "coordinates") return choose(s.coordinates, value, "relative", "absolute");
   if (name == "inertia") return choose(s.inertia, value, "preprocessing", "projection");
+  if (name == "input") return choose(s.input, value, "held", "ramp");
   if (name == "start") return choose(s.start, value, "given", "equilibrium");
   const PlainScalar scalar = classify_plain_scalar(value);
   if (name == "locate_edges") {

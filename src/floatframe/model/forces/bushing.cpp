@@ -23,6 +23,12 @@
 //   stiffness  sum f_s g g^T + f_sdot g (dsdot/d(motion))^T + f dg/d(motion),  damping f_sdot g g^T
 // over all six; the rows of the step hold f_s g g^T and the damping. At |theta| = pi the rotation
 // vector jumps: a bushing is meant for less.
+// Dampers of rotations are laws of thetadot_i, or with `rotation_rate: angular_velocity` of the
+// components u_i themselves, moments about the axes of a: with equal ones -c (w_b - w_a), a viscous
+// ball joint, which turns without end. Then
+//   moment     R_a tau^d, tau^d_i = damper_i(u_i), gradients (0, -e_i, 0, e_i)
+//   d(u)       = R_a^T skew(w_b - w_a) dpi_a,   d(R_a tau^d) = dpi_a x (R_a tau^d) + R_a d(tau^d)
+// and the rows of the dampers stand beside those of the springs.
 // Mirrored: axis and axis_2 are polar, so e_2 = e_3 x e_1 and the axial theta reflect such that,
 // for an odd number of planes, s_2, theta_1 and theta_3 change their signs: their laws become
 // -f(-x).
@@ -86,6 +92,9 @@ const PiecewisePolynomial& damper(const ForceInput& in, int i) noexcept {
   return in.force.laws[6 + i];
 }
 
+/// Dampers of rotations are laws of the angular velocity.
+bool of_angular_velocity(const Force& force) noexcept { return !force.numbers.empty(); }
+
 /// The measure i with its gradient.
 AxisMeasure bushing_measure(const ForceInput& in, const Turn& turn, int i) noexcept {
   if (i < 3) return axis_measure(in.a.R.col(i), in.a, in.b);
@@ -93,30 +102,50 @@ AxisMeasure bushing_measure(const ForceInput& in, const Turn& turn, int i) noexc
   return {turn.theta[i - 3], turn.rate[i - 3], {Vec3::Zero(), -h, Vec3::Zero(), h}};
 }
 
+/// The rate that the damper i is a law of, with its gradient; `m`: the measure i.
+AxisMeasure damped_measure(const ForceInput& in, const Turn& turn, int i,
+                           const AxisMeasure& m) noexcept {
+  if (i < 3 || !of_angular_velocity(in.force)) return m;
+  const Vec3 e = in.a.R.col(i - 3);
+  return {0.0, turn.u[i - 3], {Vec3::Zero(), -e, Vec3::Zero(), e}};
+}
+
+void take_off(double f, const WrenchRow& g, WrenchRow& w) noexcept {
+  w.Fa -= f * g.Fa;
+  w.Ta -= f * g.Ta;
+  w.Fb -= f * g.Fb;
+  w.Tb -= f * g.Tb;
+}
+
 }  // namespace
 
 template <>
 void force_of<ForceType::bushing>(const ForceInput& in, ForceState& out) noexcept {
   const Turn turn(in);
+  const bool apart = of_angular_velocity(in.force);
   Vec3 force = Vec3::Zero(), s = Vec3::Zero(), rate = Vec3::Zero();
   for (int i = 0; i < 6; ++i) {
-    const AxisMeasure m = bushing_measure(in, turn, i);
-    const PiecewisePolynomial::Value k = spring(in, i)(m.s), c = damper(in, i)(m.rate);
+    const AxisMeasure m = bushing_measure(in, turn, i), d = damped_measure(in, turn, i, m);
+    const PiecewisePolynomial::Value k = spring(in, i)(m.s), c = damper(in, i)(d.rate);
     const double f = k.f + c.f;
-    out.wrench.Fa -= f * m.g.Fa;
-    out.wrench.Ta -= f * m.g.Ta;
-    out.wrench.Fb -= f * m.g.Fb;
-    out.wrench.Tb -= f * m.g.Tb;
-    out.rows[i] = {m.g, k.df, c.df};
+    if (i < 3 || !apart) {
+      take_off(f, m.g, out.wrench);
+      out.rows[i] = {m.g, k.df, c.df};
+    } else {
+      take_off(k.f, m.g, out.wrench);
+      take_off(c.f, d.g, out.wrench);
+      out.rows[i] = {m.g, k.df, 0.0};
+      out.rows[i + 3] = {d.g, 0.0, c.df};
+    }
     out.energy += law_energy(spring(in, i), m.s);
     out.energy_rate += k.f * m.rate;
-    out.damping += c.f * m.rate;
+    out.damping += c.f * d.rate;
     if (i >= 3) continue;
     force[i] = f;
     s[i] = m.s;
     rate[i] = m.rate;
   }
-  out.row_count = 6;
+  out.row_count = apart ? 9 : 6;
   out.force = force.norm();
   out.length = s.norm();
   out.rate = out.length > 0.0 ? s.dot(rate) / out.length : 0.0;
@@ -129,28 +158,34 @@ void force_tangent_of<ForceType::bushing>(const ForceInput& in, ForceTangent& ou
   const Mat3 to_a = in.a.R.transpose(), B_to_a = turn.B * to_a;
   const Mat3 E = 0.5 * skew(turn.u) + turn.change(turn.u);
   const Mat3 of_b = E * B_to_a, of_a = B_to_a * skew(in.b.w - in.a.w) - of_b;
-  Vec3 tau = Vec3::Zero();
+  const bool apart = of_angular_velocity(in.force);
+  const Vec3 w = in.b.w - in.a.w;
+  Vec3 tau = Vec3::Zero(), tau_d = Vec3::Zero();  // by the gradients of theta, and by e_i
   for (int i = 0; i < 6; ++i) {
-    const AxisMeasure m = bushing_measure(in, turn, i);
-    const PiecewisePolynomial::Value k = spring(in, i)(m.s), c = damper(in, i)(m.rate);
-    const Vec12 g = stacked(m.g);
+    const AxisMeasure m = bushing_measure(in, turn, i), d = damped_measure(in, turn, i, m);
+    const PiecewisePolynomial::Value k = spring(in, i)(m.s), c = damper(in, i)(d.rate);
+    const Vec12 g = stacked(m.g), g_d = stacked(d.g);
     out.K.noalias() += k.df * g * g.transpose();
-    out.C.noalias() += c.df * g * g.transpose();
+    out.C.noalias() += c.df * g_d * g_d.transpose();
     Vec12 rate_gradient = Vec12::Zero();
     if (i < 3) {
       const Vec3 e = in.a.R.col(i);
       rate_gradient = axis_rate_gradient(e, in.a, in.b);
       add_axis_curvature(e, in.a, in.b, k.f + c.f, out.K);
+    } else if (apart) {
+      tau[i - 3] = k.f;
+      tau_d[i - 3] = c.f;
+      rate_gradient.segment<3>(pi_a) = in.a.R.col(i - 3).cross(w);
     } else {
       tau[i - 3] = k.f + c.f;
       rate_gradient.segment<3>(pi_a) = of_a.row(i - 3).transpose();
       rate_gradient.segment<3>(pi_b) = of_b.row(i - 3).transpose();
     }
-    out.K.noalias() += c.df * g * rate_gradient.transpose();
+    out.K.noalias() += c.df * g_d * rate_gradient.transpose();
   }
   const Mat3 D = turn.change(tau) - 0.5 * skew(tau);
   const Mat3 W = in.a.R * D * B_to_a;
-  const Mat3 along_a = -W - skew(B_to_a.transpose() * tau);
+  const Mat3 along_a = -W - skew(B_to_a.transpose() * tau + in.a.R * tau_d);
   out.K.block<3, 3>(pi_b, pi_a) += along_a;
   out.K.block<3, 3>(pi_b, pi_b) += W;
   out.K.block<3, 3>(pi_a, pi_a) -= along_a;
@@ -162,6 +197,7 @@ namespace {
 constexpr ForceKey law_key(const char* name, ForceKeyKind kind, ForceAxis axis, const char* about) {
   return {.name = name, .kind = kind, .about = about, .axis = axis};
 }
+constexpr const char* rotation_rates[] = {"rotation_vector", "angular_velocity"};
 constexpr ForceKeyKind spring_law = ForceKeyKind::spring, damper_law = ForceKeyKind::damper;
 constexpr ForceAxis along = ForceAxis::along, about_axis = ForceAxis::about;
 
@@ -187,7 +223,13 @@ constexpr ForceKey bushing_keys[] = {
     law_key("damper_z", damper_law, along, "along e₃"),
     law_key("damper_rx", damper_law, about_axis, "of the rate of the rotation about e₁"),
     law_key("damper_ry", damper_law, about_axis, "about e₂"),
-    law_key("damper_rz", damper_law, about_axis, "about e₃")};
+    law_key("damper_rz", damper_law, about_axis, "about e₃"),
+    {.name = "rotation_rate",
+     .kind = ForceKeyKind::word,
+     .about = "what `damper_rx`, `damper_ry` and `damper_rz` are laws of: the rates of the "
+              "components of the rotation vector, or the components of the angular velocity of "
+              "`to` relative to `from`, which may then turn without end",
+     .words = rotation_rates}};
 constexpr int first_law = 4;
 
 /// Design axes.
@@ -222,7 +264,18 @@ bool bushing_build(ForceBuild& b) {
   b.force.a = b.marker("from", true, R);
   b.force.b = b.marker("to", true, R);
   for (int i = 0; i < 12; ++i) b.force.laws.push_back(b.law(bushing_keys[first_law + i].name));
+  if (b.word("rotation_rate") == 1) b.force.numbers = {1.0};
   return b.force.a >= 0 && b.force.b >= 0;
+}
+
+bool bushing_ends(const Force& f) noexcept {
+  for (std::size_t i = 3; i < (of_angular_velocity(f) ? 6u : 12u); ++i) {
+    if (i >= 6 && i < 9) continue;
+    for (const PiecewisePolynomial::Piece& p : f.laws[i].pieces())
+      for (const double c : p.coefficients)
+        if (c != 0.0) return true;
+  }
+  return false;
 }
 
 /// -f(-x)
@@ -251,6 +304,7 @@ constexpr ForceRegime bushing_regimes[] = {
     {.name = "anywhere", .rows_leave_out = turning_axes},
     {.name = "almost_aligned", .rows_leave_out = turning_axes},
     {.name = "far_turned", .rows_leave_out = turning_axes},
+    {.name = "angular_velocity", .rows_leave_out = turning_axes},
 };
 
 ForceExample bushing_example(std::size_t regime, ExampleNumbers& numbers) {
@@ -264,7 +318,9 @@ ForceExample bushing_example(std::size_t regime, ExampleNumbers& numbers) {
   for (int i = 0; i < 6; ++i) x.force.laws.push_back(example_damper(numbers));
   x.a = numbers.marker();
   x.b = numbers.marker();
-  const double angles[] = {numbers(0.3, 2.0), numbers(0.0, 1e-3), numbers(2.5, 3.0)};
+  if (regime == 3) x.force.numbers = {1.0};
+  const double angles[] = {numbers(0.3, 2.0), numbers(0.0, 1e-3), numbers(2.5, 3.0),
+                           numbers(0.3, 3.0)};
   x.b.R = x.a.R * rotation_exp(angles[regime] * numbers.direction());
   return x;
 }
@@ -275,14 +331,18 @@ constinit const ForceKind bushing_element = {
     .about =
         "elastic connection of two bodies with a law for each displacement along and each rotation "
         "about axes fixed in the body of `from`; the rotations are the components of the rotation "
-        "vector of the other body in these axes, of less than half a turn. Displacements of laws "
-        "that are a number count from the design configuration; a preload goes into the law. "
+        "vector of the other body in these axes, of less than half a turn, and the dampers of "
+        "rotations "
+        "are laws of its rates unless `rotation_rate` says otherwise. Displacements of laws that "
+        "are "
+        "a number count from the design configuration; a preload goes into the law. "
         "Results: size of the force, distance of the points and its rate",
     .keys = bushing_keys,
     .free_value = design_displacement,
     .validate = bushing_validate,
     .build = bushing_build,
     .mirror = bushing_mirror,
+    .ends_at_half_turn = bushing_ends,
     .regimes = bushing_regimes,
     .example = bushing_example};
 

@@ -1,0 +1,255 @@
+// What is possible but unusual: angles in degrees, a rigid body without inertia that can turn, a
+// body that is clamped where nothing holds it. Units of bars: bar_hints.cpp.
+#include "floatframe/model/model_hints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "floatframe/fe/node_dof_names.hpp"
+#include "floatframe/model/hint_list.hpp"
+#include "floatframe/model/joint_motion.hpp"
+
+namespace floatframe {
+
+namespace {
+constexpr std::size_t most_hints = 200;  // nobody reads more, and each is compared with all
+}
+
+void HintList::add(const std::string& kind, const std::string& name, std::string sentence) {
+  for (Hint& h : hints_)
+    if (h.kind == kind && h.sentence == sentence) {
+      ++h.others;
+      return;
+    }
+  if (hints_.size() == most_hints) return;
+  hints_.push_back({name, kind, std::move(sentence), 0});
+}
+
+std::vector<std::string> HintList::texts() const {
+  std::vector<std::string> out;
+  for (const Hint& h : hints_)
+    out.push_back(fmt::format("{} '{}'{}: {}", h.kind, h.subject,
+                              h.others > 0 ? fmt::format(" (and {} more)", h.others) : "",
+                              h.sentence));
+  return out;
+}
+
+namespace {
+
+constexpr double full_turn = 2.0 * std::numbers::pi;
+
+/// "... of 30 rad is 4.8 turns; angles are in radians (30 degrees are 0.5236 rad)"
+std::string turns_text(const std::string& what, double angle) {
+  return fmt::format(
+      "{} of {:.4g} rad is {:.3g} turns; angles are in radians ({:.4g} degrees are "
+      "{:.4g} rad)",
+      what, angle, std::abs(angle) / full_turn, angle, angle * std::numbers::pi / 180.0);
+}
+
+/// A turn that is written with few digits is one.
+bool beyond_a_turn(double angle) { return std::abs(angle) > 1.001 * full_turn; }
+
+/// Whole multiples of 5 of which one is more than a turn: a table in degrees. One that counts turns
+/// has other numbers.
+bool looks_like_degrees(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double x : values) {
+    if (!(std::abs(x - 5.0 * std::round(x / 5.0)) < 1e-9 * (1.0 + std::abs(x)))) return false;
+    most = std::max(most, std::abs(x));
+  }
+  return most > full_turn;
+}
+
+void hint_at_angle_of_time(const std::string& kind, const std::string& name,
+                           const std::string& what, const TimeFunction& f, HintList& out) {
+  const PiecewisePolynomial& p = f.pieces;
+  std::vector<double> values;
+  for (const double b : p.breaks()) values.push_back(p(b).f);
+  const bool constant = values.empty() && p(0.0).df == 0.0 && p(0.0).ddf == 0.0;
+  if (beyond_a_turn(f.amplitude))
+    out.add(kind, name, turns_text("the amplitude of " + what, f.amplitude));
+  else if (constant && beyond_a_turn(p(0.0).f))
+    out.add(kind, name, turns_text(what, p(0.0).f));
+  else if (looks_like_degrees(values)) {
+    const double most = *std::max_element(
+        values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    out.add(kind, name, turns_text("an entry of " + what, most));
+  }
+}
+
+/// A law whose entries are all beyond a turn, on both sides of zero or on one.
+void hint_at_law_of_angle(const Force& force, const PiecewisePolynomial& law, HintList& out) {
+  double least = 0.0;
+  for (const double b : law.breaks())
+    if (b != 0.0) least = least == 0.0 || std::abs(b) < std::abs(least) ? b : least;
+  if (beyond_a_turn(least))
+    out.add("force", force.name, turns_text("the nearest entry of its spring", least));
+}
+
+void hint_at_angles(const ModelDescription& description, const Model& model, HintList& out) {
+  for (const BodyDescription& body : description.bodies)
+    if (beyond_a_turn(body.largest_angle))
+      out.add("body", body.name, turns_text("an angle of its orientation", body.largest_angle));
+  for (const Joint& joint : model.joints) {
+    if (joint.automatic) continue;
+    const auto turns = [&](int component) {
+      return std::string(joint_unit_name(joint.type, component)) == "rad";
+    };
+    for (std::size_t k = 0; k < joint.position.size(); ++k)
+      if (turns(static_cast<int>(k)) && beyond_a_turn(joint.position[k])) {
+        out.add("joint", joint.name, turns_text("its position", joint.position[k]));
+        break;
+      }
+    if (joint.motion && turns(0))
+      hint_at_angle_of_time("joint", joint.name, "its motion", *joint.motion, out);
+  }
+  for (const Force& force : model.forces) {
+    if (!force.rotational) continue;
+    hint_at_law_of_angle(force, force.spring, out);
+    if (force.targeted)
+      hint_at_angle_of_time("force", force.name, "its target", force.target.function, out);
+  }
+  for (const auto& [body, offset] : description.simulation.offset)
+    if (offset.rotation && beyond_a_turn(offset.rotation->norm()))
+      out.add("body", body, turns_text("its start offset", offset.rotation->norm()));
+}
+
+bool joint_turns(const Joint& j) {
+  JointMotion motion;
+  const double q[7] = {};
+  joint_motion(j.type, {Vec3::UnitZ(), j.axis_2}, q, motion);
+  return !motion.H.bottomRows<3>().leftCols(joint_velocities(j.type)).isZero(0.0);
+}
+
+/// Bodies that turn together, by the number of one of them; those that joints keep from turning
+/// have the number of the ground, which is that of the bodies.
+std::vector<std::size_t> bodies_turning_together(const Model& model) {
+  const std::size_t ground = model.bodies.size();
+  std::vector<std::size_t> leader(ground + 1);
+  for (std::size_t i = 0; i <= ground; ++i) leader[i] = i;
+  const auto first = [&](int body) {
+    std::size_t i = body < 0 ? ground : static_cast<std::size_t>(body);
+    while (leader[i] != i) i = leader[i] = leader[leader[i]];
+    return i;
+  };
+  for (const Joint& j : model.joints) {
+    if (joint_turns(j)) continue;
+    const std::size_t a = first(j.parent), b = first(j.child);
+    leader[std::min(a, b)] = std::max(a, b);  // the ground leads its own
+  }
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < ground; ++i) out.push_back(first(static_cast<int>(i)));
+  return out;
+}
+
+/// Point masses alone that can turn. Zeros that somebody has written are meant, and so is a mass
+/// that is welded to what has inertia.
+void hint_at_inertia(const ModelDescription& description, const Model& model, HintList& out) {
+  const std::vector<std::size_t> together = bodies_turning_together(model);
+  std::vector<bool> has_inertia(model.bodies.size() + 1, false);
+  const auto missing = [&](std::size_t i) {
+    const auto* rigid = std::get_if<RigidDescription>(&description.bodies[i].kind);
+    return rigid != nullptr && rigid->mass > 0.0 && rigid->J_C.isZero(0.0);
+  };
+  has_inertia.back() = true;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    if (!missing(i) && model.bodies[i].data->invariants.m > 0.0) has_inertia[together[i]] = true;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const BodyDescription& body = description.bodies[i];
+    if (!missing(i) || has_inertia[together[i]] || body.origin.keys.contains("inertia")) continue;
+    out.add("body", body.name,
+            "it has no inertia: the key 'inertia' is missing, and the body can turn; "
+            "inertia: [Ixx, Iyy, Izz] [kg m2], zeros for a point mass");
+  }
+}
+
+std::string dofs_text(unsigned mask) {
+  std::string text;
+  for (unsigned k = 0; k < 6; ++k)
+    if (mask >> k & 1u) text += (text.empty() ? "" : ", ") + std::string(node_dof_words[k]);
+  return text;
+}
+
+/// Of one body: names of the nodes at which joints, rods or forces act, whether a joint holds it,
+/// and whether one holds its frame itself, and with it all that is clamped.
+struct HeldNodes {
+  std::set<std::string> names;
+  bool by_joint = false, frame = false;
+};
+
+/// Of a hinge that stands for several bearings: the nodes of the body of its marker that lie on the
+/// axis.
+void add_nodes_on_axis(const Model& model, int marker, std::vector<HeldNodes>& held) {
+  const Marker& m = model.markers[static_cast<std::size_t>(marker)];
+  if (m.body < 0) return;
+  const std::vector<ModalNode>& nodes = model.bodies[static_cast<std::size_t>(m.body)].data->nodes;
+  const Vec3 origin =
+      m.node < 0 ? m.X_NM.p : Vec3(nodes[static_cast<std::size_t>(m.node)].p + m.X_NM.p);
+  for (const ModalNode& n : nodes)
+    if ((n.p - origin).cross(m.X_NM.R.col(2)).norm() < 1e-6 * (1.0 + n.p.norm()))
+      held[static_cast<std::size_t>(m.body)].names.insert(n.name);
+}
+
+std::vector<HeldNodes> held_nodes(const Model& model) {
+  std::vector<HeldNodes> held(model.bodies.size());
+  const auto use = [&](int marker, bool joint) {
+    if (marker < 0) return;
+    const Marker& m = model.markers[static_cast<std::size_t>(marker)];
+    if (m.body < 0) return;
+    HeldNodes& h = held[static_cast<std::size_t>(m.body)];
+    h.by_joint = h.by_joint || joint;
+    h.frame = h.frame || (joint && m.node < 0);
+    if (m.node < 0) return;
+    const FlexibleBody& body = *model.bodies[static_cast<std::size_t>(m.body)].data;
+    h.names.insert(body.nodes[static_cast<std::size_t>(m.node)].name);
+  };
+  for (const Joint& j : model.joints) {
+    if (joint_is_free(j.type)) continue;
+    use(j.frame_F, true);
+    use(j.frame_M, true);
+    if (j.type != JointType::revolute && j.type != JointType::cylindrical) continue;
+    add_nodes_on_axis(model, j.frame_F, held);
+    add_nodes_on_axis(model, j.frame_M, held);
+  }
+  for (const Rod& r : model.rods) use(r.a, false), use(r.b, false);
+  for (const Force& f : model.forces) use(f.a, false), use(f.b, false);
+  return held;
+}
+
+void hint_at_clamps(const ModelDescription& description, const Model& model, HintList& out) {
+  const std::vector<HeldNodes> held = held_nodes(model);
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const BodyDescription& body = description.bodies[i];
+    const auto* frame = std::get_if<FlexibleDescription>(&body.kind);
+    // What floats is clamped somewhere.
+    if (frame == nullptr || model.bodies[i].modes() == 0 || !held[i].by_joint || held[i].frame)
+      continue;
+    std::map<std::string, unsigned> loose;  // nodes and their degrees of freedom
+    for (const NodeDofs& clamp : frame->clamped)
+      if (!held[i].names.contains(clamp.node)) loose[clamp.node] |= clamp.mask;
+    for (const auto& [node, mask] : loose)
+      out.add(
+          "body", body.name,
+          fmt::format("it is clamped at '{}' ({}), where no joint, rod or force acts: the modes "
+                      "are those of a body that is held there, and nothing holds it",
+                      node, dofs_text(mask)));
+  }
+}
+
+}  // namespace
+
+ModelHints model_hints(const ModelDescription& description, const Model& model) {
+  HintList hints;
+  hint_at_units(description, hints);
+  hint_at_angles(description, model, hints);
+  hint_at_inertia(description, model, hints);
+  hint_at_clamps(description, model, hints);
+  return {hints.texts(), bar_bending(description, model)};
+}
+
+}  // namespace floatframe

@@ -1,0 +1,33 @@
+#pragma once
+// What can be seen in a description that is possible but unusual - units, angles in degrees, a key
+// that was forgotten - and how bars bend: what `check` shows of a model. Hints never refuse.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+struct Model;
+struct ModelDescription;
+
+/// The bending of bars of one body that have the same section and lie alike.
+struct BarBending {
+  int body = -1;
+  std::vector<std::string> bars;      ///< names
+  std::array<double, 2> stiffness{};  ///< E I, the larger one first [N m2]
+  std::array<Vec3, 2> direction{};    ///< they bend along, unit vectors, design configuration
+  /// Both stiffnesses are the same, and so in every direction.
+  bool alike() const noexcept { return stiffness[0] - stiffness[1] <= 1e-9 * stiffness[0]; }
+};
+
+struct ModelHints {
+  std::vector<std::string> notes;  ///< a sentence each
+  std::vector<BarBending> bending;
+};
+
+/// Of a description without errors and what was built from it.
+ModelHints model_hints(const ModelDescription& description, const Model& model);
+
+}  // namespace floatframe

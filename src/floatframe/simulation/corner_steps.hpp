@@ -1,0 +1,129 @@
+#pragma once
+// Divides steps at the corners of functions of time (time_corners.hpp), whose instants are known:
+// the step to a corner ends with the values before it, accelerations and multipliers of the forces
+// behind it are solved for, and the rest follows. What lies within a small part of a step is moved
+// over explicitly, with the accelerations of its middle: between two corners that are so near to
+// each other a load may change by any amount. The parts of the step are made by the trapezoidal
+// rule: generalised-alpha, begun anew, errs by a part gamma (1 - alpha_f) / (1 - alpha_m) - 1/2 of
+// what a force changes by, which is not less at a smaller step where a flank is steep.
+//
+// A corner at the end of a step belongs to this step: what is sampled there is of its right side,
+// as the functions are. Nothing here allocates after construction.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "floatframe/simulation/edge_watch.hpp"
+#include "floatframe/simulation/explicit_move.hpp"
+#include "floatframe/simulation/time_corners.hpp"
+
+namespace floatframe {
+
+template <class F>
+class CornerSteps {
+ public:
+  CornerSteps(F& formulation, AugmentedLagrangian<F>& integrator, std::vector<TimeCorner> corners)
+      : f_(formulation),
+        integrator_(integrator),
+        move_(formulation, integrator),
+        corners_(std::move(corners)) {}
+
+  const std::vector<TimeCorner>& corners() const noexcept { return corners_; }
+  void set_watch(const EdgeWatch& watch) noexcept { watch_ = watch; }
+
+  /// A step of size h from time t meets a corner.
+  bool within(double t, double h) const noexcept {
+    const auto next = after(t);
+    return next != corners_.end() && !(next->from > t + h);
+  }
+
+  /// One step of size h. `smooth(size)` makes a step of the state in which no function has a
+  /// corner; `behind()` is called at a corner, before accelerations are made anew. If it is not
+  /// accepted the state is that of the last corner that was passed.
+  template <class Smooth, class Behind>
+  StepAttempt step(State& state, double h, long& passed, const Smooth& smooth,
+                   const Behind& behind) noexcept {
+    const double end = state.t + h;
+    StepAttempt total;
+    for (auto c = after(state.t); c != corners_.end() && !(c->from > end); ++c) {
+      const double left = before(c->from, state.t, h);
+      if (!reach(state, left, h, smooth, total)) return total;
+      pass(state, *c, h, behind);
+      ++passed;
+    }
+    if (!reach(state, end, h, smooth, total)) return total;
+    // What was moved over has left the accelerations of its middle.
+    if (made_ == Made::moved) integrator_.restart(state, h);
+    state.t = end;
+    return total;
+  }
+
+ private:
+  /// Parts of a step: what is made as a step, and what is rounding of the time.
+  static constexpr double shortest = 0.02, rounding = 1e-10;
+
+  enum class Made { nothing, moved, stepped };
+
+  std::vector<TimeCorner>::const_iterator after(double t) const noexcept {
+    return std::upper_bound(corners_.begin(), corners_.end(), t,
+                            [](double x, const TimeCorner& c) { return x < c.to; });
+  }
+
+  /// The last time before a corner that rounding of a step from t does not take beyond it.
+  static double before(double corner, double t, double h) noexcept {
+    return corner - 4.0 * std::numeric_limits<double>::epsilon() *
+                        std::max(std::abs(corner), std::abs(t) + h);
+  }
+
+  /// To the time `to`. False: the step there was not accepted.
+  template <class Smooth>
+  bool reach(State& state, double to, double h, const Smooth& smooth, StepAttempt& total) noexcept {
+    const double dt = to - state.t;
+    made_ = Made::nothing;
+    if (!(dt > rounding * h)) return true;
+    if (dt < shortest * h) {
+      made_ = Made::moved;
+      const double begin = state.t;
+      state.t = begin + 0.5 * dt;
+      integrator_.restart(state, h);
+      state.t = begin;
+      move_(state, dt, h);
+      return true;
+    }
+    made_ = Made::stepped;
+    const StepAttempt last = total;
+    state.a_alg = state.a;
+    integrator_.trapezoidal(true);
+    total = smooth(dt);
+    integrator_.trapezoidal(false);
+    total.iterations += last.iterations;
+    total.factorizations += last.factorizations;
+    return total.accepted();
+  }
+
+  template <class Behind>
+  void pass(State& state, const TimeCorner& c, double h, const Behind& behind) noexcept {
+    if (watch_.look) {
+      f_.positions(state.t, state.q);
+      f_.velocities(state.v);
+      f_.forces();
+      // Multipliers that a state restored elsewhere has, too.
+      watch_(state, made_ == Made::stepped ? integrator_.reactions() : state.lambda);
+    }
+    if (c.to > c.from) move_(state, c.to - state.t, h);
+    state.t = std::max(state.t, c.to);
+    behind();
+    integrator_.restart(state, h);
+    watch_(state, integrator_.reactions());
+  }
+
+  F& f_;
+  AugmentedLagrangian<F>& integrator_;
+  ExplicitMove<F> move_;
+  std::vector<TimeCorner> corners_;
+  EdgeWatch watch_;
+  Made made_ = Made::nothing;
+};
+
+}  // namespace floatframe

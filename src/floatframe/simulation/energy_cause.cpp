@@ -1,0 +1,124 @@
+#include "floatframe/simulation/energy_cause.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floatframe/model/force_outputs.hpp"
+#include "floatframe/model/joint_motion.hpp"
+
+namespace floatframe {
+namespace {
+
+/// Both sides of an edge.
+struct EdgeSides {
+  PiecewisePolynomial::Value left, right;
+};
+
+EdgeSides edge_sides(const PiecewisePolynomial& f, double edge) {
+  const auto k = std::lower_bound(f.breaks().begin(), f.breaks().end(), edge) - f.breaks().begin();
+  return {f.piece_value(static_cast<std::size_t>(k), edge), f(edge)};
+}
+
+/// Range of the values at the edges, with those before the first and after the last.
+double range_of_values(const PiecewisePolynomial& f) {
+  double low = f(f.breaks().front()).f, high = low;
+  for (const double b : f.breaks()) {
+    const EdgeSides s = edge_sides(f, b);
+    low = std::min({low, s.left.f, s.right.f});
+    high = std::max({high, s.left.f, s.right.f});
+  }
+  return high - low;
+}
+
+class CauseFinder {
+ public:
+  CauseFinder(double from, double to, double step) : from_(from - step), to_(to), step_(step) {}
+
+  /// A corner: the velocity jumps.
+  void motion(const std::string& name, const TimeFunction& f, const char* unit) {
+    if (f.pieces.edges().empty()) return;
+    const double range = range_of_values(f.pieces);
+    for (const double e : f.pieces.edges()) {
+      if (e < from_ || e > to_) continue;
+      const EdgeSides s = edge_sides(f.pieces, e);
+      const double jump = s.right.df - s.left.df;
+      // What it would pass in ten steps, against what it does in all.
+      const double share = 10.0 * step_ * std::abs(jump) / std::max(range, 1e-300);
+      if (std::abs(s.right.f - s.left.f) > 1e-6 * range)
+        offer(1.0 + share,
+              fmt::format("the motion of joint '{}' jumps by {:.4g} {} at t = {:.6g} s, which "
+                          "nothing with mass can; let it go there over several steps",
+                          name, s.right.f - s.left.f, unit, e));
+      else if (std::abs(jump) > 1e-9 * std::max(std::abs(s.left.df), std::abs(s.right.df)))
+        offer(share,
+              fmt::format("the velocity of the motion of joint '{}' jumps by {:.4g} {}/s at t = "
+                          "{:.6g} s: no step resolves that, round the corner (interpolation: "
+                          "cubic, or more entries there)",
+                          name, jump, unit, e));
+    }
+  }
+
+  /// A jump, or what is one for the steps: a good part of the whole way within one of them, also
+  /// where the table is smooth.
+  void signal(const std::string& name, const TimeFunction& f, const char* unit) {
+    const std::vector<double>& breaks = f.pieces.breaks();
+    if (breaks.empty()) return;
+    const double range = std::max(range_of_values(f.pieces), 1e-300);
+    for (std::size_t k = 0; k < breaks.size(); ++k) {
+      if (breaks[k] < from_ || breaks[k] > to_) continue;
+      const EdgeSides here = edge_sides(f.pieces, breaks[k]);
+      double jump = here.right.f - here.left.f, least = 1e-3;
+      for (std::size_t n = k + 1; n < breaks.size() && breaks[n] - breaks[k] < step_; ++n) {
+        const double way = edge_sides(f.pieces, breaks[n]).right.f - here.left.f;
+        if (std::abs(way) <= std::abs(jump)) continue;
+        jump = way;
+        least = 0.1;
+      }
+      const double share = std::abs(jump) / range;
+      if (share > least)
+        offer(share,
+              fmt::format("{} jumps by {:.4g} {} at t = {:.6g} s: no step resolves that, let it go "
+                          "there over several steps",
+                          name, jump, unit, breaks[k]));
+    }
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  void offer(double share, std::string text) {
+    if (!(share > share_)) return;
+    share_ = share;
+    text_ = std::move(text);
+  }
+
+  double from_, to_, step_;
+  double share_ = 0.0;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string energy_cause(const Model& model, double from, double to, double step) {
+  CauseFinder finder(from, to, step);
+  for (const Joint& j : model.joints)
+    if (j.motion) finder.motion(j.name, *j.motion, joint_unit_name(j.type, 0));
+  for (const Force& f : model.forces) {
+    const bool load = force_account(f.type) == ForceAccount::loads;
+    const std::string owner = fmt::format(" of force '{}'", f.name);
+    if (load || f.driven)
+      finder.signal((load ? "the magnitude" : "the actuator") + owner, f.magnitude,
+                    force_output_unit(f, ForceQuantity::force));
+    if (!f.targeted) continue;
+    finder.signal("the target" + owner, f.target.function,
+                  force_output_unit(f, ForceQuantity::length));
+    if (!f.derived_rate)
+      finder.signal("the target rate" + owner, f.target_rate.function,
+                    force_output_unit(f, ForceQuantity::rate));
+  }
+  return finder.text();
+}
+
+}  // namespace floatframe

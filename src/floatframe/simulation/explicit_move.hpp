@@ -1,0 +1,43 @@
+#pragma once
+// A motion over a small part of a step by a single explicit formula. A step so short would turn
+// what the tolerances leave of constraints into accelerations. Each coordinate moves as an
+// oscillator of its own frequency omega by the trapezoidal rule,
+//   v1 (1 + omega^2 dt^2/4) = v (1 - omega^2 dt^2/4) + dt a,   x = dt (v + v1)/2
+// which is v + dt a where it has none, and then velocities are projected onto the constraints. The
+// error is of second order in the time that is moved over.
+#include "floatframe/integrator/augmented_lagrangian.hpp"
+
+namespace floatframe {
+
+template <class F>
+class ExplicitMove {
+ public:
+  ExplicitMove(F& formulation, AugmentedLagrangian<F>& integrator)
+      : f_(formulation), integrator_(integrator) {
+    x_ = VecX::Zero(f_.velocities());
+    q_ = VecX::Zero(f_.configurations());
+  }
+
+  /// By dt along velocities and accelerations; h: the size of steps.
+  void operator()(State& state, double dt, double h) noexcept {
+    if (!(dt > 0.0)) return;
+    const VecX& omega2 = f_.own_frequencies_squared();
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      const double turn = 0.25 * dt * dt * omega2[i], before = state.v[i];
+      state.v[i] = (before * (1.0 - turn) + dt * state.a[i]) / (1.0 + turn);
+      x_[i] = 0.5 * dt * (before + state.v[i]);
+    }
+    f_.settle(state.q, x_);
+    f_.retract(state.q, x_, q_);
+    state.q.swap(q_);
+    state.t += dt;
+    integrator_.project_velocities(state, h);
+  }
+
+ private:
+  F& f_;
+  AugmentedLagrangian<F>& integrator_;
+  VecX x_, q_;
+};
+
+}  // namespace floatframe
