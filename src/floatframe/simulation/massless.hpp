@@ -29,7 +29,8 @@ bool may_lack_mass(F& f, const VecX& diagonal, const VecX& possible, double pena
 
 /// Start accelerations and multipliers of a system that lacks mass somewhere: none along directions
 /// without mass, by passes with T. False, with nothing of use in the state, if stiffness does not
-/// hold them all or a force moves them beyond what digits are left for. `f` is at the state.
+/// hold them all or a force moves them beyond what digits are left for, unless it is mass after
+/// all, little but more than rounding. `f` is at the state.
 template <class F>
 bool start_held_by_stiffness(F& f, State& state, const VecX& scale, double penalty_mass);
 

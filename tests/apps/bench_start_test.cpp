@@ -1,0 +1,142 @@
+// Starts of long systems: sparse linear algebra gives what the dense one gives, and says so of the
+// models of the benchmark. Times are not tested.
+#include "floatframe/apps/bench_start.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "floatframe/simulation/initial_state.hpp"
+#include "floatframe/simulation/redundancy.hpp"
+
+namespace floatframe::test {
+namespace {
+
+/// The model at its start, without accelerations.
+template <class F>
+struct Started;
+
+template <>
+struct Started<RelativeFormulation> {
+  explicit Started(const Model& model) : f(model, InertiaMethod::preprocessing) {
+    f.start(model, 0.0, state.q, state.v);
+    state.lambda = VecX::Zero(f.constraints());
+    state.a = VecX::Zero(f.velocities());
+    go();
+  }
+  void go() {
+    f.positions(0.0, state.q);
+    f.velocities(state.v);
+    f.dynamics();
+  }
+  RelativeFormulation f;
+  State state;
+};
+
+template <>
+struct Started<AbsoluteFormulation> {
+  explicit Started(const Model& model) : f(model, InertiaMethod::preprocessing) {
+    Started<RelativeFormulation> tree(model);
+    f.start_from(tree.f, tree.state.q, tree.state.v, state.q, state.v);
+    state.lambda = VecX::Zero(f.constraints());
+    state.a = VecX::Zero(f.velocities());
+    go();
+  }
+  void go() {
+    f.positions(0.0, state.q);
+    f.velocities(state.v);
+    f.dynamics();
+  }
+  AbsoluteFormulation f;
+  State state;
+};
+
+TEST(Starts, DiagonalOfTheMassMatrixOfATree) {
+  for (const StartKind kind : all_start_kinds)
+    for (const bool flexible : {false, true}) {
+      const Model model = build_model(start_model(kind, flexible, 3));
+      Started<RelativeFormulation> s(model);
+      const VecX r0 = residual_at(s.f, 0.0, s.state.q, s.state.v, s.state.lambda);
+      const VecX possible = possible_masses(s.f, s.state);
+      s.go();
+      const MatX M = mass_matrix(s.f, test_accelerations(r0, possible), r0, s.state.lambda);
+      const VecX diagonal = s.f.mass_diagonal();
+      for (Eigen::Index i = 0; i < diagonal.size(); ++i)
+        EXPECT_NEAR(diagonal[i], M(i, i), 1e-9 * possible[i]) << word(kind) << flexible << ' ' << i;
+    }
+}
+
+/// Links of a chain have no inertia about their own axes, which their bending holds.
+template <class F>
+void held_by_stiffness() {
+  const Model model = build_model(start_model(StartKind::chain, true, 12));
+  Started<F> s(model);
+  const double penalty =
+      default_penalty_mass(model, std::is_same_v<F, RelativeFormulation> ? Coordinates::relative
+                                                                         : Coordinates::absolute);
+  const VecX possible = possible_masses(s.f, s.state);
+  s.go();
+  const VecX diagonal = mass_diagonal(s.f, s.state);
+  State sparse = s.state, dense = s.state;
+  start_accelerations_dense(s.f, dense);
+  s.go();
+  if (may_lack_mass(s.f, diagonal, possible, penalty))
+    ASSERT_TRUE(start_held_by_stiffness(s.f, sparse, mass_scale(diagonal, possible), penalty));
+  else
+    start_accelerations(s.f, sparse, penalty);
+  const double size = 1.0 + dense.a.lpNorm<Eigen::Infinity>();
+  EXPECT_LT((sparse.a - dense.a).lpNorm<Eigen::Infinity>(), 1e-6 * size);
+}
+
+TEST(Starts, HeldByStiffnessAsByDenseLinearAlgebra) {
+  held_by_stiffness<RelativeFormulation>();
+  held_by_stiffness<AbsoluteFormulation>();
+}
+
+// Relative coordinates of a chain lack mass, so the path above is walked.
+TEST(Starts, AFlexibleChainLacksMassInRelativeCoordinates) {
+  const Model model = build_model(start_model(StartKind::chain, true, 12));
+  Started<RelativeFormulation> s(model);
+  const VecX possible = possible_masses(s.f, s.state);
+  s.go();
+  EXPECT_TRUE(may_lack_mass(s.f, mass_diagonal(s.f, s.state), possible,
+                            default_penalty_mass(model, Coordinates::relative)));
+}
+
+// Each field of a ladder is a planar loop of hinges: three of its constraints repeat others.
+TEST(Starts, RedundantDirectionsOfShortAndLongLadders) {
+  for (const int fields : {5, 80}) {  // fewer and more rows than `few_rows`
+    const ModelCounts counts = check(build_model(start_model(StartKind::ladder, false, fields)));
+    EXPECT_EQ(counts.start.redundant.size(), static_cast<std::size_t>(3 * fields));
+    EXPECT_EQ(counts.degrees_of_freedom, 1);
+  }
+}
+
+// At 737 links the masses of single directions are as small as rounding of the sparse test.
+TEST(Starts, ALongRigidChainStarts) {
+  const Model model = build_model(start_model(StartKind::chain, false, 737));
+  Started<RelativeFormulation> s(model);
+  EXPECT_NO_THROW(
+      start_accelerations(s.f, s.state, default_penalty_mass(model, Coordinates::relative)));
+  EXPECT_TRUE(s.state.a.allFinite());
+}
+
+TEST(Starts, TableHasARowForEachSize) {
+  StartOptions o;
+  o.kinds = {StartKind::vehicles};
+  o.coordinates = {Coordinates::relative};
+  o.most = 200;
+  o.runs = 1;
+  const StartResult r = bench_start(o);
+  ASSERT_EQ(r.rows.size(), 8u);
+  for (const StartRow& row : r.rows) {
+    EXPECT_TRUE(row.failure.empty()) << row.failure;
+    EXPECT_GT(row.start, 0.0);
+    EXPECT_GT(row.allowed(), 2e-3 + 50e-6 * row.freedoms);
+  }
+  EXPECT_NE(start_text(r).find("vehicles"), std::string::npos);
+  EXPECT_NE(start_json(r).find("\"allowed_s\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace floatframe::test
