@@ -120,7 +120,7 @@ TEST(EnergyAlarm, WeightlessMechanisms) {
     }
 }
 
-constexpr const char* cornered = R"(
+constexpr const char* cornered_motion = R"(
 gravity: [0, 0, 0]
 points: {o: [0, 0, 0], b: [0, 0, -1]}
 bodies:
@@ -134,7 +134,7 @@ simulation: {step: 0.01, duration: 1.5}
 )";
 
 TEST(EnergyAlarm, NamesTheCornerOfAMotion) {
-  const ModelDescription d = test::description_of(cornered);
+  const ModelDescription d = test::description_of(cornered_motion);
   for (const Coordinates c : alarm_coordinates)
     for (const double step : {0.01, 0.005, 0.0025}) {
       const std::string said = balance_sentence(alarm_run(d, c, step));
@@ -148,13 +148,13 @@ TEST(EnergyAlarm, NamesTheCornerOfAMotion) {
 }
 
 TEST(EnergyCause, OfMotionsLiesInTheWindow) {
-  const Model model = model_of(cornered);
+  const Model model = model_of(cornered_motion);
   EXPECT_EQ(energy_cause(model, 0.0, 0.4, 0.01), "");
   EXPECT_NE(energy_cause(model, 0.9, 1.2, 0.01).find("jumps by -2 m/s at t = 1 s"),
             std::string::npos);
   EXPECT_EQ(energy_cause(model, 1.1, 1.5, 0.01), "");
   // Cubic: no corner.
-  std::string smooth = cornered;
+  std::string smooth = cornered_motion;
   smooth.replace(smooth.find("linear"), 6, "cubic");
   EXPECT_EQ(energy_cause(model_of(smooth), 0.0, 2.0, 0.01), "");
 }

@@ -12,6 +12,7 @@
 
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/model/hint_list.hpp"
+#include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
@@ -185,34 +186,40 @@ struct HeldNodes {
 /// Of a hinge that stands for several bearings: the nodes of the body of its marker that lie on the
 /// axis.
 void add_nodes_on_axis(const Model& model, int marker, std::vector<HeldNodes>& held) {
-  const Marker& m = model.markers[static_cast<std::size_t>(marker)];
+  const Marker& m = model.markers[marker];
   if (m.body < 0) return;
-  const std::vector<ModalNode>& nodes = model.bodies[static_cast<std::size_t>(m.body)].data->nodes;
-  const Vec3 origin =
-      m.node < 0 ? m.X_NM.p : Vec3(nodes[static_cast<std::size_t>(m.node)].p + m.X_NM.p);
+  const std::vector<ModalNode>& nodes = model.bodies[m.body].data->nodes;
+  const Vec3 origin = m.node < 0 ? m.X_NM.p : Vec3(nodes[m.node].p + m.X_NM.p);
   for (const ModalNode& n : nodes)
     if ((n.p - origin).cross(m.X_NM.R.col(2)).norm() < 1e-6 * (1.0 + n.p.norm()))
-      held[static_cast<std::size_t>(m.body)].names.insert(n.name);
+      held[m.body].names.insert(n.name);
+}
+
+bool turns_about_one_axis(JointType type) {
+  int axes = 0;
+  for (int k = 0; k < joint_kind(type).coordinates.count(); ++k)
+    axes += joint_unit(type, k) == JointUnit::rad ? 1 : 0;
+  return axes == 1;
 }
 
 std::vector<HeldNodes> held_nodes(const Model& model) {
   std::vector<HeldNodes> held(model.bodies.size());
   const auto use = [&](int marker, bool joint) {
     if (marker < 0) return;
-    const Marker& m = model.markers[static_cast<std::size_t>(marker)];
+    const Marker& m = model.markers[marker];
     if (m.body < 0) return;
-    HeldNodes& h = held[static_cast<std::size_t>(m.body)];
+    HeldNodes& h = held[m.body];
     h.by_joint = h.by_joint || joint;
     h.frame = h.frame || (joint && m.node < 0);
     if (m.node < 0) return;
-    const FlexibleBody& body = *model.bodies[static_cast<std::size_t>(m.body)].data;
-    h.names.insert(body.nodes[static_cast<std::size_t>(m.node)].name);
+    const FlexibleBody& body = *model.bodies[m.body].data;
+    h.names.insert(body.nodes[m.node].name);
   };
   for (const Joint& j : model.joints) {
     if (joint_is_free(j.type)) continue;
     use(j.frame_F, true);
     use(j.frame_M, true);
-    if (j.type != JointType::revolute && j.type != JointType::cylindrical) continue;
+    if (!turns_about_one_axis(j.type)) continue;
     add_nodes_on_axis(model, j.frame_F, held);
     add_nodes_on_axis(model, j.frame_M, held);
   }
