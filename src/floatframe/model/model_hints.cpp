@@ -55,15 +55,26 @@ std::string turns_text(const std::string& what, double angle) {
 /// A turn that is written with few digits is one.
 bool beyond_a_turn(double angle) { return std::abs(angle) > 1.001 * full_turn; }
 
+/// Never turns back, and never rests on the way: a motor that runs up or turns evenly.
+bool goes_on(const std::vector<double>& values) {
+  const double sense = values.back() - values.front();
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (!((values[k] - values[k - 1]) * sense > 0.0)) return false;
+  return true;
+}
+
 /// Whole multiples of 5 of which one is more than a turn: a table in degrees. One that counts turns
-/// has other numbers.
+/// has other numbers; one that goes on turning must look more like it: multiples of 15 of at most
+/// two turns.
 bool looks_like_degrees(const std::vector<double>& values) {
+  const bool on = values.size() > 2 && goes_on(values);
+  const double unit = on ? 15.0 : 5.0;
   double most = 0.0;
   for (const double x : values) {
-    if (!(std::abs(x - 5.0 * std::round(x / 5.0)) < 1e-9 * (1.0 + std::abs(x)))) return false;
+    if (!(std::abs(x - unit * std::round(x / unit)) < 1e-9 * (1.0 + std::abs(x)))) return false;
     most = std::max(most, std::abs(x));
   }
-  return most > full_turn;
+  return most > full_turn && (!on || most <= 720.0);
 }
 
 void hint_at_angle_of_time(const std::string& kind, const std::string& name,
