@@ -74,7 +74,8 @@ class Runs(KeptCase):
         self.assertIn("the unfinished run in out is left as it was", done.stderr)
         self.assertEqual(self.files(), before)
         # Without anything to keep there are files that say so.
-        self.program("run", "fall.yaml", "--out", "new", code=1)
+        for _ in range(2):
+            self.program("run", "fall.yaml", "--out", "new", code=1)
         self.assertEqual(self.summary("new")["status"], "failed")
 
     def test_a_completed_run_is_kept_until_the_new_one_is_complete(self):

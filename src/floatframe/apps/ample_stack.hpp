@@ -1,7 +1,7 @@
 #pragma once
 // The program's own stack where the system's is small (`ulimit -s 256`, some batch systems):
-// products of sparse matrices and the prefaulted stack of real time take up to a megabyte of it, and
-// running out of it is a crash without a word.
+// products of sparse matrices and the prefaulted stack of real time take up to a megabyte of it,
+// and running out of it is a crash without a word.
 #include <functional>
 
 namespace floatframe {

@@ -30,7 +30,9 @@ bool holds_all(std::string_view text, std::initializer_list<std::string_view> wo
 /// Of a JSON object, by the keys it begins with.
 bool is_own_json(std::string_view text) {
   return text.starts_with("{") &&
-         (holds_all(text, {"\"floatframe_state\""}) ||
+         // Of a run that a study could not begin.
+         (text.starts_with("{\n  \"status\": \"failed\",\n  \"message\": \"") ||
+          holds_all(text, {"\"floatframe_state\""}) ||
           holds_all(text, {"\"model\"", "\"coordinates\"", "\"inertia\"", "\"step_s\""}) ||
           holds_all(text, {"\"nodes\"", "\"elements\"", "\"degrees_of_freedom\"", "\"modes\""}) ||
           holds_all(text, {"\"rows\"", "\"coordinates\"", "\"inertia\""}) ||
